@@ -1,0 +1,34 @@
+// The ruler: what is measured on one frame, the same for every deformer and for files from other programs.
+#pragma once
+
+#include "pbs/geometry/types.hpp"
+
+namespace analysis {
+
+struct FrameMetrics {
+    double volume_change_pct = 0.0;      // 100 (V - V0) / V0, signed
+    double volume_abs_change_pct = 0.0;  // 100 sum |V_t - V0_t| / V0
+    int inverted_tets = 0;               // V_t <= 0
+    double mean_abs_j_minus_1 = 0.0;     // sum V0_t |J_t - 1| / V0, J_t = V_t / V0_t
+    double j_min = 0.0;
+    double stretch_rms = 0.0;  // rms of l / l0 - 1 over edges
+};
+
+// What does not change from frame to frame.
+class Ruler {
+public:
+    Ruler(const pbs::Positions& rest, const pbs::Tets& tets);
+    FrameMetrics measure(const pbs::Positions& positions) const;
+    Eigen::VectorXd volume_ratios(const pbs::Positions& positions) const;  // J_t, #T
+
+private:
+    pbs::Tets tets_;
+    pbs::Edges edges_;
+    Eigen::VectorXd rest_volumes_, rest_lengths_;
+    double rest_volume_ = 0.0;
+};
+
+// rms of |x_i - q_i| - d_i [m].
+double bind_rms(const pbs::Positions& positions, const pbs::Positions& bind_points, const Eigen::VectorXd& bind_distance);
+
+}  // namespace analysis

@@ -1,0 +1,25 @@
+# Settings every target of the project shares.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+    set(CMAKE_BUILD_TYPE Release CACHE STRING "build type" FORCE)
+endif()
+
+find_program(CCACHE ccache)
+if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+
+# The include root, the warnings and nothing else.
+add_library(pbs_settings INTERFACE)
+target_include_directories(pbs_settings INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(pbs_settings INTERFACE -Wall -Wextra -Wpedantic $<$<BOOL:${PBS_WERROR}>:-Werror>)
+target_link_libraries(pbs_settings INTERFACE Eigen3::Eigen)

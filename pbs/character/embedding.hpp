@@ -1,0 +1,20 @@
+// A surface carried by a tet mesh: each surface vertex keeps barycentric coordinates in one tet, extrapolated where it lies outside.
+#pragma once
+
+#include "pbs/geometry/tet_mesh.hpp"
+
+namespace pbs {
+
+struct EmbeddedSurface {
+    Triangles triangles;                                                    // #F x 3
+    Eigen::VectorXi tet;                                                    // the tet that carries each surface vertex, #S
+    Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> barycentric;  // sums to one; negative where extrapolated, #S x 4
+    double largest_distance_outside_m = 0.0;                                // of a surface vertex from the tets
+};
+
+EmbeddedSurface embed(const Positions& surface, const Triangles& triangles, const TetMesh& mesh);
+
+// Surface positions [m], #S x 3, from deformed tet vertices [m], #V x 3.
+Positions embedded_positions(const EmbeddedSurface& surface, const Positions& positions, const Tets& tets);
+
+}  // namespace pbs

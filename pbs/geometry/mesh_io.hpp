@@ -1,0 +1,46 @@
+// Reading and writing meshes by libraries: Gmsh (.msh 2.2 and 4.1, MEDIT .mesh), VTK (.vtu, .vtk), CGAL-free surfaces by assimp (.obj,
+// .ply, .off, .stl, .gltf, .glb); TetGen's .node/.ele, which no library in Debian reads alone, here. Bad files are InputErrors.
+#pragma once
+
+#include "pbs/geometry/tet_mesh.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace pbs {
+
+struct MeshReading {
+    TetMesh mesh;
+    int flipped_tets = 0;  // orientation was normalised on so many
+};
+
+// A tet mesh to compute on: finite, not empty, indices in range, no tet without volume; vertices no tet uses are an error. Orientation
+// is normalised.
+MeshReading read_tet_mesh(const std::string& path);
+
+// Points and tets as they stand in the file, inverted tets and all: what the ruler wants of deformed frames.
+TetMesh read_tet_frame(const std::string& path);
+
+// By extension: .msh (4.1 ASCII), .vtu, .mesh. Written to a temporary file and renamed.
+void write_tet_mesh(const std::string& path, const TetMesh& mesh);
+
+struct SurfaceMesh {
+    Positions points;     // [m], #S x 3
+    Triangles triangles;  // #F x 3
+};
+SurfaceMesh read_surface(const std::string& path);  // polygons are triangulated, points split at texture seams are joined
+
+// One deformed frame as VTK XML: Float64, compressed, atomic. Fields have one entry a point (or 3, or one a cell).
+struct FrameFields {
+    std::map<std::string, Positions> point_vectors;       // e.g. displacement, rest_position
+    std::map<std::string, std::vector<int>> point_flags;  // e.g. prescribed
+    std::map<std::string, Eigen::VectorXd> cell_scalars;  // e.g. volume_ratio
+};
+void write_vtu(const std::string& path, const Positions& points, const Tets& tets, const FrameFields& fields);
+void write_vtp(const std::string& path, const Positions& points, const Triangles& triangles);
+
+// A ParaView collection of frames: time [s] -> file name relative to the .pvd.
+void write_pvd(const std::string& path, const std::vector<std::pair<double, std::string>>& frames);
+
+}  // namespace pbs

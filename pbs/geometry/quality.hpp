@@ -1,0 +1,21 @@
+// How good a tet mesh is.
+#pragma once
+
+#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <string>
+
+namespace pbs {
+
+struct Quality {
+    int vertices = 0, edges = 0, tets = 0, boundary_triangles = 0, boundary_vertices = 0;
+    double volume_m3 = 0.0;
+    double min_dihedral_deg = 0.0, max_dihedral_deg = 0.0;
+    double shortest_edge_m = 0.0, longest_edge_m = 0.0;
+    Topology topology;
+};
+Quality quality_of(const TetMesh& mesh);
+std::string describe(const Quality& quality);  // a few lines for the terminal
+
+}  // namespace pbs

@@ -1,0 +1,23 @@
+// What a tet mesh's connectivity says: edges, boundary, manifoldness, Euler characteristic.
+#pragma once
+
+#include "pbs/geometry/types.hpp"
+
+#include <vector>
+
+namespace pbs {
+
+Edges edges_of(const Tets& tets);                                              // each edge once, sorted, #E x 2
+Triangles boundary_of(const Tets& tets);                                       // faces of one tet only, oriented outward, #F x 3
+std::vector<bool> boundary_vertices(const Tets& tets, Eigen::Index vertices);  // #V
+
+struct Topology {
+    bool boundary_manifold = false;  // every boundary edge in two triangles, every boundary vertex in one fan
+    int boundary_components = 0;
+    int boundary_euler = 0;  // V - E + F of the boundary; 2 for a ball
+    int components = 0;      // of the tets, over shared faces
+    int unused_vertices = 0;
+};
+Topology topology_of(const Tets& tets, Eigen::Index vertices);
+
+}  // namespace pbs

@@ -1,0 +1,20 @@
+// Where each vertex hangs on the skeleton in rest pose: its nearest bone and its projection on it.
+#pragma once
+
+#include "pbs/skinning/pose.hpp"
+
+namespace pbs {
+
+struct BoneBinding {
+    std::vector<int> bone;      // nearest bone of each vertex, #V; the first of equals
+    Eigen::VectorXd parameter;  // position along the bone, (v - s).(d - s) / |d - s|^2, not clamped, #V
+    Positions rest_point;       // projection on the bone's segment [m], #V x 3: a material point of the bone
+    Eigen::VectorXd distance;   // d_i = |v_i - rest_point_i| [m], #V
+};
+
+BoneBinding bind_to_nearest_bone(const Positions& rest, const Skeleton& skeleton);
+
+// The projection points q_i carried by their posed bones [m], #V x 3.
+Positions posed_bind_points(const BoneBinding& binding, const Pose& pose);
+
+}  // namespace pbs

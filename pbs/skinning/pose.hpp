@@ -1,0 +1,32 @@
+// One pose of the skeleton, and a motion as a sequence of them.
+#pragma once
+
+#include "pbs/skinning/skeleton.hpp"
+
+#include <Eigen/Geometry>
+#include <vector>
+
+namespace pbs {
+
+// P_j R_j^-1 of Eq. 1 for each bone: the rigid transform that carries a rest point [m] to its place in the pose, #bones.
+// (The paper calls them rotation matrices; they have to be rigid transforms.)
+using Pose = std::vector<Eigen::Isometry3d>;
+
+// Poses one time step apart; every `steps_per_frame`-th is a frame, the first and the last included.
+struct Motion {
+    std::vector<Pose> steps;
+    double time_step_s = 0.01;
+    int steps_per_frame = 1;
+    std::vector<double> angle_deg;  // of a sweep, one a frame; empty for a clip
+
+    int frames() const { return steps.empty() ? 0 : static_cast<int>((steps.size() - 1) / steps_per_frame) + 1; }
+};
+
+// Pose from local joint rotations about the heads (parent's frame = world axes) and a translation [m] of the roots.
+Pose pose_from_joints(const Skeleton& skeleton, const std::vector<Eigen::Quaterniond>& local_rotations, const Vec3& root_translation);
+
+// A joint sweep: frame i of `frames` turns `joint` by angle_deg * i / (frames - 1) about `axis` (rest world axes); frame 0 is the rest
+// pose.
+Motion joint_sweep(const Skeleton& skeleton, int joint, const Vec3& axis, double angle_deg, int frames, double time_step_s);
+
+}  // namespace pbs

@@ -1,0 +1,30 @@
+// The skeleton in rest pose. A bone is the segment head -> tail and moves rigidly with its joint at the head;
+// rest rotations are the identity (world axes).
+#pragma once
+
+#include "pbs/geometry/types.hpp"
+
+#include <string>
+#include <vector>
+
+namespace pbs {
+
+struct Bone {
+    std::string name;
+    int parent = -1;  // index into Skeleton::bones, -1 for a root; parents stand before their children
+    Vec3 head;        // s_j [m]
+    Vec3 tail;        // d_j [m]
+};
+
+struct Skeleton {
+    std::vector<Bone> bones;
+};
+
+int find_bone(const Skeleton& skeleton, const std::string& name);  // -1 where there is none
+
+// Bones that meet at an end of bone j (Eq. 2's n_joints; reading A of its ambiguity), j itself first. At the head: the parent and the
+// siblings that start there; at the tail: the children that start there. "There" is within 2 % of the skeleton's bounding diagonal.
+enum class BoneEnd { head, tail };
+std::vector<int> bones_meeting(const Skeleton& skeleton, int bone, BoneEnd end);
+
+}  // namespace pbs

@@ -1,0 +1,36 @@
+// What a position based skinning step is told. Stiffnesses are dimensionless, in [0, 1]; zero leaves the class out.
+#pragma once
+
+#include "pbs/geometry/types.hpp"
+
+#include <optional>
+
+namespace pbs {
+
+enum class Order { plain };  // file order within each class, classes in Algorithm 1's order
+enum class Precision { f32, f64 };
+enum class Masses { unit, lumped };  // m_i = 1 (the paper), or the lumped rest volume
+// The volume correction: derived from Eq. 11 (default), or as printed (audit of Eq. 12-20):
+// labels_relative: Eq. 12-14 under the particles they are printed for, positions relative to p1;
+// labels_absolute: the same with the absolute positions as printed, so it depends on the origin;
+// sign: the derived gradients with the sign printed in Eq. 17-20.
+enum class VolumeForm { derived, labels_relative, labels_absolute, sign };
+
+struct Jiggle {
+    double k_stretch = 0.1;  // of edges with both ends in the jiggling zone
+};
+
+struct PbsOptions {
+    int iterations = 24;
+    double k_stretch = 0.2, k_volume = 1.0, k_bind = 1.0;
+    Vec3 gravity_m_s2 = Vec3::Zero();  // acts where particles are integrated: in the jiggling zone
+    Order order = Order::plain;
+    Precision precision = Precision::f32;
+    Masses masses = Masses::unit;
+    VolumeForm volume_form = VolumeForm::derived;
+    double stop_residual = 0.0;      // stop when the largest of the three residuals is below; 0: all iterations
+    bool record_iterations = false;  // keep residuals of every iteration
+    std::optional<Jiggle> jiggle;
+};
+
+}  // namespace pbs

@@ -1,0 +1,33 @@
+// Position based skinning of one tet mesh: Algorithm 1 with bind, stretch and volume constraints.
+//   PbsSolver solver(mesh, bind_distance, jiggle_zone, options);
+//   solver.advance(lbs_positions, bind_points, dt);   // every frame
+//   solver.positions();
+// Set-up (edges, rest lengths, rest volumes, inverse masses) is made once; the state is positions and, in the jiggling zone, velocities.
+#pragma once
+
+#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/solver/options.hpp"
+#include "pbs/solver/step_summary.hpp"
+
+#include <memory>
+
+namespace pbs {
+
+class PbsSolver {
+public:
+    // bind_distance: d_i [m], #V. jiggle_zone: #V, or empty where nothing jiggles (then no velocity exists).
+    PbsSolver(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone, const PbsOptions& options);
+    ~PbsSolver();
+
+    // One time step of dt [s]: particles outside the jiggling zone start at their LBS position [m] (#V x 3), those in it are integrated;
+    // bind_points are the posed q_i [m], #V x 3. The first step puts the jiggling particles at their LBS position, at rest.
+    StepSummary advance(const Positions& lbs_positions, const Positions& bind_points, double dt_s);
+
+    const Positions& positions() const;  // [m], #V x 3
+
+private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace pbs

@@ -1,0 +1,67 @@
+// The judge, first form: implicit linear elasticity on the skinner's own tets (deal.II simplices, P1 or P2), quasi-static.
+//   LinearElasticity fem(mesh, options, attachment);   // assembles and factors once
+//   fem.solve(targets);                                // every frame: a right-hand side and a re-solve
+//   fem.positions();
+// Small strain: a rotation by theta is taken for a strain of 1 - cos(theta). It is a negative control above some 10 degrees.
+// The header is plain; deal.II and SuiteSparse are seen by the .cpp files alone.
+#pragma once
+
+#include "pbs/geometry/tet_mesh.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace reference_fem {
+
+enum class DirectSolver { cholmod, umfpack };
+
+struct LinearOptions {
+    int element_order = 2;  // 1, 2
+    double young_pa = 1.0e5;
+    double poisson = 0.45;
+    double density_kg_m3 = 1000.0;
+    pbs::Vec3 gravity_m_s2 = pbs::Vec3::Zero();
+    DirectSolver solver = DirectSolver::cholmod;
+};
+
+// What the skeleton prescribes, as arrays. Springs tie material points to targets; prescribed tets have every node in them at its target.
+struct Attachment {
+    pbs::Positions spring_points;      // rest points [m], #S x 3; a point outside the tets is left out and counted
+    Eigen::VectorXd spring_stiffness;  // [N/m], #S
+    std::vector<int> prescribed_tets;  // tets held whole
+};
+
+struct SolveSummary {
+    double seconds = 0.0;
+    double residual = 0.0;  // |K u - f| / |f|
+    bool finite = true;
+};
+
+struct SetupSummary {
+    int dofs = 0;
+    double assemble_s = 0.0, analyse_s = 0.0, factor_s = 0.0;
+    std::string solver;           // e.g. "CHOLMOD supernodal, METIS"
+    std::string blas;             // the BLAS that was resolved
+    std::vector<int> spring_tet;  // tet that holds each spring point, -1: outside
+};
+
+class LinearElasticity {
+public:
+    LinearElasticity(const pbs::TetMesh& mesh, const LinearOptions& options, const Attachment& attachment);
+    ~LinearElasticity();
+
+    // spring_targets: #S x 3 [m]; vertex_targets: #V x 3 [m], read at the vertices of prescribed tets only.
+    SolveSummary solve(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets);
+
+    const pbs::Positions& positions() const;        // deformed vertices [m], #V x 3
+    pbs::Positions spring_points_deformed() const;  // where the tied points went [m], #S x 3: targets minus this is the grip error
+    std::vector<bool> prescribed_vertices() const;  // #V
+    const SetupSummary& setup() const;
+
+private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace reference_fem
