@@ -1,0 +1,117 @@
+# Shared by ./reproduce and ./check: packages, build, time line. Sourced by bash from the repository root.
+# shellcheck shell=bash disable=SC2034,SC2015
+
+packages_file=cmake/packages.txt
+build_folder=build/release
+timeline=()
+
+# Options of the calling script, see its usage().
+size=--quick
+install=yes
+output=
+jobs=
+
+say() { printf '%s: %s\n' "${0##*/}" "$*"; }
+
+# 2: bad usage or a machine that is not ready.
+refuse() {
+    printf '%s: %s\n' "${0##*/}" "$*" >&2
+    exit 2
+}
+
+# parse_options SIZES OPTION...: sets size, install, output and jobs.
+parse_options() {
+    local sizes=" $1 "
+    shift
+    while (($#)); do
+        case $1 in
+            --no-install) install=no ;;
+            -o) output=${2-} && [[ $output ]] && shift || refuse "-o: expected a folder" ;;
+            -j) jobs=${2-} && [[ $jobs =~ ^[1-9][0-9]*$ ]] && shift || refuse "-j = $jobs: expected a whole number of at least 1" ;;
+            -h | --help) usage && exit ;;
+            *) [[ $sizes == *" $1 "* ]] && size=$1 || refuse "$1: expected one of$sizes--no-install -o DIR -j N --help" ;;
+        esac
+        shift
+    done
+    [[ $jobs ]] || jobs=$(default_jobs)
+    [[ -z $output || $output == /* ]] || output=$OLDPWD/$output  # of the folder the caller stands in
+    [[ $output ]] || output=results/${0##*/}
+}
+
+# Lines `package group purpose` of the wanted groups.
+packages_of() {
+    awk -v wanted=" $* " '!/^#/ && NF { group = $3; name = $1; $1 = $2 = $3 = ""; sub(/^ +(\[[^]]*\] )?/, "")
+        if (index(wanted, " " group " ")) print name, group, $0 }' "$packages_file"
+}
+
+package_is_installed() {
+    [[ $(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
+}
+
+# Installs what is missing of GROUP..., after saying what and why.
+provide_packages() {
+    if ! command -v dpkg-query >/dev/null; then
+        say "no dpkg on this machine: CMake will tell what is missing (the list is $packages_file)"
+        return
+    fi
+    local missing=() name group purpose
+    while read -r name group purpose; do
+        package_is_installed "$name" && continue
+        ((${#missing[@]})) || say "missing packages:"
+        printf '  %-24s (%s) %s\n' "$name" "$group" "$purpose"
+        missing+=("$name")
+    done < <(packages_of "$@")
+    ((${#missing[@]})) || return 0
+    install_packages "${missing[@]}"
+}
+
+install_packages() {
+    local apt=(apt-get) by_hand="apt-get update && apt-get install --no-install-recommends $*"
+    [[ $install == yes ]] || refuse "--no-install was given; as root: $by_hand"
+    if ((EUID != 0)); then
+        command -v sudo >/dev/null || refuse "not root and no sudo; as root: $by_hand"
+        [[ -t 0 ]] || sudo -n true 2>/dev/null || refuse "sudo wants a password and there is no terminal; as root: $by_hand"
+        apt=(sudo apt-get)
+    fi
+    "${apt[@]}" update -qq || refuse "apt-get update failed"
+    "${apt[@]}" install -y -qq --no-install-recommends "$@" || refuse "apt-get install failed; by hand: $by_hand"
+}
+
+# One compiler at a time needs up to 3 GiB (CGAL, deal.II).
+default_jobs() {
+    local cores gib
+    cores=$(nproc)
+    gib=$(awk '/^MemAvailable/ { print int($2 / 1048576 / 3) }' /proc/meminfo)
+    ((gib >= 1)) || gib=1
+    echo $((cores < gib ? cores : gib))
+}
+
+# timed NAME COMMAND...: runs it, keeps its seconds, and returns its status.
+timed() {
+    local name=$1 start=$SECONDS status=0
+    shift
+    say "$name ..."
+    "$@" || status=$?
+    timeline+=("$name $((SECONDS - start))")
+    return "$status"
+}
+
+print_timeline() {
+    local entry line=''
+    for entry in "${timeline[@]}"; do
+        line+="$(awk -v s="${entry##* }" -v name="${entry% *}" 'BEGIN { printf "%s %.1f", name, s / 60 }') | "
+    done
+    say "minutes: ${line% | }"
+}
+
+# The first python3 that can draw: a version manager's python3 on the PATH often cannot.
+python_that_imports() {
+    local modules=$1 python
+    for python in /usr/bin/python3 python3; do
+        if "$python" -c "import $modules" 2>/dev/null; then
+            echo "$python"
+            return
+        fi
+    done
+    refuse "no python3 that can import $modules: install python3-numpy, python3-matplotlib and python3-vtk9"
+}
