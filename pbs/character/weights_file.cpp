@@ -1,0 +1,107 @@
+#include "pbs/character/skeleton_file.hpp"
+
+#include "pbs/character/text_file.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+namespace pbs {
+namespace {
+
+constexpr double sum_tolerance = 1e-6;
+
+struct Entry {
+    int bone;
+    double weight;
+};
+
+struct Row {
+    int vertex;
+    Entry entry;
+};
+
+template <typename Number>
+bool read_number(const std::string& text, Number& number)
+{
+    const char* end = text.data() + text.size();
+    const auto [stopped, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc() && stopped == end;
+}
+
+std::vector<std::string> split(const std::string& line)
+{
+    std::vector<std::string> fields;
+    std::istringstream stream(line);
+    for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
+    return fields;
+}
+
+Row read_row(const std::vector<std::string>& fields, const Skeleton& skeleton, int vertices, const std::string& file, int line)
+{
+    if (fields.size() != 3) throw InputError(file, line, "", "", "expected three fields: vertex,joint,weight");
+    Row row{};
+    if (!read_number(fields[0], row.vertex) || row.vertex < 0 || row.vertex >= vertices)
+        throw InputError(file, line, "vertex", fields[0], "expected a vertex, 0 to " + std::to_string(vertices - 1));
+    row.entry.bone = find_bone(skeleton, fields[1]);
+    if (row.entry.bone < 0) {
+        std::vector<std::string> names;
+        for (const Bone& bone : skeleton.bones) names.push_back(bone.name);
+        throw InputError(file, line, "joint", fields[1], "no such joint; the nearest is '" + nearest_name(fields[1], names) + "'");
+    }
+    if (!read_number(fields[2], row.entry.weight) || !(row.entry.weight >= 0.0 && row.entry.weight <= 1.0))
+        throw InputError(file, line, "weight", fields[2], "expected 0 <= weight <= 1");
+    return row;
+}
+
+std::vector<std::vector<Entry>> read_rows(const std::string& path, const Skeleton& skeleton, int vertices)
+{
+    std::istringstream text(read_text_file(path));
+    std::vector<std::vector<Entry>> entries(vertices);
+    int number = 0;
+    for (std::string line; std::getline(text, line);) {
+        ++number;
+        if (!line.empty() && line.back() == '\r') line.pop_back();
+        if (number == 1 && line != "vertex,joint,weight") throw InputError(path, 1, "", "", "expected the header vertex,joint,weight");
+        if (number == 1 || line.empty()) continue;
+        const Row row = read_row(split(line), skeleton, vertices, path, number);
+        for (const Entry& entry : entries[row.vertex])
+            if (entry.bone == row.entry.bone)
+                throw InputError(path, number, "joint", skeleton.bones[entry.bone].name,
+                                 "vertex " + std::to_string(row.vertex) + " has this joint already");
+        entries[row.vertex].push_back(row.entry);
+    }
+    if (number == 0) throw InputError(path, 1, "", "", "expected the header vertex,joint,weight");
+    return entries;
+}
+
+void check_sum(const std::vector<Entry>& entries, std::size_t vertex, const std::string& path)
+{
+    if (entries.empty()) throw InputError(path, 0, "vertex", std::to_string(vertex), "has no weights");
+    double sum = 0.0;
+    for (const Entry& entry : entries) sum += entry.weight;
+    if (std::abs(sum - 1.0) > sum_tolerance)
+        throw InputError(path, 0, "vertex " + std::to_string(vertex), std::to_string(sum), "its weights must sum to one within 1e-6");
+}
+
+}  // namespace
+
+Weights read_weights(const std::string& path, const Skeleton& skeleton, int vertices)
+{
+    const std::vector<std::vector<Entry>> entries = read_rows(path, skeleton, vertices);
+    Weights weights;
+    weights.first.push_back(0);
+    for (std::size_t vertex = 0; vertex < entries.size(); ++vertex) {
+        check_sum(entries[vertex], vertex, path);
+        for (const Entry& entry : entries[vertex]) {
+            if (entry.weight == 0.0) continue;
+            weights.bone.push_back(entry.bone);
+            weights.weight.push_back(entry.weight);
+        }
+        weights.first.push_back(static_cast<int>(weights.bone.size()));
+    }
+    return weights;
+}
+
+}  // namespace pbs
