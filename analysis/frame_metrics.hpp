@@ -1,4 +1,6 @@
 // The ruler: what is measured on one frame, the same for every deformer and for files from other programs.
+//   const FrameMetrics metrics = Ruler{mesh.rest, mesh.tets}.measure(positions);
+// A frame with positions that are not finite (a numerical breakdown) is measured, not refused: NaN figures, its broken tets inverted.
 #pragma once
 
 #include "pbs/geometry/types.hpp"
@@ -8,13 +10,14 @@ namespace analysis {
 struct FrameMetrics {
     double volume_change_pct = 0.0;      // 100 (V - V0) / V0, signed
     double volume_abs_change_pct = 0.0;  // 100 sum |V_t - V0_t| / V0
-    int inverted_tets = 0;               // V_t <= 0
+    int inverted_tets = 0;               // V_t <= 0, or not a number
     double mean_abs_j_minus_1 = 0.0;     // sum V0_t |J_t - 1| / V0, J_t = V_t / V0_t
     double j_min = 0.0;
     double stretch_rms = 0.0;  // rms of l / l0 - 1 over edges
 };
 
-// What does not change from frame to frame.
+// What does not change from frame to frame. Throws InputError for a rest mesh with indices out of range or a tet without positive volume,
+// and for a frame with another number of points.
 class Ruler {
 public:
     Ruler(const pbs::Positions& rest, const pbs::Tets& tets);
@@ -22,10 +25,13 @@ public:
     Eigen::VectorXd volume_ratios(const pbs::Positions& positions) const;  // J_t, #T
 
 private:
+    double stretch_rms(const pbs::Positions& positions) const;
+
     pbs::Tets tets_;
     pbs::Edges edges_;
     Eigen::VectorXd rest_volumes_, rest_lengths_;
     double rest_volume_ = 0.0;
+    Eigen::Index vertices_ = 0;
 };
 
 // rms of |x_i - q_i| - d_i [m].

@@ -1,0 +1,69 @@
+#include "analysis/atomic_file.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+namespace analysis {
+namespace {
+
+bool write_all(int file, const std::string& text)
+{
+    std::size_t done = 0;
+    while (done < text.size()) {
+        const ssize_t count = ::write(file, text.data() + done, text.size() - done);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) return false;
+        done += static_cast<std::size_t>(count);
+    }
+    return true;
+}
+
+// mkstemp keeps its files private; records get the permissions that any new file would.
+bool give_usual_permissions(int file)
+{
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    return ::fchmod(file, 0666 & ~mask) == 0;
+}
+
+[[noreturn]] void refuse(const std::string& path, int reason)
+{
+    throw pbs::InputError{path, 0, "", "", "cannot be written: " + std::generic_category().message(reason)};
+}
+
+}  // namespace
+
+void write_text_atomically(const std::string& path, const std::string& text)
+{
+    std::string temporary = path + ".XXXXXX";
+    const int file = ::mkstemp(temporary.data());
+    if (file < 0) refuse(path, errno);
+    int reason = write_all(file, text) && give_usual_permissions(file) && ::fsync(file) == 0 ? 0 : errno;
+    if (::close(file) != 0 && reason == 0) reason = errno;
+    if (reason == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) reason = errno;
+    if (reason != 0) {
+        ::unlink(temporary.c_str());
+        refuse(path, reason);
+    }
+}
+
+std::string read_text(const std::string& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    if (file) text << file.rdbuf();
+    if (!file || (text.fail() && file.peek() != EOF)) throw pbs::InputError{path, 0, "", "", "cannot be read"};
+    return text.str();
+}
+
+}  // namespace analysis

@@ -1,0 +1,24 @@
+// Neumaier's compensated sum: what it returns hardly depends on the order of its terms, and never on the number of threads.
+//   CompensatedSum sum;  for (double term : terms) sum += term;  double total = sum.value();
+#pragma once
+
+#include <cmath>
+
+namespace analysis {
+
+class CompensatedSum {
+public:
+    CompensatedSum& operator+=(double term)
+    {
+        const double next = sum_ + term;
+        lost_ += std::abs(sum_) >= std::abs(term) ? (sum_ - next) + term : (term - next) + sum_;
+        sum_ = next;
+        return *this;
+    }
+    double value() const { return std::isfinite(lost_) ? sum_ + lost_ : sum_; }
+
+private:
+    double sum_ = 0.0, lost_ = 0.0;
+};
+
+}  // namespace analysis

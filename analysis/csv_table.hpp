@@ -1,0 +1,54 @@
+// Records as CSV (RFC 4180): named columns, numbers that round-trip (the shortest text that reads back to the same double; nan, inf and
+// -inf by name), whole files only.
+//   CsvTable table{{"frame", "volume_change_pct"}};  table.add_row({0, -0.25});  table.write("metrics.csv");
+//   const CsvTable table = read_csv("metrics.csv");  double change = table.number(0, "volume_change_pct");
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace analysis {
+
+std::string number_text(double value);
+
+class CsvTable {
+public:
+    using Cell = std::variant<std::string, double, int, long long, std::nullopt_t>;  // nullopt: an empty cell, no value
+
+    explicit CsvTable(std::vector<std::string> columns);
+
+    void add_row(const std::vector<Cell>& cells);  // std::logic_error unless there is one cell a column
+    std::string text() const;
+    void write(const std::string& path) const;  // atomic
+
+    const std::vector<std::string>& columns() const { return columns_; }
+    int rows() const { return static_cast<int>(rows_.size()); }
+    bool has_column(const std::string& name) const;
+
+    // Values by row and column name; InputError file:line:column for a missing column or a value of another kind. `column` in the
+    // message is the field's place in its row, from 1.
+    const std::string& text_at(int row, const std::string& column) const;
+    double number(int row, const std::string& column) const;
+    long long integer(int row, const std::string& column) const;
+    std::optional<double> number_or_nothing(int row, const std::string& column) const;  // nothing for an empty cell
+    std::vector<double> numbers(const std::string& column) const;                       // #rows
+
+private:
+    friend CsvTable parse_csv(const std::string& text, const std::string& file);
+
+    int index_of(const std::string& column) const;
+    [[noreturn]] void refuse(int row, const std::string& column, const std::string& rule) const;
+
+    std::string file_;  // as read, for messages
+    std::vector<std::string> columns_;
+    std::vector<std::vector<std::string>> rows_;
+    std::vector<int> lines_;  // where each row began in the file
+};
+
+// InputError file:line:column for a file that is empty, cut off, has a row of another length, a column twice or broken quotes.
+CsvTable parse_csv(const std::string& text, const std::string& file);
+CsvTable read_csv(const std::string& path);
+
+}  // namespace analysis

@@ -1,0 +1,71 @@
+#include "analysis/provenance.hpp"
+
+#include "generated/build_facts.hpp"
+
+#include <Eigen/Core>
+#include <fmt/core.h>
+#include <gsl/gsl_version.h>
+#include <nlohmann/json.hpp>
+#include <toml++/impl/version.h>
+#include <xxhash.h>
+
+#include <fstream>
+#include <thread>
+
+namespace analysis {
+namespace {
+
+std::string cpu_model()
+{
+    std::ifstream cpuinfo("/proc/cpuinfo");
+    for (std::string line; std::getline(cpuinfo, line);)
+        if (line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos) return line.substr(line.find(": ") + 2);
+    return "unknown";
+}
+
+std::map<std::string, std::string> own_libraries()
+{
+    const unsigned xxhash = XXH_versionNumber();
+    return {
+        {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+        {"GSL", gsl_version},
+        {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+        {"nlohmann_json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
+        {"toml++", fmt::format("{}.{}.{}", TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
+        {"xxHash", fmt::format("{}.{}.{}", xxhash / 10000, xxhash / 100 % 100, xxhash % 100)}};
+}
+
+}  // namespace
+
+Provenance collect_provenance(int threads)
+{
+    Provenance provenance;
+    provenance.version = build_facts::version;
+    provenance.git_revision = build_facts::git_revision;
+    provenance.git_dirty = build_facts::git_dirty;
+    provenance.compiler = build_facts::compiler;
+    provenance.flags = build_facts::flags;
+    provenance.build_type = build_facts::build_type;
+    provenance.cpu_model = cpu_model();
+    provenance.logical_cpus = static_cast<int>(std::thread::hardware_concurrency());
+    provenance.threads = threads;
+    provenance.libraries = own_libraries();
+    return provenance;
+}
+
+void to_json(nlohmann::json& document, const Provenance& provenance)
+{
+    document = {{"version", provenance.version},
+                {"git_revision", provenance.git_revision},
+                {"git_dirty", provenance.git_dirty},
+                {"compiler", provenance.compiler},
+                {"flags", provenance.flags},
+                {"build_type", provenance.build_type},
+                {"cpu_model", provenance.cpu_model},
+                {"logical_cpus", provenance.logical_cpus},
+                {"threads", provenance.threads},
+                {"libraries", provenance.libraries},
+                {"input_hashes", provenance.input_hashes}};
+}
+
+}  // namespace analysis

@@ -1,0 +1,29 @@
+// Where a record comes from: what was built, from which revision, on what kind of machine. No host name, no folder: two machines of a
+// kind write the same text.
+//   Provenance provenance = collect_provenance(threads);  provenance.libraries["deal.II"] = "9.4.1";
+//   provenance.input_hashes["limb.toml"] = content_hash_of_file(path);  run["provenance"] = provenance;
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <map>
+#include <string>
+
+namespace analysis {
+
+struct Provenance {
+    std::string version;       // of pbskin
+    std::string git_revision;  // 40 digits; "unknown" without git or outside a checkout
+    bool git_dirty = false;    // tracked files differed from the revision when this was built
+    std::string compiler, flags, build_type;
+    std::string cpu_model;  // as /proc/cpuinfo has it
+    int logical_cpus = 0;
+    int threads = 0;                                  // the run's
+    std::map<std::string, std::string> libraries;     // name -> version
+    std::map<std::string, std::string> input_hashes;  // file name -> content_hash_of_file
+};
+
+Provenance collect_provenance(int threads);
+void to_json(nlohmann::json& document, const Provenance& provenance);
+
+}  // namespace analysis

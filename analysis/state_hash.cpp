@@ -1,0 +1,68 @@
+#include "analysis/state_hash.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <xxhash.h>
+
+#include <array>
+#include <fstream>
+#include <new>
+
+namespace analysis {
+
+struct StateHash::State {
+    State() : state(XXH3_createState())
+    {
+        if (!state) throw std::bad_alloc{};
+        XXH3_128bits_reset(state);
+    }
+    ~State() { XXH3_freeState(state); }
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+
+    XXH3_state_t* state;
+};
+
+StateHash::StateHash() : state_(std::make_unique<State>())
+{
+}
+StateHash::~StateHash() = default;
+StateHash::StateHash(StateHash&&) noexcept = default;
+StateHash& StateHash::operator=(StateHash&&) noexcept = default;
+
+void StateHash::add(const pbs::Positions& positions)
+{
+    add_bytes(positions.data(), sizeof(double) * static_cast<std::size_t>(positions.size()));
+}
+
+void StateHash::add_bytes(const void* bytes, std::size_t count)
+{
+    if (count > 0) XXH3_128bits_update(state_->state, bytes, count);
+}
+
+std::string StateHash::hex() const
+{
+    XXH128_canonical_t canonical;
+    XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(state_->state));
+    std::string text;
+    for (unsigned char byte : canonical.digest) {
+        text += "0123456789abcdef"[byte >> 4];
+        text += "0123456789abcdef"[byte & 15];
+    }
+    return text;
+}
+
+std::string content_hash_of_file(const std::string& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, 1 << 16> buffer;
+    StateHash hash;
+    while (file) {
+        file.read(buffer.data(), buffer.size());
+        hash.add_bytes(buffer.data(), static_cast<std::size_t>(file.gcount()));
+    }
+    if (!file.eof()) throw pbs::InputError{path, 0, "", "", "cannot be read"};
+    return hash.hex();
+}
+
+}  // namespace analysis

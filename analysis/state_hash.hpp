@@ -1,0 +1,32 @@
+// The state of a run in 32 hexadecimal digits: XXH3 128 of the bytes of all positions of all frames, in order. Two runs agree to the bit
+// where their hashes do. The same figure comes from `xxhsum -H2` on the little-endian Float64 of the frames, one after the other.
+//   StateHash hash;  for (frame...) hash.add(deformer.positions());  run["state_hash"] = hash.hex();
+#pragma once
+
+#include "pbs/geometry/types.hpp"
+
+#include <memory>
+#include <string>
+
+namespace analysis {
+
+class StateHash {
+public:
+    StateHash();
+    ~StateHash();
+    StateHash(StateHash&&) noexcept;
+    StateHash& operator=(StateHash&&) noexcept;
+
+    void add(const pbs::Positions& positions);
+    void add_bytes(const void* bytes, std::size_t count);
+    std::string hex() const;  // of what was added so far
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+// XXH3 128 of a file's bytes, hexadecimal: what provenance says of an input. InputError when the file cannot be read.
+std::string content_hash_of_file(const std::string& path);
+
+}  // namespace analysis
