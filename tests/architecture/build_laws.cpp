@@ -1,0 +1,67 @@
+#include "tests/architecture/build_laws.hpp"
+
+#include <algorithm>
+#include <regex>
+
+namespace architecture {
+
+namespace {
+
+// CMake text of the folder and those above it, without comments.
+std::string cmake_text_above(const SourceTree& tree, const std::string& path)
+{
+    std::string all;
+    for (const auto& [file, text] : tree)
+        if (is_cmake_file(file) && (folder_of(file).empty() || path.starts_with(folder_of(file) + "/")))
+            for (const std::string& line : lines_of(text)) all += line.substr(0, line.find('#')) + "\n";
+    return all;
+}
+
+bool names_word(const std::string& text, const std::string& word)
+{
+    const auto belongs_to_a_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'; };
+    for (std::size_t place = text.find(word); place != std::string::npos; place = text.find(word, place + 1)) {
+        const std::size_t end = place + word.size();
+        if ((place == 0 || !belongs_to_a_word(text[place - 1])) && (end == text.size() || !belongs_to_a_word(text[end]))) return true;
+    }
+    return false;
+}
+
+// Named as a file, or as a test by pbs_test(KIND NAME).
+bool is_built(const std::string& cmake, const std::string& path)
+{
+    const std::string file = path.substr(path.rfind('/') + 1);
+    if (names_word(cmake, file)) return true;
+    return path.starts_with("tests/") && names_word(cmake, file.substr(0, file.rfind('.')));
+}
+
+bool is_folder(const SourceTree& tree, const std::string& folder)
+{
+    return std::ranges::any_of(tree, [&](const auto& file) { return file.first.starts_with(folder + "/"); });
+}
+
+}  // namespace
+
+Violations orphaned_sources(const SourceTree& tree)
+{
+    Violations violations;
+    for (const auto& [path, text] : tree)
+        if (path.ends_with(".cpp") && !is_built(cmake_text_above(tree, path), path))
+            violations.push_back(at(path, 1, "no CMake file at or above it names it"));
+    return violations;
+}
+
+Violations unit_mirror(const SourceTree& tree)
+{
+    const std::string units = "tests/unit/";
+    Violations violations;
+    for (const auto& [path, text] : tree) {
+        if (!path.starts_with(units) || !is_cpp(path)) continue;
+        const std::string mirrored = folder_of(path.substr(units.size()));
+        if (mirrored.empty() || (!is_folder(tree, mirrored) && !is_folder(tree, "pbs/" + mirrored)))
+            violations.push_back(at(path, 1, "mirrors no source folder '" + mirrored + "'"));
+    }
+    return violations;
+}
+
+}  // namespace architecture

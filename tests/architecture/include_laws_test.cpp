@@ -1,0 +1,83 @@
+// Truth: the include laws of the architecture, held against the source tree as it is.
+#include "tests/architecture/expect_lawful.hpp"
+#include "tests/architecture/heavy_headers.hpp"
+#include "tests/architecture/include_laws.hpp"
+
+using namespace architecture;
+
+TEST(IncludeLaws, PointOneWay)
+{
+    expect_lawful(include_direction);
+}
+TEST(IncludeLaws, AreWrittenFromTheRootInQuotes)
+{
+    expect_lawful(include_form);
+}
+TEST(IncludeLaws, FiguresComputeNothing)
+{
+    expect_lawful(figures_compute);
+}
+TEST(IncludeLaws, HeavyHeadersStayAtHome)
+{
+    expect_lawful(heavy_headers);
+}
+
+TEST(IncludeLawsBite, TheJudgeIncludesTheJudged)
+{
+    expect_found(include_direction, {{"reference_fem/x.cpp", "#include \"pbs/geometry/a.hpp\"\n#include \"pbs/solver/b.hpp\"\n"}},
+                 "reference_fem/x.cpp:2: reference_fem/ may not include pbs/solver/b.hpp");
+}
+
+TEST(IncludeLawsBite, TheRulerIncludesSkinning)
+{
+    expect_found(include_direction, {{"analysis/x.hpp", "#include \"pbs/skinning/a.hpp\"\n"}}, "analysis/ may not include");
+}
+
+TEST(IncludeLawsBite, TheSolverIncludesSkinning)
+{
+    expect_found(include_direction, {{"pbs/solver/x.hpp", "#include \"pbs/skinning/a.hpp\"\n"}}, "pbs/solver/ may not include");
+}
+
+TEST(IncludeLawsBite, TheMethodIncludesTests)
+{
+    expect_found(include_direction, {{"pbs/character/x.cpp", "#include \"tests/support/a.hpp\"\n"}}, "may not include tests/");
+}
+
+TEST(IncludeLawsBite, SourcesInAFolderNobodyKnows)
+{
+    expect_found(include_direction, {{"extras/x.cpp", ""}}, "no include law knows");
+}
+
+TEST(IncludeLawsBite, RelativeInclude)
+{
+    expect_found(include_form, {{"analysis/x.cpp", "#include \"y.hpp\"\n"}}, "no such file");
+}
+
+TEST(IncludeLawsBite, AngleBrackets)
+{
+    expect_found(include_form, {{"analysis/x.cpp", "#include <analysis/y.hpp>\n"}}, "ours goes in quotes");
+}
+
+TEST(IncludeLawsBite, HeaderWithoutPragmaOnce)
+{
+    expect_found(include_form, {{"analysis/x.hpp", "int f();\n"}}, "#pragma once");
+}
+
+TEST(IncludeLawsBite, AFigureRunsTheSolver)
+{
+    expect_found(figures_compute, {{"paper_figures/x.py", "import csv\nimport subprocess\n"}}, "paper_figures/x.py:2: subprocess");
+}
+
+TEST(IncludeLawsBite, HeavyHeaderThroughAHeader)
+{
+    const SourceTree planted = {{"pbs/geometry/meshing_cgal.hpp", "#include <CGAL/Kernel.h>\n"},
+                                {"pbs/solver/x.cpp", "#include \"pbs/geometry/meshing_cgal.hpp\"\n"}};
+    expect_found(heavy_headers, planted, "pbs/solver/x.cpp:1: sees CGAL/");
+}
+
+TEST(IncludeLawsBite, TooManyHeavyFiles)
+{
+    SourceTree planted;
+    for (int i = 0; i < 9; ++i) planted["reference_fem/x" + std::to_string(i) + ".cpp"] = "#include <deal.II/base/point.h>\n";
+    expect_found(heavy_headers, planted, "deal.II/ is seen by 9 .cpp files");
+}

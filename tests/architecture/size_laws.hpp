@@ -1,0 +1,12 @@
+// House sizes: a file of 110 to 150 lines, 9 in 10 below 200, none over 500; a function of 10 to 15 lines, 9 in 10 at most 60, none over
+// 120.
+#pragma once
+
+#include "tests/architecture/source_tree.hpp"
+
+namespace architecture {
+
+Violations file_sizes(const SourceTree& tree);
+Violations function_sizes(const SourceTree& tree);
+
+}  // namespace architecture

@@ -1,0 +1,97 @@
+#include "tests/architecture/source_tree.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <sstream>
+
+namespace architecture {
+
+namespace {
+
+const std::vector<std::string> text_files = {".cpp", ".hpp", ".py", ".cmake", ".sh", ".toml", ".md", ".txt", ".cff", ".json"};
+const std::vector<std::string> left_out = {"build/", "results/", ".git/", ".cache/", ".vscode/"};
+const std::vector<std::string> commands = {"reproduce", "check", ".ci/run"};
+
+bool belongs(const std::string& path)
+{
+    if (starts_with_any(path, left_out) || path.find("__pycache__") != std::string::npos) return false;
+    return ends_with_any(path, text_files) || std::ranges::count(commands, path);
+}
+
+std::string read(const std::filesystem::path& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace
+
+SourceTree read_source_tree()
+{
+    const std::filesystem::path root = PBS_SOURCE_ROOT;
+    SourceTree tree;
+    for (auto entry = std::filesystem::recursive_directory_iterator(root); entry != std::filesystem::recursive_directory_iterator();
+         ++entry) {
+        const std::string path = std::filesystem::relative(entry->path(), root).generic_string();
+        if (entry->is_directory() && starts_with_any(path + "/", left_out)) entry.disable_recursion_pending();
+        if (entry->is_regular_file() && belongs(path)) tree[path] = read(entry->path());
+    }
+    return tree;
+}
+
+std::vector<std::string> lines_of(const std::string& text)
+{
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+std::string folder_of(const std::string& path)
+{
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string::npos ? "" : path.substr(0, slash);
+}
+
+bool starts_with_any(std::string_view text, const std::vector<std::string>& prefixes)
+{
+    return std::ranges::any_of(prefixes, [text](const std::string& prefix) { return text.starts_with(prefix); });
+}
+
+bool ends_with_any(std::string_view text, const std::vector<std::string>& suffixes)
+{
+    return std::ranges::any_of(suffixes, [text](const std::string& suffix) { return text.ends_with(suffix); });
+}
+
+bool is_cpp(const std::string& path)
+{
+    return ends_with_any(path, {".cpp", ".hpp"});
+}
+
+bool is_cmake_file(const std::string& path)
+{
+    return ends_with_any(path, {"CMakeLists.txt", ".cmake"});
+}
+
+std::vector<Include> includes_of(const std::string& text)
+{
+    static const std::regex directive(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
+    std::vector<Include> includes;
+    int number = 0;
+    for (const std::string& line : lines_of(text)) {
+        ++number;
+        std::smatch match;
+        if (std::regex_search(line, match, directive)) includes.push_back({number, match[2], match[1] == "\""});
+    }
+    return includes;
+}
+
+std::string at(const std::string& path, int line, const std::string& what)
+{
+    return path + ":" + std::to_string(line) + ": " + what;
+}
+
+}  // namespace architecture
