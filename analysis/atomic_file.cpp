@@ -5,12 +5,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <sstream>
 #include <system_error>
 
 namespace analysis {
@@ -60,10 +60,13 @@ void write_text_atomically(const std::string& path, const std::string& text)
 std::string read_text(const std::string& path)
 {
     std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    if (file) text << file.rdbuf();
-    if (!file || (text.fail() && file.peek() != EOF)) throw pbs::InputError{path, 0, "", "", "cannot be read"};
-    return text.str();
+    std::string text;
+    for (std::array<char, 1 << 16> buffer; file;) {
+        file.read(buffer.data(), buffer.size());
+        text.append(buffer.data(), static_cast<std::size_t>(file.gcount()));
+    }
+    if (!file.eof()) throw pbs::InputError{path, 0, "", "", "cannot be read"};
+    return text;
 }
 
 }  // namespace analysis

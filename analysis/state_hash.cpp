@@ -1,11 +1,9 @@
 #include "analysis/state_hash.hpp"
 
-#include "pbs/geometry/input_error.hpp"
+#include "analysis/atomic_file.hpp"
 
 #include <xxhash.h>
 
-#include <array>
-#include <fstream>
 #include <new>
 
 namespace analysis {
@@ -54,14 +52,9 @@ std::string StateHash::hex() const
 
 std::string content_hash_of_file(const std::string& path)
 {
-    std::ifstream file(path, std::ios::binary);
-    std::array<char, 1 << 16> buffer;
+    const std::string bytes = read_text(path);
     StateHash hash;
-    while (file) {
-        file.read(buffer.data(), buffer.size());
-        hash.add_bytes(buffer.data(), static_cast<std::size_t>(file.gcount()));
-    }
-    if (!file.eof()) throw pbs::InputError{path, 0, "", "", "cannot be read"};
+    hash.add_bytes(bytes.data(), bytes.size());
     return hash.hex();
 }
 

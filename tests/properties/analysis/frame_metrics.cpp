@@ -1,0 +1,102 @@
+// Invariances of the ruler: rigid motion, order of tets and vertices, unit of length. Truth: none of them changes a ratio of volumes or
+// lengths. Tolerance: volumes come from products of three coordinate differences, each rounded to 1e-16 of the largest coordinate over
+// the shortest difference (some 100 here), so 1e-11 of the figure's size.
+#include "analysis/frame_metrics.hpp"
+
+#include "tests/support/structured_bar.hpp"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+namespace {
+
+using analysis::FrameMetrics;
+using analysis::Ruler;
+using pbs::Positions;
+
+struct Sample {
+    pbs::TetMesh mesh;
+    Positions frame;
+};
+
+Sample wobbled_bar()
+{
+    Sample sample{test_support::structured_bar({-1.0, -0.15, -0.15}, {1.0, 0.15, 0.15}, {20, 3, 3}), {}};
+    sample.frame = sample.mesh.rest;
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> offset(-0.05, 0.05);
+    for (double& coordinate : sample.frame.reshaped()) coordinate += offset(random);
+    return sample;
+}
+
+FrameMetrics measure(const Sample& sample)
+{
+    return Ruler(sample.mesh.rest, sample.mesh.tets).measure(sample.frame);
+}
+
+void expect_same(const FrameMetrics& a, const FrameMetrics& b)
+{
+    EXPECT_NEAR(a.volume_change_pct, b.volume_change_pct, 1e-9);
+    EXPECT_NEAR(a.volume_abs_change_pct, b.volume_abs_change_pct, 1e-9);
+    EXPECT_EQ(a.inverted_tets, b.inverted_tets);
+    EXPECT_NEAR(a.mean_abs_j_minus_1, b.mean_abs_j_minus_1, 1e-11);
+    EXPECT_NEAR(a.j_min, b.j_min, 1e-11);
+    EXPECT_NEAR(a.stretch_rms, b.stretch_rms, 1e-11);
+}
+
+TEST(FrameMetricsInvariance, SampleIsNotTrivial)
+{
+    const FrameMetrics metrics = measure(wobbled_bar());
+    EXPECT_GT(metrics.volume_abs_change_pct, 1.0);
+    EXPECT_GT(metrics.inverted_tets, 0);
+    EXPECT_LT(metrics.j_min, 0.0);
+}
+
+TEST(FrameMetricsInvariance, RigidMotion)
+{
+    Sample moved = wobbled_bar();
+    const Eigen::AngleAxisd turn(1.1, Eigen::Vector3d(1.0, -2.0, 0.5).normalized());
+    moved.frame = (moved.frame * turn.toRotationMatrix().transpose()).rowwise() + Eigen::RowVector3d(0.3, -0.2, 0.9);
+    expect_same(measure(moved), measure(wobbled_bar()));
+}
+
+TEST(FrameMetricsInvariance, OrderOfTetsAndVertices)
+{
+    const Sample sample = wobbled_bar();
+    std::mt19937 random(11);
+    std::vector<int> new_tet(sample.mesh.tets.rows()), new_vertex(sample.frame.rows());
+    std::iota(new_tet.begin(), new_tet.end(), 0);
+    std::iota(new_vertex.begin(), new_vertex.end(), 0);
+    std::shuffle(new_tet.begin(), new_tet.end(), random);
+    std::shuffle(new_vertex.begin(), new_vertex.end(), random);
+    const std::array<int, 4> even_permutation = {1, 2, 0, 3};  // keeps the orientation
+    Sample shuffled = sample;
+    for (std::size_t v = 0; v < new_vertex.size(); ++v) {
+        shuffled.mesh.rest.row(new_vertex[v]) = sample.mesh.rest.row(v);
+        shuffled.frame.row(new_vertex[v]) = sample.frame.row(v);
+    }
+    for (std::size_t t = 0; t < new_tet.size(); ++t)
+        for (int corner = 0; corner < 4; ++corner)
+            shuffled.mesh.tets(new_tet[t], corner) = new_vertex[sample.mesh.tets(t, even_permutation[corner])];
+    expect_same(measure(shuffled), measure(sample));
+}
+
+class UnitOfLength : public testing::TestWithParam<double> {};
+
+TEST_P(UnitOfLength, DoesNotMatter)
+{
+    Sample scaled = wobbled_bar();
+    scaled.mesh.rest *= GetParam();
+    scaled.frame *= GetParam();
+    expect_same(measure(scaled), measure(wobbled_bar()));
+}
+
+INSTANTIATE_TEST_SUITE_P(FrameMetricsInvariance, UnitOfLength, testing::Values(1e-6, 1e-3, 1.0, 1e3, 1e6));
+
+}  // namespace

@@ -1,0 +1,125 @@
+// Truth: what the file system holds after each way in which writing can fail. Whole files or none, never a left-over temporary.
+#include "analysis/atomic_file.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+using analysis::read_text;
+using analysis::write_text_atomically;
+
+class AtomicFile : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        std::string name = (fs::temp_directory_path() / "pbskin_atomic_XXXXXX").string();
+        folder = mkdtemp(name.data());
+        fs::permissions(folder, fs::perms::all);
+    }
+    void TearDown() override
+    {
+        fs::permissions(folder, fs::perms::all);
+        fs::remove_all(folder);
+    }
+    long files() const { return std::distance(fs::directory_iterator(folder), fs::directory_iterator()); }
+
+    fs::path folder;
+};
+
+TEST_F(AtomicFile, WritesAndReplaces)
+{
+    const std::string path = folder / "run.json";
+    write_text_atomically(path, std::string("a\0b\n", 4));
+    EXPECT_EQ(read_text(path), std::string("a\0b\n", 4));
+    write_text_atomically(path, "");
+    EXPECT_EQ(read_text(path), "");
+    EXPECT_EQ(files(), 1);
+}
+
+TEST_F(AtomicFile, GivesUsualPermissions)
+{
+    const mode_t before = umask(022);
+    write_text_atomically(folder / "run.json", "{}");
+    umask(before);
+    struct stat status;
+    ASSERT_EQ(stat((folder / "run.json").c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777, 0644u);
+}
+
+TEST_F(AtomicFile, MissingFolderIsRefused)
+{
+    EXPECT_THROW(write_text_atomically(folder / "missing" / "run.json", "{}"), pbs::InputError);
+    EXPECT_EQ(files(), 0);
+}
+
+TEST_F(AtomicFile, FileInPlaceOfFolderIsRefused)
+{
+    write_text_atomically(folder / "file", "");
+    EXPECT_THROW(write_text_atomically(folder / "file" / "run.json", "{}"), pbs::InputError);
+}
+
+TEST_F(AtomicFile, FolderInPlaceOfFileIsRefusedAndNothingIsLeft)
+{
+    fs::create_directory(folder / "run.json");
+    EXPECT_THROW(write_text_atomically(folder / "run.json", "{}"), pbs::InputError);
+    EXPECT_EQ(files(), 1);
+}
+
+TEST_F(AtomicFile, ReadOnlyFolderIsRefused)
+{
+    fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
+    const bool is_root = geteuid() == 0;  // whom no permission stops
+    if (is_root) {
+        ASSERT_EQ(seteuid(65534), 0);
+    }
+    EXPECT_THROW(write_text_atomically(folder / "run.json", "{}"), pbs::InputError);
+    if (is_root) {
+        ASSERT_EQ(seteuid(0), 0);
+    }
+    EXPECT_EQ(files(), 0);
+}
+
+// A limit on file sizes stands for a full disk: write() ends short with an error.
+TEST_F(AtomicFile, FullDiskKeepsTheOldFile)
+{
+    const std::string path = folder / "metrics.csv";
+    write_text_atomically(path, "old\n");
+    const auto before = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit usual;
+    getrlimit(RLIMIT_FSIZE, &usual);
+    const rlimit small{1000, usual.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+    EXPECT_THROW(write_text_atomically(path, std::string(5000, 'x')), pbs::InputError);
+    setrlimit(RLIMIT_FSIZE, &usual);
+    std::signal(SIGXFSZ, before);
+    EXPECT_EQ(read_text(path), "old\n");
+    EXPECT_EQ(files(), 1);
+}
+
+TEST_F(AtomicFile, ErrorNamesFileAndReason)
+{
+    try {
+        write_text_atomically(folder / "missing" / "run.json", "{}");
+        FAIL();
+    } catch (const pbs::InputError& error) {
+        EXPECT_EQ(std::string(error.what()), (folder / "missing" / "run.json").string() + ": cannot be written: No such file or directory");
+    }
+}
+
+TEST_F(AtomicFile, ReadingWhatIsNotThereIsRefused)
+{
+    EXPECT_THROW(read_text(folder / "missing"), pbs::InputError);
+    EXPECT_THROW(read_text(folder), pbs::InputError);
+}
+
+}  // namespace
