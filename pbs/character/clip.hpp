@@ -8,20 +8,22 @@
 
 namespace pbs {
 
-// Joint rotations and root positions as the clip has them: `rotation[f][j]` global, rest directions from the zero pose.
+// Joint rotations and root positions as the clip has them. End sites are joints without motion, so that every limb has a direction.
 struct Clip {
-    std::string name;
+    std::string name;  // the file
     double frame_time_s = 0.0;
     std::vector<std::string> joints;
-    std::vector<int> parent;                             // -1: root
+    std::vector<int> parent;                             // -1: root; parents stand before their children
     Positions zero_pose;                                 // joint positions of the zero pose [clip's units], #joints x 3
-    std::vector<std::vector<Eigen::Quaterniond>> local;  // #frames x #joints
+    std::vector<std::vector<Eigen::Quaterniond>> local;  // relative to the parent, identities in the zero pose, #frames x #joints
     Positions root;                                      // root position a frame [clip's units], #frames x 3
     int frames() const { return static_cast<int>(local.size()); }
 };
+
+// The first motion in the file. BVH keeps its frames; motions with free keys (glTF, FBX) are sampled at 120 Hz. Unreadable, empty and
+// non-finite clips are InputErrors.
 Clip read_clip(const std::string& path);
 
-// Retargets onto the `human` skeleton (CMU joint names) or, where the names of joints and bones agree, onto any; resamples.
 struct ClipSampling {
     bool drop_first_frame = true;  // cgspeed's conversions begin with a T pose
     double start_s = 0.0;          // after the dropped frame
@@ -29,6 +31,12 @@ struct ClipSampling {
     double rate_hz = 100.0;
     double time_step_s = 0.01;  // rate_hz * time_step_s = 1 / n: n steps a frame
 };
+
+// The clip's motion on a skeleton: R_bone(t) = R_joint(t) A, A the least rotation from the bone's rest direction to the joint's limb in the
+// zero pose (none where the joint branches). CMU's joint names reach the `human` skeleton, others go by equal names; bones without a joint
+// follow their parent. Rotations only, so that bones keep their lengths; the root's path is scaled by leg length, and the clip's first
+// frame (the T pose dropped) is at the skeleton's rest place. Poses between frames by slerp. A clip none of whose names match is an
+// InputError, and so is a stretch of time it does not hold.
 Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& sampling);
 
 // Full path of a clip given by name: as it is, relative to `folder`, or in Debian's assimp-testmodels.

@@ -1,0 +1,67 @@
+#include "pbs/character/bvh_header.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace pbs {
+namespace {
+
+constexpr int deepest_nesting = 500;
+
+int line_at(const std::string& text, std::size_t place)
+{
+    return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(place), '\n'));
+}
+
+// The word that follows `label` after `from`; empty where there is none. `place` becomes where it was looked for.
+std::string word_after(const std::string& text, const std::string& label, std::size_t& place)
+{
+    const std::size_t found = text.find(label, place);
+    if (found == std::string::npos) return {};
+    place = found + label.size();
+    std::string word;
+    std::istringstream(text.substr(place, 80)) >> word;
+    return word;
+}
+
+double number_of(const std::string& word)
+{
+    char* end = nullptr;
+    const double number = std::strtod(word.c_str(), &end);
+    return *end == '\0' ? number : std::nan("");
+}
+
+void check_nesting(const std::string& text, std::size_t header_end, const std::string& path)
+{
+    int depth = 0;
+    for (std::size_t place = 0; place < header_end; ++place) {
+        depth += text[place] == '{' ? 1 : text[place] == '}' ? -1 : 0;
+        if (depth > deepest_nesting)
+            throw InputError(path, line_at(text, place), "JOINT", "", "nested deeper than " + std::to_string(deepest_nesting) + " joints");
+    }
+}
+
+}  // namespace
+
+void check_bvh_header(const std::string& text, const std::string& path)
+{
+    std::size_t place = std::min(text.rfind("MOTION"), text.size());
+    check_nesting(text, place, path);
+
+    const std::string frames = word_after(text, "Frames:", place);
+    const double number = number_of(frames);
+    if (!frames.empty() && !(number >= 1.0 && number == std::floor(number)))
+        throw InputError(path, line_at(text, place), "Frames", frames, "expected a whole number of frames, 1 or more");
+    if (number > static_cast<double>(text.size()) / 2.0)
+        throw InputError(path, line_at(text, place), "Frames", frames, "the file is too short to hold them");
+
+    const std::string frame_time = word_after(text, "Time:", place);
+    const double seconds = number_of(frame_time);
+    if (!frame_time.empty() && !(seconds > 0.0 && std::isfinite(seconds)))
+        throw InputError(path, line_at(text, place), "Frame Time", frame_time, "expected a time > 0 [s]");
+}
+
+}  // namespace pbs

@@ -1,0 +1,12 @@
+// What assimp lets pass in a BVH file's header: checked before it reads the file.
+#pragma once
+
+#include <string>
+
+namespace pbs {
+
+// Throws an InputError where Frames or Frame Time is no positive number, more frames are announced than the text can hold, or joints are
+// nested deeper than a reader's stack. A header that is not there is left to the reader to refuse.
+void check_bvh_header(const std::string& text, const std::string& path);
+
+}  // namespace pbs

@@ -1,0 +1,173 @@
+#include "pbs/character/clip.hpp"
+
+#include "pbs/character/bvh_header.hpp"
+#include "pbs/character/text_file.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <assimp/config.h>
+#include <assimp/scene.h>
+#include <assimp/Importer.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+
+namespace pbs {
+namespace {
+
+constexpr double free_key_rate_hz = 120.0;   // motions whose keys are not frames are sampled at this rate
+constexpr double default_tick_rate_hz = 25;  // assimp's word for files that state none
+
+Eigen::Quaterniond to_eigen(const aiQuaternion& q)
+{
+    return Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
+}
+Vec3 to_eigen(const aiVector3D& v)
+{
+    return {v.x, v.y, v.z};
+}
+
+// A node of the file's hierarchy in the zero pose, and what moves it.
+struct Node {
+    Eigen::Isometry3d rest_local, rest_global;
+    const aiNodeAnim* channel = nullptr;
+};
+
+bool is_bvh(const std::string& path)
+{
+    std::string extension = std::filesystem::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    return extension == ".bvh";
+}
+
+Eigen::Isometry3d rigid_part(const aiMatrix4x4& transformation)
+{
+    aiVector3D scale, position;
+    aiQuaternion rotation;
+    transformation.Decompose(scale, rotation, position);
+    return Eigen::Translation3d(to_eigen(position)) * to_eigen(rotation);
+}
+
+void collect_nodes(const aiNode* node, int parent, const std::map<std::string, const aiNodeAnim*>& channels, Clip& clip,
+                   std::vector<Node>& nodes)
+{
+    const std::string name = node->mName.C_Str();
+    Node own{rigid_part(node->mTransformation), Eigen::Isometry3d::Identity()};
+    own.rest_global = parent < 0 ? own.rest_local : nodes[parent].rest_global * own.rest_local;
+    if (const auto found = channels.find(name); found != channels.end()) own.channel = found->second;
+    const int index = static_cast<int>(nodes.size());
+    nodes.push_back(own);
+    clip.joints.push_back(name);
+    clip.parent.push_back(parent);
+    for (unsigned child = 0; child < node->mNumChildren; ++child) collect_nodes(node->mChildren[child], index, channels, clip, nodes);
+}
+
+// The two keys around `tick` and how far it lies between them.
+template <typename Key>
+std::pair<const Key*, const Key*> keys_around(const Key* keys, unsigned count, double tick, double& between)
+{
+    const Key* after = std::upper_bound(keys, keys + count, tick, [](double time, const Key& key) { return time < key.mTime; });
+    const Key* before = after == keys ? keys : after - 1;
+    if (after == keys + count) after = before;
+    between = after->mTime > before->mTime ? (tick - before->mTime) / (after->mTime - before->mTime) : 0.0;
+    return {before, after};
+}
+
+Eigen::Quaterniond rotation_at(const Node& node, double tick)
+{
+    if (!node.channel || node.channel->mNumRotationKeys == 0) return Eigen::Quaterniond(node.rest_local.linear());
+    double between = 0.0;
+    const auto [before, after] = keys_around(node.channel->mRotationKeys, node.channel->mNumRotationKeys, tick, between);
+    return to_eigen(before->mValue).slerp(between, to_eigen(after->mValue));
+}
+
+Vec3 position_at(const Node& node, double tick)
+{
+    if (!node.channel || node.channel->mNumPositionKeys == 0) return node.rest_local.translation();
+    double between = 0.0;
+    const auto [before, after] = keys_around(node.channel->mPositionKeys, node.channel->mNumPositionKeys, tick, between);
+    return (1.0 - between) * to_eigen(before->mValue) + between * to_eigen(after->mValue);
+}
+
+// In world axes of the zero pose: G_parent L(t) G^-1, G the rest rotations; L(t) itself where those are the identity, as in BVH.
+void sample_frame(const std::vector<Node>& nodes, double tick, int frame, Clip& clip)
+{
+    std::vector<Eigen::Quaterniond> local;
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+        const Eigen::Quaterniond own(nodes[j].rest_global.linear());
+        const Eigen::Quaterniond above =
+            clip.parent[j] < 0 ? Eigen::Quaterniond::Identity() : Eigen::Quaterniond(nodes[clip.parent[j]].rest_global.linear());
+        local.push_back(above * rotation_at(nodes[j], tick) * own.conjugate());
+        if (!local.back().coeffs().allFinite())
+            throw InputError(clip.name, 0, "frame " + std::to_string(frame), clip.joints[j], "its rotation is not a finite number");
+    }
+    clip.local.push_back(local);
+
+    const auto moved = std::find_if(nodes.begin(), nodes.end(), [](const Node& node) { return node.channel != nullptr; });
+    const int above = clip.parent[moved - nodes.begin()];
+    const Vec3 position = position_at(*moved, tick);
+    clip.root.row(frame) = above < 0 ? position : Vec3(nodes[above].rest_global * position);
+    if (!clip.root.row(frame).allFinite())
+        throw InputError(clip.name, 0, "frame " + std::to_string(frame), clip.joints[moved - nodes.begin()],
+                         "its position is not a finite number");
+}
+
+void check_names(const Clip& clip)
+{
+    std::set<std::string> seen;
+    for (const std::string& joint : clip.joints)
+        if (!seen.insert(joint).second) throw InputError(clip.name, 0, "JOINT", joint, "two joints have this name");
+}
+
+const aiScene& import(Assimp::Importer& importer, const std::string& path)
+{
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+    const aiScene* scene = importer.ReadFile(path, 0);
+    if (!scene) throw InputError(path, 0, "", "", std::string("no clip that assimp can read: ") + importer.GetErrorString());
+    if (!scene->mRootNode || scene->mNumAnimations == 0 || scene->mAnimations[0]->mNumChannels == 0)
+        throw InputError(path, 0, "", "", "holds no motion");
+    return *scene;
+}
+
+std::vector<Node> read_hierarchy(const aiScene& scene, Clip& clip)
+{
+    std::map<std::string, const aiNodeAnim*> channels;
+    const aiAnimation& motion = *scene.mAnimations[0];
+    for (unsigned c = 0; c < motion.mNumChannels; ++c) channels[motion.mChannels[c]->mNodeName.C_Str()] = motion.mChannels[c];
+    std::vector<Node> nodes;
+    collect_nodes(scene.mRootNode, -1, channels, clip, nodes);
+    check_names(clip);
+    clip.zero_pose.resize(static_cast<Eigen::Index>(nodes.size()), 3);
+    for (std::size_t j = 0; j < nodes.size(); ++j) clip.zero_pose.row(j) = nodes[j].rest_global.translation();
+    if (!clip.zero_pose.allFinite()) throw InputError(clip.name, 0, "OFFSET", "", "expected finite numbers");
+    if (std::none_of(nodes.begin(), nodes.end(), [](const Node& node) { return node.channel; }))
+        throw InputError(clip.name, 0, "", "", "its motion moves none of its joints");
+    return nodes;
+}
+
+}  // namespace
+
+Clip read_clip(const std::string& path)
+{
+    const std::string text = read_text_file(path);
+    if (is_bvh(path)) check_bvh_header(text, path);
+    Assimp::Importer importer;
+    const aiScene& scene = import(importer, path);
+
+    Clip clip;
+    clip.name = path;
+    const std::vector<Node> nodes = read_hierarchy(scene, clip);
+    const aiAnimation& motion = *scene.mAnimations[0];
+    const double tick_rate_hz = motion.mTicksPerSecond > 0.0 ? motion.mTicksPerSecond : default_tick_rate_hz;
+    const double ticks_per_frame = is_bvh(path) ? 1.0 : tick_rate_hz / free_key_rate_hz;
+    clip.frame_time_s = ticks_per_frame / tick_rate_hz;
+    const int frames = static_cast<int>(std::floor(motion.mDuration / ticks_per_frame + 1e-6)) + 1;
+    clip.root.resize(frames, 3);
+    for (int frame = 0; frame < frames; ++frame) sample_frame(nodes, frame * ticks_per_frame, frame, clip);
+    return clip;
+}
+
+}  // namespace pbs

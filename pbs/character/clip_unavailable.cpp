@@ -1,0 +1,11 @@
+#include "pbs/character/clip.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+namespace pbs {
+
+Clip read_clip(const std::string& path)
+{
+    throw InputError(path, 0, "", "", "clips are left out of this build (PBS_WITH_RIG_IMPORT is off)");
+}
+
+}  // namespace pbs
