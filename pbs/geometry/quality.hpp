@@ -4,9 +4,13 @@
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 
+#include <array>
 #include <string>
 
 namespace pbs {
+
+// Angles [deg] between the faces that meet at each edge: 12, 13, 14, 23, 24, 34; in [0, 180], 0 and 180 where the tet is flat.
+std::array<double, 6> dihedral_angles_deg(const Vec3& p1, const Vec3& p2, const Vec3& p3, const Vec3& p4);
 
 struct Quality {
     int vertices = 0, edges = 0, tets = 0, boundary_triangles = 0, boundary_vertices = 0;

@@ -12,7 +12,8 @@ Triangles boundary_of(const Tets& tets);                                       /
 std::vector<bool> boundary_vertices(const Tets& tets, Eigen::Index vertices);  // #V
 
 struct Topology {
-    bool boundary_manifold = false;  // every boundary edge in two triangles, every boundary vertex in one fan
+    // Every boundary edge in two triangles, every boundary vertex in one fan, every face in at most two tets.
+    bool boundary_manifold = false;
     int boundary_components = 0;
     int boundary_euler = 0;  // V - E + F of the boundary; 2 for a ball
     int components = 0;      // of the tets, over shared faces

@@ -10,10 +10,10 @@ namespace pbs {
 enum class Order { plain };  // file order within each class, classes in Algorithm 1's order
 enum class Precision { f32, f64 };
 enum class Masses { unit, lumped };  // m_i = 1 (the paper), or the lumped rest volume
-// The volume correction: derived from Eq. 11 (default), or as printed (audit of Eq. 12-20):
+// The volume correction: derived from Eq. 11 (default), or as printed in Eq. 12-20, each with the sign of Eq. 17-20:
 // labels_relative: Eq. 12-14 under the particles they are printed for, positions relative to p1;
 // labels_absolute: the same with the absolute positions as printed, so it depends on the origin;
-// sign: the derived gradients with the sign printed in Eq. 17-20.
+// sign: the derived gradients. All for m_i = 1.
 enum class VolumeForm { derived, labels_relative, labels_absolute, sign };
 
 struct Jiggle {
@@ -28,7 +28,7 @@ struct PbsOptions {
     Precision precision = Precision::f32;
     Masses masses = Masses::unit;
     VolumeForm volume_form = VolumeForm::derived;
-    double stop_residual = 0.0;      // stop when the largest of the three residuals is below; 0: all iterations
+    double stop_residual = 0.0;      // stop when the largest of the three residuals is below, else not_converged; 0: all iterations
     bool record_iterations = false;  // keep residuals of every iteration
     std::optional<Jiggle> jiggle;
 };

@@ -1,0 +1,45 @@
+// Eq. 12-20 as they stand in print, for the experiment on what that does to the volume; volume.hpp is the form to use.
+//   project_printed<Printed::labels_relative>(constraint, particle_1, particle_2, particle_3, particle_4);
+// Under p2 is printed what belongs to p4, under p3 what belongs to p2, under p4 what belongs to p3; the products are of absolute positions;
+// and Eq. 17-20 carry the opposite sign of Eq. 8. All for m_i = 1.
+#pragma once
+
+#include "pbs/constraints/volume.hpp"
+
+namespace pbs {
+
+// labels_relative: Eq. 12-14 under their printed particles, of positions relative to p1; labels_absolute: of absolute positions, as
+// printed; sign: the derived gradients. All three are applied by Eq. 17-20 with the sign printed there.
+enum class Printed { labels_relative, labels_absolute, sign };
+
+// What Eq. 12-16 give for p1 .. p4 [m^2].
+template <Printed form, typename Scalar>
+std::array<Vector3<Scalar>, 4> gradient_printed(const VolumeConstraint<Scalar>& constraint, const Vector3<Scalar>& p1,
+                                                const Vector3<Scalar>& p2, const Vector3<Scalar>& p3, const Vector3<Scalar>& p4)
+{
+    if constexpr (form == Printed::sign) return gradient(constraint, p1, p2, p3, p4);
+    const Vector3<Scalar> origin = form == Printed::labels_absolute ? Vector3<Scalar>(Vector3<Scalar>::Zero()) : p1;
+    const Vector3<Scalar> a = p2 - origin, b = p3 - origin, c = p4 - origin;
+    const Vector3<Scalar> g2 = a.cross(b) / Scalar(6);  // Eq. 12
+    const Vector3<Scalar> g3 = b.cross(c) / Scalar(6);  // Eq. 13
+    const Vector3<Scalar> g4 = c.cross(a) / Scalar(6);  // Eq. 14
+    return {-(g2 + g3 + g4), g2, g3, g4};               // Eq. 15-16
+}
+
+template <Printed form, typename Scalar>
+void project_printed(const VolumeConstraint<Scalar>& constraint, Particle<Scalar>& particle_1, Particle<Scalar>& particle_2,
+                     Particle<Scalar>& particle_3, Particle<Scalar>& particle_4)
+{
+    const Vector3<Scalar>&p1 = particle_1.position, &p2 = particle_2.position, &p3 = particle_3.position, &p4 = particle_4.position;
+    const Scalar C = value(constraint, p1, p2, p3, p4);  // Eq. 11
+    const auto [g1, g2, g3, g4] = gradient_printed<form>(constraint, p1, p2, p3, p4);
+    const Scalar denominator = g1.squaredNorm() + g2.squaredNorm() + g3.squaredNorm() + g4.squaredNorm();
+    if (!(denominator > Scalar(0))) return;
+    const Scalar s = C / denominator;                      // Eq. 21
+    particle_1.position += s * constraint.stiffness * g1;  // Eq. 17, its minus is in Eq. 16
+    particle_2.position += s * constraint.stiffness * g2;  // Eq. 18
+    particle_3.position += s * constraint.stiffness * g3;  // Eq. 19
+    particle_4.position += s * constraint.stiffness * g4;  // Eq. 20
+}
+
+}  // namespace pbs

@@ -1,0 +1,188 @@
+#include "pbs/geometry/topology.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace pbs {
+
+namespace {
+
+// Faces of a positively oriented tet, outward.
+constexpr std::array<std::array<int, 3>, 4> outward_faces = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
+struct Face {
+    std::array<int, 3> sorted;  // vertex indices
+    int tet;
+    int face;  // row of outward_faces
+};
+
+struct BoundaryEdge {
+    std::array<int, 2> vertex;  // first < second
+    std::array<int, 2> corner;  // 3 * triangle + corner, of the first and the second vertex
+};
+
+// Union-find with path halving.
+class Classes {
+public:
+    explicit Classes(std::size_t members) : parent_(members) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+    int find(int member)
+    {
+        while (parent_[member] != member) member = parent_[member] = parent_[parent_[member]];
+        return member;
+    }
+    void unite(int first, int second) { parent_[find(first)] = find(second); }
+    int count()
+    {
+        int roots = 0;
+        for (int member = 0; member < static_cast<int>(parent_.size()); ++member) roots += find(member) == member;
+        return roots;
+    }
+
+private:
+    std::vector<int> parent_;
+};
+
+// Calls body(first, last) for each run of entries with the same key.
+template <typename Entry, typename Key, typename Body>
+void for_each_run(const std::vector<Entry>& entries, Key key, Body body)
+{
+    std::size_t first = 0;
+    for (std::size_t last = 1; last <= entries.size(); ++last)
+        if (last == entries.size() || key(entries[last]) != key(entries[first])) {
+            body(first, last);
+            first = last;
+        }
+}
+
+std::vector<Face> sorted_faces(const Tets& tets)
+{
+    std::vector<Face> faces;
+    faces.reserve(4 * tets.rows());
+    for (int t = 0; t < tets.rows(); ++t)
+        for (int f = 0; f < 4; ++f) {
+            std::array<int, 3> sorted;
+            for (int corner = 0; corner < 3; ++corner) sorted[corner] = tets(t, outward_faces[f][corner]);
+            std::sort(sorted.begin(), sorted.end());
+            faces.push_back({sorted, t, f});
+        }
+    std::sort(faces.begin(), faces.end(),
+              [](const Face& a, const Face& b) { return std::tie(a.sorted, a.tet) < std::tie(b.sorted, b.tet); });
+    return faces;
+}
+
+std::vector<BoundaryEdge> sorted_edges(const Triangles& triangles)
+{
+    std::vector<BoundaryEdge> edges;
+    edges.reserve(3 * triangles.rows());
+    for (int t = 0; t < triangles.rows(); ++t)
+        for (int side = 0; side < 3; ++side) {
+            BoundaryEdge edge{{triangles(t, side), triangles(t, (side + 1) % 3)}, {3 * t + side, 3 * t + (side + 1) % 3}};
+            if (edge.vertex[0] > edge.vertex[1]) {
+                std::swap(edge.vertex[0], edge.vertex[1]);
+                std::swap(edge.corner[0], edge.corner[1]);
+            }
+            edges.push_back(edge);
+        }
+    std::sort(edges.begin(), edges.end(), [](const BoundaryEdge& a, const BoundaryEdge& b) { return a.vertex < b.vertex; });
+    return edges;
+}
+
+int count_used(const std::vector<bool>& used)
+{
+    return static_cast<int>(std::count(used.begin(), used.end(), true));
+}
+
+// Components, Euler characteristic and manifoldness of the boundary. A fan is a class of triangle corners round a vertex.
+void examine_boundary(const Triangles& boundary, int boundary_vertex_count, Topology& topology)
+{
+    const std::vector<BoundaryEdge> edges = sorted_edges(boundary);
+    Classes components(boundary.rows()), fans(3 * boundary.rows());
+    int edge_count = 0;
+    bool two_triangles_an_edge = true;
+    const auto examine_edge = [&](std::size_t first, std::size_t last) {
+        ++edge_count;
+        two_triangles_an_edge = two_triangles_an_edge && last - first == 2;
+        for (std::size_t e = first + 1; e < last; ++e) {
+            components.unite(edges[first].corner[0] / 3, edges[e].corner[0] / 3);
+            for (int end = 0; end < 2; ++end) fans.unite(edges[first].corner[end], edges[e].corner[end]);
+        }
+    };
+    for_each_run(
+        edges, [](const BoundaryEdge& edge) { return edge.vertex; }, examine_edge);
+
+    topology.boundary_manifold = two_triangles_an_edge && fans.count() == boundary_vertex_count;
+    topology.boundary_components = components.count();
+    topology.boundary_euler = boundary_vertex_count - edge_count + static_cast<int>(boundary.rows());
+}
+
+}  // namespace
+
+Edges edges_of(const Tets& tets)
+{
+    std::vector<std::array<int, 2>> pairs;
+    pairs.reserve(6 * tets.rows());
+    for (Eigen::Index t = 0; t < tets.rows(); ++t)
+        for (int a = 0; a < 4; ++a)
+            for (int b = a + 1; b < 4; ++b) pairs.push_back({std::min(tets(t, a), tets(t, b)), std::max(tets(t, a), tets(t, b))});
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+
+    Edges edges(pairs.size(), 2);
+    for (std::size_t e = 0; e < pairs.size(); ++e) edges.row(e) << pairs[e][0], pairs[e][1];
+    return edges;
+}
+
+Triangles boundary_of(const Tets& tets)
+{
+    const std::vector<Face> faces = sorted_faces(tets);
+    std::vector<std::pair<int, int>> boundary;  // tet, face: in the order of the tets
+    for_each_run(
+        faces, [](const Face& face) { return face.sorted; },
+        [&](std::size_t first, std::size_t last) {
+            if (last - first == 1) boundary.emplace_back(faces[first].tet, faces[first].face);
+        });
+    std::sort(boundary.begin(), boundary.end());
+
+    Triangles triangles(boundary.size(), 3);
+    for (std::size_t b = 0; b < boundary.size(); ++b)
+        for (int corner = 0; corner < 3; ++corner)
+            triangles(b, corner) = tets(boundary[b].first, outward_faces[boundary[b].second][corner]);
+    return triangles;
+}
+
+std::vector<bool> boundary_vertices(const Tets& tets, Eigen::Index vertices)
+{
+    std::vector<bool> on_boundary(vertices, false);
+    const Triangles boundary = boundary_of(tets);
+    for (Eigen::Index f = 0; f < boundary.rows(); ++f)
+        for (int corner = 0; corner < 3; ++corner) on_boundary[boundary(f, corner)] = true;
+    return on_boundary;
+}
+
+Topology topology_of(const Tets& tets, Eigen::Index vertices)
+{
+    Topology topology;
+    examine_boundary(boundary_of(tets), count_used(boundary_vertices(tets, vertices)), topology);
+
+    const std::vector<Face> faces = sorted_faces(tets);
+    Classes components(tets.rows());
+    for_each_run(
+        faces, [](const Face& face) { return face.sorted; },
+        [&](std::size_t first, std::size_t last) {
+            for (std::size_t f = first + 1; f < last; ++f) components.unite(faces[first].tet, faces[f].tet);
+            if (last - first > 2) topology.boundary_manifold = false;
+        });
+    topology.components = components.count();
+
+    std::vector<bool> used(vertices, false);
+    for (Eigen::Index t = 0; t < tets.rows(); ++t)
+        for (int corner = 0; corner < 4; ++corner) used[tets(t, corner)] = true;
+    topology.unused_vertices = static_cast<int>(vertices) - count_used(used);
+    return topology;
+}
+
+}  // namespace pbs

@@ -1,0 +1,122 @@
+#include "pbs/solver/algorithm_1.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/solver/project_plain.hpp"
+#include "pbs/solver/residuals.hpp"
+
+#include <chrono>
+#include <type_traits>
+
+namespace pbs {
+
+namespace {
+
+std::vector<int> jiggling_vertices(const std::vector<bool>& jiggle_zone, const PbsOptions& options)
+{
+    std::vector<int> vertices;
+    for (std::size_t i = 0; options.jiggle && i < jiggle_zone.size(); ++i)
+        if (jiggle_zone[i]) vertices.push_back(static_cast<int>(i));
+    return vertices;
+}
+
+void check_rows(const char* field, const Positions& points, std::size_t vertices)
+{
+    if (static_cast<std::size_t>(points.rows()) != vertices)
+        throw InputError("pbs", 0, field, std::to_string(points.rows()) + " points", "expected one a vertex, " + std::to_string(vertices));
+}
+
+}  // namespace
+
+template <typename Scalar>
+Algorithm1<Scalar>::Algorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
+                               const PbsOptions& options)
+    : options_(options),
+      constraints_(make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, options)),
+      jiggling_(jiggling_vertices(jiggle_zone, options)),
+      x_(mesh.rest),
+      particles_(mesh.rest.rows()),
+      bind_points_(mesh.rest.rows())
+{
+}
+
+template <typename Scalar>
+StepSummary Algorithm1<Scalar>::advance(const Positions& lbs_positions, const Positions& bind_points, double dt_s)
+{
+    check_input(lbs_positions, bind_points, dt_s);
+    const auto started = std::chrono::steady_clock::now();
+    StepSummary summary;
+
+    if (v_.rows() == 0) {
+        v_ = Positions::Zero(jiggling_.size(), 3);  // (2)
+        x_ = lbs_positions;                         // (3)
+    }
+    p_ = lbs_positions;
+    for (std::size_t j = 0; j < jiggling_.size(); ++j)  // (6)
+    {
+        const int i = jiggling_[j];
+        v_.row(j) += options_.gravity_m_s2.transpose() * dt_s;  // (7)
+        p_.row(i) = x_.row(i) + v_.row(j) * dt_s;               // (8)
+    }                                                           // (9)
+
+    load_particles(bind_points);
+    bool converged = false;
+    while (summary.iterations < options_.iterations && !converged)  // (10)
+    {
+        project_bind_constraints(constraints_, bind_points_, particles_);            // (11)
+        project_stretch_constraints(constraints_, particles_);                       // (12)
+        project_volume_constraints(constraints_, options_.volume_form, particles_);  // (13)
+        ++summary.iterations;
+        converged = examine_residuals(summary);
+    }  // (14)
+    store_particles();
+
+    for (std::size_t j = 0; j < jiggling_.size(); ++j)                     // (15)
+        v_.row(j) = (p_.row(jiggling_[j]) - x_.row(jiggling_[j])) / dt_s;  // (16)
+    x_ = p_;                                                               // (17)-(18)
+
+    if (options_.stop_residual > 0.0 && !converged) summary.outcome = Outcome::not_converged;
+    if (!x_.allFinite()) summary.outcome = Outcome::not_finite;
+    summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    return summary;
+}
+
+template <typename Scalar>
+void Algorithm1<Scalar>::check_input(const Positions& lbs_positions, const Positions& bind_points, double dt_s) const
+{
+    check_rows("lbs_positions", lbs_positions, particles_.size());
+    check_rows("bind_points", bind_points, particles_.size());
+    if (!(dt_s > 0.0)) throw InputError("pbs", 0, "dt", std::to_string(dt_s) + " s", "expected a positive time step");
+}
+
+// The printed form of absolute positions depends on the world's origin, so it is left there.
+template <typename Scalar>
+void Algorithm1<Scalar>::load_particles(const Positions& bind_points)
+{
+    const bool local = std::is_same_v<Scalar, float> && options_.volume_form != VolumeForm::labels_absolute && p_.rows() > 0;
+    origin_ = local ? Vec3(p_.colwise().mean()) : Vec3(Vec3::Zero());
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+        particles_[i] = {(p_.row(i).transpose() - origin_).template cast<Scalar>(), constraints_.inverse_mass[i]};
+        bind_points_[i] = (bind_points.row(i).transpose() - origin_).template cast<Scalar>();
+    }
+}
+
+template <typename Scalar>
+void Algorithm1<Scalar>::store_particles()
+{
+    for (std::size_t i = 0; i < particles_.size(); ++i) p_.row(i) = particles_[i].position.template cast<double>() + origin_;
+}
+
+// Records residuals where asked; true when the largest is below stop_residual.
+template <typename Scalar>
+bool Algorithm1<Scalar>::examine_residuals(StepSummary& summary) const
+{
+    if (!options_.record_iterations && options_.stop_residual <= 0.0) return false;
+    const Residuals residuals = residuals_of(constraints_, particles_, bind_points_);
+    if (options_.record_iterations) summary.history.push_back(residuals);
+    return largest(residuals) < options_.stop_residual;
+}
+
+template class Algorithm1<float>;
+template class Algorithm1<double>;
+
+}  // namespace pbs

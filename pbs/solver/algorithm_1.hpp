@@ -1,0 +1,41 @@
+// Algorithm 1 of the paper for one mesh, in one precision. PbsSolver is the door to it.
+// Reading A of the audit: particles outside the jiggling zone start every step at their LBS position and have no velocity; those inside
+// are integrated. Positions and velocities are kept in double; projections run in Scalar, in float relative to a local origin (the mean
+// LBS position of the step), so that a character far from the world's origin loses no digits.
+#pragma once
+
+#include "pbs/solver/constraint_set.hpp"
+#include "pbs/solver/step_summary.hpp"
+
+namespace pbs {
+
+template <typename Scalar>
+class Algorithm1 {
+public:
+    Algorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone, const PbsOptions& options);
+
+    // See PbsSolver::advance.
+    StepSummary advance(const Positions& lbs_positions, const Positions& bind_points, double dt_s);
+
+    const Positions& positions() const { return x_; }  // [m], #V x 3
+
+private:
+    void check_input(const Positions& lbs_positions, const Positions& bind_points, double dt_s) const;
+    void load_particles(const Positions& bind_points);
+    void store_particles();
+    bool examine_residuals(StepSummary& summary) const;
+
+    PbsOptions options_;
+    ConstraintSet<Scalar> constraints_;
+    std::vector<int> jiggling_;  // vertices that are integrated
+
+    Positions x_;  // x_i [m], #V x 3
+    Positions v_;  // v_i [m/s] of the jiggling vertices, #jiggling x 3
+    Positions p_;  // p_i [m], #V x 3
+
+    Vec3 origin_ = Vec3::Zero();                // [m]; what follows is relative to it
+    std::vector<Particle<Scalar>> particles_;   // p_i while it is projected
+    std::vector<Vector3<Scalar>> bind_points_;  // q_i
+};
+
+}  // namespace pbs

@@ -1,0 +1,104 @@
+#include "pbs/solver/constraint_set.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/topology.hpp"
+
+namespace pbs {
+
+namespace {
+
+void check_stiffness(const char* field, double k)
+{
+    if (!(k >= 0.0 && k <= 1.0)) throw InputError("pbs", 0, field, std::to_string(k), "expected 0 <= k <= 1");
+}
+
+void check_options(const PbsOptions& options)
+{
+    if (options.iterations < 0) throw InputError("pbs", 0, "iterations", std::to_string(options.iterations), "expected 0 or more");
+    check_stiffness("k_stretch", options.k_stretch);
+    check_stiffness("k_volume", options.k_volume);
+    check_stiffness("k_bind", options.k_bind);
+    if (options.jiggle) check_stiffness("jiggle.k_stretch", options.jiggle->k_stretch);
+}
+
+void check_mesh(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone)
+{
+    const auto size_error = [&](const char* field, auto size) {
+        throw InputError("pbs", 0, field, std::to_string(size) + " entries", "expected one a vertex, " + std::to_string(mesh.rest.rows()));
+    };
+    if (bind_distance.size() != mesh.rest.rows()) size_error("bind_distance", bind_distance.size());
+    if (!jiggle_zone.empty() && Eigen::Index(jiggle_zone.size()) != mesh.rest.rows()) size_error("jiggle_zone", jiggle_zone.size());
+    if (mesh.tets.size() && (mesh.tets.minCoeff() < 0 || mesh.tets.maxCoeff() >= mesh.rest.rows()))
+        throw InputError("mesh", 0, "tets", "", "expected vertex indices from 0 to " + std::to_string(mesh.rest.rows() - 1));
+    const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets);
+    for (Eigen::Index t = 0; t < volumes.size(); ++t)
+        if (!(volumes(t) > 0.0))
+            throw InputError("mesh", 0, "tet " + std::to_string(t), std::to_string(volumes(t)) + " m^3", "expected a positive rest volume");
+}
+
+template <typename Scalar>
+std::vector<StretchConstraint<Scalar>> stretch_constraints(const TetMesh& mesh, const std::vector<bool>& jiggle_zone,
+                                                           const PbsOptions& options)
+{
+    std::vector<StretchConstraint<Scalar>> constraints;
+    const Edges edges = edges_of(mesh.tets);
+    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
+        const int first = edges(e, 0), second = edges(e, 1);
+        const bool jiggles = options.jiggle && !jiggle_zone.empty() && jiggle_zone[first] && jiggle_zone[second];
+        const double k = jiggles ? options.jiggle->k_stretch : options.k_stretch;
+        const double rest_length = value<double>(StretchConstraint<double>{}, mesh.rest.row(first), mesh.rest.row(second));  // Eq. 10
+        if (k > 0.0) constraints.push_back({{first, second}, Scalar(rest_length), Scalar(k)});
+    }
+    return constraints;
+}
+
+template <typename Scalar>
+std::vector<VolumeConstraint<Scalar>> volume_constraints(const TetMesh& mesh, double k)
+{
+    std::vector<VolumeConstraint<Scalar>> constraints;
+    for (Eigen::Index t = 0; t < mesh.tets.rows() && k > 0.0; ++t) {
+        const std::array<int, 4> vertex = {mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)};
+        const double rest_volume =
+            value<double>(VolumeConstraint<double>{}, mesh.rest.row(vertex[0]), mesh.rest.row(vertex[1]), mesh.rest.row(vertex[2]),
+                          mesh.rest.row(vertex[3]));  // Eq. 11
+        constraints.push_back({vertex, Scalar(rest_volume), Scalar(k)});
+    }
+    return constraints;
+}
+
+template <typename Scalar>
+std::vector<BindConstraint<Scalar>> bind_constraints(const Eigen::VectorXd& distance, double k)
+{
+    std::vector<BindConstraint<Scalar>> constraints;
+    for (int i = 0; i < distance.size() && k > 0.0; ++i) constraints.push_back({i, Scalar(distance(i)), Scalar(k)});
+    return constraints;
+}
+
+template <typename Scalar>
+std::vector<Scalar> inverse_masses(const TetMesh& mesh, Masses masses)
+{
+    std::vector<Scalar> inverse_mass(mesh.rest.rows(), Scalar(1));
+    if (masses == Masses::unit) return inverse_mass;
+    const Eigen::VectorXd lumped = lumped_volumes(mesh.rest, mesh.tets);
+    for (Eigen::Index i = 0; i < lumped.size(); ++i)
+        if (lumped(i) > 0.0) inverse_mass[i] = Scalar(lumped.mean() / lumped(i));
+    return inverse_mass;
+}
+
+}  // namespace
+
+template <typename Scalar>
+ConstraintSet<Scalar> make_constraint_set(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
+                                          const PbsOptions& options)
+{
+    check_options(options);
+    check_mesh(mesh, bind_distance, jiggle_zone);
+    return {bind_constraints<Scalar>(bind_distance, options.k_bind), stretch_constraints<Scalar>(mesh, jiggle_zone, options),
+            volume_constraints<Scalar>(mesh, options.k_volume), inverse_masses<Scalar>(mesh, options.masses)};
+}
+
+template ConstraintSet<float> make_constraint_set(const TetMesh&, const Eigen::VectorXd&, const std::vector<bool>&, const PbsOptions&);
+template ConstraintSet<double> make_constraint_set(const TetMesh&, const Eigen::VectorXd&, const std::vector<bool>&, const PbsOptions&);
+
+}  // namespace pbs

@@ -1,0 +1,30 @@
+// What never changes from frame to frame: the constraints of a mesh with their rest data, in the order they are projected in, and the
+// masses.
+#pragma once
+
+#include "pbs/constraints/bind.hpp"
+#include "pbs/constraints/stretch.hpp"
+#include "pbs/constraints/volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/solver/options.hpp"
+
+#include <vector>
+
+namespace pbs {
+
+// File order: bind by vertex, stretch by edges_of(tets), volume by tet. Classes of stiffness zero are empty.
+template <typename Scalar>
+struct ConstraintSet {
+    std::vector<BindConstraint<Scalar>> bind;
+    std::vector<StretchConstraint<Scalar>> stretch;
+    std::vector<VolumeConstraint<Scalar>> volume;
+    std::vector<Scalar> inverse_mass;  // unit: 1; lumped: mean lumped volume / lumped volume of the vertex, so that no unit enters, #V
+};
+
+// bind_distance [m], #V; jiggle_zone: #V, or empty: nothing jiggles. Wrong sizes, stiffnesses outside [0, 1] and tets without a positive
+// rest volume are InputErrors.
+template <typename Scalar>
+ConstraintSet<Scalar> make_constraint_set(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
+                                          const PbsOptions& options);
+
+}  // namespace pbs

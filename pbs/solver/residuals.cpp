@@ -1,0 +1,51 @@
+#include "pbs/solver/residuals.hpp"
+
+#include <cmath>
+
+namespace pbs {
+
+namespace {
+
+// Root mean square of error(constraint) over a class; zero over none.
+template <typename Constraints, typename Error>
+double rms(const Constraints& constraints, Error error)
+{
+    double sum = 0.0;
+    for (const auto& constraint : constraints) {
+        const double e = error(constraint);
+        sum += e * e;
+    }
+    return constraints.empty() ? 0.0 : std::sqrt(sum / constraints.size());
+}
+
+}  // namespace
+
+template <typename Scalar>
+Residuals residuals_of(const ConstraintSet<Scalar>& constraints, const std::vector<Particle<Scalar>>& particles,
+                       const std::vector<Vector3<Scalar>>& bind_points)
+{
+    const auto p = [&](int vertex) -> const Vector3<Scalar>& { return particles[vertex].position; };
+    Residuals residuals;
+    residuals.stretch_rms = rms(constraints.stretch, [&](const StretchConstraint<Scalar>& c) {
+        return value(c, p(c.vertex[0]), p(c.vertex[1])) / double(c.rest_length);
+    });
+    residuals.volume_rms = rms(constraints.volume, [&](const VolumeConstraint<Scalar>& c) {
+        return value(c, p(c.vertex[0]), p(c.vertex[1]), p(c.vertex[2]), p(c.vertex[3])) / double(c.rest_volume);
+    });
+    residuals.bind_rms_m =
+        rms(constraints.bind, [&](const BindConstraint<Scalar>& c) { return double(value(c, p(c.vertex), bind_points[c.vertex])); });
+    return residuals;
+}
+
+double largest(const Residuals& residuals)
+{
+    double result = residuals.stretch_rms;
+    for (const double residual : {residuals.volume_rms, residuals.bind_rms_m})
+        if (residual > result || std::isnan(residual)) result = residual;
+    return result;
+}
+
+template Residuals residuals_of(const ConstraintSet<float>&, const std::vector<Particle<float>>&, const std::vector<Vector3<float>>&);
+template Residuals residuals_of(const ConstraintSet<double>&, const std::vector<Particle<double>>&, const std::vector<Vector3<double>>&);
+
+}  // namespace pbs
