@@ -1,10 +1,12 @@
 // The judge, first form: implicit linear elasticity on the skinner's own tets (deal.II simplices, P1 or P2), quasi-static.
 //   LinearElasticity fem(mesh, options, attachment);   // assembles and factors once
-//   fem.solve(targets);                                // every frame: a right-hand side and a re-solve
+//   fem.solve(spring_targets, vertex_targets);         // every frame: a right-hand side and a re-solve
 //   fem.positions();
 // Small strain: a rotation by theta is taken for a strain of 1 - cos(theta). It is a negative control above some 10 degrees.
 // The header is plain; deal.II and SuiteSparse are seen by the .cpp files alone.
 #pragma once
+
+#include "reference_fem/direct_factor.hpp"
 
 #include "pbs/geometry/tet_mesh.hpp"
 
@@ -13,8 +15,6 @@
 #include <vector>
 
 namespace reference_fem {
-
-enum class DirectSolver { cholmod, umfpack };
 
 struct LinearOptions {
     int element_order = 2;  // 1, 2
@@ -29,7 +29,7 @@ struct LinearOptions {
 struct Attachment {
     pbs::Positions spring_points;      // rest points [m], #S x 3; a point outside the tets is left out and counted
     Eigen::VectorXd spring_stiffness;  // [N/m], #S
-    std::vector<int> prescribed_tets;  // tets held whole
+    std::vector<int> prescribed_tets;  // tets held whole; a mid-edge node follows the mean of its edge's ends: exact for affine targets
 };
 
 struct SolveSummary {
@@ -41,21 +41,27 @@ struct SolveSummary {
 struct SetupSummary {
     int dofs = 0;
     double assemble_s = 0.0, analyse_s = 0.0, factor_s = 0.0;
-    std::string solver;           // e.g. "CHOLMOD supernodal, METIS"
-    std::string blas;             // the BLAS that was resolved
-    std::vector<int> spring_tet;  // tet that holds each spring point, -1: outside
+    std::string solver;                 // e.g. "CHOLMOD supernodal, METIS"
+    std::string blas;                   // the BLAS that was resolved
+    bool factored = false;              // false: the matrix is singular in double; every solve then reports finite = false
+    double reciprocal_condition = 0.0;  // the solver's own rough estimate
+    std::vector<int> spring_tet;        // tet that holds each spring point, -1: outside
 };
 
 class LinearElasticity {
 public:
+    // pbs::InputError where an option, the mesh or the attachment is out of bounds, or a connected part of the mesh is not held.
     LinearElasticity(const pbs::TetMesh& mesh, const LinearOptions& options, const Attachment& attachment);
     ~LinearElasticity();
 
     // spring_targets: #S x 3 [m]; vertex_targets: #V x 3 [m], read at the vertices of prescribed tets only.
     SolveSummary solve(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets);
+    // The same under another gravity than the options', for a frame of reference that turns.
+    SolveSummary solve(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets, const pbs::Vec3& gravity_m_s2);
 
     const pbs::Positions& positions() const;        // deformed vertices [m], #V x 3
     pbs::Positions spring_points_deformed() const;  // where the tied points went [m], #S x 3: targets minus this is the grip error
+    double strain_energy_j() const;                 // of the flesh alone, without the springs
     std::vector<bool> prescribed_vertices() const;  // #V
     const SetupSummary& setup() const;
 

@@ -1,0 +1,164 @@
+#include "reference_fem/assembly.hpp"
+
+#include "reference_fem/simplex_elements.hpp"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/sparse_matrix.h>
+
+namespace reference_fem {
+namespace {
+
+using DofIndices = std::vector<dealii::types::global_dof_index>;
+
+// Calls visit(values, dofs) on every tet, in the mesh's order.
+template <class Visit>
+void for_each_tet(const SimplexSpace& space, int quadrature_points_1d, dealii::UpdateFlags update, Visit visit)
+{
+    const auto& elements = space.elements();
+    dealii::FEValues<3> values(elements.mapping, elements.element, dealii::QGaussSimplex<3>(quadrature_points_1d), update);
+    DofIndices dofs(elements.element.n_dofs_per_cell());
+    for (const auto& cell : elements.dof_handler.active_cell_iterators()) {
+        values.reinit(cell);
+        cell->get_dof_indices(dofs);
+        visit(values, dofs);
+    }
+}
+
+// Both triangles of one tet's stiffness at the quadrature points of `values`.
+void tet_stiffness(const dealii::FEValues<3>& values, const Lame& material, dealii::FullMatrix<double>& stiffness)
+{
+    const auto& element = values.get_fe();
+    stiffness = 0.0;
+    for (const unsigned int q : values.quadrature_point_indices())
+        for (const unsigned int i : values.dof_indices()) {
+            const unsigned int a = element.system_to_component_index(i).first;
+            const auto& gradient_i = values.shape_grad(i, q);
+            for (unsigned int j = 0; j <= i; ++j) {
+                const unsigned int b = element.system_to_component_index(j).first;
+                const auto& gradient_j = values.shape_grad(j, q);
+                const double shear = gradient_i[b] * gradient_j[a] + (a == b ? gradient_i * gradient_j : 0.0);
+                stiffness(i, j) += (material.lambda_pa * gradient_i[a] * gradient_j[b] + material.mu_pa * shear) * values.JxW(q);
+            }
+        }
+    for (const unsigned int i : values.dof_indices())
+        for (unsigned int j = 0; j < i; ++j) stiffness(j, i) = stiffness(i, j);
+}
+
+// deal.II stores the diagonal first, then increasing columns; compressed columns want all of them increasing.
+SparseMatrix compressed(const dealii::SparseMatrix<double>& matrix)
+{
+    SparseMatrix columns(matrix.m(), matrix.n());
+    columns.reserve(matrix.n_nonzero_elements());
+    for (unsigned int c = 0; c < matrix.m(); ++c) {
+        columns.startVec(c);
+        bool diagonal_stored = false;
+        const auto store_diagonal = [&] {
+            if (!diagonal_stored) columns.insertBack(c, c) = matrix.diag_element(c);
+            diagonal_stored = true;
+        };
+        for (auto entry = matrix.begin(c); entry != matrix.end(c); ++entry) {
+            if (entry->column() == c) continue;
+            if (entry->column() > c) store_diagonal();
+            columns.insertBack(entry->column(), c) = entry->value();
+        }
+        store_diagonal();
+    }
+    columns.finalize();
+    return columns;
+}
+
+pbs::Vec3 to_vec3(const dealii::Tensor<1, 3>& v)
+{
+    return {v[0], v[1], v[2]};
+}
+
+// u_h at quadrature point q.
+pbs::Vec3 value_at(const dealii::FEValues<3>& values, const DofIndices& dofs, const Eigen::VectorXd& displacement, unsigned int q)
+{
+    pbs::Vec3 value = pbs::Vec3::Zero();
+    for (const unsigned int i : values.dof_indices())
+        value(values.get_fe().system_to_component_index(i).first) += displacement(dofs[i]) * values.shape_value(i, q);
+    return value;
+}
+
+// grad u_h at quadrature point q: (i, j) = d u_i / d x_j.
+Eigen::Matrix3d gradient_at(const dealii::FEValues<3>& values, const DofIndices& dofs, const Eigen::VectorXd& displacement, unsigned int q)
+{
+    Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+    for (const unsigned int i : values.dof_indices())
+        gradient.row(values.get_fe().system_to_component_index(i).first) +=
+            displacement(dofs[i]) * to_vec3(values.shape_grad(i, q)).transpose();
+    return gradient;
+}
+
+}  // namespace
+
+SparseMatrix stiffness_matrix(const SimplexSpace& space, const Lame& material)
+{
+    dealii::DynamicSparsityPattern dynamic_pattern(space.dofs());
+    dealii::DoFTools::make_sparsity_pattern(space.elements().dof_handler, dynamic_pattern);
+    dealii::SparsityPattern pattern;
+    pattern.copy_from(dynamic_pattern);
+    dynamic_pattern.reinit(0, 0);
+
+    dealii::SparseMatrix<double> matrix(pattern);
+    dealii::FullMatrix<double> of_tet(space.elements().element.n_dofs_per_cell());
+    // Products of gradients have degree 2 (order - 1); n points a direction integrate degree 2 n - 1.
+    for_each_tet(space, space.element_order(), dealii::update_gradients | dealii::update_JxW_values,
+                 [&](const dealii::FEValues<3>& values, const DofIndices& dofs) {
+                     tet_stiffness(values, material, of_tet);
+                     matrix.add(dofs, of_tet);
+                 });
+    return compressed(matrix);
+}
+
+Eigen::VectorXd load_vector(const SimplexSpace& space, const VectorField& body_force)
+{
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(space.dofs());
+    const auto update = dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values;
+    for_each_tet(space, space.element_order() + 1, update, [&](const dealii::FEValues<3>& values, const DofIndices& dofs) {
+        for (const unsigned int q : values.quadrature_point_indices()) {
+            const pbs::Vec3 force = body_force(to_vec3(values.quadrature_point(q)));
+            for (const unsigned int i : values.dof_indices())
+                load(dofs[i]) += force(values.get_fe().system_to_component_index(i).first) * values.shape_value(i, q) * values.JxW(q);
+        }
+    });
+    return load;
+}
+
+double strain_energy(const SimplexSpace& space, const Lame& material, const Eigen::VectorXd& displacement)
+{
+    double energy = 0.0;
+    for_each_tet(space, space.element_order(), dealii::update_gradients | dealii::update_JxW_values,
+                 [&](const dealii::FEValues<3>& values, const DofIndices& dofs) {
+                     for (const unsigned int q : values.quadrature_point_indices()) {
+                         const Eigen::Matrix3d gradient = gradient_at(values, dofs, displacement, q);
+                         const Eigen::Matrix3d strain = (gradient + gradient.transpose()) / 2.0;
+                         const double dilatation = strain.trace();
+                         energy +=
+                             (material.lambda_pa / 2.0 * dilatation * dilatation + material.mu_pa * strain.squaredNorm()) * values.JxW(q);
+                     }
+                 });
+    return energy;
+}
+
+ErrorNorms error_norms(const SimplexSpace& space, const Eigen::VectorXd& displacement, const VectorField& exact,
+                       const GradientField& exact_gradient)
+{
+    ErrorNorms squared;
+    const auto update = dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points | dealii::update_JxW_values;
+    for_each_tet(space, 4, update, [&](const dealii::FEValues<3>& values, const DofIndices& dofs) {
+        for (const unsigned int q : values.quadrature_point_indices()) {
+            const pbs::Vec3 point = to_vec3(values.quadrature_point(q));
+            squared.l2 += (exact(point) - value_at(values, dofs, displacement, q)).squaredNorm() * values.JxW(q);
+            squared.h1_seminorm += (exact_gradient(point) - gradient_at(values, dofs, displacement, q)).squaredNorm() * values.JxW(q);
+        }
+    });
+    return {std::sqrt(squared.l2), std::sqrt(squared.h1_seminorm)};
+}
+
+}  // namespace reference_fem

@@ -1,0 +1,31 @@
+// Integrals over the tets: stiffness, load, strain energy, error norms. One assembly serves the judge and its verification alike.
+#pragma once
+
+#include "reference_fem/material.hpp"
+#include "reference_fem/simplex_space.hpp"
+#include "reference_fem/sparse_matrix.hpp"
+
+#include <functional>
+
+namespace reference_fem {
+
+using VectorField = std::function<pbs::Vec3(const pbs::Vec3&)>;
+using GradientField = std::function<Eigen::Matrix3d(const pbs::Vec3&)>;  // (i, j): d u_i / d x_j
+
+// K_ij = integral of lambda div(phi_i) div(phi_j) + 2 mu eps(phi_i) : eps(phi_j) [N/m], #dofs x #dofs; exact on straight tets.
+SparseMatrix stiffness_matrix(const SimplexSpace& space, const Lame& material);
+
+// f_i = integral of body_force . phi_i [N], #dofs; body_force in N/m^3.
+Eigen::VectorXd load_vector(const SimplexSpace& space, const VectorField& body_force);
+
+// Integral of lambda / 2 tr(eps)^2 + mu eps : eps [J] of a displacement [m], #dofs.
+double strain_energy(const SimplexSpace& space, const Lame& material, const Eigen::VectorXd& displacement);
+
+struct ErrorNorms {
+    double l2 = 0.0;           // sqrt of the integral of |u - u_h|^2
+    double h1_seminorm = 0.0;  // sqrt of the integral of |grad u - grad u_h|^2
+};
+ErrorNorms error_norms(const SimplexSpace& space, const Eigen::VectorXd& displacement, const VectorField& exact,
+                       const GradientField& exact_gradient);
+
+}  // namespace reference_fem

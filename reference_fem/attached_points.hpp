@@ -1,0 +1,36 @@
+// Springs between material points of the flesh and given targets: an energy sum_s k_s / 2 |x(p_s) - target_s|^2, where x(p_s) is
+// interpolated by the element's own shape functions. A point outside every tet is left out.
+#pragma once
+
+#include "reference_fem/simplex_space.hpp"
+#include "reference_fem/sparse_matrix.hpp"
+
+#include <vector>
+
+namespace reference_fem {
+
+class AttachedPoints {
+public:
+    // points [m], #S x 3; stiffness [N/m], #S.
+    AttachedPoints(const pbs::TetMesh& mesh, const SimplexSpace& space, const pbs::Positions& points, const Eigen::VectorXd& stiffness);
+
+    // Adds k N^T N to the stiffness matrix [N/m]; a spring couples nodes of one tet only, so the pattern stays.
+    void add_to(SparseMatrix& matrix) const;
+
+    // Adds k N^T (target - point) to the load [N], #dofs; targets [m], #S x 3.
+    void add_load(const pbs::Positions& targets, Eigen::VectorXd& load) const;
+
+    // Where a displacement [m], #dofs, takes the points [m], #S x 3; not a number for those left out.
+    pbs::Positions moved(const Eigen::VectorXd& displacement) const;
+
+    const std::vector<int>& tets() const { return tet_; }  // #S, -1: outside
+
+private:
+    pbs::Positions points_;
+    Eigen::VectorXd stiffness_;
+    std::vector<int> tet_;
+    Eigen::MatrixXi nodes_;   // nodes per tet x #S
+    Eigen::MatrixXd shapes_;  // their shape functions at the point
+};
+
+}  // namespace reference_fem

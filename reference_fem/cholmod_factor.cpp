@@ -1,0 +1,96 @@
+// CHOLMOD: Y. Chen, T. Davis, W. Hager, S. Rajamanickam, Algorithm 887, ACM TOMS 35(3), 2008.
+#include "reference_fem/direct_factor.hpp"
+#include "reference_fem/stopwatch.hpp"
+
+#include <cholmod.h>
+
+namespace reference_fem {
+namespace {
+
+static_assert(sizeof(SuiteSparse_long) == sizeof(SparseMatrix::StorageIndex));
+
+// CHOLMOD's view of the upper triangle, without a copy.
+cholmod_sparse view(const SparseMatrix& matrix)
+{
+    cholmod_sparse sparse{};
+    sparse.nrow = matrix.rows();
+    sparse.ncol = matrix.cols();
+    sparse.nzmax = matrix.nonZeros();
+    sparse.p = const_cast<SparseMatrix::StorageIndex*>(matrix.outerIndexPtr());
+    sparse.i = const_cast<SparseMatrix::StorageIndex*>(matrix.innerIndexPtr());
+    sparse.x = const_cast<double*>(matrix.valuePtr());
+    sparse.stype = 1;
+    sparse.itype = CHOLMOD_LONG;
+    sparse.xtype = CHOLMOD_REAL;
+    sparse.dtype = CHOLMOD_DOUBLE;
+    sparse.sorted = 1;
+    sparse.packed = 1;
+    return sparse;
+}
+
+cholmod_dense view(const Eigen::VectorXd& vector)
+{
+    cholmod_dense dense{};
+    dense.nrow = dense.d = dense.nzmax = vector.size();
+    dense.ncol = 1;
+    dense.x = const_cast<double*>(vector.data());
+    dense.xtype = CHOLMOD_REAL;
+    dense.dtype = CHOLMOD_DOUBLE;
+    return dense;
+}
+
+class CholmodFactor : public DirectFactor {
+public:
+    explicit CholmodFactor(const SparseMatrix& matrix)
+    {
+        cholmod_l_start(&common_);
+        common_.print = 0;
+        common_.supernodal = CHOLMOD_SUPERNODAL;
+        common_.nmethods = 1;
+        common_.method[0].ordering = CHOLMOD_METIS;
+        cholmod_sparse sparse = view(matrix);
+        const Stopwatch analysis;
+        factor_ = cholmod_l_analyze(&sparse, &common_);
+        analyse_s_ = analysis.seconds();
+        if (!factor_) return;
+        const Stopwatch factorisation;
+        cholmod_l_factorize(&sparse, factor_, &common_);
+        factor_s_ = factorisation.seconds();
+        usable_ = common_.status == CHOLMOD_OK && factor_->minor >= factor_->n;
+        if (usable_) reciprocal_condition_ = cholmod_l_rcond(factor_, &common_);
+    }
+
+    ~CholmodFactor() override
+    {
+        for (cholmod_dense** dense : {&solution_, &work_, &permuted_})
+            if (*dense) cholmod_l_free_dense(dense, &common_);
+        if (factor_) cholmod_l_free_factor(&factor_, &common_);
+        cholmod_l_finish(&common_);
+    }
+
+    CholmodFactor(const CholmodFactor&) = delete;
+    CholmodFactor& operator=(const CholmodFactor&) = delete;
+
+    Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const override
+    {
+        cholmod_dense dense = view(right_hand_side);
+        cholmod_l_solve2(CHOLMOD_A, factor_, &dense, nullptr, &solution_, nullptr, &work_, &permuted_, &common_);
+        return Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(solution_->x), right_hand_side.size());
+    }
+
+    std::string name() const override { return "CHOLMOD supernodal, METIS"; }
+
+private:
+    mutable cholmod_common common_;
+    cholmod_factor* factor_ = nullptr;
+    mutable cholmod_dense *solution_ = nullptr, *work_ = nullptr, *permuted_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<DirectFactor> factorise_with_cholmod(const SparseMatrix& matrix)
+{
+    return std::make_unique<CholmodFactor>(matrix);
+}
+
+}  // namespace reference_fem

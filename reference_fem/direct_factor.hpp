@@ -1,0 +1,39 @@
+// A sparse direct factorisation that is kept for many right-hand sides, by SuiteSparse called directly.
+//   auto factor = factorise(matrix, DirectSolver::cholmod);
+//   if (factor->usable()) x = factor->solve(b);
+// CHOLMOD (supernodal Cholesky, METIS ordering) is the default; UMFPACK (unsymmetric LU) is the second opinion on the same matrix.
+#pragma once
+
+#include "reference_fem/sparse_matrix.hpp"
+
+#include <memory>
+#include <string>
+
+namespace reference_fem {
+
+enum class DirectSolver { cholmod, umfpack };
+
+class DirectFactor {
+public:
+    virtual ~DirectFactor() = default;
+
+    virtual Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const = 0;  // only where usable()
+    virtual std::string name() const = 0;
+
+    bool usable() const { return usable_; }                                // false: singular, or not positive definite
+    double analyse_s() const { return analyse_s_; }                        // ordering and symbolic analysis
+    double factor_s() const { return factor_s_; }                          // numerical factorisation
+    double reciprocal_condition() const { return reciprocal_condition_; }  // the library's own rough estimate
+
+protected:
+    bool usable_ = false;
+    double analyse_s_ = 0.0, factor_s_ = 0.0, reciprocal_condition_ = 0.0;
+};
+
+// `matrix` is symmetric, holds both triangles, is compressed, and outlives the factor.
+std::unique_ptr<DirectFactor> factorise(const SparseMatrix& matrix, DirectSolver solver);
+
+std::unique_ptr<DirectFactor> factorise_with_cholmod(const SparseMatrix& matrix);
+std::unique_ptr<DirectFactor> factorise_with_umfpack(const SparseMatrix& matrix);
+
+}  // namespace reference_fem

@@ -1,0 +1,32 @@
+// K u = f with some degrees of freedom prescribed, by elimination: K_ff u_f = f_f - K_fp u_p. K_ff is factored once and K_fp is kept, so
+// new loads and new prescribed values cost a right-hand side and a re-solve.
+#pragma once
+
+#include "reference_fem/direct_factor.hpp"
+
+#include <vector>
+
+namespace reference_fem {
+
+struct EliminatedSolution {
+    Eigen::VectorXd displacement;  // [m], #dofs; not finite where the factorisation broke down
+    double residual = 0.0;         // |K_ff u_f - right-hand side| / |right-hand side|; 0 where both are 0
+};
+
+class EliminatedSystem {
+public:
+    // prescribed: #dofs.
+    EliminatedSystem(const SparseMatrix& stiffness, const std::vector<bool>& prescribed, DirectSolver solver);
+
+    // load [N] and prescribed_values [m], #dofs; the latter is read at prescribed degrees of freedom only.
+    EliminatedSolution solve(const Eigen::VectorXd& load, const Eigen::VectorXd& prescribed_values) const;
+
+    const DirectFactor& factor() const { return *factor_; }
+
+private:
+    std::vector<int> free_, prescribed_;  // degrees of freedom, increasing
+    SparseMatrix free_free_, free_prescribed_;
+    std::unique_ptr<DirectFactor> factor_;
+};
+
+}  // namespace reference_fem

@@ -1,0 +1,24 @@
+// What the judge asks of its input, at the door. Each breach is a pbs::InputError that names the field, the value and the rule.
+#pragma once
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
+
+#include <cmath>
+#include <sstream>
+
+namespace reference_fem {
+
+template <class Value>
+void require(bool holds, const char* field, const Value& value, const char* rule)
+{
+    if (holds) return;
+    std::ostringstream text;
+    text << value;
+    throw pbs::InputError("", 0, field, text.str(), rule);
+}
+
+// Finite points, vertex indices in range, every tet of positive volume, every vertex used.
+void check_mesh(const pbs::TetMesh& mesh);
+
+}  // namespace reference_fem

@@ -1,0 +1,13 @@
+// The one sparse matrix format of the judge: compressed columns, 64-bit indices, as SuiteSparse's long interfaces read it in place.
+// Stiffness matrices are symmetric and hold both triangles.
+#pragma once
+
+#include <Eigen/SparseCore>
+
+#include <cstdint>
+
+namespace reference_fem {
+
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int64_t>;
+
+}  // namespace reference_fem

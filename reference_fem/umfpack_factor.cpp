@@ -1,0 +1,63 @@
+// UMFPACK: T. Davis, Algorithm 832, ACM TOMS 30(2), 2004. It knows nothing of symmetry: a second opinion on the same matrix.
+#include "reference_fem/direct_factor.hpp"
+#include "reference_fem/stopwatch.hpp"
+
+#include <umfpack.h>
+
+#include <limits>
+
+namespace reference_fem {
+namespace {
+
+class UmfpackFactor : public DirectFactor {
+public:
+    explicit UmfpackFactor(const SparseMatrix& matrix) : matrix_(matrix)
+    {
+        void* symbolic = nullptr;
+        double info[UMFPACK_INFO] = {};
+        const Stopwatch analysis;
+        umfpack_dl_symbolic(matrix.rows(), matrix.cols(), columns(), rows(), matrix.valuePtr(), &symbolic, nullptr, info);
+        analyse_s_ = analysis.seconds();
+        if (!symbolic) return;
+        const Stopwatch factorisation;
+        usable_ = umfpack_dl_numeric(columns(), rows(), matrix.valuePtr(), symbolic, &numeric_, nullptr, info) == UMFPACK_OK;
+        factor_s_ = factorisation.seconds();
+        reciprocal_condition_ = info[UMFPACK_RCOND];
+        umfpack_dl_free_symbolic(&symbolic);
+    }
+
+    ~UmfpackFactor() override
+    {
+        if (numeric_) umfpack_dl_free_numeric(&numeric_);
+    }
+
+    UmfpackFactor(const UmfpackFactor&) = delete;
+    UmfpackFactor& operator=(const UmfpackFactor&) = delete;
+
+    Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const override
+    {
+        Eigen::VectorXd solution(right_hand_side.size());
+        const auto status = umfpack_dl_solve(UMFPACK_A, columns(), rows(), matrix_.valuePtr(), solution.data(), right_hand_side.data(),
+                                             numeric_, nullptr, nullptr);
+        if (status != UMFPACK_OK) solution.setConstant(std::numeric_limits<double>::quiet_NaN());
+        return solution;
+    }
+
+    std::string name() const override { return "UMFPACK"; }
+
+private:
+    const SuiteSparse_long* columns() const { return matrix_.outerIndexPtr(); }
+    const SuiteSparse_long* rows() const { return matrix_.innerIndexPtr(); }
+
+    const SparseMatrix& matrix_;
+    void* numeric_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<DirectFactor> factorise_with_umfpack(const SparseMatrix& matrix)
+{
+    return std::make_unique<UmfpackFactor>(matrix);
+}
+
+}  // namespace reference_fem
