@@ -1,0 +1,75 @@
+"""Stills of the human under LBS, PBS and FEM at the recorded frames: the skin, and the tets coloured by their volume ratio. Under each
+stand the inverted tets and the smallest limb cross-section (100 %: as at rest)."""
+import numpy
+
+import records
+import rendering
+import style
+
+pixels = (620, 800)  # of a still
+most_stills = 4
+
+
+def files_of(run, deformer):
+    """frame -> tet file. PBS's files carry its iterations, as in pbs_24_000054.vtu."""
+    names = {"pbs": ["pbs_24", "pbs"]}.get(deformer, [deformer])
+    for name in names:
+        files = sorted((run.folder / "frames").glob(f"{name}_[0-9][0-9][0-9][0-9][0-9][0-9].vtu"))
+        if files:
+            return {int(file.stem[-6:]): file for file in files}
+    raise records.RecordsMissing(f"{run.folder / 'frames'}: no {names[0]}_*.vtu")
+
+
+def skin_of(tet_file):
+    return tet_file.with_name(tet_file.stem[:-6] + "surface" + tet_file.stem[-7:] + ".vtp")
+
+
+def caption(row):
+    section = f"\nsmallest section {float(row['min_section_pct']):.0f} %" if row.get("min_section_pct") else ""
+    return f"{row['inverted_tets']} inverted tets{section}"
+
+
+def half_height_of(boxes):
+    """Half the height [m] that a still shows: the tallest and widest body and a margin."""
+    height_m = max((high - low)[1] for low, high in boxes)
+    width_m = max(numpy.hypot(*(high - low)[[0, 2]]) for low, high in boxes)
+    return 0.58 * max(height_m, width_m * pixels[1] / pixels[0])
+
+
+def draw_stills(rows, files, frames, file_of, colour_bar):
+    """Deformers down, frames across; all through one camera that follows the LBS body."""
+    stage = rendering.Stage(*pixels)
+    boxes = {frame: rendering.bounds_of(files["lbs"][frame]) for frame in frames}
+    half_height_m = half_height_of(boxes.values())
+    figure, axes = style.panels(len(files), len(frames), height_in=2.35)
+    for panels, deformer in zip(axes, files):
+        for panel, frame in zip(panels, frames):
+            panel.imshow(stage.picture(file_of(files[deformer][frame]), sum(boxes[frame]) / 2, half_height_m))
+            panel.set(xticks=[], yticks=[], xlabel=caption(rows[deformer][frame]))
+            panel.spines[:].set_visible(False)
+            panel.grid(False)
+        panels[0].set_ylabel(style.look_of(deformer).label, fontsize=8)
+    for panel, frame in zip(axes[0], frames):
+        panel.set_title(f"{float(rows['lbs'][frame]['time_s']):.2f} s")
+    if colour_bar:
+        shades = style.matplotlib.cm.ScalarMappable(rendering.ratio_scale, rendering.ratio_colors)
+        bar = figure.colorbar(shades, ax=axes, location="bottom", shrink=0.5, aspect=40, extend="both", pad=0.01)
+        bar.set_label("volume ratio of a tet, deformed over rest [1]; inverted tets in red")
+    return figure
+
+
+def draw(results, figures):
+    run = records.Run(results / "volume" / "human_01_01")
+    deformers = ["lbs", "pbs", run.reference()]
+    files = {deformer: files_of(run, deformer) for deformer in deformers}
+    frames = sorted(set.intersection(*(set(found) for found in files.values())))[:most_stills]
+    if not frames:
+        raise records.RecordsMissing(f"{run.folder / 'frames'}: no frame that all of {', '.join(deformers)} have")
+    rows = {deformer: {int(row["frame"]): row for row in run.select(deformer, 24 if deformer == "pbs" else None)} for deformer in deformers}
+    behind = style.columns_of([rows[deformer][frame] for deformer in deformers for frame in frames], "volume_change_pct", "inverted_tets",
+                              "min_section_pct")
+    origin = records.provenance(results)
+    skin = draw_stills(rows, files, frames, skin_of, colour_bar=False)
+    style.save(skin, figures / "frames_skin", origin, behind, formats=("png",))
+    ratio = draw_stills(rows, files, frames, lambda file: file, colour_bar=True)
+    style.save(ratio, figures / "frames_volume_ratio", origin, behind, formats=("png",))

@@ -1,0 +1,95 @@
+"""Recorded results, read by name. What is not there is said so: RecordsMissing carries the file, the column or the rows.
+
+    run = Run(results / "volume" / "limb_twist")
+    rows = run.select(deformer="pbs", iterations=24)
+    angle_deg, change_pct = numbers(rows, "angle_deg"), numbers(rows, "volume_change_pct")
+"""
+import csv
+import json
+import math
+
+
+class RecordsMissing(Exception):
+    pass
+
+
+class Run:
+    """A run's directory: run.json and metrics.csv (one row per deformer and frame)."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.name = folder.name
+        self.record = _read_json(folder / "run.json")
+        self.rows = _read_csv(folder / "metrics.csv")
+
+    def select(self, deformer, iterations=None, variant="default"):
+        """The deformer's rows in the order of frames."""
+        rows = [row for row in self.rows if row["deformer"] == deformer and (row["variant"] or "default") == variant]
+        if iterations is not None:
+            rows = [row for row in rows if row["iterations"] and int(float(row["iterations"])) == iterations]
+        if not rows:
+            wanted = f"deformer {deformer}, variant {variant}" + (f", {iterations} iterations" if iterations else "")
+            raise RecordsMissing(f"{self.folder / 'metrics.csv'}: no rows of {wanted}")
+        return sorted(rows, key=lambda row: int(float(row["frame"])))
+
+    def reference(self):
+        """Name of the deformer that errors are measured against; without one, of the last FEM deformer."""
+        name = self.record.get("scene", {}).get("reference", {}).get("name")
+        fem = sorted({row["deformer"] for row in self.rows if row["deformer"].startswith("fem")})
+        if name or fem:
+            return name or fem[-1]
+        raise RecordsMissing(f"{self.folder / 'metrics.csv'}: no FEM reference")
+
+    def pbs_iterations(self):
+        """The iteration counts that were run with the paper's PBS."""
+        rows = [row for row in self.rows if row["deformer"] == "pbs" and (row["variant"] or "default") == "default"]
+        return sorted({int(float(row["iterations"])) for row in rows if row["iterations"]})
+
+
+def numbers(rows, column):
+    """The column as floats; an empty cell is nan, a column that is missing or empty throughout an error."""
+    if column not in rows[0]:
+        raise RecordsMissing(f"metrics.csv of {rows[0]['scene']}: no column {column}")
+    values = [float(row[column]) if row[column] not in ("", None) else math.nan for row in rows]
+    if all(math.isnan(value) for value in values):
+        raise RecordsMissing(f"metrics.csv of {rows[0]['scene']}: column {column} is empty for {rows[0]['deformer']}")
+    return values
+
+
+def at_angle(rows, angle_deg):
+    """The row of a sweep at this angle."""
+    for row, angle in zip(rows, numbers(rows, "angle_deg")):
+        if math.isclose(angle, angle_deg, abs_tol=1e-6):
+            return row
+    raise RecordsMissing(f"metrics.csv of {rows[0]['scene']}: no frame at {angle_deg:g} degrees")
+
+
+def provenance(results):
+    """Version and git revision of the runs, for a figure's metadata."""
+    files = sorted(results.glob("**/run.json"))
+    if not files:
+        raise RecordsMissing(f"{results}: no run.json in it or below")
+    return _read_json(files[0]).get("provenance", {})
+
+
+def _read_json(file):
+    try:
+        return json.loads(file.read_text())
+    except OSError:
+        raise RecordsMissing(f"{file}: not there") from None
+    except json.JSONDecodeError as error:
+        raise RecordsMissing(f"{file}:{error.lineno}: not JSON: {error.msg}") from None
+
+
+def _read_csv(file):
+    try:
+        with open(file, newline="") as stream:
+            rows = list(csv.DictReader(stream))
+    except OSError:
+        raise RecordsMissing(f"{file}: not there") from None
+    if not rows:
+        raise RecordsMissing(f"{file}: no rows")
+    absent = {"scene", "deformer", "variant", "iterations", "frame", "time_s"} - rows[0].keys()
+    if absent:
+        raise RecordsMissing(f"{file}: no column {', '.join(sorted(absent))}")
+    return rows

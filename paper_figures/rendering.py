@@ -1,0 +1,132 @@
+"""Still pictures of recorded frames, rendered off screen by VTK. Needs a display: xvfb-run gives one where there is none.
+
+    bounds = rendering.bounds_of(folder / "lbs_000054.vtu")
+    picture = rendering.Stage(width_px, height_px).picture(folder / "lbs_000054.vtu", rendering.center_of(bounds), half_height_m)
+"""
+import os
+
+import numpy
+from matplotlib import cm, colors
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkLookupTable
+from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
+from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
+from vtkmodules.vtkRenderingCore import vtkActor, vtkDataSetMapper, vtkLight, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  the rendering back end
+
+import records
+
+ratio_scale = colors.Normalize(0.5, 1.5)  # of the volume ratio, the same for all pictures
+ratio_colors = cm.get_cmap("PuOr").copy()
+inverted_color, skin_color = (0.85, 0.0, 0.35), (0.87, 0.72, 0.62)
+view_direction = numpy.array([0.45, 0.12, 1.0])  # from the body to the camera; y is up
+
+
+class Stage:
+    """A window, its lights and camera."""
+
+    def __init__(self, width_px, height_px):
+        if not os.environ.get("DISPLAY"):
+            raise records.RecordsMissing("no display to render on; run under xvfb-run -a")
+        self.renderer = vtkRenderer()
+        self.renderer.SetBackground(1.0, 1.0, 1.0)
+        self.renderer.GetActiveCamera().ParallelProjectionOn()
+        for direction, strength in (((-0.6, 0.8, 1.0), 0.9), ((1.0, 0.3, 0.6), 0.4)):
+            light = vtkLight()
+            light.SetLightTypeToCameraLight()
+            light.SetPosition(*direction)
+            light.SetIntensity(strength)
+            self.renderer.AddLight(light)
+        self.window = vtkRenderWindow()
+        self.window.SetOffScreenRendering(1)
+        self.window.SetMultiSamples(8)
+        self.window.SetSize(width_px, height_px)
+        self.window.AddRenderer(self.renderer)
+
+    def picture(self, file, center, half_height_m):
+        """The frame as an RGB array: skin smooth-shaded (.vtp), tets coloured by their volume ratio (.vtu)."""
+        actor = _skin(file) if file.suffix == ".vtp" else _tets(file)
+        self.renderer.AddActor(actor)
+        camera = self.renderer.GetActiveCamera()
+        camera.SetFocalPoint(*center)
+        camera.SetPosition(*(center + 10.0 * view_direction))
+        camera.SetViewUp(0.0, 1.0, 0.0)
+        camera.SetParallelScale(half_height_m)
+        self.renderer.ResetCameraClippingRange()
+        self.window.Render()
+        image = vtkWindowToImageFilter()
+        image.SetInput(self.window)
+        image.ReadFrontBufferOff()
+        image.Update()
+        self.renderer.RemoveActor(actor)
+        width, height, _ = image.GetOutput().GetDimensions()
+        pixels = vtk_to_numpy(image.GetOutput().GetPointData().GetScalars())
+        return pixels.reshape(height, width, -1)[::-1].copy()
+
+
+def bounds_of(file):
+    """Lowest and highest corner [m]."""
+    bounds = numpy.array(_read(file).GetBounds()).reshape(3, 2)
+    return bounds[:, 0], bounds[:, 1]
+
+
+def _read(file):
+    if not file.is_file():
+        raise records.RecordsMissing(f"{file}: not there")
+    reader = vtkXMLPolyDataReader() if file.suffix == ".vtp" else vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    if reader.GetOutput().GetNumberOfPoints() == 0:
+        raise records.RecordsMissing(f"{file}: no points")
+    return reader.GetOutput()
+
+
+def _skin(file):
+    normals = vtkPolyDataNormals()
+    normals.SetInputData(_read(file))
+    normals.SplittingOff()
+    mapper = vtkDataSetMapper()
+    mapper.SetInputConnection(normals.GetOutputPort())
+    mapper.ScalarVisibilityOff()
+    actor = _actor(mapper, ambient=0.3)
+    actor.GetProperty().SetColor(*skin_color)
+    return actor
+
+
+def _tets(file):
+    surface = vtkDataSetSurfaceFilter()
+    surface.SetInputData(_read(file))
+    mapper = vtkDataSetMapper()
+    mapper.SetInputConnection(surface.GetOutputPort())
+    mapper.SetScalarModeToUseCellFieldData()
+    mapper.SelectColorArray("volume_ratio")
+    mapper.SetLookupTable(_ratio_table())
+    mapper.UseLookupTableScalarRangeOn()
+    actor = _actor(mapper, ambient=0.6)  # little shade, so that colours read as in the bar
+    actor.GetProperty().SetInterpolationToFlat()
+    return actor
+
+
+def _ratio_table():
+    """ratio_colors over ratio_scale; below zero, inverted, in a colour of its own."""
+    steps = 600
+    low, high = -ratio_scale.vmax, ratio_scale.vmax
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(steps)
+    table.SetRange(low, high)
+    for step in range(steps):
+        ratio = low + (step + 0.5) * (high - low) / steps
+        red, green, blue, _ = (*inverted_color, 1.0) if ratio <= 0 else ratio_colors(ratio_scale(ratio))
+        table.SetTableValue(step, red, green, blue, 1.0)
+    table.Build()
+    return table
+
+
+def _actor(mapper, ambient):
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetAmbient(ambient)
+    actor.GetProperty().SetDiffuse(1.0 - ambient)
+    actor.GetProperty().SetSpecular(0.05)
+    return actor

@@ -1,0 +1,112 @@
+"""One look for all figures: sizes of a two-column page, Okabe-Ito colours, and a line style and marker for each deformer so that grey
+prints read as well.
+
+    figure, axes = style.panels(1, 2)
+    style.draw(axes[0], "pbs", angle_deg, change_pct)
+    style.save(figure, figures / "volume", provenance, rows)
+"""
+import csv
+from dataclasses import dataclass
+
+import matplotlib
+
+matplotlib.use("Agg")
+from matplotlib import pyplot, ticker  # noqa: E402
+
+column_in, page_in = 84 / 25.4, 178 / 25.4  # widths of one column and of the page
+
+black, orange, sky, green = "#000000", "#E69F00", "#56B4E9", "#009E73"
+yellow, blue, vermillion, purple = "#F0E442", "#0072B2", "#D55E00", "#CC79A7"
+
+matplotlib.rcParams.update({
+    "font.family": "DejaVu Sans", "font.size": 7.5, "axes.titlesize": 8, "axes.labelsize": 7.5, "legend.fontsize": 7,
+    "xtick.labelsize": 7, "ytick.labelsize": 7, "lines.linewidth": 1.2, "lines.markersize": 3.2, "axes.linewidth": 0.6,
+    "xtick.major.width": 0.6, "ytick.major.width": 0.6, "axes.grid": True, "grid.linewidth": 0.3, "grid.color": "#D0D0D0",
+    "axes.axisbelow": True, "legend.frameon": False, "savefig.dpi": 300, "pdf.fonttype": 42, "axes.spines.top": False,
+    "axes.spines.right": False, "figure.constrained_layout.use": True,
+})
+
+
+@dataclass(frozen=True)
+class Look:
+    label: str
+    color: str
+    line: object
+    marker: str
+
+
+looks = {
+    "lbs": Look("LBS", vermillion, (0, (4, 1.5)), "v"),
+    "dqs": Look("DQS", orange, (0, (5, 1.2, 1, 1.2)), "s"),
+    "pbs": Look("PBS, 24 iterations", blue, "-", "o"),
+    "pbs_jiggle": Look("PBS, jiggling zone on", sky, (0, (2, 1)), "D"),
+    "fem_p1": Look("linear FEM, P1", green, (0, (1, 1)), "^"),
+    "fem_p2": Look("linear FEM, P2", black, (0, (1, 1)), "x"),
+}
+sequence = [(vermillion, "v"), (blue, "o"), (green, "^"), (purple, "D"), (orange, "s"), (sky, "P"), (black, "x")]
+
+
+def look_of(deformer):
+    return looks.get(deformer, Look(deformer, black, (0, (1, 1)), "x"))
+
+
+def panels(rows, columns, height_in=2.0, width_in=None, **options):
+    width = width_in or (page_in if columns > 1 else column_in)
+    return pyplot.subplots(rows, columns, figsize=(width, height_in * rows), squeeze=False, **options)
+
+
+def draw(axes, deformer, x, y, markers=True, **options):
+    """One deformer's line; a marker about every tenth point."""
+    look = look_of(deformer)
+    spacing = max(1, len(x) // 9)
+    axes.plot(x, y, color=look.color, linestyle=look.line, marker=look.marker if markers else None, markevery=spacing, label=look.label,
+              **options)
+
+
+def per_cent_scale(axes, signed):
+    """Linear up to the paper's 0.5 %, logarithmic beyond, so that 0.1 % and 100 % are read off the same axis."""
+    axes.set_yscale("symlog", linthresh=0.5, linscale=0.7)
+    low, high = axes.get_ylim()
+    steps = [0.5, 2, 10, 100, 1000] if high - low > 25 else [0.5, 1, 2, 5, 10, 20]
+    ticks = [0, *steps, *(-step for step in steps)]
+    axes.yaxis.set_major_locator(ticker.FixedLocator([tick for tick in ticks if low <= tick <= high]))
+    text = (lambda value, _: f"{value:+g}".replace("-", "\u2212") if value else "0") if signed else (lambda value, _: f"{value:g}")
+    axes.yaxis.set_major_formatter(ticker.FuncFormatter(text))
+    axes.yaxis.set_minor_locator(ticker.NullLocator())
+
+
+def paper_band(axes, signed):
+    axes.axhspan(-0.5 if signed else 0.0, 0.5, color="#E8E8E8", linewidth=0, zorder=0, label="within 0.5 % (Sec. 4)")
+
+
+def legend_above(figure, axes, columns=None):
+    """The panels' common legend, above them all."""
+    handles, labels = axes.get_legend_handles_labels()
+    columns = columns or min(len(labels), 5)
+    rows = -(-len(labels) // columns)
+    height = 0.17 * rows + 0.06  # [in]
+    top = 1 - height / figure.get_size_inches()[1]
+    figure.get_layout_engine().set(rect=(0, 0, 1, top))
+    figure.legend(handles, labels, loc="lower center", bbox_to_anchor=(0.5, top), ncol=columns)
+
+
+def save(figure, stem, provenance, table, formats=("pdf", "png")):
+    """stem.pdf and stem.png with the revision in their metadata, and stem.csv: the rows (dicts) behind the figure."""
+    stem.parent.mkdir(parents=True, exist_ok=True)
+    source = "pbskin {} {}{}".format(provenance.get("version", "?"), provenance.get("git_revision", "unknown revision"),
+                                     " (dirty)" if provenance.get("git_dirty") else "")
+    metadata = {"pdf": {"Title": stem.name, "Subject": source, "CreationDate": None},
+                "png": {"Title": stem.name, "Source": source, "Software": "pbskin paper_figures"}}
+    for ending in formats:
+        figure.savefig(stem.with_suffix("." + ending), metadata=metadata[ending])
+    pyplot.close(figure)
+    with open(stem.with_suffix(".csv"), "w", newline="") as stream:
+        writer = csv.DictWriter(stream, fieldnames=list(table[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(table)
+
+
+def columns_of(rows, *names):
+    """The rows with these columns alone, for the CSV behind a figure."""
+    names = ("scene", "deformer", "variant", "iterations", "frame", "time_s", *names)
+    return [{name: row[name] for name in names} for row in rows]

@@ -1,0 +1,32 @@
+"""How much volume each deformer changes over the clip on the human; triangles mark the frames that are drawn as stills."""
+import records
+import style
+
+measures = [("volume_change_pct", "signed volume\nchange [%]"), ("volume_abs_change_pct", "absolute volume\nchange [%]")]
+
+
+def times_of_stills(run, rows):
+    frames = {int(file.stem.rsplit("_", 1)[1]) for file in (run.folder / "frames").glob("lbs_[0-9]*.vtu")}
+    return [float(row["time_s"]) for row in rows if int(float(row["frame"])) in frames]
+
+
+def draw(results, figures):
+    run = records.Run(results / "volume" / "human_01_01")
+    figure, axes = style.panels(2, 1, height_in=1.7, width_in=style.page_in, sharex=True)
+    behind = []
+    for deformer, iterations in {"lbs": None, "dqs": None, "pbs": 24, run.reference(): None}.items():
+        rows = run.select(deformer, iterations)
+        time_s = records.numbers(rows, "time_s")
+        for panel, (measure, _) in zip(axes[:, 0], measures):
+            style.draw(panel, deformer, time_s, records.numbers(rows, measure), linewidth=0.8)
+        behind += style.columns_of(rows, *(measure for measure, _ in measures))
+    for number, (panel, (_, label)) in enumerate(zip(axes[:, 0], measures)):
+        style.paper_band(panel, signed=number == 0)
+        style.per_cent_scale(panel, signed=number == 0)
+        panel.set_ylabel(label)
+        panel.margins(x=0)
+    for time_s in times_of_stills(run, rows):
+        axes[0][0].plot(time_s, 1.0, "v", color="black", transform=axes[0][0].get_xaxis_transform(), clip_on=False)
+    axes[1][0].set_xlabel("time in the clip [s]")
+    style.legend_above(figure, axes[0][0])
+    style.save(figure, figures / "volume_over_clip", records.provenance(results), behind)

@@ -1,0 +1,51 @@
+"""PBS volume change against the number of iterations: the median over the clip's frames and the band that holds 8 frames in 10 for the
+human, single poses for the limb."""
+import numpy
+
+import records
+import style
+
+poses = [("limb_twist", 90, "limb, twist 90\u00b0"), ("limb_twist", 180, "limb, twist 180\u00b0"), ("limb_bend", 90, "limb, bend 90\u00b0"),
+         ("limb_bend", 150, "limb, bend 150\u00b0")]
+measures = [("volume_change_pct", "signed volume change [%]"), ("volume_abs_change_pct", "absolute volume change [%]")]
+
+
+def draw_human(axes, run, measure, color):
+    """The order statistics of the recorded rows; returns what was drawn."""
+    drawn = []
+    for iterations in run.pbs_iterations():
+        low, median, high = numpy.nanquantile(records.numbers(run.select("pbs", iterations), measure), [0.1, 0.5, 0.9])
+        drawn.append({"scene": run.name, "pose": "all frames", "measure": measure, "iterations": iterations, "median": median, "q10": low,
+                      "q90": high})
+    iterations, low, median, high = ([entry[key] for entry in drawn] for key in ("iterations", "q10", "median", "q90"))
+    axes.fill_between(iterations, low, high, color=color, alpha=0.25, linewidth=0, label="human, 10\u201390 % of frames")
+    axes.plot(iterations, median, color=color, linewidth=1.8, label="human, median")
+    return drawn
+
+
+def draw_pose(axes, run, angle_deg, label, measure, look):
+    rows = [records.at_angle(run.select("pbs", iterations), angle_deg) for iterations in run.pbs_iterations()]
+    color, marker = look
+    values = records.numbers(rows, measure)
+    axes.plot(run.pbs_iterations(), values, color=color, marker=marker, linestyle=(0, (4, 1.5)), linewidth=0.9, label=label)
+    return [{"scene": run.name, "pose": f"{angle_deg} degrees", "measure": measure, "iterations": iterations, "median": value, "q10": "",
+             "q90": ""} for iterations, value in zip(run.pbs_iterations(), values)]
+
+
+def draw(results, figures):
+    human = records.Run(results / "volume" / "human_01_01")
+    limbs = {scene: records.Run(results / "volume" / scene) for scene, _, _ in poses}
+    figure, axes = style.panels(1, 2, height_in=2.7)
+    behind = []
+    for panel, (measure, label) in zip(axes[0], measures):
+        behind += draw_human(panel, human, measure, style.blue)
+        for (scene, angle_deg, name), look in zip(poses, [style.sequence[0], style.sequence[4], style.sequence[2], style.sequence[6]]):
+            behind += draw_pose(panel, limbs[scene], angle_deg, name, measure, look)
+        style.paper_band(panel, signed=measure == "volume_change_pct")
+        style.per_cent_scale(panel, signed=measure == "volume_change_pct")
+        panel.set_xscale("log", base=2)
+        panel.set_xticks(human.pbs_iterations(), human.pbs_iterations())
+        panel.set_xlabel("iterations per step")
+        panel.set_ylabel(label)
+    style.legend_above(figure, axes[0][0])
+    style.save(figure, figures / "volume_over_iterations", records.provenance(results), behind)
