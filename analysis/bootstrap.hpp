@@ -1,0 +1,33 @@
+// Intervals for the mean of a series of frames, whose neighbours resemble each other: moving-block bootstrap (Kunsch 1989), percentile
+// interval. Percentile intervals of short series are somewhat too narrow; a series without spread gives an interval without width.
+//   const Interval loss = bootstrap_mean(loss_pct);            // loss.low .. loss.high at 95 %
+//   const Interval share = bootstrap_share(frame_holds);       // share of frames, 0 to 1
+#pragma once
+
+#include <vector>
+
+namespace analysis {
+
+struct Interval {
+    double estimate = 0.0, low = 0.0, high = 0.0;
+    double level = 0.95;
+    int n = 0;      // samples
+    int block = 0;  // length of the blocks; 0: no bootstrap
+};
+
+struct BootstrapOptions {
+    double level = 0.95;
+    int resamples = 2000;
+    unsigned long seed = 20140528;
+    int block = 0;  // 0: chosen by `block_length`
+};
+
+// The length that minimises the error of the bootstrapped variance (Politis and White 2004) for a first-order autoregressive series with
+// the integrated autocorrelation time of this one: (3/2)^(1/3) ((tau^2 - 1) / (2 tau))^(2/3) n^(1/3), between 1 and n / 2.
+int block_length(const std::vector<double>& series);
+
+// NaN bounds for fewer than two samples or values that are not finite.
+Interval bootstrap_mean(const std::vector<double>& series, const BootstrapOptions& options = {});
+Interval bootstrap_share(const std::vector<bool>& holds, const BootstrapOptions& options = {});
+
+}  // namespace analysis

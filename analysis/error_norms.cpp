@@ -1,0 +1,98 @@
+#include "analysis/error_norms.hpp"
+
+#include "analysis/compensated_sum.hpp"
+#include "analysis/rest_mesh_checks.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/tet_volume.hpp"
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace analysis {
+namespace {
+
+constexpr double nothing_to_measure = std::numeric_limits<double>::quiet_NaN();
+
+void require_consistent(const ErrorDomain& domain)
+{
+    const auto vertices = static_cast<std::size_t>(domain.rest.rows());
+    if (!domain.prescribed.empty() && domain.prescribed.size() != vertices)
+        throw pbs::InputError{"", 0, "entries of prescribed", std::to_string(domain.prescribed.size()),
+                              fmt::format("expected {}", vertices)};
+    if (!domain.blended.empty() && domain.bone_distance_m.size() != domain.rest.rows())
+        throw pbs::InputError{"", 0, "bone distances", std::to_string(domain.bone_distance_m.size()), fmt::format("expected {}", vertices)};
+    for (int vertex : domain.blended)
+        if (vertex < 0 || vertex >= domain.rest.rows())
+            throw pbs::InputError{"", 0, "blended vertex", std::to_string(vertex), fmt::format("expected 0 <= vertex < {}", vertices)};
+}
+
+// Mean by mass of one value a vertex, over some vertices.
+template <class Value>
+double weighted_mean(const std::vector<int>& vertices, const Eigen::VectorXd& mass, Value value)
+{
+    CompensatedSum sum, total;
+    for (int vertex : vertices) {
+        sum += mass(vertex) * value(vertex);
+        total += mass(vertex);
+    }
+    return total.value() > 0.0 ? sum.value() / total.value() : nothing_to_measure;
+}
+
+// Columns: the three edges from the tet's first vertex.
+Eigen::Matrix3d edge_matrix(const pbs::Positions& positions, const pbs::Tets& tets, Eigen::Index t)
+{
+    Eigen::Matrix3d edges;
+    for (int k = 0; k < 3; ++k) edges.col(k) = positions.row(tets(t, k + 1)) - positions.row(tets(t, 0));
+    return edges;
+}
+
+}  // namespace
+
+ErrorRuler::ErrorRuler(const ErrorDomain& domain)
+{
+    checked_rest_volumes(domain.rest, domain.tets);
+    require_consistent(domain);
+    mass_ = pbs::lumped_volumes(domain.rest, domain.tets);
+    diagonal_m_ = (domain.rest.colwise().maxCoeff() - domain.rest.colwise().minCoeff()).norm();
+    const auto is_free = [&](int vertex) { return domain.prescribed.empty() || !domain.prescribed[vertex]; };
+    for (int vertex = 0; vertex < domain.rest.rows(); ++vertex)
+        if (is_free(vertex)) free_.push_back(vertex);
+    for (int vertex : domain.blended)
+        if (is_free(vertex)) blended_.push_back(vertex);
+    bone_distance_m_ = weighted_mean(blended_, mass_, [&](int vertex) { return domain.bone_distance_m(vertex); });
+}
+
+ErrorNorms ErrorRuler::measure(const pbs::Positions& positions, const pbs::Positions& reference) const
+{
+    require_points(positions, mass_.size(), "the frame");
+    require_points(reference, mass_.size(), "the reference");
+    const auto square = [&](int vertex) { return (positions.row(vertex) - reference.row(vertex)).squaredNorm(); };
+    ErrorNorms error;
+    error.l2_pct = 100.0 * std::sqrt(weighted_mean(free_, mass_, square)) / diagonal_m_;
+    error.joint_pct = 100.0 * std::sqrt(weighted_mean(blended_, mass_, square)) / bone_distance_m_;
+    double largest = free_.empty() ? nothing_to_measure : 0.0;
+    for (int vertex : free_)
+        if (const double s = square(vertex); std::isnan(s) || s > largest) largest = s;  // a NaN stays
+    error.linf_m = std::sqrt(largest);
+    return error;
+}
+
+double error_h1_pct(const pbs::Positions& rest, const pbs::Tets& tets, const pbs::Positions& positions, const pbs::Positions& reference)
+{
+    const Eigen::VectorXd volumes = checked_rest_volumes(rest, tets);
+    require_points(positions, rest.rows(), "the frame");
+    require_points(reference, rest.rows(), "the reference");
+    const pbs::Positions difference = positions - reference;
+    CompensatedSum sum, total;
+    for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+        const Eigen::Matrix3d gradient = edge_matrix(difference, tets, t) * edge_matrix(rest, tets, t).inverse();  // F - Fref
+        sum += volumes(t) * gradient.squaredNorm();
+        total += volumes(t);
+    }
+    return 100.0 * std::sqrt(sum.value() / total.value());
+}
+
+}  // namespace analysis

@@ -1,0 +1,18 @@
+// Plain statistics of a series, by GSL. A figure of too few values (none; one for a spread) is NaN.
+#pragma once
+
+#include <vector>
+
+namespace analysis {
+
+double mean(const std::vector<double>& values);
+double median(const std::vector<double>& values);
+double quantile(std::vector<double> values, double share);     // linear between the order statistics at share (n - 1), 0 <= share <= 1
+double standard_deviation(const std::vector<double>& values);  // n - 1 in the denominator
+double standard_error(const std::vector<double>& values);      // of the mean of independent values
+
+// Integrated autocorrelation time in samples, 1 + 2 sum rho_k over the first window W >= 5 tau (Sokal): the mean of n samples is worth that
+// of n / tau independent ones. At least 1; 1 for a series without spread.
+double integrated_autocorrelation_time(const std::vector<double>& series);
+
+}  // namespace analysis

@@ -1,0 +1,64 @@
+#include "analysis/surface_volume.hpp"
+
+#include "analysis/compensated_sum.hpp"
+#include "analysis/rest_mesh_checks.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/tet_volume.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace analysis {
+namespace {
+
+using DirectedEdge = std::pair<int, int>;
+
+std::vector<DirectedEdge> directed_edges(const pbs::Triangles& triangles, bool reversed)
+{
+    std::vector<DirectedEdge> edges;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int a = triangles(f, k), b = triangles(f, (k + 1) % 3);
+            edges.push_back(reversed ? DirectedEdge{b, a} : DirectedEdge{a, b});
+        }
+    std::sort(edges.begin(), edges.end());
+    return edges;
+}
+
+void require_closed(const pbs::Positions& points, const pbs::Triangles& triangles)
+{
+    if (triangles.rows() == 0) throw pbs::InputError{"", 0, "triangles", "0", "expected a closed surface"};
+    if (triangles.minCoeff() < 0 || triangles.maxCoeff() >= points.rows())
+        throw pbs::InputError{"", 0, "triangles", "", fmt::format("expected 0 <= vertex < {}", points.rows())};
+    const auto forward = directed_edges(triangles, false), backward = directed_edges(triangles, true);
+    const auto [open, other] = std::mismatch(forward.begin(), forward.end(), backward.begin());
+    if (open == forward.end()) return;
+    const DirectedEdge edge = std::min(*open, *other);
+    throw pbs::InputError{"", 0, "edge", fmt::format("{}-{}", edge.first, edge.second), "expected a closed, oriented surface"};
+}
+
+}  // namespace
+
+double enclosed_volume(const pbs::Positions& points, const pbs::Triangles& triangles)
+{
+    require_closed(points, triangles);
+    const pbs::Vec3 origin = points.row(triangles(0, 0));  // near by, so that a surface far from the origin loses no digits
+    CompensatedSum volume;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        volume += pbs::tet_volume(origin, points.row(triangles(f, 0)), points.row(triangles(f, 1)), points.row(triangles(f, 2)));
+    return volume.value();
+}
+
+double surface_volume_change_pct(const pbs::Positions& rest, const pbs::Positions& posed, const pbs::Triangles& triangles)
+{
+    require_points(posed, rest.rows(), "the posed surface");
+    const double rest_volume = enclosed_volume(rest, triangles);
+    if (!(rest_volume > 0.0))
+        throw pbs::InputError{"", 0, "enclosed rest volume", fmt::format("{} m^3", rest_volume), "expected > 0: triangles face outward"};
+    return 100.0 * (enclosed_volume(posed, triangles) - rest_volume) / rest_volume;
+}
+
+}  // namespace analysis

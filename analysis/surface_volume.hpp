@@ -1,0 +1,17 @@
+// The volume a closed triangle surface encloses: what the render surface embedded in the tets keeps or loses.
+//   const double change_pct = surface_volume_change_pct(rest_points, posed_points, triangles);
+#pragma once
+
+#include "pbs/geometry/types.hpp"
+
+namespace analysis {
+
+// Divergence theorem: sum of (a x b) . c / 6 over the triangles [m^3], positive when they face outward. InputError unless the surface is
+// closed and oriented (each edge is run through as often one way as the other). Where it crosses itself, parts count by their winding
+// number.
+double enclosed_volume(const pbs::Positions& points, const pbs::Triangles& triangles);
+
+// 100 (V - V0) / V0. InputError where V0 is not positive.
+double surface_volume_change_pct(const pbs::Positions& rest, const pbs::Positions& posed, const pbs::Triangles& triangles);
+
+}  // namespace analysis

@@ -1,0 +1,123 @@
+// Truth: closed forms for translations, single vertices and linear maps. Tolerance 1e-12 relative: a few hundred operations in double.
+#include "analysis/error_norms.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "tests/support/structured_bar.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using analysis::ErrorDomain;
+using analysis::ErrorNorms;
+using analysis::ErrorRuler;
+using pbs::Positions;
+
+ErrorDomain bar_domain()
+{
+    const auto bar = test_support::structured_bar({-1.0, -0.15, -0.15}, {1.0, 0.15, 0.15}, {8, 2, 2});
+    return {bar.rest, bar.tets, {}, {}, Eigen::VectorXd::Constant(bar.rest.rows(), 0.1)};
+}
+
+const double bar_diagonal = std::sqrt(4.0 + 2.0 * 0.09);
+
+TEST(ErrorNorms, TranslationByKnownDistance)
+{
+    ErrorDomain domain = bar_domain();
+    domain.blended = {0, 5, 7};
+    const Eigen::RowVector3d d(0.03, -0.04, 0.12);  // length 0.13
+    const ErrorNorms error = ErrorRuler(domain).measure(domain.rest.rowwise() + d, domain.rest);
+    EXPECT_NEAR(error.linf_m, 0.13, 1e-13);
+    EXPECT_NEAR(error.l2_pct, 100.0 * 0.13 / bar_diagonal, 1e-11);
+    EXPECT_NEAR(error.joint_pct, 130.0, 1e-10);
+}
+
+TEST(ErrorNorms, VerticesWeighByTheirLumpedRestVolume)
+{
+    // Two tets of volumes 1/6 and 3/6 on one face: the apex of the large one carries 3/4 of a quarter of the whole.
+    ErrorDomain domain;
+    domain.rest.resize(5, 3);
+    domain.rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -3;
+    domain.tets.resize(2, 4);
+    domain.tets << 0, 1, 2, 3, 0, 2, 1, 4;
+    domain.blended = {3, 4};
+    domain.bone_distance_m = (Eigen::VectorXd(5) << 9, 9, 9, 1.0, 3.0).finished();
+    Positions moved = domain.rest;
+    moved(4, 0) += 1.0;
+    const ErrorNorms error = ErrorRuler(domain).measure(moved, domain.rest);
+    EXPECT_NEAR(error.l2_pct, 100.0 * std::sqrt(0.75 / 4.0) / std::sqrt(18.0), 1e-12);
+    EXPECT_NEAR(error.joint_pct, 100.0 * std::sqrt(0.75) / (0.25 * 1.0 + 0.75 * 3.0), 1e-12);
+}
+
+TEST(ErrorNorms, PrescribedVerticesAreLeftOut)
+{
+    ErrorDomain domain = bar_domain();
+    Positions moved = domain.rest;
+    moved.row(4) += Eigen::RowVector3d(0.0, 1.0, 0.0);
+    EXPECT_NEAR(ErrorRuler(domain).measure(moved, domain.rest).linf_m, 1.0, 1e-15);
+    domain.blended = {4, 5};
+    domain.prescribed.assign(domain.rest.rows(), false);
+    domain.prescribed[4] = true;
+    const ErrorNorms error = ErrorRuler(domain).measure(moved, domain.rest);
+    EXPECT_EQ(error.linf_m, 0.0);
+    EXPECT_EQ(error.l2_pct, 0.0);
+    EXPECT_EQ(error.joint_pct, 0.0);
+}
+
+TEST(ErrorNorms, NothingToMeasureIsNaN)
+{
+    ErrorDomain domain = bar_domain();
+    EXPECT_TRUE(std::isnan(ErrorRuler(domain).measure(domain.rest, domain.rest).joint_pct));
+    domain.prescribed.assign(domain.rest.rows(), true);
+    const ErrorNorms error = ErrorRuler(domain).measure(domain.rest, domain.rest);
+    EXPECT_TRUE(std::isnan(error.l2_pct));
+    EXPECT_TRUE(std::isnan(error.linf_m));
+}
+
+TEST(ErrorNorms, BrokenFrameIsNaN)
+{
+    const ErrorDomain domain = bar_domain();
+    Positions broken = domain.rest;
+    broken(3, 1) = std::numeric_limits<double>::quiet_NaN();
+    const ErrorNorms error = ErrorRuler(domain).measure(broken, domain.rest);
+    EXPECT_TRUE(std::isnan(error.l2_pct));
+    EXPECT_TRUE(std::isnan(error.linf_m));
+}
+
+TEST(ErrorNorms, RefusesArraysThatDoNotFit)
+{
+    const ErrorDomain good = bar_domain();
+    ErrorDomain bad = good;
+    bad.prescribed.assign(3, false);
+    EXPECT_THROW(ErrorRuler{bad}, pbs::InputError);
+    bad = good;
+    bad.blended = {static_cast<int>(good.rest.rows())};
+    EXPECT_THROW(ErrorRuler{bad}, pbs::InputError);
+    bad = good;
+    bad.blended = {0};
+    bad.bone_distance_m.resize(0);
+    EXPECT_THROW(ErrorRuler{bad}, pbs::InputError);
+    EXPECT_THROW(ErrorRuler(good).measure(good.rest.topRows(2), good.rest), pbs::InputError);
+    EXPECT_THROW(ErrorRuler(good).measure(good.rest, good.rest.topRows(2)), pbs::InputError);
+}
+
+TEST(ErrorH1, OfALinearDifferenceIsTheNormOfItsGradient)
+{
+    const ErrorDomain domain = bar_domain();
+    Eigen::Matrix3d gradient;
+    gradient << 0.01, 0.02, 0.0, -0.03, 0.0, 0.01, 0.0, 0.05, 0.02;
+    const Positions moved = domain.rest + domain.rest * gradient.transpose();
+    EXPECT_NEAR(analysis::error_h1_pct(domain.rest, domain.tets, moved, domain.rest), 100.0 * gradient.norm(), 1e-10);
+}
+
+TEST(ErrorH1, DoesNotSeeTranslations)
+{
+    const ErrorDomain domain = bar_domain();
+    const Positions moved = domain.rest.rowwise() + Eigen::RowVector3d(1.0, 2.0, 3.0);
+    EXPECT_NEAR(analysis::error_h1_pct(domain.rest, domain.tets, moved, domain.rest), 0.0, 1e-10);
+}
+
+}  // namespace
