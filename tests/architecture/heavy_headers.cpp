@@ -14,10 +14,10 @@ struct HeavyLibrary {
 
 const std::vector<HeavyLibrary> heavy = {
     {"deal.II/", {"reference_fem/"}, 8},
-    {"CGAL/", {"pbs/geometry/meshing"}, 4},
-    {"vtk", {"pbs/geometry/mesh_io"}, 5},
-    {"gmsh.h", {"pbs/geometry/mesh_io"}, 2},
-    {"assimp/", {"pbs/geometry/mesh_io", "pbs/character/"}, 5},
+    {"CGAL/", {"pbs/geometry/"}, 5},
+    {"vtk", {"pbs/geometry/"}, 4},
+    {"gmsh.h", {"pbs/geometry/"}, 1},
+    {"assimp/", {"pbs/geometry/", "pbs/character/"}, 4},
 };
 
 bool is_heavy(const std::string& target, const HeavyLibrary& library)

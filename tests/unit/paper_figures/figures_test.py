@@ -1,0 +1,98 @@
+"""Truth: the definition. Records are read by name, what is missing is said, figures show what the records hold and say where it is from."""
+import contextlib
+import csv
+import io
+import pathlib
+import sys
+import tempfile
+import unittest
+
+root = pathlib.Path(__file__).resolve().parents[3]
+sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
+
+import claims_table  # noqa: E402
+import make_all  # noqa: E402
+import readme_claims  # noqa: E402
+import records  # noqa: E402
+import report  # noqa: E402
+import synthetic_records  # noqa: E402
+
+
+class Figures(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.results = pathlib.Path(folder.name)
+        synthetic_records.write_study(self.results)
+        self.twist = self.results / "volume" / "limb_twist"
+
+    def assert_missing(self, expected, action):
+        with self.assertRaises(records.RecordsMissing) as caught:
+            action()
+        self.assertIn(expected, str(caught.exception))
+
+    def test_select_tells_iterations_and_variants_apart(self):
+        run = records.Run(self.twist)
+        self.assertEqual(records.numbers(run.select("pbs", 24), "volume_change_pct")[-1], -180 / 1000 / 24)
+        self.assertEqual(len(run.select("pbs_jiggle", 24, "jiggle")), 37)
+        self.assertEqual(run.pbs_iterations(), [1, 24, 96])
+        self.assertEqual(run.reference(), "fem_p2")
+
+    def test_at_angle(self):
+        rows = records.Run(self.twist).select("lbs")
+        self.assertEqual(records.numbers([records.at_angle(rows, 90)], "volume_change_pct"), [-9.0])
+        self.assert_missing("no frame at 91 degrees", lambda: records.at_angle(rows, 91))
+
+    def test_missing_records_are_named(self):
+        run = records.Run(self.twist)
+        self.assert_missing("no rows of deformer pbs, variant default, 7 iterations", lambda: run.select("pbs", 7))
+        self.assert_missing("no column colour", lambda: records.numbers(run.select("lbs"), "colour"))
+        clip = records.Run(self.results / "volume" / "human_01_01")
+        self.assert_missing("column angle_deg is empty", lambda: records.numbers(clip.select("lbs"), "angle_deg"))
+        (self.twist / "run.json").write_text("{")
+        self.assert_missing("run.json:1: not JSON", lambda: records.Run(self.twist))
+        (self.twist / "run.json").unlink()
+        self.assert_missing("run.json: not there", lambda: records.Run(self.twist))
+
+    def test_curves_are_drawn_with_their_source_and_numbers(self):
+        old = self.results / "figures" / "old.png"
+        old.parent.mkdir()
+        old.touch()
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()):
+            status = make_all.main(self.results)
+        self.assertEqual(status, 1)  # no frames were written: the stills are missing, the curves are there
+        self.assertIn("frames not drawn", said.getvalue())
+        self.assertEqual(said.getvalue().count("not drawn"), 1)
+        self.assertFalse(old.exists())
+        for name in ("volume_over_angle", "volume_over_clip", "volume_over_iterations"):
+            for ending in ("png", "pdf"):
+                self.assertIn(synthetic_records.revision.encode(), (self.results / "figures" / f"{name}.{ending}").read_bytes())
+        with open(self.results / "figures" / "volume_over_angle.csv", newline="") as stream:
+            rows = [row for row in csv.DictReader(stream) if row["deformer"] == "lbs" and row["scene"] == "limb_twist"]
+        self.assertEqual([float(row["volume_change_pct"]) for row in rows], [-angle / 10 for angle in range(0, 181, 5)])
+
+    def test_table_of_claims(self):
+        header, _, row = claims_table.table_lines(self.results)
+        self.assertEqual(claims_table.cells(header), ["id", "measured"])
+        self.assertEqual(claims_table.cells(row), ["C01", "9 | 17 %, *signed*"])
+
+    def test_report_holds_the_table_and_says_what_is_missing(self):
+        self.assertEqual(report.main(self.results), 0)
+        page = (self.results / "report.html").read_text()
+        self.assertIn("<td>9 | 17 %, <em>signed</em></td>", page)
+        self.assertIn("volume_over_angle: not drawn", page)
+        self.assertIn(synthetic_records.revision, page)
+
+    def test_readme_is_changed_between_its_markers_alone(self):
+        readme = self.results / "README.md"
+        readme.write_text(f"before\n{readme_claims.begin}\nold\n{readme_claims.end}\nafter\n")
+        readme_claims.main(self.results, readme)
+        text = readme.read_text()
+        self.assertTrue(text.startswith("before\n") and text.endswith("\nafter\n"))
+        self.assertIn("| C01 |", text)
+        self.assertNotIn("old", text)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,32 @@
+"""Records in the layout of a run's directory, with made-up numbers that a test can foresee."""
+import csv
+import json
+
+columns = ["scene", "deformer", "variant", "iterations", "frame", "time_s", "volume_change_pct", "volume_abs_change_pct", "inverted_tets",
+           "min_section_pct", "angle_deg"]
+revision = "0123456789abcdef0123456789abcdef01234567"
+
+
+def write_run(folder, frames=37, last_angle_deg=180.0):
+    """last_angle_deg None: a clip. LBS changes the volume by -angle / 10 %, PBS by a hundredth over its iterations."""
+    folder.mkdir(parents=True)
+    (folder / "run.json").write_text(json.dumps(
+        {"scene": {"reference": {"name": "fem_p2"}}, "provenance": {"version": "0.1.0", "git_revision": revision, "git_dirty": False}}))
+    with open(folder / "metrics.csv", "w", newline="") as stream:
+        writer = csv.DictWriter(stream, columns)
+        writer.writeheader()
+        for frame in range(frames):
+            angle = (last_angle_deg or 90.0) * frame / (frames - 1)
+            specs = [("lbs", "", "default", -angle / 10), ("dqs", "", "default", angle / 20), ("fem_p2", "", "default", angle / 5)]
+            specs += [("pbs", count, "default", -angle / 1000 / count) for count in (1, 24, 96)] + [("pbs_jiggle", 24, "jiggle", -angle / 500)]
+            for deformer, iterations, variant, change in specs:
+                writer.writerow({"scene": folder.name, "deformer": deformer, "variant": variant, "iterations": iterations, "frame": frame,
+                                 "time_s": frame / 100, "volume_change_pct": change, "volume_abs_change_pct": abs(change), "inverted_tets": 0,
+                                 "min_section_pct": 100 + change, "angle_deg": angle if last_angle_deg else ""})
+
+
+def write_study(results):
+    write_run(results / "volume" / "limb_twist")
+    write_run(results / "volume" / "limb_bend", frames=31, last_angle_deg=150.0)
+    write_run(results / "volume" / "human_01_01", frames=50, last_angle_deg=None)
+    (results / "claims.md").write_text("# Claims\n\n| id | measured |\n|---|---|\n| C01 | 9 \\| 17 %, *signed* |\n\nmore text\n")
