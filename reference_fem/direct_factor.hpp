@@ -4,14 +4,13 @@
 // CHOLMOD (supernodal Cholesky, METIS ordering) is the default; UMFPACK (unsymmetric LU) is the second opinion on the same matrix.
 #pragma once
 
+#include "reference_fem/direct_solver.hpp"
 #include "reference_fem/sparse_matrix.hpp"
 
 #include <memory>
 #include <string>
 
 namespace reference_fem {
-
-enum class DirectSolver { cholmod, umfpack };
 
 class DirectFactor {
 public:

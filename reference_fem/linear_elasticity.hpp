@@ -6,7 +6,7 @@
 // The header is plain; deal.II and SuiteSparse are seen by the .cpp files alone.
 #pragma once
 
-#include "reference_fem/direct_factor.hpp"
+#include "reference_fem/direct_solver.hpp"
 
 #include "pbs/geometry/tet_mesh.hpp"
 

@@ -1,0 +1,80 @@
+#include "experiments/deformers/fem/bone_attachment.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <algorithm>
+
+namespace experiments {
+namespace {
+
+// Indices of tets with all four corners inside the capsule: it is convex, so all of the tet is.
+std::vector<int> tets_inside(const pbs::TetMesh& mesh, const BoneCapsule& capsule)
+{
+    std::vector<int> inside;
+    for (int t = 0; t < mesh.tets.rows(); ++t) {
+        const auto corners = mesh.tets.row(t);
+        if (std::all_of(corners.begin(), corners.end(), [&](int v) { return capsule.contains(mesh.rest.row(v)); })) inside.push_back(t);
+    }
+    return inside;
+}
+
+}  // namespace
+
+BoneAttachment embedded_attachment(const pbs::Character& character, const FemOptions& options)
+{
+    BoneAttachment bones{bone_capsules(character, options.core_radius), {}, {}, std::vector<int>(character.mesh.rest.rows(), -1), {}};
+    const Eigen::Index per_bone = bones.capsules.empty() ? 0 : sample_points(bones.capsules.front()).rows();
+    const auto springs = static_cast<Eigen::Index>(bones.capsules.size()) * per_bone;
+    bones.attachment.spring_points.resize(springs, 3);
+    bones.attachment.spring_stiffness.resize(springs);
+    for (std::size_t j = 0; j < bones.capsules.size(); ++j) {
+        const BoneCapsule& capsule = bones.capsules[j];
+        const double density = options.spring_factor * options.young_pa / (capsule.radius_m * capsule.radius_m);
+        bones.attachment.spring_points.middleRows(j * per_bone, per_bone) = sample_points(capsule);
+        bones.attachment.spring_stiffness.segment(j * per_bone, per_bone)
+            .setConstant(density * capsule.volume_m3() / static_cast<double>(per_bone));
+        bones.spring_bone.insert(bones.spring_bone.end(), per_bone, static_cast<int>(j));
+    }
+    return bones;
+}
+
+BoneAttachment nodes_attachment(const pbs::Character& character, const FemOptions& options)
+{
+    const pbs::TetMesh& mesh = character.mesh;
+    BoneAttachment bones{bone_capsules(character, options.core_radius), {}, {}, std::vector<int>(mesh.rest.rows(), -1), {}};
+    for (int j = 0; j < static_cast<int>(bones.capsules.size()); ++j) {
+        int kept = 0;
+        for (const int tet : tets_inside(mesh, bones.capsules[j])) {
+            const auto corners = mesh.tets.row(tet);
+            const auto free_for_bone = [&](int v) { return bones.vertex_bone[v] == -1 || bones.vertex_bone[v] == j; };
+            if (!std::all_of(corners.begin(), corners.end(), free_for_bone)) continue;
+            for (const int v : corners) bones.vertex_bone[v] = j;
+            bones.attachment.prescribed_tets.push_back(tet);
+            bones.tet_bone.push_back(j);
+            ++kept;
+        }
+        if (kept == 0)
+            throw pbs::InputError(character.name, 0, "bone", character.skeleton.bones[j].name,
+                                  "expected four vertices of whole tets inside its capsule that are not in one plane; refine the mesh, "
+                                  "raise core_radius or use attachment embedded");
+    }
+    return bones;
+}
+
+pbs::Positions spring_targets(const BoneAttachment& bones, const pbs::Pose& pose)
+{
+    pbs::Positions targets = bones.attachment.spring_points;
+    for (Eigen::Index s = 0; s < targets.rows(); ++s)
+        targets.row(s) = (pose[bones.spring_bone[s]] * pbs::Vec3(targets.row(s).transpose())).transpose();
+    return targets;
+}
+
+pbs::Positions vertex_targets(const BoneAttachment& bones, const pbs::Positions& rest, const pbs::Pose& pose)
+{
+    pbs::Positions targets = rest;
+    for (Eigen::Index v = 0; v < rest.rows(); ++v)
+        if (bones.vertex_bone[v] >= 0) targets.row(v) = (pose[bones.vertex_bone[v]] * pbs::Vec3(rest.row(v).transpose())).transpose();
+    return targets;
+}
+
+}  // namespace experiments

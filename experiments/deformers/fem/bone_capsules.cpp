@@ -1,0 +1,103 @@
+#include "experiments/deformers/fem/bone_capsules.hpp"
+
+#include "pbs/geometry/topology.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace experiments {
+namespace {
+
+constexpr double middle_begin = 1.0 / 6.0, middle_end = 5.0 / 6.0;  // Eq. 2
+constexpr int stations = 10, rings = 2, spokes = 6;
+constexpr int points_per_disc = 1 + rings * spokes;
+
+struct Mean {
+    double sum = 0.0;
+    int count = 0;
+
+    void add(double value) { sum += value, ++count; }
+    double value() const { return sum / count; }
+};
+
+// Mean distances of skin vertices to their nearest bones [m].
+struct LimbRadii {
+    std::vector<Mean> on_middle, on_bone;  // #bones
+    Mean on_skeleton;
+};
+
+LimbRadii limb_radii(const pbs::Character& character)
+{
+    const pbs::BoneBinding& binding = character.binding;
+    const std::vector<bool> skin = pbs::boundary_vertices(character.mesh.tets, character.mesh.rest.rows());
+    const std::size_t bones = character.skeleton.bones.size();
+    LimbRadii radii{std::vector<Mean>(bones), std::vector<Mean>(bones), {}};
+    for (std::size_t v = 0; v < skin.size(); ++v) {
+        if (!skin[v]) continue;
+        const double distance = binding.distance(v), parameter = binding.parameter(v);
+        radii.on_skeleton.add(distance);
+        radii.on_bone[binding.bone[v]].add(distance);
+        if (parameter >= middle_begin && parameter <= middle_end) radii.on_middle[binding.bone[v]].add(distance);
+    }
+    return radii;
+}
+
+}  // namespace
+
+bool BoneCapsule::contains(const pbs::Vec3& point) const
+{
+    const pbs::Vec3 axis = end - start;
+    const double parameter = (point - start).dot(axis) / axis.squaredNorm();
+    return parameter >= 0.0 && parameter <= 1.0 && (point - start - parameter * axis).norm() <= radius_m;
+}
+
+double BoneCapsule::volume_m3() const
+{
+    return std::numbers::pi * radius_m * radius_m * (end - start).norm();
+}
+
+std::vector<BoneCapsule> bone_capsules(const pbs::Character& character, double core_radius)
+{
+    const LimbRadii radii = limb_radii(character);
+    std::vector<BoneCapsule> capsules;
+    for (std::size_t j = 0; j < character.skeleton.bones.size(); ++j) {
+        const pbs::Bone& bone = character.skeleton.bones[j];
+        const pbs::Vec3 axis = bone.tail - bone.head;
+        BoneCapsule capsule{bone.head + middle_begin * axis, bone.head + middle_end * axis, 0.0, "skin on its middle"};
+        Mean radius = radii.on_middle[j];
+        if (radius.count == 0) {
+            radius = radii.on_bone[j];
+            capsule.radius_from = "skin nearest to it";
+        }
+        if (radius.count == 0) {
+            radius = radii.on_skeleton;
+            capsule.radius_from = "the whole skin";
+        }
+        capsule.radius_m = core_radius * radius.value();
+        capsules.push_back(capsule);
+    }
+    return capsules;
+}
+
+pbs::Positions sample_points(const BoneCapsule& capsule)
+{
+    const pbs::Vec3 axis = capsule.end - capsule.start;
+    const pbs::Vec3 across = axis.unitOrthogonal(), binormal = axis.normalized().cross(across);
+    pbs::Positions points(stations * points_per_disc, 3);
+    Eigen::Index next = 0;
+    for (int station = 0; station < stations; ++station) {
+        const pbs::Vec3 centre = capsule.start + (station + 0.5) / stations * axis;
+        points.row(next++) = centre;
+        for (int ring = 0; ring < rings; ++ring) {
+            // Of the disc's points, 1 + 6 ring lie further in and 3 of this ring's own: half its area.
+            const double radius = capsule.radius_m * std::sqrt((1.0 + spokes * (ring + 0.5)) / points_per_disc);
+            for (int spoke = 0; spoke < spokes; ++spoke) {
+                const double angle = 2.0 * std::numbers::pi * spoke / spokes;
+                points.row(next++) = centre + radius * (std::cos(angle) * across + std::sin(angle) * binormal);
+            }
+        }
+    }
+    return points;
+}
+
+}  // namespace experiments

@@ -1,0 +1,30 @@
+// Each bone as a rigid capsule inside the flesh: what the reference is held by. The capsule is the bone's middle (1/6 to 5/6 of its
+// length, the part that Eq. 2 gives to one bone alone) with core_radius times the local limb radius. It is defined by the character
+// alone, so the continuous problem does not depend on the elements.
+#pragma once
+
+#include "pbs/character/character.hpp"
+
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+struct BoneCapsule {
+    pbs::Vec3 start, end;  // of its axis [m]
+    double radius_m = 0.0;
+    std::string radius_from;  // which vertices gave the limb radius
+
+    bool contains(const pbs::Vec3& point) const;  // between the ends and within the radius
+    double volume_m3() const;
+};
+
+// The local limb radius is the mean rest distance to the bone over the skin vertices that are nearest to it and project on its middle;
+// where there are none, over all skin vertices nearest to it; where there are none either, over the whole skin to its nearest bones.
+std::vector<BoneCapsule> bone_capsules(const pbs::Character& character, double core_radius);
+
+// Sample points of a capsule [m], 130 x 3, each standing for the same share of its volume: 10 stations along the axis, and in each disc
+// the centre and two rings of 6, at the radii that halve the areas they stand for. The same for every mesh and element order.
+pbs::Positions sample_points(const BoneCapsule& capsule);
+
+}  // namespace experiments

@@ -1,0 +1,31 @@
+// Options of the finite element reference as a deformer.
+#pragma once
+
+#include "reference_fem/direct_solver.hpp"
+
+#include "pbs/geometry/types.hpp"
+
+#include <string>
+
+namespace experiments {
+
+enum class FemModel { linear };
+
+// embedded: each bone is a rigid capsule inside the flesh, tied to it by springs. nodes: whole tets inside the capsule are prescribed.
+enum class FemAttachment { embedded, nodes };
+
+struct FemOptions {
+    std::string name = "fem";
+    FemModel model = FemModel::linear;
+    int element_order = 2;  // 1, 2
+    double young_pa = 1.0e5;
+    double poisson = 0.45;
+    double density_kg_m3 = 1000.0;
+    pbs::Vec3 gravity_m_s2 = pbs::Vec3::Zero();
+    FemAttachment attachment = FemAttachment::embedded;
+    double core_radius = 0.35;     // capsule radius over local limb radius
+    double spring_factor = 1.0e4;  // q: springs of density q E / r^2, r the capsule's radius; doubling it changes nothing that is reported
+    reference_fem::DirectSolver solver = reference_fem::DirectSolver::cholmod;
+};
+
+}  // namespace experiments
