@@ -1,7 +1,7 @@
 #include "tests/architecture/build_laws.hpp"
 
 #include <algorithm>
-#include <regex>
+#include <cctype>
 
 namespace architecture {
 
@@ -27,12 +27,19 @@ bool names_word(const std::string& text, const std::string& word)
     return false;
 }
 
-// Named as a file, or as a test by pbs_test(KIND NAME).
+// Registered by pbs_test(KIND FOLDER/NAME), or by pbs_test(KIND FOLDER/${name}) over a list that holds NAME.
+bool is_registered(const std::string& cmake, const std::string& path)
+{
+    std::string test = path.substr(path.find('/') + 1, path.rfind('.') - path.find('/') - 1);  // KIND/FOLDER/NAME
+    if (const std::size_t kind_end = test.find('/'); kind_end != std::string::npos) test[kind_end] = ' ';
+    const std::size_t name = test.find_last_of("/ ") + 1;
+    return names_word(cmake, test) ||
+           (cmake.find(test.substr(0, name) + "${") != std::string::npos && names_word(cmake, test.substr(name)));
+}
+
 bool is_built(const std::string& cmake, const std::string& path)
 {
-    const std::string file = path.substr(path.rfind('/') + 1);
-    if (names_word(cmake, file)) return true;
-    return path.starts_with("tests/") && names_word(cmake, file.substr(0, file.rfind('.')));
+    return names_word(cmake, path.substr(path.rfind('/') + 1)) || (path.starts_with("tests/") && is_registered(cmake, path));
 }
 
 bool is_folder(const SourceTree& tree, const std::string& folder)

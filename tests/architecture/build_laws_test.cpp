@@ -44,6 +44,14 @@ TEST(BuildLawsBite, UnregisteredTest)
     expect_found(orphaned_sources, planted, "tests/unit/geometry/b.cpp");
 }
 
+TEST(BuildLawsBite, TestOfTheSameNameInAnotherFolder)
+{
+    const SourceTree planted = {{"tests/method.cmake", "foreach(name a b)\n    pbs_test(unit geometry/${name} pbs_method)\nendforeach()\n"},
+                                {"tests/unit/geometry/a.cpp", ""},
+                                {"tests/unit/skinning/a.cpp", ""}};
+    expect_found(orphaned_sources, planted, "tests/unit/skinning/a.cpp");
+}
+
 TEST(BuildLawsBite, UnitTestOfNothing)
 {
     const SourceTree planted = {{"pbs/geometry/a.hpp", ""}, {"tests/unit/geometry/a.cpp", ""}, {"tests/unit/elsewhere/b.cpp", ""}};
