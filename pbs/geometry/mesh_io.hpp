@@ -1,5 +1,5 @@
-// Reading and writing meshes by libraries: Gmsh (.msh 2.2 and 4.1, MEDIT .mesh), VTK (.vtu, .vtk), CGAL-free surfaces by assimp (.obj,
-// .ply, .off, .stl, .gltf, .glb); TetGen's .node/.ele, which no library in Debian reads alone, here. Bad files are InputErrors.
+// Reading and writing meshes. Read by libraries: Gmsh (.msh 2.2 and 4.1, MEDIT .mesh; a module, loaded with the first such file), VTK
+// (.vtu, .vtk), assimp (surfaces); TetGen's .node/.ele, which no library in Debian reads alone, here. Bad files are InputErrors.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -15,8 +15,8 @@ struct MeshReading {
     int flipped_tets = 0;  // orientation was normalised on so many
 };
 
-// A tet mesh to compute on: finite, not empty, indices in range, no tet without volume; vertices no tet uses are an error. Orientation
-// is normalised.
+// A tet mesh to compute on: finite, not empty, indices in range, no tet without volume, no face in three tets, boundary manifold; a
+// vertex that no tet uses or that is given twice is an error. Orientation is normalised.
 MeshReading read_tet_mesh(const std::string& path);
 
 // Points and tets as they stand in the file, inverted tets and all: what the ruler wants of deformed frames.
@@ -29,7 +29,10 @@ struct SurfaceMesh {
     Positions points;     // [m], #S x 3
     Triangles triangles;  // #F x 3
 };
-SurfaceMesh read_surface(const std::string& path);  // polygons are triangulated, points split at texture seams are joined
+
+// .obj, .ply, .off, .stl, .gltf, .glb, .dae, .zae. Polygons are triangulated, points split at texture seams are joined (equal
+// coordinates, to the bit), nodes' transforms and the file's unit applied. mesh_name: the mesh or node of that name alone.
+SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name = "");
 
 // One deformed frame as VTK XML: Float64, compressed, atomic. Fields have one entry a point (or 3, or one a cell).
 struct FrameFields {

@@ -1,27 +1,38 @@
 // Tet meshes of the built-in bodies and of surfaces, by CGAL (Mesh_3, alpha_wrap_3).
+//   TetMesh limb = mesh_limb(1775);
+//   TetMesh body = mesh_surface(read_surface("body.obj"), {.vertices = 2000});
+// The same call gives the same mesh to the bit: seeds are fixed and no limit is a time.
 #pragma once
 
 #include "pbs/geometry/mesh_io.hpp"
 
+#include <vector>
+
 namespace pbs {
 
 // Limb: capsule of radius 0.15 m round (-1,0,0) -> (1,0,0) m with round caps. Bar: [-1, 1] x [-0.15, 0.15]^2 m.
-// `vertices`: wanted number; what comes out is within some 10 % (the cell size is searched).
+// `vertices`: wanted number, at least 150; what comes out is within 10 % (the cell size is searched).
 TetMesh mesh_limb(int vertices);
 TetMesh mesh_bar(int vertices);
 
 // A closed or nearly closed surface [m] -> tets of about the wanted number of vertices: wrapped (alpha_wrap_3), meshed with a cell
 // size proportional to the local thickness, perturbed and exuded, checked, tried again with another facet distance where the check fails.
+// The tets' boundary lies up to about wrap_offset_m + wrap_alpha_m from the surface.
 struct SurfaceMeshing {
     int vertices = 2000;
-    double wrap_alpha_m = 0.0;      // 0: from the size of the body
+    double wrap_alpha_m = 0.0;      // smallest gap the wrap enters; 0: the bounding box's diagonal / 170
     double wrap_offset_m = 0.0;     // 0: alpha / 3
     double min_dihedral_deg = 5.0;  // asked of every tet
+    int boundary_euler = 2;         // asked of the boundary; 2: a ball, 0: a body with one handle
     std::vector<Vec3> inside;       // points that must lie inside, e.g. joints
 };
 TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options);
 
-// The boundary triangles intersect each other somewhere, neighbours aside.
+// Triangles that share no vertex or edge meet somewhere, or neighbours overlap.
 bool self_intersects(const Positions& positions, const Triangles& boundary);
+int count_self_intersections(const Positions& positions, const Triangles& boundary);  // pairs of triangles
+
+// Which points lie inside or on a closed manifold boundary.
+std::vector<bool> points_inside(const Positions& positions, const Triangles& boundary, const std::vector<Vec3>& points);
 
 }  // namespace pbs

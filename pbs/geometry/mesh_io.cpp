@@ -1,0 +1,45 @@
+#include "pbs/geometry/mesh_io.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/mesh_io_checks.hpp"
+#include "pbs/geometry/mesh_io_formats.hpp"
+
+namespace pbs {
+namespace {
+
+TetMesh read_by_extension(const std::string& path)
+{
+    const std::string extension = lower_extension(path);
+    const bool vtk = extension == ".vtu" || extension == ".vtk";
+    const bool gmsh = extension == ".msh" || extension == ".mesh";
+    const bool tetgen = extension == ".node" || extension == ".ele";
+    if (!vtk && !gmsh && !tetgen)
+        throw InputError(path, 0, "extension", extension, "expected a tet mesh: .msh, .vtu, .vtk, .mesh, .node or .ele");
+    require_readable(path);
+    return vtk ? read_vtk(path) : gmsh ? read_gmsh(path) : read_tetgen(path);
+}
+
+}  // namespace
+
+TetMesh read_tet_frame(const std::string& path)
+{
+    TetMesh mesh = read_by_extension(path);
+    check_frame(path, mesh);
+    return mesh;
+}
+
+MeshReading read_tet_mesh(const std::string& path)
+{
+    return check_rest(path, read_by_extension(path));
+}
+
+void write_tet_mesh(const std::string& path, const TetMesh& mesh)
+{
+    const std::string extension = lower_extension(path);
+    if (extension == ".msh") return write_msh(path, mesh);
+    if (extension == ".mesh") return write_medit(path, mesh);
+    if (extension == ".vtu") return write_vtu(path, mesh.rest, mesh.tets, {});
+    throw InputError(path, 0, "extension", extension, "expected .msh, .vtu or .mesh");
+}
+
+}  // namespace pbs

@@ -1,0 +1,131 @@
+#include "pbs/geometry/mesh_io_checks.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/mesh_io_formats.hpp"
+#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace pbs {
+namespace {
+
+// |V| / (longest edge)^3 is 0.118 for the regular tet. Rounding of the coordinates alone leaves some 1e-16 D / l of it, D the distance
+// from the origin: 1e-10 keeps clear of that for every mesh with D / l < 1e5.
+constexpr double flat_tet = 1e-10;
+
+std::string numbered(const char* what, Eigen::Index i)
+{
+    return what + std::string(" ") + std::to_string(i);
+}
+
+template <class Row>
+std::string listed(const Row& row)
+{
+    std::ostringstream text;
+    text.precision(17);
+    text << '(';
+    for (Eigen::Index i = 0; i < row.size(); ++i) text << (i ? ", " : "") << row(i);
+    return text.str() + ')';
+}
+
+double longest_edge(const TetMesh& mesh, Eigen::Index t)
+{
+    double longest = 0.0;
+    for (int a = 0; a < 4; ++a)
+        for (int b = a + 1; b < 4; ++b)
+            longest = std::max(longest, (mesh.rest.row(mesh.tets(t, a)) - mesh.rest.row(mesh.tets(t, b))).norm());
+    return longest;
+}
+
+int normalise_orientation(const std::string& path, TetMesh& mesh)
+{
+    int flipped = 0;
+    const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets);
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+        const double length = longest_edge(mesh, t);
+        if (!(std::abs(volumes(t)) > flat_tet * length * length * length))
+            throw InputError(path, 0, numbered("tet", t), listed(mesh.tets.row(t)),
+                             "expected a volume; its four vertices are in one plane");
+        if (volumes(t) > 0.0) continue;
+        std::swap(mesh.tets(t, 2), mesh.tets(t, 3));
+        ++flipped;
+    }
+    return flipped;
+}
+
+void check_used(const std::string& path, const TetMesh& mesh)
+{
+    std::vector<bool> used(static_cast<std::size_t>(mesh.rest.rows()));
+    for (const int vertex : mesh.tets.reshaped()) used[static_cast<std::size_t>(vertex)] = true;
+    const auto unused = std::find(used.begin(), used.end(), false);
+    if (unused != used.end()) throw InputError(path, 0, numbered("vertex", unused - used.begin()), "", "expected in a tet; no tet uses it");
+}
+
+void check_distinct(const std::string& path, const Positions& points)
+{
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(points.rows()));
+    std::iota(order.begin(), order.end(), Eigen::Index(0));
+    const auto key = [&](Eigen::Index i) { return std::array{points(i, 0), points(i, 1), points(i, 2)}; };
+    std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return std::pair(key(a), a) < std::pair(key(b), b); });
+    for (std::size_t i = 1; i < order.size(); ++i)
+        if (key(order[i - 1]) == key(order[i]))
+            throw InputError(path, 0, numbered("vertex", order[i]), listed(points.row(order[i])),
+                             "expected a point of its own; " + numbered("vertex", order[i - 1]) + " is there already");
+}
+
+void check_faces(const std::string& path, const TetMesh& mesh)
+{
+    std::vector<std::pair<std::array<int, 3>, Eigen::Index>> faces;
+    faces.reserve(static_cast<std::size_t>(4 * mesh.tets.rows()));
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
+        for (int left_out = 0; left_out < 4; ++left_out) {
+            std::array<int, 3> face{};
+            for (int corner = 0, k = 0; corner < 4; ++corner)
+                if (corner != left_out) face[static_cast<std::size_t>(k++)] = mesh.tets(t, corner);
+            std::sort(face.begin(), face.end());
+            faces.emplace_back(face, t);
+        }
+    std::sort(faces.begin(), faces.end());
+    for (std::size_t i = 2; i < faces.size(); ++i)
+        if (faces[i].first == faces[i - 2].first)
+            throw InputError(path, 0, numbered("tet", faces[i].second), listed(mesh.tets.row(faces[i].second)),
+                             "expected faces of at most two tets; one face is in three");
+}
+
+void check_boundary(const std::string& path, const TetMesh& mesh)
+{
+    if (!topology_of(mesh.tets, mesh.rest.rows()).boundary_manifold)
+        throw InputError(path, 0, "boundary", "", "expected a manifold; tets touch in a single edge or vertex, or overlap");
+}
+
+}  // namespace
+
+void check_frame(const std::string& path, const TetMesh& mesh)
+{
+    if (mesh.tets.rows() == 0) throw InputError(path, 0, "tets", "0", "expected at least one tetrahedron");
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
+        for (int corner = 0; corner < 4; ++corner) checked_index(path, t, mesh.tets(t, corner), mesh.rest.rows());
+    for (Eigen::Index i = 0; i < mesh.rest.rows(); ++i)
+        if (!mesh.rest.row(i).allFinite())
+            throw InputError(path, 0, numbered("vertex", i), listed(mesh.rest.row(i)), "expected finite coordinates [m]");
+}
+
+MeshReading check_rest(const std::string& path, TetMesh mesh)
+{
+    check_frame(path, mesh);
+    const int flipped = normalise_orientation(path, mesh);
+    check_used(path, mesh);
+    check_distinct(path, mesh.rest);
+    check_faces(path, mesh);
+    check_boundary(path, mesh);
+    return {std::move(mesh), flipped};
+}
+
+}  // namespace pbs

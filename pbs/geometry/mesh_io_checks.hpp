@@ -1,0 +1,16 @@
+// What a tet mesh must satisfy before anything is computed on it; each breach is an InputError naming the file, the vertex or tet, its
+// value and the rule. Vertices and tets are counted from 0, as in VTK.
+#pragma once
+
+#include "pbs/geometry/mesh_io.hpp"
+
+namespace pbs {
+
+// At least one tet, indices in range, coordinates finite.
+void check_frame(const std::string& path, const TetMesh& mesh);
+
+// check_frame, and: no tet without volume, no vertex unused or given twice, no face in three tets, boundary manifold. Orientation is
+// normalised by swapping the last two vertices.
+MeshReading check_rest(const std::string& path, TetMesh mesh);
+
+}  // namespace pbs

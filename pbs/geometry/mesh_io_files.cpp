@@ -1,0 +1,59 @@
+// Paths, temporary files and index ranges: what every format needs.
+#include "pbs/geometry/mesh_io_formats.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+
+namespace pbs {
+
+namespace fs = std::filesystem;
+
+std::string lower_extension(const std::string& path)
+{
+    std::string extension = fs::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    return extension;
+}
+
+void require_readable(const std::string& path)
+{
+    std::error_code code;
+    if (!fs::exists(path, code)) throw InputError(path, 0, "", "", "no such file");
+    if (!fs::is_regular_file(path, code)) throw InputError(path, 0, "", "", "expected a file");
+    if (!std::ifstream(path)) throw InputError(path, 0, "", "", "cannot be read");
+    if (fs::file_size(path, code) == 0) throw InputError(path, 0, "", "", "the file is empty");
+}
+
+int checked_index(const std::string& path, long long tet, long long index, long long points)
+{
+    if (index < 0 || index >= points)
+        throw InputError(path, 0, "tet " + std::to_string(tet) + " vertex", std::to_string(index),
+                         "expected an index from 0 to " + std::to_string(points - 1));
+    return static_cast<int>(index);
+}
+
+void write_atomically(const std::string& path, const std::function<void(const std::string&)>& write)
+{
+    const fs::path target(path);
+    const std::string name = std::string(".") + target.stem().string() + "." + std::to_string(getpid()) + target.extension().string();
+    const fs::path temporary = target.parent_path() / name;
+    std::error_code code;
+    try {
+        write(temporary.string());
+        fs::rename(temporary, target);
+    } catch (const fs::filesystem_error& error) {
+        fs::remove(temporary, code);
+        throw InputError(path, 0, "", "", "cannot be written: " + error.code().message());
+    } catch (...) {
+        fs::remove(temporary, code);
+        throw;
+    }
+}
+
+}  // namespace pbs

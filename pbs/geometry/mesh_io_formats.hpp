@@ -1,0 +1,31 @@
+// One function a format, behind mesh_io.hpp. The readers return points and tets as they stand in the file: indices in range, the rest
+// unchecked. Cells of lower dimension are left out; volume cells that are not four-node tets are InputErrors.
+#pragma once
+
+#include "pbs/geometry/mesh_io.hpp"
+
+#include <functional>
+
+namespace pbs {
+
+TetMesh read_vtk(const std::string& path);     // .vtu, .vtk, by VTK
+TetMesh read_gmsh(const std::string& path);    // .msh 2.2 and 4.1, .mesh, by Gmsh, in a module
+TetMesh read_tetgen(const std::string& path);  // .node or .ele, the other beside it
+
+// By hand, with 17 digits: Gmsh's own writer prints 16 (.msh) or 14 (.mesh), which does not read back to the bit.
+void write_msh(const std::string& path, const TetMesh& mesh);    // 4.1 ASCII
+void write_medit(const std::string& path, const TetMesh& mesh);  // .mesh, version 2
+
+// Calls write(temporary path) and renames to path, so that a killed run leaves no torn file. The temporary file keeps the extension.
+void write_atomically(const std::string& path, const std::function<void(const std::string& temporary)>& write);
+
+// ".msh" of "a/B.MSH".
+std::string lower_extension(const std::string& path);
+
+// An InputError unless the file is there, can be read and is not empty.
+void require_readable(const std::string& path);
+
+// The index as int, or an InputError: vertex indices begin at 0 and stay below the number of points.
+int checked_index(const std::string& path, long long tet, long long index, long long points);
+
+}  // namespace pbs

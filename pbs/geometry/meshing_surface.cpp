@@ -1,0 +1,222 @@
+// Surface -> alpha wrap -> Mesh_3 with a cell size proportional to the local thickness -> perturb -> exude -> checks.
+// Alpha wrap: Portaneri et al., ACM TOG 41(4), 2022. Delaunay refinement, perturbation, exudation: Jamin et al., ACM TOMS 41(4), 2015.
+#include "pbs/geometry/meshing.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/meshing_cgal.hpp"
+#include "pbs/geometry/meshing_count.hpp"
+#include "pbs/geometry/meshing_verdict.hpp"
+
+#include <CGAL/AABB_face_graph_triangle_primitive.h>
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/Mesh_complex_3_in_triangulation_3.h>
+#include <CGAL/Mesh_criteria_3.h>
+#include <CGAL/Mesh_triangulation_3.h>
+#include <CGAL/Polygon_mesh_processing/compute_normal.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polyhedral_mesh_domain_3.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/alpha_wrap_3.h>
+#include <CGAL/boost/graph/iterator.h>
+#include <CGAL/make_mesh_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace pbs {
+namespace {
+
+namespace parameters = CGAL::parameters;
+namespace pmp = CGAL::Polygon_mesh_processing;
+using Point = Kernel::Point_3;
+using Surface = CGAL::Surface_mesh<Point>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_face_graph_triangle_primitive<Surface>>>;
+using Domain = CGAL::Polyhedral_mesh_domain_3<Surface, Kernel>;
+using Triangulation = CGAL::Mesh_triangulation_3<Domain>::type;
+using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
+using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
+
+constexpr double facet_angle_deg = 25.0, radius_edge_ratio = 2.5, sliver_bound_deg = 12.0;
+
+// Relative to the body's diagonal, at size 1: what gives a standing human 2,000 vertices.
+constexpr double smallest_cell = 0.006, largest_cell = 0.03, facet_distance = 0.002;
+constexpr double cells_across = 2.0;    // a cell is at most this part of the local thickness, at size 1
+constexpr double inside_to_skin = 1.2;  // size of cells over size of facets
+
+double diagonal_of(const Positions& points)
+{
+    return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+}
+
+Surface wrap(const SurfaceMesh& surface, double alpha, double offset)
+{
+    std::vector<Point> points;
+    std::vector<std::array<std::size_t, 3>> triangles;
+    for (Eigen::Index i = 0; i < surface.points.rows(); ++i)
+        points.emplace_back(surface.points(i, 0), surface.points(i, 1), surface.points(i, 2));
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
+        triangles.push_back({static_cast<std::size_t>(surface.triangles(f, 0)), static_cast<std::size_t>(surface.triangles(f, 1)),
+                             static_cast<std::size_t>(surface.triangles(f, 2))});
+    Surface wrapped;
+    CGAL::alpha_wrap_3(points, triangles, alpha, offset, wrapped);
+    return wrapped;
+}
+
+// How far an inward ray from the middle of each face travels through the body [m], #F; averaged three times with the neighbours.
+std::vector<double> local_thickness(const Surface& surface, const Tree& tree, double diagonal)
+{
+    std::vector<double> thickness(surface.number_of_faces(), diagonal);
+    for (const auto face : surface.faces()) {
+        const auto edge = surface.halfedge(face);
+        const Point middle = CGAL::centroid(surface.point(surface.source(edge)), surface.point(surface.target(edge)),
+                                            surface.point(surface.target(surface.next(edge))));
+        const Kernel::Vector_3 normal = pmp::compute_face_normal(face, surface);
+        const auto hit = tree.first_intersection(Kernel::Ray_3(middle, -normal), [face](auto other) { return other == face; });
+        if (!hit) continue;
+        if (const Point* point = boost::get<Point>(&hit->first)) thickness[face.idx()] = std::sqrt(CGAL::squared_distance(*point, middle));
+    }
+    for (int pass = 0; pass < 3; ++pass) {
+        const std::vector<double> before = thickness;
+        for (const auto face : surface.faces()) {
+            double sum = before[face.idx()];
+            int count = 1;
+            for (const auto neighbour : CGAL::faces_around_face(surface.halfedge(face), surface)) {
+                sum += before[neighbour.idx()];
+                ++count;
+            }
+            thickness[face.idx()] = sum / count;
+        }
+    }
+    return thickness;
+}
+
+// A wrapped body, ready to be meshed at any cell size.
+class Body {
+public:
+    Body(const SurfaceMesh& surface, double alpha, double offset)
+        : diagonal_(diagonal_of(surface.points)),
+          wrapped_(wrap(surface, alpha, offset)),
+          domain_((fix_meshing_seed(), wrapped_)),
+          tree_(faces(wrapped_).begin(), faces(wrapped_).end(), wrapped_)
+    {
+        tree_.accelerate_distance_queries();
+        thickness_ = local_thickness(wrapped_, tree_, diagonal_);
+    }
+
+    double volume() const { return CGAL::to_double(pmp::volume(wrapped_)); }
+
+    // size 1: cells as above; distance 1: facets as near to the wrap as above.
+    Complex refined(double size, double distance) const
+    {
+        fix_meshing_seed();
+        const Sizing skin{*this, size}, flesh{*this, inside_to_skin * size};
+        const Criteria criteria(parameters::facet_angle = facet_angle_deg, parameters::facet_size = skin,
+                                parameters::facet_distance = facet_distance * diagonal_ * distance * size,
+                                parameters::facet_topology = CGAL::FACET_VERTICES_ON_SAME_SURFACE_PATCH,
+                                parameters::cell_radius_edge_ratio = radius_edge_ratio, parameters::cell_size = flesh);
+        return CGAL::make_mesh_3<Complex>(domain_, criteria, parameters::no_perturb(), parameters::no_exude(), parameters::manifold());
+    }
+
+    // No time limit is given: both end by themselves, and the same way each time.
+    void optimise(Complex& complex) const
+    {
+        CGAL::perturb_mesh_3(complex, domain_, parameters::sliver_bound = sliver_bound_deg);
+        CGAL::exude_mesh_3(complex, parameters::sliver_bound = sliver_bound_deg);
+    }
+
+private:
+    struct Sizing {
+        using FT = Kernel::FT;
+        using Point_3 = Point;
+        using Index = Domain::Index;
+        const Body& body;
+        double size;
+
+        FT operator()(const Point& p, int, const Index&) const
+        {
+            const double thickness = body.thickness_[body.tree_.closest_point_and_primitive(p).second.idx()];
+            return size * std::clamp(thickness / cells_across, smallest_cell * body.diagonal_, largest_cell * body.diagonal_);
+        }
+    };
+
+    double diagonal_;
+    Surface wrapped_;
+    Domain domain_;
+    Tree tree_;
+    std::vector<double> thickness_;
+};
+
+// The signed volume inside the triangles, as if closed by a fan from their mean [m^3].
+double enclosed_volume(const SurfaceMesh& surface)
+{
+    const Vec3 middle = surface.points.colwise().mean().transpose();
+    double volume = 0.0;
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+        const Vec3 a = surface.points.row(surface.triangles(f, 0)).transpose() - middle;
+        const Vec3 b = surface.points.row(surface.triangles(f, 1)).transpose() - middle;
+        const Vec3 c = surface.points.row(surface.triangles(f, 2)).transpose() - middle;
+        volume += a.cross(b).dot(c) / 6.0;
+    }
+    return volume;
+}
+
+void check_input(const SurfaceMesh& surface, const SurfaceMeshing& options)
+{
+    if (options.vertices < 150) throw InputError("", 0, "vertices", std::to_string(options.vertices), "expected at least 150");
+    if (surface.triangles.rows() < 4)
+        throw InputError("", 0, "triangles", std::to_string(surface.triangles.rows()), "expected a closed surface: at least 4");
+    if (!surface.points.allFinite()) throw InputError("", 0, "points", "", "expected finite coordinates [m]");
+    if (surface.triangles.minCoeff() < 0 || surface.triangles.maxCoeff() >= surface.points.rows())
+        throw InputError("", 0, "triangles", "", "expected indices of points");
+}
+
+// An open sheet is wrapped on both sides: its wrap holds far less, or far more, than the surface seems to enclose.
+void check_closed(const SurfaceMesh& surface, const Body& body)
+{
+    const double enclosed = enclosed_volume(surface), ratio = body.volume() / std::abs(enclosed);
+    if (!(ratio > 0.5 && ratio < 2.0))
+        throw InputError("", 0, "wrapped volume / enclosed volume", std::to_string(ratio),
+                         "expected 0.5 to 2: a closed or nearly closed surface, its triangles oriented one way");
+}
+
+// The cell size that refines to the wanted number of vertices; optimising hardly changes it.
+double size_of(const Body& body, int vertices)
+{
+    double size = 1.0, found = 1.0;
+    const auto mesh_at = [&](double s) { return tet_mesh_of(body.refined(size = s, 1.0)); };
+    double nearest = std::numeric_limits<double>::infinity();
+    mesh_at_vertex_count(vertices, 1.0, [&](double s) {
+        TetMesh mesh = mesh_at(s);
+        const double miss = std::abs(static_cast<double>(mesh.rest.rows()) - vertices);
+        if (miss < nearest) nearest = miss, found = s;
+        return mesh;
+    });
+    return found;
+}
+
+}  // namespace
+
+TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
+{
+    check_input(surface, options);
+    const double alpha = options.wrap_alpha_m > 0.0 ? options.wrap_alpha_m : diagonal_of(surface.points) / 170.0;
+    const double offset = options.wrap_offset_m > 0.0 ? options.wrap_offset_m : alpha / 3.0;
+    const Body body(surface, alpha, offset);
+    check_closed(surface, body);
+
+    const double size = size_of(body, options.vertices);
+    std::string breach;
+    for (const double distance : {1.0, 0.8, 1.25, 0.6, 1.6, 0.45}) {
+        Complex complex = body.refined(size, distance);
+        body.optimise(complex);
+        TetMesh mesh = tet_mesh_of(complex);
+        breach = breach_of(mesh, options);
+        if (breach.empty()) return mesh;
+    }
+    throw InputError("", 0, "surface", "", "could not be meshed with the quality asked: " + breach);
+}
+
+}  // namespace pbs

@@ -1,0 +1,35 @@
+// Modules: parts of the program in shared objects of their own, loaded when first asked for, because the library behind them is slow
+// to load (libgmsh alone brings some 90 shared objects) and most runs never need it.
+//   auto* read = load_module("pbskin_gmsh").function<void(const std::string&, TetMesh&)>("pbskin_gmsh_read");
+// lib<name>.so is looked for in the folder named by the environment variable PBSKIN_MODULES, else beside the executable's folder in
+// ../lib (a build) and ../lib/pbskin (an installation). A module that is not there is an InputError saying where it was looked for.
+#pragma once
+
+#include <string>
+
+namespace pbs {
+
+class Module {
+public:
+    Module(std::string path, void* handle) : path_(std::move(path)), handle_(handle) {}
+
+    // The function of that C name; its type is the caller's word.
+    template <class Function>
+    Function* function(const char* symbol) const
+    {
+        return reinterpret_cast<Function*>(address(symbol));
+    }
+
+    const std::string& path() const { return path_; }
+
+private:
+    void* address(const char* symbol) const;
+
+    std::string path_;
+    void* handle_;
+};
+
+// Loaded once and kept to the end of the program; may be called from any thread.
+const Module& load_module(const std::string& name);
+
+}  // namespace pbs

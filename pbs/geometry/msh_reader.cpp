@@ -1,0 +1,59 @@
+// The door of the Gmsh module: looks at the file before the library may, because Gmsh runs a file that is no mesh as a script.
+#include "pbs/geometry/mesh_io_formats.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/module.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <mutex>
+
+namespace pbs {
+namespace {
+
+std::string first_word(const std::string& text)
+{
+    const std::size_t begin = text.find_first_not_of(" \t\r\n");
+    if (begin == std::string::npos) return "";
+    return text.substr(begin, std::min<std::size_t>(text.find_first_of(" \t\r\n", begin) - begin, 40));
+}
+
+void check_msh(const std::string& path, const std::string& text)
+{
+    if (text.rfind("$MeshFormat", 0) != 0) throw InputError(path, 1, "", "", "expected a Gmsh file beginning with $MeshFormat");
+    for (const char* section : {"Nodes", "Elements"}) {
+        if (text.find(std::string("\n$") + section) == std::string::npos)
+            throw InputError(path, 0, "", "", std::string("the section $") + section + " is missing");
+        if (text.find(std::string("$End") + section) == std::string::npos)
+            throw InputError(path, 0, "", "", std::string("truncated: $End") + section + " is missing");
+    }
+}
+
+void check_medit(const std::string& path, const std::string& text)
+{
+    if (first_word(text) != "MeshVersionFormatted")
+        throw InputError(path, 1, "", "", "expected a MEDIT file beginning with MeshVersionFormatted");
+    for (const char* section : {"Vertices", "Tetrahedra"})
+        if (text.find(section) == std::string::npos)
+            throw InputError(path, 0, "", "", std::string("the section ") + section + " is missing");
+}
+
+}  // namespace
+
+TetMesh read_gmsh(const std::string& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    if (lower_extension(path) == ".msh")
+        check_msh(path, text);
+    else
+        check_medit(path, text);
+
+    static std::mutex one_session_at_a_time;  // Gmsh is global
+    const std::lock_guard lock(one_session_at_a_time);
+    TetMesh mesh;
+    load_module("pbskin_gmsh").function<void(const std::string&, TetMesh&)>("pbskin_gmsh_read")(path, mesh);
+    return mesh;
+}
+
+}  // namespace pbs

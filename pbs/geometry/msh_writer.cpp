@@ -1,0 +1,85 @@
+// Gmsh 4.1 and MEDIT, both ASCII with 17 digits, one entity (3, 1) holding all tets.
+// Formats: Gmsh reference manual 4.8, "MSH file format"; MEDIT, Frey, "MEDIT: an interactive mesh visualization software" (INRIA, 2001).
+#include "pbs/geometry/mesh_io_formats.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <fstream>
+
+namespace pbs {
+namespace {
+
+// 17 significant digits name a double exactly.
+void write_text(const std::string& path, const std::function<void(std::ofstream&)>& write)
+{
+    write_atomically(path, [&](const std::string& temporary) {
+        std::ofstream file(temporary);
+        file.precision(17);
+        write(file);
+        file.close();
+        if (!file) throw InputError(path, 0, "", "", "cannot be written");
+    });
+}
+
+void write_point(std::ofstream& file, const Positions& points, Eigen::Index i)
+{
+    file << points(i, 0) << ' ' << points(i, 1) << ' ' << points(i, 2);
+}
+
+void write_corners(std::ofstream& file, const Tets& tets, Eigen::Index t)
+{
+    for (int corner = 0; corner < 4; ++corner) file << tets(t, corner) + 1 << ' ';
+}
+
+void write_msh_entities(std::ofstream& file, const Positions& points)
+{
+    Vec3 low = Vec3::Zero(), high = Vec3::Zero();
+    if (points.rows() > 0) {
+        low = points.colwise().minCoeff().transpose();
+        high = points.colwise().maxCoeff().transpose();
+    }
+    file << "$Entities\n0 0 0 1\n1 " << low.transpose() << ' ' << high.transpose() << " 0 0\n$EndEntities\n";
+}
+
+}  // namespace
+
+void write_msh(const std::string& path, const TetMesh& mesh)
+{
+    write_text(path, [&](std::ofstream& file) {
+        const Eigen::Index points = mesh.rest.rows(), tets = mesh.tets.rows();
+        file << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+        write_msh_entities(file, mesh.rest);
+        file << "$Nodes\n1 " << points << " 1 " << points << "\n3 1 0 " << points << '\n';
+        for (Eigen::Index i = 0; i < points; ++i) file << i + 1 << '\n';
+        for (Eigen::Index i = 0; i < points; ++i) {
+            write_point(file, mesh.rest, i);
+            file << '\n';
+        }
+        file << "$EndNodes\n$Elements\n1 " << tets << " 1 " << tets << "\n3 1 4 " << tets << '\n';
+        for (Eigen::Index t = 0; t < tets; ++t) {
+            file << t + 1 << ' ';
+            write_corners(file, mesh.tets, t);
+            file << '\n';
+        }
+        file << "$EndElements\n";
+    });
+}
+
+void write_medit(const std::string& path, const TetMesh& mesh)
+{
+    write_text(path, [&](std::ofstream& file) {
+        file << "MeshVersionFormatted 2\nDimension 3\nVertices\n" << mesh.rest.rows() << '\n';
+        for (Eigen::Index i = 0; i < mesh.rest.rows(); ++i) {
+            write_point(file, mesh.rest, i);
+            file << " 1\n";
+        }
+        file << "Tetrahedra\n" << mesh.tets.rows() << '\n';
+        for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+            write_corners(file, mesh.tets, t);
+            file << "1\n";
+        }
+        file << "End\n";
+    });
+}
+
+}  // namespace pbs

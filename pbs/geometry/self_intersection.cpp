@@ -1,0 +1,75 @@
+// What is asked of closed triangle meshes, by CGAL's Polygon_mesh_processing.
+#include "pbs/geometry/meshing.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/meshing_cgal.hpp"
+
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/helpers.h>
+
+#include <array>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace pbs {
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+using Point = Kernel::Point_3;
+using Surface = CGAL::Surface_mesh<Point>;
+
+struct Soup {
+    std::vector<Point> points;
+    std::vector<std::array<std::size_t, 3>> triangles;
+};
+
+Soup soup_of(const Positions& positions, const Triangles& triangles)
+{
+    Soup soup;
+    for (Eigen::Index i = 0; i < positions.rows(); ++i) soup.points.emplace_back(positions(i, 0), positions(i, 1), positions(i, 2));
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        soup.triangles.push_back({static_cast<std::size_t>(triangles(f, 0)), static_cast<std::size_t>(triangles(f, 1)),
+                                  static_cast<std::size_t>(triangles(f, 2))});
+    return soup;
+}
+
+// Where the triangles are no manifold, the vertices in the way are doubled.
+Surface surface_of(const Positions& positions, const Triangles& triangles)
+{
+    Soup soup = soup_of(positions, triangles);
+    if (!pmp::is_polygon_soup_a_polygon_mesh(soup.triangles)) pmp::orient_polygon_soup(soup.points, soup.triangles);
+    Surface surface;
+    pmp::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, surface);
+    return surface;
+}
+
+}  // namespace
+
+int count_self_intersections(const Positions& positions, const Triangles& triangles)
+{
+    std::vector<std::pair<Surface::Face_index, Surface::Face_index>> pairs;
+    pmp::self_intersections(surface_of(positions, triangles), std::back_inserter(pairs));
+    return static_cast<int>(pairs.size());
+}
+
+bool self_intersects(const Positions& positions, const Triangles& boundary)
+{
+    return pmp::does_self_intersect(surface_of(positions, boundary));
+}
+
+std::vector<bool> points_inside(const Positions& positions, const Triangles& boundary, const std::vector<Vec3>& points)
+{
+    const Surface surface = surface_of(positions, boundary);
+    if (surface.is_empty() || !CGAL::is_closed(surface)) throw InputError("", 0, "boundary", "", "expected a closed surface");
+    const CGAL::Side_of_triangle_mesh<Surface, Kernel> side_of(surface);
+    std::vector<bool> inside;
+    for (const Vec3& p : points) inside.push_back(side_of(Point(p(0), p(1), p(2))) != CGAL::ON_UNBOUNDED_SIDE);
+    return inside;
+}
+
+}  // namespace pbs

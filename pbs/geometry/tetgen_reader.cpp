@@ -1,0 +1,115 @@
+// TetGen's pair NAME.node and NAME.ele: plain numbers, '#' begins a comment, vertices counted from 0 or 1 as the first one says.
+// Format: Si, "TetGen, a Delaunay-based quality tetrahedral mesh generator", ACM TOMS 41 (2015), and its manual, section 5.2.
+#include "pbs/geometry/mesh_io_formats.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+namespace pbs {
+namespace {
+
+// The lines of numbers of one file, one at a time.
+class NumberLines {
+public:
+    explicit NumberLines(const std::string& path) : path_(path), file_(path) { require_readable(path); }
+
+    // The next line that holds numbers; at least `least` of them.
+    const std::vector<double>& next(const char* field, std::size_t least)
+    {
+        do read_line(field);
+        while (numbers_.empty());
+        if (numbers_.size() < least) fail(field, text_, "expected at least " + std::to_string(least) + " numbers");
+        return numbers_;
+    }
+
+    // A whole number from the current line.
+    long long whole(const char* field, std::size_t column, long long low, long long high) const
+    {
+        const double number = numbers_[column];
+        if (!(number >= static_cast<double>(low) && number <= static_cast<double>(high)) ||
+            number != static_cast<double>(static_cast<long long>(number)))
+            fail(field, std::to_string(number), "expected a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+        return static_cast<long long>(number);
+    }
+
+    [[noreturn]] void fail(const std::string& field, const std::string& value, const std::string& rule) const
+    {
+        throw InputError(path_, line_, field, value, rule);
+    }
+
+private:
+    void read_line(const char* field)
+    {
+        if (!std::getline(file_, text_)) fail(field, "", "truncated: the file ends here");
+        ++line_;
+        text_ = text_.substr(0, text_.find('#'));
+        numbers_.clear();
+        const char* at = text_.c_str();
+        for (char* end = nullptr;; at = end) {
+            const double number = std::strtod(at, &end);
+            if (end == at) break;
+            numbers_.push_back(number);
+        }
+        if (std::string_view(at).find_first_not_of(" \t\r") != std::string_view::npos) fail(field, text_.substr(0, 40), "expected numbers");
+    }
+
+    std::string path_, text_;
+    std::ifstream file_;
+    int line_ = 0;
+    std::vector<double> numbers_;
+};
+
+// A file of n bytes holds fewer than n entries: a count above that is damage and must not be allocated.
+long long most_entries(const std::string& path)
+{
+    return static_cast<long long>(std::filesystem::file_size(path));
+}
+
+Positions read_nodes(const std::string& path, long long& first)
+{
+    NumberLines lines(path);
+    lines.next("header", 2);
+    const long long count = lines.whole("#points", 0, 0, most_entries(path));
+    lines.whole("dimension", 1, 3, 3);
+    Positions points(count, 3);
+    first = 0;
+    for (long long i = 0; i < count; ++i) {
+        const std::vector<double>& numbers = lines.next("point", 4);
+        if (i == 0) first = lines.whole("first point", 0, 0, 1);
+        lines.whole("point", 0, first + i, first + i);
+        for (std::size_t k = 0; k < 3; ++k) points(i, static_cast<Eigen::Index>(k)) = numbers[k + 1];
+    }
+    return points;
+}
+
+Tets read_elements(const std::string& path, long long points, long long first)
+{
+    NumberLines lines(path);
+    lines.next("header", 2);
+    const long long count = lines.whole("#tets", 0, 0, most_entries(path));
+    lines.whole("nodes per tet", 1, 4, 4);
+    Tets tets(count, 4);
+    for (long long t = 0; t < count; ++t) {
+        lines.next("tet", 5);
+        for (std::size_t k = 0; k < 4; ++k)
+            tets(t, static_cast<Eigen::Index>(k)) = static_cast<int>(lines.whole("tet vertex", k + 1, first, first + points - 1) - first);
+    }
+    return tets;
+}
+
+}  // namespace
+
+TetMesh read_tetgen(const std::string& path)
+{
+    long long first = 0;
+    TetMesh mesh;
+    mesh.rest = read_nodes(std::filesystem::path(path).replace_extension(".node").string(), first);
+    mesh.tets = read_elements(std::filesystem::path(path).replace_extension(".ele").string(), mesh.rest.rows(), first);
+    return mesh;
+}
+
+}  // namespace pbs
