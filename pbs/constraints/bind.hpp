@@ -1,11 +1,11 @@
 // The bind constraint of a vertex to its nearest bone, Sec. 3.6: a stretch constraint to its projection q on that bone,
 //   C(p) = |p - q| - d,
 // where q is a material point of the bone, moves with it and has infinite mass: the bone takes the reaction, so momentum is not conserved.
-//   project(BindConstraint<double>{7, rest_distance, 1.0}, posed_bind_point, particle);
+//   project(BindConstraint<double>{7, rest_distance, 1.0}, 1.0, q, p);
 // A vertex on the bone (d = 0) is drawn to its material point by the same formula: k = 1 puts it there.
 #pragma once
 
-#include "pbs/constraints/particle.hpp"
+#include "pbs/constraints/vector3.hpp"
 
 #include <Eigen/Geometry>
 
@@ -34,17 +34,15 @@ Vector3<Scalar> gradient(const BindConstraint<Scalar>&, const Vector3<Scalar>& p
     return (p - q) / distance;
 }
 
-// Moves the point by the share k of what removes C; a pinned one (1 / m = 0) stays.
+// Moves the point [m] by the share k of what removes C; the bone has no inverse mass. A pinned point (w = 0) stays, any other moves alike.
 template <typename Scalar>
-void project(const BindConstraint<Scalar>& constraint, const Vector3<Scalar>& q, Particle<Scalar>& particle)
+void project(const BindConstraint<Scalar>& constraint, Scalar w, const Vector3<Scalar>& q, Vector3<Scalar>& p)
 {
-    const Scalar w = particle.inverse_mass;
-    const Scalar C = value(constraint, particle.position, q);
-    const Vector3<Scalar> g = gradient(constraint, particle.position, q);
-    const Scalar denominator = w * g.squaredNorm();  // the bone's share is zero
-    if (!(denominator > Scalar(0))) return;
-    const Scalar s = C / denominator;                       // Eq. 9
-    particle.position -= s * constraint.stiffness * w * g;  // Eq. 8
+    const Vector3<Scalar> from_q = p - q;
+    const Scalar distance = from_q.norm();
+    const Scalar C = distance - constraint.rest_distance;
+    if (!(w * distance > Scalar(0))) return;
+    p -= constraint.stiffness * C / distance * from_q;  // Eq. 8-9: the gradient is from_q / distance, and w cancels
 }
 
 }  // namespace pbs

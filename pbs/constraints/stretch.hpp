@@ -1,8 +1,8 @@
 // The stretch constraint of an edge, Sec. 3.4:  C(p1, p2) = |p1 - p2| - d.
-//   project(StretchConstraint<double>{{0, 1}, rest_length, 0.2}, particle_1, particle_2);
+//   project(StretchConstraint<double>{{0, 1}, rest_length, 0.2}, 1.0, 1.0, p1, p2);
 #pragma once
 
-#include "pbs/constraints/particle.hpp"
+#include "pbs/constraints/vector3.hpp"
 
 #include <Eigen/Geometry>
 
@@ -34,19 +34,19 @@ std::array<Vector3<Scalar>, 2> gradient(const StretchConstraint<Scalar>&, const 
     return {direction, -direction};
 }
 
-// Moves both points by the share k of what removes C. Eq. 8-9 hold for m_i = 1; with unequal masses each gradient is weighted by 1 / m_i,
-// so that Eq. 3-4 still do.
+// Moves both points [m] by the share k of what removes C. w1, w2: inverse masses, in any common unit; zero is pinned. Eq. 8-9 hold for
+// m_i = 1; with unequal masses each gradient is weighted by w_i, so that Eq. 3-4 still do.
 template <typename Scalar>
-void project(const StretchConstraint<Scalar>& constraint, Particle<Scalar>& particle_1, Particle<Scalar>& particle_2)
+void project(const StretchConstraint<Scalar>& constraint, Scalar w1, Scalar w2, Vector3<Scalar>& p1, Vector3<Scalar>& p2)
 {
-    const Scalar w1 = particle_1.inverse_mass, w2 = particle_2.inverse_mass;
-    const Scalar C = value(constraint, particle_1.position, particle_2.position);  // Eq. 10
-    const auto [g1, g2] = gradient(constraint, particle_1.position, particle_2.position);
-    const Scalar denominator = w1 * g1.squaredNorm() + w2 * g2.squaredNorm();
+    const Vector3<Scalar> p12 = p1 - p2;
+    const Scalar length = p12.norm();
+    const Scalar C = length - constraint.rest_length;  // Eq. 10
+    const Scalar denominator = (w1 + w2) * length;     // gradients are +-p12 / length, so sum w |g|^2 = w1 + w2
     if (!(denominator > Scalar(0))) return;
-    const Scalar s = C / denominator;                           // Eq. 9
-    particle_1.position -= s * constraint.stiffness * w1 * g1;  // Eq. 8
-    particle_2.position -= s * constraint.stiffness * w2 * g2;
+    const Vector3<Scalar> k_s_g1 = constraint.stiffness * C / denominator * p12;  // s of Eq. 9
+    p1 -= w1 * k_s_g1;                                                            // Eq. 8
+    p2 += w2 * k_s_g1;
 }
 
 }  // namespace pbs

@@ -1,5 +1,5 @@
 // Eq. 12-20 as they stand in print, for the experiment on what that does to the volume; volume.hpp is the form to use.
-//   project_printed<Printed::labels_relative>(constraint, particle_1, particle_2, particle_3, particle_4);
+//   project_printed<Printed::labels_relative>(constraint, p1, p2, p3, p4);
 // Under p2 is printed what belongs to p4, under p3 what belongs to p2, under p4 what belongs to p3; the products are of absolute positions;
 // and Eq. 17-20 carry the opposite sign of Eq. 8. All for m_i = 1.
 #pragma once
@@ -27,19 +27,18 @@ std::array<Vector3<Scalar>, 4> gradient_printed(const VolumeConstraint<Scalar>& 
 }
 
 template <Printed form, typename Scalar>
-void project_printed(const VolumeConstraint<Scalar>& constraint, Particle<Scalar>& particle_1, Particle<Scalar>& particle_2,
-                     Particle<Scalar>& particle_3, Particle<Scalar>& particle_4)
+void project_printed(const VolumeConstraint<Scalar>& constraint, Vector3<Scalar>& p1, Vector3<Scalar>& p2, Vector3<Scalar>& p3,
+                     Vector3<Scalar>& p4)
 {
-    const Vector3<Scalar>&p1 = particle_1.position, &p2 = particle_2.position, &p3 = particle_3.position, &p4 = particle_4.position;
     const Scalar C = value(constraint, p1, p2, p3, p4);  // Eq. 11
     const auto [g1, g2, g3, g4] = gradient_printed<form>(constraint, p1, p2, p3, p4);
     const Scalar denominator = g1.squaredNorm() + g2.squaredNorm() + g3.squaredNorm() + g4.squaredNorm();
     if (!(denominator > Scalar(0))) return;
-    const Scalar s = C / denominator;                      // Eq. 21
-    particle_1.position += s * constraint.stiffness * g1;  // Eq. 17, its minus is in Eq. 16
-    particle_2.position += s * constraint.stiffness * g2;  // Eq. 18
-    particle_3.position += s * constraint.stiffness * g3;  // Eq. 19
-    particle_4.position += s * constraint.stiffness * g4;  // Eq. 20
+    const Scalar k_s = constraint.stiffness * C / denominator;  // s of Eq. 21
+    p1 += k_s * g1;                                             // Eq. 17, its minus is in Eq. 16
+    p2 += k_s * g2;                                             // Eq. 18
+    p3 += k_s * g3;                                             // Eq. 19
+    p4 += k_s * g4;                                             // Eq. 20
 }
 
 }  // namespace pbs

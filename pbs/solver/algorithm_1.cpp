@@ -34,7 +34,7 @@ Algorithm1<Scalar>::Algorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_
       constraints_(make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, options)),
       jiggling_(jiggling_vertices(jiggle_zone, options)),
       x_(mesh.rest),
-      particles_(mesh.rest.rows()),
+      projected_(mesh.rest.rows()),
       bind_points_(mesh.rest.rows())
 {
 }
@@ -58,17 +58,17 @@ StepSummary Algorithm1<Scalar>::advance(const Positions& lbs_positions, const Po
         p_.row(i) = x_.row(i) + v_.row(j) * dt_s;               // (8)
     }                                                           // (9)
 
-    load_particles(bind_points);
+    load(bind_points);
     bool converged = false;
     while (summary.iterations < options_.iterations && !converged)  // (10)
     {
-        project_bind_constraints(constraints_, bind_points_, particles_);            // (11)
-        project_stretch_constraints(constraints_, particles_);                       // (12)
-        project_volume_constraints(constraints_, options_.volume_form, particles_);  // (13)
+        project_bind_constraints(constraints_, bind_points_, projected_);  // (11)
+        project_stretch_constraints(constraints_, projected_);             // (12)
+        project_volumes();                                                 // (13)
         ++summary.iterations;
         converged = examine_residuals(summary);
     }  // (14)
-    store_particles();
+    store();
 
     for (std::size_t j = 0; j < jiggling_.size(); ++j)                     // (15)
         v_.row(j) = (p_.row(jiggling_[j]) - x_.row(jiggling_[j])) / dt_s;  // (16)
@@ -83,27 +83,42 @@ StepSummary Algorithm1<Scalar>::advance(const Positions& lbs_positions, const Po
 template <typename Scalar>
 void Algorithm1<Scalar>::check_input(const Positions& lbs_positions, const Positions& bind_points, double dt_s) const
 {
-    check_rows("lbs_positions", lbs_positions, particles_.size());
-    check_rows("bind_points", bind_points, particles_.size());
-    if (!(dt_s > 0.0)) throw InputError("pbs", 0, "dt", std::to_string(dt_s) + " s", "expected a positive time step");
+    check_rows("lbs_positions", lbs_positions, projected_.size());
+    check_rows("bind_points", bind_points, projected_.size());
+    if (!jiggling_.empty() && !(dt_s > 0.0)) throw InputError("pbs", 0, "dt", std::to_string(dt_s) + " s", "expected a positive time step");
 }
 
 // The printed form of absolute positions depends on the world's origin, so it is left there.
 template <typename Scalar>
-void Algorithm1<Scalar>::load_particles(const Positions& bind_points)
+void Algorithm1<Scalar>::load(const Positions& bind_points)
 {
     const bool local = std::is_same_v<Scalar, float> && options_.volume_form != VolumeForm::labels_absolute && p_.rows() > 0;
     origin_ = local ? Vec3(p_.colwise().mean()) : Vec3(Vec3::Zero());
-    for (std::size_t i = 0; i < particles_.size(); ++i) {
-        particles_[i] = {(p_.row(i).transpose() - origin_).template cast<Scalar>(), constraints_.inverse_mass[i]};
+    for (std::size_t i = 0; i < projected_.size(); ++i) {
+        projected_[i] = (p_.row(i).transpose() - origin_).template cast<Scalar>();
         bind_points_[i] = (bind_points.row(i).transpose() - origin_).template cast<Scalar>();
     }
 }
 
 template <typename Scalar>
-void Algorithm1<Scalar>::store_particles()
+void Algorithm1<Scalar>::project_volumes()
 {
-    for (std::size_t i = 0; i < particles_.size(); ++i) p_.row(i) = particles_[i].position.template cast<double>() + origin_;
+    switch (options_.volume_form) {
+        case VolumeForm::derived:
+            return project_volume_constraints(constraints_, projected_);
+        case VolumeForm::labels_relative:
+            return project_volume_constraints_printed<Printed::labels_relative>(constraints_, projected_);
+        case VolumeForm::labels_absolute:
+            return project_volume_constraints_printed<Printed::labels_absolute>(constraints_, projected_);
+        case VolumeForm::sign:
+            return project_volume_constraints_printed<Printed::sign>(constraints_, projected_);
+    }
+}
+
+template <typename Scalar>
+void Algorithm1<Scalar>::store()
+{
+    for (std::size_t i = 0; i < projected_.size(); ++i) p_.row(i) = projected_[i].template cast<double>() + origin_;
 }
 
 // Records residuals where asked; true when the largest is below stop_residual.
@@ -111,7 +126,7 @@ template <typename Scalar>
 bool Algorithm1<Scalar>::examine_residuals(StepSummary& summary) const
 {
     if (!options_.record_iterations && options_.stop_residual <= 0.0) return false;
-    const Residuals residuals = residuals_of(constraints_, particles_, bind_points_);
+    const Residuals residuals = residuals_of(constraints_, projected_, bind_points_);
     if (options_.record_iterations) summary.history.push_back(residuals);
     return largest(residuals) < options_.stop_residual;
 }

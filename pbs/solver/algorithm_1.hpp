@@ -21,8 +21,9 @@ public:
 
 private:
     void check_input(const Positions& lbs_positions, const Positions& bind_points, double dt_s) const;
-    void load_particles(const Positions& bind_points);
-    void store_particles();
+    void load(const Positions& bind_points);
+    void project_volumes();
+    void store();
     bool examine_residuals(StepSummary& summary) const;
 
     PbsOptions options_;
@@ -34,7 +35,7 @@ private:
     Positions p_;  // p_i [m], #V x 3
 
     Vec3 origin_ = Vec3::Zero();                // [m]; what follows is relative to it
-    std::vector<Particle<Scalar>> particles_;   // p_i while it is projected
+    std::vector<Vector3<Scalar>> projected_;    // p_i while it is projected
     std::vector<Vector3<Scalar>> bind_points_;  // q_i
 };
 

@@ -1,57 +1,55 @@
 #include "pbs/solver/project_plain.hpp"
 
-#include "pbs/constraints/volume_printed.hpp"
-
 namespace pbs {
 
-namespace {
-
-// Calls project(constraint, particle_1 .. particle_4) for each tet.
-template <typename Scalar, typename Project>
-void for_each_tet(const std::vector<VolumeConstraint<Scalar>>& constraints, std::vector<Particle<Scalar>>& particles, Project project_one)
-{
-    for (const VolumeConstraint<Scalar>& tet : constraints)
-        project_one(tet, particles[tet.vertex[0]], particles[tet.vertex[1]], particles[tet.vertex[2]], particles[tet.vertex[3]]);
-}
-
-}  // namespace
-
 template <typename Scalar>
-void project_bind_constraints(const ConstraintSet<Scalar>& constraints, const std::vector<Vector3<Scalar>>& bind_points,
-                              std::vector<Particle<Scalar>>& particles)
+void project_bind_constraints(const ConstraintSet<Scalar>& constraints, const std::vector<Vector3<Scalar>>& q,
+                              std::vector<Vector3<Scalar>>& p)
 {
-    for (const BindConstraint<Scalar>& bind : constraints.bind) project(bind, bind_points[bind.vertex], particles[bind.vertex]);
+    const std::vector<Scalar>& w = constraints.inverse_mass;
+    for (const BindConstraint<Scalar>& bind : constraints.bind) project(bind, w[bind.vertex], q[bind.vertex], p[bind.vertex]);
 }
 
 template <typename Scalar>
-void project_stretch_constraints(const ConstraintSet<Scalar>& constraints, std::vector<Particle<Scalar>>& particles)
+void project_stretch_constraints(const ConstraintSet<Scalar>& constraints, std::vector<Vector3<Scalar>>& p)
 {
-    for (const StretchConstraint<Scalar>& edge : constraints.stretch) project(edge, particles[edge.vertex[0]], particles[edge.vertex[1]]);
-}
-
-template <typename Scalar>
-void project_volume_constraints(const ConstraintSet<Scalar>& constraints, VolumeForm form, std::vector<Particle<Scalar>>& particles)
-{
-    switch (form) {
-        case VolumeForm::derived:
-            return for_each_tet(constraints.volume, particles, [](const auto& tet, auto&... corner) { project(tet, corner...); });
-        case VolumeForm::labels_relative:
-            return for_each_tet(constraints.volume, particles,
-                                [](const auto& tet, auto&... corner) { project_printed<Printed::labels_relative>(tet, corner...); });
-        case VolumeForm::labels_absolute:
-            return for_each_tet(constraints.volume, particles,
-                                [](const auto& tet, auto&... corner) { project_printed<Printed::labels_absolute>(tet, corner...); });
-        case VolumeForm::sign:
-            return for_each_tet(constraints.volume, particles,
-                                [](const auto& tet, auto&... corner) { project_printed<Printed::sign>(tet, corner...); });
+    const std::vector<Scalar>& w = constraints.inverse_mass;
+    for (const StretchConstraint<Scalar>& edge : constraints.stretch) {
+        const auto [i, j] = edge.vertex;
+        project(edge, w[i], w[j], p[i], p[j]);
     }
 }
 
-template void project_bind_constraints(const ConstraintSet<float>&, const std::vector<Vector3<float>>&, std::vector<Particle<float>>&);
-template void project_bind_constraints(const ConstraintSet<double>&, const std::vector<Vector3<double>>&, std::vector<Particle<double>>&);
-template void project_stretch_constraints(const ConstraintSet<float>&, std::vector<Particle<float>>&);
-template void project_stretch_constraints(const ConstraintSet<double>&, std::vector<Particle<double>>&);
-template void project_volume_constraints(const ConstraintSet<float>&, VolumeForm, std::vector<Particle<float>>&);
-template void project_volume_constraints(const ConstraintSet<double>&, VolumeForm, std::vector<Particle<double>>&);
+template <typename Scalar>
+void project_volume_constraints(const ConstraintSet<Scalar>& constraints, std::vector<Vector3<Scalar>>& p)
+{
+    const std::vector<Scalar>& w = constraints.inverse_mass;
+    for (const VolumeConstraint<Scalar>& tet : constraints.volume) {
+        const auto [i, j, k, l] = tet.vertex;
+        project(tet, w[i], w[j], w[k], w[l], p[i], p[j], p[k], p[l]);
+    }
+}
+
+template <Printed form, typename Scalar>
+void project_volume_constraints_printed(const ConstraintSet<Scalar>& constraints, std::vector<Vector3<Scalar>>& p)
+{
+    for (const VolumeConstraint<Scalar>& tet : constraints.volume) {
+        const auto [i, j, k, l] = tet.vertex;
+        project_printed<form>(tet, p[i], p[j], p[k], p[l]);
+    }
+}
+
+template void project_bind_constraints(const ConstraintSet<float>&, const std::vector<Vector3<float>>&, std::vector<Vector3<float>>&);
+template void project_stretch_constraints(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
+template void project_volume_constraints(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
+template void project_volume_constraints_printed<Printed::labels_relative>(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
+template void project_volume_constraints_printed<Printed::labels_absolute>(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
+template void project_volume_constraints_printed<Printed::sign>(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
+template void project_bind_constraints(const ConstraintSet<double>&, const std::vector<Vector3<double>>&, std::vector<Vector3<double>>&);
+template void project_stretch_constraints(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
+template void project_volume_constraints(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
+template void project_volume_constraints_printed<Printed::labels_relative>(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
+template void project_volume_constraints_printed<Printed::labels_absolute>(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
+template void project_volume_constraints_printed<Printed::sign>(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
 
 }  // namespace pbs

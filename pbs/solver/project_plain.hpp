@@ -1,18 +1,24 @@
 // Order `plain`: one constraint after the other in file order, as the paper reads. The reference for every faster order.
+// p: particle positions [m], #V; q: posed bind points [m], #V.
 #pragma once
 
+#include "pbs/constraints/volume_printed.hpp"
 #include "pbs/solver/constraint_set.hpp"
 
 namespace pbs {
 
 template <typename Scalar>
-void project_bind_constraints(const ConstraintSet<Scalar>& constraints, const std::vector<Vector3<Scalar>>& bind_points,
-                              std::vector<Particle<Scalar>>& particles);
+void project_bind_constraints(const ConstraintSet<Scalar>& constraints, const std::vector<Vector3<Scalar>>& q,
+                              std::vector<Vector3<Scalar>>& p);
 
 template <typename Scalar>
-void project_stretch_constraints(const ConstraintSet<Scalar>& constraints, std::vector<Particle<Scalar>>& particles);
+void project_stretch_constraints(const ConstraintSet<Scalar>& constraints, std::vector<Vector3<Scalar>>& p);
 
 template <typename Scalar>
-void project_volume_constraints(const ConstraintSet<Scalar>& constraints, VolumeForm form, std::vector<Particle<Scalar>>& particles);
+void project_volume_constraints(const ConstraintSet<Scalar>& constraints, std::vector<Vector3<Scalar>>& p);
+
+// Eq. 12-20 as printed; masses are one there.
+template <Printed form, typename Scalar>
+void project_volume_constraints_printed(const ConstraintSet<Scalar>& constraints, std::vector<Vector3<Scalar>>& p);
 
 }  // namespace pbs

@@ -21,19 +21,18 @@ double rms(const Constraints& constraints, Error error)
 }  // namespace
 
 template <typename Scalar>
-Residuals residuals_of(const ConstraintSet<Scalar>& constraints, const std::vector<Particle<Scalar>>& particles,
-                       const std::vector<Vector3<Scalar>>& bind_points)
+Residuals residuals_of(const ConstraintSet<Scalar>& constraints, const std::vector<Vector3<Scalar>>& p,
+                       const std::vector<Vector3<Scalar>>& q)
 {
-    const auto p = [&](int vertex) -> const Vector3<Scalar>& { return particles[vertex].position; };
     Residuals residuals;
     residuals.stretch_rms = rms(constraints.stretch, [&](const StretchConstraint<Scalar>& c) {
-        return value(c, p(c.vertex[0]), p(c.vertex[1])) / double(c.rest_length);
+        return value(c, p[c.vertex[0]], p[c.vertex[1]]) / double(c.rest_length);
     });
     residuals.volume_rms = rms(constraints.volume, [&](const VolumeConstraint<Scalar>& c) {
-        return value(c, p(c.vertex[0]), p(c.vertex[1]), p(c.vertex[2]), p(c.vertex[3])) / double(c.rest_volume);
+        return value(c, p[c.vertex[0]], p[c.vertex[1]], p[c.vertex[2]], p[c.vertex[3]]) / double(c.rest_volume);
     });
     residuals.bind_rms_m =
-        rms(constraints.bind, [&](const BindConstraint<Scalar>& c) { return double(value(c, p(c.vertex), bind_points[c.vertex])); });
+        rms(constraints.bind, [&](const BindConstraint<Scalar>& c) { return double(value(c, p[c.vertex], q[c.vertex])); });
     return residuals;
 }
 
@@ -45,7 +44,7 @@ double largest(const Residuals& residuals)
     return result;
 }
 
-template Residuals residuals_of(const ConstraintSet<float>&, const std::vector<Particle<float>>&, const std::vector<Vector3<float>>&);
-template Residuals residuals_of(const ConstraintSet<double>&, const std::vector<Particle<double>>&, const std::vector<Vector3<double>>&);
+template Residuals residuals_of(const ConstraintSet<float>&, const std::vector<Vector3<float>>&, const std::vector<Vector3<float>>&);
+template Residuals residuals_of(const ConstraintSet<double>&, const std::vector<Vector3<double>>&, const std::vector<Vector3<double>>&);
 
 }  // namespace pbs

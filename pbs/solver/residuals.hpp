@@ -6,10 +6,10 @@
 
 namespace pbs {
 
-// bind_points: posed q_i [m], #V. A class that was left out has the residual zero.
+// p: particle positions [m], #V; q: posed bind points [m], #V. A class that was left out has the residual zero.
 template <typename Scalar>
-Residuals residuals_of(const ConstraintSet<Scalar>& constraints, const std::vector<Particle<Scalar>>& particles,
-                       const std::vector<Vector3<Scalar>>& bind_points);
+Residuals residuals_of(const ConstraintSet<Scalar>& constraints, const std::vector<Vector3<Scalar>>& p,
+                       const std::vector<Vector3<Scalar>>& q);
 
 // The largest of the three, what stop_residual is compared with: two are ratios, one is in metres. NaN where one is NaN.
 double largest(const Residuals& residuals);

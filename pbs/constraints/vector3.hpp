@@ -1,0 +1,11 @@
+// The vector of every constraint; Scalar is float or double.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace pbs {
+
+template <typename Scalar>
+using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
+
+}  // namespace pbs
