@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <set>
 
@@ -35,12 +34,10 @@ struct Node {
     const aiNodeAnim* channel = nullptr;
 };
 
-bool is_bvh(const std::string& path)
+bool is_bvh(const std::string& text)
 {
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
-    return extension == ".bvh";
-}
+    return text.starts_with("HIERARCHY");
+}  // assimp knows it by this word too
 
 Eigen::Isometry3d rigid_part(const aiMatrix4x4& transformation)
 {
@@ -80,7 +77,7 @@ Eigen::Quaterniond rotation_at(const Node& node, double tick)
     if (!node.channel || node.channel->mNumRotationKeys == 0) return Eigen::Quaterniond(node.rest_local.linear());
     double between = 0.0;
     const auto [before, after] = keys_around(node.channel->mRotationKeys, node.channel->mNumRotationKeys, tick, between);
-    return to_eigen(before->mValue).slerp(between, to_eigen(after->mValue));
+    return between > 0.0 ? to_eigen(before->mValue).slerp(between, to_eigen(after->mValue)) : to_eigen(before->mValue);
 }
 
 Vec3 position_at(const Node& node, double tick)
@@ -88,7 +85,7 @@ Vec3 position_at(const Node& node, double tick)
     if (!node.channel || node.channel->mNumPositionKeys == 0) return node.rest_local.translation();
     double between = 0.0;
     const auto [before, after] = keys_around(node.channel->mPositionKeys, node.channel->mNumPositionKeys, tick, between);
-    return (1.0 - between) * to_eigen(before->mValue) + between * to_eigen(after->mValue);
+    return between > 0.0 ? Vec3((1.0 - between) * to_eigen(before->mValue) + between * to_eigen(after->mValue)) : to_eigen(before->mValue);
 }
 
 // In world axes of the zero pose: G_parent L(t) G^-1, G the rest rotations; L(t) itself where those are the identity, as in BVH.
@@ -153,7 +150,7 @@ std::vector<Node> read_hierarchy(const aiScene& scene, Clip& clip)
 Clip read_clip(const std::string& path)
 {
     const std::string text = read_text_file(path);
-    if (is_bvh(path)) check_bvh_header(text, path);
+    if (is_bvh(text)) check_bvh_header(text, path);
     Assimp::Importer importer;
     const aiScene& scene = import(importer, path);
 
@@ -162,7 +159,7 @@ Clip read_clip(const std::string& path)
     const std::vector<Node> nodes = read_hierarchy(scene, clip);
     const aiAnimation& motion = *scene.mAnimations[0];
     const double tick_rate_hz = motion.mTicksPerSecond > 0.0 ? motion.mTicksPerSecond : default_tick_rate_hz;
-    const double ticks_per_frame = is_bvh(path) ? 1.0 : tick_rate_hz / free_key_rate_hz;
+    const double ticks_per_frame = is_bvh(text) ? 1.0 : tick_rate_hz / free_key_rate_hz;
     clip.frame_time_s = ticks_per_frame / tick_rate_hz;
     const int frames = static_cast<int>(std::floor(motion.mDuration / ticks_per_frame + 1e-6)) + 1;
     clip.root.resize(frames, 3);

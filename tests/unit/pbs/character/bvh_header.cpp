@@ -1,0 +1,51 @@
+// Truth: what assimp 5.2 lets pass and should not; each refusal by file, line and field.
+#include "pbs/character/bvh_header.hpp"
+
+#include "tests/unit/pbs/character/expect_input_error.hpp"
+
+namespace {
+
+using namespace pbs;
+
+std::string bvh(const std::string& frames, const std::string& time)
+{
+    return "HIERARCHY\nROOT a\n{\n}\nMOTION\nFrames: " + frames + "\nFrame Time: " + time + "\n0 0 0\n0 0 0\n";  // Frames in line 6
+}
+
+TEST(BvhHeader, AWholeOnePasses)
+{
+    EXPECT_NO_THROW(check_bvh_header(bvh("2", "0.0083333"), "a.bvh"));
+    EXPECT_NO_THROW(check_bvh_header(bvh("\t2", " .01"), "a.bvh"));
+}
+
+TEST(BvhHeader, WhatIsNotThereIsLeftToTheReader)
+{
+    EXPECT_NO_THROW(check_bvh_header("", "a.bvh"));
+    EXPECT_NO_THROW(check_bvh_header("HIERARCHY\nMOTION\n", "a.bvh"));
+}
+
+TEST(BvhHeader, FramesMustBeAWholeNumberAboveZero)
+{
+    for (const std::string frames : {"0", "-3", "2.5", "nan", "many"})
+        expect_input_error([&] { check_bvh_header(bvh(frames, "0.01"), "a.bvh"); }, "a.bvh:6: Frames = " + frames, "1 or more");
+}
+
+TEST(BvhHeader, FramesMustFitTheFile)
+{
+    expect_input_error([] { check_bvh_header(bvh("2000000000", "0.01"), "a.bvh"); }, "a.bvh:6: Frames = 2000000000", "too short");
+}
+
+TEST(BvhHeader, FrameTimeMustBePositiveAndFinite)
+{
+    for (const std::string time : {"0", "-0.01", "nan", "inf", "soon"})
+        expect_input_error([&] { check_bvh_header(bvh("2", time), "a.bvh"); }, "a.bvh:7: Frame Time = " + time, "> 0 [s]");
+}
+
+TEST(BvhHeader, NestingHasAnEnd)
+{
+    std::string text;
+    for (int depth = 0; depth < 100000; ++depth) text += "JOINT a\n{\n";
+    expect_input_error([&] { check_bvh_header(text, "a.bvh"); }, "a.bvh:1002: JOINT", "deeper than 500");
+}
+
+}  // namespace

@@ -1,0 +1,120 @@
+// Truth: barycentric coordinates reproduce affine maps exactly, inside and outside; distances of points from a unit tet are elementary.
+#include "pbs/character/embedding.hpp"
+
+#include "tests/support/structured_bar.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <random>
+
+namespace {
+
+using namespace pbs;
+
+TetMesh unit_tet()
+{
+    TetMesh mesh;
+    mesh.rest.resize(4, 3);
+    mesh.rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
+    mesh.tets.resize(1, 4);
+    mesh.tets << 0, 1, 2, 3;
+    return mesh;
+}
+
+TetMesh cube()
+{
+    return test_support::structured_bar(Vec3::Zero(), Vec3::Ones(), {1, 1, 1});
+}
+
+Positions random_points(int count, double lowest, double highest)
+{
+    std::mt19937 generator(20140528);
+    std::uniform_real_distribution<double> coordinate(lowest, highest);
+    Positions points(count, 3);
+    for (Eigen::Index entry = 0; entry < points.size(); ++entry) points.data()[entry] = coordinate(generator);
+    return points;
+}
+
+double largest_distance(const Vec3& point)
+{
+    Positions points(1, 3);
+    points << point.transpose();
+    return embed(points, Triangles(0, 3), unit_tet()).largest_distance_outside_m;
+}
+
+TEST(Embedding, BarycentricCoordinatesSumToOneInsideAndOutside)
+{
+    const EmbeddedSurface surface = embed(random_points(500, -0.5, 1.5), Triangles(0, 3), cube());
+    // four roundings of numbers below ten
+    EXPECT_LT((surface.barycentric.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-14);
+}
+
+TEST(Embedding, PointsInsideAreCarriedByTheTetThatHoldsThem)
+{
+    const EmbeddedSurface surface = embed(random_points(500, 0.0, 1.0), Triangles(0, 3), cube());
+    EXPECT_GE(surface.barycentric.minCoeff(), -1e-15);
+    EXPECT_EQ(surface.largest_distance_outside_m, 0.0);
+}
+
+TEST(Embedding, RestPositionsComeBack)
+{
+    const TetMesh mesh = cube();
+    const Positions points = random_points(200, -0.5, 1.5);
+    const EmbeddedSurface surface = embed(points, Triangles(0, 3), mesh);
+    EXPECT_LT((embedded_positions(surface, mesh.rest, mesh.tets) - points).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+TEST(Embedding, AffineMapsAreExact)
+{
+    const TetMesh mesh = cube();
+    const Positions points = random_points(200, -0.5, 1.5);
+    Eigen::Matrix3d linear;
+    linear << 1.5, 0.2, -0.1, 0.3, 0.8, 0.4, -0.2, 0.1, 2.0;
+    const Eigen::RowVector3d shift(3.0, -2.0, 0.5);
+    const auto mapped = [&](const Positions& p) -> Positions { return (p * linear.transpose()).rowwise() + shift; };
+
+    const EmbeddedSurface surface = embed(points, Triangles(0, 3), mesh);
+    // some ten roundings of numbers below ten
+    EXPECT_LT((embedded_positions(surface, mapped(mesh.rest), mesh.tets) - mapped(points)).cwiseAbs().maxCoeff(), 2e-14);
+}
+
+TEST(Embedding, DistanceOutsideOfAFaceAnEdgeAndACorner)
+{
+    EXPECT_NEAR(largest_distance({0.2, 0.3, -0.25}), 0.25, 1e-15);                // below the face z = 0
+    EXPECT_NEAR(largest_distance({0.5, 0.5, 0.5}), 0.5 / std::sqrt(3.0), 1e-15);  // above the slanted face
+    EXPECT_NEAR(largest_distance({0.5, -0.3, -0.4}), 0.5, 1e-15);                 // off the edge along x
+    EXPECT_NEAR(largest_distance({-1.0, -2.0, -2.0}), 3.0, 1e-14);                // off the corner at the origin
+    EXPECT_EQ(largest_distance({0.1, 0.1, 0.1}), 0.0);                            // inside
+    EXPECT_EQ(largest_distance({0.0, 0.0, 0.0}), 0.0);                            // on a corner
+}
+
+TEST(Embedding, TheNearestTetCarriesAPointOutside)
+{
+    Positions points(1, 3);
+    points << 1.2, 0.9, 0.1;  // beyond x = 1, where the first tet, x >= y >= z, has its face
+    const EmbeddedSurface surface = embed(points, Triangles(0, 3), cube());
+    EXPECT_EQ(surface.tet(0), 0);
+    EXPECT_NEAR(surface.largest_distance_outside_m, 0.2, 1e-15);
+}
+
+TEST(Embedding, PointsAreAsFarFromTheTetsAsFromTheirCube)
+{
+    const Positions points = random_points(300, -1.0, 2.0);
+    for (Eigen::Index p = 0; p < points.rows(); ++p) {
+        const EmbeddedSurface one = embed(points.row(p), Triangles(0, 3), cube());
+        const Vec3 point = points.row(p);
+        const double expected = Eigen::AlignedBox3d(Vec3::Zero(), Vec3::Ones()).exteriorDistance(point);
+        EXPECT_NEAR(one.largest_distance_outside_m, expected, 1e-14);
+    }
+}
+
+TEST(Embedding, AnEmptySurfaceStaysEmpty)
+{
+    const TetMesh mesh = cube();
+    const EmbeddedSurface surface = embed(Positions(0, 3), Triangles(0, 3), mesh);
+    EXPECT_EQ(embedded_positions(surface, mesh.rest, mesh.tets).rows(), 0);
+}
+
+}  // namespace

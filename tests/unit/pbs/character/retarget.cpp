@@ -1,0 +1,143 @@
+// Truth: clips made by hand whose poses are known in closed form.
+#include "pbs/character/clip.hpp"
+
+#include "tests/unit/pbs/character/expect_input_error.hpp"
+
+#include <cmath>
+
+namespace {
+
+using namespace pbs;
+
+const Skeleton limb{{{"upper", -1, Vec3(-1, 0, 0), Vec3(0, 0, 0)}, {"forearm", 0, Vec3(0, 0, 0), Vec3(1, 0, 0)}}};
+
+// upper -> forearm -> hand along `direction`, bones 2 units long; frame f turns the forearm by 10 f degrees about z and moves the root by f
+// along y.
+Clip bending_clip(int frames, const Vec3& direction = Vec3::UnitX())
+{
+    Clip clip;
+    clip.name = "bending.bvh";
+    clip.frame_time_s = 0.01;
+    clip.joints = {"upper", "forearm", "hand"};
+    clip.parent = {-1, 0, 1};
+    clip.zero_pose.resize(3, 3);
+    for (int joint = 0; joint < 3; ++joint) clip.zero_pose.row(joint) = 2.0 * joint * direction;
+    clip.root.resize(frames, 3);
+    for (int frame = 0; frame < frames; ++frame) {
+        const Eigen::Quaterniond bend(Eigen::AngleAxisd(frame * M_PI / 18.0, Vec3::UnitZ()));
+        clip.local.push_back({Eigen::Quaterniond::Identity(), bend, Eigen::Quaterniond::Identity()});
+        clip.root.row(frame) << 0.0, frame, 0.0;
+    }
+    return clip;
+}
+
+ClipSampling whole_clip()
+{
+    ClipSampling sampling;
+    sampling.drop_first_frame = false;
+    return sampling;
+}
+
+double angle_about_z_deg(const Eigen::Isometry3d& bone)
+{
+    return std::atan2(bone.linear()(1, 0), bone.linear()(0, 0)) * 180.0 / M_PI;
+}
+
+TEST(Retarget, EqualNamesTakeTheRotations)
+{
+    const Motion motion = retarget(bending_clip(5), limb, whole_clip());
+    ASSERT_EQ(motion.steps.size(), 5u);
+    EXPECT_EQ(motion.frames(), 5);
+    for (int frame = 0; frame < 5; ++frame) {
+        EXPECT_NEAR(angle_about_z_deg(motion.steps[frame][0]), 0.0, 1e-12);
+        EXPECT_NEAR(angle_about_z_deg(motion.steps[frame][1]), 10.0 * frame, 1e-12);
+    }
+}
+
+TEST(Retarget, TheRootsPathIsScaledByBoneLengthAndStartsAtRest)
+{
+    const Motion motion = retarget(bending_clip(5), limb, whole_clip());
+    for (int frame = 0; frame < 5; ++frame)  // bones of 1 m for limbs of 2 units
+        EXPECT_LT((motion.steps[frame][0].translation() - Vec3(0.0, 0.5 * frame, 0.0)).norm(), 1e-15);
+}
+
+TEST(Retarget, TheDroppedFrameIsNotTheFirst)
+{
+    ClipSampling sampling;
+    const Motion motion = retarget(bending_clip(5), limb, sampling);
+    ASSERT_EQ(motion.steps.size(), 4u);
+    EXPECT_NEAR(angle_about_z_deg(motion.steps[0][1]), 10.0, 1e-12);
+    EXPECT_LT(motion.steps[0][0].translation().norm(), 1e-15);
+}
+
+TEST(Retarget, AlignsTheRestDirections)
+{
+    // The clip's zero pose points along y: at frame 0 our bones, which rest along x, must point along y too.
+    const Motion motion = retarget(bending_clip(3, Vec3::UnitY()), limb, whole_clip());
+    for (int frame = 0; frame < 3; ++frame) {
+        const double turned = frame * M_PI / 18.0;
+        const Vec3 forearm = motion.steps[frame][1].linear() * Vec3::UnitX();
+        EXPECT_LT((forearm - Vec3(-std::sin(turned), std::cos(turned), 0.0)).norm(), 1e-14);
+        EXPECT_LT((motion.steps[frame][0].linear() * Vec3::UnitX() - Vec3::UnitY()).norm(), 1e-14);
+    }
+}
+
+TEST(Retarget, BonesStayJoined)
+{
+    const Motion motion = retarget(bending_clip(7, Vec3(1, 2, 3).normalized()), limb, whole_clip());
+    for (const Pose& pose : motion.steps) EXPECT_LT((pose[0] * limb.bones[0].tail - pose[1] * limb.bones[1].head).norm(), 1e-14);
+}
+
+TEST(Retarget, SlerpsBetweenFramesOnTheGridOfTheSteps)
+{
+    ClipSampling sampling = whole_clip();
+    sampling.start_s = 0.005;
+    sampling.duration_s = 0.02;
+    sampling.time_step_s = 0.0025;
+    const Motion motion = retarget(bending_clip(5), limb, sampling);
+    ASSERT_EQ(motion.steps.size(), 9u);
+    EXPECT_EQ(motion.steps_per_frame, 4);
+    EXPECT_EQ(motion.frames(), 3);
+    for (int step = 0; step < 9; ++step) EXPECT_NEAR(angle_about_z_deg(motion.steps[step][1]), 5.0 + 2.5 * step, 1e-12);
+}
+
+TEST(Retarget, BonesWithoutAJointFollowTheirParent)
+{
+    Skeleton longer = limb;
+    longer.bones.push_back({"finger", 1, Vec3(1, 0, 0), Vec3(1.2, 0, 0)});
+    const Motion motion = retarget(bending_clip(5), longer, whole_clip());
+    EXPECT_TRUE(motion.steps[4][2].isApprox(motion.steps[4][1], 1e-14));
+}
+
+TEST(Retarget, BranchingJointsAreNotAligned)
+{
+    Clip clip = bending_clip(2, Vec3::UnitY());
+    clip.joints.push_back("other");
+    clip.parent.push_back(0);
+    clip.zero_pose.conservativeResize(4, 3);
+    clip.zero_pose.row(3) << 1, 0, 0;
+    for (auto& local : clip.local) local.push_back(Eigen::Quaterniond::Identity());
+    EXPECT_TRUE(retarget(clip, limb, whole_clip()).steps[0][0].linear().isIdentity(1e-15));
+}
+
+TEST(Retarget, RefusesWhatItCannotDo)
+{
+    const auto refused = [](const std::function<void(ClipSampling&, Clip&)>& spoil, const std::string& begins, const std::string& holds) {
+        Clip clip = bending_clip(5);
+        ClipSampling sampling = whole_clip();
+        spoil(sampling, clip);
+        expect_input_error([&] { retarget(clip, limb, sampling); }, begins, holds);
+    };
+    refused([](auto& s, auto&) { s.start_s = -1.0; }, "bending.bvh: start_s = -1", "lasts 0.04");
+    refused([](auto& s, auto&) { s.start_s = 0.05; }, "bending.bvh: start_s = 0.05", "lasts 0.04");
+    refused([](auto& s, auto&) { s.start_s = std::nan(""); }, "bending.bvh: start_s = nan", "lasts");
+    refused([](auto& s, auto&) { s.duration_s = 0.05; }, "bending.bvh: duration_s = 0.05", "ends at 0.04");
+    refused([](auto& s, auto&) { s.rate_hz = 0.0; }, "rate_hz = 0", "> 0");
+    refused([](auto& s, auto&) { s.time_step_s = 0.0; }, "time_step_s = 0", "> 0");
+    refused([](auto& s, auto&) { s.time_step_s = 0.015; }, "rate_hz * time_step_s = 1.5", "1 / n");
+    refused([](auto& s, auto&) { s.time_step_s = 0.004; }, "rate_hz * time_step_s = 0.4", "1 / n");
+    refused([](auto& s, auto& c) { c = bending_clip(1), s.drop_first_frame = true; }, "bending.bvh: Frames = 1", "no frame is left");
+    refused([](auto&, auto& c) { c.joints = {"a", "b", "c"}; }, "bending.bvh: joints = a, b, c: ", "(bones: upper, forearm)");
+}
+
+}  // namespace

@@ -1,0 +1,34 @@
+// Truth: edit distances counted by hand.
+#include "pbs/character/text_file.hpp"
+
+#include "tests/unit/pbs/character/expect_input_error.hpp"
+#include "tests/unit/pbs/character/temporary_folder.hpp"
+
+namespace {
+
+using namespace pbs;
+
+TEST(NearestName, TakesTheLeastEditDistanceAndTheFirstOfEquals)
+{
+    EXPECT_EQ(nearest_name("tial_m", {"head_m", "tail_m", "name"}), "tail_m");
+    EXPECT_EQ(nearest_name("nam", {"head_m", "tail_m", "name"}), "name");
+    EXPECT_EQ(nearest_name("", {"abc", "ab", "cd"}), "ab");
+    EXPECT_EQ(nearest_name("anything", {}), "");
+}
+
+TEST(ReadTextFile, IsWholeAndToTheByte)
+{
+    const TemporaryFolder folder;
+    const std::string bytes("a\r\n\0b\n", 6);
+    EXPECT_EQ(read_text_file(folder.write("bytes", bytes)), bytes);
+}
+
+TEST(ReadTextFile, RefusesWhatCannotBeOpened)
+{
+    const TemporaryFolder folder;
+    const std::string none = (folder.path() / "none").string();
+    expect_input_error([&] { read_text_file(none); }, none + ": ", "cannot be opened");
+    expect_input_error([&] { read_text_file(folder.path().string()); }, folder.path().string(), "cannot be opened");
+}
+
+}  // namespace

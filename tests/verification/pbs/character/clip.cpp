@@ -1,0 +1,109 @@
+// Truth: an independent forward kinematics of BVH (bvh_kinematics.hpp) on a CMU clip, and a clip in closed form.
+// Needs Debian's assimp-testmodels, which set-up installs.
+#include "pbs/character/clip.hpp"
+
+#include "tests/unit/pbs/character/temporary_folder.hpp"
+#include "tests/verification/pbs/character/bvh_kinematics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace pbs;
+
+// Joint positions [clip's units] of one frame from the clip's rotations and the lengths of its zero pose.
+Positions joint_positions(const Clip& clip, int frame)
+{
+    Positions positions(clip.zero_pose.rows(), 3);
+    std::vector<Eigen::Quaterniond> global;
+    for (std::size_t j = 0; j < clip.joints.size(); ++j) {
+        const int parent = clip.parent[j];
+        global.push_back(parent < 0 ? clip.local[frame][j] : global[parent] * clip.local[frame][j]);
+        if (parent < 0)
+            positions.row(j) = clip.root.row(frame);
+        else
+            positions.row(j) =
+                positions.row(parent) + (global[parent] * Vec3(clip.zero_pose.row(j) - clip.zero_pose.row(parent))).transpose();
+    }
+    return positions;
+}
+
+TEST(ReadClip, AgreesWithIndependentKinematicsOnACmuClip)
+{
+    const std::string path = find_clip("01_01.bvh", ".");
+    const bvh_kinematics::Bvh expected = bvh_kinematics::read(path);
+    const Clip clip = read_clip(path);
+    ASSERT_EQ(clip.frames(), 2752);
+    ASSERT_EQ(static_cast<std::size_t>(clip.frames()), expected.frames.size());
+    ASSERT_EQ(clip.joints.size(), expected.joints.size());
+    EXPECT_NEAR(clip.frame_time_s, expected.frame_time_s, 1e-9);
+
+    double largest = 0.0;
+    for (int frame = 0; frame < clip.frames(); frame += 10) {
+        const Positions positions = joint_positions(clip, frame);
+        const std::vector<Eigen::Isometry3d> joints = bvh_kinematics::forward(expected, expected.frames[frame]);
+        for (std::size_t j = 0; j < joints.size(); ++j) {
+            ASSERT_EQ(clip.joints[j], expected.joints[j].name);
+            largest = std::max(largest, (Vec3(positions.row(j)) - joints[j].translation()).norm());
+        }
+    }
+    RecordProperty("largest_difference_clip_units", std::to_string(largest));
+    // assimp computes in single precision: 2^-24 of coordinates up to 30 units, over a chain of 9 joints with three products of rotations
+    // each (30 * 6e-8 * 27 = 5e-5), twice for chance.
+    EXPECT_LT(largest, 1e-4);
+}
+
+const char* const closed_form = R"(HIERARCHY
+ROOT upper
+{
+  OFFSET 0 0 0
+  CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation
+  JOINT forearm
+  {
+    OFFSET 2 0 0
+    CHANNELS 3 Zrotation Yrotation Xrotation
+    End Site
+    {
+      OFFSET 0 3 0
+    }
+  }
+}
+MOTION
+Frames: 2
+Frame Time: 0.025
+1 2 3 0 0 0 0 0 0
+-1 0 5 90 0 0 0 0 90
+)";
+
+TEST(ReadClip, ClosedForm)
+{
+    const TemporaryFolder folder;
+    const Clip clip = read_clip(folder.write("closed.bvh", closed_form));
+    ASSERT_EQ(clip.frames(), 2);
+    EXPECT_NEAR(clip.frame_time_s, 0.025, 1e-9);
+    EXPECT_EQ(clip.joints, (std::vector<std::string>{"upper", "forearm", "EndSite_forearm"}));
+    EXPECT_EQ(clip.parent, (std::vector<int>{-1, 0, 1}));
+    Positions zero(3, 3), turned(3, 3);
+    zero << 0, 0, 0, 2, 0, 0, 2, 3, 0;
+    // The root turns x to y; the forearm turns its y to z about its own x, so that the end site stands along the world's z.
+    turned << -1, 0, 5, -1, 2, 5, -1, 2, 8;
+    EXPECT_LT((clip.zero_pose - zero).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_LT((joint_positions(clip, 0) - (zero.rowwise() + Eigen::RowVector3d(1, 2, 3))).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_LT((joint_positions(clip, 1) - turned).cwiseAbs().maxCoeff(), 2e-6);  // single precision of numbers below ten
+}
+
+TEST(ReadClip, OtherFormatsThanBvh)
+{
+    // assimp's own simple_skin.gltf, the glTF tutorial's: joint 2 turns about z to 90 degrees and back, 5.5 s.
+    const Clip clip = read_clip("/usr/share/assimp/models/glTF2/simple_skin/simple_skin.gltf");
+    EXPECT_NEAR(clip.frames() * clip.frame_time_s, 5.5, 0.05);
+    double largest = 0.0;
+    for (const auto& frame : clip.local)
+        for (const Eigen::Quaterniond& rotation : frame)
+            largest = std::max(largest, rotation.angularDistance(Eigen::Quaterniond::Identity()));
+    EXPECT_NEAR(largest, M_PI / 2.0, 1e-3);
+}
+
+}  // namespace

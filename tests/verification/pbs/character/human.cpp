@@ -1,0 +1,99 @@
+// Truth: topology of a ball; MakeHuman's own joints; the surface's own volume.
+// Needs Debian's assimp-testmodels, which set-up installs. The mesh comes from the cache where it was made before.
+#include "pbs/character/bodies.hpp"
+#include "pbs/character/human.hpp"
+#include "pbs/geometry/quality.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace {
+
+using namespace pbs;
+
+const Character& human()
+{
+    static const Character character = make_character({.body = "human"});
+    return character;
+}
+
+// Volume [m^3] inside a closed surface, by the divergence theorem.
+double enclosed_volume(const Positions& points, const Triangles& triangles)
+{
+    double volume = 0.0;
+    for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+        const Vec3 a = points.row(triangles(t, 0)), b = points.row(triangles(t, 1)), c = points.row(triangles(t, 2));
+        volume += a.dot(b.cross(c)) / 6.0;
+    }
+    return volume;
+}
+
+TEST(Human, IsABallOfGoodTets)
+{
+    const Quality quality = quality_of(human().mesh);
+    RecordProperty("vertices", quality.vertices);
+    RecordProperty("edges", quality.edges);
+    RecordProperty("tets", quality.tets);
+    RecordProperty("min_dihedral_deg", std::to_string(quality.min_dihedral_deg));
+    EXPECT_TRUE(quality.topology.boundary_manifold);
+    EXPECT_EQ(quality.topology.boundary_euler, 2);
+    EXPECT_EQ(quality.topology.boundary_components, 1);
+    EXPECT_EQ(quality.topology.components, 1);
+    EXPECT_EQ(quality.topology.unused_vertices, 0);
+    EXPECT_GE(quality.min_dihedral_deg, 5.0);
+    // The paper's Table 1 has 1,654 (Man) and 2,645 (ManHQ) vertices.
+    EXPECT_GT(quality.vertices, 1654);
+    EXPECT_LT(quality.vertices, 2645);
+}
+
+TEST(Human, HasTheVolumeOfItsSurface)
+{
+    const EmbeddedSurface& surface = human().surface.value();
+    const double inside_m3 = enclosed_volume(embedded_positions(surface, human().mesh.rest, human().mesh.tets), surface.triangles);
+    const double tets_m3 = quality_of(human().mesh).volume_m3;
+    RecordProperty("surface_litres", std::to_string(1000.0 * inside_m3));
+    RecordProperty("tets_litres", std::to_string(1000.0 * tets_m3));
+    EXPECT_NEAR(tets_m3, inside_m3, 0.06 * inside_m3);  // an offset of 2 mm on 1.8 m^2 of skin is 6 %
+}
+
+TEST(Human, JointsLieInside)
+{
+    Positions heads(static_cast<Eigen::Index>(human().skeleton.bones.size()), 3);
+    for (Eigen::Index bone = 0; bone < heads.rows(); ++bone) heads.row(bone) = human().skeleton.bones[bone].head;
+    EXPECT_EQ(embed(heads, Triangles(0, 3), human().mesh).largest_distance_outside_m, 0.0);
+}
+
+TEST(Human, TheSkeletonIsOneTreeOfJoinedBones)
+{
+    const Skeleton& skeleton = human().skeleton;
+    ASSERT_EQ(skeleton.bones.size(), 23u);
+    for (std::size_t bone = 1; bone < 23; ++bone) {
+        EXPECT_GE(skeleton.bones[bone].parent, 0);
+        const std::string& name = skeleton.bones[bone].name;
+        const Bone& parent = skeleton.bones[skeleton.bones[bone].parent];
+        if (name.starts_with("clavicle") || name.starts_with("hip")) continue;  // they branch off their parents
+        EXPECT_EQ(skeleton.bones[bone].head, parent.tail) << name;
+    }
+}
+
+TEST(Human, LeftAndRightAreMirrored)
+{
+    for (const Bone& bone : human().skeleton.bones) {
+        if (!bone.name.ends_with(".L")) continue;
+        const Bone& other = human().skeleton.bones[find_bone(human().skeleton, bone.name.substr(0, bone.name.size() - 1) + "R")];
+        EXPECT_EQ(other.head, bone.head.cwiseProduct(Vec3(-1, 1, 1))) << bone.name;
+        EXPECT_EQ(other.tail, bone.tail.cwiseProduct(Vec3(-1, 1, 1))) << bone.name;
+    }
+}
+
+TEST(Human, TheSurfaceIsMakeHumansWholeAndNearTheTets)
+{
+    const EmbeddedSurface& surface = human().surface.value();
+    EXPECT_EQ(surface.tet.rows(), 13380);
+    EXPECT_EQ(surface.triangles.rows(), 2 * 13378);
+    RecordProperty("largest_distance_outside_m", std::to_string(surface.largest_distance_outside_m));
+    EXPECT_LT(surface.largest_distance_outside_m, 0.02);
+}
+
+}  // namespace
