@@ -1,9 +1,15 @@
 # Tests of the ruler.
 find_package(GSL REQUIRED)
 foreach(name IN ITEMS frame_metrics error_norms cross_section surface_volume statistics bootstrap
-        state_hash atomic_file csv_table provenance)
+        state_hash atomic_file csv_table provenance
+        claims case_record verdict claims_report)
     pbs_test(unit analysis/${name} analysis)
 endforeach()
 pbs_test(properties analysis/frame_metrics analysis)
 pbs_test(verification analysis/bootstrap analysis GSL::gsl)
 pbs_test(verification analysis/line_fit analysis GSL::gsl)
+
+# The project's own claims, read by the tests of claims and verdicts.
+foreach(name IN ITEMS claims verdict)
+    target_compile_definitions(test_unit_analysis_${name} PRIVATE PBS_CLAIMS_FILE="${PROJECT_SOURCE_DIR}/experiments/claims.toml")
+endforeach()

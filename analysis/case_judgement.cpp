@@ -1,0 +1,131 @@
+#include "analysis/case_judgement.hpp"
+
+#include "analysis/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace analysis {
+namespace {
+
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+// How far outside the bound; negative inside. What is not a number is farthest out.
+double excess(const Claim& claim, double value)
+{
+    return std::isnan(value) ? std::numeric_limits<double>::infinity() : std::max(claim.low - value, value - claim.high);
+}
+
+std::vector<bool> frames_within(const Claim& claim, const std::vector<double>& values)
+{
+    std::vector<bool> holds;
+    for (double value : values) holds.push_back(excess(claim, value) <= 0.0);
+    return holds;
+}
+
+std::vector<FailingFrame> deepest_failures(const Claim& claim, const CaseRecord& record, const std::vector<double>& values)
+{
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return excess(claim, values[a]) > excess(claim, values[b]); });
+    std::vector<FailingFrame> failures;
+    for (std::size_t i : order)
+        if (failures.size() < 3 && excess(claim, values[i]) > 0.0)
+            failures.push_back({record.frame[i], record.time_s[i], record.is_sweep() ? record.angle_deg[i] : not_known, values[i],
+                                record.inverted_tets[i]});
+    return failures;
+}
+
+// Runs of frames that hold, as ranges of sampled angles.
+std::vector<AngleRange> holding_angles(const std::vector<double>& angle_deg, const std::vector<bool>& holds)
+{
+    std::vector<AngleRange> ranges;
+    for (std::size_t i = 0; i < holds.size(); ++i) {
+        if (!holds[i]) continue;
+        if (i == 0 || !holds[i - 1]) ranges.push_back({angle_deg[i], angle_deg[i]});
+        ranges.back().to_deg = angle_deg[i];
+    }
+    return ranges;
+}
+
+// share_within: from the start of the sweep to the last angle before the first failure.
+void judge_sweep_from_its_start(const Claim& claim, const std::vector<double>& angle_deg, const std::vector<bool>& holds,
+                                CaseJudgement& result)
+{
+    if (!holds.front()) return;
+    result.angles = {holding_angles(angle_deg, holds).front()};
+    const double held = std::abs(result.angles[0].to_deg - result.angles[0].from_deg),
+                 whole = std::abs(angle_deg.back() - angle_deg.front());
+    if (!(held > 0.0)) return;  // the rest pose alone says nothing
+    result.extent = held >= claim.share * whole ? Extent::whole : Extent::part;
+}
+
+// mean_within: wherever the sweep passes through the band; a mean over its angles would say nothing.
+void judge_sweep_in_band(const std::vector<double>& angle_deg, const std::vector<bool>& holds, CaseJudgement& result)
+{
+    result.angles = holding_angles(angle_deg, holds);
+    result.extent = result.angles.empty() ? Extent::none : Extent::part;
+}
+
+void judge_sweep(const Claim& claim, const std::vector<double>& angle_deg, const std::vector<double>& values,
+                 const std::vector<bool>& holds, CaseJudgement& result)
+{
+    result.last_angle_deg = angle_deg.back();
+    result.mean = {mean(values), not_known, not_known, claim.level, result.frames, 0};
+    result.share = {mean(std::vector<double>(holds.begin(), holds.end())), not_known, not_known, claim.level, result.frames, 0};
+    if (claim.rule == ClaimRule::share_within)
+        judge_sweep_from_its_start(claim, angle_deg, holds, result);
+    else
+        judge_sweep_in_band(angle_deg, holds, result);
+}
+
+void judge_clip(const Claim& claim, const std::vector<double>& values, const std::vector<bool>& holds, CaseJudgement& result)
+{
+    const BootstrapOptions options{.level = claim.level};
+    result.mean = bootstrap_mean(values, options);
+    result.share = bootstrap_share(holds, options);
+    if (claim.rule == ClaimRule::share_within) {
+        result.extent = result.share.low >= claim.share ? Extent::whole : Extent::none;
+    } else {
+        const bool mean_in_band = excess(claim, result.mean.estimate) <= 0.0;
+        result.extent = mean_in_band ? Extent::whole : result.share.estimate > 0.0 ? Extent::part : Extent::none;
+    }
+}
+
+void find_extremes(const std::vector<double>& values, CaseJudgement& result)
+{
+    const bool broken = std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
+    result.least = broken ? not_known : *std::min_element(values.begin(), values.end());
+    result.most = broken ? not_known : *std::max_element(values.begin(), values.end());
+}
+
+}  // namespace
+
+CaseJudgement judge_case(const Claim& claim, const CaseRecord& record, const std::string& metric)
+{
+    const std::vector<double> values = metric_series(record, metric);
+    const std::vector<bool> holds = frames_within(claim, values);
+    CaseJudgement result;
+    result.rule = claim.rule;
+    result.scene = record.scene;
+    result.deformer = record.deformer;
+    result.variant = record.variant;
+    result.metric = metric;
+    result.run = record.run;
+    result.iterations = record.iterations;
+    result.frames = static_cast<int>(values.size());
+    result.sweep = record.is_sweep();
+    if (values.empty()) return result;
+    find_extremes(values, result);
+    if (claim.rule == ClaimRule::share_within) result.deepest = deepest_failures(claim, record, values);
+    for (std::size_t i = 0; i < holds.size(); ++i) result.holding_with_inverted_tets += holds[i] && record.inverted_tets[i] > 0.0;
+    if (!result.sweep)
+        judge_clip(claim, values, holds, result);
+    else
+        judge_sweep(claim, record.angle_deg, values, holds, result);
+    return result;
+}
+
+}  // namespace analysis

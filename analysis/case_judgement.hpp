@@ -1,0 +1,41 @@
+// One case under one metric against a claim's bound: which frames hold, their share and mean with intervals, the angles, the worst frames.
+#pragma once
+
+#include "analysis/bootstrap.hpp"
+#include "analysis/case_record.hpp"
+#include "analysis/claims.hpp"
+
+namespace analysis {
+
+enum class Extent { none, part, whole };  // of the case, for which the claim holds
+
+struct AngleRange {
+    double from_deg = 0.0, to_deg = 0.0;
+};
+
+struct FailingFrame {
+    double frame = 0.0, time_s = 0.0, angle_deg = 0.0, value = 0.0, inverted_tets = 0.0;
+};
+
+struct CaseJudgement {
+    std::string scene, deformer, variant, metric, run;
+    ClaimRule rule = ClaimRule::share_within;
+    int iterations = 0, frames = 0;
+    bool sweep = false;
+    Extent extent = Extent::none;
+    Interval mean;                       // of the metric over the frames; a sweep's frames are no sample and have no bounds
+    Interval share;                      // of frames within the bound
+    std::vector<AngleRange> angles;      // of a sweep: share_within up to the first failure, mean_within wherever it holds
+    double last_angle_deg = 0.0;         // of a sweep
+    double least = 0.0, most = 0.0;      // of the metric
+    int holding_with_inverted_tets = 0;  // frames within the bound although tets are inverted
+    std::vector<FailingFrame> deepest;   // share_within: at most three, farthest outside first; what is not a number before all
+};
+
+CaseJudgement judge_case(const Claim& claim, const CaseRecord& record, const std::string& metric);
+
+std::string case_name(const CaseJudgement& judgement);      // limb_twist, or limb_twist (k_stretch 0.9)
+std::string short_text(const CaseJudgement& judgement);     // limb_twist up to 116 of 170 deg;  walk (6.2 % of frames within)
+std::string measured_text(const CaseJudgement& judgement);  // with intervals, ranges and the worst frame
+
+}  // namespace analysis

@@ -1,0 +1,78 @@
+#include "analysis/case_record.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace analysis {
+namespace {
+
+std::string key_of(const CsvTable& metrics, int row)
+{
+    std::string key;
+    for (const char* column : {"scene", "deformer", "variant", "order", "precision", "iterations", "threads"})
+        key += metrics.text_at(row, column) + '\n';
+    return key;
+}
+
+CaseRecord empty_record(const CsvTable& metrics, int row, const std::string& run)
+{
+    CaseRecord record;
+    record.scene = metrics.text_at(row, "scene");
+    record.deformer = metrics.text_at(row, "deformer");
+    record.variant = metrics.text_at(row, "variant");
+    record.iterations = static_cast<int>(metrics.integer(row, "iterations"));
+    record.run = run;
+    return record;
+}
+
+void add_frame(CaseRecord& record, const CsvTable& metrics, int row)
+{
+    record.frame.push_back(metrics.number(row, "frame"));
+    record.time_s.push_back(metrics.number(row, "time_s"));
+    record.volume_change_pct.push_back(metrics.number(row, "volume_change_pct"));
+    record.volume_abs_change_pct.push_back(metrics.number(row, "volume_abs_change_pct"));
+    record.inverted_tets.push_back(metrics.number(row, "inverted_tets"));
+    if (!metrics.has_column("angle_deg")) return;
+    if (const auto angle = metrics.number_or_nothing(row, "angle_deg")) record.angle_deg.push_back(*angle);
+}
+
+void require_whole(const CaseRecord& record)
+{
+    const std::size_t frames = record.frame.size();
+    const bool angles_fit = record.angle_deg.empty() || record.angle_deg.size() == frames;
+    if (record.time_s.size() != frames || record.volume_change_pct.size() != frames || record.volume_abs_change_pct.size() != frames ||
+        record.inverted_tets.size() != frames || !angles_fit)
+        throw pbs::InputError{record.run, 0, fmt::format("record of {} on {}", record.deformer, record.scene), "",
+                              fmt::format("expected {} values in every series", frames)};
+}
+
+}  // namespace
+
+std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string& run)
+{
+    std::vector<CaseRecord> records;
+    std::map<std::string, std::size_t> places;
+    for (int row = 0; row < metrics.rows(); ++row) {
+        const auto [place, is_new] = places.try_emplace(key_of(metrics, row), records.size());
+        if (is_new) records.push_back(empty_record(metrics, row, run));
+        add_frame(records[place->second], metrics, row);
+    }
+    for (const CaseRecord& record : records) require_whole(record);
+    return records;
+}
+
+std::vector<double> metric_series(const CaseRecord& record, const std::string& metric)
+{
+    require_whole(record);
+    if (metric == "volume_change_pct") return record.volume_change_pct;
+    if (metric == "volume_abs_change_pct") return record.volume_abs_change_pct;
+    if (metric != "volume_loss_pct") throw pbs::InputError{"", 0, "metric", metric, "no verdict is computed from it"};
+    std::vector<double> loss;
+    for (double change : record.volume_change_pct) loss.push_back(0.0 - change);  // and no -0
+    return loss;
+}
+
+}  // namespace analysis

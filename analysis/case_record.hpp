@@ -1,0 +1,47 @@
+// What a verdict is computed from: the frames of each case as they were written down.
+#pragma once
+
+#include "analysis/csv_table.hpp"
+
+#include <string>
+#include <vector>
+
+namespace analysis {
+
+// One deformer on one scene: a row of metrics.csv a frame.
+struct CaseRecord {
+    std::string scene, deformer, variant;
+    int iterations = 0;
+    std::vector<double> frame, time_s, angle_deg;  // angle_deg is empty for clips
+    std::vector<double> volume_change_pct, volume_abs_change_pct, inverted_tets;
+    std::string run;  // the folder it came from, as to be named in reports
+
+    bool is_sweep() const { return !angle_deg.empty(); }
+};
+
+// What one could not run here, and why: a character whose package is not installed.
+struct LeftOut {
+    std::string scene, reason;
+};
+
+// A figure in print and the bounds that other figures of the paper put on it.
+struct PrintedFigure {
+    std::string what;
+    double printed = 0.0, least = 0.0, most = 0.0;
+};
+
+struct Records {
+    std::vector<CaseRecord> cases = {};
+    std::vector<LeftOut> left_out = {};
+    std::vector<PrintedFigure> printed = {};
+    std::vector<std::string> planned_scenes = {};  // each must have a record or be left out, or the verdict cannot be computed
+};
+
+// The cases in a metrics.csv: its rows grouped by scene, deformer, variant, order, precision, iterations and threads, in order of first
+// appearance. A column angle_deg, filled in throughout a case, makes it a sweep.
+std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string& run);
+
+// The series that a metric of a claim names, #frames; InputError for an unknown name or a record with series of different lengths.
+std::vector<double> metric_series(const CaseRecord& record, const std::string& metric);
+
+}  // namespace analysis

@@ -1,0 +1,90 @@
+// What the judgement of one case says in words; every figure comes from the judgement.
+#include "analysis/case_judgement.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace analysis {
+namespace {
+
+// " [5.1, 7.3]"; nothing for an interval without bounds.
+std::string bounds_text(const Interval& interval, double factor)
+{
+    return std::isnan(interval.low) ? "" : fmt::format(" [{:.3g}, {:.3g}]", factor * interval.low, factor * interval.high);
+}
+
+std::string mean_text(const CaseJudgement& judgement)
+{
+    return fmt::format("mean {:.3g} %{}", judgement.mean.estimate, bounds_text(judgement.mean, 1.0));
+}
+
+std::string share_text(const CaseJudgement& judgement)
+{
+    return fmt::format("{:.3g} %{} of {} frames within", 100.0 * judgement.share.estimate, bounds_text(judgement.share, 100.0),
+                       judgement.frames);
+}
+
+std::string span_text(const CaseJudgement& judgement)
+{
+    return fmt::format("{:.3g} to {:.3g} %", judgement.least, judgement.most);
+}
+
+std::string angles_text(const CaseJudgement& judgement)
+{
+    std::vector<std::string> ranges;
+    for (const auto& [from, to] : judgement.angles)
+        ranges.push_back(from == to ? fmt::format("{:.4g}", to) : fmt::format("{:.4g} to {:.4g}", from, to));
+    return ranges.empty() ? "at no angle" : fmt::format("at {} deg", fmt::join(ranges, ", "));
+}
+
+std::string worst_text(const CaseJudgement& judgement)
+{
+    if (judgement.deepest.empty()) return "";
+    const FailingFrame& frame = judgement.deepest.front();
+    return fmt::format(", worst {:.3g} % at {}", frame.value,
+                       judgement.sweep ? fmt::format("{:.4g} deg", frame.angle_deg) : fmt::format("{:.4g} s", frame.time_s));
+}
+
+std::string inverted_text(const CaseJudgement& judgement)
+{
+    const int frames = judgement.holding_with_inverted_tets;
+    return frames == 0 ? "" : fmt::format(", inverted tets in {} of the frames within", frames);
+}
+
+std::string short_sweep_text(const CaseJudgement& judgement)
+{
+    if (judgement.rule == ClaimRule::mean_within) return " " + angles_text(judgement);
+    if (judgement.extent == Extent::none) return fmt::format(" at no angle{}", worst_text(judgement));
+    return fmt::format(" up to {:.4g} of {:.4g} deg", judgement.angles.front().to_deg, judgement.last_angle_deg);
+}
+
+std::string short_clip_text(const CaseJudgement& judgement)
+{
+    if (judgement.rule == ClaimRule::share_within) return fmt::format(" ({})", share_text(judgement));
+    if (judgement.extent == Extent::part)
+        return fmt::format(" in {:.3g} % of frames ({})", 100.0 * judgement.share.estimate, mean_text(judgement));
+    return fmt::format(" ({})", mean_text(judgement));
+}
+
+}  // namespace
+
+std::string case_name(const CaseJudgement& judgement)
+{
+    return judgement.variant.empty() ? judgement.scene : fmt::format("{} ({})", judgement.scene, judgement.variant);
+}
+
+std::string short_text(const CaseJudgement& judgement)
+{
+    return case_name(judgement) + (judgement.sweep ? short_sweep_text(judgement) : short_clip_text(judgement)) + inverted_text(judgement);
+}
+
+std::string measured_text(const CaseJudgement& judgement)
+{
+    const std::string frames = judgement.sweep ? fmt::format("within {} of {:.4g}", angles_text(judgement), judgement.last_angle_deg)
+                                               : fmt::format("{}, {}", mean_text(judgement), share_text(judgement));
+    return fmt::format("{}: {}, {}{}{}", case_name(judgement), frames, span_text(judgement), worst_text(judgement),
+                       inverted_text(judgement));
+}
+
+}  // namespace analysis

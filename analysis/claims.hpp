@@ -1,0 +1,29 @@
+// The paper's claims as data: what is claimed, where, by which study and metric it is measured, and the bound fixed beforehand.
+//   for (const Claim& claim : parse_claims(text, "claims.toml")) verdicts.push_back(judge(claim, records));
+// The fields are documented at the head of experiments/claims.toml.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace analysis {
+
+enum class ClaimRule { share_within, mean_within, printed, untestable };
+
+struct Claim {
+    std::string id, statement, place, study;
+    double cost_minutes = 0.0;
+    ClaimRule rule = ClaimRule::share_within;
+    std::vector<std::string> metrics;  // the claim's own first
+    std::string deformer;
+    int iterations = 0;                            // 0: any
+    double expected = 0.0, low = 0.0, high = 0.0;  // of the metric, in its unit
+    double share = 0.95;                           // of the frames that must hold
+    double level = 0.95;                           // of the intervals
+    std::string reason;                            // why it cannot be tested
+};
+
+// InputError with file and line for broken TOML, unknown or missing keys, a claim twice, or a bound that no figure can meet.
+std::vector<Claim> parse_claims(const std::string& text, const std::string& file);
+
+}  // namespace analysis

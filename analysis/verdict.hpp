@@ -1,0 +1,36 @@
+// Verdicts: computed from records and from bounds that were fixed beforehand, nothing typed in.
+//   const Verdict verdict = judge(claim, records);   // verdict.text: "reproduced only for limb_twist at 0 to 116 deg (-1.3 to 0 % over 0
+//   to 170 deg)"
+#pragma once
+
+#include "analysis/case_judgement.hpp"
+
+namespace analysis {
+
+enum class VerdictKind {
+    reproduced,
+    reproduced_only_for,
+    not_reproduced,
+    inconsistent_in_print,
+    cannot_be_tested_here,
+    not_computable,  // records are missing: a failure of the run, not a result
+};
+
+struct Verdict {
+    Claim claim;
+    VerdictKind kind = VerdictKind::not_computable;
+    std::string text;      // the verdict in words
+    std::string measured;  // by the claim's own metric, case by case
+    Interval interval;     // of the deciding case: the clip whose share (share_within) or mean (mean_within) is farthest from the bound
+    std::string interval_of;
+    std::vector<CaseJudgement> cases;  // each matching record under each metric, the claim's own metric first
+    std::vector<std::string> runs;     // folders behind the verdict
+};
+
+// By the claim's own metric: every case whole is reproduced; some case whole or in part, by any of the metrics, is reproduced only for
+// those; none is not reproduced.
+Verdict judge(const Claim& claim, const Records& records);
+
+std::string label(VerdictKind kind);  // "reproduced", "reproduced only for", ...
+
+}  // namespace analysis

@@ -1,0 +1,97 @@
+// Truth: the contract of claims.json and claims.md, and a table whose columns begin at the same place in every line.
+#include "analysis/claims_report.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <sstream>
+
+namespace {
+
+using namespace analysis;
+
+std::vector<Verdict> two_verdicts()
+{
+    Claim claim;
+    claim.id = "C02";
+    claim.statement = "volume | kept";
+    claim.place = "Sec. 4";
+    claim.study = "volume";
+    claim.metrics = {"volume_change_pct"};
+    claim.deformer = "pbs";
+    claim.expected = 0.5;
+    claim.low = -0.5;
+    claim.high = 0.5;
+    CaseRecord walk;
+    walk.scene = "walk";
+    walk.deformer = "pbs";
+    walk.run = "volume/walk";
+    walk.frame = walk.time_s = walk.inverted_tets = {0, 1, 2, 3};
+    walk.volume_change_pct = {0, -0.1, -0.9, -0.2};
+    walk.volume_abs_change_pct = {0, 1, 2, 3};
+    Claim other = claim;
+    other.id = "C016";
+    other.rule = ClaimRule::untestable;
+    other.reason = "no figures";
+    return {judge(claim, {.cases = {walk}}), judge(other, {})};
+}
+
+TEST(ClaimsJson, CarriesTheContractsFields)
+{
+    const auto document = claims_json(two_verdicts());
+    EXPECT_EQ(document.at("schema"), 1);
+    const auto& claim = document.at("claims").at(0);
+    for (const char* key : {"id", "statement", "expected", "measured", "interval", "verdict", "runs"})
+        EXPECT_TRUE(claim.contains(key)) << key;
+    EXPECT_EQ(claim.at("id"), "C02");
+    EXPECT_EQ(claim.at("verdict"), "not reproduced");
+    EXPECT_EQ(claim.at("interval").at("estimate"), 0.75);
+    EXPECT_EQ(claim.at("runs").at(0), "volume/walk");
+    EXPECT_EQ(claim.at("cases").at(0).at("holds"), "none");
+    EXPECT_EQ(claim.at("cases").at(0).at("deepest").at(0).at("frame"), 2.0);
+    EXPECT_TRUE(document.at("claims").at(1).at("interval").is_null());
+}
+
+TEST(ClaimsJson, FiguresThatAreNotKnownAreNull)
+{
+    const auto text = claims_json(two_verdicts()).dump();
+    EXPECT_EQ(text.find("nan"), std::string::npos);
+    EXPECT_TRUE(nlohmann::json::parse(text).at("claims").at(0).at("cases").at(0).at("deepest").at(0).at("angle_deg").is_null());
+}
+
+TEST(ClaimsMarkdown, IsATableOfSevenColumns)
+{
+    std::istringstream lines(claims_markdown(two_verdicts()));
+    int count = 0;
+    for (std::string line; std::getline(lines, line); ++count) {
+        const auto bars = std::count(line.begin(), line.end(), '|');
+        const bool has_escaped_bar = line.find("\\|") != std::string::npos;
+        EXPECT_EQ(bars, has_escaped_bar ? 9 : 8) << line;
+    }
+    EXPECT_EQ(count, 4);
+}
+
+TEST(ClaimsTable, IsAlignedAndWrapped)
+{
+    std::istringstream lines(claims_table(two_verdicts(), {.width = 100}));
+    std::string head;
+    std::getline(lines, head);
+    const auto measured = head.find("measured");
+    for (std::string line; std::getline(lines, line);) {
+        EXPECT_LE(line.size(), 100u) << line;
+        ASSERT_GT(line.size(), measured) << line;
+        EXPECT_EQ(line.substr(measured - 2, 2), "  ") << line;
+        EXPECT_NE(line[measured], ' ') << line;
+    }
+}
+
+TEST(ClaimsTable, HasColoursOnlyWhenAsked)
+{
+    EXPECT_EQ(claims_table(two_verdicts()).find('\033'), std::string::npos);
+    const std::string coloured = claims_table(two_verdicts(), {.colours = true});
+    EXPECT_NE(coloured.find("\033[31mnot reproduced"), std::string::npos);
+    EXPECT_NE(coloured.find("\033[90mcannot be tested here"), std::string::npos);
+}
+
+}  // namespace

@@ -1,0 +1,250 @@
+// Verdicts are computed: each kind follows from its records and flips when they are altered. Truth: the rules in experiments/claims.toml.
+#include "analysis/verdict.hpp"
+
+#include "analysis/atomic_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using namespace analysis;
+
+Claim claim_of(const std::string& id)
+{
+    const auto claims = parse_claims(read_text(PBS_CLAIMS_FILE), "claims.toml");
+    return *std::find_if(claims.begin(), claims.end(), [&](const Claim& claim) { return claim.id == id; });
+}
+
+// Signed changes; the absolute ones twice as large and positive, no tet inverted.
+CaseRecord clip(const std::string& scene, const std::string& deformer, int iterations, const std::vector<double>& change_pct)
+{
+    CaseRecord record;
+    record.scene = scene;
+    record.deformer = deformer;
+    record.iterations = iterations;
+    record.run = "volume/" + scene;
+    for (std::size_t i = 0; i < change_pct.size(); ++i) {
+        record.frame.push_back(static_cast<double>(i));
+        record.time_s.push_back(0.01 * static_cast<double>(i));
+        record.volume_change_pct.push_back(change_pct[i]);
+        record.volume_abs_change_pct.push_back(2.0 * std::abs(change_pct[i]));
+        record.inverted_tets.push_back(0.0);
+    }
+    return record;
+}
+
+void set_change(CaseRecord& record, int frame, double change_pct)
+{
+    record.volume_change_pct[frame] = change_pct;
+    record.volume_abs_change_pct[frame] = 2.0 * std::abs(change_pct);
+}
+
+// 10 deg a frame.
+CaseRecord sweep(const std::string& scene, const std::string& deformer, int iterations, const std::vector<double>& change_pct)
+{
+    CaseRecord record = clip(scene, deformer, iterations, change_pct);
+    for (double frame : record.frame) record.angle_deg.push_back(10.0 * frame);
+    return record;
+}
+
+std::vector<double> constant(int frames, double value)
+{
+    return std::vector<double>(static_cast<std::size_t>(frames), value);
+}
+
+VerdictKind kind_for(const std::string& id, const std::vector<CaseRecord>& cases)
+{
+    return judge(claim_of(id), {.cases = cases}).kind;
+}
+
+TEST(VolumeIsPreserved, ReproducedWhereEveryCaseHolds)
+{
+    const auto walk = clip("walk", "pbs", 24, constant(60, -0.3));
+    const auto twist = sweep("twist", "pbs", 24, constant(18, -0.5));  // on the bound is within
+    const Verdict verdict = judge(claim_of("C02"), {.cases = {walk, twist}});
+    EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
+    EXPECT_EQ(verdict.runs, (std::vector<std::string>{"volume/twist", "volume/walk"}));
+    EXPECT_EQ(verdict.interval.estimate, 1.0);
+    EXPECT_EQ(verdict.interval_of, "share of frames, walk");
+    EXPECT_EQ(verdict.cases.size(), 4u);  // two cases under two metrics
+}
+
+TEST(VolumeIsPreserved, FlipsWhenFramesOfAClipFail)
+{
+    auto walk = clip("walk", "pbs", 24, constant(60, -0.3));
+    EXPECT_EQ(kind_for("C02", {walk}), VerdictKind::reproduced);
+    for (int i = 20; i < 26; ++i) set_change(walk, i, -0.51);  // 90 % hold
+    EXPECT_EQ(kind_for("C02", {walk}), VerdictKind::not_reproduced);
+    EXPECT_EQ(kind_for("C02", {walk, sweep("twist", "pbs", 24, constant(9, 0.1))}), VerdictKind::reproduced_only_for);
+}
+
+TEST(VolumeIsPreserved, GainCountsLikeLoss)
+{
+    EXPECT_EQ(kind_for("C02", {clip("walk", "pbs", 24, constant(30, 0.6))}), VerdictKind::not_reproduced);
+}
+
+TEST(VolumeIsPreserved, ShareAboveTheBoundWithAnIntervalBelowItDoesNotHold)
+{
+    auto walk = clip("walk", "pbs", 24, constant(100, 0.0));
+    for (int i = 40; i < 43; ++i) set_change(walk, i, -2.0);  // 97 % hold, in a block of failures
+    const Verdict verdict = judge(claim_of("C02"), {.cases = {walk}});
+    EXPECT_NEAR(verdict.interval.estimate, 0.97, 1e-12);
+    EXPECT_LT(verdict.interval.low, 0.95);
+    EXPECT_EQ(verdict.kind, VerdictKind::not_reproduced);
+}
+
+TEST(VolumeIsPreserved, SweepHoldsUpToItsFirstFailure)
+{
+    auto twist = sweep("twist", "pbs", 24, {0, -0.1, -0.2, -0.3, -0.6, -0.4, -0.9});
+    const Verdict verdict = judge(claim_of("C02"), {.cases = {twist}});
+    EXPECT_EQ(verdict.kind, VerdictKind::reproduced_only_for);
+    ASSERT_EQ(verdict.cases[0].angles.size(), 1u);
+    EXPECT_EQ(verdict.cases[0].angles[0].to_deg, 30.0);
+    EXPECT_EQ(verdict.cases[0].deepest.size(), 2u);
+    EXPECT_EQ(verdict.cases[0].deepest[0].angle_deg, 60.0);
+    EXPECT_EQ(verdict.cases[0].deepest[0].value, -0.9);
+    EXPECT_EQ(verdict.text, "reproduced only for twist up to 30 of 60 deg; by volume_abs_change_pct: twist up to 20 of 60 deg");
+    EXPECT_EQ(verdict.measured, "twist: within at 0 to 30 deg of 60, -0.9 to 0 %, worst -0.9 % at 60 deg");
+
+    set_change(twist, 4, -0.5);
+    EXPECT_EQ(judge(claim_of("C02"), {.cases = {twist}}).cases[0].angles[0].to_deg, 50.0);
+    set_change(twist, 6, -0.5);
+    EXPECT_EQ(kind_for("C02", {twist}), VerdictKind::reproduced);
+    set_change(twist, 1, -0.7);  // the rest pose alone holds nothing
+    EXPECT_EQ(kind_for("C02", {twist}), VerdictKind::not_reproduced);
+}
+
+TEST(VolumeIsPreserved, RestPoseAloneIsNoSweep)
+{
+    const Verdict verdict = judge(claim_of("C02"), {.cases = {sweep("twist", "pbs", 24, {0.0})}});
+    EXPECT_EQ(verdict.kind, VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict.text, "not reproduced: twist at no angle; by volume_abs_change_pct: nowhere");
+}
+
+TEST(VolumeIsPreserved, InvertedTetsInFramesThatHoldAreTold)
+{
+    auto bend = sweep("bend", "pbs", 24, constant(10, -0.2));
+    bend.inverted_tets[7] = bend.inverted_tets[9] = 15.0;
+    const Verdict verdict = judge(claim_of("C02"), {.cases = {bend}});
+    EXPECT_EQ(verdict.cases[0].holding_with_inverted_tets, 2);
+    EXPECT_NE(verdict.text.find("inverted tets in 2 of the frames within"), std::string::npos);
+}
+
+TEST(VolumeIsPreserved, BreakdownDoesNotHold)
+{
+    auto walk = clip("walk", "pbs", 24, constant(60, -0.3));
+    for (int i = 30; i < 60; ++i) set_change(walk, i, std::numeric_limits<double>::quiet_NaN());
+    const Verdict verdict = judge(claim_of("C02"), {.cases = {walk}});
+    EXPECT_EQ(verdict.kind, VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict.cases[0].share.estimate, 0.5);
+    EXPECT_EQ(verdict.cases[0].deepest[0].frame, 30.0);
+    EXPECT_TRUE(std::isnan(verdict.cases[0].least));
+}
+
+TEST(VolumeIsPreserved, OnlyTheAskedDeformerAndIterationsAreJudged)
+{
+    const auto good = clip("walk", "pbs", 24, constant(30, 0.0)), other = clip("walk", "lbs", 24, constant(30, -9.0)),
+               few = clip("walk", "pbs", 4, constant(30, -9.0));
+    EXPECT_EQ(kind_for("C02", {good, other, few}), VerdictKind::reproduced);
+    EXPECT_EQ(kind_for("C02", {other, few}), VerdictKind::not_computable);
+}
+
+TEST(LossOfLbs, ReproducedWhereTheMeansLieInTheBand)
+{
+    const Verdict verdict = judge(claim_of("C01"), {.cases = {clip("walk", "lbs", 0, {-13, -14, -15, -14, -13, -14})}});
+    EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
+    EXPECT_NEAR(verdict.interval.estimate, 83.0 / 6.0, 1e-12);
+    EXPECT_EQ(verdict.interval_of, "mean of volume_loss_pct, walk");
+    EXPECT_LE(verdict.interval.low, verdict.interval.estimate);
+}
+
+TEST(LossOfLbs, FlipsWithTheMean)
+{
+    auto walk = clip("walk", "lbs", 0, constant(20, -14.0));
+    EXPECT_EQ(kind_for("C01", {walk}), VerdictKind::reproduced);
+    walk.volume_change_pct = constant(20, -11.9);
+    EXPECT_EQ(kind_for("C01", {walk}), VerdictKind::not_reproduced);
+    walk.volume_change_pct = constant(20, 14.0);  // a gain
+    EXPECT_EQ(kind_for("C01", {walk}), VerdictKind::not_reproduced);
+    walk.volume_abs_change_pct = constant(20, 12.5);
+    const Verdict verdict = judge(claim_of("C01"), {.cases = {walk}});
+    EXPECT_EQ(verdict.kind, VerdictKind::reproduced_only_for);
+    EXPECT_EQ(verdict.text,
+              "reproduced only for another measure than volume_loss_pct, which fails for walk (mean -14 % [-14, -14]); by "
+              "volume_abs_change_pct: walk (mean 12.5 % [12.5, 12.5])");
+}
+
+TEST(LossOfLbs, MeanOutsideWithFramesInTheBandIsAPart)
+{
+    auto walk = clip("walk", "lbs", 0, {-2, -3, -13, -14, -4, -2});
+    walk.volume_abs_change_pct = constant(6, 1.0);
+    const Verdict verdict = judge(claim_of("C01"), {.cases = {walk}});
+    EXPECT_EQ(verdict.kind, VerdictKind::reproduced_only_for);
+    EXPECT_EQ(verdict.cases[0].extent, Extent::part);
+    EXPECT_NEAR(verdict.cases[0].share.estimate, 1.0 / 3.0, 1e-12);
+}
+
+TEST(LossOfLbs, SweepTellsTheAnglesThatReachTheBand)
+{
+    auto twist = sweep("twist", "lbs", 0, {0, -4, -9, -13, -15, -17, -14});
+    twist.volume_abs_change_pct = constant(7, 1.0);
+    const Verdict verdict = judge(claim_of("C01"), {.cases = {twist}});
+    EXPECT_EQ(verdict.kind, VerdictKind::reproduced_only_for);
+    ASSERT_EQ(verdict.cases[0].angles.size(), 2u);
+    EXPECT_EQ(verdict.cases[0].angles[0].from_deg, 30.0);
+    EXPECT_EQ(verdict.cases[0].angles[0].to_deg, 40.0);
+    EXPECT_EQ(verdict.cases[0].angles[1].from_deg, 60.0);
+    EXPECT_EQ(verdict.text, "reproduced only for twist at 30 to 40, 60 deg; by volume_abs_change_pct: nowhere");
+}
+
+TEST(Verdict, MissingRecordsAreNoResult)
+{
+    EXPECT_EQ(kind_for("C01", {}), VerdictKind::not_computable);
+    EXPECT_EQ(kind_for("C01", {clip("walk", "lbs", 0, {})}), VerdictKind::not_computable);
+    Records records{.cases = {clip("walk", "lbs", 0, constant(20, -14.0))}, .planned_scenes = {"walk", "twist"}};
+    const Verdict verdict = judge(claim_of("C01"), records);
+    EXPECT_EQ(verdict.kind, VerdictKind::not_computable);
+    EXPECT_EQ(verdict.text, "not computable: no record of lbs on twist");
+    records.left_out = {{"twist", "package missing"}};
+    EXPECT_EQ(judge(claim_of("C01"), records).kind, VerdictKind::reproduced);
+}
+
+TEST(Verdict, WhatWasLeftOutIsTold)
+{
+    Records records{.cases = {clip("walk", "lbs", 0, constant(20, -14.0))}, .left_out = {{"man", "man-data is not installed"}}};
+    EXPECT_NE(judge(claim_of("C01"), records).text.find("; left out: man (man-data is not installed)"), std::string::npos);
+    records.cases.clear();
+    const Verdict verdict = judge(claim_of("C01"), records);
+    EXPECT_EQ(verdict.kind, VerdictKind::cannot_be_tested_here);
+    EXPECT_EQ(verdict.text, "cannot be tested here: man (man-data is not installed)");
+}
+
+TEST(Verdict, FiguresInPrintFlipWithTheirBounds)
+{
+    Claim claim = claim_of("C01");
+    claim.rule = ClaimRule::printed;
+    const double infinity = std::numeric_limits<double>::infinity();
+    Records records{.printed = {{"edges of Man", 6342, 6653, infinity}, {"edges of Lady", 9387, 7862, infinity}}};
+    const Verdict verdict = judge(claim, records);
+    EXPECT_EQ(verdict.kind, VerdictKind::inconsistent_in_print);
+    EXPECT_EQ(verdict.text, "inconsistent in print: edges of Man is 6342, but the rest asks for 6653 to inf");
+    EXPECT_EQ(verdict.measured, "1 of 2 figures consistent");
+    records.printed[0].printed = 6653;
+    EXPECT_EQ(judge(claim, records).kind, VerdictKind::reproduced);
+    EXPECT_EQ(judge(claim, {}).kind, VerdictKind::not_computable);
+}
+
+TEST(Verdict, UntestableClaimsSayWhy)
+{
+    Claim claim = claim_of("C01");
+    claim.rule = ClaimRule::untestable;
+    claim.reason = "no published figures";
+    EXPECT_EQ(judge(claim, {}).kind, VerdictKind::cannot_be_tested_here);
+    EXPECT_EQ(judge(claim, {}).text, "cannot be tested here: no published figures");
+}
+
+}  // namespace
