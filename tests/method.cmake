@@ -1,0 +1,5 @@
+# Tests of the method: pbs/geometry (topology, quality, volumes), skinning, constraints, solver.
+foreach(name IN ITEMS geometry/topology geometry/quality geometry/tet_volume
+        skinning/skeleton skinning/pose skinning/bone_binding skinning/weights skinning/blend)
+    pbs_test(unit pbs/${name} pbs_method)
+endforeach()

@@ -1,0 +1,73 @@
+// Truth: projections on segments along the axes, by hand.
+#include "pbs/skinning/bone_binding.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using pbs::Vec3;
+
+const pbs::Skeleton limb = {{{"upper", -1, {-1, 0, 0}, {0, 0, 0}}, {"forearm", 0, {0, 0, 0}, {1, 0, 0}}}};
+
+pbs::BoneBinding bind_one(const Vec3& vertex, const pbs::Skeleton& skeleton)
+{
+    return pbs::bind_to_nearest_bone(pbs::Positions(vertex.transpose()), skeleton);
+}
+
+TEST(BoneBinding, BesideABoneIsItsFoot)
+{
+    const pbs::BoneBinding binding = bind_one({0.25, 0.3, 0.4}, limb);
+    EXPECT_EQ(binding.bone[0], 1);
+    EXPECT_DOUBLE_EQ(binding.parameter(0), 0.25);
+    EXPECT_EQ(Vec3(binding.rest_point.row(0)), Vec3(0.25, 0, 0));
+    EXPECT_DOUBLE_EQ(binding.distance(0), 0.5);
+}
+
+TEST(BoneBinding, BeyondAnEndIsTheEndWithAnUnclampedParameter)
+{
+    const pbs::BoneBinding binding = bind_one({1.5, 0, 0}, limb);
+    EXPECT_DOUBLE_EQ(binding.parameter(0), 1.5);
+    EXPECT_EQ(Vec3(binding.rest_point.row(0)), Vec3(1, 0, 0));
+    EXPECT_DOUBLE_EQ(binding.distance(0), 0.5);
+    EXPECT_DOUBLE_EQ(bind_one({-3, 0, 0}, limb).parameter(0), -2.0);
+}
+
+TEST(BoneBinding, FirstOfEquals)
+{
+    EXPECT_EQ(bind_one({0, 0.2, 0}, limb).bone[0], 0);
+}
+
+TEST(BoneBinding, VertexOnTheBoneHasDistanceZero)
+{
+    EXPECT_EQ(bind_one({0.5, 0, 0}, limb).distance(0), 0.0);
+}
+
+TEST(BoneBinding, ZeroLengthBoneIsAPoint)
+{
+    const pbs::Skeleton point = {{{"point", -1, {1, 1, 1}, {1, 1, 1}}}};
+    const pbs::BoneBinding binding = bind_one({1, 1, 3}, point);
+    EXPECT_EQ(binding.bone[0], 0);
+    EXPECT_EQ(binding.parameter(0), 0.0);
+    EXPECT_EQ(Vec3(binding.rest_point.row(0)), Vec3(1, 1, 1));
+    EXPECT_DOUBLE_EQ(binding.distance(0), 2.0);
+}
+
+TEST(BoneBinding, WithoutBonesIsRefused)
+{
+    EXPECT_THROW(bind_one({0, 0, 0}, {}), pbs::InputError);
+}
+
+TEST(PosedBindPoints, AreCarriedByTheirBones)
+{
+    pbs::Positions rest(2, 3);
+    rest << -0.5, 0.1, 0, 0.5, 0.1, 0;
+    const pbs::BoneBinding binding = pbs::bind_to_nearest_bone(rest, limb);
+    const pbs::Pose pose = pbs::joint_sweep(limb, 1, Vec3::UnitZ(), 90.0, 2, 0.01).steps[1];
+    const pbs::Positions points = pbs::posed_bind_points(binding, pose);
+    EXPECT_NEAR((Vec3(points.row(0)) - Vec3(-0.5, 0, 0)).norm(), 0.0, 1e-15);
+    EXPECT_NEAR((Vec3(points.row(1)) - Vec3(0, 0.5, 0)).norm(), 0.0, 1e-15);
+}
+
+}  // namespace

@@ -1,0 +1,83 @@
+// Truth: forward kinematics of a straight chain, by hand.
+#include "pbs/skinning/pose.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace {
+
+using pbs::Vec3;
+
+const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
+
+pbs::Skeleton chain()
+{
+    return {{{"a", -1, {0, 0, 0}, {1, 0, 0}}, {"b", 0, {1, 0, 0}, {2, 0, 0}}, {"c", 1, {2, 0, 0}, {3, 0, 0}}}};
+}
+
+Eigen::Quaterniond turn(double angle_deg, const Vec3& axis)
+{
+    return Eigen::Quaterniond(Eigen::AngleAxisd(angle_deg * std::numbers::pi / 180.0, axis));
+}
+
+TEST(PoseFromJoints, WithoutRotationIsTheIdentityExactly)
+{
+    const pbs::Pose pose = pbs::pose_from_joints(chain(), std::vector(3, Eigen::Quaterniond::Identity()), Vec3::Zero());
+    for (const Eigen::Isometry3d& bone : pose) EXPECT_EQ(bone.matrix(), Eigen::Matrix4d::Identity());
+}
+
+TEST(PoseFromJoints, ComposesDownTheChain)
+{
+    const pbs::Pose pose = pbs::pose_from_joints(chain(), {turn(90, z), turn(-90, z), turn(90, x)}, Vec3(0, 0, 5));
+    EXPECT_NEAR((pose[0] * Vec3(1, 0, 0) - Vec3(0, 1, 5)).norm(), 0.0, 1e-15);
+    EXPECT_NEAR((pose[1] * Vec3(2, 0, 0) - Vec3(1, 1, 5)).norm(), 0.0, 1e-15);
+    EXPECT_NEAR((pose[2] * Vec3(2, 1, 0) - Vec3(1, 1, 6)).norm(), 0.0, 1e-15);
+}
+
+TEST(PoseFromJoints, KeepsJointsTogether)
+{
+    const pbs::Skeleton skeleton = chain();
+    const pbs::Pose pose = pbs::pose_from_joints(skeleton, {turn(33, y), turn(-71, x + z), turn(120, y)}, Vec3(1, 2, 3));
+    for (int j = 1; j < 3; ++j) EXPECT_NEAR((pose[j] * skeleton.bones[j].head - pose[j - 1] * skeleton.bones[j].head).norm(), 0.0, 1e-14);
+}
+
+TEST(JointSweep, RunsFromRestToTheAngle)
+{
+    const pbs::Motion motion = pbs::joint_sweep(chain(), 1, 2.0 * z, 90.0, 4, 0.02);
+    ASSERT_EQ(motion.frames(), 4);
+    EXPECT_EQ(motion.angle_deg, (std::vector{0.0, 30.0, 60.0, 90.0}));
+    EXPECT_EQ(motion.time_step_s, 0.02);
+    for (const Eigen::Isometry3d& bone : motion.steps[0]) EXPECT_EQ(bone.matrix(), Eigen::Matrix4d::Identity());
+    EXPECT_EQ(motion.steps[3][0].matrix(), Eigen::Matrix4d::Identity());
+    EXPECT_NEAR((motion.steps[3][1] * Vec3(2, 0, 0) - Vec3(1, 1, 0)).norm(), 0.0, 1e-15);
+    EXPECT_NEAR((motion.steps[3][2] * Vec3(3, 0, 0) - Vec3(1, 2, 0)).norm(), 0.0, 1e-15);
+}
+
+TEST(JointSweep, OfOneFrameIsTheRestPose)
+{
+    const pbs::Motion motion = pbs::joint_sweep(chain(), 1, z, 90.0, 1, 0.01);
+    ASSERT_EQ(motion.frames(), 1);
+    EXPECT_EQ(motion.steps[0][1].matrix(), Eigen::Matrix4d::Identity());
+}
+
+TEST(JointSweep, RefusesBadInput)
+{
+    EXPECT_THROW(pbs::joint_sweep(chain(), 3, z, 90.0, 4, 0.01), pbs::InputError);
+    EXPECT_THROW(pbs::joint_sweep(chain(), -1, z, 90.0, 4, 0.01), pbs::InputError);
+    EXPECT_THROW(pbs::joint_sweep(chain(), 1, Vec3::Zero(), 90.0, 4, 0.01), pbs::InputError);
+    EXPECT_THROW(pbs::joint_sweep(chain(), 1, z, 90.0, 0, 0.01), pbs::InputError);
+}
+
+TEST(Motion, CountsFramesBySteps)
+{
+    pbs::Motion motion;
+    EXPECT_EQ(motion.frames(), 0);
+    motion.steps.resize(9);
+    motion.steps_per_frame = 4;
+    EXPECT_EQ(motion.frames(), 3);
+}
+
+}  // namespace
