@@ -3,3 +3,6 @@ foreach(name IN ITEMS geometry/topology geometry/quality geometry/tet_volume
         skinning/skeleton skinning/pose skinning/bone_binding skinning/weights skinning/blend)
     pbs_test(unit pbs/${name} pbs_method)
 endforeach()
+foreach(name IN ITEMS stretch volume bind volume_printed)
+    pbs_test(unit pbs/constraints/${name} pbs_method)
+endforeach()

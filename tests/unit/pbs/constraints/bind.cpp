@@ -1,0 +1,100 @@
+// Truth: the distance to a point that does not give way, by hand; the gradient by an eps sweep.
+#include "pbs/constraints/bind.hpp"
+
+#include "tests/support/eps_sweep.hpp"
+#include "tests/support/random_points.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using pbs::BindConstraint;
+using pbs::Vec3;
+
+const BindConstraint<double> tether{0, 2.0, 1.0};
+const Vec3 q(1, 1, 1);
+
+TEST(BindConstraint, ValueIsDistanceMinusRestDistance)
+{
+    EXPECT_DOUBLE_EQ(value(tether, Vec3(4, 1, 5), q), 3.0);
+    EXPECT_DOUBLE_EQ(value(tether, q, q), -2.0);
+}
+
+TEST(BindConstraint, GradientByEpsSweep)
+{
+    test_support::RandomPoints random(9);
+    for (int trial = 0; trial < 20; ++trial) {
+        const Vec3 p = q + Vec3(2, 0, 0) + random.point(1.0), direction = random.point(1.0);
+        const auto at = [](const Eigen::VectorXd& x) { return value(tether, Vec3(x), q); };
+        test_support::expect_slope_by_eps_sweep(at, p, direction, gradient(tether, p, q).dot(direction), 1.0);
+    }
+}
+
+TEST(BindConstraint, ProjectionRestoresTheDistance)
+{
+    Vec3 p(6, 1, 1);
+    project(tether, 1.0, q, p);
+    EXPECT_EQ(p, Vec3(3, 1, 1));
+    p = Vec3(1, 1.5, 1);
+    project(tether, 1.0, q, p);
+    EXPECT_EQ(p, Vec3(1, 3, 1));
+}
+
+TEST(BindConstraint, MassDoesNotMatterAgainstABoneOfInfiniteMass)
+{
+    Vec3 light(5, 4, 3), heavy = light;
+    project(tether, 1e3, q, light);
+    project(tether, 1e-3, q, heavy);
+    EXPECT_EQ(light, heavy);
+}
+
+TEST(BindConstraint, StiffnessIsTheShareOfTheErrorRemoved)
+{
+    for (const double k : {0.0, 0.25, 0.5, 1.0}) {
+        Vec3 p(6, 1, 1);
+        project(BindConstraint<double>{0, 2.0, k}, 1.0, q, p);
+        EXPECT_NEAR(value(tether, p, q), (1.0 - k) * 3.0, 1e-15);
+    }
+}
+
+// Momentum is not conserved: the bone takes -m dp, along the line from the vertex to q, so without a moment about q.
+TEST(BindConstraint, ReactionOfTheBoneRunsThroughTheBindPoint)
+{
+    test_support::RandomPoints random(10);
+    for (int trial = 0; trial < 20; ++trial) {
+        Vec3 p = q + random.point(1.0);
+        const Vec3 before = p;
+        project(tether, 1.0, q, p);
+        const Vec3 reaction = -(p - before);
+        EXPECT_NEAR(reaction.norm(), std::abs(value(tether, before, q)), 1e-14);
+        EXPECT_NEAR((before - q).cross(reaction).norm(), 0.0, 1e-14);
+    }
+}
+
+TEST(BindConstraint, VertexOnTheBoneIsPutOnItsMaterialPoint)
+{
+    const BindConstraint<double> on_the_bone{0, 0.0, 1.0};
+    Vec3 p(0.4, -0.3, 0.2);
+    project(on_the_bone, 1.0, q, p);
+    EXPECT_NEAR((p - q).norm(), 0.0, 1e-15);
+    p = q;
+    project(on_the_bone, 1.0, q, p);
+    EXPECT_EQ(p, q);
+}
+
+TEST(BindConstraint, VertexOnItsBindPointHasNoDirectionAndStays)
+{
+    Vec3 p = q;
+    EXPECT_EQ(gradient(tether, p, q), Vec3::Zero());
+    project(tether, 1.0, q, p);
+    EXPECT_EQ(p, q);
+}
+
+TEST(BindConstraint, PinnedVertexStays)
+{
+    Vec3 p(6, 1, 1);
+    project(tether, 0.0, q, p);
+    EXPECT_EQ(p, Vec3(6, 1, 1));
+}
+
+}  // namespace

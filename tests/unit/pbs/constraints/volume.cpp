@@ -1,0 +1,153 @@
+// Truth: Eq. 8, 9 and 11 by hand; the gradient by an eps sweep.
+#include "pbs/constraints/volume.hpp"
+
+#include "tests/support/eps_sweep.hpp"
+#include "tests/support/tet_corners.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using pbs::Vec3;
+using pbs::VolumeConstraint;
+using namespace test_support;
+
+const VolumeConstraint<double> corner_tet{{0, 1, 2, 3}, 1.0 / 6.0, 1.0};
+const CornerMasses<double> unit = {1.0, 1.0, 1.0, 1.0};
+const Corners<double> at_rest = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
+
+bool finite(const Corners<double>& p)
+{
+    return stacked(p).allFinite();
+}
+
+TEST(VolumeConstraint, ValueIsSigned)
+{
+    EXPECT_DOUBLE_EQ(value_at(corner_tet, {at_rest[0], 2 * at_rest[1], at_rest[2], at_rest[3]}), 1.0 / 6.0);
+    EXPECT_DOUBLE_EQ(value_at(corner_tet, {at_rest[0], at_rest[2], at_rest[1], at_rest[3]}), -1.0 / 3.0);
+}
+
+TEST(VolumeConstraint, GradientByEpsSweep)
+{
+    RandomPoints random(3);
+    for (int trial = 0; trial < 20; ++trial) {
+        const Corners<double> p = noisy_corner(random, 0.3);
+        const Eigen::VectorXd direction = stacked(noisy_corner(random, 1.0));
+        const auto at = [](const Eigen::VectorXd& x) { return value_at(corner_tet, unstacked(x)); };
+        expect_slope_by_eps_sweep(at, stacked(p), direction, stacked(gradient_at(corner_tet, p)).dot(direction), 1.0);
+    }
+}
+
+TEST(VolumeConstraint, GradientsAddUpToZero)
+{
+    RandomPoints random(4);
+    const Corners<double> g = gradient_at(corner_tet, noisy_corner(random, 0.5));
+    EXPECT_NEAR((g[0] + g[1] + g[2] + g[3]).norm(), 0.0, 1e-16);  // Eq. 15
+}
+
+TEST(VolumeConstraint, ProjectionIsAStepAlongTheGradient)
+{
+    RandomPoints random(5);
+    const VolumeConstraint<double> soft{{0, 1, 2, 3}, 1.0 / 6.0, 0.3};
+    const CornerMasses<double> w = {0.5, 1.0, 2.0, 4.0};
+    for (int trial = 0; trial < 20; ++trial) {
+        const Corners<double> p = noisy_corner(random, 0.3), g = gradient_at(soft, p), moved = projected(soft, w, p);
+        double denominator = 0.0;
+        for (int i = 0; i < 4; ++i) denominator += w[i] * g[i].squaredNorm();
+        const double s = value_at(soft, p) / denominator;  // Eq. 9
+        for (int i = 0; i < 4; ++i) EXPECT_NEAR((moved[i] - (p[i] - 0.3 * s * w[i] * g[i])).norm(), 0.0, 1e-14);
+    }
+}
+
+// The trap of leaving the sixth out of the gradients but not out of C: then a projection at k = 1 removes a sixth of the error only. Ours
+// removes all of the linearised error, so that what is left falls with the square of the deformation.
+TEST(VolumeConstraint, ProjectionLeavesASecondOrderErrorOnly)
+{
+    RandomPoints random(6);
+    const Corners<double> shape = noisy_corner(random, 1.0);
+    double previous_share = 0.0;
+    for (const double size : {1e-1, 1e-2, 1e-3, 1e-4}) {
+        Corners<double> p = at_rest;
+        for (int i = 0; i < 4; ++i) p[i] += size * shape[i];
+        const double share = std::abs(value_at(corner_tet, projected(corner_tet, unit, p)) / value_at(corner_tet, p));
+        EXPECT_LT(share, 2.0 * size);
+        if (previous_share > 0.0) {
+            EXPECT_NEAR(std::log10(previous_share / share), 1.0, 0.2);  // |C| is of first order, so the share left is too
+        }
+        previous_share = share;
+    }
+}
+
+TEST(VolumeConstraint, StiffnessIsTheShareOfTheErrorRemoved)
+{
+    Corners<double> p = at_rest;
+    p[3].z() += 1e-5;
+    const double before = value_at(corner_tet, p);
+    for (const double k : {0.0, 0.25, 0.5, 1.0}) {
+        const VolumeConstraint<double> soft{{0, 1, 2, 3}, 1.0 / 6.0, k};
+        EXPECT_NEAR(value_at(soft, projected(soft, unit, p)) / before, 1.0 - k, 1e-4);  // second order: 1e-5
+    }
+}
+
+TEST(VolumeConstraint, PinnedCornersStay)
+{
+    Corners<double> p = at_rest;
+    p[3].z() = 2.0;
+    const Corners<double> moved = projected(corner_tet, {0.0, 0.0, 0.0, 1.0}, p);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(moved[i], p[i]);
+    EXPECT_NEAR((moved[3] - Vec3(0, 0, 1)).norm(), 0.0, 1e-15);  // linear in one corner: one projection is exact
+    EXPECT_EQ(projected(corner_tet, {0.0, 0.0, 0.0, 0.0}, p), p);
+}
+
+TEST(VolumeConstraint, FlatTetIsInflated)
+{
+    Corners<double> p = at_rest;
+    p[3] = Vec3(0.3, 0.3, 0.0);
+    for (int i = 0; i < 10; ++i) p = projected(corner_tet, unit, p);
+    EXPECT_NEAR(value_at(corner_tet, p), 0.0, 1e-12);
+}
+
+TEST(VolumeConstraint, TetCollapsedToALineOrAPointStays)
+{
+    const Corners<double> line = {Vec3(0, 0, 0), Vec3(1, 1, 1), Vec3(2, 2, 2), Vec3(3, 3, 3)};
+    EXPECT_EQ(projected(corner_tet, unit, line), line);
+    const Corners<double> point = {Vec3(1, 2, 3), Vec3(1, 2, 3), Vec3(1, 2, 3), Vec3(1, 2, 3)};
+    EXPECT_EQ(projected(corner_tet, unit, point), point);
+}
+
+// The trap of taking |V|: a tet mirrored to -V0 counts as satisfied, and from -1.05 V0 the projection runs away.
+TEST(VolumeConstraint, MirroredTetIsTurnedBack)
+{
+    for (const double mirrored : {-1.0, -1.05, -3.0}) {
+        Corners<double> p = at_rest;
+        p[3].z() = mirrored;
+        EXPECT_LT(value_at(corner_tet, p), -0.33);
+        for (int i = 0; i < 30; ++i) p = projected(corner_tet, unit, p);
+        EXPECT_NEAR(value_at(corner_tet, p), 0.0, 1e-12) << mirrored;
+    }
+}
+
+TEST(VolumeConstraint, RandomTetsConvergeOrStayFinite)
+{
+    RandomPoints random(7);
+    int converged = 0;
+    for (int trial = 0; trial < 1000; ++trial) {
+        Corners<double> p = {random.point(1.0), random.point(1.0), random.point(1.0), random.point(1.0)};
+        for (int i = 0; i < 50; ++i) p = projected(corner_tet, unit, p);
+        EXPECT_TRUE(finite(p));
+        converged += std::abs(value_at(corner_tet, p)) < 1e-12;
+    }
+    EXPECT_GE(converged, 990);
+}
+
+TEST(VolumeConstraint, AtRestNothingMoves)
+{
+    RandomPoints random(8);
+    const Corners<double> p = noisy_corner(random, 0.3);
+    const VolumeConstraint<double> own{{0, 1, 2, 3}, value_at(VolumeConstraint<double>{}, p), 1.0};
+    EXPECT_EQ(projected(own, unit, p), p);
+}
+
+}  // namespace
