@@ -8,11 +8,11 @@ namespace pbs {
 enum class WeightKind { paper, rigid };
 
 struct CharacterSource {
-    std::string body;  // limb, bar, human; empty: from files
-    std::string mesh_file, skeleton_file;
+    std::string body = {};  // limb, bar, human; empty: from files
+    std::string mesh_file = {}, skeleton_file = {};
     int vertices = 0;  // wanted size of a built-in body; 0: its default (limb 1,775, bar 1,800, human as in Table 1's neighbourhood)
     WeightKind weights = WeightKind::paper;
-    std::string weights_file;  // CSV vertex,joint,weight; empty: `weights`
+    std::string weights_file = {};  // CSV vertex,joint,weight; empty: `weights`
 };
 
 // Builds it, or takes the tets from the cache (content hash of what they are made from). A body that is not installed is an InputError

@@ -13,7 +13,7 @@ namespace pbs {
 namespace {
 
 constexpr const char* surface_file = "/usr/share/assimp/models/Collada/human.zae";
-constexpr const char* geometry = "human-base";
+constexpr const char* geometry = "human-baseMesh";  // as assimp names human-base
 constexpr int default_vertices = 2400;
 constexpr int mesher_version = 1;  // raised whenever mesh_surface makes something else of the same surface
 

@@ -1,0 +1,33 @@
+// Truth: what was written to the files.
+#include "pbs/character/bodies.hpp"
+#include "pbs/geometry/mesh_io.hpp"
+
+#include "tests/support/structured_bar.hpp"
+#include "tests/unit/pbs/character/temporary_folder.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace pbs;
+
+TEST(Bodies, FromFiles)
+{
+    const TemporaryFolder folder;
+    const std::string mesh = (folder.path() / "bar.vtu").string();
+    write_tet_mesh(mesh, test_support::structured_bar(Vec3(-1, -0.1, -0.1), Vec3(1, 0.1, 0.1), {2, 1, 1}));
+    const std::string bones = "[[joint]]\nname = \"only\"\nparent = \"\"\nhead_m = [-1, 0, 0]\ntail_m = [1, 0, 0]\n";
+    const std::string skeleton = folder.write("bar.skeleton.toml", bones);
+    std::string rows = "vertex,joint,weight\n";
+    for (int vertex = 0; vertex < 12; ++vertex) rows += std::to_string(vertex) + ",only,1\n";
+    const std::string weights = folder.write("bar.csv", rows);
+
+    const Character bar = make_character({.mesh_file = mesh, .skeleton_file = skeleton, .weights_file = weights});
+    EXPECT_EQ(bar.mesh.rest.rows(), 12);
+    EXPECT_EQ(bar.weights.vertices(), 12);
+    ASSERT_EQ(bar.inputs.size(), 4u);  // mesh, skeleton, tets, weights
+    EXPECT_EQ(bar.inputs[0].first, mesh);
+    EXPECT_EQ(bar.inputs[3].second.size(), 32u);
+}
+
+}  // namespace
