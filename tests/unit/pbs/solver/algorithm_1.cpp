@@ -1,0 +1,96 @@
+// Truth: the particles Algorithm 1 integrates, against free fall in closed form.
+#include "pbs/solver/algorithm_1.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "tests/support/two_bone_limb.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using pbs::Algorithm1;
+using pbs::PbsOptions;
+using pbs::Positions;
+using pbs::Vec3;
+
+const test_support::TwoBoneLimb limb = test_support::two_bone_limb({8, 2, 2}, Vec3::UnitZ(), 0.0);
+const std::vector<bool> all(limb.mesh.rest.rows(), true), none(limb.mesh.rest.rows(), false);
+constexpr double dt = 0.01;
+
+PbsOptions jiggling_freely()
+{
+    PbsOptions options;
+    options.k_stretch = options.k_volume = options.k_bind = 0.0;
+    options.gravity_m_s2 = Vec3(0, 0, -9.81);
+    options.jiggle = pbs::Jiggle{0.0};
+    return options;
+}
+
+template <typename Scalar>
+Positions advanced(const std::vector<bool>& zone, const PbsOptions& options, int steps)
+{
+    Algorithm1<Scalar> algorithm(limb.mesh, limb.binding.distance, zone, options);
+    for (int step = 0; step < steps; ++step) algorithm.advance(limb.lbs, limb.bind_points, dt);
+    return algorithm.positions();
+}
+
+TEST(Algorithm1, UnconstrainedParticlesFallFreely)
+{
+    // Symplectic Euler: after n steps x = x0 + a dt^2 n (n + 1) / 2.
+    const Vec3 fall(0, 0, -9.81 * dt * dt * 10 * 11 / 2);
+    const Positions expected = limb.lbs.rowwise() + fall.transpose();
+    EXPECT_LT((advanced<double>(all, jiggling_freely(), 10) - expected).cwiseAbs().maxCoeff(), 1e-14);
+    EXPECT_LT((advanced<float>(all, jiggling_freely(), 10) - expected).cwiseAbs().maxCoeff(), 1e-5);  // 6e-8 m a step, carried on by v
+}
+
+TEST(Algorithm1, ParticlesOutsideTheZoneDoNotFall)
+{
+    std::vector<bool> half = none;
+    for (std::size_t i = 0; i < half.size(); ++i) half[i] = i % 2 == 0;
+    const Positions positions = advanced<double>(half, jiggling_freely(), 10);
+    for (Eigen::Index i = 0; i < positions.rows(); ++i) EXPECT_EQ(positions.row(i) == limb.lbs.row(i), i % 2 == 1);
+}
+
+TEST(Algorithm1, EmptyJiggleZoneIsAsNone)
+{
+    EXPECT_EQ(advanced<double>(none, jiggling_freely(), 3), advanced<double>({}, jiggling_freely(), 3));
+    EXPECT_EQ(advanced<double>(none, jiggling_freely(), 3), limb.lbs);
+}
+
+TEST(Algorithm1, ZoneWithoutJiggleOptionsDoesNotJiggle)
+{
+    PbsOptions options = jiggling_freely();
+    options.jiggle.reset();
+    EXPECT_EQ(advanced<double>(all, options, 3), limb.lbs);
+}
+
+TEST(Algorithm1, JigglingParticlesAtRestStayAtRestExactly)
+{
+    PbsOptions options;
+    options.jiggle = pbs::Jiggle{0.1};
+    EXPECT_EQ(advanced<double>(all, options, 20), limb.mesh.rest);
+}
+
+TEST(Algorithm1, JigglingParticlesLagBehindAndFollow)
+{
+    PbsOptions options;
+    options.jiggle = pbs::Jiggle{0.1};
+    Algorithm1<double> algorithm(limb.mesh, limb.binding.distance, all, options);
+    algorithm.advance(limb.lbs, limb.bind_points, dt);
+    const Eigen::RowVector3d shift(0, 0.02, 0);
+    algorithm.advance(limb.lbs.rowwise() + shift, limb.bind_points.rowwise() + shift, dt);
+    const Positions once = algorithm.positions();
+    EXPECT_GT((once.rowwise() - shift - limb.lbs).rowwise().norm().maxCoeff(), 1e-3);  // the sides of the bind spheres are behind
+    algorithm.advance(limb.lbs.rowwise() + shift, limb.bind_points.rowwise() + shift, dt);
+    EXPECT_NE(algorithm.positions(), once);  // it has a velocity
+}
+
+TEST(Algorithm1, TimeStepMattersOnlyWhereParticlesAreIntegrated)
+{
+    Algorithm1<double> jiggling(limb.mesh, limb.binding.distance, all, jiggling_freely());
+    EXPECT_THROW(jiggling.advance(limb.lbs, limb.bind_points, 0.0), pbs::InputError);
+    Algorithm1<double> still(limb.mesh, limb.binding.distance, {}, {});
+    EXPECT_NO_THROW(still.advance(limb.lbs, limb.bind_points, 0.0));
+}
+
+}  // namespace

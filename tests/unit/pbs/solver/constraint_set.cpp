@@ -1,0 +1,121 @@
+// Truth: which constraints Sec. 3.3-3.6 ask for, counted by hand.
+#include "pbs/solver/constraint_set.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/topology.hpp"
+#include "tests/support/structured_bar.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using pbs::ConstraintSet;
+using pbs::PbsOptions;
+
+const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
+const Eigen::VectorXd distance = Eigen::VectorXd::LinSpaced(bar.rest.rows(), 0.0, 1.0);
+
+ConstraintSet<double> constraints_of(const PbsOptions& options, const std::vector<bool>& jiggle_zone = {})
+{
+    return pbs::make_constraint_set<double>(bar, distance, jiggle_zone, options);
+}
+
+TEST(ConstraintSet, HasEveryEdgeTetAndVertexInFileOrder)
+{
+    const ConstraintSet<double> constraints = constraints_of({});
+    const pbs::Edges edges = pbs::edges_of(bar.tets);
+    ASSERT_EQ(constraints.stretch.size(), std::size_t(edges.rows()));
+    for (std::size_t e = 0; e < constraints.stretch.size(); ++e) {
+        const auto& [vertex, rest_length, stiffness] = constraints.stretch[e];
+        EXPECT_EQ(vertex, (std::array{edges(e, 0), edges(e, 1)}));
+        EXPECT_DOUBLE_EQ(rest_length, (bar.rest.row(vertex[0]) - bar.rest.row(vertex[1])).norm());
+        EXPECT_EQ(stiffness, 0.2);
+    }
+    ASSERT_EQ(constraints.volume.size(), 12u);
+    for (std::size_t t = 0; t < 12; ++t) {
+        EXPECT_EQ(constraints.volume[t].vertex[3], bar.tets(t, 3));
+        EXPECT_DOUBLE_EQ(constraints.volume[t].rest_volume, 1.0 / 6.0);
+    }
+    ASSERT_EQ(constraints.bind.size(), 12u);
+    EXPECT_EQ(constraints.bind[11].vertex, 11);
+    EXPECT_EQ(constraints.bind[11].rest_distance, 1.0);
+    EXPECT_EQ(constraints.inverse_mass, std::vector<double>(12, 1.0));
+}
+
+TEST(ConstraintSet, LeavesOutAClassOfStiffnessZero)
+{
+    PbsOptions options;
+    options.k_stretch = 0.0;
+    EXPECT_TRUE(constraints_of(options).stretch.empty());
+    EXPECT_FALSE(constraints_of(options).volume.empty());
+    options = {};
+    options.k_volume = 0.0;
+    EXPECT_TRUE(constraints_of(options).volume.empty());
+    options = {};
+    options.k_bind = 0.0;
+    EXPECT_TRUE(constraints_of(options).bind.empty());
+}
+
+TEST(ConstraintSet, SoftensEdgesWithBothEndsInTheJiggleZone)
+{
+    PbsOptions options;
+    options.jiggle = pbs::Jiggle{0.05};
+    std::vector<bool> zone(bar.rest.rows(), false);
+    zone[0] = zone[1] = true;
+    for (const auto& edge : constraints_of(options, zone).stretch)
+        EXPECT_EQ(edge.stiffness, edge.vertex == (std::array{0, 1}) ? 0.05 : 0.2);
+    options.jiggle->k_stretch = 0.0;
+    EXPECT_EQ(constraints_of(options, zone).stretch.size() + 1, constraints_of({}).stretch.size());
+    options.jiggle.reset();
+    for (const auto& edge : constraints_of(options, zone).stretch) EXPECT_EQ(edge.stiffness, 0.2);
+}
+
+TEST(ConstraintSet, LumpedMassesAreRelativeToTheirMean)
+{
+    PbsOptions options;
+    options.masses = pbs::Masses::lumped;
+    const ConstraintSet<double> constraints = constraints_of(options);
+    double mass = 0.0;
+    for (const double w : constraints.inverse_mass) mass += 1.0 / w;
+    EXPECT_NEAR(mass, 12.0, 1e-13);
+    EXPECT_GT(*std::max_element(constraints.inverse_mass.begin(), constraints.inverse_mass.end()), 1.5);
+}
+
+TEST(ConstraintSet, RefusesStiffnessesOutsideZeroToOne)
+{
+    for (double PbsOptions::*field : {&PbsOptions::k_stretch, &PbsOptions::k_volume, &PbsOptions::k_bind})
+        for (const double k : {-0.1, 1.1, std::nan("")}) {
+            PbsOptions options;
+            options.*field = k;
+            EXPECT_THROW(constraints_of(options), pbs::InputError) << k;
+        }
+    PbsOptions options;
+    options.jiggle = pbs::Jiggle{1.5};
+    EXPECT_THROW(constraints_of(options), pbs::InputError);
+    options = {};
+    options.iterations = -1;
+    EXPECT_THROW(constraints_of(options), pbs::InputError);
+}
+
+TEST(ConstraintSet, RefusesWrongSizes)
+{
+    EXPECT_THROW(pbs::make_constraint_set<float>(bar, distance.head(3), {}, {}), pbs::InputError);
+    EXPECT_THROW(constraints_of({}, std::vector<bool>(3, true)), pbs::InputError);
+}
+
+TEST(ConstraintSet, RefusesBadTets)
+{
+    pbs::TetMesh bad = bar;
+    bad.tets(3, 0) = 12;
+    EXPECT_THROW(pbs::make_constraint_set<double>(bad, distance, {}, {}), pbs::InputError);
+    bad = bar;
+    std::swap(bad.tets(3, 0), bad.tets(3, 1));  // mirrored
+    EXPECT_THROW(pbs::make_constraint_set<double>(bad, distance, {}, {}), pbs::InputError);
+    bad = bar;
+    bad.rest.col(2).setZero();  // flat
+    EXPECT_THROW(pbs::make_constraint_set<double>(bad, distance, {}, {}), pbs::InputError);
+}
+
+}  // namespace

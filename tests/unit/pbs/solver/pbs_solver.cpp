@@ -1,0 +1,183 @@
+// Truth: Algorithm 1's fixed points and limits by theory; outcomes by definition.
+#include "pbs/solver/pbs_solver.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/tet_volume.hpp"
+#include "tests/support/two_bone_limb.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using pbs::Outcome;
+using pbs::PbsOptions;
+using pbs::PbsSolver;
+using pbs::Positions;
+using pbs::StepSummary;
+using pbs::Vec3;
+using test_support::TwoBoneLimb;
+
+const TwoBoneLimb bent = test_support::two_bone_limb({16, 4, 4}, Vec3::UnitZ(), 60.0);
+const TwoBoneLimb straight = test_support::two_bone_limb({16, 4, 4}, Vec3::UnitZ(), 0.0);
+
+PbsOptions in_double()
+{
+    PbsOptions options;
+    options.precision = pbs::Precision::f64;
+    return options;
+}
+
+Positions stepped(const TwoBoneLimb& limb, const PbsOptions& options)
+{
+    PbsSolver solver(limb.mesh, limb.binding.distance, {}, options);
+    EXPECT_EQ(solver.advance(limb.lbs, limb.bind_points, 0.01).outcome, Outcome::finished);
+    return solver.positions();
+}
+
+double volume_change(const TwoBoneLimb& limb, const Positions& positions)
+{
+    return (pbs::tet_volumes(positions, limb.mesh.tets) - pbs::tet_volumes(limb.mesh.rest, limb.mesh.tets)).cwiseAbs().sum();
+}
+
+TEST(PbsSolver, RestPoseStaysAtRestExactly)
+{
+    ASSERT_EQ(straight.lbs, straight.mesh.rest);
+    EXPECT_EQ(stepped(straight, in_double()), straight.mesh.rest);
+}
+
+TEST(PbsSolver, RestPoseStaysAtRestInFloat)
+{
+    // Positions and rest data are rounded to float, 6e-8 of the 1 m half length; each of 24 iterations may add to it.
+    EXPECT_LT((stepped(straight, {}) - straight.mesh.rest).cwiseAbs().maxCoeff(), 24 * 6e-8);
+}
+
+TEST(PbsSolver, StartsAtTheRestPose)
+{
+    EXPECT_EQ(PbsSolver(bent.mesh, bent.binding.distance, {}, {}).positions(), bent.mesh.rest);
+}
+
+TEST(PbsSolver, ZeroIterationsLeaveTheLbsPositions)
+{
+    PbsOptions options = in_double();
+    options.iterations = 0;
+    EXPECT_EQ(stepped(bent, options), bent.lbs);
+}
+
+TEST(PbsSolver, ZeroStiffnessesLeaveTheLbsPositions)
+{
+    PbsOptions options = in_double();
+    options.k_stretch = options.k_volume = options.k_bind = 0.0;
+    EXPECT_EQ(stepped(bent, options), bent.lbs);
+}
+
+TEST(PbsSolver, ReducesTheVolumeErrorOfLbs)
+{
+    EXPECT_LT(volume_change(bent, stepped(bent, in_double())), 0.5 * volume_change(bent, bent.lbs));
+}
+
+// Volumes alone can all be satisfied (the rest pose does), so their error has no floor: it falls however long one goes on.
+TEST(PbsSolver, VolumeAloneGoesOnConverging)
+{
+    PbsOptions options = in_double();
+    options.k_stretch = options.k_bind = 0.0;
+    double previous = volume_change(bent, bent.lbs);
+    for (const int iterations : {100, 500, 2500}) {
+        options.iterations = iterations;
+        const double change = volume_change(bent, stepped(bent, options));
+        EXPECT_LT(change, previous / 3.0) << iterations;
+        previous = change;
+    }
+}
+
+TEST(PbsSolver, BindAloneIsExactAfterOneIteration)
+{
+    PbsOptions options = in_double();
+    options.k_stretch = options.k_volume = 0.0;
+    options.iterations = 1;
+    const Positions positions = stepped(bent, options);
+    EXPECT_LT(((positions - bent.bind_points).rowwise().norm() - bent.binding.distance).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+TEST(PbsSolver, FloatAgreesWithDouble)
+{
+    // Rounding of 6e-8 m, carried through 24 iterations of contradicting constraints.
+    EXPECT_LT((stepped(bent, {}) - stepped(bent, in_double())).cwiseAbs().maxCoeff(), 2e-5);
+}
+
+TEST(PbsSolver, FloatKeepsItsDigitsFarFromTheOrigin)
+{
+    const Vec3 far(1000.0, -2000.0, 500.0);  // a float there has steps of 1e-4 m
+    PbsSolver solver(bent.mesh, bent.binding.distance, {}, {});
+    solver.advance(bent.lbs.rowwise() + far.transpose(), bent.bind_points.rowwise() + far.transpose(), 0.01);
+    EXPECT_LT(((solver.positions().rowwise() - far.transpose()) - stepped(bent, {})).cwiseAbs().maxCoeff(), 2e-5);
+}
+
+TEST(PbsSolver, NothingIsRememberedWhereNothingJiggles)
+{
+    PbsSolver solver(bent.mesh, bent.binding.distance, {}, in_double());
+    solver.advance(straight.lbs, straight.bind_points, 0.01);
+    solver.advance(bent.lbs, bent.bind_points, 0.01);
+    EXPECT_EQ(solver.positions(), stepped(bent, in_double()));
+}
+
+TEST(PbsSolver, RepeatsToTheBit)
+{
+    EXPECT_EQ(stepped(bent, {}), stepped(bent, {}));
+}
+
+TEST(PbsSolver, RecordsEachIteration)
+{
+    PbsOptions options = in_double();
+    options.record_iterations = true;
+    PbsSolver solver(bent.mesh, bent.binding.distance, {}, options);
+    const StepSummary summary = solver.advance(bent.lbs, bent.bind_points, 0.01);
+    ASSERT_EQ(summary.history.size(), 24u);
+    EXPECT_EQ(summary.iterations, 24);
+    EXPECT_LT(summary.history.back().volume_rms, summary.history.front().volume_rms);
+    EXPECT_GT(summary.seconds, 0.0);
+    EXPECT_EQ(solver.positions(), stepped(bent, in_double()));
+}
+
+TEST(PbsSolver, StopsAtTheResidual)
+{
+    PbsOptions options = in_double();
+    options.stop_residual = 0.2;
+    PbsSolver solver(bent.mesh, bent.binding.distance, {}, options);
+    const StepSummary summary = solver.advance(bent.lbs, bent.bind_points, 0.01);
+    EXPECT_EQ(summary.outcome, Outcome::finished);
+    EXPECT_LT(summary.iterations, 24);
+    EXPECT_TRUE(summary.history.empty());
+}
+
+TEST(PbsSolver, SaysThatItDidNotConverge)
+{
+    PbsOptions options = in_double();
+    options.stop_residual = 1e-12;
+    PbsSolver solver(bent.mesh, bent.binding.distance, {}, options);
+    const StepSummary summary = solver.advance(bent.lbs, bent.bind_points, 0.01);
+    EXPECT_EQ(summary.outcome, Outcome::not_converged);
+    EXPECT_EQ(summary.iterations, 24);
+    EXPECT_STREQ(pbs::to_string(summary.outcome), "not_converged");
+}
+
+TEST(PbsSolver, SaysThatItIsNotFinite)
+{
+    Positions broken = bent.lbs;
+    broken(5, 1) = std::numeric_limits<double>::quiet_NaN();
+    for (const pbs::Precision precision : {pbs::Precision::f32, pbs::Precision::f64}) {
+        PbsOptions options;
+        options.precision = precision;
+        PbsSolver solver(bent.mesh, bent.binding.distance, {}, options);
+        EXPECT_EQ(solver.advance(broken, bent.bind_points, 0.01).outcome, Outcome::not_finite);
+        EXPECT_EQ(solver.advance(bent.lbs, bent.bind_points, 0.01).outcome, Outcome::finished);  // it recovers in the next frame
+    }
+}
+
+TEST(PbsSolver, RefusesWrongSizes)
+{
+    PbsSolver solver(bent.mesh, bent.binding.distance, {}, {});
+    EXPECT_THROW(solver.advance(bent.lbs.topRows(3), bent.bind_points, 0.01), pbs::InputError);
+    EXPECT_THROW(solver.advance(bent.lbs, bent.bind_points.topRows(3), 0.01), pbs::InputError);
+}
+
+}  // namespace
