@@ -4,6 +4,8 @@
 
 #include <cholmod.h>
 
+#include <limits>
+
 namespace reference_fem {
 namespace {
 
@@ -56,8 +58,9 @@ public:
         const Stopwatch factorisation;
         cholmod_l_factorize(&sparse, factor_, &common_);
         factor_s_ = factorisation.seconds();
-        usable_ = common_.status == CHOLMOD_OK && factor_->minor >= factor_->n;
-        if (usable_) reciprocal_condition_ = cholmod_l_rcond(factor_, &common_);
+        if (common_.status != CHOLMOD_OK || factor_->minor < factor_->n) return;  // not positive definite
+        reciprocal_condition_ = cholmod_l_rcond(factor_, &common_);
+        usable_ = reciprocal_condition_ > std::numeric_limits<double>::epsilon();
     }
 
     ~CholmodFactor() override

@@ -19,7 +19,7 @@ public:
     virtual Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const = 0;  // only where usable()
     virtual std::string name() const = 0;
 
-    bool usable() const { return usable_; }                                // false: singular, or not positive definite
+    bool usable() const { return usable_; }                                // false: singular in double, or (CHOLMOD) not positive definite
     double analyse_s() const { return analyse_s_; }                        // ordering and symbolic analysis
     double factor_s() const { return factor_s_; }                          // numerical factorisation
     double reciprocal_condition() const { return reciprocal_condition_; }  // the library's own rough estimate

@@ -20,9 +20,10 @@ public:
         analyse_s_ = analysis.seconds();
         if (!symbolic) return;
         const Stopwatch factorisation;
-        usable_ = umfpack_dl_numeric(columns(), rows(), matrix.valuePtr(), symbolic, &numeric_, nullptr, info) == UMFPACK_OK;
+        const auto status = umfpack_dl_numeric(columns(), rows(), matrix.valuePtr(), symbolic, &numeric_, nullptr, info);
         factor_s_ = factorisation.seconds();
         reciprocal_condition_ = info[UMFPACK_RCOND];
+        usable_ = status == UMFPACK_OK && reciprocal_condition_ > std::numeric_limits<double>::epsilon();
         umfpack_dl_free_symbolic(&symbolic);
     }
 

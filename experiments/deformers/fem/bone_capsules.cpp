@@ -1,5 +1,6 @@
 #include "experiments/deformers/fem/bone_capsules.hpp"
 
+#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <cmath>
@@ -63,6 +64,7 @@ std::vector<BoneCapsule> bone_capsules(const pbs::Character& character, double c
     for (std::size_t j = 0; j < character.skeleton.bones.size(); ++j) {
         const pbs::Bone& bone = character.skeleton.bones[j];
         const pbs::Vec3 axis = bone.tail - bone.head;
+        if (!(axis.norm() > 0.0)) throw pbs::InputError(character.name, 0, "bone", bone.name, "expected a length above 0");
         BoneCapsule capsule{bone.head + middle_begin * axis, bone.head + middle_end * axis, 0.0, "skin on its middle"};
         Mean radius = radii.on_middle[j];
         if (radius.count == 0) {

@@ -1,0 +1,143 @@
+// What the judge refuses at the door, and what it reports of its set-up. That it solves rightly is shown under verification.
+#include "reference_fem/linear_elasticity.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "tests/support/structured_bar.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace {
+
+using namespace reference_fem;
+
+const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
+
+Attachment springs_at(const pbs::Positions& points)
+{
+    return {points, Eigen::VectorXd::Constant(points.rows(), 10.0), {}};
+}
+
+pbs::Positions three_points()
+{
+    pbs::Positions points(3, 3);
+    points << 0.1, 0.1, 0.1, 0.1, 0.9, 0.1, 1.9, 0.5, 0.5;
+    return points;
+}
+
+void expect_refused(const pbs::TetMesh& mesh, const LinearOptions& options, const Attachment& attachment, const std::string& field)
+{
+    try {
+        LinearElasticity fem(mesh, options, attachment);
+        FAIL() << field << " was accepted";
+    } catch (const pbs::InputError& error) {
+        EXPECT_NE(std::string(error.what()).find(field), std::string::npos) << error.what();
+    }
+}
+
+TEST(LinearElasticity, RefusesOptionsOutOfBounds)
+{
+    const auto refused = [](const std::string& field, const std::function<void(LinearOptions&)>& spoil) {
+        LinearOptions options;
+        spoil(options);
+        expect_refused(bar, options, springs_at(three_points()), field);
+    };
+    refused("element_order", [](auto& o) { o.element_order = 3; });
+    refused("young_pa", [](auto& o) { o.young_pa = 0.0; });
+    refused("young_pa", [](auto& o) { o.young_pa = std::nan(""); });
+    refused("poisson", [](auto& o) { o.poisson = 0.5; });
+    refused("poisson", [](auto& o) { o.poisson = -1.0; });
+    refused("density_kg_m3", [](auto& o) { o.density_kg_m3 = -1.0; });
+    refused("gravity_m_s2", [](auto& o) { o.gravity_m_s2(1) = INFINITY; });
+}
+
+TEST(LinearElasticity, RefusesBadAttachments)
+{
+    const auto refused = [](const std::string& field, const std::function<void(Attachment&)>& spoil) {
+        Attachment attachment = springs_at(three_points());
+        spoil(attachment);
+        expect_refused(bar, {}, attachment, field);
+    };
+    refused("spring_stiffness", [](auto& a) { a.spring_stiffness.conservativeResize(2); });
+    refused("spring_stiffness", [](auto& a) { a.spring_stiffness(1) = 0.0; });
+    refused("spring_points", [](auto& a) { a.spring_points(1, 1) = std::nan(""); });
+    refused("prescribed_tets", [](auto& a) { a.prescribed_tets = {static_cast<int>(bar.tets.rows())}; });
+    refused("prescribed_tets", [](auto& a) { a.prescribed_tets = {-1}; });
+}
+
+TEST(LinearElasticity, RefusesABodyThatCanMoveFreely)
+{
+    expect_refused(bar, {}, {}, "attachment");
+    expect_refused(bar, {}, springs_at(three_points().topRows(2)), "attachment");
+    pbs::Positions on_one_line(3, 3);
+    on_one_line << 0.1, 0.5, 0.5, 0.7, 0.5, 0.5, 1.9, 0.5, 0.5;
+    expect_refused(bar, {}, springs_at(on_one_line), "attachment");
+    expect_refused(bar, {}, springs_at(three_points().array() + 10.0), "attachment");  // all outside
+}
+
+TEST(LinearElasticity, RefusesAPartOfTheMeshThatNothingHolds)
+{
+    pbs::TetMesh two = bar;
+    const int vertices = static_cast<int>(bar.rest.rows());
+    two.rest.conservativeResize(2 * vertices, 3);
+    two.rest.bottomRows(vertices) = bar.rest.array() + 5.0;
+    two.tets.conservativeResize(2 * bar.tets.rows(), 4);
+    two.tets.bottomRows(bar.tets.rows()) = bar.tets.array() + vertices;
+    expect_refused(two, {}, springs_at(three_points()), "attachment");
+    Attachment both = springs_at(three_points());
+    both.prescribed_tets = {static_cast<int>(bar.tets.rows())};
+    EXPECT_NO_THROW(LinearElasticity(two, {}, both));
+}
+
+TEST(LinearElasticity, RefusesTargetsOfTheWrongSize)
+{
+    LinearElasticity fem(bar, {}, springs_at(three_points()));
+    EXPECT_THROW(fem.solve(three_points().topRows(2), bar.rest), pbs::InputError);
+    EXPECT_THROW(fem.solve(three_points(), bar.rest.topRows(2)), pbs::InputError);
+}
+
+TEST(LinearElasticity, TargetsThatAreNotNumbersAreAReportedOutcome)
+{
+    LinearElasticity fem(bar, {}, springs_at(three_points()));
+    EXPECT_FALSE(fem.solve(three_points().array() * std::nan(""), bar.rest).finite);
+    EXPECT_TRUE(fem.solve(three_points(), bar.rest).finite) << "the next frame is whole again";
+    EXPECT_EQ(fem.positions(), bar.rest);
+}
+
+TEST(LinearElasticity, SpringsOutsideEveryTetAreLeftOutAndReported)
+{
+    pbs::Positions points(4, 3);
+    points << three_points(), 5.0, 0.5, 0.5;
+    LinearElasticity fem(bar, {}, springs_at(points));
+    EXPECT_GE(fem.setup().spring_tet[0], 0);
+    EXPECT_EQ(fem.setup().spring_tet[3], -1);
+    pbs::Positions targets = points;
+    targets.row(3).array() += 100.0;  // pulls at nothing
+    ASSERT_TRUE(fem.solve(targets, bar.rest).finite);
+    EXPECT_EQ(fem.positions(), bar.rest);
+    EXPECT_TRUE(fem.spring_points_deformed().topRows(3).isApprox(points.topRows(3)));
+    EXPECT_FALSE(fem.spring_points_deformed().row(3).allFinite());
+}
+
+TEST(LinearElasticity, PrescribedTetsHoldTheirVerticesAndNoOthers)
+{
+    Attachment attachment;
+    attachment.prescribed_tets = {3};
+    const LinearElasticity fem(bar, {}, attachment);
+    const std::vector<bool> prescribed = fem.prescribed_vertices();
+    EXPECT_EQ(std::count(prescribed.begin(), prescribed.end(), true), 4);
+    for (const int vertex : bar.tets.row(3)) EXPECT_TRUE(prescribed[vertex]);
+}
+
+TEST(LinearElasticity, SetupSaysWhatWasDone)
+{
+    const LinearElasticity fem(bar, {.element_order = 1}, springs_at(three_points()));
+    EXPECT_EQ(fem.setup().dofs, 3 * bar.rest.rows());
+    EXPECT_TRUE(fem.setup().factored);
+    EXPECT_NE(fem.setup().solver.find("CHOLMOD"), std::string::npos);
+    EXPECT_NE(fem.setup().blas.find("blas"), std::string::npos);
+    EXPECT_GT(fem.setup().reciprocal_condition, 0.0);
+}
+
+}  // namespace

@@ -1,0 +1,67 @@
+// Truth: closed form (Timoshenko and Goodier, Theory of elasticity, art. 96). A bar along x, held at x = 0, under its own weight w [N/m^3]
+// along x carries sigma_xx = w (L - x) and nothing else: eps_xx = sigma_xx / E, eps_yy = eps_zz = -nu eps_xx, no shear. The displacement
+// is quadratic: P2 tets return it to rounding, P1 tets approach it with at least order 1 in the H1 seminorm (the L2 order is below 2: the
+// dual problem is singular where the held face meets free ones).
+#include "reference_fem/boundary_value_problem.hpp"
+
+#include "tests/verification/reference_fem/jittered_cube.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace reference_fem;
+using pbs::Vec3;
+
+const ElasticMaterial material{1.0e5, 0.3};
+const double length_m = 1.0, weight_n_m3 = 9810.0;
+
+Vec3 exact(const Vec3& p)
+{
+    const double x = p(0), y = p(1) - 0.5, z = p(2) - 0.5, slope = weight_n_m3 / material.young_pa, nu = material.poisson;
+    return {slope * (length_m * x - x * x / 2.0 - nu * (y * y + z * z) / 2.0), -nu * slope * (length_m - x) * y,
+            -nu * slope * (length_m - x) * z};
+}
+
+Eigen::Matrix3d exact_gradient(const Vec3& p)
+{
+    const double x = p(0), y = p(1) - 0.5, z = p(2) - 0.5, slope = weight_n_m3 / material.young_pa, nu = material.poisson;
+    Eigen::Matrix3d gradient;
+    gradient << length_m - x, -nu * y, -nu * z, nu * y, -nu * (length_m - x), 0.0, nu * z, 0.0, -nu * (length_m - x);
+    return slope * gradient;
+}
+
+BoundaryValueSolution hang(int cells, int element_order)
+{
+    return solve(test_support::jittered_cube(cells), material,
+                 {.body_force = [](const Vec3&) -> Vec3 {
+                      return {weight_n_m3, 0, 0};
+                  },
+                  .displacement = exact,
+                  .held = [](const Vec3& p) { return p(0) < 1e-9; },
+                  .element_order = element_order});
+}
+
+TEST(HangingBar, QuadraticTetsAreExact)
+{
+    const double longest = exact({length_m, 0.5, 0.5}).norm();
+    // Condition of some 1e4 (P2, 4 cells) times eps: 1e-12 with room.
+    EXPECT_LT(hang(4, 2).largest_nodal_error(exact) / longest, 1e-11);
+}
+
+// W = integral of sigma_xx^2 / (2 E) = w^2 L^3 / (6 E) over the unit cross-section.
+TEST(HangingBar, StoredEnergyIsTheClosedForm)
+{
+    const double energy = weight_n_m3 * weight_n_m3 / (6.0 * material.young_pa);
+    EXPECT_NEAR(hang(4, 2).strain_energy_j(material), energy, 1e-11 * energy);
+}
+
+// Cea's lemma is a bound from above: at least order 1, less the 0.1 of two meshes so close.
+TEST(HangingBar, LinearTetsApproachWithOrderOneOrBetter)
+{
+    const double coarse = hang(6, 1).errors(exact, exact_gradient).h1_seminorm,
+                 fine = hang(12, 1).errors(exact, exact_gradient).h1_seminorm;
+    EXPECT_GT(std::log2(coarse / fine), 0.9);
+}
+
+}  // namespace
