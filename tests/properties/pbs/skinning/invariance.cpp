@@ -1,0 +1,159 @@
+// Truth: binding, weights and blends are geometry, so they commute with rigid motions, renumbering, mirrors and changes of unit.
+#include "tests/support/random_points.hpp"
+#include "tests/support/two_bone_limb.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace {
+
+using namespace test_support;
+using pbs::Positions;
+using pbs::Vec3;
+
+constexpr double rounding = 2e-15;  // a few roundings of numbers of order one
+
+const TwoBoneLimb limb = two_bone_limb({12, 3, 3}, Vec3(0.3, 0.2, 1.0), 80.0);
+
+Positions blended(decltype(pbs::linear_blend_skinning) blend, const Positions& rest, const pbs::Weights& weights, const pbs::Pose& pose)
+{
+    Positions posed;
+    blend(rest, weights, pose, posed);
+    return posed;
+}
+
+const auto blends = {pbs::linear_blend_skinning, pbs::dual_quaternion_skinning};
+
+void expect_same_weights(const pbs::Weights& a, const pbs::Weights& b)
+{
+    EXPECT_EQ(a.first, b.first);
+    EXPECT_EQ(a.bone, b.bone);
+    EXPECT_EQ(a.weight, b.weight);
+}
+
+pbs::Skeleton mapped(pbs::Skeleton skeleton, const Eigen::Affine3d& map)
+{
+    for (pbs::Bone& bone : skeleton.bones) {
+        bone.head = map * bone.head;
+        bone.tail = map * bone.tail;
+    }
+    return skeleton;
+}
+
+// Vertices at least 1e-6 of a bone away from Eq. 2's bounds and from the bisector of the bones, where rounding may decide.
+bool undecided(int vertex)
+{
+    const double t = limb.binding.parameter(vertex);
+    return std::min({std::abs(t - 1.0 / 6.0), std::abs(t - 5.0 / 6.0), std::abs(t), std::abs(t - 1.0)}) < 1e-6;
+}
+
+TEST(SkinningInvariance, BindingAndWeightsUnderSimilarities)
+{
+    RandomPoints random(51);
+    for (const double size : {1e-6, 1e-3, 1.0, 1e3, 1e6}) {
+        const Eigen::Affine3d map = Eigen::Affine3d(random.rigid_motion(1.0)) * Eigen::Scaling(size);
+        const Positions rest = (limb.mesh.rest * map.linear().transpose()).rowwise() + map.translation().transpose();
+        const pbs::Skeleton skeleton = mapped(limb.skeleton, map);
+        const pbs::BoneBinding binding = pbs::bind_to_nearest_bone(rest, skeleton);
+        const pbs::Weights weights = pbs::paper_weights(binding, skeleton);
+        const double tolerance = 1e-14 * (1.0 + 3.0 / size);  // the translation is of order one, so is its rounding
+        for (int i = 0; i < rest.rows(); ++i) {
+            if (undecided(i)) continue;
+            EXPECT_EQ(binding.bone[i], limb.binding.bone[i]);
+            EXPECT_NEAR(binding.parameter(i), limb.binding.parameter(i), tolerance);
+            EXPECT_NEAR(binding.distance(i) / size, limb.binding.distance(i), tolerance);
+            EXPECT_EQ(weights.blended(i), limb.weights.blended(i));
+        }
+    }
+}
+
+TEST(SkinningInvariance, BindingAndWeightsUnderRenumbering)
+{
+    const Positions reversed = limb.mesh.rest.colwise().reverse();
+    const pbs::BoneBinding binding = pbs::bind_to_nearest_bone(reversed, limb.skeleton);
+    const pbs::Weights weights = pbs::paper_weights(binding, limb.skeleton);
+    const int last = static_cast<int>(reversed.rows()) - 1;
+    for (int i = 0; i <= last; ++i) {
+        EXPECT_EQ(binding.bone[i], limb.binding.bone[last - i]);
+        EXPECT_EQ(binding.distance(i), limb.binding.distance(last - i));
+        EXPECT_EQ(weights.blended(i), limb.weights.blended(last - i));
+    }
+}
+
+TEST(SkinningInvariance, WeightsUnderAMirror)
+{
+    Eigen::Affine3d mirror = Eigen::Affine3d::Identity();
+    mirror.linear().diagonal() << 1, -1, 1;
+    const Positions rest = limb.mesh.rest * mirror.linear();
+    const pbs::Skeleton skeleton = mapped(limb.skeleton, mirror);
+    expect_same_weights(pbs::paper_weights(pbs::bind_to_nearest_bone(rest, skeleton), skeleton), limb.weights);
+}
+
+TEST(SkinningInvariance, BlendsOfOneRigidMotionAreThatMotion)
+{
+    RandomPoints random(52);
+    for (int trial = 0; trial < 20; ++trial) {
+        const Eigen::Isometry3d motion = random.rigid_motion(1.0);
+        const Positions expected = transformed(limb.mesh.rest, motion);
+        for (const auto blend : blends)
+            EXPECT_LT((blended(blend, limb.mesh.rest, limb.weights, {motion, motion}) - expected).cwiseAbs().maxCoeff(), rounding);
+    }
+}
+
+TEST(SkinningInvariance, BlendsAreCarriedByAMotionOfTheWholeBody)
+{
+    RandomPoints random(53);
+    for (int trial = 0; trial < 20; ++trial) {
+        const Eigen::Isometry3d motion = random.rigid_motion(1.0);
+        pbs::Pose carried;
+        for (const Eigen::Isometry3d& bone : limb.pose) carried.push_back(motion * bone);
+        for (const auto blend : blends) {
+            const Positions expected = transformed(blended(blend, limb.mesh.rest, limb.weights, limb.pose), motion);
+            EXPECT_LT((blended(blend, limb.mesh.rest, limb.weights, carried) - expected).cwiseAbs().maxCoeff(), 2 * rounding);
+        }
+    }
+}
+
+TEST(SkinningInvariance, BlendsUnderAMirror)
+{
+    const Eigen::Vector3d diagonal(1, -1, 1);
+    const Eigen::Matrix3d mirror = diagonal.asDiagonal();
+    pbs::Pose mirrored = limb.pose;
+    for (Eigen::Isometry3d& bone : mirrored) {
+        bone.linear() = (mirror * bone.linear() * mirror).eval();
+        bone.translation() = (mirror * bone.translation()).eval();
+    }
+    for (const auto blend : blends) {
+        const Positions expected = blended(blend, limb.mesh.rest, limb.weights, limb.pose) * mirror;
+        EXPECT_LT((blended(blend, limb.mesh.rest * mirror, limb.weights, mirrored) - expected).cwiseAbs().maxCoeff(), rounding);
+    }
+}
+
+TEST(SkinningInvariance, BlendsScaleWithTheBody)
+{
+    for (const double size : {1e-6, 1e6}) {
+        pbs::Pose scaled = limb.pose;
+        for (Eigen::Isometry3d& bone : scaled) bone.translation() *= size;
+        for (const auto blend : blends) {
+            const Positions expected = blended(blend, limb.mesh.rest, limb.weights, limb.pose);
+            EXPECT_LT((blended(blend, size * limb.mesh.rest, limb.weights, scaled) / size - expected).cwiseAbs().maxCoeff(), rounding);
+        }
+    }
+}
+
+TEST(SkinningInvariance, BlendsDoNotDependOnTheOrderOfTheBones)
+{
+    pbs::Weights swapped = limb.weights;
+    for (int i = 0; i < swapped.vertices(); ++i) {
+        std::reverse(swapped.bone.begin() + swapped.first[i], swapped.bone.begin() + swapped.first[i + 1]);
+        std::reverse(swapped.weight.begin() + swapped.first[i], swapped.weight.begin() + swapped.first[i + 1]);
+    }
+    for (const auto blend : blends)
+        EXPECT_LT((blended(blend, limb.mesh.rest, swapped, limb.pose) - blended(blend, limb.mesh.rest, limb.weights, limb.pose))
+                      .cwiseAbs()
+                      .maxCoeff(),
+                  rounding);
+}
+
+}  // namespace
