@@ -8,15 +8,21 @@
 namespace analysis {
 namespace {
 
+// Three digits, and none of what only rounding left over.
+std::string figure(double value)
+{
+    return std::abs(value) < 5e-4 ? "0" : fmt::format("{:.3g}", value);
+}
+
 // " [5.1, 7.3]"; nothing for an interval without bounds.
 std::string bounds_text(const Interval& interval, double factor)
 {
-    return std::isnan(interval.low) ? "" : fmt::format(" [{:.3g}, {:.3g}]", factor * interval.low, factor * interval.high);
+    return std::isnan(interval.low) ? "" : fmt::format(" [{}, {}]", figure(factor * interval.low), figure(factor * interval.high));
 }
 
 std::string mean_text(const CaseJudgement& judgement)
 {
-    return fmt::format("mean {:.3g} %{}", judgement.mean.estimate, bounds_text(judgement.mean, 1.0));
+    return fmt::format("mean {} %{}", figure(judgement.mean.estimate), bounds_text(judgement.mean, 1.0));
 }
 
 std::string share_text(const CaseJudgement& judgement)
@@ -27,7 +33,7 @@ std::string share_text(const CaseJudgement& judgement)
 
 std::string span_text(const CaseJudgement& judgement)
 {
-    return fmt::format("{:.3g} to {:.3g} %", judgement.least, judgement.most);
+    return fmt::format("{} to {} %", figure(judgement.least), figure(judgement.most));
 }
 
 std::string angles_text(const CaseJudgement& judgement)
@@ -54,7 +60,7 @@ std::string inverted_text(const CaseJudgement& judgement)
 
 std::string short_sweep_text(const CaseJudgement& judgement)
 {
-    if (judgement.rule == ClaimRule::mean_within) return " " + angles_text(judgement);
+    if (judgement.rule == ClaimRule::mean_within) return fmt::format(" {}", angles_text(judgement));
     if (judgement.extent == Extent::none) return fmt::format(" at no angle{}", worst_text(judgement));
     return fmt::format(" up to {:.4g} of {:.4g} deg", judgement.angles.front().to_deg, judgement.last_angle_deg);
 }

@@ -23,9 +23,10 @@ std::string quoted_where_needed(const std::string& field)
 
 std::string line_of(const std::vector<std::string>& fields)
 {
-    std::string line;
-    for (std::size_t i = 0; i < fields.size(); ++i) line += (i > 0 ? "," : "") + quoted_where_needed(fields[i]);
-    return (line.empty() ? "\"\"" : line) + "\n";  // one empty field is not an empty line
+    if (fields.size() == 1 && fields[0].empty()) return "\"\"\n";  // one empty field is not an empty line
+    std::vector<std::string> quoted;
+    for (const std::string& field : fields) quoted.push_back(quoted_where_needed(field));
+    return fmt::format("{}\n", fmt::join(quoted, ","));
 }
 
 std::string cell_text(const CsvTable::Cell& cell)
