@@ -17,6 +17,9 @@ public:
     virtual pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) = 0;
     virtual const pbs::Positions& positions() const = 0;  // [m], #V x 3
 
+    // The next positions depend on the last: such a deformer sees every step, the others see frames only.
+    virtual bool has_memory() const { return false; }
+
     // Vertices this deformer is told where to be (the FEM's attachment), #V; empty: none.
     virtual std::vector<bool> prescribed() const { return {}; }
     // What belongs on record beside the frames: grip of each bone, solver, sizes. Null: nothing.

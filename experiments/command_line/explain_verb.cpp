@@ -1,0 +1,115 @@
+// pbskin explain NAME: what a metric, claim, scene key or study means.
+#include "experiments/claims_text.hpp"
+#include "experiments/command_line/verbs.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/metrics_table.hpp"
+#include "experiments/scene.hpp"
+#include "experiments/scene_schema.hpp"
+#include "experiments/studies/study.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+
+namespace experiments {
+namespace {
+
+void line(const char* label, const std::string& text)
+{
+    if (!text.empty()) fmt::print("  {:<8} {}\n", label, text);
+}
+
+bool explain_key(const std::string& name)
+{
+    bool found = false;
+    for (const auto& key : scene_keys()) {
+        if (key.path() != name && key.name != name && key.table != name) continue;
+        found = true;
+        fmt::print("{} (scene key)\n", key.path());
+        line("meaning", key.meaning);
+        line("unit", key.unit);
+        line("rule", key.rule());
+        line("default", key.default_json.empty() ? "none: every scene states it" : key.default_json);
+    }
+    return found;
+}
+
+bool explain_metric(const std::string& name)
+{
+    for (const auto& text : metric_texts()) {
+        if (text.name != name) continue;
+        fmt::print("{} (metric)\n", text.name);
+        line("meaning", text.meaning);
+        line("formula", text.formula);
+        line("unit", text.unit);
+        line("source", text.source);
+        line("cost", text.cost);
+        return true;
+    }
+    return false;
+}
+
+bool explain_claim(const std::string& name)
+{
+    for (const auto& claim : claims()) {
+        if (claim.id != name) continue;
+        fmt::print("{}\n", describe_claim(claim));
+        return true;
+    }
+    return false;
+}
+
+bool explain_study(const std::string& name)
+{
+    for (const auto& study : studies()) {
+        if (study.name != name) continue;
+        fmt::print("{} (study)\n", study.name);
+        line("meaning", study.meaning);
+        line("claims", study.claims);
+        line("cost", study.cost);
+        return true;
+    }
+    return false;
+}
+
+bool explain_deformer_or_scene(const std::string& name)
+{
+    for (const auto& kind : deformer_kinds())
+        if (kind.kind == name) return fmt::print("{} (deformer)\n  {}\n", kind.kind, kind.meaning), true;
+    for (const auto& scene : built_in_scenes())
+        if (scene.name == name) return fmt::print("{} (scene)\n  {}\n\n{}", scene.name, scene.meaning, scene.text), true;
+    return false;
+}
+
+std::vector<std::string> known_names()
+{
+    std::vector<std::string> names;
+    for (const auto& key : scene_keys()) names.insert(names.end(), {key.path(), key.name});
+    for (const auto& text : metric_texts()) names.push_back(text.name);
+    for (const auto& claim : claims()) names.push_back(claim.id);
+    for (const auto& study : studies()) names.push_back(study.name);
+    for (const auto& kind : deformer_kinds()) names.push_back(kind.kind);
+    for (const auto& scene : built_in_scenes()) names.push_back(scene.name);
+    return names;
+}
+
+int explain(const std::string& name)
+{
+    bool found = false;
+    for (const auto explain_one : {explain_metric, explain_claim, explain_study, explain_deformer_or_scene, explain_key})
+        found |= explain_one(name);
+    if (!found)
+        throw pbs::InputError("", 0, "explain", name, "unknown name; the nearest known one is " + nearest_name(name, known_names()));
+    return exit_finished;
+}
+
+}  // namespace
+
+void add_explain_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+{
+    CLI::App* verb = add_verb(app, common, "explain", "what a metric, claim, scene key, study, deformer or scene means");
+    auto name = std::make_shared<std::string>();
+    verb->add_option("name", *name, "its name, e.g. volume_change_pct, C02, pbs.k_volume")->required();
+    verb->callback([&action, name] { action = [name] { return explain(*name); }; });
+}
+
+}  // namespace experiments

@@ -1,0 +1,72 @@
+// pbskin: position based skinning, judged.
+//   pbskin run limb_twist -o results/limb_twist        one scene: frames and records
+//   pbskin reproduce volume --quick                    studies -> records -> verdicts
+//   pbskin measure rest.msh frame_*.vtu --max-volume-change 0.5
+#include "experiments/command_line/verbs.hpp"
+#include "experiments/interruption.hpp"
+#include "experiments/version_text.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+
+namespace experiments {
+
+CLI::App* add_verb(CLI::App& app, CommonOptions& common, const std::string& name, const std::string& meaning)
+{
+    CLI::App* verb = app.add_subcommand(name, meaning);
+    verb->add_flag("--quiet", common.quiet, "errors only");
+    verb->add_flag("--verbose", common.verbose, "say more");
+    verb->add_option("--threads", common.threads, "threads of one deformer (the plain order uses one)")->check(CLI::Range(1, 1024));
+    return verb;
+}
+
+namespace {
+
+void start_log(const CommonOptions& common)
+{
+    auto log = spdlog::stderr_color_mt("pbskin", std::getenv("NO_COLOR") ? spdlog::color_mode::never : spdlog::color_mode::automatic);
+    log->set_pattern("%v");
+    log->set_level(common.quiet ? spdlog::level::err : common.verbose ? spdlog::level::debug : spdlog::level::info);
+    spdlog::set_default_logger(log);
+}
+
+int parse_and_act(int argc, char** argv)
+{
+    CLI::App app("pbskin: a verification suite for position based skinning", "pbskin");
+    app.set_version_flag("--version", version_text());
+    app.require_subcommand(1);
+    CommonOptions common;
+    VerbAction action;
+    for (const auto add : {add_list_verb, add_explain_verb, add_run_verb, add_reproduce_verb, add_measure_verb, add_mesh_verb})
+        add(app, common, action);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? exit_finished : exit_input;
+    }
+    start_log(common);
+    watch_interrupts();
+    return action();
+}
+
+}  // namespace
+}  // namespace experiments
+
+int main(int argc, char** argv)
+{
+    try {
+        return experiments::parse_and_act(argc, argv);
+    } catch (const pbs::InputError& error) {
+        std::fprintf(stderr, "pbskin: %s\n", error.what());
+        return experiments::exit_input;
+    } catch (const experiments::Interrupted&) {
+        std::fprintf(stderr, "pbskin: interrupted; what was finished is kept\n");
+        return experiments::exit_interrupted;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "pbskin: %s\n", error.what());
+        return experiments::exit_input;
+    }
+}

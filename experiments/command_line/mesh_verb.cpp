@@ -1,0 +1,41 @@
+// pbskin mesh SURFACE -o TETS [--vertices N]: closed or nearly closed surface -> tets of about the wanted size.
+#include "experiments/command_line/verbs.hpp"
+#include "pbs/geometry/meshing.hpp"
+#include "pbs/geometry/quality.hpp"
+
+#include <fmt/format.h>
+
+namespace experiments {
+namespace {
+
+struct MeshArguments {
+    std::string surface, tets;
+    pbs::SurfaceMeshing meshing;
+};
+
+int mesh(const MeshArguments& arguments)
+{
+    const pbs::SurfaceMesh surface = pbs::read_surface(arguments.surface);
+    const pbs::TetMesh mesh = pbs::mesh_surface(surface, arguments.meshing);
+    pbs::write_tet_mesh(arguments.tets, mesh);
+    fmt::print("{}", pbs::describe(pbs::quality_of(mesh)));
+    return exit_finished;
+}
+
+}  // namespace
+
+void add_mesh_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+{
+    CLI::App* verb = add_verb(app, common, "mesh", "a closed or nearly closed surface into tets; prints their quality");
+    auto arguments = std::make_shared<MeshArguments>();
+    verb->add_option("surface", arguments->surface, ".obj .ply .off .stl .gltf .glb, in metres")->required();
+    verb->add_option("-o,--output", arguments->tets, ".msh .vtu .mesh")->required();
+    verb->add_option("--vertices", arguments->meshing.vertices, "wanted number of vertices")
+        ->check(CLI::Range(50, 10'000'000))
+        ->capture_default_str();
+    verb->add_option("--wrap-alpha", arguments->meshing.wrap_alpha_m, "alpha of the wrap [m]; 0: from the size of the body");
+    verb->add_option("--wrap-offset", arguments->meshing.wrap_offset_m, "offset of the wrap [m]; 0: a third of alpha");
+    verb->callback([&action, arguments] { action = [arguments] { return mesh(*arguments); }; });
+}
+
+}  // namespace experiments

@@ -1,0 +1,27 @@
+// pbskin reproduce [CLAIM or STUDY]... [-o DIR] [--quick, --full] [-j N] [--resume]: studies -> records -> verdicts.
+#include "experiments/command_line/verbs.hpp"
+#include "experiments/progress.hpp"
+#include "experiments/reproduce.hpp"
+
+namespace experiments {
+
+void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+{
+    CLI::App* verb = add_verb(app, common, "reproduce", "studies -> records -> verdicts; all of them by default");
+    auto arguments = std::make_shared<ReproduceArguments>();
+    verb->add_option("names", arguments->names, "claims (C02) or studies (volume)");
+    verb->add_option("-o,--output", arguments->folder, "folder of the records")->capture_default_str();
+    auto* full = verb->add_flag("--full", arguments->full, "the whole study");
+    auto quick = std::make_shared<bool>(false);
+    verb->add_flag("--quick", *quick, "a part of it that decides the same claims in minutes (default)")->excludes(full);
+    verb->add_option("-j,--jobs", arguments->jobs, "runs side by side")->check(CLI::Range(1, 256))->capture_default_str();
+    verb->add_flag("--resume", arguments->resume, "keep the runs that are finished already");
+    verb->callback([&action, &common, arguments] {
+        action = [&common, arguments] {
+            if (common.quiet) hide_progress();
+            return reproduce(*arguments);
+        };
+    });
+}
+
+}  // namespace experiments

@@ -1,0 +1,23 @@
+#include "experiments/deformers/blend/blend_deformer.hpp"
+
+#include "experiments/stopwatch.hpp"
+
+namespace experiments {
+
+void BlendDeformer::reset(const pbs::Character& character)
+{
+    character_ = &character;
+    positions_ = character.mesh.rest;
+}
+
+pbs::StepSummary BlendDeformer::advance(const pbs::Pose& pose, double /*dt_s*/)
+{
+    const Stopwatch stopwatch;
+    blend_(character_->mesh.rest, character_->weights, pose, positions_);
+    pbs::StepSummary summary;
+    summary.seconds = stopwatch.seconds();
+    if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
+    return summary;
+}
+
+}  // namespace experiments

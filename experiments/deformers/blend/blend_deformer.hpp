@@ -1,0 +1,23 @@
+// LBS and DQS as deformers: no state but the last pose's positions.
+#pragma once
+
+#include "experiments/deformers/deformer.hpp"
+
+namespace experiments {
+
+class BlendDeformer : public Deformer {
+public:
+    using Blend = void (*)(const pbs::Positions& rest, const pbs::Weights& weights, const pbs::Pose& pose, pbs::Positions& posed);
+    explicit BlendDeformer(Blend blend) : blend_(blend) {}
+
+    void reset(const pbs::Character& character) override;
+    pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override;
+    const pbs::Positions& positions() const override { return positions_; }
+
+private:
+    Blend blend_;
+    const pbs::Character* character_ = nullptr;
+    pbs::Positions positions_;
+};
+
+}  // namespace experiments

@@ -1,0 +1,48 @@
+#include "experiments/deformers/deformer_spec.hpp"
+
+#include "experiments/deformers/option_names.hpp"
+
+namespace experiments {
+namespace {
+
+nlohmann::json to_json(const pbs::PbsOptions& options)
+{
+    nlohmann::json json = {{"iterations", options.iterations},
+                           {"k_stretch", options.k_stretch},
+                           {"k_volume", options.k_volume},
+                           {"k_bind", options.k_bind},
+                           {"gravity_m_s2", {options.gravity_m_s2.x(), options.gravity_m_s2.y(), options.gravity_m_s2.z()}},
+                           {"order", name_of(options.order)},
+                           {"precision", name_of(options.precision)},
+                           {"masses", name_of(options.masses)},
+                           {"volume_form", name_of(options.volume_form)},
+                           {"stop_residual", options.stop_residual}};
+    if (options.jiggle) json["jiggle"] = {{"k_stretch", options.jiggle->k_stretch}};
+    return json;
+}
+
+nlohmann::json to_json(const FemOptions& options)
+{
+    return {{"model", name_of(options.model)},
+            {"element_order", options.element_order},
+            {"young_pa", options.young_pa},
+            {"poisson", options.poisson},
+            {"density_kg_m3", options.density_kg_m3},
+            {"gravity_m_s2", {options.gravity_m_s2.x(), options.gravity_m_s2.y(), options.gravity_m_s2.z()}},
+            {"attachment", name_of(options.attachment)},
+            {"core_radius", options.core_radius},
+            {"spring_factor", options.spring_factor},
+            {"solver", name_of(options.solver)}};
+}
+
+}  // namespace
+
+nlohmann::json to_json(const DeformerSpec& spec)
+{
+    nlohmann::json json = {{"name", spec.name}, {"label", spec.label}, {"kind", spec.kind}, {"variant", spec.variant}};
+    if (spec.kind == "pbs") json["options"] = to_json(spec.pbs);
+    if (spec.kind == "fem") json["options"] = to_json(spec.fem);
+    return json;
+}
+
+}  // namespace experiments

@@ -1,0 +1,68 @@
+// The words that options have in scenes and records.
+#pragma once
+
+#include "experiments/deformers/fem/fem_options.hpp"
+#include "pbs/solver/options.hpp"
+
+#include <array>
+#include <string>
+#include <utility>
+
+namespace experiments {
+
+template <class Enum>
+struct OptionNames;
+
+template <>
+struct OptionNames<pbs::Order> {
+    static constexpr std::array<std::pair<pbs::Order, const char*>, 1> table{{{pbs::Order::plain, "plain"}}};
+};
+template <>
+struct OptionNames<pbs::Precision> {
+    static constexpr std::array<std::pair<pbs::Precision, const char*>, 2> table{
+        {{pbs::Precision::f32, "f32"}, {pbs::Precision::f64, "f64"}}};
+};
+template <>
+struct OptionNames<pbs::Masses> {
+    static constexpr std::array<std::pair<pbs::Masses, const char*>, 2> table{
+        {{pbs::Masses::unit, "unit"}, {pbs::Masses::lumped, "lumped"}}};
+};
+template <>
+struct OptionNames<pbs::VolumeForm> {
+    static constexpr std::array<std::pair<pbs::VolumeForm, const char*>, 4> table{{{pbs::VolumeForm::derived, "derived"},
+                                                                                   {pbs::VolumeForm::labels_relative, "labels_relative"},
+                                                                                   {pbs::VolumeForm::labels_absolute, "labels_absolute"},
+                                                                                   {pbs::VolumeForm::sign, "sign"}}};
+};
+template <>
+struct OptionNames<FemModel> {
+    static constexpr std::array<std::pair<FemModel, const char*>, 1> table{{{FemModel::linear, "linear"}}};
+};
+template <>
+struct OptionNames<FemAttachment> {
+    static constexpr std::array<std::pair<FemAttachment, const char*>, 2> table{
+        {{FemAttachment::embedded, "embedded"}, {FemAttachment::nodes, "nodes"}}};
+};
+template <>
+struct OptionNames<reference_fem::DirectSolver> {
+    static constexpr std::array<std::pair<reference_fem::DirectSolver, const char*>, 2> table{
+        {{reference_fem::DirectSolver::cholmod, "cholmod"}, {reference_fem::DirectSolver::umfpack, "umfpack"}}};
+};
+
+template <class Enum>
+std::string name_of(Enum value)
+{
+    for (const auto& [entry, name] : OptionNames<Enum>::table)
+        if (entry == value) return name;
+    return "";
+}
+
+template <class Enum>
+Enum option_of(const std::string& name)  // the schema has checked the name
+{
+    for (const auto& [entry, text] : OptionNames<Enum>::table)
+        if (name == text) return entry;
+    return OptionNames<Enum>::table.front().first;
+}
+
+}  // namespace experiments

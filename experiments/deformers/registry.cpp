@@ -1,0 +1,58 @@
+#include "experiments/deformers/registry.hpp"
+
+#include "experiments/deformers/blend/blend_deformer.hpp"
+#include "experiments/deformers/fem/fem_module.hpp"
+#include "experiments/deformers/pbs/pbs_deformer.hpp"
+#include "pbs/geometry/module.hpp"
+#include "pbs/skinning/blend.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace experiments {
+namespace {
+
+using Made = std::unique_ptr<Deformer>;
+
+Made make_lbs(const DeformerSpec&)
+{
+    return std::make_unique<BlendDeformer>(&pbs::linear_blend_skinning);
+}
+Made make_dqs(const DeformerSpec&)
+{
+    return std::make_unique<BlendDeformer>(&pbs::dual_quaternion_skinning);
+}
+Made make_pbs(const DeformerSpec& spec)
+{
+    return std::make_unique<PbsDeformer>(spec.pbs);
+}
+
+// deal.II and some 200 shared objects: loaded when a scene first asks for a reference.
+Made make_fem(const DeformerSpec& spec)
+{
+    const auto make = pbs::load_module("pbskin_fem").function<decltype(pbskin_make_fem)>("pbskin_make_fem");
+    return Made(make(spec.fem));
+}
+
+}  // namespace
+
+const std::vector<DeformerKind>& deformer_kinds()
+{
+    static const std::vector<DeformerKind> kinds = {
+        {"lbs", "linear blend skinning, Eq. 1", make_lbs},
+        {"dqs", "dual quaternion skinning (Kavan 2007), the paper's comparison", make_dqs},
+        {"pbs", "the paper: LBS, then bind, stretch and volume constraints (Algorithm 1)", make_pbs},
+        {"fem", "implicit linear elasticity on the same tets (deal.II, CHOLMOD); fictitious strain 1 - cos(rotation)", make_fem},
+    };
+    return kinds;
+}
+
+std::unique_ptr<Deformer> make_deformer(const DeformerSpec& spec)
+{
+    const auto& kinds = deformer_kinds();
+    const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const DeformerKind& kind) { return kind.kind == spec.kind; });
+    if (found == kinds.end()) throw std::logic_error("unregistered deformer kind " + spec.kind);
+    return found->make(spec);
+}
+
+}  // namespace experiments

@@ -1,0 +1,84 @@
+#include "experiments/frame_measurement.hpp"
+
+#include "analysis/surface_volume.hpp"
+#include "pbs/geometry/meshing.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <numbers>
+
+namespace experiments {
+namespace {
+
+analysis::ErrorDomain error_domain(const pbs::Character& character, const std::vector<bool>& prescribed)
+{
+    analysis::ErrorDomain domain{character.mesh.rest, character.mesh.tets, prescribed, {}, character.binding.distance};
+    for (std::size_t v = 0; v < character.blended.size(); ++v)
+        if (character.blended[v]) domain.blended.push_back(static_cast<int>(v));
+    return domain;
+}
+
+// Stations whose plane meets flesh at rest: the tets of a short bone may all stand beside it.
+std::vector<LimbStation> cutting_stations(const pbs::Character& character)
+{
+    std::vector<LimbStation> stations = limb_stations(character);
+    std::erase_if(stations, [&](const LimbStation& station) {
+        return !(analysis::cross_section_area(character.mesh.rest, character.mesh.tets, station.tets, {station.point, station.normal}) >
+                 0.0);
+    });
+    return stations;
+}
+
+// The largest rotation [deg] of a bone relative to the root's.
+double largest_rotation_deg(const pbs::Pose& pose)
+{
+    const Eigen::Quaterniond root(pose.front().linear());
+    double largest = 0.0;
+    for (const auto& bone : pose) largest = std::max(largest, root.angularDistance(Eigen::Quaterniond(bone.linear())));
+    return largest * 180.0 / std::numbers::pi;
+}
+
+}  // namespace
+
+FrameMeasurer::FrameMeasurer(const pbs::Character& character, const OutputSpec& output, const std::vector<bool>& prescribed)
+    : character_(character), ruler_(character.mesh.rest, character.mesh.tets), boundary_(pbs::boundary_of(character.mesh.tets))
+{
+    if (output.errors) error_ruler_.emplace(error_domain(character, prescribed));
+    if (output.sections) stations_ = cutting_stations(character);
+    if (output.surface && character.surface)
+        rest_surface_ = pbs::embedded_positions(*character.surface, character.mesh.rest, character.mesh.tets);
+}
+
+FrameMeasurement FrameMeasurer::measure(const pbs::Positions& positions, const FrameContext& context) const
+{
+    FrameMeasurement measured;
+    measured.metrics = ruler_.measure(positions);
+    measured.bind_rms_m =
+        analysis::bind_rms(positions, pbs::posed_bind_points(character_.binding, *context.pose), character_.binding.distance);
+    measured.angle_deg = context.angle_deg;
+    measured.rotation_deg = largest_rotation_deg(*context.pose);
+    if (error_ruler_ && context.reference) {
+        measured.errors = error_ruler_->measure(positions, *context.reference);
+        measured.reference_self_intersects = context.reference_self_intersects;
+    }
+    if (!positions.allFinite()) return measured;
+    if (!stations_.empty()) measured.min_section_pct = min_section_pct(positions, *context.pose);
+    if (rest_surface_)
+        measured.surface_volume_change_pct = analysis::surface_volume_change_pct(
+            *rest_surface_, pbs::embedded_positions(*character_.surface, positions, character_.mesh.tets), character_.surface->triangles);
+    return measured;
+}
+
+bool FrameMeasurer::self_intersects(const pbs::Positions& positions) const
+{
+    return pbs::self_intersects(positions, boundary_);
+}
+
+double FrameMeasurer::min_section_pct(const pbs::Positions& positions, const pbs::Pose& pose) const
+{
+    std::vector<analysis::SectionStation> stations;
+    for (const LimbStation& station : stations_)
+        stations.push_back({{station.point, station.normal}, {posed_point(station, pose), posed_normal(station, pose)}, station.tets});
+    return 100.0 * analysis::section_extremes(character_.mesh.rest, positions, character_.mesh.tets, stations).smallest_ratio;
+}
+
+}  // namespace experiments

@@ -1,0 +1,53 @@
+// Everything that is measured on one frame of one deformer: the ruler's figures, the errors against the reference, the smallest
+// cross-section, the rendered surface's volume.
+#pragma once
+
+#include "analysis/cross_section.hpp"
+#include "analysis/error_norms.hpp"
+#include "analysis/frame_metrics.hpp"
+#include "experiments/limb_stations.hpp"
+#include "experiments/scene.hpp"
+
+#include <optional>
+
+namespace experiments {
+
+struct FrameMeasurement {
+    analysis::FrameMetrics metrics;
+    double bind_rms_m = 0.0;
+    std::optional<analysis::ErrorNorms> errors;
+    bool reference_self_intersects = false;
+    std::optional<double> min_section_pct;
+    std::optional<double> surface_volume_change_pct;
+    std::optional<double> angle_deg;
+    double rotation_deg = 0.0;  // the largest of a bone relative to the root's
+};
+
+// The pose of a frame and what the reference made of it.
+struct FrameContext {
+    const pbs::Pose* pose = nullptr;
+    std::optional<double> angle_deg;
+    const pbs::Positions* reference = nullptr;  // null: none, or not finite
+    bool reference_self_intersects = false;
+};
+
+class FrameMeasurer {
+public:
+    // prescribed: vertices the reference is told where to be, #V or empty; the errors leave them out.
+    FrameMeasurer(const pbs::Character& character, const OutputSpec& output, const std::vector<bool>& prescribed);
+    FrameMeasurement measure(const pbs::Positions& positions, const FrameContext& context) const;
+    Eigen::VectorXd volume_ratios(const pbs::Positions& positions) const { return ruler_.volume_ratios(positions); }
+    bool self_intersects(const pbs::Positions& positions) const;
+
+private:
+    double min_section_pct(const pbs::Positions& positions, const pbs::Pose& pose) const;
+
+    const pbs::Character& character_;
+    analysis::Ruler ruler_;
+    std::optional<analysis::ErrorRuler> error_ruler_;
+    pbs::Triangles boundary_;
+    std::vector<LimbStation> stations_;
+    std::optional<pbs::Positions> rest_surface_;
+};
+
+}  // namespace experiments

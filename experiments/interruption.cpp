@@ -1,0 +1,35 @@
+#include "experiments/interruption.hpp"
+
+#include <csignal>
+
+namespace experiments {
+namespace {
+
+volatile std::sig_atomic_t signalled = 0;
+
+void on_signal(int)
+{
+    signalled = 1;
+}
+
+}  // namespace
+
+void watch_interrupts()
+{
+    struct sigaction action = {};
+    action.sa_handler = on_signal;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+bool interrupted()
+{
+    return signalled != 0;
+}
+
+void stop_if_interrupted()
+{
+    if (interrupted()) throw Interrupted{};
+}
+
+}  // namespace experiments

@@ -1,0 +1,26 @@
+// A progress bar with the time left, on stderr when it is a terminal; nothing in a pipe.
+#pragma once
+
+#include "experiments/stopwatch.hpp"
+
+#include <string>
+
+namespace experiments {
+
+class Progress {
+public:
+    Progress(std::string label, int total);
+    ~Progress();
+    void advance_to(int done);
+
+private:
+    std::string label_;
+    int total_;
+    bool shown_;
+    double last_drawn_s_ = -1.0;
+    Stopwatch stopwatch_;
+};
+
+void hide_progress();  // --quiet, or a worker process
+
+}  // namespace experiments

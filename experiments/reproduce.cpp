@@ -1,0 +1,135 @@
+#include "experiments/reproduce.hpp"
+
+#include "analysis/atomic_file.hpp"
+#include "analysis/claims_report.hpp"
+#include "experiments/claims_text.hpp"
+#include "experiments/command_line/exit_status.hpp"
+#include "experiments/run.hpp"
+#include "experiments/scene_schema.hpp"
+#include "experiments/studies/study.hpp"
+#include "experiments/studies/worker_pool.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool asked_for(const Study& study, const std::vector<std::string>& names)
+{
+    const auto asks = [&](const std::string& name) {
+        const auto of_study = [&](const analysis::Claim& claim) { return claim.id == name && claim.study == study.name; };
+        return name == study.name || std::any_of(claims().begin(), claims().end(), of_study);
+    };
+    return names.empty() || std::any_of(names.begin(), names.end(), asks);
+}
+
+void refuse_unknown(const std::vector<std::string>& names)
+{
+    std::vector<std::string> known;
+    for (const auto& study : studies()) known.push_back(study.name);
+    for (const auto& claim : claims()) known.push_back(claim.id);
+    for (const auto& name : names)
+        if (!std::count(known.begin(), known.end(), name))
+            throw pbs::InputError("", 0, "reproduce", name,
+                                  "unknown claim or study; expected one of " + fmt::format("{}", fmt::join(known, ", ")));
+}
+
+// The run in `folder` is of this scene and ended: nothing of it need be done again.
+bool is_finished(const StudyRun& run, const std::string& folder)
+{
+    const fs::path record = fs::path(folder) / "run.json";
+    if (!fs::exists(record)) return false;
+    const auto json = nlohmann::json::parse(analysis::read_text(record.string()), nullptr, false);
+    return !json.is_discarded() && json.value("scene", nlohmann::json()) == resolved_with_deformers(run.scene);
+}
+
+void run_or_throw(const StudyRun& run, const std::string& folder)
+{
+    const RunResult result = run_scene(run.scene, folder);
+    for (const auto& line : result.lines) spdlog::debug("{}", line);
+    if (!result.breakdown.empty()) spdlog::warn("{}: {} (recorded)", run.name, result.breakdown);
+}
+
+// The runs that ended; a failed one is said and left out, so that its verdict cannot be computed.
+std::vector<std::string> finished_folders(const std::vector<StudyRun>& runs, const std::string& study_folder,
+                                          const ReproduceArguments& arguments)
+{
+    std::vector<PooledWork> work;
+    std::vector<std::string> folders;
+    for (const StudyRun& run : runs) {
+        const std::string folder = (fs::path(study_folder) / run.name).string();
+        if (arguments.resume && is_finished(run, folder))
+            folders.push_back(folder);
+        else
+            work.push_back({run.name, run.cost_s, [&run, folder] { run_or_throw(run, folder); }});
+    }
+    const double cost_s =
+        std::accumulate(work.begin(), work.end(), 0.0, [](double sum, const PooledWork& item) { return sum + item.cost_s; });
+    spdlog::info("{} runs, {} kept from before; some {:.0f} s of one core", work.size(), folders.size(), cost_s);
+    for (const PooledResult& result : run_in_pool(work, arguments.jobs)) {
+        if (result.finished)
+            folders.push_back((fs::path(study_folder) / result.name).string());
+        else
+            spdlog::error("pbskin: {}: {}", result.name, result.failure);
+    }
+    return folders;
+}
+
+void add_records(analysis::Records& records, const std::vector<std::string>& folders, const std::string& root)
+{
+    for (const std::string& folder : folders) {
+        const auto metrics = analysis::read_csv((fs::path(folder) / "metrics.csv").string());
+        for (auto& record : analysis::case_records(metrics, fs::path(folder).lexically_relative(root).string()))
+            records.cases.push_back(std::move(record));
+    }
+}
+
+int terminal_width()
+{
+    winsize size = {};
+    return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col >= 60 ? size.ws_col : 120;
+}
+
+}  // namespace
+
+int reproduce(const ReproduceArguments& arguments)
+{
+    refuse_unknown(arguments.names);
+    analysis::Records records;
+    std::vector<analysis::Verdict> verdicts;
+    for (const Study& study : studies()) {
+        if (!asked_for(study, arguments.names)) continue;
+        spdlog::info("study {}: {}", study.name, study.meaning);
+        const StudyPlan plan = study.plan(arguments.full);
+        for (const StudyRun& run : plan.runs) records.planned_scenes.push_back(run.scene.name);
+        for (const auto& left_out : plan.left_out) {
+            records.planned_scenes.push_back(left_out.scene);
+            records.left_out.push_back(left_out);
+            spdlog::warn("left out: {}: {}", left_out.scene, left_out.reason);
+        }
+        add_records(records, finished_folders(plan.runs, (fs::path(arguments.folder) / study.name).string(), arguments), arguments.folder);
+        for (const auto& claim : claims())
+            if (claim.study == study.name) verdicts.push_back(analysis::judge(claim, records));
+    }
+    analysis::write_text_atomically((fs::path(arguments.folder) / "claims.json").string(), analysis::claims_json(verdicts).dump(2) + "\n");
+    analysis::write_text_atomically((fs::path(arguments.folder) / "claims.md").string(), analysis::claims_markdown(verdicts));
+    const bool colours = isatty(STDOUT_FILENO) && !std::getenv("NO_COLOR");
+    fmt::print("{}", analysis::claims_table(verdicts, {terminal_width(), colours}));
+    const bool all_computed = std::none_of(verdicts.begin(), verdicts.end(),
+                                           [](const auto& verdict) { return verdict.kind == analysis::VerdictKind::not_computable; });
+    return all_computed ? exit_finished : exit_bound;
+}
+
+}  // namespace experiments

@@ -1,0 +1,137 @@
+#include "experiments/run.hpp"
+
+#include "experiments/cases/motion_case.hpp"
+#include "experiments/interruption.hpp"
+#include "experiments/progress.hpp"
+#include "experiments/run_folder.hpp"
+#include "experiments/stopwatch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace experiments {
+namespace {
+
+// One deformer of the run and what its last step was.
+struct Runner {
+    DeformerSpec spec;
+    std::unique_ptr<Deformer> deformer;
+    pbs::StepSummary step;
+    double largest_loss_pct = 0.0;
+    int most_inverted = 0;
+};
+
+std::vector<Runner> make_runners(const Scene& scene, const pbs::Character& character)
+{
+    std::vector<Runner> runners;
+    for (const DeformerSpec& spec : scene.deformers) {
+        runners.push_back({spec, make_deformer(spec), {}, 0.0, 0});
+        runners.back().deformer->reset(character);
+        stop_if_interrupted();
+    }
+    // The reference moves first, so that a frame's errors can be measured.
+    std::stable_partition(runners.begin(), runners.end(), [&](const Runner& runner) { return runner.spec.name == scene.reference; });
+    return runners;
+}
+
+class SceneRun {
+public:
+    SceneRun(const Scene& scene, const std::string& folder)
+        : scene_(scene),
+          character_(pbs::make_character(scene.character)),
+          motion_(make_motion(scene.motion, character_.skeleton, scene.name)),
+          folder_(scene, folder),
+          runners_(make_runners(scene, character_)),
+          measurer_(character_, scene.output, runners_.front().deformer->prescribed())
+    {
+    }
+
+    RunResult run()
+    {
+        Progress progress(scene_.name, static_cast<int>(motion_.steps.size()));
+        for (std::size_t step = 0; step < motion_.steps.size(); ++step) {
+            stop_if_interrupted();
+            const bool is_frame = step % motion_.steps_per_frame == 0;
+            for (Runner& runner : runners_)
+                if (is_frame || runner.deformer->has_memory())
+                    runner.step = runner.deformer->advance(motion_.steps[step], motion_.time_step_s);
+            if (is_frame) record_frame(static_cast<int>(step / motion_.steps_per_frame), step);
+            progress.advance_to(static_cast<int>(step) + 1);
+        }
+        return finish();
+    }
+
+private:
+    void record_frame(int frame, std::size_t step)
+    {
+        const double time_s = static_cast<double>(step) * motion_.time_step_s;
+        FrameContext context;
+        context.pose = &motion_.steps[step];
+        if (!motion_.angle_deg.empty()) context.angle_deg = motion_.angle_deg[frame];
+        const Runner& first = runners_.front();
+        if (scene_.output.errors && first.spec.name == scene_.reference && first.step.outcome == pbs::Outcome::finished) {
+            context.reference = &first.deformer->positions();
+            context.reference_self_intersects = measurer_.self_intersects(*context.reference);
+            self_intersecting_frames_ += context.reference_self_intersects;
+        }
+        for (Runner& runner : runners_) record_deformer(runner, frame, time_s, context);
+        ++frames_;
+    }
+
+    void record_deformer(Runner& runner, int frame, double time_s, const FrameContext& context)
+    {
+        const pbs::Positions& positions = runner.deformer->positions();
+        const FrameMeasurement measured = measurer_.measure(positions, context);
+        folder_.add_frame(runner.spec, frame, time_s, measured, runner.step);
+        folder_.add_state(runner.spec, positions);
+        runner.largest_loss_pct = std::min(runner.largest_loss_pct, measured.metrics.volume_change_pct);
+        runner.most_inverted = std::max(runner.most_inverted, measured.metrics.inverted_tets);
+        if (runner.step.outcome == pbs::Outcome::not_finite) {
+            // The printed forms are negative controls: their breakdown is what they are there to show.
+            const bool expected = runner.spec.pbs.volume_form != pbs::VolumeForm::derived;
+            if (breakdown_.empty() && !expected) breakdown_ = fmt::format("{} is not finite in frame {}", runner.spec.label, frame);
+            breakdowns_[runner.spec.label].push_back(frame);
+        }
+        if (scene_.output.writes(frame))
+            folder_.write_frame(runner.spec, frame, time_s, character_, positions, measurer_.volume_ratios(positions),
+                                runner.deformer->prescribed());
+    }
+
+    RunResult finish()
+    {
+        std::map<std::string, nlohmann::json> records;
+        for (const Runner& runner : runners_)
+            if (const auto record = runner.deformer->record(); !record.is_null()) records[runner.spec.label] = record;
+        nlohmann::json outcome = {{"finished", true}, {"frames", frames_}, {"breakdowns", breakdowns_}};
+        if (!scene_.reference.empty()) outcome["self_intersecting_reference_frames"] = self_intersecting_frames_;
+        folder_.finish(character_, records, outcome);
+
+        RunResult result{frames_, stopwatch_.seconds(), breakdown_, {}};
+        for (const Runner& runner : runners_)
+            result.lines.push_back(fmt::format("  {:<24} largest loss {:8.3f} %   most inverted tets {}", runner.spec.label,
+                                               runner.largest_loss_pct, runner.most_inverted));
+        return result;
+    }
+
+    const Scene& scene_;
+    Stopwatch stopwatch_;
+    pbs::Character character_;
+    pbs::Motion motion_;
+    RunFolder folder_;
+    std::vector<Runner> runners_;
+    FrameMeasurer measurer_;
+    int frames_ = 0, self_intersecting_frames_ = 0;
+    std::string breakdown_;
+    std::map<std::string, std::vector<int>> breakdowns_;
+};
+
+}  // namespace
+
+RunResult run_scene(const Scene& scene, const std::string& folder)
+{
+    return SceneRun(scene, folder).run();
+}
+
+}  // namespace experiments

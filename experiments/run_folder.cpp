@@ -1,0 +1,170 @@
+#include "experiments/run_folder.hpp"
+
+#include "analysis/atomic_file.hpp"
+#include "analysis/provenance.hpp"
+#include "experiments/library_versions.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/mesh_io.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+using Cell = analysis::CsvTable::Cell;
+
+const std::vector<std::string> metric_columns = {"scene",
+                                                 "deformer",
+                                                 "variant",
+                                                 "order",
+                                                 "precision",
+                                                 "iterations",
+                                                 "threads",
+                                                 "frame",
+                                                 "time_s",
+                                                 "volume_change_pct",
+                                                 "volume_abs_change_pct",
+                                                 "inverted_tets",
+                                                 "mean_abs_j_minus_1",
+                                                 "j_min",
+                                                 "stretch_rms",
+                                                 "bind_rms_m",
+                                                 "step_ms"};
+const std::vector<std::string> error_columns = {"error_l2_pct", "error_joint_pct", "error_linf_m", "reference_self_intersects"};
+const std::vector<std::string> further_columns = {
+    "angle_deg", "rotation_deg", "fictitious_strain", "min_section_pct", "surface_volume_change_pct", "outcome"};
+
+std::vector<std::string> columns_of(const Scene& scene)
+{
+    std::vector<std::string> columns = metric_columns;
+    if (!scene.reference.empty()) columns.insert(columns.end(), error_columns.begin(), error_columns.end());
+    columns.insert(columns.end(), further_columns.begin(), further_columns.end());
+    return columns;
+}
+
+Cell cell(const std::optional<double>& value)
+{
+    return value ? Cell(*value) : Cell(std::nullopt);
+}
+
+std::vector<Cell> spec_cells(const Scene& scene, const DeformerSpec& spec)
+{
+    const nlohmann::json options = to_json(spec).value("options", nlohmann::json::object());
+    const Cell iterations = spec.kind == "pbs" ? Cell(spec.pbs.iterations) : Cell(std::nullopt);
+    return {scene.name, spec.name, spec.variant, options.value("order", ""), options.value("precision", spec.kind == "pbs" ? "" : "f64"),
+            iterations, 1};
+}
+
+std::vector<Cell> error_cells(const FrameMeasurement& measured)
+{
+    if (!measured.errors) return std::vector<Cell>(error_columns.size(), std::nullopt);
+    const auto& errors = *measured.errors;
+    return {errors.l2_pct, errors.joint_pct, errors.linf_m, static_cast<int>(measured.reference_self_intersects)};
+}
+
+// Linear strain of a rigid rotation by theta: cos(theta) - 1 along the two axes across it.
+double fictitious_strain(double rotation_deg)
+{
+    return 1.0 - std::cos(rotation_deg * std::numbers::pi / 180.0);
+}
+
+std::string frame_file(const std::string& name, int frame, const char* ending)
+{
+    return fmt::format("{}_{:06d}{}", name, frame, ending);
+}
+
+}  // namespace
+
+RunFolder::RunFolder(const Scene& scene, const std::string& folder)
+    : scene_(scene),
+      folder_(folder),
+      metrics_(columns_of(scene)),
+      iterations_({"deformer", "frame", "iteration", "stretch_rms", "volume_rms", "bind_rms_m"})
+{
+    std::error_code error;
+    fs::create_directories(fs::path(folder) / "frames", error);
+    if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
+    for (const char* old : {"run.json", "metrics.csv", "iterations.csv"}) fs::remove(fs::path(folder) / old);
+    for (const auto& entry : fs::directory_iterator(fs::path(folder) / "frames"))
+        if (const auto ending = entry.path().extension(); ending == ".vtu" || ending == ".vtp" || ending == ".pvd")
+            fs::remove(entry.path());
+}
+
+void RunFolder::add_frame(const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured,
+                          const pbs::StepSummary& step)
+{
+    std::vector<Cell> cells = spec_cells(scene_, spec);
+    const auto& m = measured.metrics;
+    const std::vector<Cell> figures = {
+        frame,   time_s,        m.volume_change_pct, m.volume_abs_change_pct, m.inverted_tets, m.mean_abs_j_minus_1,
+        m.j_min, m.stretch_rms, measured.bind_rms_m, 1e3 * step.seconds};
+    cells.insert(cells.end(), figures.begin(), figures.end());
+    if (!scene_.reference.empty())
+        for (const Cell& error : error_cells(measured)) cells.push_back(error);
+    const Cell strain = spec.kind == "fem" ? Cell(fictitious_strain(measured.rotation_deg)) : Cell(std::nullopt);
+    for (const Cell& further : std::vector<Cell>{cell(measured.angle_deg), measured.rotation_deg, strain, cell(measured.min_section_pct),
+                                                 cell(measured.surface_volume_change_pct), std::string(to_string(step.outcome))})
+        cells.push_back(further);
+    metrics_.add_row(cells);
+    for (std::size_t k = 0; k < step.history.size(); ++k)
+        iterations_.add_row({spec.label, frame, static_cast<int>(k) + 1, step.history[k].stretch_rms, step.history[k].volume_rms,
+                             step.history[k].bind_rms_m});
+}
+
+void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, const pbs::Character& character,
+                            const pbs::Positions& positions, const Eigen::VectorXd& volume_ratios, const std::vector<bool>& prescribed)
+{
+    pbs::FrameFields fields;
+    fields.point_vectors["rest_position"] = character.mesh.rest;
+    fields.point_vectors["displacement"] = positions - character.mesh.rest;
+    fields.cell_scalars["volume_ratio"] = volume_ratios;
+    if (spec.kind == "fem") {
+        std::vector<int> flags(positions.rows(), 0);
+        std::copy(prescribed.begin(), prescribed.end(), flags.begin());
+        fields.point_flags["prescribed"] = std::move(flags);
+    }
+    const std::string name = spec.label;
+    const fs::path frames = fs::path(folder_) / "frames";
+    pbs::write_vtu((frames / frame_file(name, frame, ".vtu")).string(), positions, character.mesh.tets, fields);
+    if (character.surface)
+        pbs::write_vtp((frames / frame_file(name + "_surface", frame, ".vtp")).string(),
+                       pbs::embedded_positions(*character.surface, positions, character.mesh.tets), character.surface->triangles);
+    collections_[name].emplace_back(time_s, frame_file(name, frame, ".vtu"));
+}
+
+void RunFolder::add_state(const DeformerSpec& spec, const pbs::Positions& positions)
+{
+    hashes_[spec.label].add(positions);
+}
+
+void RunFolder::finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
+                       const nlohmann::json& outcome)
+{
+    const fs::path folder(folder_);
+    metrics_.write((folder / "metrics.csv").string());
+    if (iterations_.rows() > 0) iterations_.write((folder / "iterations.csv").string());
+    for (const auto& [name, frames] : collections_) pbs::write_pvd((folder / "frames" / (name + ".pvd")).string(), frames);
+
+    analysis::Provenance provenance = analysis::collect_provenance(1);
+    for (const auto& [library, version] : library_versions()) provenance.libraries[library] = version;
+    for (const auto& [input, hash] : character.inputs) provenance.input_hashes[input] = hash;
+    if (!scene_.motion.clip.empty())
+        provenance.input_hashes[fs::path(scene_.motion.clip).filename().string()] = analysis::content_hash_of_file(scene_.motion.clip);
+
+    nlohmann::json run = {{"schema", 1}, {"scene", resolved_with_deformers(scene_)}, {"provenance", provenance}, {"outcome", outcome}};
+    for (const auto& [name, hash] : hashes_) run["state_hash"][name] = hash.hex();
+    for (const auto& [name, record] : deformer_records) run["deformers"][name] = record;
+    run["character"] = {{"name", character.name},
+                        {"vertices", character.mesh.rest.rows()},
+                        {"tets", character.mesh.tets.rows()},
+                        {"bones", character.skeleton.bones.size()}};
+    if (character.surface) run["character"]["surface_outside_m"] = character.surface->largest_distance_outside_m;
+    analysis::write_text_atomically((folder / "run.json").string(), run.dump(2) + "\n");
+}
+
+}  // namespace experiments

@@ -1,0 +1,37 @@
+// A run's directory: metrics.csv, iterations.csv, frames/, run.json. Each file is written beside and renamed; run.json comes last, so that
+// a folder with run.json is a finished run.
+#pragma once
+
+#include "analysis/csv_table.hpp"
+#include "analysis/state_hash.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/frame_measurement.hpp"
+#include "experiments/scene.hpp"
+
+#include <map>
+#include <string>
+
+namespace experiments {
+
+class RunFolder {
+public:
+    RunFolder(const Scene& scene, const std::string& folder);  // clears an earlier run's records
+
+    void add_frame(const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured, const pbs::StepSummary& step);
+    void write_frame(const DeformerSpec& spec, int frame, double time_s, const pbs::Character& character, const pbs::Positions& positions,
+                     const Eigen::VectorXd& volume_ratios, const std::vector<bool>& prescribed);
+    void add_state(const DeformerSpec& spec, const pbs::Positions& positions);  // into the deformer's state hash
+
+    // Writes the tables, the collections and, last, run.json.
+    void finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
+                const nlohmann::json& outcome);
+
+private:
+    const Scene& scene_;
+    std::string folder_;
+    analysis::CsvTable metrics_, iterations_;
+    std::map<std::string, analysis::StateHash> hashes_;
+    std::map<std::string, std::vector<std::pair<double, std::string>>> collections_;  // .pvd: time, file
+};
+
+}  // namespace experiments

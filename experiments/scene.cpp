@@ -1,0 +1,236 @@
+#include "experiments/scene.hpp"
+
+#include "experiments/deformers/option_names.hpp"
+#include "experiments/scene_values.hpp"
+#include "generated/scenes_texts.hpp"
+#include "pbs/character/clip.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+pbs::Vec3 vec3(const std::vector<double>& values)
+{
+    return {values[0], values[1], values[2]};
+}
+
+std::string beside(const std::string& folder, const std::string& path)
+{
+    return path.empty() || fs::path(path).is_absolute() ? path : (fs::path(folder) / path).string();
+}
+
+pbs::CharacterSource read_character(const SceneValues& values, const std::string& folder)
+{
+    pbs::CharacterSource source;
+    source.body = values.text("character.body");
+    source.mesh_file = beside(folder, values.text("character.mesh"));
+    source.skeleton_file = beside(folder, values.text("character.skeleton"));
+    source.vertices = values.integer("character.vertices");
+    if (source.body.empty() && source.mesh_file.empty()) values.refuse("character.body", "expected a body, or mesh and skeleton files");
+    if (!source.body.empty() && !source.mesh_file.empty()) values.refuse("character.mesh", "expected either a body or files, not both");
+    if (source.body.empty() && source.skeleton_file.empty()) values.refuse("character.skeleton", "expected the skeleton of the mesh");
+    const std::string weights = values.text("skinning.weights");
+    if (weights == "rigid")
+        source.weights = pbs::WeightKind::rigid;
+    else if (weights != "paper")
+        source.weights_file = beside(folder, weights);
+    return source;
+}
+
+std::string found_clip(const SceneValues& values, const std::string& folder)
+{
+    try {
+        return pbs::find_clip(values.text("motion.clip"), folder);
+    } catch (const pbs::InputError&) {
+        values.refuse("motion.clip", "expected a file beside the scene, or a clip of Debian's package assimp-testmodels");
+    }
+}
+
+MotionSpec read_motion(const SceneValues& values, const std::string& folder)
+{
+    MotionSpec motion;
+    motion.joint = values.text("motion.joint");
+    motion.axis = vec3(values.numbers("motion.axis"));
+    motion.angle_deg = values.number("motion.angle_deg");
+    motion.frames = values.integer("motion.frames");
+    motion.clip = values.text("motion.clip");
+    motion.start_s = values.number("motion.start_s");
+    motion.duration_s = values.number("motion.duration_s");
+    motion.rate_hz = values.number("motion.rate_hz");
+    motion.time_step_s = values.number("pbs.time_step_s");
+    if (motion.joint.empty() == motion.clip.empty()) values.refuse("motion.joint", "expected either a joint (a sweep) or a clip");
+    if (!motion.joint.empty() && motion.axis.norm() == 0.0) values.refuse("motion.axis", "expected an axis of non-zero length");
+    if (!motion.clip.empty()) {
+        motion.clip = found_clip(values, folder);
+        const double steps = 1.0 / (motion.rate_hz * motion.time_step_s);
+        if (steps < 1.0 - 1e-9 || std::abs(steps - std::round(steps)) > 1e-6 * steps)
+            values.refuse("motion.rate_hz", "expected rate_hz * pbs.time_step_s = 1/n with a whole n: n steps a frame");
+    }
+    return motion;
+}
+
+DeformerSpec pbs_spec(const SceneValues& values)
+{
+    DeformerSpec spec{"pbs", "pbs", "pbs", "default", {}, {}};
+    pbs::PbsOptions& options = spec.pbs;
+    options.iterations = values.integer("pbs.iterations");
+    options.k_stretch = values.number("pbs.k_stretch");
+    options.k_volume = values.number("pbs.k_volume");
+    options.k_bind = values.number("pbs.k_bind");
+    options.gravity_m_s2 = vec3(values.numbers("pbs.gravity_m_s2"));
+    options.order = option_of<pbs::Order>(values.text("pbs.order"));
+    options.precision = option_of<pbs::Precision>(values.text("pbs.precision"));
+    options.masses = option_of<pbs::Masses>(values.text("pbs.masses"));
+    options.stop_residual = values.number("pbs.stop_residual");
+    options.record_iterations = values.boolean("pbs.record_iterations");
+    if (values.has_table("pbs.jiggle")) {
+        options.jiggle = pbs::Jiggle{values.number("pbs.jiggle.k_stretch")};
+        spec.variant = "jiggle";
+    }
+    if (values.has_table("pbs.variant")) {
+        options.volume_form = option_of<pbs::VolumeForm>(values.text("pbs.variant.volume_form"));
+        if (options.volume_form != pbs::VolumeForm::derived) spec.variant = name_of(options.volume_form);
+    }
+    return spec;
+}
+
+DeformerSpec fem_spec(const SceneValues& values, int index)
+{
+    const std::string at = "fem." + std::to_string(index) + ".";
+    const std::string name = values.text(at + "name");
+    DeformerSpec spec{name, "fem", name, "default", {}, {}};
+    FemOptions& options = spec.fem;
+    options.name = spec.name;
+    options.model = option_of<FemModel>(values.text(at + "model"));
+    options.element_order = values.integer(at + "element_order");
+    options.young_pa = values.number(at + "young_pa");
+    options.poisson = values.number(at + "poisson");
+    options.density_kg_m3 = values.number(at + "density_kg_m3");
+    options.gravity_m_s2 = vec3(values.numbers(at + "gravity_m_s2"));
+    options.attachment = option_of<FemAttachment>(values.text(at + "attachment"));
+    options.core_radius = values.number(at + "core_radius");
+    options.spring_factor = values.number(at + "spring_factor");
+    options.solver = option_of<reference_fem::DirectSolver>(values.text(at + "solver"));
+    for (const char* taken : {"lbs", "dqs", "pbs"})
+        if (spec.name == taken) values.refuse(at + "name", "is the name of another deformer");
+    return spec;
+}
+
+std::vector<DeformerSpec> read_deformers(const SceneValues& values)
+{
+    std::vector<DeformerSpec> references, used;
+    for (int i = 0; i < values.fem_tables(); ++i) {
+        references.push_back(fem_spec(values, i));
+        for (int j = 0; j < i; ++j)
+            if (references[j].name == references[i].name) values.refuse("fem." + std::to_string(i) + ".name", "is used twice");
+    }
+    for (const std::string& name : values.texts("deformers.use")) {
+        const auto same = [&](const DeformerSpec& spec) { return spec.name == name; };
+        if (std::any_of(used.begin(), used.end(), same)) values.refuse("deformers.use", "names " + name + " twice");
+        const auto reference = std::find_if(references.begin(), references.end(), same);
+        if (name == "lbs" || name == "dqs")
+            used.push_back({name, name, name, "default", {}, {}});
+        else if (name == "pbs")
+            used.push_back(pbs_spec(values));
+        else if (reference != references.end())
+            used.push_back(*reference);
+        else
+            values.refuse("deformers.use", "expected lbs, dqs, pbs or the name of a [[fem]] table, not " + name);
+    }
+    if (used.empty()) values.refuse("deformers.use", "expected at least one deformer");
+    return used;
+}
+
+std::string read_reference(const SceneValues& values, const std::vector<DeformerSpec>& deformers)
+{
+    const std::string name = values.text("reference.name");
+    const bool used = std::any_of(deformers.begin(), deformers.end(), [&](const DeformerSpec& spec) { return spec.name == name; });
+    if (!name.empty() && !used) values.refuse("reference.name", "expected a deformer that the scene uses");
+    return name;
+}
+
+OutputSpec read_output(const SceneValues& values)
+{
+    OutputSpec output;
+    output.frames_every = values.integer("output.frames_every");
+    output.frames = values.integers("output.frames");
+    output.iterations = values.boolean("pbs.record_iterations");
+    const auto groups = values.texts("output.metrics");
+    for (const auto& group : groups)
+        if (group != "all" && group != "errors" && group != "sections" && group != "surface")
+            values.refuse("output.metrics", "expected errors, sections, surface or all, not " + group);
+    const auto asked = [&](const char* group) {
+        return std::count(groups.begin(), groups.end(), group) + std::count(groups.begin(), groups.end(), "all") > 0;
+    };
+    output.errors = asked("errors");
+    output.sections = asked("sections");
+    output.surface = asked("surface");
+    return output;
+}
+
+std::string read_text(const std::string& path)
+{
+    std::ifstream file(path);
+    if (!file || fs::is_directory(path))
+        throw pbs::InputError(path, 0, "", "", "cannot be read: expected a scene file, or a name of `pbskin list scenes`");
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+}  // namespace
+
+bool OutputSpec::writes(int frame) const
+{
+    return (frames_every > 0 && frame % frames_every == 0) || std::count(frames.begin(), frames.end(), frame) > 0;
+}
+
+nlohmann::json resolved_with_deformers(const Scene& scene)
+{
+    nlohmann::json resolved = scene.resolved;
+    resolved["name"] = scene.name;
+    resolved["runs"] = nlohmann::json::array();
+    for (const DeformerSpec& spec : scene.deformers) resolved["runs"].push_back(to_json(spec));
+    return resolved;
+}
+
+const std::vector<BuiltInScene>& built_in_scenes()
+{
+    static const std::vector<BuiltInScene> built_in = {
+        {"limb_twist", scenes::limb_twist_toml, "the capsule limb, its forearm twisted by 0 to 180 degrees"},
+        {"limb_bend", scenes::limb_bend_toml, "the capsule limb, its forearm bent by 0 to 150 degrees"},
+        {"human_01_01", scenes::human_01_01_toml, "MakeHuman's body through CMU's clip 01_01 (repeated jumps)"},
+    };
+    return built_in;
+}
+
+Scene read_scene(const std::string& file_or_name, const std::vector<std::string>& overrides)
+{
+    const auto& built_in = built_in_scenes();
+    const auto found =
+        std::find_if(built_in.begin(), built_in.end(), [&](const BuiltInScene& scene) { return scene.name == file_or_name; });
+    const bool from_file = found == built_in.end();
+    const std::string file = from_file ? file_or_name : file_or_name + ".toml";
+    const std::string folder = from_file ? fs::path(file).parent_path().string() : "";
+    const SceneValues values(from_file ? read_text(file) : found->text, file, overrides);
+
+    Scene scene;
+    scene.name = fs::path(file).stem().string();
+    scene.character = read_character(values, folder);
+    scene.motion = read_motion(values, folder);
+    scene.deformers = read_deformers(values);
+    scene.reference = read_reference(values, scene.deformers);
+    scene.output = read_output(values);
+    scene.resolved = values.resolved();
+    return scene;
+}
+
+}  // namespace experiments

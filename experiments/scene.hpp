@@ -1,0 +1,53 @@
+// A scene: which character, what moves it, which deformers, what is written. Read from TOML (interfaces: README, `pbskin explain`).
+#pragma once
+
+#include "experiments/deformers/deformer_spec.hpp"
+#include "pbs/character/bodies.hpp"
+#include "pbs/skinning/pose.hpp"
+
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+struct MotionSpec {
+    std::string joint;  // a sweep
+    pbs::Vec3 axis = pbs::Vec3::UnitX();
+    double angle_deg = 0.0;
+    int frames = 0;
+    std::string clip;  // or a clip: its path
+    double start_s = 0.0, duration_s = 0.0, rate_hz = 100.0;
+    double time_step_s = 0.01;
+};
+
+struct OutputSpec {
+    int frames_every = 1;
+    std::vector<int> frames;
+    bool errors = true, sections = true, surface = true;
+    bool iterations = false;
+
+    bool writes(int frame) const;
+};
+
+struct Scene {
+    std::string name;
+    pbs::CharacterSource character;
+    MotionSpec motion;
+    std::vector<DeformerSpec> deformers;
+    std::string reference;  // name of the deformer that errors are measured against; empty: none
+    OutputSpec output;
+    nlohmann::json resolved;  // every key and value, for run.json; paths as the scene has them
+};
+
+// Reads a scene file, or a built-in scene by name (`pbskin list scenes`).
+Scene read_scene(const std::string& file_or_name, const std::vector<std::string>& overrides);
+
+// `resolved` and the options of every deformer, a study's own included: what a run is the result of.
+nlohmann::json resolved_with_deformers(const Scene& scene);
+
+struct BuiltInScene {
+    std::string name, text, meaning;
+};
+const std::vector<BuiltInScene>& built_in_scenes();
+
+}  // namespace experiments

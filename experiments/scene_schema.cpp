@@ -1,0 +1,189 @@
+#include "experiments/scene_schema.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace experiments {
+namespace {
+
+using enum KeyType;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double above_zero = std::numeric_limits<double>::min();
+
+SceneKey key(std::string table, std::string name, KeyType type, std::string default_json, std::string unit, std::string meaning)
+{
+    return {std::move(table), std::move(name), type, std::move(default_json), std::move(unit), -infinite, infinite, {}, std::move(meaning)};
+}
+SceneKey within(SceneKey entry, double lowest, double highest)
+{
+    entry.lowest = lowest;
+    entry.highest = highest;
+    return entry;
+}
+SceneKey one_of(SceneKey entry, std::vector<std::string> choices)
+{
+    entry.choices = std::move(choices);
+    return entry;
+}
+
+std::vector<SceneKey> character_and_motion_keys()
+{
+    return {
+        within(key("", "schema", integer, "", "", "version of this format"), 1, 1),
+        one_of(key("character", "body", text, "\"\"", "",
+                   "built-in limb or bar, or human (MakeHuman's body from Debian's assimp-testmodels); empty: from files"),
+               {"", "limb", "bar", "human"}),
+        key("character", "mesh", text, "\"\"", "", "tet mesh file, relative to the scene: .msh .vtu .vtk .mesh .ele"),
+        key("character", "skeleton", text, "\"\"", "", "skeleton file, relative to the scene: .toml with [[joint]] tables"),
+        within(key("character", "vertices", integer, "0", "", "wanted number of vertices of a built-in body; 0: its own default"), 0, 1e7),
+        key("motion", "joint", text, "\"\"", "", "the joint a sweep turns"),
+        key("motion", "axis", vec3, "[1.0, 0.0, 0.0]", "", "axis of a sweep in rest world axes"),
+        within(key("motion", "angle_deg", number, "0.0", "deg", "angle of a sweep's last frame; frame i has angle_deg * i / (frames - 1)"),
+               -7200, 7200),
+        within(key("motion", "frames", integer, "18", "", "frames of a sweep, the rest pose included"), 2, 1e6),
+        key("motion", "clip", text, "\"\"", "",
+            "motion capture clip: relative to the scene, or by name from Debian's assimp-testmodels (01_01.bvh)"),
+        within(key("motion", "start_s", number, "0.0", "s", "where in the clip the motion starts, its T-pose frame dropped"), 0, 1e6),
+        within(key("motion", "duration_s", number, "0.0", "s", "how much of the clip is played; 0: to its end"), 0, 1e6),
+        within(key("motion", "rate_hz", number, "100.0", "1/s", "frames a second; rate_hz * pbs.time_step_s must be 1/n: n steps a frame"),
+               1e-3, 1e5),
+        key("skinning", "weights", text, "\"paper\"", "", "paper (Eq. 2), rigid (nearest bone), or a CSV file vertex,joint,weight"),
+    };
+}
+
+std::vector<SceneKey> pbs_keys()
+{
+    return {
+        within(key("pbs", "iterations", integer, "24", "", "N_iterations of Algorithm 1"), 0, 1e6),
+        within(key("pbs", "time_step_s", number, "0.01", "s", "time step of Algorithm 1"), above_zero, 1e3),
+        within(key("pbs", "k_stretch", number, "", "",
+                   "stiffness of Eq. 10; the paper leaves it unstated outside the jiggling zone; 0 leaves the class out"),
+               0, 1),
+        within(key("pbs", "k_volume", number, "", "", "stiffness of Eq. 11; the paper leaves it unstated; 0 leaves the class out"), 0, 1),
+        within(key("pbs", "k_bind", number, "", "",
+                   "stiffness of the bind constraint (Sec. 3.6); the paper leaves it unstated; 0 leaves the class out"),
+               0, 1),
+        key("pbs", "gravity_m_s2", vec3, "", "m/s^2",
+            "external acceleration on the integrated (jiggling) particles; the paper leaves it unstated"),
+        one_of(key("pbs", "order", text, "\"plain\"", "", "order of projection within a class: plain is file order"), {"plain"}),
+        one_of(key("pbs", "precision", text, "\"f32\"", "", "floating point of the projections"), {"f32", "f64"}),
+        one_of(key("pbs", "masses", text, "\"unit\"", "",
+                   "unit: m_i = 1 (the paper); lumped: a quarter of the rest volume of each tet around"),
+               {"unit", "lumped"}),
+        within(key("pbs", "stop_residual", number, "0.0", "", "stop when every residual is below; 0: all iterations"), 0, infinite),
+        key("pbs", "record_iterations", boolean, "false", "", "write iterations.csv: residuals per frame and iteration"),
+        within(key("pbs.jiggle", "k_stretch", number, "0.1", "",
+                   "stiffness of edges with both ends in the jiggling zone; jiggle is off unless this table is there"),
+               0, 1),
+        one_of(key("pbs.variant", "volume_form", text, "\"derived\"", "",
+                   "the volume correction: derived from Eq. 11, or as printed (labels_relative, labels_absolute: Eq. 12-14 under the "
+                   "printed particles; sign: Eq. 17-20)"),
+               {"derived", "labels_relative", "labels_absolute", "sign"}),
+    };
+}
+
+std::vector<SceneKey> fem_keys()
+{
+    return {
+        key("fem", "name", text, "\"fem\"", "", "the name this reference has in the records"),
+        one_of(key("fem", "model", text, "\"linear\"", "", "constitutive model; linear strain is fictitious by 1 - cos of the rotation"),
+               {"linear"}),
+        within(key("fem", "element_order", integer, "2", "", "polynomial order of the simplices"), 1, 2),
+        one_of(key("fem", "formulation", text, "\"displacement\"", "", "finite element formulation"), {"displacement"}),
+        within(key("fem", "young_pa", number, "1.0e5", "Pa", "Young's modulus; cancels where displacements alone drive the body"),
+               above_zero, 1e15),
+        within(key("fem", "poisson", number, "0.45", "", "Poisson's ratio"), 0, 0.4999999),
+        within(key("fem", "density_kg_m3", number, "1000.0", "kg/m^3", "density, for gravity"), 0, 1e6),
+        key("fem", "gravity_m_s2", vec3, "[0.0, 0.0, 0.0]", "m/s^2", "gravity on the reference"),
+        one_of(key("fem", "dynamics", text, "\"quasi_static\"", "", "time integration"), {"quasi_static"}),
+        one_of(key("fem", "attachment", text, "\"embedded\"", "",
+                   "embedded: bones as rigid capsules tied to the flesh by springs; nodes: whole tets inside the capsules prescribed"),
+               {"embedded", "nodes"}),
+        within(key("fem", "core_radius", number, "0.35", "", "radius of the bone's capsule over the local limb radius"), 0.01, 1),
+        within(key("fem", "spring_factor", number, "1.0e4", "", "q: the attachment's spring density is q E / r^2, r the capsule's radius"),
+               1e-3, 1e9),
+        one_of(key("fem", "solver", text, "\"cholmod\"", "", "direct solver; umfpack is the second opinion"), {"cholmod", "umfpack"}),
+    };
+}
+
+std::vector<SceneKey> output_keys()
+{
+    return {
+        key("reference", "name", text, "\"\"", "", "the deformer that errors are measured against; empty: none"),
+        key("deformers", "use", texts, "[\"lbs\", \"pbs\"]", "",
+            "what moves the character: lbs, dqs, pbs and the names of the [[fem]] tables"),
+        within(key("output", "frames_every", integer, "1", "", "write every n-th frame as VTU; 0: none"), 0, 1e9),
+        within(key("output", "frames", integers, "[]", "", "further frames to write, by number"), 0, 1e9),
+        key("output", "metrics", texts, "[\"all\"]", "",
+            "groups of metrics beyond the volume columns: errors, sections, surface, all; [] leaves them out"),
+    };
+}
+
+std::vector<SceneKey> all_keys()
+{
+    std::vector<SceneKey> keys = character_and_motion_keys();
+    for (const auto& more : {pbs_keys(), fem_keys(), output_keys()}) keys.insert(keys.end(), more.begin(), more.end());
+    return keys;
+}
+
+int edit_distance(const std::string& a, const std::string& b)
+{
+    std::vector<int> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), 0);
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        int diagonal = row[0];
+        row[0] = static_cast<int>(i);
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const int above = row[j];
+            row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+            diagonal = above;
+        }
+    }
+    return row.back();
+}
+
+}  // namespace
+
+std::string SceneKey::rule() const
+{
+    if (!choices.empty()) {
+        std::vector<std::string> shown;
+        for (const auto& choice : choices) shown.push_back(choice.empty() ? "\"\"" : choice);
+        return fmt::format("expected one of {}", fmt::join(shown, ", "));
+    }
+    static constexpr const char* names[] = {"a text",        "a number",    "an integer",      "true or false",
+                                            "three numbers", "two numbers", "a list of texts", "a list of integers"};
+    std::string words = fmt::format("expected {}", names[static_cast<int>(type)]);
+    if (lowest == above_zero)
+        words += fmt::format(" > 0 and <= {:g}", highest);
+    else if (lowest > -infinite && highest < infinite)
+        words += fmt::format(" from {:g} to {:g}", lowest, highest);
+    else if (lowest > -infinite)
+        words += fmt::format(" >= {:g}", lowest);
+    return words;
+}
+
+const std::vector<SceneKey>& scene_keys()
+{
+    static const std::vector<SceneKey> keys = all_keys();
+    return keys;
+}
+
+const SceneKey* find_scene_key(const std::string& path)
+{
+    const auto& keys = scene_keys();
+    const auto found = std::find_if(keys.begin(), keys.end(), [&](const SceneKey& key) { return key.path() == path; });
+    return found == keys.end() ? nullptr : &*found;
+}
+
+std::string nearest_name(const std::string& name, const std::vector<std::string>& known)
+{
+    const auto nearest = std::min_element(known.begin(), known.end(),
+                                          [&](const auto& a, const auto& b) { return edit_distance(name, a) < edit_distance(name, b); });
+    return nearest == known.end() ? "" : *nearest;
+}
+
+}  // namespace experiments

@@ -1,0 +1,219 @@
+#include "experiments/scene_values.hpp"
+
+#include "experiments/scene_schema.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <toml++/toml.h>
+
+#include <cmath>
+#include <set>
+#include <sstream>
+
+namespace experiments {
+namespace {
+
+using nlohmann::json;
+
+json to_json(const toml::node& node)
+{
+    if (const auto* array = node.as_array()) {
+        json values = json::array();
+        for (const auto& element : *array) values.push_back(to_json(element));
+        return values;
+    }
+    if (node.is_integer()) return node.as_integer()->get();
+    if (node.is_floating_point()) return node.as_floating_point()->get();
+    if (node.is_boolean()) return node.as_boolean()->get();
+    if (node.is_string()) return node.as_string()->get();
+    return nullptr;
+}
+
+std::string shown(const toml::node& node)
+{
+    std::ostringstream text;
+    if (node.is_table() || node.is_array_of_tables()) return "(a table)";
+    node.visit([&](const auto& value) { text << value; });
+    return text.str();
+}
+
+bool is_number(const json& value, const SceneKey& key)
+{
+    if (!value.is_number()) return false;
+    const double number = value.get<double>();
+    return std::isfinite(number) && number >= key.lowest && number <= key.highest;
+}
+
+bool is_list(const json& value, std::size_t size, auto&& each)
+{
+    return value.is_array() && (size == 0 || value.size() == size) && std::all_of(value.begin(), value.end(), each);
+}
+
+bool obeys(const json& value, const SceneKey& key)
+{
+    const auto number = [&](const json& element) { return is_number(element, key); };
+    switch (key.type) {
+        case KeyType::text:
+            return value.is_string() &&
+                   (key.choices.empty() || std::count(key.choices.begin(), key.choices.end(), value.get<std::string>()));
+        case KeyType::number:
+            return is_number(value, key);
+        case KeyType::integer:
+            return value.is_number_integer() && is_number(value, key);
+        case KeyType::boolean:
+            return value.is_boolean();
+        case KeyType::vec3:
+            return is_list(value, 3, number);
+        case KeyType::pair:
+            return is_list(value, 2, number);
+        case KeyType::texts:
+            return is_list(value, 0, [](const json& element) { return element.is_string(); });
+        case KeyType::integers:
+            return is_list(value, 0, [&](const json& element) { return element.is_number_integer() && number(element); });
+    }
+    return false;
+}
+
+std::vector<std::string> known_names(const std::string& table)
+{
+    std::set<std::string> names;
+    for (const auto& key : scene_keys()) {
+        if (key.table == table) names.insert(key.name);
+        if (table.empty() && !key.table.empty()) names.insert(key.table.substr(0, key.table.find('.')));
+        if (key.table.size() > table.size() && key.table.starts_with(table + ".")) names.insert(key.table.substr(table.size() + 1));
+    }
+    return {names.begin(), names.end()};
+}
+
+bool is_table_name(const std::string& path)
+{
+    return std::any_of(scene_keys().begin(), scene_keys().end(),
+                       [&](const SceneKey& key) { return key.table == path || key.table.starts_with(path + "."); });
+}
+
+toml::table parse(const std::string& text, const std::string& file)
+{
+    try {
+        return toml::parse(text, file);
+    } catch (const toml::parse_error& error) {
+        throw pbs::InputError(file, static_cast<int>(error.source().begin.line), "", "", std::string(error.description()));
+    }
+}
+
+// VALUE of --set as TOML, or as a bare text.
+toml::table parse_override(const std::string& value)
+{
+    try {
+        return toml::parse("value = " + value);
+    } catch (const toml::parse_error&) {
+        return toml::table{{"value", value}};
+    }
+}
+
+std::string joined(const std::string& table, const std::string& name)
+{
+    return table.empty() ? name : table + "." + name;
+}
+
+// fem.0.young_pa -> fem.young_pa: the schema knows one [[fem]] table.
+std::string schema_path(const std::string& path)
+{
+    if (!path.starts_with("fem.") || path.size() < 5 || !std::isdigit(static_cast<unsigned char>(path[4]))) return path;
+    return "fem" + path.substr(path.find('.', 4));
+}
+
+}  // namespace
+
+SceneValues::SceneValues(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) : file_(file)
+{
+    const auto accept = [&](const std::string& path, const toml::node& node, const std::string& source, int line) {
+        const SceneKey* key = find_scene_key(schema_path(path));
+        if (!key) {
+            const auto dot = schema_path(path).rfind('.');
+            const std::string table = dot == std::string::npos ? "" : schema_path(path).substr(0, dot);
+            const std::string name = dot == std::string::npos ? path : schema_path(path).substr(dot + 1);
+            throw pbs::InputError(source, line, path, node.is_table() ? "" : shown(node),
+                                  "unknown key; the nearest known one is " + joined(table, nearest_name(name, known_names(table))));
+        }
+        const json value = to_json(node);
+        if (!obeys(value, *key)) throw pbs::InputError(source, line, path, shown(node), key->rule());
+        values_[path] = {value, source, line, false};
+    };
+    const auto walk = [&](auto&& self, const toml::table& table, const std::string& prefix) -> void {
+        for (const auto& [name, node] : table) {
+            const std::string path = joined(prefix, std::string(name.str()));
+            const int line = static_cast<int>(node.source().begin.line);
+            if (node.is_table() && path != "fem" && is_table_name(schema_path(path))) {
+                tables_.push_back(path);
+                self(self, *node.as_table(), path);
+            } else if (path == "fem" && node.is_array_of_tables()) {
+                for (const auto& element : *node.as_array()) self(self, *element.as_table(), "fem." + std::to_string(fem_tables_++));
+            } else if (path == "fem" || is_table_name(path)) {
+                throw pbs::InputError(file, line, path, "", path == "fem" ? "expected [[fem]] tables" : "expected a table");
+            } else {
+                accept(path, node, file, line);
+            }
+        }
+    };
+    const toml::table table = parse(text, file);
+    walk(walk, table, "");
+    for (const std::string& override : overrides) {
+        const auto equals = override.find('=');
+        if (equals == std::string::npos || equals == 0) throw pbs::InputError("--set", 0, "", override, "expected key=value");
+        std::string path = override.substr(0, equals);
+        if (path.starts_with("fem.") && fem_tables_ > 0 && schema_path(path) == path) path = "fem.0." + path.substr(4);
+        const toml::table value = parse_override(override.substr(equals + 1));
+        accept(path, *value.get("value"), "--set", 0);
+        if (const auto dot = path.rfind('.'); dot != std::string::npos) tables_.push_back(path.substr(0, dot));
+    }
+    if (!values_.count("schema")) throw pbs::InputError(file, 0, "schema", "", "missing; write schema = 1");
+    add_defaults();
+}
+
+void SceneValues::add_defaults()
+{
+    for (const auto& key : scene_keys()) {
+        if (key.default_json.empty()) continue;
+        const Entry entry{json::parse(key.default_json), file_, 0, true};
+        if (key.table != "fem") {
+            if (!key.table.starts_with("pbs.") || has_table(key.table)) values_.emplace(key.path(), entry);
+            continue;
+        }
+        for (int i = 0; i < fem_tables_; ++i) values_.emplace("fem." + std::to_string(i) + "." + key.name, entry);
+    }
+}
+
+bool SceneValues::has_table(const std::string& table) const
+{
+    return std::count(tables_.begin(), tables_.end(), table) > 0;
+}
+
+const json& SceneValues::value(const std::string& path) const
+{
+    const auto found = values_.find(path);
+    if (found != values_.end()) return found->second.value;
+    const SceneKey* key = find_scene_key(schema_path(path));
+    throw pbs::InputError(file_, 0, path, "",
+                          "missing: the paper leaves it unstated, so every scene states it; " + (key ? key->rule() : ""));
+}
+
+void SceneValues::refuse(const std::string& path, const std::string& rule) const
+{
+    const auto found = values_.find(path);
+    if (found == values_.end()) throw pbs::InputError(file_, 0, path, "", rule);
+    const Entry& entry = found->second;
+    throw pbs::InputError(entry.source, entry.line, path, entry.value.is_string() ? entry.value.get<std::string>() : entry.value.dump(),
+                          rule);
+}
+
+json SceneValues::resolved() const
+{
+    json scene = json::object();
+    for (const auto& [path, entry] : values_) {
+        std::string pointer = "/" + path;
+        std::replace(pointer.begin(), pointer.end(), '.', '/');
+        scene[json::json_pointer(pointer)] = entry.value;
+    }
+    return scene;
+}
+
+}  // namespace experiments

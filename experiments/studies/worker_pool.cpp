@@ -1,0 +1,121 @@
+#include "experiments/studies/worker_pool.hpp"
+
+#include "experiments/interruption.hpp"
+#include "experiments/progress.hpp"
+#include "experiments/stopwatch.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <map>
+#include <numeric>
+
+namespace experiments {
+namespace {
+
+struct Worker {
+    std::size_t work = 0;
+    int failure_pipe = -1;
+};
+
+constexpr int failed = 1;
+constexpr int stopped = 130;
+
+[[noreturn]] void act_as_worker(const PooledWork& work, int failure_pipe)
+{
+    hide_progress();
+    int status = 0;
+    try {
+        work.action();
+    } catch (const Interrupted&) {
+        status = stopped;
+    } catch (const std::exception& error) {
+        const std::string text = error.what();
+        if (write(failure_pipe, text.data(), text.size()) < 0) std::perror("pbskin");
+        status = failed;
+    }
+    std::fflush(nullptr);
+    _exit(status);
+}
+
+Worker start(const PooledWork& work, std::size_t index, pid_t& process)
+{
+    int ends[2];
+    if (pipe(ends) != 0) throw std::runtime_error("no pipe for a worker");
+    std::fflush(nullptr);
+    process = fork();
+    if (process < 0) throw std::runtime_error("no process for a worker");
+    if (process == 0) {
+        close(ends[0]);
+        act_as_worker(work, ends[1]);
+    }
+    close(ends[1]);
+    return {index, ends[0]};
+}
+
+std::string read_all(int pipe_end)
+{
+    std::string text;
+    char buffer[4096];
+    for (ssize_t count; (count = read(pipe_end, buffer, sizeof buffer)) > 0;) text.append(buffer, count);
+    close(pipe_end);
+    return text;
+}
+
+PooledResult outcome_of(const PooledWork& work, const Worker& worker, int status)
+{
+    PooledResult result{work.name, WIFEXITED(status) && WEXITSTATUS(status) == 0, read_all(worker.failure_pipe)};
+    if (WIFSIGNALED(status)) result.failure = fmt::format("ended by signal {}", WTERMSIG(status));
+    if (WIFEXITED(status) && WEXITSTATUS(status) == stopped) result.failure = "interrupted";
+    return result;
+}
+
+pid_t wait_for_any(int& status)
+{
+    for (;;) {
+        const pid_t process = waitpid(-1, &status, 0);
+        if (process > 0 || errno != EINTR) return process;
+    }
+}
+
+}  // namespace
+
+std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int jobs)
+{
+    std::vector<std::size_t> queue(work.size());
+    std::iota(queue.begin(), queue.end(), 0);
+    std::stable_sort(queue.begin(), queue.end(), [&](auto a, auto b) { return work[a].cost_s > work[b].cost_s; });
+
+    std::vector<PooledResult> results(work.size());
+    std::map<pid_t, Worker> workers;
+    std::size_t next = 0, ended = 0;
+    const Stopwatch stopwatch;
+    while (next < queue.size() || !workers.empty()) {
+        while (next < queue.size() && static_cast<int>(workers.size()) < jobs && !interrupted()) {
+            pid_t process = 0;
+            const Worker worker = start(work[queue[next]], queue[next], process);
+            workers[process] = worker;
+            ++next;
+        }
+        if (workers.empty()) break;
+        int status = 0;
+        const pid_t process = wait_for_any(status);
+        const auto found = workers.find(process);
+        if (found == workers.end()) continue;
+        const std::size_t index = found->second.work;
+        results[index] = outcome_of(work[index], found->second, status);
+        workers.erase(found);
+        spdlog::info("[{}/{}] {} {} after {:.0f} s", ++ended, work.size(), work[index].name,
+                     results[index].finished ? "finished" : "failed: " + results[index].failure, stopwatch.seconds());
+    }
+    stop_if_interrupted();
+    return results;
+}
+
+}  // namespace experiments

@@ -1,0 +1,25 @@
+// Runs side by side, each in a process of its own: a breakdown of a library stays in its run, and memory is given back.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+struct PooledWork {
+    std::string name;
+    double cost_s = 0.0;           // expected
+    std::function<void()> action;  // runs in the worker; an exception is its failure
+};
+
+struct PooledResult {
+    std::string name;
+    bool finished = false;
+    std::string failure;  // what the worker said, or how it died
+};
+
+// At most `jobs` at once, the costliest first; results in the order of `work`. Reports each that ends, with the time left.
+std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int jobs);
+
+}  // namespace experiments
