@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <set>
-#include <sstream>
 
 namespace experiments {
 namespace {
@@ -30,10 +29,8 @@ json to_json(const toml::node& node)
 
 std::string shown(const toml::node& node)
 {
-    std::ostringstream text;
-    if (node.is_table() || node.is_array_of_tables()) return "(a table)";
-    node.visit([&](const auto& value) { text << value; });
-    return text.str();
+    const json value = to_json(node);
+    return value.is_null() ? "(a table)" : value.is_string() ? value.get<std::string>() : value.dump();
 }
 
 bool is_number(const json& value, const SceneKey& key)
