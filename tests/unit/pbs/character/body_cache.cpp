@@ -2,6 +2,7 @@
 #include "pbs/character/body_cache.hpp"
 
 #include "pbs/character/bodies.hpp"
+#include "pbs/geometry/mesh_io.hpp"
 #include "tests/unit/pbs/character/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -78,6 +79,16 @@ TEST_F(BodyCache, AFileWithOneByteChangedIsMadeAnew)
     EXPECT_EQ(made, 2);
     get();
     EXPECT_EQ(made, 2) << "the new file is whole";
+}
+
+TEST_F(BodyCache, AWholeFileOfAnotherMeshIsNotTrusted)
+{
+    get();
+    TetMesh other = two_tets();
+    other.rest(4, 2) -= 1e-9;
+    write_tet_mesh(stored().string(), other);
+    EXPECT_EQ(content_hash(get()), content_hash(two_tets()));
+    EXPECT_EQ(made, 2);
 }
 
 TEST_F(BodyCache, ATruncatedAndAnEmptyFileAreMadeAnew)
