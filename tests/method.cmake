@@ -1,7 +1,9 @@
 # Tests of the method: pbs/geometry (topology, quality, volumes), skinning, constraints, solver.
-foreach(name IN ITEMS geometry/topology geometry/quality geometry/tet_volume
-        skinning/skeleton skinning/pose skinning/bone_binding skinning/weights skinning/blend)
-    pbs_test(unit pbs/${name} pbs_method)
+foreach(name IN ITEMS topology quality tet_volume)
+    pbs_test(unit pbs/geometry/${name} pbs_method)
+endforeach()
+foreach(name IN ITEMS skeleton pose bone_binding weights blend)
+    pbs_test(unit pbs/skinning/${name} pbs_method)
 endforeach()
 foreach(name IN ITEMS stretch volume bind volume_printed)
     pbs_test(unit pbs/constraints/${name} pbs_method)
@@ -9,7 +11,10 @@ endforeach()
 foreach(name IN ITEMS constraint_set residuals project_plain algorithm_1 pbs_solver)
     pbs_test(unit pbs/solver/${name} pbs_method)
 endforeach()
-foreach(name IN ITEMS constraints/momentum constraints/invariance skinning/invariance solver/invariance)
-    pbs_test(properties pbs/${name} pbs_method)
-endforeach()
+
+pbs_test(properties pbs/constraints/momentum pbs_method)
+pbs_test(properties pbs/constraints/invariance pbs_method)
+pbs_test(properties pbs/skinning/invariance pbs_method)
+pbs_test(properties pbs/solver/invariance pbs_method)
+
 pbs_test(claims printed_equations pbs_method)
