@@ -43,16 +43,20 @@ double expected_coverage(int block)
     return 1.0 - 2.0 * gsl_cdf_tdist_Q(1.96 * r, freedom);
 }
 
-double observed_coverage(int block)
+struct Coverage {
+    double inside = 0.0, too_high = 0.0, too_low = 0.0;  // shares of the trials; too_high: the whole interval lies above the true mean
+};
+
+Coverage observed_coverage(int block)
 {
     std::mt19937_64 random(42);
-    int covered = 0;
+    Coverage coverage;
     for (int trial = 0; trial < trials; ++trial) {
         const auto interval = analysis::bootstrap_mean(autoregressive_series(samples, random),
                                                        {.resamples = 400, .seed = static_cast<unsigned long>(trial + 1), .block = block});
-        covered += interval.low <= 0.0 && 0.0 <= interval.high;
+        (interval.low > 0.0 ? coverage.too_high : interval.high < 0.0 ? coverage.too_low : coverage.inside) += 1.0 / trials;
     }
-    return double(covered) / trials;
+    return coverage;
 }
 
 double four_standard_errors(double coverage)
@@ -65,7 +69,11 @@ class BlockBootstrap : public testing::TestWithParam<int> {};
 TEST_P(BlockBootstrap, CoversTheMeanAsTheorySays)
 {
     const double expected = expected_coverage(GetParam());
-    EXPECT_NEAR(observed_coverage(GetParam()), expected, four_standard_errors(expected));
+    const Coverage observed = observed_coverage(GetParam());
+    EXPECT_NEAR(observed.inside, expected, four_standard_errors(expected));
+    const double either_side = 0.5 * (1.0 - expected);  // the noise is symmetric
+    EXPECT_NEAR(observed.too_high, either_side, four_standard_errors(either_side));
+    EXPECT_NEAR(observed.too_low, either_side, four_standard_errors(either_side));
 }
 
 INSTANTIATE_TEST_SUITE_P(OfAnAutoregressiveSeries, BlockBootstrap, testing::Values(1, 4, 16));
@@ -76,7 +84,7 @@ TEST(BlockBootstrap, ChoosesABlockThatCovers)
     const double tau = (1.0 + phi) / (1.0 - phi);
     const int best = static_cast<int>(std::cbrt(1.5 * samples) * std::pow((tau * tau - 1.0) / (2.0 * tau), 2.0 / 3.0));
     const double least = expected_coverage(best / 2);
-    EXPECT_GT(observed_coverage(0), least - four_standard_errors(least));
+    EXPECT_GT(observed_coverage(0).inside, least - four_standard_errors(least));
     EXPECT_GT(least, expected_coverage(1) + four_standard_errors(least));
 }
 
