@@ -23,7 +23,7 @@ CaseRecord empty_record(const CsvTable& metrics, int row, const std::string& run
     record.scene = metrics.text_at(row, "scene");
     record.deformer = metrics.text_at(row, "deformer");
     record.variant = metrics.text_at(row, "variant");
-    record.iterations = static_cast<int>(metrics.integer(row, "iterations"));
+    if (!metrics.text_at(row, "iterations").empty()) record.iterations = static_cast<int>(metrics.integer(row, "iterations"));
     record.run = run;
     return record;
 }

@@ -11,7 +11,7 @@ namespace analysis {
 // One deformer on one scene: a row of metrics.csv a frame.
 struct CaseRecord {
     std::string scene, deformer, variant;
-    int iterations = 0;
+    int iterations = 0;                            // 0: the deformer has none
     std::vector<double> frame, time_s, angle_deg;  // angle_deg is empty for clips
     std::vector<double> volume_change_pct, volume_abs_change_pct, inverted_tets;
     std::string run;  // the folder it came from, as to be named in reports
@@ -38,7 +38,7 @@ struct Records {
 };
 
 // The cases in a metrics.csv: its rows grouped by scene, deformer, variant, order, precision, iterations and threads, in order of first
-// appearance. A column angle_deg, filled in throughout a case, makes it a sweep.
+// appearance; empty iterations (a deformer that has none) are 0. A column angle_deg, filled in throughout a case, makes it a sweep.
 std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string& run);
 
 // The series that a metric of a claim names, #frames; InputError for an unknown name or a record with series of different lengths.

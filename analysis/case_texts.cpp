@@ -55,13 +55,13 @@ std::string worst_text(const CaseJudgement& judgement)
 std::string inverted_text(const CaseJudgement& judgement)
 {
     const int frames = judgement.holding_with_inverted_tets;
-    return frames == 0 ? "" : fmt::format(", inverted tets in {} of the frames within", frames);
+    return frames == 0 ? "" : fmt::format(" (inverted tets in {} of the frames within)", frames);
 }
 
 std::string short_sweep_text(const CaseJudgement& judgement)
 {
+    if (judgement.extent == Extent::none) return fmt::format(" ({})", span_text(judgement));
     if (judgement.rule == ClaimRule::mean_within) return fmt::format(" {}", angles_text(judgement));
-    if (judgement.extent == Extent::none) return fmt::format(" at no angle{}", worst_text(judgement));
     return fmt::format(" up to {:.4g} of {:.4g} deg", judgement.angles.front().to_deg, judgement.last_angle_deg);
 }
 
@@ -77,7 +77,8 @@ std::string short_clip_text(const CaseJudgement& judgement)
 
 std::string case_name(const CaseJudgement& judgement)
 {
-    return judgement.variant.empty() ? judgement.scene : fmt::format("{} ({})", judgement.scene, judgement.variant);
+    const bool plain = judgement.variant.empty() || judgement.variant == "default";
+    return plain ? judgement.scene : fmt::format("{} ({})", judgement.scene, judgement.variant);
 }
 
 std::string short_text(const CaseJudgement& judgement)

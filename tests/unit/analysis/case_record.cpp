@@ -17,12 +17,13 @@ const std::string head =
 TEST(CaseRecords, RowsAreGroupedByCase)
 {
     const auto table = parse_csv(head +
-                                     "\nlimb,lbs,,,,0,1,0,0,0,0,0\nlimb,pbs,,ordered,f32,24,1,0,0,0,0,0\nlimb,lbs,,,,0,1,1,0.01,-3,4,2\n"
+                                     "\nlimb,lbs,,,,,1,0,0,0,0,0\nlimb,pbs,,ordered,f32,24,1,0,0,0,0,0\nlimb,lbs,,,,,1,1,0.01,-3,4,2\n"
                                      "limb,pbs,,ordered,f32,24,1,1,0.01,-0.1,1,0\nlimb,pbs,,plain,f64,24,1,0,0,0,0,0\n",
                                  "metrics.csv");
     const auto records = case_records(table, "volume/limb");
     ASSERT_EQ(records.size(), 3u);
     EXPECT_EQ(records[0].deformer, "lbs");
+    EXPECT_EQ(records[0].iterations, 0);
     EXPECT_EQ(records[0].volume_change_pct, (std::vector<double>{0.0, -3.0}));
     EXPECT_EQ(records[0].inverted_tets, (std::vector<double>{0.0, 2.0}));
     EXPECT_EQ(records[1].iterations, 24);

@@ -122,7 +122,7 @@ TEST(VolumeIsPreserved, RestPoseAloneIsNoSweep)
 {
     const Verdict verdict = judge(claim_of("C02"), {.cases = {sweep("twist", "pbs", 24, {0.0})}});
     EXPECT_EQ(verdict.kind, VerdictKind::not_reproduced);
-    EXPECT_EQ(verdict.text, "not reproduced: twist at no angle; by volume_abs_change_pct: nowhere");
+    EXPECT_EQ(verdict.text, "not reproduced: twist (0 to 0 %); by volume_abs_change_pct: nowhere");
 }
 
 TEST(VolumeIsPreserved, InvertedTetsInFramesThatHoldAreTold)
