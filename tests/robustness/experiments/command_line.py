@@ -1,0 +1,118 @@
+"""The command line as its users meet it: exit status 0, 1, 2, 3, messages with place and rule, whole folders, nothing loaded that a scene
+does not need. Truth: the contract in README."""
+import json
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+import foreign_arm
+import program
+
+
+class CommandLine(program.ProgramTest):
+    def setUp(self):
+        super().setUp()
+        foreign_arm.write_msh(self.path("arm.msh"), *foreign_arm.mesh((10, 2, 2)))
+        self.write("arm.skeleton.toml", foreign_arm.SKELETON)
+        self.scene = self.write("arm.toml", foreign_arm.SCENE)
+
+    def refuses(self, message, *arguments):
+        process = program.run(*arguments)
+        self.assertEqual(process.returncode, 2, process.stderr)
+        self.assertIn(message, process.stderr)
+        return process
+
+    def test_every_verb_has_help(self):
+        for verb in ("list", "explain", "run", "reproduce", "measure", "mesh"):
+            self.assertIn("--quiet", self.succeeds(verb, "--help").stdout)
+
+    def test_version(self):
+        self.assertRegex(self.succeeds("--version").stdout, r"^pbskin \d+\.\d+\.\d+ \(git ")
+
+    def test_lists_every_kind(self):
+        for kind, name in (("cases", "sweep"), ("scenes", "limb_twist"), ("deformers", "dqs"), ("studies", "volume"), ("claims", "C02"), ("metrics", "j_min")):
+            self.assertIn(name, self.succeeds("list", kind).stdout)
+
+    def test_explains_every_name_it_lists(self):
+        for kind in ("scenes", "deformers", "studies", "claims", "metrics"):
+            for line in self.succeeds("list", kind).stdout.splitlines()[1:]:
+                self.succeeds("explain", line.split()[0])
+
+    def test_explains_scene_keys(self):
+        self.assertIn("0 leaves the class out", self.succeeds("explain", "k_volume").stdout)
+
+    def test_unknown_name(self):
+        self.refuses("nearest known one is C02", "explain", "C2")
+
+    def test_unknown_verb_and_missing_argument(self):
+        self.refuses("", "dance")
+        self.refuses("", "run")
+        self.refuses("", "list", "dragons")
+
+    def test_unknown_claim(self):
+        self.refuses("reproduce = C99: unknown claim or study", "reproduce", "C99")
+
+    def test_missing_scene(self):
+        self.refuses("nowhere.toml: cannot be read", "run", "nowhere.toml")
+
+    def test_unknown_joint(self):
+        self.refuses("motion.joint = knee: expected one of shoulder, elbow", "run", self.scene, "--set", "motion.joint=knee", "-o", self.path("out"))
+
+    def test_missing_mesh(self):
+        self.refuses("none.msh", "run", self.scene, "--set", "character.mesh=none.msh", "-o", self.path("out"))
+
+    def test_output_folder_that_is_a_file(self):
+        self.refuses("cannot be made", "run", self.scene, "-o", self.path("arm.msh"))
+
+    def test_quiet_says_nothing(self):
+        process = self.succeeds("run", self.scene, "-o", self.path("out"), "--quiet")
+        self.assertEqual((process.stdout, process.stderr), ("", ""))
+
+    def test_bounds_of_measure(self):
+        self.succeeds("run", self.scene, "-o", self.path("out"), "--quiet")
+        frame = self.path("out", "frames", "lbs_000004.vtu")
+        self.succeeds("measure", self.path("arm.msh"), frame, "--max-volume-change", "50")
+        process = program.run("measure", self.path("arm.msh"), frame, "--max-volume-change", "0.5")
+        self.assertEqual(process.returncode, 1)
+        self.assertRegex(process.stderr, r"lbs_000004\.vtu: \|volume_change_pct\| = [0-9.]+ > 0\.5")
+
+    def test_measure_refuses_a_frame_of_another_mesh(self):
+        foreign_arm.write_msh(self.path("other.msh"), *foreign_arm.mesh((8, 2, 2)))
+        self.refuses("expected the rest mesh's", "measure", self.path("arm.msh"), self.path("other.msh"))
+
+    def test_breakdown_is_exit_3(self):
+        # Gravity beyond what a float can hold drives the jiggling particles out of range.
+        process = program.run("run", self.scene, "-o", self.path("out"), "--set", "pbs.gravity_m_s2=[0.0,-1e300,0.0]", "--set", "pbs.jiggle.k_stretch=0.9")
+        self.assertEqual(process.returncode, 3, process.stderr)
+        self.assertIn("numerical breakdown: pbs is not finite in frame", process.stderr)
+        with open(self.path("out", "run.json"), encoding="utf-8") as file:
+            self.assertIn("pbs", json.load(file)["outcome"]["breakdowns"])
+
+    def test_without_a_reference_nothing_of_deal_ii_is_loaded(self):
+        environment = {**os.environ, "LD_DEBUG": "files", "LD_DEBUG_OUTPUT": self.path("loaded")}
+        self.succeeds("run", self.scene, "-o", self.path("out"), env=environment)
+        loaded = "".join(self.read(name) for name in os.listdir(self.folder) if name.startswith("loaded"))
+        self.assertIn("libstdc++", loaded)
+        self.assertNotIn("libdeal", loaded)
+        self.assertNotIn("libpbskin_fem", loaded)
+
+    def test_interrupt_keeps_whole_files(self):
+        process = subprocess.Popen([program.PBSKIN, "run", self.scene, "-o", self.path("out"), "--set", "motion.frames=100000"], stderr=subprocess.PIPE, text=True)
+        time.sleep(1.0)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertFalse(os.path.exists(self.path("out", "run.json")))
+        self.assertFalse([name for name in os.listdir(self.path("out")) if name.endswith(".tmp")])
+
+    def test_a_rerun_leaves_no_frames_of_the_last(self):
+        self.succeeds("run", self.scene, "-o", self.path("out"))
+        self.succeeds("run", self.scene, "-o", self.path("out"), "--set", "output.frames_every=0", "--set", "output.frames=[2]")
+        frames = [name for name in os.listdir(self.path("out", "frames")) if name.endswith(".vtu")]
+        self.assertEqual(sorted(frames), ["dqs_000002.vtu", "lbs_000002.vtu", "pbs_000002.vtu"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,132 @@
+// Wrong scenes, one by one: each is refused with its file, line, key, value and rule.
+#include "experiments/scene.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace {
+
+struct WrongScene {
+    const char* name;
+    const char* text;
+    const char* message;  // a part of what is said
+};
+
+const char* const head = "schema = 1\n[character]\nbody = \"limb\"\n[motion]\njoint = \"forearm\"\n";  // 5 lines
+const char* const stated = "[pbs]\nk_stretch = 0.2\nk_volume = 1.0\nk_bind = 1.0\ngravity_m_s2 = [0.0, 0.0, 0.0]\n";
+
+const WrongScene wrong_scenes[] = {
+    {"empty", "", "schema: missing"},
+    {"not_toml", "schema = = 1\n", "scene.toml:1: "},
+    {"noise", "\x01\x02\xff\xfe", "scene.toml"},
+    {"wrong_schema", "schema = 2\n", "scene.toml:1: schema = 2: expected an integer from 1 to 1"},
+    {"no_motion", "schema = 1\n[character]\nbody = \"limb\"\n", "motion.joint"},
+    {"no_body", "schema = 1\n[motion]\njoint = \"forearm\"\n", "character.body"},
+    {"unknown_body", "schema = 1\n[character]\nbody = \"dragon\"\n", "scene.toml:3: character.body = dragon: expected one of"},
+    {"body_and_files", "schema = 1\n[character]\nbody = \"limb\"\nmesh = \"a.msh\"\n", "scene.toml:4: character.mesh = a.msh"},
+    {"mesh_without_skeleton", "schema = 1\n[character]\nmesh = \"a.msh\"\n", "character.skeleton"},
+    {"unknown_table", "schema = 1\n[caracter]\nbody = \"limb\"\n",
+     "scene.toml:2: caracter: unknown key; the nearest known one is character"},
+    {"table_as_value", "schema = 1\npbs = 3\n", "scene.toml:2: pbs: expected a table"},
+    {"fem_not_an_array", "schema = 1\n[fem]\nname = \"fem\"\n", "expected [[fem]] tables"},
+};
+
+const WrongScene wrong_lines[] = {
+    // appended to `head` and `stated`: the line is the eleventh
+    {"unknown_key", "k_volum = 1.0\n", "scene.toml:11: pbs.k_volum = 1.0: unknown key; the nearest known one is pbs.k_volume"},
+    {"negative_iterations", "iterations = -1\n", "scene.toml:11: pbs.iterations = -1: expected an integer from 0 to"},
+    {"fractional_iterations", "iterations = 2.5\n", "scene.toml:11: pbs.iterations = 2.5: expected an integer"},
+    {"text_for_number", "time_step_s = \"ten\"\n", "scene.toml:11: pbs.time_step_s = ten: expected a number > 0"},
+    {"zero_time_step", "time_step_s = 0.0\n", "pbs.time_step_s = 0.0: expected a number > 0"},
+    {"infinite_time_step", "time_step_s = inf\n", "scene.toml:11: pbs.time_step_s"},
+    {"nan_residual", "stop_residual = nan\n", "scene.toml:11: pbs.stop_residual"},
+    {"unknown_order", "order = \"sideways\"\n", "scene.toml:11: pbs.order = sideways: expected one of plain"},
+    {"unknown_precision", "precision = \"f16\"\n", "expected one of f32, f64"},
+    {"jiggle_too_stiff", "[pbs.jiggle]\nk_stretch = 1.5\n", "scene.toml:12: pbs.jiggle.k_stretch = 1.5: expected a number from 0 to 1"},
+    {"unknown_variant", "[pbs.variant]\nvolume_form = \"guessed\"\n", "expected one of derived, labels_relative"},
+    {"unknown_deformer", "[deformers]\nuse = [\"lbs\", \"spline\"]\n", "scene.toml:12: deformers.use"},
+    {"deformer_twice", "[deformers]\nuse = [\"lbs\", \"lbs\"]\n", "names lbs twice"},
+    {"no_deformer", "[deformers]\nuse = []\n", "expected at least one deformer"},
+    {"reference_not_used", "[reference]\nname = \"fem\"\n", "expected a deformer that the scene uses"},
+    {"incompressible_linear", "[[fem]]\npoisson = 0.5\n", "scene.toml:12: fem.0.poisson = 0.5: expected a number from 0 to"},
+    {"cubic_elements", "[[fem]]\nelement_order = 3\n", "expected an integer from 1 to 2"},
+    {"fem_named_lbs", "[[fem]]\nname = \"lbs\"\n", "is the name of another deformer"},
+    {"fem_twice", "[[fem]]\nname = \"a\"\n[[fem]]\nname = \"a\"\n[deformers]\nuse = [\"a\"]\n", "is used twice"},
+    {"unknown_metrics", "[output]\nmetrics = [\"beauty\"]\n", "not beauty"},
+    {"joint_and_clip", "[motion]\nclip = \"01_01.bvh\"\n", "scene.toml"},
+};
+
+std::string refused_with(const std::string& text, const std::vector<std::string>& overrides = {})
+{
+    const auto folder = std::filesystem::temp_directory_path() / ("scene_errors_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    const std::string path = (folder / "scene.toml").string();
+    std::ofstream(path) << text;
+    try {
+        experiments::read_scene(path, overrides);
+        return "accepted";
+    } catch (const pbs::InputError& error) {
+        return error.what();
+    }
+}
+
+TEST(SceneErrors, WrongScenesNameTheirPlace)
+{
+    for (const auto& wrong : wrong_scenes)
+        EXPECT_NE(refused_with(wrong.text).find(wrong.message), std::string::npos) << wrong.name << ": " << refused_with(wrong.text);
+}
+
+TEST(SceneErrors, WrongLinesNameTheirPlace)
+{
+    for (const auto& wrong : wrong_lines) {
+        const std::string text = std::string(head) + stated + wrong.text;
+        EXPECT_NE(refused_with(text).find(wrong.message), std::string::npos) << wrong.name << ": " << refused_with(text);
+    }
+}
+
+TEST(SceneErrors, TheRightSceneIsAccepted)
+{
+    EXPECT_EQ(refused_with(std::string(head) + stated), "accepted");
+}
+
+TEST(SceneErrors, WhatThePaperLeavesUnstatedMustBeStated)
+{
+    for (const char* key : {"k_stretch", "k_volume", "k_bind", "gravity_m_s2"}) {
+        std::string text = std::string(head) + stated;
+        const auto at = text.find(key);
+        text.erase(at, text.find('\n', at) - at);
+        EXPECT_NE(refused_with(text).find(std::string("pbs.") + key + ": missing"), std::string::npos) << refused_with(text);
+    }
+}
+
+TEST(SceneErrors, WrongOverrides)
+{
+    const std::string right = std::string(head) + stated;
+    EXPECT_NE(refused_with(right, {"pbs.iterations"}).find("expected key=value"), std::string::npos);
+    EXPECT_NE(refused_with(right, {"pbs.k_volume=1.4"}).find("--set: pbs.k_volume = 1.4: expected a number from 0 to 1"),
+              std::string::npos);
+    EXPECT_NE(refused_with(right, {"=3"}).find("expected key=value"), std::string::npos);
+}
+
+TEST(SceneErrors, StepsMustDivideAFrame)
+{
+    const std::string text =
+        std::string("schema = 1\n[character]\nbody = \"human\"\n[motion]\nclip = \"01_01.bvh\"\nrate_hz = 30.0\n") + stated;
+    EXPECT_NE(refused_with(text).find("scene.toml:6: motion.rate_hz = 30.0: expected rate_hz * pbs.time_step_s = 1/n"), std::string::npos)
+        << refused_with(text);
+}
+
+TEST(SceneErrors, AMissingFileIsNamed)
+{
+    try {
+        experiments::read_scene("no/such/scene.toml", {});
+        FAIL() << "accepted";
+    } catch (const pbs::InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("no/such/scene.toml: cannot be read"), std::string::npos);
+    }
+}
+
+}  // namespace

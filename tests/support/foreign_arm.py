@@ -1,0 +1,62 @@
+"""A tet mesh, skeleton and scene that no part of the project has made: a tapered box with two bones, written as Gmsh 2.2."""
+import itertools
+
+SKELETON = """[[joint]]
+name = "shoulder"
+parent = ""
+head_m = [0.0, 0.0, 0.0]
+tail_m = [0.5, 0.0, 0.0]
+[[joint]]
+name = "elbow"
+parent = "shoulder"
+head_m = [0.5, 0.0, 0.0]
+tail_m = [1.0, 0.0, 0.0]
+"""
+
+SCENE = """schema = 1
+[character]
+mesh = "arm.msh"
+skeleton = "arm.skeleton.toml"
+[motion]
+joint = "elbow"
+axis = [0.0, 0.0, 1.0]
+angle_deg = 120.0
+frames = 5
+[pbs]
+k_stretch = 0.2
+k_volume = 1.0
+k_bind = 1.0
+gravity_m_s2 = [0.0, 0.0, 0.0]
+[deformers]
+use = ["lbs", "dqs", "pbs"]
+"""
+
+
+def mesh(cells=(20, 4, 4)):
+    """Points [m] and tets of a box [0, 1] x [-0.1, 0.1]^2 that tapers to 60 %; each cell is split into six tets along its diagonal."""
+    nx, ny, nz = cells
+    points = []
+    for k, j, i in itertools.product(range(nz + 1), range(ny + 1), range(nx + 1)):
+        thickness = 1.0 - 0.4 * i / nx
+        points.append((i / nx, (j / ny - 0.5) * 0.2 * thickness, (k / nz - 0.5) * 0.2 * thickness))
+    index = lambda i, j, k: (k * (ny + 1) + j) * (nx + 1) + i
+    tets = []
+    for i, j, k in itertools.product(range(nx), range(ny), range(nz)):
+        for order in itertools.permutations(range(3)):
+            corner, tet = [i, j, k], [index(i, j, k)]
+            for axis in order:
+                corner[axis] += 1
+                tet.append(index(*corner))
+            tets.append(tet)
+    return points, tets
+
+
+def write_msh(path, points, tets):
+    with open(path, "w", encoding="ascii") as file:
+        file.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n%d\n" % len(points))
+        for number, point in enumerate(points, 1):
+            file.write("%d %.17g %.17g %.17g\n" % (number, *point))
+        file.write("$EndNodes\n$Elements\n%d\n" % len(tets))
+        for number, tet in enumerate(tets, 1):
+            file.write("%d 4 2 1 1 %d %d %d %d\n" % (number, *[vertex + 1 for vertex in tet]))
+        file.write("$EndElements\n")

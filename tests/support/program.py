@@ -1,0 +1,37 @@
+"""Runs the program under test from outside."""
+import os
+import subprocess
+import tempfile
+import unittest
+
+PBSKIN = os.environ["PBSKIN"]
+SOURCE = os.environ["PBS_SOURCE"]
+
+
+def run(*arguments, **options):
+    """The finished process of `pbskin ARGUMENTS`, its output as text."""
+    return subprocess.run([PBSKIN, *map(str, arguments)], capture_output=True, text=True, timeout=800, **options)
+
+
+class ProgramTest(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = self.temporary.name
+        self.addCleanup(self.temporary.cleanup)
+
+    def path(self, *parts):
+        return os.path.join(self.folder, *parts)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.path(name)
+
+    def read(self, *parts):
+        with open(self.path(*parts), encoding="utf-8") as file:
+            return file.read()
+
+    def succeeds(self, *arguments, **options):
+        process = run(*arguments, **options)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        return process

@@ -1,0 +1,87 @@
+// Truth: the capsule of a bone of a bar of known width, by hand.
+#include "experiments/deformers/fem/bone_capsules.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "tests/unit/experiments/deformers/fem/bar_character.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace {
+
+using namespace experiments;
+using pbs::Vec3;
+
+pbs::Character bar()
+{
+    return test_support::bar_character({24, 2, 2});
+}
+
+TEST(BoneCapsules, SpanTheMiddleOfTheBone)
+{
+    const auto capsules = bone_capsules(bar(), 0.35);
+    ASSERT_EQ(capsules.size(), 2u);
+    EXPECT_LT((capsules[1].start - Vec3(1.0 / 6.0, 0, 0)).norm(), 1e-15);
+    EXPECT_LT((capsules[1].end - Vec3(5.0 / 6.0, 0, 0)).norm(), 1e-15);
+}
+
+// With two cells across, the skin round the axis has 4 vertices at the half width a and 4 at sqrt(2) a: the mean is a (1 + sqrt(2)) / 2.
+TEST(BoneCapsules, RadiusIsAShareOfTheMeanDistanceOfTheSkin)
+{
+    for (const BoneCapsule& capsule : bone_capsules(bar(), 0.35)) {
+        EXPECT_NEAR(capsule.radius_m, 0.35 * 0.15 * (1.0 + std::numbers::sqrt2) / 2.0, 1e-12);
+        EXPECT_EQ(capsule.radius_from, "skin on its middle");
+    }
+}
+
+TEST(BoneCapsules, ABoneWithoutSkinOnItsMiddleTakesWhatIsNearestAndThenTheWholeSkin)
+{
+    pbs::Character character = bar();
+    for (std::size_t v = 0; v < character.binding.bone.size(); ++v)
+        if (character.binding.bone[v] == 1) character.binding.parameter(v) = 2.0;
+    EXPECT_EQ(bone_capsules(character, 0.35)[1].radius_from, "skin nearest to it");
+    for (int& bone : character.binding.bone) bone = 0;
+    const auto capsules = bone_capsules(character, 0.35);
+    EXPECT_EQ(capsules[1].radius_from, "the whole skin");
+    EXPECT_GT(capsules[1].radius_m, 0.0);
+}
+
+TEST(BoneCapsules, ABoneWithoutLengthIsRefusedByName)
+{
+    pbs::Character character = bar();
+    character.skeleton.bones[1].tail = character.skeleton.bones[1].head;
+    try {
+        bone_capsules(character, 0.35);
+        FAIL();
+    } catch (const pbs::InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("forearm"), std::string::npos);
+    }
+}
+
+TEST(BoneCapsules, ContainsItsAxisAndNothingBeyondItsEndsOrRadius)
+{
+    const BoneCapsule capsule{{0, 0, 0}, {2, 0, 0}, 0.5, ""};
+    EXPECT_TRUE(capsule.contains({0, 0, 0}));
+    EXPECT_TRUE(capsule.contains({1, 0.3, -0.39}));
+    EXPECT_FALSE(capsule.contains({1, 0.3, -0.41}));
+    EXPECT_FALSE(capsule.contains({-0.01, 0, 0}));
+    EXPECT_FALSE(capsule.contains({2.01, 0, 0}));
+    EXPECT_NEAR(capsule.volume_m3(), std::numbers::pi * 0.25 * 2.0, 1e-15);
+}
+
+// Equal shares of the volume: means over the samples are those over the capsule, centre (1, 0, 0) and <radius^2> = r^2 / 2. A ring at the
+// radius that halves its area has exactly the mean square of the area it stands for; the centre point alone, 1 / 13 of the disc, is
+// counted with 0 instead of r^2 / 26: (r^2 / 26) / 13 = 0.3 % of r^2.
+TEST(BoneCapsules, SamplesStandForEqualSharesOfTheVolume)
+{
+    const BoneCapsule capsule{{0, 0, 0}, {2, 0, 0}, 0.5, ""};
+    const pbs::Positions samples = sample_points(capsule);
+    EXPECT_EQ(samples.rows(), 130);
+    EXPECT_LT((samples.colwise().mean() - Eigen::RowVector3d(1, 0, 0)).norm(), 1e-14);
+    const double mean_square = samples.rightCols(2).rowwise().squaredNorm().mean();
+    EXPECT_NEAR(mean_square, 0.25 / 2.0 - 0.25 / 26.0 / 13.0, 1e-14);
+    for (const auto& sample : samples.rowwise()) EXPECT_TRUE(capsule.contains(sample.transpose()));
+}
+
+}  // namespace

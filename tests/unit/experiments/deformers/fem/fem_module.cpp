@@ -1,0 +1,48 @@
+// The module as the program uses it: loaded at run time, errors thrown inside it caught outside. This test itself links no deal.II.
+#include "experiments/deformers/fem/fem_module.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/module.hpp"
+#include "tests/unit/experiments/deformers/fem/bar_character.hpp"
+
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+
+namespace {
+
+std::unique_ptr<experiments::Deformer> make_fem(const experiments::FemOptions& options)
+{
+    const auto make = pbs::load_module("pbskin_fem").function<decltype(pbskin_make_fem)>("pbskin_make_fem");
+    return std::unique_ptr<experiments::Deformer>(make(options));
+}
+
+bool is_loaded(const char* library)
+{
+    void* handle = dlopen(library, RTLD_NOW | RTLD_NOLOAD);
+    if (handle) dlclose(handle);
+    return handle != nullptr;
+}
+
+TEST(FemModule, BringsDealIIOnlyWhenItIsAskedFor)
+{
+    EXPECT_FALSE(is_loaded("libdeal.ii.so.9.4.1"));
+    const auto character = test_support::bar_character({24, 4, 4});
+    const auto fem = make_fem({.element_order = 1});
+    fem->reset(character);
+    EXPECT_TRUE(is_loaded("libdeal.ii.so.9.4.1"));
+    const pbs::Pose rest(2, Eigen::Isometry3d::Identity());
+    EXPECT_EQ(fem->advance(rest, 0.01).outcome, pbs::Outcome::finished);
+    EXPECT_EQ(fem->positions(), character.mesh.rest);
+    EXPECT_NE(fem->record()["setup"]["blas"].get<std::string>().find("blas"), std::string::npos);
+}
+
+TEST(FemModule, ItsInputErrorsAreCaughtOutside)
+{
+    const auto fem = make_fem({.element_order = 7});
+    const auto character = test_support::bar_character({24, 4, 4});
+    EXPECT_THROW(fem->reset(character), pbs::InputError);
+}
+
+}  // namespace
