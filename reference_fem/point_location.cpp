@@ -66,6 +66,7 @@ void PointLocation::for_each_cell_of_tet(Eigen::Index tet, Visit visit) const
 
 Location PointLocation::locate(const pbs::Vec3& point) const
 {
+    if (!point.allFinite()) return {};
     const int cell = index_of(cell_of(point));
     for (int k = first_[cell]; k < first_[cell + 1]; ++k) {
         const pbs::Vec3 barycentric = barycentric_in(mesh_, tet_in_cell_[k], point);
