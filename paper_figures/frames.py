@@ -6,7 +6,7 @@ import records
 import rendering
 import style
 
-pixels = (620, 800)  # of a still
+pixels = (560, 800)  # of a still
 most_stills = 4
 
 
@@ -26,14 +26,15 @@ def skin_of(tet_file):
 
 def caption(row):
     section = f"\nsmallest section {float(row['min_section_pct']):.0f} %" if row.get("min_section_pct") else ""
-    return f"{row['inverted_tets']} inverted tets{section}"
+    inverted = row["inverted_tets"]
+    return f"{inverted} inverted tet{'' if inverted == '1' else 's'}{section}"
 
 
 def half_height_of(boxes):
     """Half the height [m] that a still shows: the tallest and widest body and a margin."""
     height_m = max((high - low)[1] for low, high in boxes)
     width_m = max(numpy.hypot(*(high - low)[[0, 2]]) for low, high in boxes)
-    return 0.58 * max(height_m, width_m * pixels[1] / pixels[0])
+    return 0.54 * max(height_m, width_m * pixels[1] / pixels[0])
 
 
 def draw_stills(rows, files, frames, file_of, colour_bar):

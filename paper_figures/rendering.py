@@ -30,7 +30,7 @@ class Stage:
         if not os.environ.get("DISPLAY"):
             raise records.RecordsMissing("no display to render on; run under xvfb-run -a")
         self.renderer = vtkRenderer()
-        self.renderer.SetBackground(1.0, 1.0, 1.0)
+        self.renderer.SetBackground(0.9, 0.9, 0.9)
         self.renderer.GetActiveCamera().ParallelProjectionOn()
         for direction, strength in (((-0.6, 0.8, 1.0), 0.9), ((1.0, 0.3, 0.6), 0.4)):
             light = vtkLight()
