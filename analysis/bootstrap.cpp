@@ -54,7 +54,12 @@ Interval bootstrap_mean(const std::vector<double>& series, const BootstrapOption
 
 Interval bootstrap_share(const std::vector<bool>& holds, const BootstrapOptions& options)
 {
-    return bootstrap_mean(std::vector<double>(holds.begin(), holds.end()), options);
+    Interval interval = bootstrap_mean(std::vector<double>(holds.begin(), holds.end()), options);
+    if (interval.n < 2 || (interval.estimate > 0.0 && interval.estimate < 1.0)) return interval;
+    const double independent = interval.n / std::max(1.0, options.autocorrelation_time);
+    const double margin = 1.0 - std::pow((1.0 - options.level) / 2.0, 1.0 / independent);
+    (interval.estimate > 0.0 ? interval.low : interval.high) = interval.estimate > 0.0 ? 1.0 - margin : margin;
+    return interval;
 }
 
 }  // namespace analysis

@@ -20,6 +20,9 @@ struct BootstrapOptions {
     int resamples = 2000;
     unsigned long seed = 20140528;
     int block = 0;  // 0: chosen by `block_length`
+    // Of the figures behind a share [samples]: where every sample holds, or none, the bootstrap sees no spread; the exact binomial bound
+    // (Clopper and Pearson 1934) of n / autocorrelation_time independent samples is taken instead.
+    double autocorrelation_time = 1.0;
 };
 
 // The length that minimises the error of the bootstrapped variance (Politis and White 2004) for a first-order autoregressive series with

@@ -83,7 +83,7 @@ void judge_sweep(const Claim& claim, const std::vector<double>& angle_deg, const
 
 void judge_clip(const Claim& claim, const std::vector<double>& values, const std::vector<bool>& holds, CaseJudgement& result)
 {
-    const BootstrapOptions options{.level = claim.level};
+    const BootstrapOptions options{.level = claim.level, .autocorrelation_time = integrated_autocorrelation_time(values)};
     result.mean = bootstrap_mean(values, options);
     result.share = bootstrap_share(holds, options);
     if (claim.rule == ClaimRule::share_within) {

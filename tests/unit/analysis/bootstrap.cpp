@@ -56,12 +56,26 @@ TEST(Bootstrap, BlockAsLongAsTheSeriesHasNoSpread)
 
 TEST(Bootstrap, SeriesWithoutSpreadHasNoWidth)
 {
-    const Interval all = bootstrap_share(std::vector<bool>(30, true)), none = bootstrap_share(std::vector<bool>(30, false));
-    EXPECT_EQ(all.low, 1.0);
-    EXPECT_EQ(all.high, 1.0);
-    EXPECT_EQ(all.block, 1);
+    const Interval same = bootstrap_mean(std::vector<double>(20, 3.5));
+    EXPECT_EQ(same.low, 3.5);
+    EXPECT_EQ(same.high, 3.5);
+}
+
+// Clopper and Pearson 1934: of n independent samples none holds with probability (1 - p)^n, which is 2.5 % at p = 1 - 0.025^(1/n).
+TEST(Bootstrap, AShareOfAllOrNoneHasTheExactBinomialBound)
+{
+    const Interval none = bootstrap_share(std::vector<bool>(20, false));
     EXPECT_EQ(none.low, 0.0);
-    EXPECT_EQ(none.high, 0.0);
+    EXPECT_NEAR(none.high, 0.16843, 1e-5);  // tables of the exact bound: 0 of 20
+    const Interval all = bootstrap_share(std::vector<bool>(20, true));
+    EXPECT_NEAR(all.low, 1.0 - 0.16843, 1e-5);
+    EXPECT_EQ(all.high, 1.0);
+}
+
+TEST(Bootstrap, CorrelatedSamplesSayLessAboutNone)
+{
+    const Interval correlated = bootstrap_share(std::vector<bool>(200, false), {.autocorrelation_time = 10.0});
+    EXPECT_NEAR(correlated.high, 0.16843, 1e-5);  // as good as 20 independent ones
 }
 
 TEST(Bootstrap, ShareStaysBetweenNoneAndAll)
