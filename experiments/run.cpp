@@ -19,7 +19,7 @@ struct Runner {
     DeformerSpec spec;
     std::unique_ptr<Deformer> deformer;
     pbs::StepSummary step;
-    double largest_loss_pct = 0.0;
+    double lowest_change_pct = 0.0, highest_change_pct = 0.0;
     int most_inverted = 0;
 };
 
@@ -27,7 +27,7 @@ std::vector<Runner> make_runners(const Scene& scene, const pbs::Character& chara
 {
     std::vector<Runner> runners;
     for (const DeformerSpec& spec : scene.deformers) {
-        runners.push_back({spec, make_deformer(spec), {}, 0.0, 0});
+        runners.push_back({spec, make_deformer(spec), {}});
         runners.back().deformer->reset(character);
         stop_if_interrupted();
     }
@@ -86,7 +86,8 @@ private:
         const FrameMeasurement measured = measurer_.measure(positions, context);
         folder_.add_frame(runner.spec, frame, time_s, measured, runner.step);
         folder_.add_state(runner.spec, positions);
-        runner.largest_loss_pct = std::min(runner.largest_loss_pct, measured.metrics.volume_change_pct);
+        runner.lowest_change_pct = std::min(runner.lowest_change_pct, measured.metrics.volume_change_pct);
+        runner.highest_change_pct = std::max(runner.highest_change_pct, measured.metrics.volume_change_pct);
         runner.most_inverted = std::max(runner.most_inverted, measured.metrics.inverted_tets);
         if (runner.step.outcome == pbs::Outcome::not_finite) {
             // The printed forms are negative controls: their breakdown is what they are there to show.
@@ -110,8 +111,8 @@ private:
 
         RunResult result{frames_, stopwatch_.seconds(), breakdown_, {}};
         for (const Runner& runner : runners_)
-            result.lines.push_back(fmt::format("  {:<24} largest loss {:8.3f} %   most inverted tets {}", runner.spec.label,
-                                               runner.largest_loss_pct, runner.most_inverted));
+            result.lines.push_back(fmt::format("  {:<12} volume change {:8.3f} to {:7.3f} %, at most {} inverted tets", runner.spec.label,
+                                               runner.lowest_change_pct, runner.highest_change_pct, runner.most_inverted));
         return result;
     }
 

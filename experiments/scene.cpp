@@ -162,6 +162,8 @@ OutputSpec read_output(const SceneValues& values)
     OutputSpec output;
     output.frames_every = values.integer("output.frames_every");
     output.frames = values.integers("output.frames");
+    if (const auto names = values.texts("output.frame_names"); !names.empty() && names.size() != output.frames.size())
+        values.refuse("output.frame_names", "expected a name for each of output.frames");
     output.iterations = values.boolean("pbs.record_iterations");
     const auto groups = values.texts("output.metrics");
     for (const auto& group : groups)

@@ -117,6 +117,7 @@ std::vector<SceneKey> output_keys()
             "what moves the character: lbs, dqs, pbs and the names of the [[fem]] tables"),
         within(key("output", "frames_every", integer, "1", "", "write every n-th frame as VTU; 0: none"), 0, 1e9),
         within(key("output", "frames", integers, "[]", "", "further frames to write, by number"), 0, 1e9),
+        key("output", "frame_names", texts, "[]", "", "what `frames` show, in the same order: titles of stills"),
         key("output", "metrics", texts, "[\"all\"]", "",
             "groups of metrics beyond the volume columns: errors, sections, surface, all; [] leaves them out"),
     };

@@ -55,6 +55,7 @@ const WrongScene wrong_lines[] = {
     {"cubic_elements", "[[fem]]\nelement_order = 3\n", "expected an integer from 1 to 2"},
     {"fem_named_lbs", "[[fem]]\nname = \"lbs\"\n", "is the name of another deformer"},
     {"fem_twice", "[[fem]]\nname = \"a\"\n[[fem]]\nname = \"a\"\n[deformers]\nuse = [\"a\"]\n", "is used twice"},
+    {"a_name_without_its_frame", "[output]\nframe_names = [\"crouch\"]\n", "expected a name for each of output.frames"},
     {"unknown_metrics", "[output]\nmetrics = [\"beauty\"]\n", "not beauty"},
     {"joint_and_clip", "[motion]\nclip = \"01_01.bvh\"\n", "scene.toml"},
 };
