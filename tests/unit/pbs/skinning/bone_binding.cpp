@@ -31,7 +31,10 @@ TEST(BoneBinding, BeyondAnEndIsTheEndWithAnUnclampedParameter)
     EXPECT_DOUBLE_EQ(binding.parameter(0), 1.5);
     EXPECT_EQ(Vec3(binding.rest_point.row(0)), Vec3(1, 0, 0));
     EXPECT_DOUBLE_EQ(binding.distance(0), 0.5);
-    EXPECT_DOUBLE_EQ(bind_one({-3, 0, 0}, limb).parameter(0), -2.0);
+    const pbs::BoneBinding before_head = bind_one({-3, 0, 0}, limb);
+    EXPECT_DOUBLE_EQ(before_head.parameter(0), -2.0);
+    EXPECT_EQ(Vec3(before_head.rest_point.row(0)), Vec3(-1, 0, 0));
+    EXPECT_DOUBLE_EQ(before_head.distance(0), 2.0);
 }
 
 TEST(BoneBinding, FirstOfEquals)
