@@ -11,7 +11,7 @@
 namespace pbs {
 
 // Limb: capsule of radius 0.15 m round (-1,0,0) -> (1,0,0) m with round caps. Bar: [-1, 1] x [-0.15, 0.15]^2 m.
-// `vertices`: wanted number, at least 150; what comes out is within 10 % (the cell size is searched).
+// `vertices`: wanted number, at least 300 (limb) or 150 (bar); what comes out is within 10 % (the cell size is searched).
 TetMesh mesh_limb(int vertices);
 TetMesh mesh_bar(int vertices);
 

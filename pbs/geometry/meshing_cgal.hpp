@@ -5,6 +5,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Random.h>
+#include <CGAL/make_mesh_3.h>
 
 #include <unordered_map>
 #include <vector>
@@ -17,6 +18,23 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 inline void fix_meshing_seed()
 {
     CGAL::get_default_random() = CGAL::Random(0);
+}
+
+// Refines, perturbs and exudes. make_mesh_3 would limit the optimisers to the seconds that the refinement took; called by themselves they
+// end by themselves, and the same way each time. sliver_bound_deg: dihedral angles above it are good enough; 0: as good as they get.
+template <class Complex, class Domain, class Criteria, class... Refinement>
+Complex refine_mesh(const Domain& domain, const Criteria& criteria, const Refinement&... refinement)
+{
+    fix_meshing_seed();
+    namespace parameters = CGAL::parameters;
+    return CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(), parameters::no_exude(), refinement...);
+}
+
+template <class Complex, class Domain>
+void optimise_mesh(Complex& complex, const Domain& domain, double sliver_bound_deg)
+{
+    CGAL::perturb_mesh_3(complex, domain, CGAL::parameters::sliver_bound = sliver_bound_deg);
+    CGAL::exude_mesh_3(complex, CGAL::parameters::sliver_bound = sliver_bound_deg);
 }
 
 // Vertices are numbered as the cells first name them; cells come in the order of the triangulation's container.

@@ -19,12 +19,12 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/alpha_wrap_3.h>
 #include <CGAL/boost/graph/iterator.h>
-#include <CGAL/make_mesh_3.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace pbs {
 namespace {
@@ -34,7 +34,40 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 using Point = Kernel::Point_3;
 using Surface = CGAL::Surface_mesh<Point>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_face_graph_triangle_primitive<Surface>>>;
-using Domain = CGAL::Polyhedral_mesh_domain_3<Surface, Kernel>;
+
+// CGAL starts the refinement from random points; where two fall close together a short edge stays, whatever the cell size. Here it starts
+// from vertices of the surface as far from each other as can be.
+class Domain : public CGAL::Polyhedral_mesh_domain_3<Surface, Kernel> {
+public:
+    explicit Domain(const Surface& surface) : CGAL::Polyhedral_mesh_domain_3<Surface, Kernel>(surface), surface_(surface) {}
+
+    struct InitialPoints {
+        const Domain& domain;
+
+        template <class Output>
+        Output operator()(Output output, int count = 12) const
+        {
+            const Surface& surface = domain.surface_;
+            std::vector<double> distance(surface.number_of_vertices(), std::numeric_limits<double>::infinity());
+            Surface::Vertex_index next(0);
+            for (int i = 0; i < count; ++i) {
+                const auto face = surface.face(surface.halfedge(next));
+                *output++ =
+                    std::pair(surface.point(next), domain.index_from_surface_patch_index(domain.make_surface_index({face, &surface})));
+                for (const auto vertex : surface.vertices())
+                    distance[vertex] = std::min(distance[vertex], CGAL::squared_distance(surface.point(vertex), surface.point(next)));
+                next = Surface::Vertex_index(
+                    static_cast<Surface::size_type>(std::max_element(distance.begin(), distance.end()) - distance.begin()));
+            }
+            return output;
+        }
+    };
+    InitialPoints construct_initial_points_object() const { return {*this}; }
+
+private:
+    const Surface& surface_;
+};
+
 using Triangulation = CGAL::Mesh_triangulation_3<Domain>::type;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
 using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
@@ -42,8 +75,8 @@ using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 constexpr double facet_angle_deg = 25.0, radius_edge_ratio = 2.5, sliver_bound_deg = 12.0;
 
 // Relative to the body's diagonal, at size 1: what gives a standing human 2,000 vertices.
-constexpr double smallest_cell = 0.006, largest_cell = 0.03, facet_distance = 0.002;
-constexpr double cells_across = 2.0;    // a cell is at most this part of the local thickness, at size 1
+constexpr double smallest_cell = 0.0042, largest_cell = 0.021, facet_distance = 0.0032;
+constexpr double cells_across = 2.9;    // a cell is at most this part of the local thickness, at size 1
 constexpr double inside_to_skin = 1.2;  // size of cells over size of facets
 
 double diagonal_of(const Positions& points)
@@ -99,7 +132,7 @@ public:
     Body(const SurfaceMesh& surface, double alpha, double offset)
         : diagonal_(diagonal_of(surface.points)),
           wrapped_(wrap(surface, alpha, offset)),
-          domain_((fix_meshing_seed(), wrapped_)),
+          domain_(wrapped_),
           tree_(faces(wrapped_).begin(), faces(wrapped_).end(), wrapped_)
     {
         tree_.accelerate_distance_queries();
@@ -111,21 +144,15 @@ public:
     // size 1: cells as above; distance 1: facets as near to the wrap as above.
     Complex refined(double size, double distance) const
     {
-        fix_meshing_seed();
         const Sizing skin{*this, size}, flesh{*this, inside_to_skin * size};
         const Criteria criteria(parameters::facet_angle = facet_angle_deg, parameters::facet_size = skin,
                                 parameters::facet_distance = facet_distance * diagonal_ * distance * size,
                                 parameters::facet_topology = CGAL::FACET_VERTICES_ON_SAME_SURFACE_PATCH,
                                 parameters::cell_radius_edge_ratio = radius_edge_ratio, parameters::cell_size = flesh);
-        return CGAL::make_mesh_3<Complex>(domain_, criteria, parameters::no_perturb(), parameters::no_exude(), parameters::manifold());
+        return refine_mesh<Complex>(domain_, criteria, parameters::manifold());
     }
 
-    // No time limit is given: both end by themselves, and the same way each time.
-    void optimise(Complex& complex) const
-    {
-        CGAL::perturb_mesh_3(complex, domain_, parameters::sliver_bound = sliver_bound_deg);
-        CGAL::exude_mesh_3(complex, parameters::sliver_bound = sliver_bound_deg);
-    }
+    void optimise(Complex& complex) const { optimise_mesh(complex, domain_, sliver_bound_deg); }
 
 private:
     struct Sizing {
@@ -183,18 +210,26 @@ void check_closed(const SurfaceMesh& surface, const Body& body)
 }
 
 // The cell size that refines to the wanted number of vertices; optimising hardly changes it.
-double size_of(const Body& body, int vertices)
+double size_of(const Body& body, int vertices, double distance)
 {
-    double size = 1.0, found = 1.0;
-    const auto mesh_at = [&](double s) { return tet_mesh_of(body.refined(size = s, 1.0)); };
-    double nearest = std::numeric_limits<double>::infinity();
-    mesh_at_vertex_count(vertices, 1.0, [&](double s) {
-        TetMesh mesh = mesh_at(s);
+    double nearest_size = 1.0, nearest_miss = std::numeric_limits<double>::infinity();
+    mesh_at_vertex_count(vertices, 1.0, [&](double size) {
+        TetMesh mesh = tet_mesh_of(body.refined(size, distance));
         const double miss = std::abs(static_cast<double>(mesh.rest.rows()) - vertices);
-        if (miss < nearest) nearest = miss, found = s;
+        if (miss < nearest_miss) {
+            nearest_miss = miss;
+            nearest_size = size;
+        }
         return mesh;
     });
-    return found;
+    return nearest_size;
+}
+
+TetMesh optimised(const Body& body, double size, double distance)
+{
+    Complex complex = body.refined(size, distance);
+    body.optimise(complex);
+    return tet_mesh_of(complex);
 }
 
 }  // namespace
@@ -207,12 +242,9 @@ TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
     const Body body(surface, alpha, offset);
     check_closed(surface, body);
 
-    const double size = size_of(body, options.vertices);
     std::string breach;
-    for (const double distance : {1.0, 0.8, 1.25, 0.6, 1.6, 0.45}) {
-        Complex complex = body.refined(size, distance);
-        body.optimise(complex);
-        TetMesh mesh = tet_mesh_of(complex);
+    for (const double distance : {1.0, 0.8, 1.25, 0.65, 1.5, 0.5}) {
+        TetMesh mesh = optimised(body, size_of(body, options.vertices, distance), distance);
         breach = breach_of(mesh, options);
         if (breach.empty()) return mesh;
     }

@@ -5,6 +5,7 @@
 #include "pbs/geometry/mesh_io_formats.hpp"
 
 #include <assimp/Importer.hpp>
+#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -90,6 +91,7 @@ SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name)
 {
     require_readable(path);
     Assimp::Importer importer;
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
     const std::string extension = lower_extension(path);
     if (extension.empty() || !importer.IsExtensionSupported(extension))
         throw InputError(path, 0, "extension", extension, "expected a surface: .obj, .ply, .off, .stl, .gltf, .glb, .dae or .zae");
