@@ -12,7 +12,7 @@ namespace pbs {
 namespace {
 
 constexpr int limb_vertices = 1775, bar_vertices = 1800;
-constexpr int mesher_version = 1;  // raised whenever mesh_limb or mesh_bar makes something else
+constexpr int mesher_version = 2;  // raised whenever mesh_limb or mesh_bar makes something else
 
 Skeleton limb_skeleton()
 {
