@@ -16,7 +16,10 @@ TetMesh read_by_extension(const std::string& path)
     if (!vtk && !gmsh && !tetgen)
         throw InputError(path, 0, "extension", extension, "expected a tet mesh: .msh, .vtu, .vtk, .mesh, .node or .ele");
     require_readable(path);
-    return vtk ? read_vtk(path) : gmsh ? read_gmsh(path) : read_tetgen(path);
+    if (tetgen) return read_tetgen(path);
+    if (gmsh) check_gmsh_file(path);
+    const IndexedPoints read = read_guarded(path, vtk ? read_vtk : read_gmsh);
+    return {read.points, read.cells};
 }
 
 }  // namespace

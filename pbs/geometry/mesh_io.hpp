@@ -15,8 +15,9 @@ struct MeshReading {
     int flipped_tets = 0;  // orientation was normalised on so many
 };
 
-// A tet mesh to compute on: finite, not empty, indices in range, no tet without volume, no face in three tets, boundary manifold; a
-// vertex that no tet uses or that is given twice is an error. Orientation is normalised.
+// A tet mesh to compute on: finite, not empty, indices in range, no tet without volume, no face in three tets, no neighbours that
+// overlap, boundary manifold and not self-intersecting (asked in builds with CGAL), every vertex used and given once. Orientation is
+// normalised.
 MeshReading read_tet_mesh(const std::string& path);
 
 // Points and tets as they stand in the file, inverted tets and all: what the ruler wants of deformed frames.

@@ -1,6 +1,7 @@
 #include "pbs/geometry/mesh_io_checks.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/geometry/topology.hpp"
@@ -80,29 +81,56 @@ void check_distinct(const std::string& path, const Positions& points)
                              "expected a point of its own; " + numbered("vertex", order[i - 1]) + " is there already");
 }
 
+struct Face {
+    std::array<int, 3> vertices;  // ascending
+    bool even = false;            // ascending order is an even permutation of the outward order
+    Eigen::Index tet = 0;
+};
+
+std::vector<Face> sorted_faces(const Tets& tets)
+{
+    std::vector<Face> faces;
+    faces.reserve(static_cast<std::size_t>(4 * tets.rows()));
+    for (Eigen::Index t = 0; t < tets.rows(); ++t)
+        for (int left_out = 0; left_out < 4; ++left_out) {
+            std::array<int, 3> v = {tets(t, (left_out + 1) % 4), tets(t, (left_out + 2) % 4), tets(t, (left_out + 3) % 4)};
+            bool even = left_out % 2 == 0;
+            for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 1)})
+                if (v[std::size_t(a)] > v[std::size_t(b)]) {
+                    std::swap(v[std::size_t(a)], v[std::size_t(b)]);
+                    even = !even;
+                }
+            faces.push_back({v, even, t});
+        }
+    std::sort(faces.begin(), faces.end(),
+              [](const Face& a, const Face& b) { return std::pair(a.vertices, a.tet) < std::pair(b.vertices, b.tet); });
+    return faces;
+}
+
+// Two tets that share a face lie on either side of it; both positively oriented, they list it in opposite order.
 void check_faces(const std::string& path, const TetMesh& mesh)
 {
-    std::vector<std::pair<std::array<int, 3>, Eigen::Index>> faces;
-    faces.reserve(static_cast<std::size_t>(4 * mesh.tets.rows()));
-    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
-        for (int left_out = 0; left_out < 4; ++left_out) {
-            std::array<int, 3> face{};
-            for (int corner = 0, k = 0; corner < 4; ++corner)
-                if (corner != left_out) face[static_cast<std::size_t>(k++)] = mesh.tets(t, corner);
-            std::sort(face.begin(), face.end());
-            faces.emplace_back(face, t);
-        }
-    std::sort(faces.begin(), faces.end());
-    for (std::size_t i = 2; i < faces.size(); ++i)
-        if (faces[i].first == faces[i - 2].first)
-            throw InputError(path, 0, numbered("tet", faces[i].second), listed(mesh.tets.row(faces[i].second)),
+    const std::vector<Face> faces = sorted_faces(mesh.tets);
+    for (std::size_t i = 1; i < faces.size(); ++i) {
+        const Face &face = faces[i], &before = faces[i - 1];
+        if (face.vertices != before.vertices) continue;
+        if (face.even == before.even)
+            throw InputError(path, 0, numbered("tet", face.tet), listed(mesh.tets.row(face.tet)),
+                             "expected to lie beside " + numbered("tet", before.tet) + ", with which it shares a face; they overlap");
+        if (i >= 2 && face.vertices == faces[i - 2].vertices)
+            throw InputError(path, 0, numbered("tet", face.tet), listed(mesh.tets.row(face.tet)),
                              "expected faces of at most two tets; one face is in three");
+    }
 }
 
 void check_boundary(const std::string& path, const TetMesh& mesh)
 {
     if (!topology_of(mesh.tets, mesh.rest.rows()).boundary_manifold)
-        throw InputError(path, 0, "boundary", "", "expected a manifold; tets touch in a single edge or vertex, or overlap");
+        throw InputError(path, 0, "boundary", "", "expected a manifold; tets touch in a single edge or vertex");
+#ifdef PBS_WITH_CGAL
+    if (self_intersects(mesh.rest, boundary_of(mesh.tets)))
+        throw InputError(path, 0, "boundary", "", "expected a surface that does not intersect itself");
+#endif
 }
 
 }  // namespace

@@ -2,15 +2,19 @@
 // unchecked. Cells of lower dimension are left out; volume cells that are not four-node tets are InputErrors.
 #pragma once
 
+#include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 
 #include <functional>
 
 namespace pbs {
 
-TetMesh read_vtk(const std::string& path);     // .vtu, .vtk, by VTK
-TetMesh read_gmsh(const std::string& path);    // .msh 2.2 and 4.1, .mesh, by Gmsh, in a module
-TetMesh read_tetgen(const std::string& path);  // .node or .ele, the other beside it
+IndexedPoints read_vtk(const std::string& path);   // .vtu, .vtk, by VTK
+IndexedPoints read_gmsh(const std::string& path);  // .msh 2.2 and 4.1, .mesh, by Gmsh, in a module
+TetMesh read_tetgen(const std::string& path);      // .node or .ele, the other beside it
+
+// Before Gmsh may see a file: it runs one that is no mesh as a script. Loads the module.
+void check_gmsh_file(const std::string& path);
 
 // By hand, with 17 digits: Gmsh's own writer prints 16 (.msh) or 14 (.mesh), which does not read back to the bit.
 void write_msh(const std::string& path, const TetMesh& mesh);    // 4.1 ASCII

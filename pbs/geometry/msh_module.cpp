@@ -4,8 +4,6 @@
 
 #include <gmsh.h>
 
-#include <csignal>
-#include <exception>
 #include <unordered_map>
 #include <vector>
 
@@ -14,26 +12,17 @@ namespace {
 
 constexpr int tet_type = 4;  // Gmsh's element type of the four-node tetrahedron
 
-// Gmsh between initialize and finalize: silent, no configuration files, the interrupt handler as it was.
+// Gmsh between initialize and finalize: silent, no configuration files.
 class GmshSession {
 public:
     GmshSession()
     {
-        sigaction(SIGINT, nullptr, &interrupt_);
         gmsh::initialize(0, nullptr, false);
         gmsh::option::setNumber("General.Terminal", 0);
-        sigaction(SIGINT, &interrupt_, nullptr);
     }
-    ~GmshSession()
-    {
-        gmsh::finalize();
-        sigaction(SIGINT, &interrupt_, nullptr);
-    }
+    ~GmshSession() { gmsh::finalize(); }
     GmshSession(const GmshSession&) = delete;
     GmshSession& operator=(const GmshSession&) = delete;
-
-private:
-    struct sigaction interrupt_ {};
 };
 
 void refuse_other_volumes(const std::string& path)
@@ -50,16 +39,16 @@ void refuse_other_volumes(const std::string& path)
     }
 }
 
-TetMesh current_tets(const std::string& path)
+IndexedPoints current_tets(const std::string& path)
 {
     std::vector<std::size_t> node_tags, tet_tags, corners;
     std::vector<double> coordinates, parametric;
     gmsh::model::mesh::getNodes(node_tags, coordinates, parametric, -1, -1, false, false);
     gmsh::model::mesh::getElementsByType(tet_type, tet_tags, corners);
 
-    TetMesh mesh;
-    mesh.rest = Eigen::Map<const Positions>(coordinates.data(), static_cast<Eigen::Index>(node_tags.size()), 3);
-    mesh.tets.resize(static_cast<Eigen::Index>(tet_tags.size()), 4);
+    IndexedPoints mesh;
+    mesh.points = Eigen::Map<const Positions>(coordinates.data(), static_cast<Eigen::Index>(node_tags.size()), 3);
+    mesh.cells.resize(static_cast<Eigen::Index>(tet_tags.size()), 4);
     std::unordered_map<std::size_t, int> index_of;
     for (std::size_t i = 0; i < node_tags.size(); ++i) index_of.emplace(node_tags[i], static_cast<int>(i));
     for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -67,7 +56,7 @@ TetMesh current_tets(const std::string& path)
         if (found == index_of.end())
             throw InputError(path, 0, "element " + std::to_string(tet_tags[k / 4]), std::to_string(corners[k]),
                              "expected the tag of a node");
-        mesh.tets(static_cast<Eigen::Index>(k / 4), static_cast<Eigen::Index>(k % 4)) = found->second;
+        mesh.cells(static_cast<Eigen::Index>(k / 4), static_cast<Eigen::Index>(k % 4)) = found->second;
     }
     return mesh;
 }
@@ -75,7 +64,7 @@ TetMesh current_tets(const std::string& path)
 }  // namespace
 }  // namespace pbs
 
-extern "C" void pbskin_gmsh_read(const std::string& path, pbs::TetMesh& mesh)
+extern "C" void pbskin_gmsh_read(const std::string& path, pbs::IndexedPoints& mesh)
 {
     const pbs::GmshSession session;
     try {
@@ -84,9 +73,5 @@ extern "C" void pbskin_gmsh_read(const std::string& path, pbs::TetMesh& mesh)
         mesh = pbs::current_tets(path);
     } catch (const std::string& words) {
         throw pbs::InputError(path, 0, "", "", "Gmsh: " + words);
-    } catch (const pbs::InputError&) {
-        throw;
-    } catch (const std::exception& error) {
-        throw pbs::InputError(path, 0, "", "", std::string("Gmsh: ") + error.what());
     }
 }

@@ -1,4 +1,4 @@
-// The door of the Gmsh module: looks at the file before the library may, because Gmsh runs a file that is no mesh as a script.
+// The door of the Gmsh module.
 #include "pbs/geometry/mesh_io_formats.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -6,10 +6,11 @@
 
 #include <fstream>
 #include <iterator>
-#include <mutex>
 
 namespace pbs {
 namespace {
+
+constexpr const char* module_name = "pbskin_gmsh";
 
 std::string first_word(const std::string& text)
 {
@@ -40,7 +41,7 @@ void check_medit(const std::string& path, const std::string& text)
 
 }  // namespace
 
-TetMesh read_gmsh(const std::string& path)
+void check_gmsh_file(const std::string& path)
 {
     std::ifstream file(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -48,11 +49,13 @@ TetMesh read_gmsh(const std::string& path)
         check_msh(path, text);
     else
         check_medit(path, text);
+    load_module(module_name);
+}
 
-    static std::mutex one_session_at_a_time;  // Gmsh is global
-    const std::lock_guard lock(one_session_at_a_time);
-    TetMesh mesh;
-    load_module("pbskin_gmsh").function<void(const std::string&, TetMesh&)>("pbskin_gmsh_read")(path, mesh);
+IndexedPoints read_gmsh(const std::string& path)
+{
+    IndexedPoints mesh;
+    load_module(module_name).function<void(const std::string&, IndexedPoints&)>("pbskin_gmsh_read")(path, mesh);
     return mesh;
 }
 

@@ -30,15 +30,15 @@ public:
     void add(const std::array<int, 3>& triangle) { triangles_.push_back(triangle); }
     bool has_triangles() const { return !triangles_.empty(); }
 
-    SurfaceMesh surface() const
+    IndexedPoints surface() const
     {
-        SurfaceMesh mesh{Positions(static_cast<Eigen::Index>(points_.size()), 3),
-                         Triangles(static_cast<Eigen::Index>(triangles_.size()), 3)};
+        IndexedPoints mesh;
+        mesh.points.resize(static_cast<Eigen::Index>(points_.size()), 3);
+        mesh.cells.resize(static_cast<Eigen::Index>(triangles_.size()), 3);
         for (std::size_t i = 0; i < points_.size(); ++i)
             for (std::size_t k = 0; k < 3; ++k) mesh.points(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = points_[i][k];
         for (std::size_t f = 0; f < triangles_.size(); ++f)
-            for (std::size_t k = 0; k < 3; ++k)
-                mesh.triangles(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = triangles_[f][k];
+            for (std::size_t k = 0; k < 3; ++k) mesh.cells(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = triangles_[f][k];
         return mesh;
     }
 
@@ -85,11 +85,8 @@ void add_node(const std::string& path, const aiScene& scene, const aiNode& node,
     for (unsigned i = 0; i < node.mNumChildren; ++i) add_node(path, scene, *node.mChildren[i], to_world, wanted, builder, names);
 }
 
-}  // namespace
-
-SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name)
+IndexedPoints read_by_assimp(const std::string& path, const std::string& mesh_name)
 {
-    require_readable(path);
     Assimp::Importer importer;
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
     const std::string extension = lower_extension(path);
@@ -105,6 +102,15 @@ SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name)
         throw InputError(path, 0, "mesh", mesh_name, "expected one of the file's meshes: " + names);
     if (!builder.has_triangles()) throw InputError(path, 0, "triangles", "0", "expected at least one triangle");
     return builder.surface();
+}
+
+}  // namespace
+
+SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name)
+{
+    require_readable(path);
+    const IndexedPoints read = read_guarded(path, [&](const std::string& file) { return read_by_assimp(file, mesh_name); });
+    return {read.points, read.cells};
 }
 
 }  // namespace pbs

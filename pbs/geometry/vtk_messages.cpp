@@ -15,8 +15,7 @@ thread_local std::string collected;
 class CollectingWindow : public vtkOutputWindow {
 public:
     static CollectingWindow* New();
-    vtkTypeMacro(CollectingWindow, vtkOutputWindow)
-    void DisplayText(const char* text) override { collected += text; }
+    vtkTypeMacro(CollectingWindow, vtkOutputWindow) void DisplayText(const char* text) override { collected += text; }
     void DisplayErrorText(const char* text) override { collected += text; }
     void DisplayWarningText(const char*) override {}
     void DisplayGenericWarningText(const char*) override {}

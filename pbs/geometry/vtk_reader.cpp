@@ -11,7 +11,6 @@
 #include <vtkUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
-#include <exception>
 #include <vector>
 
 namespace pbs {
@@ -22,11 +21,7 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const std::string& path, Reader& re
 {
     const VtkMessages messages;
     reader.SetFileName(path.c_str());
-    try {
-        reader.Update();
-    } catch (const std::exception& error) {
-        throw InputError(path, 0, "", "", std::string("VTK: ") + error.what());
-    }
+    reader.Update();
     messages.throw_if_any(path);
     vtkSmartPointer<vtkUnstructuredGrid> grid = reader.GetOutput();
     if (!grid) throw InputError(path, 0, "", "", "expected a VTK unstructured grid");
@@ -66,16 +61,16 @@ std::vector<vtkIdType> tet_cells(const std::string& path, vtkUnstructuredGrid& g
 
 }  // namespace
 
-TetMesh read_vtk(const std::string& path)
+IndexedPoints read_vtk(const std::string& path)
 {
     const vtkSmartPointer<vtkUnstructuredGrid> grid = read_grid(path);
     const std::vector<vtkIdType> cells = tet_cells(path, *grid);
     const vtkIdType points = grid->GetNumberOfPoints();
 
-    TetMesh mesh;
-    mesh.rest.resize(points, 3);
-    for (vtkIdType i = 0; i < points; ++i) grid->GetPoint(i, mesh.rest.row(i).data());
-    mesh.tets.resize(static_cast<Eigen::Index>(cells.size()), 4);
+    IndexedPoints mesh;
+    mesh.points.resize(points, 3);
+    for (vtkIdType i = 0; i < points; ++i) grid->GetPoint(i, mesh.points.row(i).data());
+    mesh.cells.resize(static_cast<Eigen::Index>(cells.size()), 4);
     vtkNew<vtkIdList> corners;
     for (std::size_t t = 0; t < cells.size(); ++t) {
         grid->GetCellPoints(cells[t], corners);
@@ -83,7 +78,7 @@ TetMesh read_vtk(const std::string& path)
             throw InputError(path, 0, "cell " + std::to_string(cells[t]) + " vertices", std::to_string(corners->GetNumberOfIds()),
                              "expected 4");
         for (int corner = 0; corner < 4; ++corner)
-            mesh.tets(static_cast<Eigen::Index>(t), corner) =
+            mesh.cells(static_cast<Eigen::Index>(t), corner) =
                 checked_index(path, static_cast<long long>(t), corners->GetId(corner), points);
     }
     return mesh;
