@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 
 namespace experiments {
@@ -19,7 +20,7 @@ struct Runner {
     DeformerSpec spec;
     std::unique_ptr<Deformer> deformer;
     pbs::StepSummary step;
-    double lowest_change_pct = 0.0, highest_change_pct = 0.0;
+    double lowest_change_pct = std::numeric_limits<double>::infinity(), highest_change_pct = -lowest_change_pct;
     int most_inverted = 0;
 };
 

@@ -2,9 +2,10 @@
 //
 //   limb_twist   0 - 180 deg    o=======o~~~~~~~o)  the forearm turns about its own axis
 //   limb_bend    0 - 150 deg    o=======o           the forearm turns about z, also with Eq. 12-20 as printed
-//   human_01_01  the whole clip                     MakeHuman's body, repeated jumps
+//   human_01_01  the whole clip                     MakeHuman's body, repeated jumps; LBS and PBS also at half and twice its vertices
 //
-// Each with LBS, DQS, PBS at 1 to 96 iterations, PBS with the jiggling zone on, and linear FEM of order 1 and 2 on the same tets.
+// Each of the three with LBS, DQS, PBS at 1 to 96 iterations, PBS with the jiggling zone on, and linear FEM of order 1 and 2 on the same
+// tets.
 #include "experiments/deformers/option_names.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -40,16 +41,34 @@ DeformerSpec as_printed(DeformerSpec spec, pbs::VolumeForm form)
     return spec;
 }
 
-StudyRun volume_run(const std::string& name, const std::vector<std::string>& overrides, double cost_s, bool printed_forms)
+StudyRun volume_run(const std::string& scene, const std::vector<std::string>& overrides, double cost_s)
 {
-    StudyRun run{name, read_scene(name, overrides), cost_s};
+    StudyRun run{scene, read_scene(scene, overrides), cost_s};
     std::vector<DeformerSpec>& deformers = run.scene.deformers;
     const DeformerSpec pbs = *std::find_if(deformers.begin(), deformers.end(), [](const auto& spec) { return spec.kind == "pbs"; });
     for (const int iterations : iteration_ladder) deformers.push_back(with_iterations(pbs, iterations));
     deformers.push_back(jiggling(pbs));
-    if (printed_forms)
-        for (const auto form : {pbs::VolumeForm::labels_relative, pbs::VolumeForm::labels_absolute, pbs::VolumeForm::sign})
-            deformers.push_back(as_printed(pbs, form));
+    return run;
+}
+
+StudyRun with_printed_forms(StudyRun run)
+{
+    std::vector<DeformerSpec>& deformers = run.scene.deformers;
+    const DeformerSpec pbs = *std::find_if(deformers.begin(), deformers.end(), [](const auto& spec) { return spec.kind == "pbs"; });
+    for (const auto form : {pbs::VolumeForm::labels_relative, pbs::VolumeForm::labels_absolute, pbs::VolumeForm::sign})
+        deformers.push_back(as_printed(pbs, form));
+    return run;
+}
+
+// What the size of the mesh does to the same figures: the blend and the paper's method alone, five frames a second.
+StudyRun human_at(int vertices, double cost_s)
+{
+    const std::string name = "human_01_01_" + std::to_string(vertices);
+    StudyRun run{name,
+                 read_scene("human_01_01", {"character.vertices=" + std::to_string(vertices), "motion.rate_hz=5.0", "output.frames=[]",
+                                            "output.frame_names=[]", "deformers.use=[\"lbs\", \"pbs\"]", "reference.name=\"\""}),
+                 cost_s};
+    run.scene.name = name;
     return run;
 }
 
@@ -57,12 +76,14 @@ StudyRun volume_run(const std::string& name, const std::vector<std::string>& ove
 
 StudyPlan plan_volume_study(bool full)
 {
-    StudyPlan plan;
-    plan.runs.push_back(volume_run("limb_twist", {}, 20.0, false));
-    plan.runs.push_back(volume_run("limb_bend", {}, 20.0, true));
     const std::vector<std::string> quarter = {"motion.rate_hz=25.0", "output.frames=[0,41,168,177]"};  // four steps a frame
+    StudyPlan plan;
+    plan.runs.push_back(volume_run("limb_twist", {}, 20.0));
+    plan.runs.push_back(with_printed_forms(volume_run("limb_bend", {}, 20.0)));
     try {
-        plan.runs.push_back(volume_run("human_01_01", full ? std::vector<std::string>{} : quarter, full ? 1200.0 : 300.0, false));
+        plan.runs.push_back(volume_run("human_01_01", full ? std::vector<std::string>{} : quarter, full ? 720.0 : 180.0));
+        plan.runs.push_back(human_at(1200, 10.0));
+        plan.runs.push_back(human_at(4800, 30.0));
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({"human_01_01", error.what()});
     }

@@ -11,21 +11,17 @@
 namespace experiments {
 namespace {
 
-double share_on_skin(const pbs::Tets& tets, const std::set<int>& gripped, const std::vector<bool>& skin)
+std::set<int> vertices_of(const pbs::Tets& tets, const std::set<int>& gripped)
 {
     std::set<int> vertices;
     for (const int tet : gripped) vertices.insert(tets.row(tet).begin(), tets.row(tet).end());
-    const auto on_skin = std::count_if(vertices.begin(), vertices.end(), [&](int v) { return skin[v]; });
-    return vertices.empty() ? 0.0 : static_cast<double>(on_skin) / static_cast<double>(vertices.size());
+    return vertices;
 }
 
 nlohmann::json to_json(const BoneGrip& grip, const BoneCapsule& capsule, FemAttachment attachment)
 {
-    nlohmann::json json = {{"bone", grip.name},
-                           {"radius_m", capsule.radius_m},
-                           {"radius_from", capsule.radius_from},
-                           {"tets_gripped", grip.tets},
-                           {"skin_share", grip.skin_share}};
+    nlohmann::json json = {{"bone", grip.name},         {"radius_m", capsule.radius_m},  {"radius_from", capsule.radius_from},
+                           {"tets_gripped", grip.tets}, {"skin_share", grip.skin_share}, {"shared_vertices", grip.shared_vertices}};
     if (attachment == FemAttachment::embedded)
         json.update({{"samples", grip.samples}, {"inside", grip.inside}, {"grip_error_rms_m", grip.error_rms_m}});
     return json;
@@ -55,13 +51,20 @@ FemRecord::FemRecord(const pbs::Character& character, const FemOptions& options,
     }
     for (std::size_t k = 0; k < bones.tet_bone.size(); ++k) gripped[bones.tet_bone[k]].insert(bones.attachment.prescribed_tets[k]);
 
+    std::vector<int> bones_at_vertex(character.mesh.rest.rows(), 0);
+    for (const std::set<int>& tets : gripped)
+        for (const int v : vertices_of(character.mesh.tets, tets)) ++bones_at_vertex[v];
     const std::vector<bool> skin = pbs::boundary_vertices(character.mesh.tets, character.mesh.rest.rows());
     for (std::size_t j = 0; j < grips_.size(); ++j) {
         grips_[j].name = character.skeleton.bones[j].name;
-        grips_[j].tets = static_cast<int>(gripped[j].size());
-        grips_[j].skin_share = share_on_skin(character.mesh.tets, gripped[j], skin);
         if (gripped[j].empty())
             throw pbs::InputError(character.name, 0, "bone", grips_[j].name, "expected a part of its middle to lie inside the flesh");
+        const std::set<int> vertices = vertices_of(character.mesh.tets, gripped[j]);
+        const auto on_skin = std::count_if(vertices.begin(), vertices.end(), [&](int v) { return skin[v]; });
+        grips_[j].tets = static_cast<int>(gripped[j].size());
+        grips_[j].skin_share = static_cast<double>(on_skin) / static_cast<double>(vertices.size());
+        grips_[j].shared_vertices =
+            static_cast<int>(std::count_if(vertices.begin(), vertices.end(), [&](int v) { return bones_at_vertex[v] > 1; }));
     }
 }
 

@@ -15,6 +15,7 @@ struct BoneGrip {
     int inside = 0;
     int tets = 0;              // tets gripped
     double skin_share = 0.0;   // share of the gripped tets' vertices that lie on the skin
+    int shared_vertices = 0;   // of the gripped tets' vertices, those that another bone grips too: P1 cannot follow both
     double error_rms_m = 0.0;  // embedded: largest over the frames of the frame's rms |target - where it went|
 };
 
