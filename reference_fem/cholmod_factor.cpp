@@ -77,7 +77,8 @@ public:
     Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const override
     {
         cholmod_dense dense = view(right_hand_side);
-        cholmod_l_solve2(CHOLMOD_A, factor_, &dense, nullptr, &solution_, nullptr, &work_, &permuted_, &common_);
+        if (!cholmod_l_solve2(CHOLMOD_A, factor_, &dense, nullptr, &solution_, nullptr, &work_, &permuted_, &common_))
+            return Eigen::VectorXd::Constant(right_hand_side.size(), std::numeric_limits<double>::quiet_NaN());
         return Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(solution_->x), right_hand_side.size());
     }
 

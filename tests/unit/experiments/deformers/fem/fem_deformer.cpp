@@ -38,6 +38,7 @@ TEST(FemDeformer, RecordsWhatIsGrippedOfEachBone)
         EXPECT_GT(bone["tets_gripped"].get<int>(), 0);
         EXPECT_GE(bone["skin_share"].get<double>(), 0.0);
         EXPECT_LT(bone["skin_share"].get<double>(), 1.0);
+        EXPECT_EQ(bone["shared_vertices"], 0);
         EXPECT_GT(bone["grip_error_rms_m"].get<double>(), 0.0);
         EXPECT_LE(bone["grip_error_rms_m"].get<double>(), record["largest_grip_error_m"].get<double>());
     }
