@@ -1,12 +1,13 @@
 #include "analysis/claims_report.hpp"
 
+#include "analysis/case_row.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 
 namespace analysis {
 namespace {
@@ -77,18 +78,6 @@ std::string markdown_cell(const std::string& text)
     return cell;
 }
 
-// Words of a text in lines of at most `width` characters; longer words stand alone.
-std::vector<std::string> wrapped(const std::string& text, std::size_t width)
-{
-    std::vector<std::string> lines(1);
-    std::istringstream words(text);
-    for (std::string word; words >> word;) {
-        if (!lines.back().empty() && lines.back().size() + 1 + word.size() > width) lines.emplace_back();
-        lines.back() += lines.back().empty() ? word : ' ' + word;
-    }
-    return lines;
-}
-
 const char* colour_of(VerdictKind kind)
 {
     switch (kind) {
@@ -104,36 +93,17 @@ const char* colour_of(VerdictKind kind)
     }
 }
 
-struct TableColumns {
-    std::size_t id = 2, label = 7, expected = 8, text = 40;
-};
-
-TableColumns columns_for(const std::vector<Verdict>& verdicts, int width)
+// The rows of a claim's cases, one metric after the other.
+std::string case_lines(const Verdict& verdict, std::size_t name_width, std::size_t measured_width, std::size_t interval_width)
 {
-    TableColumns columns;
-    for (const Verdict& verdict : verdicts) {
-        columns.id = std::max(columns.id, verdict.claim.id.size());
-        columns.label = std::max(columns.label, label(verdict.kind).size());
-        columns.expected = std::max(columns.expected, expected_text(verdict.claim).size());
+    std::string lines, metric;
+    for (const CaseJudgement& judged : verdict.cases) {
+        if (judged.metric != metric) lines += fmt::format("     by {}\n", metric = judged.metric);
+        const CaseRow row = case_row(verdict.claim, judged);
+        lines += fmt::format("       {:<{}}  {:<{}}  {:<{}}  {}\n", row.name, name_width, row.measured, measured_width, row.interval,
+                             interval_width, row.holds);
     }
-    const int left = width - static_cast<int>(columns.id + columns.label + columns.expected) - 6;
-    columns.text = static_cast<std::size_t>(std::max(left, 40));
-    return columns;
-}
-
-std::string rows_of(const Verdict& verdict, const TableColumns& columns, const TableLook& look)
-{
-    std::string rows;
-    bool first = true;
-    const std::string text = verdict.measured.empty() ? verdict.text : verdict.measured;
-    for (const std::string& line : wrapped(text, columns.text)) {
-        const std::string name = fmt::format("{:<{}}", first ? label(verdict.kind) : "", columns.label);
-        rows += fmt::format("{:<{}}  {}  {:<{}}  {}\n", first ? verdict.claim.id : "", columns.id,
-                            look.colours && first ? colour_of(verdict.kind) + name + "\033[0m" : name,
-                            first ? expected_text(verdict.claim) : "", columns.expected, line);
-        first = false;
-    }
-    return rows;
+    return lines;
 }
 
 }  // namespace
@@ -148,20 +118,38 @@ json claims_json(const std::vector<Verdict>& verdicts)
 std::string claims_markdown(const std::vector<Verdict>& verdicts)
 {
     std::string text = "| id | statement | expected | measured | interval | verdict | runs |\n|---|---|---|---|---|---|---|\n";
-    for (const Verdict& verdict : verdicts)
-        text +=
-            fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", markdown_cell(verdict.claim.id), markdown_cell(verdict.claim.statement),
-                        markdown_cell(expected_text(verdict.claim)), markdown_cell(verdict.measured), markdown_cell(interval_text(verdict)),
-                        markdown_cell(verdict.text), markdown_cell(fmt::format("{}", fmt::join(verdict.runs, ", "))));
+    for (const Verdict& verdict : verdicts) {
+        const std::string reason = verdict.cases.empty() ? verdict.text : "**" + label(verdict.kind) + "**";
+        text += fmt::format("| {} | {} ({}) | {} | {} | | {} | |\n", markdown_cell(verdict.claim.id),
+                            markdown_cell(verdict.claim.statement), verdict.claim.place, markdown_cell(expected_text(verdict.claim)),
+                            verdict.cases.empty() ? markdown_cell(verdict.measured) : "", markdown_cell(reason));
+        for (const CaseJudgement& judged : verdict.cases) {
+            const CaseRow row = case_row(verdict.claim, judged);
+            text += fmt::format("| | {} | {} | {} | {} | {} | {} |\n", markdown_cell(row.name), judged.metric, row.measured, row.interval,
+                                markdown_cell(row.holds), markdown_cell(judged.run));
+        }
+    }
     return text;
 }
 
-std::string claims_table(const std::vector<Verdict>& verdicts, const TableLook& look)
+std::string claims_table(const std::vector<Verdict>& verdicts, bool colours)
 {
-    const TableColumns columns = columns_for(verdicts, look.width);
-    std::string table =
-        fmt::format("{:<{}}  {:<{}}  {:<{}}  measured\n", "id", columns.id, "verdict", columns.label, "expected", columns.expected);
-    for (const Verdict& verdict : verdicts) table += rows_of(verdict, columns, look);
+    std::size_t name = 0, measured = 0, interval = 0;
+    for (const Verdict& verdict : verdicts)
+        for (const CaseJudgement& judged : verdict.cases) {
+            const CaseRow row = case_row(verdict.claim, judged);
+            name = std::max(name, row.name.size());
+            measured = std::max(measured, row.measured.size());
+            interval = std::max(interval, row.interval.size());
+        }
+    std::string table;
+    for (const Verdict& verdict : verdicts) {
+        const std::string kind = verdict.cases.empty() ? verdict.text : label(verdict.kind);
+        table += fmt::format("{}  {}\n     {} ({}) Expected: {}.\n", verdict.claim.id,
+                             colours ? colour_of(verdict.kind) + kind + "\033[0m" : kind, verdict.claim.statement, verdict.claim.place,
+                             expected_text(verdict.claim));
+        table += case_lines(verdict, name, measured, interval);
+    }
     return table;
 }
 
@@ -169,16 +157,6 @@ std::string expected_text(const Claim& claim)
 {
     if (claim.metrics.empty()) return "";
     return fmt::format("{:.4g} % ({:.4g} to {:.4g} %)", claim.expected, claim.low, claim.high);
-}
-
-std::string interval_text(const Verdict& verdict)
-{
-    const Interval& interval = verdict.interval;
-    if (interval.n == 0) return "";
-    const double factor = verdict.claim.rule == ClaimRule::share_within ? 100.0 : 1.0;
-    return fmt::format("{:.3g} % [{:.3g}, {:.3g}], {:.0f} %, {} frames in blocks of {}: {}", factor * interval.estimate,
-                       factor * interval.low, factor * interval.high, 100.0 * interval.level, interval.n, interval.block,
-                       verdict.interval_of);
 }
 
 }  // namespace analysis

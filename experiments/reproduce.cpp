@@ -14,7 +14,6 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -96,12 +95,6 @@ void add_records(analysis::Records& records, const std::vector<std::string>& fol
     }
 }
 
-int terminal_width()
-{
-    winsize size = {};
-    return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col >= 60 ? size.ws_col : 120;
-}
-
 }  // namespace
 
 int reproduce(const ReproduceArguments& arguments)
@@ -126,7 +119,7 @@ int reproduce(const ReproduceArguments& arguments)
     analysis::write_text_atomically((fs::path(arguments.folder) / "claims.json").string(), analysis::claims_json(verdicts).dump(2) + "\n");
     analysis::write_text_atomically((fs::path(arguments.folder) / "claims.md").string(), analysis::claims_markdown(verdicts));
     const bool colours = isatty(STDOUT_FILENO) && !std::getenv("NO_COLOR");
-    fmt::print("{}", analysis::claims_table(verdicts, {terminal_width(), colours}));
+    fmt::print("{}", analysis::claims_table(verdicts, colours));
     const bool all_computed = std::none_of(verdicts.begin(), verdicts.end(),
                                            [](const auto& verdict) { return verdict.kind == analysis::VerdictKind::not_computable; });
     return all_computed ? exit_finished : exit_bound;

@@ -69,27 +69,29 @@ TEST(ClaimsMarkdown, IsATableOfSevenColumns)
         const bool has_escaped_bar = line.find("\\|") != std::string::npos;
         EXPECT_EQ(bars, has_escaped_bar ? 9 : 8) << line;
     }
-    EXPECT_EQ(count, 4);
+    EXPECT_EQ(count, 5);  // head, rule, a claim and its case, a claim that has none
 }
 
-TEST(ClaimsTable, IsAlignedAndWrapped)
+TEST(ClaimsMarkdown, NamesEachCaseWithItsFigures)
 {
-    std::istringstream lines(claims_table(two_verdicts(), {.width = 100}));
-    std::string head;
-    std::getline(lines, head);
-    const auto measured = head.find("measured");
-    for (std::string line; std::getline(lines, line);) {
-        EXPECT_LE(line.size(), 100u) << line;
-        ASSERT_GT(line.size(), measured) << line;
-        EXPECT_EQ(line.substr(measured - 2, 2), "  ") << line;
-        EXPECT_NE(line[measured], ' ') << line;
-    }
+    const std::string text = claims_markdown(two_verdicts());
+    EXPECT_NE(text.find("**not reproduced**"), std::string::npos);
+    EXPECT_NE(text.find("| | walk | volume_change_pct | mean -0.3 %, -0.9 to 0 % | 75 % ["), std::string::npos) << text;
+    EXPECT_NE(text.find("] of 4 frames | no; inverted tets in 2 frames within | volume/walk |"), std::string::npos) << text;
+}
+
+TEST(ClaimsTable, HasAClaimItsMetricAndItsCases)
+{
+    const std::string text = claims_table(two_verdicts(), false);
+    EXPECT_NE(text.find("C02  not reproduced\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("     by volume_change_pct\n       walk  mean -0.3 %"), std::string::npos) << text;
+    EXPECT_NE(text.find("C016  cannot be tested here"), std::string::npos) << text;
 }
 
 TEST(ClaimsTable, HasColoursOnlyWhenAsked)
 {
-    EXPECT_EQ(claims_table(two_verdicts()).find('\033'), std::string::npos);
-    const std::string coloured = claims_table(two_verdicts(), {.colours = true});
+    EXPECT_EQ(claims_table(two_verdicts(), false).find('\033'), std::string::npos);
+    const std::string coloured = claims_table(two_verdicts(), true);
     EXPECT_NE(coloured.find("\033[31mnot reproduced"), std::string::npos);
     EXPECT_NE(coloured.find("\033[90mcannot be tested here"), std::string::npos);
 }
