@@ -106,6 +106,7 @@ Claim read_claim(const toml::table& table, const std::string& file)
     reader.required("rule", rule);
     reader.optional("metrics", claim.metrics);
     reader.optional("deformer", claim.deformer);
+    reader.optional("beside", claim.beside);
     reader.optional("iterations", claim.iterations);
     reader.optional("expected_pct", claim.expected);
     reader.optional("low_pct", claim.low);

@@ -51,8 +51,9 @@ json to_json_of(const CaseJudgement& judged)
 
 json to_json_of(const Verdict& verdict)
 {
-    json cases = json::array();
+    json cases = json::array(), beside = json::array();
     for (const CaseJudgement& judged : verdict.cases) cases.push_back(to_json_of(judged));
+    for (const CaseJudgement& judged : verdict.beside) beside.push_back(to_json_of(judged));
     return {{"id", verdict.claim.id},
             {"statement", verdict.claim.statement},
             {"place", verdict.claim.place},
@@ -64,7 +65,8 @@ json to_json_of(const Verdict& verdict)
             {"interval", verdict.interval.n > 0 ? to_json_of(verdict.interval) : json(nullptr)},
             {"interval_of", verdict.interval_of},
             {"runs", verdict.runs},
-            {"cases", cases}};
+            {"cases", cases},
+            {"beside", beside}};
 }
 
 // A cell of a Markdown table: one line, no column of its own.
@@ -93,17 +95,22 @@ const char* colour_of(VerdictKind kind)
     }
 }
 
-// The rows of a claim's cases, one metric after the other.
-std::string case_lines(const Verdict& verdict, std::size_t name_width, std::size_t measured_width, std::size_t interval_width)
+struct TitledRow {
+    std::string title;  // the measure
+    CaseRow row;
+    std::string run;
+};
+
+// The claim's cases, one metric after the other, then the other deformers.
+std::vector<TitledRow> rows_of(const Verdict& verdict)
 {
-    std::string lines, metric;
-    for (const CaseJudgement& judged : verdict.cases) {
-        if (judged.metric != metric) lines += fmt::format("     by {}\n", metric = judged.metric);
-        const CaseRow row = case_row(verdict.claim, judged);
-        lines += fmt::format("       {:<{}}  {:<{}}  {:<{}}  {}\n", row.name, name_width, row.measured, measured_width, row.interval,
-                             interval_width, row.holds);
+    std::vector<TitledRow> rows;
+    for (const CaseJudgement& judged : verdict.cases) rows.push_back({judged.metric, case_row(verdict.claim, judged), judged.run});
+    for (const CaseJudgement& judged : verdict.beside) {
+        rows.push_back({judged.metric + ", beside", case_row(verdict.claim, judged), judged.run});
+        rows.back().row.name += ", " + judged.deformer;
     }
-    return lines;
+    return rows;
 }
 
 }  // namespace
@@ -123,11 +130,9 @@ std::string claims_markdown(const std::vector<Verdict>& verdicts)
         text += fmt::format("| {} | {} ({}) | {} | {} | | {} | |\n", markdown_cell(verdict.claim.id),
                             markdown_cell(verdict.claim.statement), verdict.claim.place, markdown_cell(expected_text(verdict.claim)),
                             verdict.cases.empty() ? markdown_cell(verdict.measured) : "", markdown_cell(reason));
-        for (const CaseJudgement& judged : verdict.cases) {
-            const CaseRow row = case_row(verdict.claim, judged);
-            text += fmt::format("| | {} | {} | {} | {} | {} | {} |\n", markdown_cell(row.name), judged.metric, row.measured, row.interval,
-                                markdown_cell(row.holds), markdown_cell(judged.run));
-        }
+        for (const auto& [title, row, run] : rows_of(verdict))
+            text += fmt::format("| | {} | {} | {} | {} | {} | {} |\n", markdown_cell(row.name), title, row.measured, row.interval,
+                                markdown_cell(row.holds), markdown_cell(run));
     }
     return text;
 }
@@ -136,8 +141,7 @@ std::string claims_table(const std::vector<Verdict>& verdicts, bool colours)
 {
     std::size_t name = 0, measured = 0, interval = 0;
     for (const Verdict& verdict : verdicts)
-        for (const CaseJudgement& judged : verdict.cases) {
-            const CaseRow row = case_row(verdict.claim, judged);
+        for (const auto& [title, row, run] : rows_of(verdict)) {
             name = std::max(name, row.name.size());
             measured = std::max(measured, row.measured.size());
             interval = std::max(interval, row.interval.size());
@@ -148,7 +152,12 @@ std::string claims_table(const std::vector<Verdict>& verdicts, bool colours)
         table += fmt::format("{}  {}\n     {} ({}) Expected: {}.\n", verdict.claim.id,
                              colours ? colour_of(verdict.kind) + kind + "\033[0m" : kind, verdict.claim.statement, verdict.claim.place,
                              expected_text(verdict.claim));
-        table += case_lines(verdict, name, measured, interval);
+        std::string measure;
+        for (const auto& [title, row, run] : rows_of(verdict)) {
+            if (title != measure) table += fmt::format("     by {}\n", measure = title);
+            table += fmt::format("       {:<{}}  {:<{}}  {:<{}}  {}\n", row.name, name, row.measured, measured, row.interval, interval,
+                                 row.holds);
+        }
     }
     return table;
 }

@@ -134,6 +134,10 @@ Verdict judge_cases(const Claim& claim, const Records& records)
     if (verdict.cases.empty() && !records.left_out.empty())
         return verdict_of(claim, VerdictKind::cannot_be_tested_here, left_out_text(records.left_out));
     if (verdict.cases.empty()) return verdict_of(claim, VerdictKind::not_computable, "no record of " + what_is_asked_for(claim));
+    for (const std::string& deformer : claim.beside)
+        for (const CaseRecord& record : records.cases)
+            if (record.deformer == deformer && !record.frame.empty())
+                verdict.beside.push_back(judge_case(claim, record, claim.metrics.front()));
     verdict.kind = kind_of(verdict);
     verdict.text = text_of(verdict, records);
     choose_interval(verdict);

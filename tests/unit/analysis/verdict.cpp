@@ -153,6 +153,17 @@ TEST(VolumeIsPreserved, OnlyTheAskedDeformerAndIterationsAreJudged)
     EXPECT_EQ(kind_for("C02", {other, few}), VerdictKind::not_computable);
 }
 
+TEST(VolumeIsPreserved, OtherDeformersStandBesideAndDecideNothing)
+{
+    const auto good = clip("walk", "pbs", 24, constant(100, 0.0)), reference = clip("walk", "fem_p2", 0, constant(100, 7.0));
+    const Verdict verdict = judge(claim_of("C02"), {.cases = {good, reference}});
+    EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
+    ASSERT_EQ(verdict.beside.size(), 1u);
+    EXPECT_EQ(verdict.beside[0].deformer, "fem_p2");
+    EXPECT_EQ(verdict.beside[0].extent, Extent::none);
+    EXPECT_NEAR(verdict.beside[0].mean.estimate, 7.0, 1e-12);
+}
+
 TEST(LossOfLbs, ReproducedWhereTheMeansLieInTheBand)
 {
     const Verdict verdict = judge(claim_of("C01"), {.cases = {clip("walk", "lbs", 0, {-13, -14, -15, -14, -13, -14})}});
