@@ -17,17 +17,6 @@ analysis::ErrorDomain error_domain(const pbs::Character& character, const std::v
     return domain;
 }
 
-// Stations whose plane meets flesh at rest: the tets of a short bone may all stand beside it.
-std::vector<LimbStation> cutting_stations(const pbs::Character& character)
-{
-    std::vector<LimbStation> stations = limb_stations(character);
-    std::erase_if(stations, [&](const LimbStation& station) {
-        return !(analysis::cross_section_area(character.mesh.rest, character.mesh.tets, station.tets, {station.point, station.normal}) >
-                 0.0);
-    });
-    return stations;
-}
-
 // The largest rotation [deg] of a bone relative to the root's.
 double largest_rotation_deg(const pbs::Pose& pose)
 {
@@ -43,7 +32,7 @@ FrameMeasurer::FrameMeasurer(const pbs::Character& character, const OutputSpec& 
     : character_(character), ruler_(character.mesh.rest, character.mesh.tets), boundary_(pbs::boundary_of(character.mesh.tets))
 {
     if (output.errors) error_ruler_.emplace(error_domain(character, prescribed));
-    if (output.sections) stations_ = cutting_stations(character);
+    if (output.sections) stations_ = limb_stations(character);
     if (output.surface && character.surface)
         rest_surface_ = pbs::embedded_positions(*character.surface, character.mesh.rest, character.mesh.tets);
 }

@@ -1,5 +1,7 @@
 #include "experiments/limb_stations.hpp"
 
+#include "analysis/cross_section.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +10,9 @@
 namespace experiments {
 namespace {
 
-constexpr double limb_slenderness = 1.5;
+constexpr double limb_slenderness = 3.0;
+constexpr double own_flesh = 0.9;         // of the area that the plane cuts nearby
+constexpr double nearby_distances = 2.0;  // in mean distances of the bone's vertices
 constexpr int stations_per_limb = 5;
 
 pbs::Vec3 direction(const pbs::Bone& bone)
@@ -16,19 +20,22 @@ pbs::Vec3 direction(const pbs::Bone& bone)
     return (bone.tail - bone.head).normalized();
 }
 
-std::vector<bool> limbs_of(const pbs::Character& character)
+// Mean rest distance of the vertices that hang on each bone [m], #bones; zero where none does.
+std::vector<double> mean_distances(const pbs::Character& character)
 {
-    const auto& bones = character.skeleton.bones;
-    std::vector<double> distance(bones.size(), 0.0);
-    std::vector<int> count(bones.size(), 0);
+    std::vector<double> distance(character.skeleton.bones.size(), 0.0);
+    std::vector<int> count(distance.size(), 0);
     for (std::size_t v = 0; v < character.binding.bone.size(); ++v) {
         distance[character.binding.bone[v]] += character.binding.distance(v);
         ++count[character.binding.bone[v]];
     }
-    std::vector<bool> limbs(bones.size());
-    for (std::size_t b = 0; b < bones.size(); ++b)
-        limbs[b] = count[b] > 0 && (bones[b].tail - bones[b].head).norm() > limb_slenderness * distance[b] / count[b];
-    return limbs;
+    for (std::size_t b = 0; b < distance.size(); ++b) distance[b] = count[b] > 0 ? distance[b] / count[b] : 0.0;
+    return distance;
+}
+
+bool is_limb(const pbs::Bone& bone, double mean_distance)
+{
+    return mean_distance > 0.0 && (bone.tail - bone.head).norm() > limb_slenderness * mean_distance;
 }
 
 bool in_one_line(const pbs::Skeleton& skeleton, int parent, int child)
@@ -64,6 +71,27 @@ std::vector<int> tets_of(const pbs::Character& character, const std::set<int>& b
     return tets;
 }
 
+std::vector<int> tets_near(const pbs::TetMesh& mesh, const pbs::Vec3& point, double radius)
+{
+    std::vector<int> tets;
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+        const auto corners = mesh.tets.row(t);
+        if (std::all_of(corners.begin(), corners.end(), [&](int v) { return (mesh.rest.row(v).transpose() - point).norm() < radius; }))
+            tets.push_back(static_cast<int>(t));
+    }
+    return tets;
+}
+
+bool has_its_own_flesh(const pbs::Character& character, const LimbStation& station, double mean_distance)
+{
+    const analysis::Plane plane{station.point, station.normal};
+    const auto area = [&](const std::vector<int>& tets) {
+        return analysis::cross_section_area(character.mesh.rest, character.mesh.tets, tets, plane);
+    };
+    const double own = area(station.tets);
+    return own > 0.0 && own >= own_flesh * area(tets_near(character.mesh, station.point, nearby_distances * mean_distance));
+}
+
 LimbStation station_at(const pbs::Character& character, std::string name, const pbs::Vec3& point, const pbs::Vec3& normal,
                        std::vector<int> carriers)
 {
@@ -76,19 +104,22 @@ LimbStation station_at(const pbs::Character& character, std::string name, const 
 std::vector<LimbStation> limb_stations(const pbs::Character& character)
 {
     const auto& bones = character.skeleton.bones;
-    const std::vector<bool> limbs = limbs_of(character);
+    const std::vector<double> distances = mean_distances(character);
     std::vector<LimbStation> stations;
+    const auto add = [&](LimbStation station, double mean_distance) {
+        if (has_its_own_flesh(character, station, mean_distance)) stations.push_back(std::move(station));
+    };
     for (int b = 0; b < static_cast<int>(bones.size()); ++b) {
-        if (!limbs[b]) continue;
+        if (!is_limb(bones[b], distances[b])) continue;
         for (int i = 1; i <= stations_per_limb; ++i) {
             const double along = i / (stations_per_limb + 1.0);
             const pbs::Vec3 point = bones[b].head + along * (bones[b].tail - bones[b].head);
-            stations.push_back(station_at(character, fmt::format("{} {:.2f}", bones[b].name, along), point, direction(bones[b]), {b}));
+            add(station_at(character, fmt::format("{} {:.2f}", bones[b].name, along), point, direction(bones[b]), {b}), distances[b]);
         }
         const int parent = bones[b].parent;
-        if (parent < 0 || !limbs[parent] || !in_one_line(character.skeleton, parent, b)) continue;
-        stations.push_back(station_at(character, bones[parent].name + "|" + bones[b].name, bones[b].head,
-                                      direction(bones[parent]) + direction(bones[b]), {parent, b}));
+        if (parent < 0 || !is_limb(bones[parent], distances[parent]) || !in_one_line(character.skeleton, parent, b)) continue;
+        const pbs::Vec3 normal = direction(bones[parent]) + direction(bones[b]);
+        add(station_at(character, bones[parent].name + "|" + bones[b].name, bones[b].head, normal, {parent, b}), distances[b]);
     }
     return stations;
 }

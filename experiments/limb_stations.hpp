@@ -16,8 +16,9 @@ struct LimbStation {
     std::vector<int> tets;      // tets of these bones and their neighbours along the limb
 };
 
-// A bone is a limb where it is longer than 1.5 times the mean distance of its vertices. Stations stand at 1/6, 2/6 ... 5/6 of each, and at
-// each joint between two limbs that meet at an angle below 90 degrees.
+// A bone is a limb where it is longer than 3 times the mean distance of its vertices. Stations stand at 1/6, 2/6 ... 5/6 of each, and at
+// each joint between two limbs that meet at an angle below 90 degrees; but only where the limb has its flesh for itself: nine tenths of
+// what the plane cuts nearby belong to it (in the trunk, many bones share it).
 std::vector<LimbStation> limb_stations(const pbs::Character& character);
 
 pbs::Vec3 posed_point(const LimbStation& station, const pbs::Pose& pose);

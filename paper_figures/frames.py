@@ -37,7 +37,13 @@ def half_height_of(boxes):
     return 0.54 * max(height_m, width_m * pixels[1] / pixels[0])
 
 
-def draw_stills(rows, files, frames, file_of, colour_bar):
+def names_of(run):
+    """frame -> what it shows, as the scene names it."""
+    output = run.record.get("scene", {}).get("output", {})
+    return dict(zip(output.get("frames", []), output.get("frame_names", [])))
+
+
+def draw_stills(rows, files, frames, names, file_of, colour_bar):
     """Deformers down, frames across; all through one camera that follows the LBS body."""
     stage = rendering.Stage(*pixels)
     boxes = {frame: rendering.bounds_of(files["lbs"][frame]) for frame in frames}
@@ -51,7 +57,8 @@ def draw_stills(rows, files, frames, file_of, colour_bar):
             panel.grid(False)
         panels[0].set_ylabel(style.look_of(deformer).label, fontsize=8)
     for panel, frame in zip(axes[0], frames):
-        panel.set_title(f"{float(rows['lbs'][frame]['time_s']):.2f} s")
+        time = f"{float(rows['lbs'][frame]['time_s']):.2f} s"
+        panel.set_title(f"{names[frame]}, {time}" if frame in names else time)
     if colour_bar:
         shades = style.matplotlib.cm.ScalarMappable(rendering.ratio_scale, rendering.ratio_colors)
         bar = figure.colorbar(shades, ax=axes, location="bottom", shrink=0.5, aspect=40, extend="both", pad=0.01)
@@ -70,7 +77,7 @@ def draw(results, figures):
     behind = style.columns_of([rows[deformer][frame] for deformer in deformers for frame in frames], "volume_change_pct", "inverted_tets",
                               "min_section_pct")
     origin = records.provenance(results)
-    skin = draw_stills(rows, files, frames, skin_of, colour_bar=False)
+    skin = draw_stills(rows, files, frames, names_of(run), skin_of, colour_bar=False)
     style.save(skin, figures / "frames_skin", origin, behind, formats=("png",))
-    ratio = draw_stills(rows, files, frames, lambda file: file, colour_bar=True)
+    ratio = draw_stills(rows, files, frames, names_of(run), lambda file: file, colour_bar=True)
     style.save(ratio, figures / "frames_volume_ratio", origin, behind, formats=("png",))
