@@ -17,8 +17,11 @@ TetMesh read_by_extension(const std::string& path)
         throw InputError(path, 0, "extension", extension, "expected a tet mesh: .msh, .vtu, .vtk, .mesh, .node or .ele");
     require_readable(path);
     if (tetgen) return read_tetgen(path);
-    if (gmsh) check_gmsh_file(path);
+    const long long named = gmsh ? check_gmsh_file(path) : -1;
     const IndexedPoints read = read_guarded(path, vtk ? read_vtk : read_gmsh);
+    if (read.cells.rows() > 0 && named >= 0 && named != read.points.rows())  // it leaves out vertices that no element uses
+        throw InputError(path, 0, "vertices", std::to_string(named),
+                         "expected all in elements; Gmsh reads " + std::to_string(read.points.rows()));
     return {read.points, read.cells};
 }
 

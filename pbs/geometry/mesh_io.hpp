@@ -1,5 +1,5 @@
 // Reading and writing meshes. Read by libraries: Gmsh (.msh 2.2 and 4.1, MEDIT .mesh; a module, loaded with the first such file), VTK
-// (.vtu, .vtk), assimp (surfaces); TetGen's .node/.ele, which no library in Debian reads alone, here. Bad files are InputErrors.
+// (.vtu, .vtk), assimp and CGAL (surfaces); TetGen's .node/.ele, which no library in Debian reads alone, here. Bad files are InputErrors.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"

@@ -13,8 +13,13 @@ IndexedPoints read_vtk(const std::string& path);   // .vtu, .vtk, by VTK
 IndexedPoints read_gmsh(const std::string& path);  // .msh 2.2 and 4.1, .mesh, by Gmsh, in a module
 TetMesh read_tetgen(const std::string& path);      // .node or .ele, the other beside it
 
-// Before Gmsh may see a file: it runs one that is no mesh as a script. Loads the module.
-void check_gmsh_file(const std::string& path);
+// Surfaces: points and triangles.
+IndexedPoints read_assimp(const std::string& path, const std::string& mesh_name);  // .obj, .gltf, .glb, .dae, .zae
+IndexedPoints read_polygons(const std::string& path);                              // .ply, .off, .stl, by CGAL
+
+// Before Gmsh may see a file: it runs one that is no mesh as a script. Loads the module. Returns the number of vertices that the file
+// names, -1 where that is not known.
+long long check_gmsh_file(const std::string& path);
 
 // By hand, with 17 digits: Gmsh's own writer prints 16 (.msh) or 14 (.mesh), which does not read back to the bit.
 void write_msh(const std::string& path, const TetMesh& mesh);    // 4.1 ASCII

@@ -140,6 +140,12 @@ public:
     }
 
     double volume() const { return CGAL::to_double(pmp::volume(wrapped_)); }
+    int euler() const
+    {
+        return static_cast<int>(wrapped_.number_of_vertices()) - static_cast<int>(wrapped_.number_of_edges()) +
+               static_cast<int>(wrapped_.number_of_faces());
+    }
+    bool contains(const Vec3& p) const { return domain_.is_in_domain_object()(Point(p(0), p(1), p(2))).has_value(); }
 
     // size 1: cells as above; distance 1: facets as near to the wrap as above.
     Complex refined(double size, double distance) const
@@ -177,37 +183,24 @@ private:
     std::vector<double> thickness_;
 };
 
-// The signed volume inside the triangles, as if closed by a fan from their mean [m^3].
-double enclosed_volume(const SurfaceMesh& surface)
-{
-    const Vec3 middle = surface.points.colwise().mean().transpose();
-    double volume = 0.0;
-    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
-        const Vec3 a = surface.points.row(surface.triangles(f, 0)).transpose() - middle;
-        const Vec3 b = surface.points.row(surface.triangles(f, 1)).transpose() - middle;
-        const Vec3 c = surface.points.row(surface.triangles(f, 2)).transpose() - middle;
-        volume += a.cross(b).dot(c) / 6.0;
-    }
-    return volume;
-}
-
-void check_input(const SurfaceMesh& surface, const SurfaceMeshing& options)
-{
-    if (options.vertices < 150) throw InputError("", 0, "vertices", std::to_string(options.vertices), "expected at least 150");
-    if (surface.triangles.rows() < 4)
-        throw InputError("", 0, "triangles", std::to_string(surface.triangles.rows()), "expected a closed surface: at least 4");
-    if (!surface.points.allFinite()) throw InputError("", 0, "points", "", "expected finite coordinates [m]");
-    if (surface.triangles.minCoeff() < 0 || surface.triangles.maxCoeff() >= surface.points.rows())
-        throw InputError("", 0, "triangles", "", "expected indices of points");
-}
-
 // An open sheet is wrapped on both sides: its wrap holds far less, or far more, than the surface seems to enclose.
 void check_closed(const SurfaceMesh& surface, const Body& body)
 {
-    const double enclosed = enclosed_volume(surface), ratio = body.volume() / std::abs(enclosed);
+    const double ratio = body.volume() / std::abs(enclosed_volume(surface));
     if (!(ratio > 0.5 && ratio < 2.0))
         throw InputError("", 0, "wrapped volume / enclosed volume", std::to_string(ratio),
                          "expected 0.5 to 2: a closed or nearly closed surface, its triangles oriented one way");
+}
+
+// What is wrong with the wrap already stays wrong at every cell size.
+void check_wrap(const Body& body, const SurfaceMeshing& options)
+{
+    if (body.euler() != options.boundary_euler)
+        throw InputError("", 0, "Euler number of the wrapped surface", std::to_string(body.euler()),
+                         "expected " + std::to_string(options.boundary_euler) + ": another wrap_alpha_m, or ask for this number");
+    for (std::size_t i = 0; i < options.inside.size(); ++i)
+        if (!body.contains(options.inside[i]))
+            throw InputError("", 0, "point " + std::to_string(i) + " asked inside", "", "expected inside the surface");
 }
 
 // The cell size that refines to the wanted number of vertices; optimising hardly changes it.
@@ -237,11 +230,12 @@ TetMesh optimised(const Body& body, double size, double distance)
 
 TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
 {
-    check_input(surface, options);
+    check_surface(surface, options);
     const double alpha = options.wrap_alpha_m > 0.0 ? options.wrap_alpha_m : diagonal_of(surface.points) / 170.0;
     const double offset = options.wrap_offset_m > 0.0 ? options.wrap_offset_m : alpha / 3.0;
     const Body body(surface, alpha, offset, options.inside_to_skin);
     check_closed(surface, body);
+    check_wrap(body, options);
 
     std::string breach;
     for (const double distance : {1.0, 0.8, 1.25, 0.65, 1.5, 0.5}) {

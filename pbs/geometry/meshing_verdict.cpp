@@ -1,11 +1,33 @@
 #include "pbs/geometry/meshing_verdict.hpp"
 
+#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/quality.hpp"
+#include "pbs/geometry/tet_volume.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace pbs {
+
+void check_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
+{
+    if (options.vertices < 150) throw InputError("", 0, "vertices", std::to_string(options.vertices), "expected at least 150");
+    if (surface.triangles.rows() < 4)
+        throw InputError("", 0, "triangles", std::to_string(surface.triangles.rows()), "expected a closed surface: at least 4");
+    if (!surface.points.allFinite()) throw InputError("", 0, "points", "", "expected finite coordinates [m]");
+    if (surface.triangles.minCoeff() < 0 || surface.triangles.maxCoeff() >= surface.points.rows())
+        throw InputError("", 0, "triangles", "", "expected indices of points");
+}
+
+double enclosed_volume(const SurfaceMesh& surface)
+{
+    const Vec3 middle = surface.points.colwise().mean().transpose();
+    double volume = 0.0;
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
+        volume += tet_volume(middle, surface.points.row(surface.triangles(f, 0)), surface.points.row(surface.triangles(f, 1)),
+                             surface.points.row(surface.triangles(f, 2)));
+    return volume;
+}
 
 std::string breach_of(const TetMesh& mesh, const SurfaceMeshing& options)
 {

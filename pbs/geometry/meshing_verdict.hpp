@@ -1,4 +1,4 @@
-// Is a mesh of a surface what was asked for? Perturbing and exuding can undo what the refinement guaranteed.
+// What mesh_surface asks of the surface, and of its own result: perturbing and exuding can undo what the refinement guaranteed.
 #pragma once
 
 #include "pbs/geometry/meshing.hpp"
@@ -6,6 +6,12 @@
 #include <string>
 
 namespace pbs {
+
+// An InputError unless there are enough vertices asked for, at least four triangles, finite points and indices in range.
+void check_surface(const SurfaceMesh& surface, const SurfaceMeshing& options);
+
+// The signed volume inside the triangles [m^3], as if closed by a fan from the points' mean.
+double enclosed_volume(const SurfaceMesh& surface);
 
 // The first thing wrong with the mesh; empty when it is boundary-manifold, in one piece, of the wanted Euler number and dihedral
 // angle, free of self-intersections, and all points lie inside.

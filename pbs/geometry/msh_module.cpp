@@ -4,6 +4,8 @@
 
 #include <gmsh.h>
 
+#include <algorithm>
+#include <numeric>
 #include <unordered_map>
 #include <vector>
 
@@ -39,6 +41,15 @@ void refuse_other_volumes(const std::string& path)
     }
 }
 
+// Indices that put the tags in ascending order: Gmsh lists nodes and elements by entity, the file's numbers are what frames share.
+std::vector<std::size_t> order_of(const std::vector<std::size_t>& tags)
+{
+    std::vector<std::size_t> order(tags.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return tags[a] < tags[b]; });
+    return order;
+}
+
 IndexedPoints current_tets(const std::string& path)
 {
     std::vector<std::size_t> node_tags, tet_tags, corners;
@@ -47,16 +58,25 @@ IndexedPoints current_tets(const std::string& path)
     gmsh::model::mesh::getElementsByType(tet_type, tet_tags, corners);
 
     IndexedPoints mesh;
-    mesh.points = Eigen::Map<const Positions>(coordinates.data(), static_cast<Eigen::Index>(node_tags.size()), 3);
-    mesh.cells.resize(static_cast<Eigen::Index>(tet_tags.size()), 4);
+    mesh.points.resize(static_cast<Eigen::Index>(node_tags.size()), 3);
     std::unordered_map<std::size_t, int> index_of;
-    for (std::size_t i = 0; i < node_tags.size(); ++i) index_of.emplace(node_tags[i], static_cast<int>(i));
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-        const auto found = index_of.find(corners[k]);
-        if (found == index_of.end())
-            throw InputError(path, 0, "element " + std::to_string(tet_tags[k / 4]), std::to_string(corners[k]),
-                             "expected the tag of a node");
-        mesh.cells(static_cast<Eigen::Index>(k / 4), static_cast<Eigen::Index>(k % 4)) = found->second;
+    for (const std::size_t from : order_of(node_tags)) {
+        const int to = static_cast<int>(index_of.size());
+        if (!index_of.emplace(node_tags[from], to).second)
+            throw InputError(path, 0, "node", std::to_string(node_tags[from]), "expected each tag once");
+        mesh.points.row(to) << coordinates[3 * from], coordinates[3 * from + 1], coordinates[3 * from + 2];
+    }
+    mesh.cells.resize(static_cast<Eigen::Index>(tet_tags.size()), 4);
+    Eigen::Index to = 0;
+    for (const std::size_t from : order_of(tet_tags)) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto found = index_of.find(corners[4 * from + k]);
+            if (found == index_of.end())
+                throw InputError(path, 0, "element " + std::to_string(tet_tags[from]), std::to_string(corners[4 * from + k]),
+                                 "expected the tag of a node");
+            mesh.cells(to, static_cast<Eigen::Index>(k)) = found->second;
+        }
+        ++to;
     }
     return mesh;
 }

@@ -4,8 +4,11 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/module.hpp"
 
+#include <algorithm>
+#include <cstring>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 namespace pbs {
 namespace {
@@ -39,9 +42,37 @@ void check_medit(const std::string& path, const std::string& text)
             throw InputError(path, 0, "", "", std::string("the section ") + section + " is missing");
 }
 
+// "$Nodes\n4\n" (2.2), "$Nodes\n1 4 1 4\n" (4.1: blocks, nodes, ...; binary: the same as size_t).
+long long nodes_in_msh(const std::string& text)
+{
+    std::istringstream header(text.substr(text.find('\n')));
+    double version = 0.0;
+    int binary = 0;
+    header >> version >> binary;
+    const std::size_t nodes = text.find('\n', text.find("\n$Nodes") + 1) + 1;
+    std::size_t numbers[2] = {};
+    if (version == 4.1 && binary) {
+        if (nodes + sizeof numbers > text.size()) return -1;
+        std::memcpy(numbers, text.data() + nodes, sizeof numbers);
+        return static_cast<long long>(numbers[1]);
+    }
+    std::istringstream counts(text.substr(nodes, 100));
+    if (version == 4.1) counts >> numbers[0] >> numbers[1];
+    if (version == 2.2) counts >> numbers[1];
+    return counts && numbers[1] > 0 ? static_cast<long long>(numbers[1]) : -1;
+}
+
+long long vertices_in_medit(const std::string& text)
+{
+    std::istringstream count(text.substr(text.find("Vertices") + 8, 100));
+    long long vertices = -1;
+    count >> vertices;
+    return count ? vertices : -1;
+}
+
 }  // namespace
 
-void check_gmsh_file(const std::string& path)
+long long check_gmsh_file(const std::string& path)
 {
     std::ifstream file(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -50,6 +81,7 @@ void check_gmsh_file(const std::string& path)
     else
         check_medit(path, text);
     load_module(module_name);
+    return lower_extension(path) == ".msh" ? nodes_in_msh(text) : vertices_in_medit(text);
 }
 
 IndexedPoints read_gmsh(const std::string& path)

@@ -65,7 +65,7 @@ bool self_intersects(const Positions& positions, const Triangles& boundary)
 std::vector<bool> points_inside(const Positions& positions, const Triangles& boundary, const std::vector<Vec3>& points)
 {
     const Surface surface = surface_of(positions, boundary);
-    if (surface.is_empty() || !CGAL::is_closed(surface)) throw InputError("", 0, "boundary", "", "expected a closed surface");
+    if (surface.number_of_faces() == 0 || !CGAL::is_closed(surface)) throw InputError("", 0, "boundary", "", "expected a closed surface");
     const CGAL::Side_of_triangle_mesh<Surface, Kernel> side_of(surface);
     std::vector<bool> inside;
     for (const Vec3& p : points) inside.push_back(side_of(Point(p(0), p(1), p(2))) != CGAL::ON_UNBOUNDED_SIDE);

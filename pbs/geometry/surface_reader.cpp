@@ -1,107 +1,66 @@
-// Surfaces by assimp. Its joining of vertices has an absolute tolerance of 1e-5, which would merge a small body: joining is exact here.
+// Surfaces: which library reads them, and what is made of its points and triangles. Points are joined where their coordinates are equal;
+// assimp's own joining has an absolute tolerance of 1e-5, which would merge a small body.
 #include "pbs/geometry/mesh_io.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
 
-#include <assimp/Importer.hpp>
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
+#include <string_view>
+#include <vector>
 
 namespace pbs {
 namespace {
 
-using Point = std::array<float, 3>;  // assimp's precision
+constexpr std::array<std::string_view, 8> extensions = {".obj", ".ply", ".off", ".stl", ".gltf", ".glb", ".dae", ".zae"};
 
-// Joins points with equal coordinates, in the order of first use.
-class SurfaceBuilder {
-public:
-    int joined(const Point& point)
-    {
-        const auto [entry, is_new] = index_of_.emplace(point, static_cast<int>(points_.size()));
-        if (is_new) points_.push_back(point);
-        return entry->second;
-    }
-    void add(const std::array<int, 3>& triangle) { triangles_.push_back(triangle); }
-    bool has_triangles() const { return !triangles_.empty(); }
-
-    IndexedPoints surface() const
-    {
-        IndexedPoints mesh;
-        mesh.points.resize(static_cast<Eigen::Index>(points_.size()), 3);
-        mesh.cells.resize(static_cast<Eigen::Index>(triangles_.size()), 3);
-        for (std::size_t i = 0; i < points_.size(); ++i)
-            for (std::size_t k = 0; k < 3; ++k) mesh.points(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = points_[i][k];
-        for (std::size_t f = 0; f < triangles_.size(); ++f)
-            for (std::size_t k = 0; k < 3; ++k) mesh.cells(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = triangles_[f][k];
-        return mesh;
-    }
-
-private:
-    std::map<Point, int> index_of_;
-    std::vector<Point> points_;
-    std::vector<std::array<int, 3>> triangles_;
-};
-
-void add_mesh(const std::string& path, const aiMesh& mesh, const aiMatrix4x4& to_world, SurfaceBuilder& builder)
+IndexedPoints read_by_library(const std::string& path, const std::string& mesh_name)
 {
-    std::vector<int> index(mesh.mNumVertices);
-    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-        const aiVector3D p = to_world * mesh.mVertices[i];
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            throw InputError(path, 0, "vertex " + std::to_string(i), "", "expected finite coordinates [m]");
-        index[i] = builder.joined({p.x, p.y, p.z});
-    }
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-        const aiFace& face = mesh.mFaces[f];
-        if (face.mNumIndices != 3) continue;  // points and lines
-        std::array<int, 3> triangle{};
-        for (unsigned k = 0; k < 3; ++k) {
-            if (face.mIndices[k] >= mesh.mNumVertices)
-                throw InputError(path, 0, "face " + std::to_string(f) + " vertex", std::to_string(face.mIndices[k]),
-                                 "expected an index from 0 to " + std::to_string(mesh.mNumVertices - 1));
-            triangle[k] = index[face.mIndices[k]];
-        }
-        if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0]) builder.add(triangle);
-    }
-}
-
-// Meshes under a node, in world space; `names` collects what there is.
-void add_node(const std::string& path, const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, const std::string& wanted,
-              SurfaceBuilder& builder, std::string& names)
-{
-    const aiMatrix4x4 to_world = parent * node.mTransformation;
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-        const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
-        const std::string name = mesh.mName.C_Str();
-        names += (names.empty() ? "" : ", ") + name;
-        if (wanted.empty() || wanted == name || wanted == node.mName.C_Str()) add_mesh(path, mesh, to_world, builder);
-    }
-    for (unsigned i = 0; i < node.mNumChildren; ++i) add_node(path, scene, *node.mChildren[i], to_world, wanted, builder, names);
-}
-
-IndexedPoints read_by_assimp(const std::string& path, const std::string& mesh_name)
-{
-    Assimp::Importer importer;
-    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
+#ifdef PBS_WITH_CGAL
     const std::string extension = lower_extension(path);
-    if (extension.empty() || !importer.IsExtensionSupported(extension))
-        throw InputError(path, 0, "extension", extension, "expected a surface: .obj, .ply, .off, .stl, .gltf, .glb, .dae or .zae");
-    const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
-    if (!scene || !scene->mRootNode) throw InputError(path, 0, "", "", std::string("assimp: ") + importer.GetErrorString());
+    if (extension == ".ply" || extension == ".off" || extension == ".stl") {
+        if (!mesh_name.empty()) throw InputError(path, 0, "mesh", mesh_name, "expected no name: such a file holds one mesh");
+        return read_polygons(path);
+    }
+#endif
+    return read_assimp(path, mesh_name);
+}
 
-    SurfaceBuilder builder;
-    std::string names;
-    add_node(path, *scene, *scene->mRootNode, aiMatrix4x4(), mesh_name, builder, names);
-    if (!builder.has_triangles() && !mesh_name.empty())
-        throw InputError(path, 0, "mesh", mesh_name, "expected one of the file's meshes: " + names);
-    if (!builder.has_triangles()) throw InputError(path, 0, "triangles", "0", "expected at least one triangle");
-    return builder.surface();
+void check_raw(const std::string& path, const IndexedPoints& mesh)
+{
+    if (mesh.cells.rows() == 0) throw InputError(path, 0, "triangles", "0", "expected at least one triangle");
+    for (Eigen::Index i = 0; i < mesh.points.rows(); ++i)
+        if (!mesh.points.row(i).allFinite())
+            throw InputError(path, 0, "vertex " + std::to_string(i), "", "expected finite coordinates [m]");
+    for (Eigen::Index f = 0; f < mesh.cells.rows(); ++f)
+        for (Eigen::Index k = 0; k < 3; ++k)
+            if (mesh.cells(f, k) < 0 || mesh.cells(f, k) >= mesh.points.rows())
+                throw InputError(path, 0, "triangle " + std::to_string(f) + " vertex", std::to_string(mesh.cells(f, k)),
+                                 "expected an index from 0 to " + std::to_string(mesh.points.rows() - 1));
+}
+
+// The points that triangles use, in the order of first use; triangles that joining makes a line or a point are left out.
+SurfaceMesh joined(const IndexedPoints& mesh)
+{
+    std::map<std::array<double, 3>, int> index_of;
+    std::vector<std::array<int, 3>> triangles;
+    for (Eigen::Index f = 0; f < mesh.cells.rows(); ++f) {
+        std::array<int, 3> triangle{};
+        for (Eigen::Index k = 0; k < 3; ++k) {
+            const auto p = mesh.points.row(mesh.cells(f, k));
+            triangle[static_cast<std::size_t>(k)] =
+                index_of.emplace(std::array{p(0), p(1), p(2)}, static_cast<int>(index_of.size())).first->second;
+        }
+        if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0]) triangles.push_back(triangle);
+    }
+    SurfaceMesh surface{Positions(static_cast<Eigen::Index>(index_of.size()), 3),
+                        Triangles(static_cast<Eigen::Index>(triangles.size()), 3)};
+    for (const auto& [p, index] : index_of) surface.points.row(index) << p[0], p[1], p[2];
+    for (std::size_t f = 0; f < triangles.size(); ++f)
+        surface.triangles.row(static_cast<Eigen::Index>(f)) << triangles[f][0], triangles[f][1], triangles[f][2];
+    return surface;
 }
 
 }  // namespace
@@ -109,8 +68,12 @@ IndexedPoints read_by_assimp(const std::string& path, const std::string& mesh_na
 SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name)
 {
     require_readable(path);
-    const IndexedPoints read = read_guarded(path, [&](const std::string& file) { return read_by_assimp(file, mesh_name); });
-    return {read.points, read.cells};
+    const std::string extension = lower_extension(path);
+    if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
+        throw InputError(path, 0, "extension", extension, "expected a surface: .obj, .ply, .off, .stl, .gltf, .glb, .dae or .zae");
+    const IndexedPoints read = read_guarded(path, [&](const std::string& file) { return read_by_library(file, mesh_name); });
+    check_raw(path, read);
+    return joined(read);
 }
 
 }  // namespace pbs

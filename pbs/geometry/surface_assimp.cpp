@@ -1,0 +1,74 @@
+// Surfaces by assimp, in its single precision.
+#include "pbs/geometry/mesh_io_formats.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <array>
+#include <vector>
+
+namespace pbs {
+namespace {
+
+struct Collected {
+    std::vector<Vec3> points;
+    std::vector<std::array<int, 3>> triangles;
+    std::string names;  // of all meshes
+};
+
+void add_mesh(const aiMesh& mesh, const aiMatrix4x4& to_world, Collected& collected)
+{
+    const int first = static_cast<int>(collected.points.size());
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+        const aiVector3D p = to_world * mesh.mVertices[i];
+        collected.points.emplace_back(p.x, p.y, p.z);
+    }
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+        const aiFace& face = mesh.mFaces[f];
+        if (face.mNumIndices != 3) continue;  // points and lines
+        collected.triangles.push_back({first + static_cast<int>(face.mIndices[0]), first + static_cast<int>(face.mIndices[1]),
+                                       first + static_cast<int>(face.mIndices[2])});
+    }
+}
+
+// Meshes under a node, in world space.
+void add_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, const std::string& wanted, Collected& collected)
+{
+    const aiMatrix4x4 to_world = parent * node.mTransformation;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+        const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
+        const std::string name = mesh.mName.C_Str();
+        collected.names += (collected.names.empty() ? "" : ", ") + name;
+        if (wanted.empty() || wanted == name || wanted == node.mName.C_Str()) add_mesh(mesh, to_world, collected);
+    }
+    for (unsigned i = 0; i < node.mNumChildren; ++i) add_node(scene, *node.mChildren[i], to_world, wanted, collected);
+}
+
+}  // namespace
+
+IndexedPoints read_assimp(const std::string& path, const std::string& mesh_name)
+{
+    Assimp::Importer importer;
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
+    const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+    if (!scene || !scene->mRootNode) throw InputError(path, 0, "", "", std::string("assimp: ") + importer.GetErrorString());
+
+    Collected collected;
+    add_node(*scene, *scene->mRootNode, aiMatrix4x4(), mesh_name, collected);
+    if (collected.triangles.empty() && !mesh_name.empty())
+        throw InputError(path, 0, "mesh", mesh_name, "expected one of the file's meshes: " + collected.names);
+    IndexedPoints mesh;
+    mesh.points.resize(static_cast<Eigen::Index>(collected.points.size()), 3);
+    mesh.cells.resize(static_cast<Eigen::Index>(collected.triangles.size()), 3);
+    for (std::size_t i = 0; i < collected.points.size(); ++i)
+        mesh.points.row(static_cast<Eigen::Index>(i)) = collected.points[i].transpose();
+    for (std::size_t f = 0; f < collected.triangles.size(); ++f)
+        mesh.cells.row(static_cast<Eigen::Index>(f)) << collected.triangles[f][0], collected.triangles[f][1], collected.triangles[f][2];
+    return mesh;
+}
+
+}  // namespace pbs

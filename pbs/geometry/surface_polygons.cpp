@@ -1,0 +1,86 @@
+// .ply, .off and .stl by CGAL, in double precision; assimp's readers accept truncated files of these, hang or end the process.
+#include "pbs/geometry/mesh_io_formats.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/IO/OFF.h>
+#include <CGAL/IO/PLY.h>
+#include <CGAL/IO/STL.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <array>
+#include <fstream>
+#include <vector>
+
+namespace pbs {
+namespace {
+
+using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
+using Polygon = std::vector<std::size_t>;
+using Triangle = std::array<std::size_t, 3>;
+
+// CGAL splits faces of a mesh: a mesh of this one polygon, its vertices numbered by corner.
+void add_triangles(const std::vector<Point>& points, const Polygon& polygon, std::vector<Triangle>& triangles)
+{
+    if (polygon.size() == 3) return triangles.push_back({polygon[0], polygon[1], polygon[2]});
+    CGAL::Surface_mesh<Point> mesh;
+    std::vector<CGAL::Surface_mesh<Point>::Vertex_index> corners;
+    for (const std::size_t vertex : polygon) corners.push_back(mesh.add_vertex(points[vertex]));
+    mesh.add_face(corners);
+    CGAL::Polygon_mesh_processing::triangulate_faces(mesh);
+    for (const auto face : mesh.faces()) {
+        Triangle triangle{};
+        std::size_t k = 0;
+        for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face))) triangle[k++ % 3] = polygon[vertex.idx()];
+        triangles.push_back(triangle);
+    }
+}
+
+std::vector<Triangle> triangulated(const std::string& path, const std::vector<Point>& points, const std::vector<Polygon>& polygons)
+{
+    std::vector<Triangle> triangles;
+    for (std::size_t f = 0; f < polygons.size(); ++f) {
+        for (const std::size_t vertex : polygons[f])
+            if (vertex >= points.size())
+                throw InputError(path, 0, "face " + std::to_string(f) + " vertex", std::to_string(vertex),
+                                 "expected an index from 0 to " + std::to_string(points.size() - 1));
+        if (polygons[f].size() >= 3) add_triangles(points, polygons[f], triangles);
+    }
+    return triangles;
+}
+
+bool read_soup(const std::string& path, std::vector<Point>& points, std::vector<Polygon>& polygons)
+{
+    std::ifstream file(path, std::ios::binary);
+    const std::string extension = lower_extension(path);
+    if (extension == ".ply") return CGAL::IO::read_PLY(file, points, polygons);
+    if (extension == ".stl") return CGAL::IO::read_STL(file, points, polygons);
+    return CGAL::IO::read_OFF(file, points, polygons);
+}
+
+}  // namespace
+
+IndexedPoints read_polygons(const std::string& path)
+{
+    std::vector<Point> points;
+    std::vector<Polygon> polygons;
+    const bool whole = read_soup(path, points, polygons);
+    if (!whole)
+        throw InputError(path, 0, "", "",
+                         "damaged: CGAL read " + std::to_string(points.size()) + " points and " + std::to_string(polygons.size()) +
+                             " faces, and no further");
+    const std::vector<Triangle> triangles = triangulated(path, points, polygons);
+    IndexedPoints mesh;
+    mesh.points.resize(static_cast<Eigen::Index>(points.size()), 3);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        mesh.points.row(static_cast<Eigen::Index>(i)) << points[i].x(), points[i].y(), points[i].z();
+    mesh.cells.resize(static_cast<Eigen::Index>(triangles.size()), 3);
+    for (std::size_t f = 0; f < triangles.size(); ++f)
+        for (std::size_t k = 0; k < 3; ++k)
+            mesh.cells(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = static_cast<int>(triangles[f][k]);
+    return mesh;
+}
+
+}  // namespace pbs

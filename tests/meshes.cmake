@@ -1,0 +1,28 @@
+# Tests of mesh files and meshing.
+if(PBS_WITH_MESH_IO)
+    pbs_test(unit pbs/geometry/module pbs_module)
+    foreach(name IN ITEMS mesh_io mesh_io_checks surface_reader)
+        pbs_test(unit pbs/geometry/${name} pbs_mesh_io)
+    endforeach()
+    add_dependencies(test_unit_pbs_geometry_module pbskin_gmsh)
+    if(PBS_WITH_CGAL)
+        target_compile_definitions(test_unit_pbs_geometry_mesh_io_checks PRIVATE PBS_WITH_CGAL)
+    endif()
+    pbs_test(robustness pbs/geometry/damaged_meshes pbs_mesh_io)
+
+    # Other programs: Gmsh's library, VTK's Python.
+    find_program(PBS_TEST_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
+    pbs_test(verification pbs/geometry/foreign_meshes pbs_mesh_io ${GMSH_LIBRARY})
+    target_compile_definitions(test_verification_pbs_geometry_foreign_meshes PRIVATE PBS_TEST_PYTHON="${PBS_TEST_PYTHON}")
+else()
+    pbs_test(unit pbs/geometry/mesh_io_unavailable pbs_mesh_io)
+endif()
+
+if(PBS_WITH_CGAL)
+    foreach(name IN ITEMS meshing_builtin meshing_count meshing_surface self_intersection)
+        pbs_test(unit pbs/geometry/${name} pbs_meshing)
+    endforeach()
+    pbs_test(properties pbs/geometry/meshing_repeats pbs_meshing)
+else()
+    pbs_test(unit pbs/geometry/meshing_unavailable pbs_meshing)
+endif()

@@ -1,0 +1,56 @@
+// Truth: an invariance. The same call gives the same mesh to the bit, whatever was meshed before it.
+#include "pbs/geometry/meshing.hpp"
+
+#include "tests/support/closed_surfaces.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+void expect_same(const pbs::TetMesh& a, const pbs::TetMesh& b)
+{
+    EXPECT_EQ(a.rest, b.rest);
+    EXPECT_EQ(a.tets, b.tets);
+}
+
+TEST(Meshing, OfTheBuiltInBodiesRepeatsToTheBit)
+{
+    const pbs::TetMesh limb = pbs::mesh_limb(400), bar = pbs::mesh_bar(400);
+    expect_same(pbs::mesh_limb(400), limb);
+    expect_same(pbs::mesh_bar(400), bar);
+}
+
+TEST(Meshing, OfASurfaceRepeatsToTheBit)
+{
+    const pbs::SurfaceMesh sphere = test_support::icosphere(1.0, 2);
+    pbs::SurfaceMeshing options;
+    options.vertices = 250;
+    options.wrap_alpha_m = 0.2;
+    options.wrap_offset_m = 0.02;
+    const pbs::TetMesh first = pbs::mesh_surface(sphere, options);
+    pbs::mesh_limb(300);
+    expect_same(pbs::mesh_surface(sphere, options), first);
+}
+
+// Lengths are relative to the body; what is left is rounding (some 1e-14 m of 1 m).
+TEST(Meshing, OfASurfaceHasNoUnit)
+{
+    pbs::SurfaceMeshing options;
+    options.vertices = 250;
+    pbs::SurfaceMesh sphere = test_support::icosphere(1.0, 2);
+    options.wrap_alpha_m = 0.25;
+    options.wrap_offset_m = 0.03125;
+    const pbs::TetMesh metre = pbs::mesh_surface(sphere, options);
+    for (const double scale : {0.0009765625, 1024.0}) {
+        pbs::SurfaceMesh scaled = sphere;
+        scaled.points *= scale;
+        pbs::SurfaceMeshing scaled_options = options;
+        scaled_options.wrap_alpha_m *= scale;
+        scaled_options.wrap_offset_m *= scale;
+        const pbs::TetMesh mesh = pbs::mesh_surface(scaled, scaled_options);
+        EXPECT_EQ(mesh.tets, metre.tets);
+        EXPECT_LE((mesh.rest / scale - metre.rest).cwiseAbs().maxCoeff(), 1e-12);
+    }
+}
+
+}  // namespace

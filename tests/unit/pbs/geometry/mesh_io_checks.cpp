@@ -1,0 +1,152 @@
+// Truth: each breach of the rules, by name, on the smallest mesh that has it.
+#include "pbs/geometry/mesh_io_checks.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "tests/support/structured_bar.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace {
+
+pbs::TetMesh one_tet()
+{
+    pbs::TetMesh mesh;
+    mesh.rest.resize(4, 3);
+    mesh.rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
+    mesh.tets.resize(1, 4);
+    mesh.tets << 0, 1, 2, 3;
+    return mesh;
+}
+
+// Adds a point and a tet to a mesh.
+pbs::TetMesh with(pbs::TetMesh mesh, std::vector<pbs::Vec3> points, const std::array<int, 4>& tet)
+{
+    for (const pbs::Vec3& p : points) {
+        mesh.rest.conservativeResize(mesh.rest.rows() + 1, 3);
+        mesh.rest.bottomRows<1>() = p.transpose();
+    }
+    mesh.tets.conservativeResize(mesh.tets.rows() + 1, 4);
+    mesh.tets.bottomRows<1>() << tet[0], tet[1], tet[2], tet[3];
+    return mesh;
+}
+
+void expect_refused(const pbs::TetMesh& mesh, const std::string& words)
+{
+    try {
+        pbs::check_rest("m.vtu", mesh);
+        FAIL() << "accepted; expected: " << words;
+    } catch (const pbs::InputError& error) {
+        const std::string what = error.what();
+        EXPECT_EQ(what.rfind("m.vtu: ", 0), 0u) << what;
+        EXPECT_NE(what.find(words), std::string::npos) << what;
+    }
+}
+
+TEST(RestMesh, ASoundOneIsAccepted)
+{
+    EXPECT_EQ(pbs::check_rest("m.vtu", one_tet()).flipped_tets, 0);
+    EXPECT_EQ(pbs::check_rest("m.vtu", test_support::structured_bar({-1, -1, -1}, {1, 1, 1}, {2, 2, 2})).flipped_tets, 0);
+}
+
+TEST(RestMesh, AnInvertedTetIsTurnedAndCounted)
+{
+    pbs::TetMesh mesh = one_tet();
+    mesh.tets << 0, 1, 3, 2;
+    const pbs::MeshReading reading = pbs::check_rest("m.vtu", mesh);
+    EXPECT_EQ(reading.flipped_tets, 1);
+    EXPECT_EQ(reading.mesh.tets, one_tet().tets);
+}
+
+TEST(RestMesh, AnySizeIsAccepted)  // flatness has no unit
+{
+    for (const double scale : {1e-6, 1.0, 1e6}) {
+        pbs::TetMesh mesh = one_tet();
+        mesh.rest *= scale;
+        EXPECT_NO_THROW(pbs::check_rest("m.vtu", mesh)) << scale;
+    }
+}
+
+TEST(RestMesh, AFlatTetIsRefusedAtAnySize)
+{
+    for (const double scale : {1e-6, 1.0, 1e6}) {
+        pbs::TetMesh mesh = one_tet();
+        mesh.rest.row(3) << 0.3, 0.3, 1e-12;
+        mesh.rest *= scale;
+        expect_refused(mesh, "tet 0 = (0, 1, 2, 3): expected a volume");
+    }
+}
+
+TEST(RestMesh, ATetWithATwiceNamedVertexIsRefused)
+{
+    expect_refused(with(one_tet(), {}, {0, 1, 2, 2}), "tet 1 = (0, 1, 2, 2): expected a volume");
+}
+
+TEST(RestMesh, NoTetsAreRefused)
+{
+    pbs::TetMesh mesh = one_tet();
+    mesh.tets.resize(0, 4);
+    expect_refused(mesh, "tets = 0");
+}
+
+TEST(RestMesh, IndicesOutOfRangeAreRefused)
+{
+    expect_refused(with(one_tet(), {}, {1, 2, 3, 4}), "tet 1 vertex = 4: expected an index from 0 to 3");
+    expect_refused(with(one_tet(), {}, {-1, 2, 3, 0}), "tet 1 vertex = -1");
+}
+
+TEST(RestMesh, CoordinatesThatAreNotFiniteAreRefused)
+{
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        pbs::TetMesh mesh = one_tet();
+        mesh.rest(2, 1) = bad;
+        expect_refused(mesh, "vertex 2 = (0, ");
+    }
+}
+
+TEST(RestMesh, AnUnusedVertexIsRefused)
+{
+    pbs::TetMesh mesh = one_tet();
+    mesh.rest.conservativeResize(5, 3);
+    mesh.rest.row(4) << 9, 9, 9;
+    expect_refused(mesh, "vertex 4: expected in a tet");
+}
+
+TEST(RestMesh, ADoubledVertexIsRefused)
+{
+    expect_refused(with(one_tet(), {{0, 0, 0}, {1, 1, 1}}, {4, 2, 1, 5}), "vertex 0 is there already");
+}
+
+TEST(RestMesh, AFaceInThreeTetsIsRefused)
+{
+    const pbs::TetMesh pair = with(one_tet(), {{0, 0, -1}}, {0, 2, 1, 4});
+    EXPECT_NO_THROW(pbs::check_rest("m.vtu", pair));
+    expect_refused(with(pair, {{0.1, 0.2, 2}}, {0, 1, 2, 5}), "one face is in three");
+}
+
+TEST(RestMesh, NeighboursFoldedOverEachOtherAreRefused)
+{
+    expect_refused(with(one_tet(), {{0.2, 0.2, 0.5}}, {0, 1, 2, 4}), "they overlap");
+}
+
+TEST(RestMesh, TetsThatTouchInAnEdgeOrVertexAreRefused)
+{
+    expect_refused(with(one_tet(), {{0.2, -1, -1}, {0.2, -1, -2}}, {0, 1, 5, 4}), "manifold");
+    expect_refused(with(one_tet(), {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, {0, 4, 6, 5}), "manifold");
+}
+
+#ifdef PBS_WITH_CGAL
+TEST(RestMesh, BodiesThroughEachOtherAreRefused)
+{
+    const pbs::TetMesh through = with(one_tet(), {{0.1, 0.1, -1}, {0.2, 0.1, -1}, {0.1, 0.2, -1}, {0.12, 0.12, 3}}, {4, 5, 6, 7});
+    expect_refused(through, "does not intersect itself");
+}
+#endif
+
+TEST(Frame, AsksForIndicesAndFiniteCoordinatesAlone)
+{
+    EXPECT_NO_THROW(pbs::check_frame("m.vtu", with(one_tet(), {{0.2, 0.2, 0.5}}, {0, 1, 2, 2})));
+}
+
+}  // namespace

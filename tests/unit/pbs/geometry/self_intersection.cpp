@@ -1,0 +1,65 @@
+// Truth: bodies whose contact can be seen.
+#include "pbs/geometry/meshing.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/topology.hpp"
+#include "tests/support/closed_surfaces.hpp"
+#include "tests/support/structured_bar.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+// Two spheres side by side along x, `distance` between their middles.
+pbs::SurfaceMesh two_spheres(double distance)
+{
+    const pbs::SurfaceMesh one = test_support::icosphere(1.0, 2);
+    pbs::SurfaceMesh two{pbs::Positions(2 * one.points.rows(), 3), pbs::Triangles(2 * one.triangles.rows(), 3)};
+    two.points << one.points, one.points.rowwise() + Eigen::RowVector3d(distance, 0, 0);
+    two.triangles << one.triangles, one.triangles.array() + static_cast<int>(one.points.rows());
+    return two;
+}
+
+TEST(SelfIntersection, NeighboursAlongEdgesAndVerticesDoNotCount)
+{
+    const pbs::SurfaceMesh sphere = test_support::icosphere(1.0, 2);
+    EXPECT_FALSE(pbs::self_intersects(sphere.points, sphere.triangles));
+    EXPECT_EQ(pbs::count_self_intersections(sphere.points, sphere.triangles), 0);
+}
+
+TEST(SelfIntersection, SpheresThroughEachOtherAreFoundAndApartAreNot)
+{
+    const pbs::SurfaceMesh apart = two_spheres(2.1), through = two_spheres(1.0);
+    EXPECT_FALSE(pbs::self_intersects(apart.points, apart.triangles));
+    EXPECT_TRUE(pbs::self_intersects(through.points, through.triangles));
+    EXPECT_GT(pbs::count_self_intersections(through.points, through.triangles), 0);
+}
+
+TEST(SelfIntersection, ABarBentThroughItselfIsFound)
+{
+    pbs::TetMesh bar = test_support::structured_bar({-1, -0.1, -0.1}, {1, 0.1, 0.1}, {20, 2, 2});
+    const pbs::Triangles boundary = pbs::boundary_of(bar.tets);
+    EXPECT_FALSE(pbs::self_intersects(bar.rest, boundary));
+    for (Eigen::Index i = 0; i < bar.rest.rows(); ++i) {  // on a circle of less than the bar's length
+        const double angle = 4.0 * bar.rest(i, 0), r = 0.3 + bar.rest(i, 1);
+        bar.rest.row(i) << r * std::sin(angle), r * std::cos(angle), bar.rest(i, 2);
+    }
+    EXPECT_TRUE(pbs::self_intersects(bar.rest, boundary));
+}
+
+TEST(PointsInside, AreToldFromThoseOutside)
+{
+    const pbs::SurfaceMesh torus = test_support::torus(1.0, 0.4, 40, 20);
+    const std::vector<bool> inside = pbs::points_inside(torus.points, torus.triangles, {{1, 0, 0}, {0, 0, 0}, {0, -1.1, 0.1}, {2, 0, 0}});
+    EXPECT_EQ(inside, (std::vector<bool>{true, false, true, false}));
+}
+
+TEST(PointsInside, AskAClosedSurface)
+{
+    pbs::SurfaceMesh sphere = test_support::icosphere(1.0, 1);
+    sphere.triangles = sphere.triangles.bottomRows(10).eval();
+    EXPECT_THROW(pbs::points_inside(sphere.points, sphere.triangles, {{0, 0, 0}}), pbs::InputError);
+    EXPECT_THROW(pbs::points_inside(sphere.points, pbs::Triangles(0, 3), {{0, 0, 0}}), pbs::InputError);
+}
+
+}  // namespace

@@ -1,0 +1,121 @@
+// Truth: a cube, counted by hand, in each format.
+#include "pbs/geometry/mesh_io.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/tet_volume.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace {
+
+using test_support::ScratchFolder;
+
+constexpr int corners[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+constexpr int quads[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+
+std::string points(const char* before, double edge)
+{
+    std::ostringstream text;
+    for (const auto& c : corners) text << before << c[0] * edge << ' ' << c[1] * edge << ' ' << c[2] * edge << '\n';
+    return text.str();
+}
+
+std::string faces(const char* before, int first)
+{
+    std::ostringstream text;
+    for (const auto& q : quads) {
+        text << before;
+        for (const int v : q) text << ' ' << v + first;
+        text << '\n';
+    }
+    return text.str();
+}
+
+std::string stl(double edge)  // each triangle has points of its own
+{
+    std::ostringstream text;
+    text << "solid cube\n";
+    for (const auto& q : quads)
+        for (const auto& t : {std::array{q[0], q[1], q[2]}, std::array{q[0], q[2], q[3]}}) {
+            text << "facet normal 0 0 0\nouter loop\n";
+            for (const int v : t)
+                text << "vertex " << corners[v][0] * edge << ' ' << corners[v][1] * edge << ' ' << corners[v][2] * edge << '\n';
+            text << "endloop\nendfacet\n";
+        }
+    text << "endsolid cube\n";
+    return text.str();
+}
+
+double volume(const pbs::SurfaceMesh& surface)
+{
+    double sum = 0.0;
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
+        sum += pbs::tet_volume(pbs::Vec3::Zero(), surface.points.row(surface.triangles(f, 0)), surface.points.row(surface.triangles(f, 1)),
+                               surface.points.row(surface.triangles(f, 2)));
+    return sum;
+}
+
+void expect_cube(const std::string& path, double edge)
+{
+    const pbs::SurfaceMesh cube = pbs::read_surface(path);
+    EXPECT_EQ(cube.points.rows(), 8) << path;
+    EXPECT_EQ(cube.triangles.rows(), 12) << path;
+    EXPECT_NEAR(volume(cube), edge * edge * edge, 1e-6 * edge * edge * edge) << path;  // outward; assimp keeps single precision
+}
+
+TEST(Surface, QuadsAreTriangulatedAndPointsJoinedInEveryFormat)
+{
+    const ScratchFolder folder;
+    for (const double edge : {2.0, 1e-6}) {  // joining is exact: a body of a micrometre does not collapse
+        expect_cube(folder.file("cube.obj", points("v ", edge) + faces("f", 1)), edge);
+        expect_cube(folder.file("cube.off", "OFF\n8 6 0\n" + points("", edge) + faces("4", 0)), edge);
+        expect_cube(folder.file("cube.ply",
+                                "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
+                                "element face 6\nproperty list uchar int vertex_indices\nend_header\n" +
+                                    points("", edge) + faces("4", 0)),
+                    edge);
+        expect_cube(folder.file("cube.stl", stl(edge)), edge);
+    }
+}
+
+TEST(Surface, PointsSplitAtTextureSeamsAreJoined)
+{
+    const ScratchFolder folder;
+    std::ostringstream text;  // each corner of each face with a texture coordinate of its own
+    text << points("v ", 1.0);
+    for (int i = 0; i < 24; ++i) text << "vt " << 0.01 * i << " 0.5\n";
+    int texture = 1;
+    for (const auto& q : quads) {
+        text << 'f';
+        for (const int v : q) text << ' ' << v + 1 << '/' << texture++;
+        text << '\n';
+    }
+    expect_cube(folder.file("seams.obj", text.str()), 1.0);
+}
+
+TEST(Surface, OneMeshOfSeveralIsReadByName)
+{
+    const ScratchFolder folder;
+    const std::string path = folder.file("two.obj", points("v ", 1.0) + "o cube\n" + faces("f", 1) + "o lid\nf 5 6 7\n");
+    EXPECT_EQ(pbs::read_surface(path).triangles.rows(), 13);
+    EXPECT_EQ(pbs::read_surface(path, "cube").triangles.rows(), 12);
+    EXPECT_EQ(pbs::read_surface(path, "lid").points.rows(), 3);
+    try {
+        pbs::read_surface(path, "box");
+        FAIL();
+    } catch (const pbs::InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("mesh = box: expected one of the file's meshes: cube, lid"), std::string::npos)
+            << error.what();
+    }
+}
+
+TEST(Surface, PointsAndLinesAloneAreRefused)
+{
+    const ScratchFolder folder;
+    EXPECT_THROW(pbs::read_surface(folder.file("lines.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n")), pbs::InputError);
+}
+
+}  // namespace
