@@ -18,14 +18,14 @@ constexpr std::array<std::string_view, 8> extensions = {".obj", ".ply", ".off", 
 
 IndexedPoints read_by_library(const std::string& path, const std::string& mesh_name)
 {
-#ifdef PBS_WITH_CGAL
     const std::string extension = lower_extension(path);
-    if (extension == ".ply" || extension == ".off" || extension == ".stl") {
-        if (!mesh_name.empty()) throw InputError(path, 0, "mesh", mesh_name, "expected no name: such a file holds one mesh");
-        return read_polygons(path);
-    }
+    if (extension != ".ply" && extension != ".off" && extension != ".stl") return read_assimp(path, mesh_name);
+    if (!mesh_name.empty()) throw InputError(path, 0, "mesh", mesh_name, "expected no name: such a file holds one mesh");
+#ifdef PBS_WITH_CGAL
+    return read_polygons(path);
+#else
+    throw InputError(path, 0, "", "", "this build reads no " + extension + " files: configure it with -DPBS_WITH_CGAL=ON");
 #endif
-    return read_assimp(path, mesh_name);
 }
 
 void check_raw(const std::string& path, const IndexedPoints& mesh)

@@ -52,6 +52,26 @@ TEST(Gmsh, FilesOfBothVersionsAsciiAndBinaryAreRead)
         }
 }
 
+// Gmsh lists vertices by entity; rest mesh and frames must agree on the numbers in the file.
+TEST(Gmsh, VerticesKeepTheOrderOfTheirTags)
+{
+    const ScratchFolder folder;
+    const std::string path = folder / "two_entities.msh";
+    gmsh::initialize(0, nullptr, false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::model::addDiscreteEntity(3, 1);
+    gmsh::model::addDiscreteEntity(3, 2);
+    gmsh::model::mesh::addNodes(3, 1, {3, 4}, {0, 1, 0, 0, 0, 1});
+    gmsh::model::mesh::addNodes(3, 2, {1, 2, 5}, {0, 0, 0, 1, 0, 0, 0, 0, -1});
+    gmsh::model::mesh::addElementsByType(1, 4, {2}, {1, 2, 3, 4});
+    gmsh::model::mesh::addElementsByType(2, 4, {1}, {1, 3, 2, 5});
+    gmsh::write(path);
+    gmsh::finalize();
+    const pbs::TetMesh mesh = pbs::read_tet_mesh(path).mesh;
+    EXPECT_EQ(mesh.rest, (pbs::Positions(5, 3) << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1).finished());
+    EXPECT_EQ(mesh.tets, (pbs::Tets(2, 4) << 0, 2, 1, 4, 0, 1, 2, 3).finished());
+}
+
 // Runs Python with VTK; `script` finds the paths in sys.argv.
 int python(const std::string& script, const std::string& paths)
 {

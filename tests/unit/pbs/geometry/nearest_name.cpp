@@ -1,0 +1,24 @@
+// Truth: edit distances counted by hand.
+#include "pbs/geometry/nearest_name.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using pbs::nearest_name;
+
+TEST(NearestName, TakesTheLeastEditDistanceAndTheFirstOfEquals)
+{
+    EXPECT_EQ(nearest_name("tial_m", {"head_m", "tail_m", "name"}), "tail_m");
+    EXPECT_EQ(nearest_name("nam", {"head_m", "tail_m", "name"}), "name");
+    EXPECT_EQ(nearest_name("", {"abc", "ab", "cd"}), "ab");
+    EXPECT_EQ(nearest_name("iteration", {"iterations", "precision", "order"}), "iterations");
+    EXPECT_EQ(nearest_name("k_volum", {"k_stretch", "k_volume", "k_bind"}), "k_volume");
+}
+
+TEST(NearestName, IsEmptyWhereNoneIsKnown)
+{
+    EXPECT_EQ(nearest_name("anything", {}), "");
+}
+
+}  // namespace
