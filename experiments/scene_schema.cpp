@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace experiments {
 namespace {
@@ -130,22 +129,6 @@ std::vector<SceneKey> all_keys()
     return keys;
 }
 
-int edit_distance(const std::string& a, const std::string& b)
-{
-    std::vector<int> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), 0);
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        int diagonal = row[0];
-        row[0] = static_cast<int>(i);
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const int above = row[j];
-            row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-            diagonal = above;
-        }
-    }
-    return row.back();
-}
-
 }  // namespace
 
 std::string SceneKey::rule() const
@@ -178,13 +161,6 @@ const SceneKey* find_scene_key(const std::string& path)
     const auto& keys = scene_keys();
     const auto found = std::find_if(keys.begin(), keys.end(), [&](const SceneKey& key) { return key.path() == path; });
     return found == keys.end() ? nullptr : &*found;
-}
-
-std::string nearest_name(const std::string& name, const std::vector<std::string>& known)
-{
-    const auto nearest = std::min_element(known.begin(), known.end(),
-                                          [&](const auto& a, const auto& b) { return edit_distance(name, a) < edit_distance(name, b); });
-    return nearest == known.end() ? "" : *nearest;
 }
 
 }  // namespace experiments

@@ -27,7 +27,4 @@ struct SceneKey {
 const std::vector<SceneKey>& scene_keys();
 const SceneKey* find_scene_key(const std::string& path);  // "pbs.k_volume"; null where there is none
 
-// The known name nearest to a mistyped one (Levenshtein distance), for errors.
-std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
-
 }  // namespace experiments

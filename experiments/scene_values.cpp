@@ -2,6 +2,7 @@
 
 #include "experiments/scene_schema.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/nearest_name.hpp"
 
 #include <toml++/toml.h>
 
@@ -129,7 +130,7 @@ SceneValues::SceneValues(const std::string& text, const std::string& file, const
             const std::string table = dot == std::string::npos ? "" : schema_path(path).substr(0, dot);
             const std::string name = dot == std::string::npos ? path : schema_path(path).substr(dot + 1);
             throw pbs::InputError(source, line, path, node.is_table() ? "" : shown(node),
-                                  "unknown key; the nearest known one is " + joined(table, nearest_name(name, known_names(table))));
+                                  "unknown key; the nearest known one is " + joined(table, pbs::nearest_name(name, known_names(table))));
         }
         const json value = to_json(node);
         if (!obeys(value, *key)) throw pbs::InputError(source, line, path, shown(node), key->rule());

@@ -7,6 +7,7 @@
 #include "experiments/scene_schema.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/nearest_name.hpp"
 
 #include <fmt/format.h>
 
@@ -98,7 +99,7 @@ int explain(const std::string& name)
     for (const auto explain_one : {explain_metric, explain_claim, explain_study, explain_deformer_or_scene, explain_key})
         found |= explain_one(name);
     if (!found)
-        throw pbs::InputError("", 0, "explain", name, "unknown name; the nearest known one is " + nearest_name(name, known_names()));
+        throw pbs::InputError("", 0, "explain", name, "unknown name; the nearest known one is " + pbs::nearest_name(name, known_names()));
     return exit_finished;
 }
 

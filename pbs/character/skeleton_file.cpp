@@ -3,6 +3,7 @@
 #include "pbs/character/skeleton_order.hpp"
 #include "pbs/character/text_file.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/nearest_name.hpp"
 
 #include <toml++/toml.h>
 
@@ -32,7 +33,7 @@ void check_keys(const toml::table& table, const std::vector<std::string>& known,
     for (const auto& [key, value] : table)
         if (std::find(known.begin(), known.end(), key.str()) == known.end())
             throw InputError(file, line_of(value), std::string(key.str()), "",
-                             "unknown key; the nearest known one is '" + nearest_name(std::string(key.str()), known) + "'");
+                             "unknown key; the nearest known one is " + nearest_name(std::string(key.str()), known));
 }
 
 const toml::node& required(const toml::table& joint, const char* key, const std::string& file)

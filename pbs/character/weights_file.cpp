@@ -2,6 +2,7 @@
 
 #include "pbs/character/text_file.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/nearest_name.hpp"
 
 #include <charconv>
 #include <cmath>

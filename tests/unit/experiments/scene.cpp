@@ -1,7 +1,8 @@
-// Scenes: what a file, --set and the defaults say together. Truth: the contract of scene files (README, `pbskin explain`).
+// Scenes: what a file, --set and the defaults say together. Truth: the contract of scene files (README, `pbskin explain`) and the options'
+// own defaults.
 #include "experiments/scene.hpp"
 #include "experiments/scene_schema.hpp"
-#include "experiments/scene_values.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,20 +10,27 @@ namespace {
 
 using experiments::read_scene;
 using experiments::Scene;
-using experiments::SceneValues;
 
-const std::string smallest = "schema = 1\n[character]\nbody = \"limb\"\n[motion]\njoint = \"forearm\"\nangle_deg = 90\n";
+const std::string motion = "[motion]\njoint = \"forearm\"\nangle_deg = 90\n";
+const std::string stated = "[pbs]\nk_stretch = 0.2\nk_volume = 1.0\nk_bind = 1.0\ngravity_m_s2 = [0.0, 0.0, 0.0]\n";  // have no default
+const std::string smallest = "schema = 1\n[character]\nbody = \"limb\"\n" + motion + stated;
 
-TEST(Scene, DefaultsAreThoseOfTheSchema)
+TEST(Scene, DefaultsOfPbsAreThoseOfItsOptions)
 {
-    const SceneValues values(smallest, "scene.toml", {});
-    for (const auto& key : experiments::scene_keys()) {
-        if (key.default_json.empty() || key.table == "fem" || key.table.starts_with("pbs.")) continue;
-        if (values.given(key.path())) continue;
-        EXPECT_EQ(values.resolved().at(nlohmann::json::json_pointer("/" + (key.table.empty() ? key.name : key.table + "/" + key.name))),
-                  nlohmann::json::parse(key.default_json))
-            << key.path();
-    }
+    const test_support::ScratchFolder folder;
+    const auto read = read_scene(folder.file("scene.toml", smallest + "[deformers]\nuse = [\"pbs\"]\n"), {}).deformers.at(0);
+    experiments::DeformerSpec untouched = read;
+    untouched.pbs = pbs::PbsOptions{};  // `stated` says the same where the scene has no default
+    EXPECT_EQ(to_json(read), to_json(untouched));
+}
+
+TEST(Scene, DefaultsOfFemAreThoseOfItsOptions)
+{
+    const test_support::ScratchFolder folder;
+    const auto read = read_scene(folder.file("scene.toml", smallest + "[deformers]\nuse = [\"fem\"]\n[[fem]]\n"), {}).deformers.at(0);
+    experiments::DeformerSpec untouched = read;
+    untouched.fem = experiments::FemOptions{};
+    EXPECT_EQ(to_json(read), to_json(untouched));
 }
 
 TEST(Scene, EveryBuiltInSceneReads)
@@ -69,15 +77,12 @@ TEST(Scene, JiggleIsOffUnlessItsTableIsThere)
 
 TEST(Scene, PathsAreRelativeToTheFile)
 {
-    const SceneValues values(smallest, "scenes/arm.toml", {});
-    EXPECT_EQ(values.file(), "scenes/arm.toml");
-}
-
-TEST(Scene, NearestNameIsTheOneMeant)
-{
-    EXPECT_EQ(experiments::nearest_name("iteration", {"iterations", "precision", "order"}), "iterations");
-    EXPECT_EQ(experiments::nearest_name("k_volum", {"k_stretch", "k_volume", "k_bind"}), "k_volume");
-    EXPECT_EQ(experiments::nearest_name("x", {}), "");
+    const test_support::ScratchFolder folder;
+    const std::string files = "schema = 1\n[character]\nmesh = \"meshes/arm.msh\"\nskeleton = \"/rigs/arm.skeleton.toml\"\n";
+    const Scene scene = read_scene(folder.file("arm.toml", files + motion + stated), {"skinning.weights=weights.csv"});
+    EXPECT_EQ(scene.character.mesh_file, folder / "meshes/arm.msh");
+    EXPECT_EQ(scene.character.skeleton_file, "/rigs/arm.skeleton.toml");
+    EXPECT_EQ(scene.character.weights_file, folder / "weights.csv");
 }
 
 TEST(Scene, OutputNamesFrames)

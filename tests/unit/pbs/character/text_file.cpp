@@ -1,4 +1,4 @@
-// Truth: edit distances counted by hand.
+// Truth: the bytes that were written.
 #include "pbs/character/text_file.hpp"
 
 #include "tests/unit/pbs/character/expect_input_error.hpp"
@@ -7,14 +7,6 @@
 namespace {
 
 using namespace pbs;
-
-TEST(NearestName, TakesTheLeastEditDistanceAndTheFirstOfEquals)
-{
-    EXPECT_EQ(nearest_name("tial_m", {"head_m", "tail_m", "name"}), "tail_m");
-    EXPECT_EQ(nearest_name("nam", {"head_m", "tail_m", "name"}), "name");
-    EXPECT_EQ(nearest_name("", {"abc", "ab", "cd"}), "ab");
-    EXPECT_EQ(nearest_name("anything", {}), "");
-}
 
 TEST(ReadTextFile, IsWholeAndToTheByte)
 {
