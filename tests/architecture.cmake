@@ -9,10 +9,3 @@ pbs_test(architecture include_laws_test architecture_laws)
 pbs_test(architecture size_laws_test architecture_laws)
 pbs_test(architecture build_laws_test architecture_laws)
 pbs_test(architecture text_laws_test architecture_laws)
-
-# The figure scripts; Debian's python3 has what they import, a version manager's on the PATH often has not.
-find_program(PBS_FIGURE_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
-if(PBS_FIGURE_PYTHON)
-    add_test(NAME unit/paper_figures COMMAND ${PBS_FIGURE_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/figures_test.py)
-    set_tests_properties(unit/paper_figures PROPERTIES LABELS unit TIMEOUT 300)
-endif()

@@ -1,4 +1,8 @@
 # Scenes, deformers, studies and the command line.
+if(NOT TARGET pbskin)
+    return()
+endif()
+
 pbs_test(unit experiments/scene experiments)
 pbs_test(unit experiments/limb_stations experiments)
 pbs_test(unit experiments/frame_measurement experiments)
@@ -6,7 +10,6 @@ pbs_test(unit experiments/studies/worker_pool experiments)
 pbs_test(robustness experiments/scene_errors experiments)
 
 # The program as its users meet it: exit status, messages, folders. Python stands outside, so that no code is shared with what it checks.
-find_program(PBS_TEST_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
 function(pbs_program_test kind name)
     add_test(NAME ${kind}/${name} COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/${kind}/${name}.py)
     set_tests_properties(${kind}/${name} PROPERTIES LABELS ${kind} TIMEOUT 900
@@ -15,3 +18,4 @@ endfunction()
 pbs_program_test(robustness experiments/command_line)
 pbs_program_test(verification experiments/recomputed_frames)
 pbs_program_test(claims volume)
+pbs_program_test(regression experiments/limb_volume)
