@@ -1,11 +1,9 @@
 // Wrong scenes, one by one: each is refused with its file, line, key, value and rule.
 #include "experiments/scene.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
 
 namespace {
 
@@ -30,6 +28,8 @@ const WrongScene wrong_scenes[] = {
     {"mesh_without_skeleton", "schema = 1\n[character]\nmesh = \"a.msh\"\n", "character.skeleton"},
     {"unknown_table", "schema = 1\n[caracter]\nbody = \"limb\"\n",
      "scene.toml:2: caracter: unknown key; the nearest known one is character"},
+    {"joint_and_clip", "schema = 1\n[character]\nbody = \"limb\"\n[motion]\njoint = \"forearm\"\nclip = \"01_01.bvh\"\n",
+     "scene.toml:5: motion.joint = forearm: expected either a joint (a sweep) or a clip"},
     {"table_as_value", "schema = 1\npbs = 3\n", "scene.toml:2: pbs: expected a table"},
     {"fem_not_an_array", "schema = 1\n[fem]\nname = \"fem\"\n", "expected [[fem]] tables"},
 };
@@ -57,15 +57,12 @@ const WrongScene wrong_lines[] = {
     {"fem_twice", "[[fem]]\nname = \"a\"\n[[fem]]\nname = \"a\"\n[deformers]\nuse = [\"a\"]\n", "is used twice"},
     {"a_name_without_its_frame", "[output]\nframe_names = [\"crouch\"]\n", "expected a name for each of output.frames"},
     {"unknown_metrics", "[output]\nmetrics = [\"beauty\"]\n", "not beauty"},
-    {"joint_and_clip", "[motion]\nclip = \"01_01.bvh\"\n", "scene.toml"},
 };
 
 std::string refused_with(const std::string& text, const std::vector<std::string>& overrides = {})
 {
-    const auto folder = std::filesystem::temp_directory_path() / ("scene_errors_" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder);
-    const std::string path = (folder / "scene.toml").string();
-    std::ofstream(path) << text;
+    const test_support::ScratchFolder folder;
+    const std::string path = folder.file("scene.toml", text);
     try {
         experiments::read_scene(path, overrides);
         return "accepted";
