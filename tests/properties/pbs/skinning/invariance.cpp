@@ -41,7 +41,7 @@ pbs::Skeleton mapped(pbs::Skeleton skeleton, const Eigen::Affine3d& map)
     return skeleton;
 }
 
-// Vertices at least 1e-6 of a bone away from Eq. 2's bounds and from the bisector of the bones, where rounding may decide.
+// Vertices within 1e-6 of Eq. 2's bounds or of a bone's ends, where rounding may decide.
 bool undecided(int vertex)
 {
     const double t = limb.binding.parameter(vertex);
