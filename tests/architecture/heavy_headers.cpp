@@ -13,11 +13,11 @@ struct HeavyLibrary {
 };
 
 const std::vector<HeavyLibrary> heavy = {
-    {"deal.II/", {"reference_fem/"}, 8},
-    {"CGAL/", {"pbs/geometry/"}, 5},
-    {"vtk", {"pbs/geometry/"}, 4},
+    {"deal.II/", {"reference_fem/"}, 2},
+    {"CGAL/", {"pbs/geometry/"}, 4},
+    {"vtk", {"pbs/geometry/"}, 3},
     {"gmsh.h", {"pbs/geometry/"}, 1},
-    {"assimp/", {"pbs/geometry/", "pbs/character/"}, 4},
+    {"assimp/", {"pbs/geometry/", "pbs/character/"}, 2},
 };
 
 bool is_heavy(const std::string& target, const HeavyLibrary& library)
