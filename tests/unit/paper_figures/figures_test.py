@@ -34,7 +34,7 @@ class Figures(unittest.TestCase):
     def test_select_tells_iterations_and_variants_apart(self):
         run = records.Run(self.twist)
         self.assertEqual(records.numbers(run.select("pbs", 24), "volume_change_pct")[-1], -180 / 1000 / 24)
-        self.assertEqual(len(run.select("pbs_jiggle", 24, "jiggle")), 37)
+        self.assertEqual(len(run.select("pbs", 24, "jiggle")), 37)
         self.assertEqual(run.pbs_iterations(), [1, 24, 96])
         self.assertEqual(run.reference(), "fem_p2")
 

@@ -18,7 +18,7 @@ def write_run(folder, frames=37, last_angle_deg=180.0):
         for frame in range(frames):
             angle = (last_angle_deg or 90.0) * frame / (frames - 1)
             specs = [("lbs", "", "default", -angle / 10), ("dqs", "", "default", angle / 20), ("fem_p2", "", "default", angle / 5)]
-            specs += [("pbs", count, "default", -angle / 1000 / count) for count in (1, 24, 96)] + [("pbs_jiggle", 24, "jiggle", -angle / 500)]
+            specs += [("pbs", count, "default", -angle / 1000 / count) for count in (1, 24, 96)] + [("pbs", 24, "jiggle", -angle / 500)]
             for deformer, iterations, variant, change in specs:
                 writer.writerow({"scene": folder.name, "deformer": deformer, "variant": variant, "iterations": iterations, "frame": frame,
                                  "time_s": frame / 100, "volume_change_pct": change, "volume_abs_change_pct": abs(change), "inverted_tets": 0,
