@@ -2,6 +2,7 @@
 #include "analysis/atomic_file.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -10,7 +11,6 @@
 
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 
 namespace {
 
@@ -20,20 +20,12 @@ using analysis::write_text_atomically;
 
 class AtomicFile : public testing::Test {
 protected:
-    void SetUp() override
-    {
-        std::string name = (fs::temp_directory_path() / "pbskin_atomic_XXXXXX").string();
-        folder = mkdtemp(name.data());
-        fs::permissions(folder, fs::perms::all);
-    }
-    void TearDown() override
-    {
-        fs::permissions(folder, fs::perms::all);
-        fs::remove_all(folder);
-    }
+    void SetUp() override { fs::permissions(folder, fs::perms::all); }
+    void TearDown() override { fs::permissions(folder, fs::perms::all); }
     long files() const { return std::distance(fs::directory_iterator(folder), fs::directory_iterator()); }
 
-    fs::path folder;
+    const test_support::ScratchFolder scratch;
+    const fs::path folder = scratch.path();
 };
 
 TEST_F(AtomicFile, WritesAndReplaces)

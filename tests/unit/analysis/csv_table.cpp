@@ -2,13 +2,13 @@
 #include "analysis/csv_table.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <limits>
 #include <random>
 
@@ -153,13 +153,13 @@ TEST(CsvTable, RowsOfAnotherLengthAreAMistakeOfTheCaller)
 
 TEST(CsvTable, GoesThroughAFile)
 {
-    const std::string path = std::filesystem::temp_directory_path() / "pbskin_csv_table_test.csv";
+    const test_support::ScratchFolder folder;
+    const std::string path = folder / "table.csv";
     CsvTable table{{"a"}};
     table.add_row({0.1});
     table.write(path);
     EXPECT_EQ(analysis::read_csv(path).number(0, "a"), 0.1);
-    std::filesystem::remove(path);
-    EXPECT_THROW(analysis::read_csv(path), pbs::InputError);
+    EXPECT_THROW(analysis::read_csv(folder / "missing.csv"), pbs::InputError);
 }
 
 }  // namespace

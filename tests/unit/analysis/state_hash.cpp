@@ -2,11 +2,11 @@
 #include "analysis/state_hash.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
+#include <cmath>
 
 namespace {
 
@@ -56,12 +56,10 @@ TEST(StateHash, GoesOnAfterBeingRead)
 
 TEST(ContentHash, IsThatOfTheFilesBytes)
 {
-    const auto path = std::filesystem::temp_directory_path() / "pbskin_content_hash_test";
-    std::ofstream(path, std::ios::binary) << "abc";
-    EXPECT_EQ(analysis::content_hash_of_file(path), "06b05ab6733a618578af5f94892f3950");
-    std::filesystem::remove(path);
-    EXPECT_THROW(analysis::content_hash_of_file(path), pbs::InputError);
-    EXPECT_THROW(analysis::content_hash_of_file(std::filesystem::temp_directory_path()), pbs::InputError);
+    const test_support::ScratchFolder folder;
+    EXPECT_EQ(analysis::content_hash_of_file(folder.file("text", "abc")), "06b05ab6733a618578af5f94892f3950");
+    EXPECT_THROW(analysis::content_hash_of_file(folder / "missing"), pbs::InputError);
+    EXPECT_THROW(analysis::content_hash_of_file(folder.path()), pbs::InputError);
 }
 
 }  // namespace
