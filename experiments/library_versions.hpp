@@ -1,4 +1,5 @@
-// The versions of the libraries a run was made with, for provenance.
+// Versions of the libraries that characters and frames were made with, for provenance; empty where the build left one out. The ruler's own
+// are in analysis/provenance.hpp, the reference's in its record.
 #pragma once
 
 #include <map>

@@ -1,6 +1,7 @@
 #include "experiments/scene.hpp"
 
 #include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "experiments/scene_values.hpp"
 #include "generated/scenes_texts.hpp"
 #include "pbs/character/clip.hpp"
@@ -119,8 +120,8 @@ DeformerSpec fem_spec(const SceneValues& values, int index)
     options.core_radius = values.number(at + "core_radius");
     options.spring_factor = values.number(at + "spring_factor");
     options.solver = option_of<reference_fem::DirectSolver>(values.text(at + "solver"));
-    for (const char* taken : {"lbs", "dqs", "pbs"})
-        if (spec.name == taken) values.refuse(at + "name", "is the name of another deformer");
+    for (const DeformerKind& kind : deformer_kinds())
+        if (spec.name == kind.kind && kind.kind != "fem") values.refuse(at + "name", "is the name of another deformer");
     return spec;
 }
 
@@ -136,7 +137,9 @@ std::vector<DeformerSpec> read_deformers(const SceneValues& values)
         const auto same = [&](const DeformerSpec& spec) { return spec.name == name; };
         if (std::any_of(used.begin(), used.end(), same)) values.refuse("deformers.use", "names " + name + " twice");
         const auto reference = std::find_if(references.begin(), references.end(), same);
-        if (name == "lbs" || name == "dqs")
+        const auto kind = std::find_if(deformer_kinds().begin(), deformer_kinds().end(),
+                                       [&](const DeformerKind& entry) { return entry.kind == name && !entry.has_options; });
+        if (kind != deformer_kinds().end())
             used.push_back({name, name, name, "default", {}, {}});
         else if (name == "pbs")
             used.push_back(pbs_spec(values));
@@ -164,7 +167,6 @@ OutputSpec read_output(const SceneValues& values)
     output.frames = values.integers("output.frames");
     if (const auto names = values.texts("output.frame_names"); !names.empty() && names.size() != output.frames.size())
         values.refuse("output.frame_names", "expected a name for each of output.frames");
-    output.iterations = values.boolean("pbs.record_iterations");
     const auto groups = values.texts("output.metrics");
     for (const auto& group : groups)
         if (group != "all" && group != "errors" && group != "sections" && group != "surface")

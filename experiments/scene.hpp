@@ -11,9 +11,9 @@
 namespace experiments {
 
 struct MotionSpec {
-    std::string joint;  // a sweep
-    pbs::Vec3 axis = pbs::Vec3::UnitX();
-    double angle_deg = 0.0;
+    std::string joint;                    // a sweep of this joint
+    pbs::Vec3 axis = pbs::Vec3::UnitX();  // in rest world axes, of any length
+    double angle_deg = 0.0;               // of the last frame
     int frames = 0;
     std::string clip;  // or a clip: its path
     double start_s = 0.0, duration_s = 0.0, rate_hz = 100.0;
@@ -21,10 +21,9 @@ struct MotionSpec {
 };
 
 struct OutputSpec {
-    int frames_every = 1;
-    std::vector<int> frames;
-    bool errors = true, sections = true, surface = true;
-    bool iterations = false;
+    int frames_every = 1;                                 // 0: none but `frames`
+    std::vector<int> frames;                              // by number
+    bool errors = true, sections = true, surface = true;  // groups of metrics
 
     bool writes(int frame) const;
 };

@@ -138,8 +138,8 @@ std::string SceneKey::rule() const
         for (const auto& choice : choices) shown.push_back(choice.empty() ? "\"\"" : choice);
         return fmt::format("expected one of {}", fmt::join(shown, ", "));
     }
-    static constexpr const char* names[] = {"a text",        "a number",    "an integer",      "true or false",
-                                            "three numbers", "two numbers", "a list of texts", "a list of integers"};
+    static constexpr const char* names[] = {"a text",        "a number",        "an integer",        "true or false",
+                                            "three numbers", "a list of texts", "a list of integers"};
     std::string words = fmt::format("expected {}", names[static_cast<int>(type)]);
     if (lowest == above_zero)
         words += fmt::format(" > 0 and <= {:g}", highest);

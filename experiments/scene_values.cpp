@@ -61,8 +61,6 @@ bool obeys(const json& value, const SceneKey& key)
             return value.is_boolean();
         case KeyType::vec3:
             return is_list(value, 3, number);
-        case KeyType::pair:
-            return is_list(value, 2, number);
         case KeyType::texts:
             return is_list(value, 0, [](const json& element) { return element.is_string(); });
         case KeyType::integers:

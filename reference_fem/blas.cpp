@@ -30,7 +30,8 @@ std::string resolved_blas()
 {
     auto* config = find<char*()>("openblas_get_config");
     const std::string library = config ? config() : "not OpenBLAS";
-    return library + " (" + file_of(&dgemm_) + ")";
+    const std::string file = file_of(&dgemm_);
+    return library + " (" + file.substr(file.rfind('/') + 1) + ")";
 }
 
 void use_one_blas_thread()

@@ -82,7 +82,13 @@ public:
         return Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(solution_->x), right_hand_side.size());
     }
 
-    std::string name() const override { return "CHOLMOD supernodal, METIS"; }
+    std::string name() const override
+    {
+        int version[3];
+        cholmod_l_version(version);
+        return "CHOLMOD " + std::to_string(version[0]) + "." + std::to_string(version[1]) + "." + std::to_string(version[2]) +
+               " supernodal, METIS";
+    }
 
 private:
     mutable cholmod_common common_;

@@ -120,6 +120,7 @@ private:
         setup_.dofs = space_.dofs();
         setup_.analyse_s = factor.analyse_s();
         setup_.factor_s = factor.factor_s();
+        setup_.elements = "deal.II " REFERENCE_FEM_DEAL_II_VERSION;
         setup_.solver = factor.name();
         setup_.blas = resolved_blas();
         setup_.factored = factor.usable();

@@ -41,7 +41,8 @@ struct SolveSummary {
 struct SetupSummary {
     int dofs = 0;
     double assemble_s = 0.0, analyse_s = 0.0, factor_s = 0.0;
-    std::string solver;                 // e.g. "CHOLMOD supernodal, METIS"
+    std::string elements;               // e.g. "deal.II 9.4.1"
+    std::string solver;                 // e.g. "CHOLMOD 3.0.14 supernodal, METIS"
     std::string blas;                   // the BLAS that was resolved
     bool factored = false;              // false: the matrix is singular in double; every solve then reports finite = false
     double reciprocal_condition = 0.0;  // the solver's own rough estimate

@@ -44,7 +44,7 @@ public:
         return solution;
     }
 
-    std::string name() const override { return "UMFPACK"; }
+    std::string name() const override { return UMFPACK_VERSION; }
 
 private:
     const SuiteSparse_long* columns() const { return matrix_.outerIndexPtr(); }

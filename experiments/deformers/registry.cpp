@@ -39,10 +39,10 @@ Made make_fem(const DeformerSpec& spec)
 const std::vector<DeformerKind>& deformer_kinds()
 {
     static const std::vector<DeformerKind> kinds = {
-        {"lbs", "linear blend skinning, Eq. 1", make_lbs},
-        {"dqs", "dual quaternion skinning (Kavan 2007), the paper's comparison", make_dqs},
-        {"pbs", "the paper: LBS, then bind, stretch and volume constraints (Algorithm 1)", make_pbs},
-        {"fem", "implicit linear elasticity on the same tets (deal.II, CHOLMOD); fictitious strain 1 - cos(rotation)", make_fem},
+        {"lbs", "linear blend skinning, Eq. 1", false, make_lbs},
+        {"dqs", "dual quaternion skinning (Kavan 2007), the paper's comparison", false, make_dqs},
+        {"pbs", "the paper: LBS, then bind, stretch and volume constraints (Algorithm 1)", true, make_pbs},
+        {"fem", "implicit linear elasticity on the same tets (deal.II, CHOLMOD); fictitious strain 1 - cos(rotation)", true, make_fem},
     };
     return kinds;
 }

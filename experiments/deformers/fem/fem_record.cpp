@@ -31,6 +31,7 @@ nlohmann::json to_json(const reference_fem::SetupSummary& setup)
 {
     return {{"dofs", setup.dofs},           {"assemble_s", setup.assemble_s},
             {"analyse_s", setup.analyse_s}, {"factor_s", setup.factor_s},
+            {"elements", setup.elements},
             {"solver", setup.solver},       {"blas", setup.blas},
             {"factored", setup.factored},   {"reciprocal_condition_estimate", setup.reciprocal_condition}};
 }

