@@ -1,7 +1,7 @@
 // A progress bar with the time left, on stderr when it is a terminal; nothing in a pipe.
 #pragma once
 
-#include "experiments/stopwatch.hpp"
+#include "pbs/geometry/stopwatch.hpp"
 
 #include <string>
 
@@ -18,7 +18,7 @@ private:
     int total_;
     bool shown_;
     double last_drawn_s_ = -1.0;
-    Stopwatch stopwatch_;
+    pbs::Stopwatch stopwatch_;
 };
 
 void hide_progress();  // --quiet, or a worker process

@@ -4,7 +4,7 @@
 #include "experiments/interruption.hpp"
 #include "experiments/progress.hpp"
 #include "experiments/run_folder.hpp"
-#include "experiments/stopwatch.hpp"
+#include "pbs/geometry/stopwatch.hpp"
 
 #include <fmt/format.h>
 
@@ -118,7 +118,7 @@ private:
     }
 
     const Scene& scene_;
-    Stopwatch stopwatch_;
+    pbs::Stopwatch stopwatch_;
     pbs::Character character_;
     pbs::Motion motion_;
     RunFolder folder_;

@@ -1,6 +1,6 @@
 // CHOLMOD: Y. Chen, T. Davis, W. Hager, S. Rajamanickam, Algorithm 887, ACM TOMS 35(3), 2008.
 #include "reference_fem/direct_factor.hpp"
-#include "reference_fem/stopwatch.hpp"
+#include "pbs/geometry/stopwatch.hpp"
 
 #include <cholmod.h>
 
@@ -51,11 +51,11 @@ public:
         common_.nmethods = 1;
         common_.method[0].ordering = CHOLMOD_METIS;
         cholmod_sparse sparse = view(matrix);
-        const Stopwatch analysis;
+        const pbs::Stopwatch analysis;
         factor_ = cholmod_l_analyze(&sparse, &common_);
         analyse_s_ = analysis.seconds();
         if (!factor_) return;
-        const Stopwatch factorisation;
+        const pbs::Stopwatch factorisation;
         cholmod_l_factorize(&sparse, factor_, &common_);
         factor_s_ = factorisation.seconds();
         if (common_.status != CHOLMOD_OK || factor_->minor < factor_->n) return;  // not positive definite

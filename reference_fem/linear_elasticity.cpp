@@ -6,7 +6,7 @@
 #include "reference_fem/eliminated_system.hpp"
 #include "reference_fem/held_parts.hpp"
 #include "reference_fem/input_checks.hpp"
-#include "reference_fem/stopwatch.hpp"
+#include "pbs/geometry/stopwatch.hpp"
 
 namespace reference_fem {
 namespace {
@@ -77,7 +77,7 @@ public:
           displacement_(Eigen::VectorXd::Zero(space_.dofs()))
     {
         check_held(mesh, attachment, springs_.tets());
-        const Stopwatch assembly;
+        const pbs::Stopwatch assembly;
         SparseMatrix stiffness = stiffness_matrix(space_, material_);
         springs_.add_to(stiffness);
         gravity_loads_ = unit_gravity_loads(space_, options.density_kg_m3);
@@ -91,7 +91,7 @@ public:
         require(spring_targets.rows() == static_cast<Eigen::Index>(springs_.tets().size()), "spring_targets", spring_targets.rows(),
                 "expected one a spring point");
         require(vertex_targets.rows() == rest_.rows(), "vertex_targets", vertex_targets.rows(), "expected one a vertex");
-        const Stopwatch stopwatch;
+        const pbs::Stopwatch stopwatch;
         Eigen::VectorXd load = gravity_loads_ * gravity_m_s2;
         springs_.add_load(spring_targets, load);
         const pbs::Positions prescribed = space_.from_vertices(vertex_targets - rest_);

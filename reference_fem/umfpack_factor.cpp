@@ -1,6 +1,6 @@
 // UMFPACK: T. Davis, Algorithm 832, ACM TOMS 30(2), 2004. It knows nothing of symmetry: a second opinion on the same matrix.
 #include "reference_fem/direct_factor.hpp"
-#include "reference_fem/stopwatch.hpp"
+#include "pbs/geometry/stopwatch.hpp"
 
 #include <umfpack.h>
 
@@ -15,11 +15,11 @@ public:
     {
         void* symbolic = nullptr;
         double info[UMFPACK_INFO] = {};
-        const Stopwatch analysis;
+        const pbs::Stopwatch analysis;
         umfpack_dl_symbolic(matrix.rows(), matrix.cols(), columns(), rows(), matrix.valuePtr(), &symbolic, nullptr, info);
         analyse_s_ = analysis.seconds();
         if (!symbolic) return;
-        const Stopwatch factorisation;
+        const pbs::Stopwatch factorisation;
         const auto status = umfpack_dl_numeric(columns(), rows(), matrix.valuePtr(), symbolic, &numeric_, nullptr, info);
         factor_s_ = factorisation.seconds();
         reciprocal_condition_ = info[UMFPACK_RCOND];

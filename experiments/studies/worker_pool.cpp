@@ -2,7 +2,7 @@
 
 #include "experiments/interruption.hpp"
 #include "experiments/progress.hpp"
-#include "experiments/stopwatch.hpp"
+#include "pbs/geometry/stopwatch.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -95,7 +95,7 @@ std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int j
     std::vector<PooledResult> results(work.size());
     std::map<pid_t, Worker> workers;
     std::size_t next = 0, ended = 0;
-    const Stopwatch stopwatch;
+    const pbs::Stopwatch stopwatch;
     while (next < queue.size() || !workers.empty()) {
         while (next < queue.size() && static_cast<int>(workers.size()) < jobs && !interrupted()) {
             pid_t process = 0;

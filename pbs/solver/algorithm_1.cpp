@@ -1,14 +1,13 @@
 #include "pbs/solver/algorithm_1.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/stopwatch.hpp"
 #include "pbs/solver/project_plain.hpp"
 #include "pbs/solver/residuals.hpp"
 
-#include <chrono>
 #include <type_traits>
 
 namespace pbs {
-
 namespace {
 
 std::vector<int> jiggling_vertices(const std::vector<bool>& jiggle_zone, const PbsOptions& options)
@@ -43,7 +42,7 @@ template <typename Scalar>
 StepSummary Algorithm1<Scalar>::advance(const Positions& lbs_positions, const Positions& bind_points, double dt_s)
 {
     check_input(lbs_positions, bind_points, dt_s);
-    const auto started = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     StepSummary summary;
 
     if (v_.rows() == 0) {
@@ -51,8 +50,8 @@ StepSummary Algorithm1<Scalar>::advance(const Positions& lbs_positions, const Po
         x_ = lbs_positions;                         // (3)
     }
     p_ = lbs_positions;
-    for (std::size_t j = 0; j < jiggling_.size(); ++j)  // (6)
-    {
+    // (6)
+    for (std::size_t j = 0; j < jiggling_.size(); ++j) {
         const int i = jiggling_[j];
         v_.row(j) += options_.gravity_m_s2.transpose() * dt_s;  // (7)
         p_.row(i) = x_.row(i) + v_.row(j) * dt_s;               // (8)
@@ -60,8 +59,8 @@ StepSummary Algorithm1<Scalar>::advance(const Positions& lbs_positions, const Po
 
     load(bind_points);
     bool converged = false;
-    while (summary.iterations < options_.iterations && !converged)  // (10)
-    {
+    // (10)
+    while (summary.iterations < options_.iterations && !converged) {
         project_bind_constraints(constraints_, bind_points_, projected_);  // (11)
         project_stretch_constraints(constraints_, projected_);             // (12)
         project_volumes();                                                 // (13)
@@ -76,7 +75,7 @@ StepSummary Algorithm1<Scalar>::advance(const Positions& lbs_positions, const Po
 
     if (options_.stop_residual > 0.0 && !converged) summary.outcome = Outcome::not_converged;
     if (!x_.allFinite()) summary.outcome = Outcome::not_finite;
-    summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    summary.seconds = stopwatch.seconds();
     return summary;
 }
 

@@ -1,6 +1,6 @@
 #include "experiments/deformers/blend/blend_deformer.hpp"
 
-#include "experiments/stopwatch.hpp"
+#include "pbs/geometry/stopwatch.hpp"
 
 namespace experiments {
 
@@ -12,7 +12,7 @@ void BlendDeformer::reset(const pbs::Character& character)
 
 pbs::StepSummary BlendDeformer::advance(const pbs::Pose& pose, double /*dt_s*/)
 {
-    const Stopwatch stopwatch;
+    const pbs::Stopwatch stopwatch;
     blend_(character_->mesh.rest, character_->weights, pose, positions_);
     pbs::StepSummary summary;
     summary.seconds = stopwatch.seconds();

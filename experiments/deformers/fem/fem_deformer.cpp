@@ -1,7 +1,8 @@
 #include "experiments/deformers/fem/fem_deformer.hpp"
 
+#include "pbs/geometry/stopwatch.hpp"
+
 #include <algorithm>
-#include <chrono>
 
 namespace experiments {
 namespace {
@@ -33,7 +34,7 @@ void FemDeformer::reset(const pbs::Character& character)
 
 pbs::StepSummary FemDeformer::advance(const pbs::Pose& pose, double)
 {
-    const auto start = std::chrono::steady_clock::now();
+    const pbs::Stopwatch stopwatch;
     const Eigen::Isometry3d& root = pose[root_];
     pbs::Pose relative = pose;
     for (Eigen::Isometry3d& bone : relative) bone = root.inverse() * bone;
@@ -41,12 +42,12 @@ pbs::StepSummary FemDeformer::advance(const pbs::Pose& pose, double)
     const reference_fem::SolveSummary solve = elasticity_->solve(targets, vertex_targets(bones_, character_->mesh.rest, relative),
                                                                  root.linear().transpose() * options_.gravity_m_s2);
     positions_ = (elasticity_->positions() * root.linear().transpose()).rowwise() + root.translation().transpose();
-    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+    const double seconds = stopwatch.seconds();
     record_.add_frame(relative, targets, elasticity_->spring_points_deformed(), solve);
 
     pbs::StepSummary summary;
     summary.outcome = solve.finite && positions_.allFinite() ? pbs::Outcome::finished : pbs::Outcome::not_finite;
-    summary.seconds = wall.count();
+    summary.seconds = seconds;
     return summary;
 }
 

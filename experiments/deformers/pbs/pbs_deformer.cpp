@@ -1,6 +1,6 @@
 #include "experiments/deformers/pbs/pbs_deformer.hpp"
 
-#include "experiments/stopwatch.hpp"
+#include "pbs/geometry/stopwatch.hpp"
 #include "pbs/skinning/blend.hpp"
 
 namespace experiments {
@@ -14,7 +14,7 @@ void PbsDeformer::reset(const pbs::Character& character)
 
 pbs::StepSummary PbsDeformer::advance(const pbs::Pose& pose, double dt_s)
 {
-    const Stopwatch stopwatch;
+    const pbs::Stopwatch stopwatch;
     pbs::linear_blend_skinning(character_->mesh.rest, character_->weights, pose, lbs_);
     pbs::StepSummary summary = solver_->advance(lbs_, pbs::posed_bind_points(character_->binding, pose), dt_s);
     summary.seconds = stopwatch.seconds();

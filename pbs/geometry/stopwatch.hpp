@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace experiments {
+namespace pbs {
 
 class Stopwatch {
 public:
@@ -13,4 +13,4 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace experiments
+}  // namespace pbs
