@@ -38,7 +38,7 @@ bool give_usual_permissions(int file)
 
 [[noreturn]] void refuse(const std::string& path, int reason)
 {
-    throw pbs::InputError{path, 0, "", "", "cannot be written: " + std::generic_category().message(reason)};
+    throw pbs::InputError(path, 0, "", "", "cannot be written: " + std::generic_category().message(reason));
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ std::string read_text(const std::string& path)
         file.read(buffer.data(), buffer.size());
         text.append(buffer.data(), static_cast<std::size_t>(file.gcount()));
     }
-    if (!file.eof()) throw pbs::InputError{path, 0, "", "", "cannot be read"};
+    if (!file.eof()) throw pbs::InputError(path, 0, "", "", "cannot be read");
     return text;
 }
 

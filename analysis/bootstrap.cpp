@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 namespace analysis {
@@ -38,7 +37,6 @@ int block_length(const std::vector<double>& series)
 
 Interval bootstrap_mean(const std::vector<double>& series, const BootstrapOptions& options)
 {
-    constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
     Interval interval{mean(series), not_known, not_known, options.level, static_cast<int>(series.size()), 0};
     if (series.size() < 2 || !std::isfinite(interval.estimate)) return interval;
     interval.block = options.block > 0 ? std::min(options.block, interval.n) : block_length(series);

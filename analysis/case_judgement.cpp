@@ -10,8 +10,6 @@
 namespace analysis {
 namespace {
 
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-
 // How far outside the bound; negative inside. What is not a number is farthest out.
 double excess(const Claim& claim, double value)
 {

@@ -34,7 +34,7 @@ struct CaseJudgement {
 
 CaseJudgement judge_case(const Claim& claim, const CaseRecord& record, const std::string& metric);
 
-std::string case_name(const CaseJudgement& judgement);      // limb_twist, or limb_twist (k_stretch 0.9)
+std::string case_name(const CaseJudgement& judgement);      // limb_twist, or limb_twist (jiggle)
 std::string short_text(const CaseJudgement& judgement);     // limb_twist up to 116 of 170 deg;  walk (6.2 % of frames within)
 std::string measured_text(const CaseJudgement& judgement);  // with intervals, ranges and the worst frame
 

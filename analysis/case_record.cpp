@@ -45,8 +45,8 @@ void require_whole(const CaseRecord& record)
     const bool angles_fit = record.angle_deg.empty() || record.angle_deg.size() == frames;
     if (record.time_s.size() != frames || record.volume_change_pct.size() != frames || record.volume_abs_change_pct.size() != frames ||
         record.inverted_tets.size() != frames || !angles_fit)
-        throw pbs::InputError{record.run, 0, fmt::format("record of {} on {}", record.deformer, record.scene), "",
-                              fmt::format("expected {} values in every series", frames)};
+        throw pbs::InputError(record.run, 0, fmt::format("record of {} on {}", record.deformer, record.scene), "",
+                              fmt::format("expected {} values in every series", frames));
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ std::vector<double> metric_series(const CaseRecord& record, const std::string& m
     require_whole(record);
     if (metric == "volume_change_pct") return record.volume_change_pct;
     if (metric == "volume_abs_change_pct") return record.volume_abs_change_pct;
-    if (metric != "volume_loss_pct") throw pbs::InputError{"", 0, "metric", metric, "no verdict is computed from it"};
+    if (metric != "volume_loss_pct") throw pbs::InputError("", 0, "metric", metric, "no verdict is computed from it");
     std::vector<double> loss;
     for (double change : record.volume_change_pct) loss.push_back(0.0 - change);  // and no -0
     return loss;

@@ -1,5 +1,7 @@
 #include "analysis/case_row.hpp"
 
+#include "analysis/case_texts.hpp"
+
 #include <fmt/format.h>
 
 namespace analysis {
@@ -7,37 +9,28 @@ namespace {
 
 std::string measured_by(const CaseJudgement& judged)
 {
-    const std::string range = fmt::format("{:.3g} to {:.3g} %", judged.least, judged.most);
-    return judged.sweep ? range : fmt::format("mean {:.3g} %, {}", judged.mean.estimate, range);
+    return judged.sweep ? span_text(judged) : fmt::format("mean {} %, {}", figure(judged.mean.estimate), span_text(judged));
 }
 
 std::string interval_by(const Claim& claim, const CaseJudgement& judged)
 {
     if (judged.sweep) return "";
-    if (claim.rule == ClaimRule::share_within)
-        return fmt::format("{:.3g} % [{:.3g}, {:.3g}] of {} frames", 100.0 * judged.share.estimate, 100.0 * judged.share.low,
-                           100.0 * judged.share.high, judged.frames);
-    return fmt::format("mean [{:.3g}, {:.3g}] %", judged.mean.low, judged.mean.high);
+    if (claim.rule == ClaimRule::share_within) return share_text(judged);
+    return fmt::format("mean{} %", bounds_text(judged.mean, 1.0));
 }
 
 std::string angles_held(const CaseJudgement& judged)
 {
-    if (judged.angles.empty()) return "at no angle";
-    std::string text = "at ";
-    for (const AngleRange& range : judged.angles)
-        text += fmt::format("{}{:.4g} to {:.4g}", text.size() > 3 ? ", " : "", range.from_deg, range.to_deg);
-    return text + fmt::format(" of {:.4g} deg", judged.last_angle_deg);
+    return judged.angles.empty() ? "at no angle" : fmt::format("at {} of {:.4g} deg", angle_ranges(judged), judged.last_angle_deg);
 }
 
 std::string where_it_holds(const CaseJudgement& judged)
 {
-    std::string text = judged.sweep                     ? angles_held(judged)
-                       : judged.extent == Extent::whole ? "yes"
-                       : judged.extent == Extent::part  ? "in single frames"
-                                                        : "no";
-    if (judged.holding_with_inverted_tets > 0)
-        text += fmt::format("; inverted tets in {} frames within", judged.holding_with_inverted_tets);
-    return text;
+    const std::string text = judged.sweep                     ? angles_held(judged)
+                             : judged.extent == Extent::whole ? "yes"
+                             : judged.extent == Extent::part  ? "in single frames"
+                                                              : "no";
+    return text + inverted_text(judged);
 }
 
 }  // namespace

@@ -1,33 +1,25 @@
 // What the judgement of one case says in words; every figure comes from the judgement.
-#include "analysis/case_judgement.hpp"
+#include "analysis/case_texts.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
 namespace analysis {
-namespace {
 
-// Three digits, and none of what only rounding left over.
 std::string figure(double value)
 {
     return std::abs(value) < 5e-4 ? "0" : fmt::format("{:.3g}", value);
 }
 
-// " [5.1, 7.3]"; nothing for an interval without bounds.
 std::string bounds_text(const Interval& interval, double factor)
 {
     return std::isnan(interval.low) ? "" : fmt::format(" [{}, {}]", figure(factor * interval.low), figure(factor * interval.high));
 }
 
-std::string mean_text(const CaseJudgement& judgement)
-{
-    return fmt::format("mean {} %{}", figure(judgement.mean.estimate), bounds_text(judgement.mean, 1.0));
-}
-
 std::string share_text(const CaseJudgement& judgement)
 {
-    return fmt::format("{:.3g} %{} of {} frames within", 100.0 * judgement.share.estimate, bounds_text(judgement.share, 100.0),
+    return fmt::format("{} %{} of {} frames", figure(100.0 * judgement.share.estimate), bounds_text(judgement.share, 100.0),
                        judgement.frames);
 }
 
@@ -36,12 +28,30 @@ std::string span_text(const CaseJudgement& judgement)
     return fmt::format("{} to {} %", figure(judgement.least), figure(judgement.most));
 }
 
-std::string angles_text(const CaseJudgement& judgement)
+std::string angle_ranges(const CaseJudgement& judgement)
 {
     std::vector<std::string> ranges;
     for (const auto& [from, to] : judgement.angles)
         ranges.push_back(from == to ? fmt::format("{:.4g}", to) : fmt::format("{:.4g} to {:.4g}", from, to));
-    return ranges.empty() ? "at no angle" : fmt::format("at {} deg", fmt::join(ranges, ", "));
+    return fmt::format("{}", fmt::join(ranges, ", "));
+}
+
+std::string inverted_text(const CaseJudgement& judgement)
+{
+    const int frames = judgement.holding_with_inverted_tets;
+    return frames == 0 ? "" : fmt::format(" (inverted tets in {} of the frames within)", frames);
+}
+
+namespace {
+
+std::string mean_text(const CaseJudgement& judgement)
+{
+    return fmt::format("mean {} %{}", figure(judgement.mean.estimate), bounds_text(judgement.mean, 1.0));
+}
+
+std::string angles_text(const CaseJudgement& judgement)
+{
+    return judgement.angles.empty() ? "at no angle" : fmt::format("at {} deg", angle_ranges(judgement));
 }
 
 std::string worst_text(const CaseJudgement& judgement)
@@ -50,12 +60,6 @@ std::string worst_text(const CaseJudgement& judgement)
     const FailingFrame& frame = judgement.deepest.front();
     return fmt::format(", worst {:.3g} % at {}", frame.value,
                        judgement.sweep ? fmt::format("{:.4g} deg", frame.angle_deg) : fmt::format("{:.4g} s", frame.time_s));
-}
-
-std::string inverted_text(const CaseJudgement& judgement)
-{
-    const int frames = judgement.holding_with_inverted_tets;
-    return frames == 0 ? "" : fmt::format(" (inverted tets in {} of the frames within)", frames);
 }
 
 std::string short_sweep_text(const CaseJudgement& judgement)
@@ -67,7 +71,7 @@ std::string short_sweep_text(const CaseJudgement& judgement)
 
 std::string short_clip_text(const CaseJudgement& judgement)
 {
-    if (judgement.rule == ClaimRule::share_within) return fmt::format(" ({})", share_text(judgement));
+    if (judgement.rule == ClaimRule::share_within) return fmt::format(" ({} within)", share_text(judgement));
     if (judgement.extent == Extent::part)
         return fmt::format(" in {:.3g} % of frames ({})", 100.0 * judgement.share.estimate, mean_text(judgement));
     return fmt::format(" ({})", mean_text(judgement));
@@ -89,7 +93,7 @@ std::string short_text(const CaseJudgement& judgement)
 std::string measured_text(const CaseJudgement& judgement)
 {
     const std::string frames = judgement.sweep ? fmt::format("within {} of {:.4g}", angles_text(judgement), judgement.last_angle_deg)
-                                               : fmt::format("{}, {}", mean_text(judgement), share_text(judgement));
+                                               : fmt::format("{}, {} within", mean_text(judgement), share_text(judgement));
     return fmt::format("{}: {}, {}{}{}", case_name(judgement), frames, span_text(judgement), worst_text(judgement),
                        inverted_text(judgement));
 }

@@ -27,14 +27,14 @@ class ClaimReader {
 public:
     ClaimReader(const toml::table& table, const std::string& file) : table_(table), file_(file) {}
 
-    template <class Value>
+    template <typename Value>
     void required(const char* key, Value& value)
     {
-        if (!table_.contains(key)) throw InputError{file_, line(table_), key, "", "missing in this claim"};
+        if (!table_.contains(key)) throw InputError(file_, line(table_), key, "", "missing in this claim");
         optional(key, value);
     }
 
-    template <class Value>
+    template <typename Value>
     void optional(const char* key, Value& value)
     {
         read_.insert(key);
@@ -61,13 +61,13 @@ public:
     {
         for (const auto& [key, node] : table_)
             if (!read_.contains(std::string(key.str())))
-                throw InputError{file_, line(node), std::string(key.str()), "", "unknown key of a claim"};
+                throw InputError(file_, line(node), std::string(key.str()), "", "unknown key of a claim");
     }
 
     [[noreturn]] void refuse(const char* key, const std::string& rule) const
     {
         const toml::node* node = table_.get(key);
-        throw InputError{file_, node ? line(*node) : line(table_), key, "", rule};
+        throw InputError(file_, node ? line(*node) : line(table_), key, "", rule);
     }
 
 private:
@@ -126,7 +126,7 @@ toml::table parse_toml(const std::string& text, const std::string& file)
     try {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
-        throw InputError{file, static_cast<int>(error.source().begin.line), "", "", std::string(error.description())};
+        throw InputError(file, static_cast<int>(error.source().begin.line), "", "", std::string(error.description()));
     }
 }
 
@@ -137,17 +137,17 @@ std::vector<Claim> parse_claims(const std::string& text, const std::string& file
     const toml::table document = parse_toml(text, file);
     for (const auto& [key, node] : document)
         if (key.str() != "schema" && key.str() != "claim")
-            throw InputError{file, static_cast<int>(node.source().begin.line), std::string(key.str()), "",
-                             "unknown key: expected schema or claim"};
-    if (document["schema"].value_or(0) != 1) throw InputError{file, 0, "schema", "", "expected 1"};
+            throw InputError(file, static_cast<int>(node.source().begin.line), std::string(key.str()), "",
+                             "unknown key: expected schema or claim");
+    if (document["schema"].value_or(0) != 1) throw InputError(file, 0, "schema", "", "expected 1");
     const toml::array* tables = document["claim"].as_array();
-    if (!tables || !tables->is_homogeneous(toml::node_type::table)) throw InputError{file, 0, "claim", "", "expected [[claim]] tables"};
+    if (!tables || !tables->is_homogeneous(toml::node_type::table)) throw InputError(file, 0, "claim", "", "expected [[claim]] tables");
     std::vector<Claim> claims;
     for (const toml::node& node : *tables) {
         claims.push_back(read_claim(*node.as_table(), file));
         const auto same = [&](const Claim& other) { return other.id == claims.back().id; };
         if (std::count_if(claims.begin(), claims.end(), same) > 1)
-            throw InputError{file, static_cast<int>(node.source().begin.line), "id", claims.back().id, "expected each claim once"};
+            throw InputError(file, static_cast<int>(node.source().begin.line), "id", claims.back().id, "expected each claim once");
     }
     return claims;
 }

@@ -9,7 +9,7 @@
 
 namespace analysis {
 
-// {"schema": 1, "claims": [{id, statement, place, study, expected, verdict, text, measured, interval, interval_of, runs, cases}]};
+// {"schema": 1, "claims": [{id, statement, place, study, expected, verdict, text, measured, interval, interval_of, runs, cases, beside}]};
 // figures that are not known are null.
 nlohmann::json claims_json(const std::vector<Verdict>& verdicts);
 

@@ -61,9 +61,9 @@ void require_station(const SectionStation& station, std::size_t number, Eigen::I
 {
     const std::string name = fmt::format("station {}", number);
     if (!(station.rest.normal.norm() > 0.0) || !(station.posed.normal.norm() > 0.0))
-        throw pbs::InputError{"", 0, name, "", "expected normals that are not zero"};
+        throw pbs::InputError("", 0, name, "", "expected normals that are not zero");
     for (int t : station.tets)
-        if (t < 0 || t >= tets) throw pbs::InputError{"", 0, name, fmt::format("tet {}", t), fmt::format("expected 0 <= tet < {}", tets)};
+        if (t < 0 || t >= tets) throw pbs::InputError("", 0, name, fmt::format("tet {}", t), fmt::format("expected 0 <= tet < {}", tets));
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ SectionExtremes section_extremes(const pbs::Positions& rest, const pbs::Position
         const SectionStation& station = stations[i];
         require_station(station, i, tets.rows());
         const double rest_area = cross_section_area(rest, tets, station.tets, station.rest);
-        if (!(rest_area > 0.0)) throw pbs::InputError{"", 0, fmt::format("station {}", i), "", "its plane misses its tets at rest"};
+        if (!(rest_area > 0.0)) throw pbs::InputError("", 0, fmt::format("station {}", i), "", "its plane misses its tets at rest");
         result.area_m2.push_back(cross_section_area(positions, tets, station.tets, station.posed));
         result.ratio.push_back(result.area_m2.back() / rest_area);
         if (result.smallest < 0 || result.ratio.back() < result.ratio[result.smallest]) result.smallest = static_cast<int>(i);

@@ -11,7 +11,7 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& file, int line, std::size_t column, const std::string& value, const std::string& rule)
 {
-    throw pbs::InputError{fmt::format("{}:{}", file, line), static_cast<int>(column), value.empty() ? "" : "column", value, rule};
+    throw pbs::InputError(fmt::format("{}:{}", file, line), static_cast<int>(column), value.empty() ? "" : "column", value, rule);
 }
 
 // One record at a time off the text, quotes and line ends resolved.
@@ -78,7 +78,7 @@ private:
 
 CsvTable parse_csv(const std::string& text, const std::string& file)
 {
-    if (text.empty()) throw pbs::InputError{file, 0, "", "", "the file is empty: expected a line of column names"};
+    if (text.empty()) throw pbs::InputError(file, 0, "", "", "the file is empty: expected a line of column names");
     RecordReader reader(text, file);
     CsvTable table(reader.next());
     table.file_ = file;

@@ -38,7 +38,7 @@ std::string cell_text(const CsvTable::Cell& cell)
     return "";
 }
 
-template <class Number>
+template <typename Number>
 bool reads_whole(const std::string& text, Number& value)
 {
     const char* end = text.data() + text.size();
@@ -88,13 +88,13 @@ int CsvTable::index_of(const std::string& column) const
 {
     const auto found = std::find(columns_.begin(), columns_.end(), column);
     if (found == columns_.end())
-        throw pbs::InputError{file_, 1, "columns", fmt::format("{}", fmt::join(columns_, ",")), "expected a column " + column};
+        throw pbs::InputError(file_, 1, "columns", fmt::format("{}", fmt::join(columns_, ",")), "expected a column " + column);
     return static_cast<int>(found - columns_.begin());
 }
 
 void CsvTable::refuse(int row, const std::string& column, const std::string& rule) const
 {
-    throw pbs::InputError{fmt::format("{}:{}", file_, lines_.at(row)), index_of(column) + 1, column, text_at(row, column), rule};
+    throw pbs::InputError(fmt::format("{}:{}", file_, lines_.at(row)), index_of(column) + 1, column, text_at(row, column), rule);
 }
 
 const std::string& CsvTable::text_at(int row, const std::string& column) const

@@ -2,6 +2,7 @@
 
 #include "analysis/compensated_sum.hpp"
 #include "analysis/rest_mesh_checks.hpp"
+#include "analysis/statistics.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 
@@ -9,28 +10,25 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 namespace analysis {
 namespace {
-
-constexpr double nothing_to_measure = std::numeric_limits<double>::quiet_NaN();
 
 void require_consistent(const ErrorDomain& domain)
 {
     const auto vertices = static_cast<std::size_t>(domain.rest.rows());
     if (!domain.prescribed.empty() && domain.prescribed.size() != vertices)
-        throw pbs::InputError{"", 0, "entries of prescribed", std::to_string(domain.prescribed.size()),
-                              fmt::format("expected {}", vertices)};
+        throw pbs::InputError("", 0, "entries of prescribed", std::to_string(domain.prescribed.size()),
+                              fmt::format("expected {}", vertices));
     if (!domain.blended.empty() && domain.bone_distance_m.size() != domain.rest.rows())
-        throw pbs::InputError{"", 0, "bone distances", std::to_string(domain.bone_distance_m.size()), fmt::format("expected {}", vertices)};
+        throw pbs::InputError("", 0, "bone distances", std::to_string(domain.bone_distance_m.size()), fmt::format("expected {}", vertices));
     for (int vertex : domain.blended)
         if (vertex < 0 || vertex >= domain.rest.rows())
-            throw pbs::InputError{"", 0, "blended vertex", std::to_string(vertex), fmt::format("expected 0 <= vertex < {}", vertices)};
+            throw pbs::InputError("", 0, "blended vertex", std::to_string(vertex), fmt::format("expected 0 <= vertex < {}", vertices));
 }
 
 // Mean by mass of one value a vertex, over some vertices.
-template <class Value>
+template <typename Value>
 double weighted_mean(const std::vector<int>& vertices, const Eigen::VectorXd& mass, Value value)
 {
     CompensatedSum sum, total;
@@ -38,7 +36,7 @@ double weighted_mean(const std::vector<int>& vertices, const Eigen::VectorXd& ma
         sum += mass(vertex) * value(vertex);
         total += mass(vertex);
     }
-    return total.value() > 0.0 ? sum.value() / total.value() : nothing_to_measure;
+    return total.value() > 0.0 ? sum.value() / total.value() : not_known;
 }
 
 // Columns: the three edges from the tet's first vertex.
@@ -73,7 +71,7 @@ ErrorNorms ErrorRuler::measure(const pbs::Positions& positions, const pbs::Posit
     ErrorNorms error;
     error.l2_pct = 100.0 * std::sqrt(weighted_mean(free_, mass_, square)) / diagonal_m_;
     error.joint_pct = 100.0 * std::sqrt(weighted_mean(blended_, mass_, square)) / bone_distance_m_;
-    double largest = free_.empty() ? nothing_to_measure : 0.0;
+    double largest = free_.empty() ? not_known : 0.0;
     for (int vertex : free_)
         if (const double s = square(vertex); std::isnan(s) || s > largest) largest = s;  // a NaN stays
     error.linf_m = std::sqrt(largest);

@@ -16,9 +16,9 @@ namespace {
 void require_points_for_a_line(const std::vector<double>& x, const std::vector<double>& y)
 {
     if (x.size() != y.size() || x.size() < 2)
-        throw pbs::InputError{"", 0, "points of a line fit", fmt::format("{} x, {} y", x.size(), y.size()), "expected as many, at least 2"};
+        throw pbs::InputError("", 0, "points of a line fit", fmt::format("{} x, {} y", x.size(), y.size()), "expected as many, at least 2");
     const auto [least, most] = std::minmax_element(x.begin(), x.end());
-    if (!(*least < *most)) throw pbs::InputError{"", 0, "x of a line fit", fmt::format("{}", *least), "expected values that differ"};
+    if (!(*least < *most)) throw pbs::InputError("", 0, "x of a line fit", fmt::format("{}", *least), "expected values that differ");
 }
 
 Interval student_interval(double estimate, double variance, double level, std::size_t n)
@@ -31,7 +31,7 @@ Interval student_interval(double estimate, double variance, double level, std::s
 std::vector<double> logarithms(std::vector<double> values, const char* name)
 {
     for (double& value : values) {
-        if (!(value > 0.0)) throw pbs::InputError{"", 0, name, fmt::format("{}", value), "expected > 0"};
+        if (!(value > 0.0)) throw pbs::InputError("", 0, name, fmt::format("{}", value), "expected > 0");
         value = std::log(value);
     }
     return values;

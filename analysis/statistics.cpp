@@ -4,12 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace analysis {
 namespace {
-
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 bool has_nan(const std::vector<double>& values)
 {

@@ -1,9 +1,12 @@
 // Plain statistics of a series, by GSL. A figure of too few values (none; one for a spread) is NaN.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 namespace analysis {
+
+inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 double mean(const std::vector<double>& values);
 double median(const std::vector<double>& values);

@@ -30,14 +30,14 @@ std::vector<DirectedEdge> directed_edges(const pbs::Triangles& triangles, bool r
 
 void require_closed(const pbs::Positions& points, const pbs::Triangles& triangles)
 {
-    if (triangles.rows() == 0) throw pbs::InputError{"", 0, "triangles", "0", "expected a closed surface"};
+    if (triangles.rows() == 0) throw pbs::InputError("", 0, "triangles", "0", "expected a closed surface");
     if (triangles.minCoeff() < 0 || triangles.maxCoeff() >= points.rows())
-        throw pbs::InputError{"", 0, "triangles", "", fmt::format("expected 0 <= vertex < {}", points.rows())};
+        throw pbs::InputError("", 0, "triangles", "", fmt::format("expected 0 <= vertex < {}", points.rows()));
     const auto forward = directed_edges(triangles, false), backward = directed_edges(triangles, true);
     const auto [open, other] = std::mismatch(forward.begin(), forward.end(), backward.begin());
     if (open == forward.end()) return;
     const DirectedEdge edge = std::min(*open, *other);
-    throw pbs::InputError{"", 0, "edge", fmt::format("{}-{}", edge.first, edge.second), "expected a closed, oriented surface"};
+    throw pbs::InputError("", 0, "edge", fmt::format("{}-{}", edge.first, edge.second), "expected a closed, oriented surface");
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ double surface_volume_change_pct(const pbs::Positions& rest, const pbs::Position
     require_points(posed, rest.rows(), "the posed surface");
     const double rest_volume = enclosed_volume(rest, triangles);
     if (!(rest_volume > 0.0))
-        throw pbs::InputError{"", 0, "enclosed rest volume", fmt::format("{} m^3", rest_volume), "expected > 0: triangles face outward"};
+        throw pbs::InputError("", 0, "enclosed rest volume", fmt::format("{} m^3", rest_volume), "expected > 0: triangles face outward");
     return 100.0 * (enclosed_volume(posed, triangles) - rest_volume) / rest_volume;
 }
 

@@ -1,5 +1,7 @@
 #include "analysis/verdict.hpp"
 
+#include "analysis/statistics.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +14,6 @@ namespace {
 
 Verdict verdict_of(const Claim& claim, VerdictKind kind, const std::string& text)
 {
-    constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
     Verdict verdict;
     verdict.claim = claim;
     verdict.kind = kind;

@@ -1,6 +1,5 @@
 // Verdicts: computed from records and from bounds that were fixed beforehand, nothing typed in.
-//   const Verdict verdict = judge(claim, records);   // verdict.text: "reproduced only for limb_twist at 0 to 116 deg (-1.3 to 0 % over 0
-//   to 170 deg)"
+//   const Verdict verdict = judge(claim, records);   // verdict.text: "reproduced only for limb_twist up to 116 of 170 deg"
 #pragma once
 
 #include "analysis/case_judgement.hpp"
