@@ -3,7 +3,7 @@
 #include "analysis/atomic_file.hpp"
 #include "analysis/claims_report.hpp"
 #include "experiments/claims_text.hpp"
-#include "experiments/command_line/exit_status.hpp"
+#include "experiments/exit_status.hpp"
 #include "experiments/run.hpp"
 #include "experiments/scene_schema.hpp"
 #include "experiments/studies/study.hpp"
@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <numeric>
 

@@ -3,6 +3,7 @@
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/human.hpp"
 #include "pbs/character/skeleton_file.hpp"
+#include "pbs/character/weights_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/meshing.hpp"
 

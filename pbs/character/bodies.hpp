@@ -19,7 +19,4 @@ struct CharacterSource {
 // that names its package.
 Character make_character(const CharacterSource& source);
 
-// Where tet meshes are cached: $PBSKIN_CACHE, else $XDG_CACHE_HOME/pbskin, else ~/.cache/pbskin.
-std::string cache_folder();
-
 }  // namespace pbs

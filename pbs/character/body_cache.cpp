@@ -1,6 +1,5 @@
 #include "pbs/character/body_cache.hpp"
 
-#include "pbs/character/bodies.hpp"
 #include "pbs/character/text_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"

@@ -14,6 +14,9 @@ std::string content_hash(const std::string& bytes);  // XXH3, 128 bits, 32 hexad
 std::string content_hash(const TetMesh& mesh);       // of its arrays
 std::string hash_of_file(const std::string& path);
 
+// Where tet meshes are cached: $PBSKIN_CACHE, else $XDG_CACHE_HOME/pbskin, else ~/.cache/pbskin.
+std::string cache_folder();
+
 // From the cache, else made and stored. Where the folder cannot be written the mesh is made every time.
 TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make);
 

@@ -1,4 +1,4 @@
-#include "pbs/character/skeleton_file.hpp"
+#include "pbs/character/weights_file.hpp"
 
 #include "pbs/character/text_file.hpp"
 #include "pbs/geometry/input_error.hpp"

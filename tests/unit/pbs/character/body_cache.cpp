@@ -1,7 +1,6 @@
 // Truth: the promise of the cache: a hit is the mesh that was made, to the bit, and a damaged file is made anew.
 #include "pbs/character/body_cache.hpp"
 
-#include "pbs/character/bodies.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "tests/unit/pbs/character/temporary_folder.hpp"
 

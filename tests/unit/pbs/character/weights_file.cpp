@@ -1,5 +1,5 @@
 // Truth: the format as documented (CSV vertex,joint,weight); each refusal by file, line and field.
-#include "pbs/character/skeleton_file.hpp"
+#include "pbs/character/weights_file.hpp"
 
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 #include "tests/unit/pbs/character/temporary_folder.hpp"
