@@ -1,4 +1,4 @@
-// The judge, first form: implicit linear elasticity on the skinner's own tets (deal.II simplices, P1 or P2), quasi-static.
+// Implicit linear elasticity on the skinner's own tets (deal.II simplices, P1 or P2), quasi-static.
 //   LinearElasticity fem(mesh, options, attachment);   // assembles and factors once
 //   fem.solve(spring_targets, vertex_targets);         // every frame: a right-hand side and a re-solve
 //   fem.positions();

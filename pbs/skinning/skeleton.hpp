@@ -22,9 +22,9 @@ struct Skeleton {
 
 int find_bone(const Skeleton& skeleton, const std::string& name);  // -1 where there is none
 
-// Bones that meet at an end of bone j (Eq. 2's n_joints; reading A of its ambiguity), j itself first. At the head: the parent (wherever it
-// ends), and siblings and children that start there; at the tail: the children that start there. "There" is within 2 % of the skeleton's
-// bounding diagonal.
+// Bones that meet at an end of bone j (Eq. 2's n_joints, which the paper does not define: it is read as this), j itself first. At the head:
+// the parent (wherever it ends), and siblings and children that start there; at the tail: the children that start there. "There" is within
+// 2 % of the skeleton's bounding diagonal.
 enum class BoneEnd { head, tail };
 std::vector<int> bones_meeting(const Skeleton& skeleton, int bone, BoneEnd end);
 

@@ -1,7 +1,7 @@
 // Algorithm 1 of the paper for one mesh, in one precision. PbsSolver is the door to it.
-// Reading A of the audit: particles outside the jiggling zone start every step at their LBS position and have no velocity; those inside
-// are integrated. Positions and velocities are kept in double; projections run in Scalar, in float relative to a local origin (the mean
-// LBS position of the step), so that a character far from the world's origin loses no digits.
+// Where Algorithm 1 is ambiguous: particles outside the jiggling zone start every step at their LBS position and have no velocity; those
+// inside are integrated. Positions and velocities are kept in double; projections run in Scalar, in float relative to a local origin (the
+// mean LBS position of the step), so that a character far from the world's origin loses no digits.
 #pragma once
 
 #include "pbs/solver/constraint_set.hpp"

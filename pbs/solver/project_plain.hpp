@@ -1,4 +1,4 @@
-// Order `plain`: one constraint after the other in file order, as the paper reads. The reference for every faster order.
+// Order `plain`: one constraint after the other in file order, as the paper reads.
 // p: particle positions [m], #V; q: posed bind points [m], #V.
 #pragma once
 

@@ -1,4 +1,4 @@
-// C15: are Eq. 12-21 the gradients and corrections of Eq. 11? Truth: the volumes themselves. Each form, derived and as printed, runs on a
+// Are Eq. 12-21 the gradients and corrections of Eq. 11? Truth: the volumes themselves. Each form, derived and as printed, runs on a
 // limb bent by 90 degrees (k_stretch 0.5, 24 iterations) and is judged by the sum of |V - V0| over the rest volume, in per cent.
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/solver/pbs_solver.hpp"

@@ -1,6 +1,6 @@
 // Each bone as a rigid capsule inside the flesh: what the reference is held by. The capsule is the bone's middle (1/6 to 5/6 of its
 // length, the part that Eq. 2 gives to one bone alone) with core_radius times the local limb radius. It is defined by the character
-// alone, so the continuous problem does not depend on the elements.
+// alone, so the continuous problem does not depend on the elements. Its ends are flat: a cylinder, no half spheres.
 #pragma once
 
 #include "pbs/character/character.hpp"
