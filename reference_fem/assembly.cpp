@@ -9,13 +9,15 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/sparse_matrix.h>
 
+#include <cmath>
+
 namespace reference_fem {
 namespace {
 
 using DofIndices = std::vector<dealii::types::global_dof_index>;
 
 // Calls visit(values, dofs) on every tet, in the mesh's order.
-template <class Visit>
+template <typename Visit>
 void for_each_tet(const SimplexSpace& space, int quadrature_points_1d, dealii::UpdateFlags update, Visit visit)
 {
     const auto& elements = space.elements();

@@ -10,7 +10,7 @@ namespace reference_fem {
 namespace {
 
 // OpenBLAS's own functions, looked up at run time: the program must also run on another BLAS.
-template <class Function>
+template <typename Function>
 Function* find(const char* name)
 {
     return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));

@@ -9,7 +9,7 @@
 
 namespace reference_fem {
 
-template <class Value>
+template <typename Value>
 void require(bool holds, const char* field, const Value& value, const char* rule)
 {
     if (holds) return;

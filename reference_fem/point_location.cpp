@@ -48,7 +48,7 @@ PointLocation::Cell PointLocation::cell_of(const pbs::Vec3& point) const
     return cell;
 }
 
-template <class Visit>
+template <typename Visit>
 void PointLocation::for_each_cell_of_tet(Eigen::Index tet, Visit visit) const
 {
     pbs::Vec3 low = mesh_.rest.row(mesh_.tets(tet, 0)), high = low;

@@ -26,7 +26,7 @@ private:
 
     Cell cell_of(const pbs::Vec3& point) const;  // clamped to the grid
     int index_of(const Cell& cell) const { return (cell(2) * cells_(1) + cell(1)) * cells_(0) + cell(0); }
-    template <class Visit>
+    template <typename Visit>
     void for_each_cell_of_tet(Eigen::Index tet, Visit visit) const;
 
     const pbs::TetMesh& mesh_;

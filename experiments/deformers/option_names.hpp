@@ -10,7 +10,7 @@
 
 namespace experiments {
 
-template <class Enum>
+template <typename Enum>
 struct OptionNames;
 
 template <>
@@ -49,7 +49,7 @@ struct OptionNames<reference_fem::DirectSolver> {
         {{reference_fem::DirectSolver::cholmod, "cholmod"}, {reference_fem::DirectSolver::umfpack, "umfpack"}}};
 };
 
-template <class Enum>
+template <typename Enum>
 std::string name_of(Enum value)
 {
     for (const auto& [entry, name] : OptionNames<Enum>::table)
@@ -57,7 +57,7 @@ std::string name_of(Enum value)
     return "";
 }
 
-template <class Enum>
+template <typename Enum>
 Enum option_of(const std::string& name)  // the schema has checked the name
 {
     for (const auto& [entry, text] : OptionNames<Enum>::table)

@@ -34,10 +34,11 @@ struct Node {
     const aiNodeAnim* channel = nullptr;
 };
 
+// assimp knows it by this word too.
 bool is_bvh(const std::string& text)
 {
     return text.starts_with("HIERARCHY");
-}  // assimp knows it by this word too
+}
 
 Eigen::Isometry3d rigid_part(const aiMatrix4x4& transformation)
 {

@@ -1,5 +1,5 @@
 // Bad input, refused at the door: file, line, field, value and the rule it breaks.
-//   throw InputError{"limb.toml", 12, "k_volume", "1.4", "expected 0 <= k <= 1"};
+//   throw InputError("limb.toml", 12, "k_volume", "1.4", "expected 0 <= k <= 1");
 // prints as  limb.toml:12: k_volume = 1.4: expected 0 <= k <= 1  and ends the program with exit status 2.
 #pragma once
 

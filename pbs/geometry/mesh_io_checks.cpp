@@ -26,7 +26,7 @@ std::string numbered(const char* what, Eigen::Index i)
     return what + std::string(" ") + std::to_string(i);
 }
 
-template <class Row>
+template <typename Row>
 std::string listed(const Row& row)
 {
     std::ostringstream text;

@@ -14,7 +14,7 @@ public:
     Module(std::string path, void* handle) : path_(std::move(path)), handle_(handle) {}
 
     // The function of that C name; its type is the caller's word.
-    template <class Function>
+    template <typename Function>
     Function* function(const char* symbol) const
     {
         return reinterpret_cast<Function*>(address(symbol));

@@ -13,7 +13,6 @@
 #include <sstream>
 
 namespace pbs {
-
 namespace {
 
 // The six edges of a tet, each with the two corners that are not on it.

@@ -7,7 +7,6 @@
 #include <utility>
 
 namespace pbs {
-
 namespace {
 
 // Faces of a positively oriented tet, outward.

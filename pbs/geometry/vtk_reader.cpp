@@ -16,7 +16,7 @@
 namespace pbs {
 namespace {
 
-template <class Reader>
+template <typename Reader>
 vtkSmartPointer<vtkUnstructuredGrid> grid_of(const std::string& path, Reader& reader)
 {
     const VtkMessages messages;

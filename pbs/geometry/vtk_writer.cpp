@@ -45,7 +45,7 @@ vtkSmartPointer<vtkPoints> points_of(const Positions& positions)
     return points;
 }
 
-template <class Cells>
+template <typename Cells>
 vtkSmartPointer<vtkCellArray> cells_of(const Cells& indices)
 {
     auto cells = vtkSmartPointer<vtkCellArray>::New();

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 namespace pbs {
-
 namespace {
 
 // The unit dual quaternion real + eps dual of a rigid transform.

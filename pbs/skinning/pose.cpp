@@ -5,7 +5,6 @@
 #include <numbers>
 
 namespace pbs {
-
 namespace {
 
 void check_sweep(const Skeleton& skeleton, int joint, const Vec3& axis, int frames)

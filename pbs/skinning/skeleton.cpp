@@ -1,7 +1,6 @@
 #include "pbs/skinning/skeleton.hpp"
 
 namespace pbs {
-
 namespace {
 
 constexpr double meeting_distance_per_diagonal = 0.02;

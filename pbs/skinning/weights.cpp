@@ -1,7 +1,6 @@
 #include "pbs/skinning/weights.hpp"
 
 namespace pbs {
-
 namespace {
 
 void append_vertex(Weights& weights, const std::vector<int>& bones)

@@ -5,7 +5,6 @@
 #include "pbs/geometry/topology.hpp"
 
 namespace pbs {
-
 namespace {
 
 void check_stiffness(const char* field, double k)

@@ -3,7 +3,6 @@
 #include <cmath>
 
 namespace pbs {
-
 namespace {
 
 // Root mean square of error(constraint) over a class; zero over none.

@@ -4,7 +4,6 @@
 #include <cctype>
 
 namespace architecture {
-
 namespace {
 
 // CMake text of the folder and those above it, without comments.

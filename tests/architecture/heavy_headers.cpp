@@ -3,7 +3,6 @@
 #include <set>
 
 namespace architecture {
-
 namespace {
 
 struct HeavyLibrary {

@@ -3,7 +3,6 @@
 #include <regex>
 
 namespace architecture {
-
 namespace {
 
 struct Law {

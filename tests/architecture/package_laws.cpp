@@ -5,7 +5,6 @@
 #include <sstream>
 
 namespace architecture {
-
 namespace {
 
 const std::string list = "cmake/packages.txt";

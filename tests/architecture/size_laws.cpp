@@ -3,7 +3,6 @@
 #include <regex>
 
 namespace architecture {
-
 namespace {
 
 constexpr int longest_file = 500, usual_file = 200, longest_function = 120, usual_function = 60;

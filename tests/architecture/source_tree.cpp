@@ -8,7 +8,6 @@
 #include <sstream>
 
 namespace architecture {
-
 namespace {
 
 const std::vector<std::string> text_files = {".cpp", ".hpp", ".py", ".cmake", ".sh", ".toml", ".md", ".txt", ".cff", ".json"};

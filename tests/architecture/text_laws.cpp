@@ -4,7 +4,6 @@
 #include <regex>
 
 namespace architecture {
-
 namespace {
 
 Violations in_every_line(const SourceTree& tree, const std::function<bool(const std::string&)>& offends, const std::string& what)
