@@ -57,7 +57,7 @@ void judge_sweep_from_its_start(const Claim& claim, const std::vector<double>& a
     const double held = std::abs(result.angles[0].to_deg - result.angles[0].from_deg),
                  whole = std::abs(angle_deg.back() - angle_deg.front());
     if (!(held > 0.0)) return;  // the rest pose alone says nothing
-    result.extent = held >= claim.share * whole ? Extent::whole : Extent::part;
+    result.extent = held >= claim.share * whole ? Extent::whole : held >= claim.part * whole ? Extent::part : Extent::none;
 }
 
 // mean_within: wherever the sweep passes through the band; a mean over its angles would say nothing.
@@ -87,7 +87,7 @@ void judge_clip(const Claim& claim, const std::vector<double>& values, const std
     if (claim.rule == ClaimRule::share_within) {
         result.extent = result.share.low >= claim.share ? Extent::whole : Extent::none;
     } else {
-        const bool mean_in_band = excess(claim, result.mean.estimate) <= 0.0;
+        const bool mean_in_band = excess(claim, result.mean.low) <= 0.0 && excess(claim, result.mean.high) <= 0.0;
         result.extent = mean_in_band ? Extent::whole : result.share.estimate > 0.0 ? Extent::part : Extent::none;
     }
 }

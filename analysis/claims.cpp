@@ -88,6 +88,7 @@ void require_judgeable(const Claim& claim, const ClaimReader& reader)
     if (by_records && claim.deformer.empty()) reader.refuse("deformer", "missing in this claim");
     if (by_records && !(claim.low < claim.high)) reader.refuse("low_pct", "expected low_pct < high_pct");
     if (!(claim.share > 0.0 && claim.share <= 1.0)) reader.refuse("share", "expected 0 < share <= 1");
+    if (!(claim.part > 0.0 && claim.part <= claim.share)) reader.refuse("part", "expected 0 < part <= share");
     if (!(claim.level > 0.0 && claim.level < 1.0)) reader.refuse("level", "expected 0 < level < 1");
     if (claim.iterations < 0) reader.refuse("iterations", "expected >= 0");
     if (claim.rule == ClaimRule::untestable && claim.reason.empty()) reader.refuse("reason", "missing in this claim");
@@ -112,6 +113,7 @@ Claim read_claim(const toml::table& table, const std::string& file)
     reader.optional("low_pct", claim.low);
     reader.optional("high_pct", claim.high);
     reader.optional("share", claim.share);
+    reader.optional("part", claim.part);
     reader.optional("level", claim.level);
     reader.optional("reason", claim.reason);
     reader.require_nothing_unknown();

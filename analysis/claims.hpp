@@ -20,6 +20,7 @@ struct Claim {
     int iterations = 0;                            // 0: any
     double expected = 0.0, low = 0.0, high = 0.0;  // of the metric, in its unit
     double share = 0.95;                           // of the frames that must hold
+    double part = 0.25;                            // of a sweep that must hold for it to count in part
     double level = 0.95;                           // of the intervals
     std::string reason;                            // why it cannot be tested
 };

@@ -96,13 +96,15 @@ std::string text_of(const Verdict& verdict, const Records& records)
     return text;
 }
 
-// Among the clips, under the claim's own metric, the one that decides: the lowest share, or the mean farthest from the figure in print.
+// Among the clips in the paper's own variant, under the claim's own metric, the one that decides: the lowest share, or the mean farthest
+// from the figure in print.
 void choose_interval(Verdict& verdict)
 {
     const bool by_share = verdict.claim.rule == ClaimRule::share_within;
     double worst = -std::numeric_limits<double>::infinity();
     for (const CaseJudgement& judged : verdict.cases) {
-        if (judged.sweep || judged.metric != verdict.claim.metrics.front()) continue;
+        const bool is_default = judged.variant.empty() || judged.variant == "default";
+        if (judged.sweep || !is_default || judged.metric != verdict.claim.metrics.front()) continue;
         const double distance = by_share ? -judged.share.low : std::abs(judged.mean.estimate - verdict.claim.expected);
         if (!(distance > worst)) continue;
         worst = distance;

@@ -18,6 +18,7 @@ void watch_interrupts()
 {
     struct sigaction action = {};
     action.sa_handler = on_signal;
+    action.sa_flags = SA_RESETHAND;  // the second signal ends the program at once
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
 }

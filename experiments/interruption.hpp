@@ -1,4 +1,4 @@
-// SIGINT and SIGTERM end the work between two frames, so that what was finished is kept.
+// The first SIGINT or SIGTERM ends the work between two frames, so that what was finished is kept; the second ends the program.
 #pragma once
 
 namespace experiments {

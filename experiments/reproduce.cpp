@@ -2,6 +2,7 @@
 
 #include "analysis/atomic_file.hpp"
 #include "analysis/claims_report.hpp"
+#include "analysis/provenance.hpp"
 #include "experiments/claims_text.hpp"
 #include "experiments/exit_status.hpp"
 #include "experiments/run.hpp"
@@ -46,45 +47,67 @@ void refuse_unknown(const std::vector<std::string>& names)
                                   "unknown claim or study; expected one of " + fmt::format("{}", fmt::join(known, ", ")));
 }
 
-// The run in `folder` is of this scene and ended: nothing of it need be done again.
+// The run in `folder` is of this scene and revision and ended: nothing of it need be done again.
 bool is_finished(const StudyRun& run, const std::string& folder)
 {
     const fs::path record = fs::path(folder) / "run.json";
     if (!fs::exists(record)) return false;
     const auto json = nlohmann::json::parse(analysis::read_text(record.string()), nullptr, false);
-    return !json.is_discarded() && json.value("scene", nlohmann::json()) == resolved_with_deformers(run.scene);
+    if (!json.is_object() || json.value("scene", nlohmann::json()) != resolved_with_deformers(run.scene)) return false;
+    const analysis::Provenance now = analysis::collect_provenance(1);
+    const auto then = json.value("provenance", nlohmann::json::object());
+    return then.value("git_revision", "") == now.git_revision && then.value("git_dirty", true) == now.git_dirty;
 }
 
-void run_or_throw(const StudyRun& run, const std::string& folder)
+// What broke down, if anything.
+std::string run_and_say(const StudyRun& run, const std::string& folder)
 {
     const RunResult result = run_scene(run.scene, folder);
     for (const auto& line : result.lines) spdlog::debug("{}", line);
-    if (!result.breakdown.empty()) spdlog::warn("{}: {} (recorded)", run.name, result.breakdown);
+    return result.breakdown;
 }
 
-// The runs that ended; a failed one is said and left out, so that its verdict cannot be computed.
-std::vector<std::string> finished_folders(const std::vector<StudyRun>& runs, const std::string& study_folder,
-                                          const ReproduceArguments& arguments)
+struct StudyOutcome {
+    std::vector<std::string> folders;  // of runs that ended; a failed one is said and left out, so that its verdict cannot be computed
+    bool broke_down = false;
+};
+
+StudyOutcome run_study(const std::vector<StudyRun>& runs, const std::string& study_folder, const ReproduceArguments& arguments)
 {
     std::vector<PooledWork> work;
-    std::vector<std::string> folders;
+    StudyOutcome outcome;
     for (const StudyRun& run : runs) {
         const std::string folder = (fs::path(study_folder) / run.name).string();
         if (arguments.resume && is_finished(run, folder))
-            folders.push_back(folder);
+            outcome.folders.push_back(folder);
         else
-            work.push_back({run.name, run.cost_s, [&run, folder] { run_or_throw(run, folder); }});
+            work.push_back({run.name, run.cost_s, [&run, folder] { return run_and_say(run, folder); }});
     }
     const double cost_s =
         std::accumulate(work.begin(), work.end(), 0.0, [](double sum, const PooledWork& item) { return sum + item.cost_s; });
-    spdlog::info("{} runs, {} kept from before; some {:.0f} s of one core", work.size(), folders.size(), cost_s);
+    spdlog::info("{} runs, {} kept from before; some {:.0f} s of one core", work.size(), outcome.folders.size(), cost_s);
     for (const PooledResult& result : run_in_pool(work, arguments.jobs)) {
         if (result.finished)
-            folders.push_back((fs::path(study_folder) / result.name).string());
+            outcome.folders.push_back((fs::path(study_folder) / result.name).string());
         else
             spdlog::error("pbskin: {}: {}", result.name, result.failure);
+        if (!result.breakdown.empty()) spdlog::error("pbskin: {}: numerical breakdown: {}", result.name, result.breakdown);
+        outcome.broke_down |= !result.breakdown.empty();
     }
-    return folders;
+    return outcome;
+}
+
+// Frames in which the reference intersects itself stand beside the figures: no deformer has contact.
+std::string self_intersections_of(const std::vector<std::string>& folders)
+{
+    std::string lines;
+    for (const std::string& folder : folders) {
+        const auto outcome = nlohmann::json::parse(analysis::read_text((fs::path(folder) / "run.json").string())).at("outcome");
+        if (const int count = outcome.value("self_intersecting_reference_frames", 0); count > 0)
+            lines += fmt::format("     {}: the reference intersects itself in {} of {} frames; their errors are marked\n",
+                                 fs::path(folder).filename().string(), count, outcome.at("frames").get<int>());
+    }
+    return lines;
 }
 
 void add_records(analysis::Records& records, const std::vector<std::string>& folders, const std::string& root)
@@ -101,26 +124,32 @@ void add_records(analysis::Records& records, const std::vector<std::string>& fol
 int reproduce(const ReproduceArguments& arguments)
 {
     refuse_unknown(arguments.names);
-    analysis::Records records;
     std::vector<analysis::Verdict> verdicts;
+    std::string self_intersections;
+    bool broke_down = false;
     for (const Study& study : studies()) {
         if (!asked_for(study, arguments.names)) continue;
         spdlog::info("study {}: {}", study.name, study.meaning);
         const StudyPlan plan = study.plan(arguments.full);
+        analysis::Records records;
+        records.left_out = plan.left_out;
         for (const StudyRun& run : plan.runs) records.planned_scenes.push_back(run.scene.name);
         for (const auto& left_out : plan.left_out) {
             records.planned_scenes.push_back(left_out.scene);
-            records.left_out.push_back(left_out);
             spdlog::warn("left out: {}: {}", left_out.scene, left_out.reason);
         }
-        add_records(records, finished_folders(plan.runs, (fs::path(arguments.folder) / study.name).string(), arguments), arguments.folder);
+        const StudyOutcome outcome = run_study(plan.runs, (fs::path(arguments.folder) / study.name).string(), arguments);
+        broke_down |= outcome.broke_down;
+        self_intersections += self_intersections_of(outcome.folders);
+        add_records(records, outcome.folders, arguments.folder);
         for (const auto& claim : claims())
             if (claim.study == study.name) verdicts.push_back(analysis::judge(claim, records));
     }
     analysis::write_text_atomically((fs::path(arguments.folder) / "claims.json").string(), analysis::claims_json(verdicts).dump(2) + "\n");
     analysis::write_text_atomically((fs::path(arguments.folder) / "claims.md").string(), analysis::claims_markdown(verdicts));
     const bool colours = isatty(STDOUT_FILENO) && !std::getenv("NO_COLOR");
-    fmt::print("{}", analysis::claims_table(verdicts, colours));
+    fmt::print("{}{}", analysis::claims_table(verdicts, colours), self_intersections);
+    if (broke_down) return exit_breakdown;
     const bool all_computed = std::none_of(verdicts.begin(), verdicts.end(),
                                            [](const auto& verdict) { return verdict.kind == analysis::VerdictKind::not_computable; });
     return all_computed ? exit_finished : exit_bound;

@@ -5,6 +5,7 @@
 #include "experiments/library_versions.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
+#include "pbs/geometry/quality.hpp"
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <regex>
 
 namespace experiments {
 namespace {
@@ -79,6 +81,25 @@ std::string frame_file(const std::string& name, int frame, const char* ending)
     return fmt::format("{}_{:06d}{}", name, frame, ending);
 }
 
+nlohmann::json quality_record(const pbs::TetMesh& mesh)
+{
+    const pbs::Quality quality = pbs::quality_of(mesh);
+    return {{"volume_m3", quality.volume_m3},
+            {"min_dihedral_deg", quality.min_dihedral_deg},
+            {"edges", quality.edges},
+            {"boundary_vertices", quality.boundary_vertices},
+            {"boundary_manifold", quality.topology.boundary_manifold},
+            {"boundary_euler", quality.topology.boundary_euler},
+            {"components", quality.topology.components}};
+}
+
+// What RunFolder writes into frames/: LABEL_000123.vtu, LABEL_surface_000123.vtp, LABEL.pvd.
+bool is_own_frame(const fs::path& file)
+{
+    static const std::regex own("[A-Za-z0-9_]+_[0-9]{6}\\.vt[up]|[A-Za-z0-9_]+\\.pvd");
+    return std::regex_match(file.filename().string(), own);
+}
+
 }  // namespace
 
 RunFolder::RunFolder(const Scene& scene, const std::string& folder)
@@ -92,8 +113,7 @@ RunFolder::RunFolder(const Scene& scene, const std::string& folder)
     if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
     for (const char* old : {"run.json", "metrics.csv", "iterations.csv"}) fs::remove(fs::path(folder) / old);
     for (const auto& entry : fs::directory_iterator(fs::path(folder) / "frames"))
-        if (const auto ending = entry.path().extension(); ending == ".vtu" || ending == ".vtp" || ending == ".pvd")
-            fs::remove(entry.path());
+        if (is_own_frame(entry.path())) fs::remove(entry.path());
 }
 
 void RunFolder::add_frame(const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured,
@@ -143,14 +163,18 @@ void RunFolder::add_state(const DeformerSpec& spec, const pbs::Positions& positi
     hashes_[spec.label].add(positions);
 }
 
-void RunFolder::finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
-                       const nlohmann::json& outcome)
+void RunFolder::write_tables() const
 {
     const fs::path folder(folder_);
     metrics_.write((folder / "metrics.csv").string());
     if (iterations_.rows() > 0) iterations_.write((folder / "iterations.csv").string());
     for (const auto& [name, frames] : collections_) pbs::write_pvd((folder / "frames" / (name + ".pvd")).string(), frames);
+}
 
+void RunFolder::finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
+                       const nlohmann::json& outcome)
+{
+    write_tables();
     analysis::Provenance provenance = analysis::collect_provenance(1);
     for (const auto& [library, version] : library_versions()) provenance.libraries[library] = version;
     for (const auto& [input, hash] : character.inputs) provenance.input_hashes[input] = hash;
@@ -163,9 +187,10 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
     run["character"] = {{"name", character.name},
                         {"vertices", character.mesh.rest.rows()},
                         {"tets", character.mesh.tets.rows()},
-                        {"bones", character.skeleton.bones.size()}};
+                        {"bones", character.skeleton.bones.size()},
+                        {"quality", quality_record(character.mesh)}};
     if (character.surface) run["character"]["surface_outside_m"] = character.surface->largest_distance_outside_m;
-    analysis::write_text_atomically((folder / "run.json").string(), run.dump(2) + "\n");
+    analysis::write_text_atomically((fs::path(folder_) / "run.json").string(), run.dump(2) + "\n");
 }
 
 }  // namespace experiments

@@ -22,7 +22,9 @@ public:
                      const Eigen::VectorXd& volume_ratios, const std::vector<bool>& prescribed);
     void add_state(const DeformerSpec& spec, const pbs::Positions& positions);  // into the deformer's state hash
 
-    // Writes the tables, the collections and, last, run.json.
+    void write_tables() const;  // metrics.csv, iterations.csv and the collections: of an interrupted run, all there is
+
+    // Writes the tables and, last, run.json.
     void finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
                 const nlohmann::json& outcome);
 

@@ -8,6 +8,7 @@
 #include "pbs/geometry/input_error.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -80,6 +81,7 @@ MotionSpec read_motion(const SceneValues& values, const std::string& folder)
 
 DeformerSpec pbs_spec(const SceneValues& values)
 {
+    if (values.boolean("pbs.sleep")) values.refuse("pbs.sleep", "expected false: this version lets nothing sleep");
     DeformerSpec spec{"pbs", "pbs", "pbs", "default", {}, {}};
     pbs::PbsOptions& options = spec.pbs;
     options.iterations = values.integer("pbs.iterations");
@@ -120,6 +122,9 @@ DeformerSpec fem_spec(const SceneValues& values, int index)
     options.core_radius = values.number(at + "core_radius");
     options.spring_factor = values.number(at + "spring_factor");
     options.solver = option_of<reference_fem::DirectSolver>(values.text(at + "solver"));
+    const auto is_plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
+    if (spec.name.empty() || !std::all_of(spec.name.begin(), spec.name.end(), is_plain) || spec.name.starts_with("pbs"))
+        values.refuse(at + "name", "expected letters, digits and underscores, not beginning with pbs: it names files");
     for (const DeformerKind& kind : deformer_kinds())
         if (spec.name == kind.kind && kind.kind != "fem") values.refuse(at + "name", "is the name of another deformer");
     return spec;
@@ -227,6 +232,7 @@ Scene read_scene(const std::string& file_or_name, const std::vector<std::string>
     const SceneValues values(from_file ? read_text(file) : found->text, file, overrides);
 
     Scene scene;
+    scene.file = file;
     scene.name = fs::path(file).stem().string();
     scene.character = read_character(values, folder);
     scene.motion = read_motion(values, folder);

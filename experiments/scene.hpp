@@ -29,7 +29,7 @@ struct OutputSpec {
 };
 
 struct Scene {
-    std::string name;
+    std::string name, file;
     pbs::CharacterSource character;
     MotionSpec motion;
     std::vector<DeformerSpec> deformers;

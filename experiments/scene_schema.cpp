@@ -73,14 +73,15 @@ std::vector<SceneKey> pbs_keys()
                    "unit: m_i = 1 (the paper); lumped: a quarter of the rest volume of each tet around"),
                {"unit", "lumped"}),
         within(key("pbs", "stop_residual", number, "0.0", "", "stop when every residual is below; 0: all iterations"), 0, infinite),
+        key("pbs", "sleep", boolean, "false", "", "let constraints that the pose moves rigidly sleep; this version knows false alone"),
         key("pbs", "record_iterations", boolean, "false", "", "write iterations.csv: residuals per frame and iteration"),
         within(key("pbs.jiggle", "k_stretch", number, "0.1", "",
                    "stiffness of edges with both ends in the jiggling zone; jiggle is off unless this table is there"),
                0, 1),
         one_of(key("pbs.variant", "volume_form", text, "\"derived\"", "",
-                   "the volume correction: derived from Eq. 11, or as printed (labels_relative, labels_absolute: Eq. 12-14 under the "
-                   "printed particles; sign: Eq. 17-20)"),
-               {"derived", "labels_relative", "labels_absolute", "sign"}),
+                   "the volume correction: derived from Eq. 11, or with errors of print (labels_relative, labels_absolute: Eq. 12-14 under "
+                   "the printed particles; sign: Eq. 17-20; as_printed: all)"),
+               {"derived", "labels_relative", "labels_absolute", "sign", "as_printed"}),
     };
 }
 
@@ -98,6 +99,7 @@ std::vector<SceneKey> fem_keys()
         within(key("fem", "density_kg_m3", number, "1000.0", "kg/m^3", "density, for gravity"), 0, 1e6),
         key("fem", "gravity_m_s2", vec3, "[0.0, 0.0, 0.0]", "m/s^2", "gravity on the reference"),
         one_of(key("fem", "dynamics", text, "\"quasi_static\"", "", "time integration"), {"quasi_static"}),
+        within(key("fem", "rayleigh", numbers, "[0.0, 0.0]", "", "Rayleigh damping; without dynamics, zero"), 0, 0),
         one_of(key("fem", "attachment", text, "\"embedded\"", "",
                    "embedded: bones as rigid capsules tied to the flesh by springs; nodes: whole tets inside the capsules prescribed"),
                {"embedded", "nodes"}),
@@ -138,8 +140,8 @@ std::string SceneKey::rule() const
         for (const auto& choice : choices) shown.push_back(choice.empty() ? "\"\"" : choice);
         return fmt::format("expected one of {}", fmt::join(shown, ", "));
     }
-    static constexpr const char* names[] = {"a text",        "a number",        "an integer",        "true or false",
-                                            "three numbers", "a list of texts", "a list of integers"};
+    static constexpr const char* names[] = {"a text",        "a number",          "an integer",      "true or false",
+                                            "three numbers", "a list of numbers", "a list of texts", "a list of integers"};
     std::string words = fmt::format("expected {}", names[static_cast<int>(type)]);
     if (lowest == above_zero)
         words += fmt::format(" > 0 and <= {:g}", highest);

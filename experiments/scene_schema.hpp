@@ -7,7 +7,7 @@
 
 namespace experiments {
 
-enum class KeyType { text, number, integer, boolean, vec3, texts, integers };
+enum class KeyType { text, number, integer, boolean, vec3, numbers, texts, integers };
 
 struct SceneKey {
     std::string table;  // "pbs", "motion", ...; "" for the top level; "fem" is an array of tables

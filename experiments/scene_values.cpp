@@ -62,6 +62,8 @@ bool obeys(const json& value, const SceneKey& key)
             return value.is_boolean();
         case KeyType::vec3:
             return is_list(value, 3, number);
+        case KeyType::numbers:
+            return is_list(value, 0, number);
         case KeyType::texts:
             return is_list(value, 0, [](const json& element) { return element.is_string(); });
         case KeyType::integers:
@@ -100,10 +102,11 @@ toml::table parse(const std::string& text, const std::string& file)
 toml::table parse_override(const std::string& value)
 {
     try {
-        return toml::parse("value = " + value);
+        toml::table table = toml::parse("value = " + value);
+        if (table.size() == 1) return table;
     } catch (const toml::parse_error&) {
-        return toml::table{{"value", value}};
     }
+    return toml::table{{"value", value}};
 }
 
 std::string joined(const std::string& table, const std::string& name)
@@ -158,6 +161,8 @@ SceneValues::SceneValues(const std::string& text, const std::string& file, const
         if (equals == std::string::npos || equals == 0) throw pbs::InputError("--set", 0, "", override, "expected key=value");
         std::string path = override.substr(0, equals);
         if (path.starts_with("fem.") && fem_tables_ > 0 && schema_path(path) == path) path = "fem.0." + path.substr(4);
+        if (path.starts_with("fem.") && (fem_tables_ == 0 || std::atoi(path.c_str() + 4) >= fem_tables_))
+            throw pbs::InputError("--set", 0, path, override.substr(equals + 1), "the scene has no such [[fem]] table");
         const toml::table value = parse_override(override.substr(equals + 1));
         accept(path, *value.get("value"), "--set", 0);
         if (const auto dot = path.rfind('.'); dot != std::string::npos) tables_.push_back(path.substr(0, dot));

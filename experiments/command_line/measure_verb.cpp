@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -21,11 +22,21 @@ struct MeasureArguments {
     std::optional<int> max_inverted_tets;
 };
 
-pbs::Positions read_frame(const std::string& path, Eigen::Index vertices)
+// The corners of each tet in ascending order: readers may turn a tet round, never give it other corners.
+pbs::Tets corners_of(pbs::Tets tets)
 {
-    pbs::Positions positions = pbs::read_tet_frame(path).rest;
+    for (Eigen::Index t = 0; t < tets.rows(); ++t) std::sort(tets.row(t).begin(), tets.row(t).end());
+    return tets;
+}
+
+pbs::Positions read_frame(const std::string& path, Eigen::Index vertices, const pbs::Tets& rest_corners)
+{
+    const pbs::TetMesh frame = pbs::read_tet_frame(path);
+    const pbs::Positions& positions = frame.rest;
     if (positions.rows() != vertices)
         throw pbs::InputError(path, 0, "vertices", std::to_string(positions.rows()), fmt::format("expected the rest mesh's {}", vertices));
+    if (frame.tets.rows() != rest_corners.rows() || corners_of(frame.tets) != rest_corners)
+        throw pbs::InputError(path, 0, "tets", "", "expected the rest mesh's, in its order");
     return positions;
 }
 
@@ -49,13 +60,14 @@ std::vector<std::string> broken_bounds(const analysis::FrameMetrics& metrics, co
 int measure(const MeasureArguments& arguments)
 {
     const pbs::TetMesh rest = pbs::read_tet_mesh(arguments.rest).mesh;
+    const pbs::Tets rest_corners = corners_of(rest.tets);
     const analysis::Ruler ruler(rest.rest, rest.tets);
     analysis::CsvTable table(
         {"frame", "volume_change_pct", "volume_abs_change_pct", "inverted_tets", "mean_abs_j_minus_1", "j_min", "stretch_rms"});
     int status = exit_finished;
     fmt::print("{:<32} {:>14} {:>14} {:>9} {:>10} {:>12}\n", "frame", "volume %", "volume abs %", "inverted", "j_min", "stretch rms");
     for (const std::string& path : arguments.frames) {
-        const analysis::FrameMetrics m = ruler.measure(read_frame(path, rest.rest.rows()));
+        const analysis::FrameMetrics m = ruler.measure(read_frame(path, rest.rest.rows(), rest_corners));
         const std::string name = std::filesystem::path(path).filename().string();
         table.add_row({name, m.volume_change_pct, m.volume_abs_change_pct, m.inverted_tets, m.mean_abs_j_minus_1, m.j_min, m.stretch_rms});
         fmt::print("{:<32} {:>14.6f} {:>14.6f} {:>9} {:>10.4f} {:>12.6f}\n", name, m.volume_change_pct, m.volume_abs_change_pct,

@@ -31,10 +31,10 @@ void add_mesh_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
     verb->add_option("surface", arguments->surface, ".obj .ply .off .stl .gltf .glb, in metres")->required();
     verb->add_option("-o,--output", arguments->tets, ".msh .vtu .mesh")->required();
     verb->add_option("--vertices", arguments->meshing.vertices, "wanted number of vertices")
-        ->check(CLI::Range(50, 10'000'000))
+        ->check(CLI::Range(150, 10'000'000))
         ->capture_default_str();
-    verb->add_option("--wrap-alpha", arguments->meshing.wrap_alpha_m, "alpha of the wrap [m]; 0: from the size of the body");
-    verb->add_option("--wrap-offset", arguments->meshing.wrap_offset_m, "offset of the wrap [m]; 0: a third of alpha");
+    verb->add_option("--wrap-alpha", arguments->meshing.wrap_alpha_m, "alpha of the wrap [m]; 0: from the size of the body")->check(CLI::NonNegativeNumber);
+    verb->add_option("--wrap-offset", arguments->meshing.wrap_offset_m, "offset of the wrap [m]; 0: a third of alpha")->check(CLI::NonNegativeNumber);
     verb->callback([&action, arguments] { action = [arguments] { return mesh(*arguments); }; });
 }
 

@@ -29,10 +29,11 @@ struct OptionNames<pbs::Masses> {
 };
 template <>
 struct OptionNames<pbs::VolumeForm> {
-    static constexpr std::array<std::pair<pbs::VolumeForm, const char*>, 4> table{{{pbs::VolumeForm::derived, "derived"},
+    static constexpr std::array<std::pair<pbs::VolumeForm, const char*>, 5> table{{{pbs::VolumeForm::derived, "derived"},
                                                                                    {pbs::VolumeForm::labels_relative, "labels_relative"},
                                                                                    {pbs::VolumeForm::labels_absolute, "labels_absolute"},
-                                                                                   {pbs::VolumeForm::sign, "sign"}}};
+                                                                                   {pbs::VolumeForm::sign, "sign"},
+                                                                                   {pbs::VolumeForm::as_printed, "as_printed"}}};
 };
 template <>
 struct OptionNames<FemModel> {

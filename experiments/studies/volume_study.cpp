@@ -4,8 +4,8 @@
 //   limb_bend    0 - 150 deg    o=======o           the forearm turns about z, also with Eq. 12-20 as printed
 //   human_01_01  the whole clip                     MakeHuman's body, repeated jumps; LBS and PBS also at half and twice its vertices
 //
-// Each of the three with LBS, DQS, PBS at 1 to 96 iterations, PBS with the jiggling zone on, and linear FEM of order 1 and 2 on the same
-// tets.
+// Each of the three with LBS, DQS, PBS at 1 to 96 iterations, on the clip PBS with the jiggling zone on, and linear FEM of order 1 and 2 on
+// the same tets.
 #include "experiments/deformers/option_names.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -28,11 +28,12 @@ DeformerSpec jiggling(DeformerSpec spec)
 {
     spec.label += "_jiggle";
     spec.variant = "jiggle";
-    spec.pbs.jiggle = pbs::Jiggle{0.9};  // Table 1's "jiggling" of Man
+    spec.pbs.k_stretch = 1.0;            // where Table 1's "jiggling" stands for k_stretch in the zone, outside it is 1
+    spec.pbs.jiggle = pbs::Jiggle{0.9};  // Table 1, Man
     return spec;
 }
 
-DeformerSpec as_printed(DeformerSpec spec, pbs::VolumeForm form)
+DeformerSpec in_print(DeformerSpec spec, pbs::VolumeForm form)
 {
     spec.name = "pbs_printed";
     spec.pbs.volume_form = form;
@@ -47,7 +48,7 @@ StudyRun volume_run(const std::string& scene, const std::vector<std::string>& ov
     std::vector<DeformerSpec>& deformers = run.scene.deformers;
     const DeformerSpec pbs = *std::find_if(deformers.begin(), deformers.end(), [](const auto& spec) { return spec.kind == "pbs"; });
     for (const int iterations : iteration_ladder) deformers.push_back(with_iterations(pbs, iterations));
-    deformers.push_back(jiggling(pbs));
+    if (!run.scene.motion.clip.empty()) deformers.push_back(jiggling(pbs));  // a sweep has no speed of its own
     return run;
 }
 
@@ -55,8 +56,9 @@ StudyRun with_printed_forms(StudyRun run)
 {
     std::vector<DeformerSpec>& deformers = run.scene.deformers;
     const DeformerSpec pbs = *std::find_if(deformers.begin(), deformers.end(), [](const auto& spec) { return spec.kind == "pbs"; });
-    for (const auto form : {pbs::VolumeForm::labels_relative, pbs::VolumeForm::labels_absolute, pbs::VolumeForm::sign})
-        deformers.push_back(as_printed(pbs, form));
+    for (const auto form :
+         {pbs::VolumeForm::labels_relative, pbs::VolumeForm::labels_absolute, pbs::VolumeForm::sign, pbs::VolumeForm::as_printed})
+        deformers.push_back(in_print(pbs, form));
     return run;
 }
 

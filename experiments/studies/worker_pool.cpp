@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <map>
 #include <numeric>
@@ -25,21 +26,24 @@ struct Worker {
 };
 
 constexpr int failed = 1;
+constexpr int broken_down = 3;
 constexpr int stopped = 130;
 
 [[noreturn]] void act_as_worker(const PooledWork& work, int failure_pipe)
 {
     hide_progress();
     int status = 0;
+    std::string text;
     try {
-        work.action();
+        text = work.action();
+        if (!text.empty()) status = broken_down;
     } catch (const Interrupted&) {
         status = stopped;
     } catch (const std::exception& error) {
-        const std::string text = error.what();
-        if (write(failure_pipe, text.data(), text.size()) < 0) std::perror("pbskin");
+        text = error.what();
         status = failed;
     }
+    if (write(failure_pipe, text.data(), text.size()) < 0) std::perror("pbskin");
     std::fflush(nullptr);
     _exit(status);
 }
@@ -70,17 +74,24 @@ std::string read_all(int pipe_end)
 
 PooledResult outcome_of(const PooledWork& work, const Worker& worker, int status)
 {
-    PooledResult result{work.name, WIFEXITED(status) && WEXITSTATUS(status) == 0, read_all(worker.failure_pipe)};
+    const int exit = WIFEXITED(status) ? WEXITSTATUS(status) : failed;
+    const std::string text = read_all(worker.failure_pipe);
+    PooledResult result{work.name, exit == 0 || exit == broken_down, exit == broken_down ? text : "",
+                        exit == 0 || exit == broken_down ? "" : text};
     if (WIFSIGNALED(status)) result.failure = fmt::format("ended by signal {}", WTERMSIG(status));
-    if (WIFEXITED(status) && WEXITSTATUS(status) == stopped) result.failure = "interrupted";
+    if (exit == stopped) result.failure = "interrupted";
     return result;
 }
 
-pid_t wait_for_any(int& status)
+// The process that ended; an interruption is passed on to all of them.
+pid_t wait_for_any(const std::map<pid_t, Worker>& workers, int& status)
 {
     for (;;) {
+        if (interrupted())
+            for (const auto& [process, worker] : workers) kill(process, SIGTERM);
         const pid_t process = waitpid(-1, &status, 0);
-        if (process > 0 || errno != EINTR) return process;
+        if (process > 0) return process;
+        if (errno != EINTR) throw std::runtime_error("the workers are gone");
     }
 }
 
@@ -105,7 +116,7 @@ std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int j
         }
         if (workers.empty()) break;
         int status = 0;
-        const pid_t process = wait_for_any(status);
+        const pid_t process = wait_for_any(workers, status);
         const auto found = workers.find(process);
         if (found == workers.end()) continue;
         const std::size_t index = found->second.work;

@@ -9,14 +9,15 @@ namespace experiments {
 
 struct PooledWork {
     std::string name;
-    double cost_s = 0.0;           // expected
-    std::function<void()> action;  // runs in the worker; an exception is its failure
+    double cost_s = 0.0;                  // expected
+    std::function<std::string()> action;  // runs in the worker; says what broke down numerically, if anything; an exception is its failure
 };
 
 struct PooledResult {
     std::string name;
     bool finished = false;
-    std::string failure;  // what the worker said, or how it died
+    std::string breakdown;  // numerical, of a run that is finished and recorded all the same
+    std::string failure;    // what the worker said, or how it died
 };
 
 // At most `jobs` at once, the costliest first; results in the order of `work`. Reports each that ends, with the seconds so far.

@@ -8,9 +8,10 @@
 
 namespace pbs {
 
-// labels_relative: Eq. 12-14 under their printed particles, of positions relative to p1; labels_absolute: of absolute positions, as
-// printed; sign: the derived gradients. All three are applied by Eq. 17-20 with the sign printed there.
-enum class Printed { labels_relative, labels_absolute, sign };
+// One error at a time, and all of them. labels_relative: Eq. 12-14 under their printed particles, of positions relative to p1;
+// labels_absolute: of absolute positions, as printed; both with the sign of Eq. 8. sign: the derived gradients with the sign printed in
+// Eq. 17-20. as_printed: labels, absolute positions and sign.
+enum class Printed { labels_relative, labels_absolute, sign, as_printed };
 
 // What Eq. 12-16 give for p1 .. p4 [m^2].
 template <Printed form, typename Scalar>
@@ -18,7 +19,7 @@ std::array<Vector3<Scalar>, 4> gradient_printed(const VolumeConstraint<Scalar>& 
                                                 const Vector3<Scalar>& p2, const Vector3<Scalar>& p3, const Vector3<Scalar>& p4)
 {
     if constexpr (form == Printed::sign) return gradient(constraint, p1, p2, p3, p4);
-    const Vector3<Scalar> origin = form == Printed::labels_absolute ? Vector3<Scalar>(Vector3<Scalar>::Zero()) : p1;
+    const Vector3<Scalar> origin = form == Printed::labels_relative ? p1 : Vector3<Scalar>(Vector3<Scalar>::Zero());
     const Vector3<Scalar> a = p2 - origin, b = p3 - origin, c = p4 - origin;
     const Vector3<Scalar> g2 = a.cross(b) / Scalar(6);  // Eq. 12
     const Vector3<Scalar> g3 = b.cross(c) / Scalar(6);  // Eq. 13
@@ -34,11 +35,13 @@ void project_printed(const VolumeConstraint<Scalar>& constraint, Vector3<Scalar>
     const auto [g1, g2, g3, g4] = gradient_printed<form>(constraint, p1, p2, p3, p4);
     const Scalar denominator = g1.squaredNorm() + g2.squaredNorm() + g3.squaredNorm() + g4.squaredNorm();
     if (!(denominator > Scalar(0))) return;
-    const Scalar k_s = constraint.stiffness * C / denominator;  // s of Eq. 21
-    p1 += k_s * g1;                                             // Eq. 17, its minus is in Eq. 16
-    p2 += k_s * g2;                                             // Eq. 18
-    p3 += k_s * g3;                                             // Eq. 19
-    p4 += k_s * g4;                                             // Eq. 20
+    constexpr bool sign_printed = form == Printed::sign || form == Printed::as_printed;
+    const Scalar s = C / denominator;  // Eq. 21
+    const Scalar k_s = constraint.stiffness * (sign_printed ? s : -s);
+    p1 += k_s * g1;  // Eq. 17, its minus is in Eq. 16
+    p2 += k_s * g2;  // Eq. 18
+    p3 += k_s * g3;  // Eq. 19
+    p4 += k_s * g4;  // Eq. 20
 }
 
 }  // namespace pbs

@@ -23,7 +23,6 @@ struct SurfaceMeshing {
     double wrap_alpha_m = 0.0;      // smallest gap the wrap enters; 0: the bounding box's diagonal / 170
     double wrap_offset_m = 0.0;     // 0: alpha / 3
     double min_dihedral_deg = 5.0;  // asked of every tet
-    double inside_to_skin = 1.2;    // size of cells inside over size of facets on the skin: less gives more tets a vertex
     int boundary_euler = 2;         // asked of the boundary; 2: a ball, 0: a body with one handle
     std::vector<Vec3> inside;       // points that must lie inside, e.g. joints
 };

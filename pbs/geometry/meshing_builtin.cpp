@@ -54,7 +54,7 @@ struct CapsuleDomain : CGAL::Labeled_mesh_domain_3<Kernel> {
     struct InitialPoints {
         const CapsuleDomain& domain;
 
-        template <class Output>
+        template <typename Output>
         Output operator()(Output output, int = 0) const
         {
             const Index skin = domain.index_from_surface_patch_index({0, 1});

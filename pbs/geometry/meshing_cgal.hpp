@@ -22,7 +22,7 @@ inline void fix_meshing_seed()
 
 // Refines, perturbs and exudes. make_mesh_3 would limit the optimisers to the seconds that the refinement took; called by themselves they
 // end by themselves, and the same way each time. sliver_bound_deg: dihedral angles above it are good enough; 0: as good as they get.
-template <class Complex, class Domain, class Criteria, class... Refinement>
+template <typename Complex, class Domain, class Criteria, class... Refinement>
 Complex refine_mesh(const Domain& domain, const Criteria& criteria, const Refinement&... refinement)
 {
     fix_meshing_seed();
@@ -30,7 +30,7 @@ Complex refine_mesh(const Domain& domain, const Criteria& criteria, const Refine
     return CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(), parameters::no_exude(), refinement...);
 }
 
-template <class Complex, class Domain>
+template <typename Complex, class Domain>
 void optimise_mesh(Complex& complex, const Domain& domain, double sliver_bound_deg)
 {
     CGAL::perturb_mesh_3(complex, domain, CGAL::parameters::sliver_bound = sliver_bound_deg);
@@ -38,7 +38,7 @@ void optimise_mesh(Complex& complex, const Domain& domain, double sliver_bound_d
 }
 
 // Vertices are numbered as the cells first name them; cells come in the order of the triangulation's container.
-template <class Complex>
+template <typename Complex>
 TetMesh tet_mesh_of(const Complex& complex)
 {
     TetMesh mesh;

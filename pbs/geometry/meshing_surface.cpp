@@ -44,7 +44,7 @@ public:
     struct InitialPoints {
         const Domain& domain;
 
-        template <class Output>
+        template <typename Output>
         Output operator()(Output output, int count = 12) const
         {
             const Surface& surface = domain.surface_;
@@ -76,7 +76,8 @@ constexpr double facet_angle_deg = 25.0, radius_edge_ratio = 2.5, sliver_bound_d
 
 // Relative to the body's diagonal, at size 1: what gives a standing human 2,000 vertices.
 constexpr double smallest_cell = 0.0042, largest_cell = 0.021, facet_distance = 0.0032;
-constexpr double cells_across = 2.9;  // a cell is at most this part of the local thickness, at size 1
+constexpr double cells_across = 2.9;    // a cell is at most this part of the local thickness, at size 1
+constexpr double inside_to_skin = 1.2;  // size of cells over size of facets
 
 double diagonal_of(const Positions& points)
 {
@@ -128,9 +129,8 @@ std::vector<double> local_thickness(const Surface& surface, const Tree& tree, do
 // A wrapped body, ready to be meshed at any cell size.
 class Body {
 public:
-    Body(const SurfaceMesh& surface, double alpha, double offset, double inside_to_skin)
-        : inside_to_skin_(inside_to_skin),
-          diagonal_(diagonal_of(surface.points)),
+    Body(const SurfaceMesh& surface, double alpha, double offset)
+        : diagonal_(diagonal_of(surface.points)),
           wrapped_(wrap(surface, alpha, offset)),
           domain_(wrapped_),
           tree_(faces(wrapped_).begin(), faces(wrapped_).end(), wrapped_)
@@ -150,7 +150,7 @@ public:
     // size 1: cells as above; distance 1: facets as near to the wrap as above.
     Complex refined(double size, double distance) const
     {
-        const Sizing skin{*this, size}, flesh{*this, inside_to_skin_ * size};
+        const Sizing skin{*this, size}, flesh{*this, inside_to_skin * size};
         const Criteria criteria(parameters::facet_angle = facet_angle_deg, parameters::facet_size = skin,
                                 parameters::facet_distance = facet_distance * diagonal_ * distance * size,
                                 parameters::facet_topology = CGAL::FACET_VERTICES_ON_SAME_SURFACE_PATCH,
@@ -175,7 +175,6 @@ private:
         }
     };
 
-    double inside_to_skin_;
     double diagonal_;
     Surface wrapped_;
     Domain domain_;
@@ -233,7 +232,7 @@ TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
     check_surface(surface, options);
     const double alpha = options.wrap_alpha_m > 0.0 ? options.wrap_alpha_m : diagonal_of(surface.points) / 170.0;
     const double offset = options.wrap_offset_m > 0.0 ? options.wrap_offset_m : alpha / 3.0;
-    const Body body(surface, alpha, offset, options.inside_to_skin);
+    const Body body(surface, alpha, offset);
     check_closed(surface, body);
     check_wrap(body, options);
 

@@ -91,7 +91,9 @@ void Algorithm1<Scalar>::check_input(const Positions& lbs_positions, const Posit
 template <typename Scalar>
 void Algorithm1<Scalar>::load(const Positions& bind_points)
 {
-    const bool local = std::is_same_v<Scalar, float> && options_.volume_form != VolumeForm::labels_absolute && p_.rows() > 0;
+    const bool of_absolute_positions =
+        options_.volume_form == VolumeForm::labels_absolute || options_.volume_form == VolumeForm::as_printed;
+    const bool local = std::is_same_v<Scalar, float> && !of_absolute_positions && p_.rows() > 0;
     origin_ = local ? Vec3(p_.colwise().mean()) : Vec3(Vec3::Zero());
     for (std::size_t i = 0; i < projected_.size(); ++i) {
         projected_[i] = (p_.row(i).transpose() - origin_).template cast<Scalar>();
@@ -109,6 +111,8 @@ void Algorithm1<Scalar>::project_volumes()
             return project_volume_constraints_printed<Printed::labels_relative>(constraints_, projected_);
         case VolumeForm::labels_absolute:
             return project_volume_constraints_printed<Printed::labels_absolute>(constraints_, projected_);
+        case VolumeForm::as_printed:
+            return project_volume_constraints_printed<Printed::as_printed>(constraints_, projected_);
         case VolumeForm::sign:
             return project_volume_constraints_printed<Printed::sign>(constraints_, projected_);
     }

@@ -10,11 +10,12 @@ namespace pbs {
 enum class Order { plain };  // file order within each class, classes in Algorithm 1's order
 enum class Precision { f32, f64 };
 enum class Masses { unit, lumped };  // m_i = 1 (the paper), or the lumped rest volume
-// The volume correction: derived from Eq. 11 (default), or as printed in Eq. 12-20, each with the sign of Eq. 17-20:
+// The volume correction: derived from Eq. 11 (default), or with one error of Eq. 12-20 at a time, or all of them:
 // labels_relative: Eq. 12-14 under the particles they are printed for, positions relative to p1;
 // labels_absolute: the same with the absolute positions as printed, so it depends on the origin;
-// sign: the derived gradients. All for m_i = 1.
-enum class VolumeForm { derived, labels_relative, labels_absolute, sign };
+// sign: the derived gradients with the sign printed in Eq. 17-20;
+// as_printed: labels, absolute positions and sign.
+enum class VolumeForm { derived, labels_relative, labels_absolute, sign, as_printed };
 
 struct Jiggle {
     double k_stretch = 0.1;  // of edges with both ends in the jiggling zone

@@ -45,11 +45,13 @@ template void project_volume_constraints(const ConstraintSet<float>&, std::vecto
 template void project_volume_constraints_printed<Printed::labels_relative>(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
 template void project_volume_constraints_printed<Printed::labels_absolute>(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
 template void project_volume_constraints_printed<Printed::sign>(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
+template void project_volume_constraints_printed<Printed::as_printed>(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
 template void project_bind_constraints(const ConstraintSet<double>&, const std::vector<Vector3<double>>&, std::vector<Vector3<double>>&);
 template void project_stretch_constraints(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
 template void project_volume_constraints(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
 template void project_volume_constraints_printed<Printed::labels_relative>(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
 template void project_volume_constraints_printed<Printed::labels_absolute>(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
 template void project_volume_constraints_printed<Printed::sign>(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
+template void project_volume_constraints_printed<Printed::as_printed>(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
 
 }  // namespace pbs

@@ -80,4 +80,11 @@ TEST(PrintedEquations, SignBlowsUp)
     EXPECT_TRUE(sign.outcome == Outcome::not_finite || sign.change_pct > 1000.0) << sign.change_pct;
 }
 
+TEST(PrintedEquations, AllErrorsTogetherAreWorseThanLbs)
+{
+    const Finding printed = run(at_the_joint, VolumeForm::as_printed);
+    RecordProperty("as_printed_pct", std::to_string(printed.change_pct));
+    EXPECT_FALSE(printed.change_pct <= lbs_pct) << printed.change_pct;  // or not a number
+}
+
 }  // namespace

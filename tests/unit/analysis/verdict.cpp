@@ -118,6 +118,23 @@ TEST(VolumeIsPreserved, SweepHoldsUpToItsFirstFailure)
     EXPECT_EQ(kind_for("C02", {twist}), VerdictKind::not_reproduced);
 }
 
+TEST(VolumeIsPreserved, HoldingNearTheRestPoseAloneIsNotEnough)
+{
+    auto twist = sweep("twist", "pbs", 24, constant(21, -2.0));
+    for (int i = 0; i <= 4; ++i) set_change(twist, i, 0.0);  // up to 40 of 200 deg: less than a quarter
+    EXPECT_EQ(kind_for("C02", {twist}), VerdictKind::not_reproduced);
+    set_change(twist, 5, 0.0);
+    EXPECT_EQ(kind_for("C02", {twist}), VerdictKind::reproduced_only_for);
+}
+
+TEST(LossOfLbs, AMeanWhoseIntervalLeavesTheBandDoesNotHold)
+{
+    std::vector<double> loss;
+    for (int i = 0; i < 100; ++i) loss.push_back(-12.1 + (i % 2 == 0 ? 3.0 : -3.0));
+    EXPECT_NE(kind_for("C01", {clip("walk", "lbs", 0, loss)}), VerdictKind::reproduced);
+    EXPECT_EQ(kind_for("C01", {clip("walk", "lbs", 0, constant(100, -14.0))}), VerdictKind::reproduced);
+}
+
 TEST(VolumeIsPreserved, RestPoseAloneIsNoSweep)
 {
     const Verdict verdict = judge(claim_of("C02"), {.cases = {sweep("twist", "pbs", 24, {0.0})}});

@@ -18,7 +18,10 @@ TEST(WorkerPool, FinishesEverythingInTheOrderAsked)
     std::filesystem::create_directories(folder);
     std::vector<PooledWork> work;
     for (int i = 0; i < 5; ++i)
-        work.push_back({"work " + std::to_string(i), 1.0 * i, [folder, i] { std::ofstream(folder / std::to_string(i)) << i; }});
+        work.push_back({"work " + std::to_string(i), 1.0 * i, [folder, i] {
+                            std::ofstream(folder / std::to_string(i)) << i;
+                            return "";
+                        }});
     const auto results = run_in_pool(work, 2);
     ASSERT_EQ(results.size(), 5u);
     for (int i = 0; i < 5; ++i) {
@@ -31,7 +34,8 @@ TEST(WorkerPool, FinishesEverythingInTheOrderAsked)
 
 TEST(WorkerPool, AnExceptionIsReportedWithItsWords)
 {
-    const auto results = run_in_pool({{"bad", 1.0, [] { throw std::runtime_error("the mesh is empty"); }}, {"good", 1.0, [] {}}}, 2);
+    const auto results = run_in_pool(
+        {{"bad", 1.0, []() -> std::string { throw std::runtime_error("the mesh is empty"); }}, {"good", 1.0, [] { return ""; }}}, 2);
     EXPECT_FALSE(results[0].finished);
     EXPECT_EQ(results[0].failure, "the mesh is empty");
     EXPECT_TRUE(results[1].finished);
@@ -39,9 +43,17 @@ TEST(WorkerPool, AnExceptionIsReportedWithItsWords)
 
 TEST(WorkerPool, AKilledWorkerIsReportedByItsSignal)
 {
-    const auto results = run_in_pool({{"killed", 1.0, [] { std::raise(SIGKILL); }}}, 1);
+    const auto results = run_in_pool({{"killed", 1.0, []() -> std::string { return std::raise(SIGKILL) == 0 ? "" : "not raised"; }}}, 1);
     EXPECT_FALSE(results[0].finished);
     EXPECT_EQ(results[0].failure, "ended by signal 9");
+}
+
+TEST(WorkerPool, ABreakdownIsFinishedAndSaid)
+{
+    const auto results = run_in_pool({{"broken", 1.0, [] { return "pbs is not finite in frame 3"; }}}, 1);
+    EXPECT_TRUE(results[0].finished);
+    EXPECT_EQ(results[0].breakdown, "pbs is not finite in frame 3");
+    EXPECT_EQ(results[0].failure, "");
 }
 
 TEST(WorkerPool, NoWorkIsNoResult)

@@ -27,7 +27,9 @@ TEST(Bodies, EqTwoBlendsWithinASixthOfTheJointAndNowhereElse)
     const Character& character = limb();
     for (Eigen::Index vertex = 0; vertex < character.mesh.rest.rows(); ++vertex) {
         const double x = character.mesh.rest(vertex, 0);
-        if (std::abs(std::abs(x) - 1.0 / 6.0) > 1e-9) EXPECT_EQ(character.blended[vertex], std::abs(x) < 1.0 / 6.0) << x;
+        if (std::abs(std::abs(x) - 1.0 / 6.0) > 1e-9) {
+            EXPECT_EQ(character.blended[vertex], std::abs(x) < 1.0 / 6.0) << x;
+        }
     }
 }
 

@@ -26,7 +26,7 @@ TEST(Bodies, FromFiles)
     EXPECT_EQ(bar.mesh.rest.rows(), 12);
     EXPECT_EQ(bar.weights.vertices(), 12);
     ASSERT_EQ(bar.inputs.size(), 4u);  // mesh, skeleton, tets, weights
-    EXPECT_EQ(bar.inputs[0].first, mesh);
+    EXPECT_EQ(bar.inputs[0].first, "bar.vtu");
     EXPECT_EQ(bar.inputs[3].second.size(), 32u);
 }
 
