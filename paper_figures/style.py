@@ -39,7 +39,6 @@ looks = {
     "lbs": Look("LBS", vermillion, (0, (4, 1.5)), "v"),
     "dqs": Look("DQS", orange, (0, (5, 1.2, 1, 1.2)), "s"),
     "pbs": Look("PBS, 24 iterations", blue, "-", "o"),
-    "pbs_jiggle": Look("PBS, jiggling zone on", sky, (0, (2, 1)), "D"),
     "fem_p1": Look("linear FEM, P1 (control)", green, (0, (1, 1)), "^"),
     "fem_p2": Look("linear FEM, P2 (control)", black, (0, (1, 1)), "x"),
 }
