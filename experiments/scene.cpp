@@ -35,6 +35,7 @@ pbs::CharacterSource read_character(const SceneValues& values, const std::string
     source.body = values.text("character.body");
     source.mesh_file = beside(folder, values.text("character.mesh"));
     source.skeleton_file = beside(folder, values.text("character.skeleton"));
+    source.skeleton_scale = values.number("character.skeleton_scale");
     source.vertices = values.integer("character.vertices");
     if (source.body.empty() && source.mesh_file.empty()) values.refuse("character.body", "expected a body, or mesh and skeleton files");
     if (!source.body.empty() && !source.mesh_file.empty()) values.refuse("character.mesh", "expected either a body or files, not both");

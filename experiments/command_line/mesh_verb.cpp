@@ -33,8 +33,10 @@ void add_mesh_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
     verb->add_option("--vertices", arguments->meshing.vertices, "wanted number of vertices")
         ->check(CLI::Range(150, 10'000'000))
         ->capture_default_str();
-    verb->add_option("--wrap-alpha", arguments->meshing.wrap_alpha_m, "alpha of the wrap [m]; 0: from the size of the body")->check(CLI::NonNegativeNumber);
-    verb->add_option("--wrap-offset", arguments->meshing.wrap_offset_m, "offset of the wrap [m]; 0: a third of alpha")->check(CLI::NonNegativeNumber);
+    verb->add_option("--wrap-alpha", arguments->meshing.wrap_alpha_m, "alpha of the wrap [m]; 0: from the size of the body")
+        ->check(CLI::NonNegativeNumber);
+    verb->add_option("--wrap-offset", arguments->meshing.wrap_offset_m, "offset of the wrap [m]; 0: a third of alpha")
+        ->check(CLI::NonNegativeNumber);
     verb->callback([&action, arguments] { action = [arguments] { return mesh(*arguments); }; });
 }
 

@@ -3,6 +3,7 @@
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/human.hpp"
 #include "pbs/character/skeleton_file.hpp"
+#include "pbs/character/skeleton_from_clip.hpp"
 #include "pbs/character/weights_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/meshing.hpp"
@@ -36,6 +37,32 @@ std::string file_name(const std::string& path)
     return std::filesystem::path(path).filename().string();
 }
 
+Skeleton read_skeleton_of(const CharacterSource& source)
+{
+    const std::string extension = std::filesystem::path(source.skeleton_file).extension().string();
+    for (const char* clip : {".bvh", ".gltf", ".glb", ".fbx"})
+        if (extension == clip) return skeleton_from_clip(read_clip(source.skeleton_file), source.skeleton_scale);
+    Skeleton skeleton = read_skeleton(source.skeleton_file);
+    for (Bone& bone : skeleton.bones) {
+        bone.head *= source.skeleton_scale;
+        bone.tail *= source.skeleton_scale;
+    }
+    return skeleton;
+}
+
+// A skeleton in other units than the mesh, or of another character, binds vertices all the same: it is refused where no bone reaches the
+// mesh's bounding box.
+void require_bones_at_the_mesh(const Character& character, const std::string& skeleton_file)
+{
+    const Vec3 lower = character.mesh.rest.colwise().minCoeff(), upper = character.mesh.rest.colwise().maxCoeff();
+    for (const Bone& bone : character.skeleton.bones)
+        if ((bone.head.cwiseMax(bone.tail).array() >= lower.array()).all() &&
+            (bone.head.cwiseMin(bone.tail).array() <= upper.array()).all())
+            return;
+    throw InputError(skeleton_file, 0, "joint", "",
+                     "no bone reaches the mesh's bounding box: other units (skeleton_scale), or another character?");
+}
+
 Character make_from_files(const CharacterSource& source)
 {
     if (source.mesh_file.empty()) throw InputError("", 0, "character.mesh", "", "missing: expected a body, or a mesh and a skeleton");
@@ -43,7 +70,8 @@ Character make_from_files(const CharacterSource& source)
     Character character;
     character.name = file_name(source.mesh_file);
     character.mesh = read_tet_mesh(source.mesh_file).mesh;
-    character.skeleton = read_skeleton(source.skeleton_file);
+    character.skeleton = read_skeleton_of(source);
+    require_bones_at_the_mesh(character, source.skeleton_file);
     character.inputs = {{file_name(source.mesh_file), hash_of_file(source.mesh_file)},
                         {file_name(source.skeleton_file), hash_of_file(source.skeleton_file)}};
     return character;

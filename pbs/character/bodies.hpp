@@ -10,6 +10,7 @@ enum class WeightKind { paper, rigid };
 struct CharacterSource {
     std::string body = {};  // limb, bar, human; empty: from files
     std::string mesh_file = {}, skeleton_file = {};
+    double skeleton_scale = 1.0;  // metres a unit of the skeleton file
     int vertices = 0;  // wanted size of a built-in body; 0: its default (limb 1,775, bar 1,800, human as in Table 1's neighbourhood)
     WeightKind weights = WeightKind::paper;
     std::string weights_file = {};  // CSV vertex,joint,weight; empty: `weights`

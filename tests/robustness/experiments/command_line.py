@@ -61,6 +61,35 @@ class CommandLine(program.ProgramTest):
     def test_unknown_joint(self):
         self.refuses("motion.joint = knee: expected one of shoulder, elbow", "run", self.scene, "--set", "motion.joint=knee", "-o", self.path("out"))
 
+    def test_skeleton_in_other_units(self):
+        points, tets = foreign_arm.mesh((10, 2, 2))
+        foreign_arm.write_msh(self.path("moved.msh"), [(x + 2.0, y, z) for x, y, z in points], tets)
+        self.refuses("no bone reaches the mesh's bounding box", "run", self.scene, "--set", "character.mesh=moved.msh", "-o", self.path("out"))
+
+    def test_frames_of_other_tets_are_refused(self):
+        points, tets = foreign_arm.mesh((10, 2, 2))
+        points[0], points[7] = points[7], points[0]
+        renumbered = {0: 7, 7: 0}
+        foreign_arm.write_msh(self.path("renumbered.msh"), points, [[renumbered.get(vertex, vertex) for vertex in tet] for tet in tets])
+        self.refuses("tets: expected the rest mesh's", "measure", self.path("arm.msh"), self.path("renumbered.msh"))
+
+    def test_frames_beyond_the_motion(self):
+        self.refuses("output.frames = 99: expected less than the motion's 5 frames", "run", self.scene, "--set", "output.frames=[99]", "-o", self.path("out"))
+
+    def test_a_reference_cannot_name_files_elsewhere(self):
+        self.refuses("it names files", "run", "limb_twist", "--set", "fem.0.name=../x", "-o", self.path("out"))
+
+    def test_refused_input_leaves_an_earlier_run_alone(self):
+        self.succeeds("run", self.scene, "-o", self.path("out"))
+        self.refuses("motion.joint", "run", self.scene, "--set", "motion.joint=knee", "-o", self.path("out"))
+        self.assertTrue(os.path.exists(self.path("out", "run.json")))
+
+    def test_other_files_in_the_folder_are_left_alone(self):
+        self.succeeds("run", self.scene, "-o", self.path("out"))
+        self.write(os.path.join("out", "frames", "mine.vtu"), "mine")
+        self.succeeds("run", self.scene, "-o", self.path("out"))
+        self.assertEqual(self.read("out", "frames", "mine.vtu"), "mine")
+
     def test_missing_mesh(self):
         self.refuses("none.msh", "run", self.scene, "--set", "character.mesh=none.msh", "-o", self.path("out"))
 
