@@ -35,6 +35,8 @@ void add_mesh_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
         ->capture_default_str();
     verb->add_option("--wrap-alpha", arguments->meshing.wrap_alpha_m, "alpha of the wrap [m]; 0: from the size of the body")
         ->check(CLI::NonNegativeNumber);
+    verb->add_option("--euler", arguments->meshing.boundary_euler, "Euler number of the boundary: 2 a ball, 0 a body with one handle")
+        ->capture_default_str();
     verb->add_option("--wrap-offset", arguments->meshing.wrap_offset_m, "offset of the wrap [m]; 0: a third of alpha")
         ->check(CLI::NonNegativeNumber);
     verb->callback([&action, arguments] { action = [arguments] { return mesh(*arguments); }; });
