@@ -106,6 +106,9 @@ std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int j
     std::vector<PooledResult> results(work.size());
     std::map<pid_t, Worker> workers;
     std::size_t next = 0, ended = 0;
+    double done_s = 0.0;  // expected cost of what has ended
+    const double total_s =
+        std::accumulate(work.begin(), work.end(), 0.0, [](double sum, const PooledWork& item) { return sum + item.cost_s; });
     const pbs::Stopwatch stopwatch;
     while (next < queue.size() || !workers.empty()) {
         while (next < queue.size() && static_cast<int>(workers.size()) < jobs && !interrupted()) {
@@ -122,8 +125,10 @@ std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int j
         const std::size_t index = found->second.work;
         results[index] = outcome_of(work[index], found->second, status);
         workers.erase(found);
-        spdlog::info("[{}/{}] {} {} after {:.0f} s", ++ended, work.size(), work[index].name,
-                     results[index].finished ? "finished" : "failed: " + results[index].failure, stopwatch.seconds());
+        done_s += work[index].cost_s;
+        const double left_s = done_s > 0.0 ? stopwatch.seconds() * (total_s - done_s) / done_s : 0.0;
+        spdlog::info("[{}/{}] {} {} after {:.0f} s, some {:.0f} s left", ++ended, work.size(), work[index].name,
+                     results[index].finished ? "finished" : "failed: " + results[index].failure, stopwatch.seconds(), left_s);
     }
     stop_if_interrupted();
     return results;
