@@ -6,13 +6,10 @@
 // The header is plain; deal.II and SuiteSparse are seen by the .cpp files alone.
 #pragma once
 
+#include "reference_fem/attachment.hpp"
 #include "reference_fem/direct_solver.hpp"
 
-#include "pbs/geometry/tet_mesh.hpp"
-
 #include <memory>
-#include <string>
-#include <vector>
 
 namespace reference_fem {
 
@@ -25,28 +22,10 @@ struct LinearOptions {
     DirectSolver solver = DirectSolver::cholmod;
 };
 
-// What the skeleton prescribes, as arrays. Springs tie material points to targets; prescribed tets have every node in them at its target.
-struct Attachment {
-    pbs::Positions spring_points;      // rest points [m], #S x 3; a point outside the tets is left out and counted
-    Eigen::VectorXd spring_stiffness;  // [N/m], #S
-    std::vector<int> prescribed_tets;  // tets held whole; a mid-edge node follows the mean of its edge's ends: exact for affine targets
-};
-
 struct SolveSummary {
     double seconds = 0.0;
     double residual = 0.0;  // |K u - f| / |f|
     bool finite = true;
-};
-
-struct SetupSummary {
-    int dofs = 0;
-    double assemble_s = 0.0, analyse_s = 0.0, factor_s = 0.0;
-    std::string elements;               // e.g. "deal.II 9.4.1"
-    std::string solver;                 // e.g. "CHOLMOD 3.0.14 supernodal, METIS"
-    std::string blas;                   // the BLAS that was resolved
-    bool factored = false;              // false: the matrix is singular in double; every solve then reports finite = false
-    double reciprocal_condition = 0.0;  // the solver's own rough estimate
-    std::vector<int> spring_tet;        // tet that holds each spring point, -1: outside
 };
 
 class LinearElasticity {

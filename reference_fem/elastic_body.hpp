@@ -1,0 +1,73 @@
+// The judge at large rotations: any of the laws on the skinner's own tets, held by the skeleton as LinearElasticity is, quasi-static or in
+// time.
+//   ElasticBody body(mesh, options, attachment);
+//   const LoadPathSummary path = body.solve(targets_at, gravity_m_s2);        // equilibrium, from the last one
+//   const LoadPathSummary step = body.advance(targets_at, gravity_m_s2, dt);  // or one time step
+//   body.positions();
+// A state that was not reached is a reported outcome: the positions are then those of the last converged state.
+#pragma once
+
+#include "reference_fem/attachment.hpp"
+#include "reference_fem/formulation.hpp"
+#include "reference_fem/laws/constitutive_law.hpp"
+#include "reference_fem/newton/load_path.hpp"
+#include "reference_fem/potentials/elastic_potential.hpp"
+
+#include <functional>
+#include <memory>
+
+namespace reference_fem {
+
+enum class Dynamics { quasi_static, newmark, generalized_alpha };
+
+struct ElasticOptions {
+    Model model = Model::stable_neo_hookean;
+    int element_order = 2;  // 1, 2
+    Formulation formulation = Formulation::displacement;
+    double young_pa = 1.0e5;
+    double poisson = 0.45;
+    double density_kg_m3 = 1000.0;
+    Dynamics dynamics = Dynamics::quasi_static;
+    double rayleigh_mass_1_s = 0.0;  // damping C = rayleigh_mass M + rayleigh_stiffness K(rest)
+    double rayleigh_stiffness_s = 0.0;
+    double spectral_radius = 0.8;  // of generalised-alpha at infinite frequency
+    DirectSolver solver = DirectSolver::cholmod;
+    NewtonOptions newton;
+    LoadPathOptions path;
+};
+
+// What the skeleton asks for at a fraction of the way from the last solved state (0) to this one (1).
+struct Targets {
+    pbs::Positions springs;      // [m], #S x 3
+    pbs::Positions vertices;     // [m], #V x 3, read at the vertices of prescribed tets only
+    pbs::Positions bind_points;  // [m], #V x 3, where the attachment binds; else empty
+};
+using TargetsAt = std::function<Targets(double fraction)>;
+
+class ElasticBody {
+public:
+    // pbs::InputError where an option, the mesh or the attachment is out of bounds, or a connected part of the mesh is not held.
+    ElasticBody(const pbs::TetMesh& mesh, const ElasticOptions& options, const Attachment& attachment);
+    ~ElasticBody();
+
+    LoadPathSummary solve(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2);
+    // One step of options.dynamics; the data move linearly in time from fraction 0 to 1. Of a step that does not converge nothing is kept.
+    LoadPathSummary advance(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2, double time_step_s);
+
+    // A start for Newton other than the last state [m], #V x 3; mid-edge nodes halfway. Does not change what is converged to, only the way.
+    void start_from(const pbs::Positions& vertices);
+
+    const pbs::Positions& positions() const;        // deformed vertices [m], #V x 3
+    pbs::Positions spring_points_deformed() const;  // where the tied points went [m], #S x 3
+    double strain_energy_j() const;                 // of the flesh alone
+    double kinetic_energy_j() const;                // 0 where quasi-static
+    Jacobians jacobians() const;                    // at the quadrature points: an inverted one is not for P1 alone to see
+    std::vector<bool> prescribed_vertices() const;  // #V
+    const SetupSummary& setup() const;
+
+private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace reference_fem

@@ -1,0 +1,27 @@
+// The elements of a space as arrays: what an energy over the tets needs of deal.II, computed once. On straight tets the gradients are
+// those of the rest configuration (total Lagrangian).
+#pragma once
+
+#include "reference_fem/simplex_space.hpp"
+
+#include <vector>
+
+namespace reference_fem {
+
+struct ElementTables {
+    int nodes_per_tet = 0, points_per_tet = 0;
+    Eigen::VectorXd weights;         // [m^3], #T * points: quadrature weight times Jacobian
+    pbs::Positions shape_gradients;  // d N_a / d X [1/m], (#T * points * nodes) x 3
+
+    // The nodes' gradients at point q of a tet, nodes x 3.
+    auto gradients(Eigen::Index tet, int q) const
+    {
+        return shape_gradients.middleRows((tet * points_per_tet + q) * nodes_per_tet, nodes_per_tet);
+    }
+    double weight(Eigen::Index tet, int q) const { return weights(tet * points_per_tet + q); }
+};
+
+// Quadrature with `points_1d` points a direction: exact to degree 2 points_1d - 1; 1 to 4.
+ElementTables element_tables(const SimplexSpace& space, int points_1d);
+
+}  // namespace reference_fem

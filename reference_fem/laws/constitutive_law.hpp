@@ -1,0 +1,62 @@
+// How flesh answers a deformation gradient F: energy density, stress and tangent of an isotropic law.
+//   const auto law = constitutive_law(Model::stable_neo_hookean, lame_parameters(young_pa, poisson));
+//   const PointResponse response = law->evaluate(F, Derivatives::second);
+//   first_piola_kirchhoff(response, law->lambda_pa());
+// Every law is written in two parts, psi(F) = shape(F) + lambda / 2 theta(F)^2, where the dilatation theta is the law's own measure of
+// the change of volume. The mean dilatation formulation then replaces theta by its mean over the tet, for each law alike.
+// All have the small-strain limit of linear elasticity with the same Lame parameters.
+#pragma once
+
+#include "reference_fem/material.hpp"
+
+#include "pbs/geometry/types.hpp"
+
+#include <Eigen/Core>
+
+#include <memory>
+
+namespace reference_fem {
+
+enum class Model {
+    linear,                 // small strain: rotation by a is taken for a strain of 1 - cos(a)
+    corotational,           // small strain in the frame of the polar decomposition F = R S
+    stable_neo_hookean,     // B. Smith, F. de Goes, T. Kim, ACM TOG 37(2), 2018; defined and smooth through inversion
+    neo_hookean,            // compressible: J. Bonet, R. Wood, Nonlinear Continuum Mechanics, Eq. 6.27; infinite at det F <= 0
+    st_venant_kirchhoff,    // the warning example: softens under compression and gives way
+    isochoric_neo_hookean,  // split into det F and the isochoric part, the law of the finite-strain Cook's membrane benchmark
+};
+
+using Tangent = Eigen::Matrix<double, 9, 9>;  // d vec(A) / d vec(F), vec by columns
+
+enum class Derivatives { none, first, second };
+
+// What is asked for of: shape [Pa], theta [1], and their derivatives by F; the rest is left as it is.
+struct PointResponse {
+    bool defined = true;  // false: F is outside the law's domain (det F <= 0), nothing else is set
+    double shape = 0.0, dilatation = 0.0;
+    Eigen::Matrix3d shape_gradient, dilatation_gradient;
+    Tangent shape_hessian, dilatation_hessian;
+};
+
+class ConstitutiveLaw {
+public:
+    explicit ConstitutiveLaw(const Lame& lame) : lame_(lame) {}
+    virtual ~ConstitutiveLaw() = default;
+
+    virtual PointResponse evaluate(const Eigen::Matrix3d& deformation_gradient, Derivatives derivatives) const = 0;
+
+    double lambda_pa() const { return volume_term() ? lame_.lambda_pa : 0.0; }  // the factor of theta^2 / 2
+    virtual bool volume_term() const { return true; }                           // false: the law is not of the two-part form, theta = 0
+
+protected:
+    Lame lame_;
+};
+
+std::unique_ptr<const ConstitutiveLaw> constitutive_law(Model model, const Lame& lame);
+
+// psi [Pa], P = d psi / d F [Pa] and d P / d F [Pa] of a response.
+double energy_density(const PointResponse& response, double lambda_pa);
+Eigen::Matrix3d first_piola_kirchhoff(const PointResponse& response, double lambda_pa);
+Tangent tangent(const PointResponse& response, double lambda_pa);
+
+}  // namespace reference_fem

@@ -1,0 +1,71 @@
+// Newton's method for the displacements that minimise a sum of potentials, some degrees of freedom prescribed.
+//   NewtonMinimiser newton(space, prescribed, DirectSolver::cholmod);
+//   const NewtonSummary summary = newton.minimise({&flesh, &springs}, prescribed_values, displacement, {});
+// The increment of the prescribed data goes into the first linear solve. Guards: where the Hessian is not positive definite it is
+// projected tet by tet; a step that does not lower the energy enough (Armijo) is halved. Every iteration is on record, and a step that
+// does not converge is an outcome. The symbolic analysis is kept; so is the factor where every term is quadratic.
+#pragma once
+
+#include "reference_fem/eliminated_system.hpp"
+#include "reference_fem/potentials/potential.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace reference_fem {
+
+struct NewtonOptions {
+    // Converged where |free residual| <= relative_tolerance * sum over the terms of |gradient|, reactions included.
+    double relative_tolerance = 1e-8;
+    int iterations = 40;
+    int halvings = 25;  // of one step
+};
+
+struct NewtonIteration {
+    double residual_n = 0.0;         // norm of the free part of the gradient, before the step
+    double force_scale_n = 0.0;      // what it is measured against
+    double energy_j = 0.0;           // before the step
+    double step_length = 0.0;        // 1: a full Newton step; 0: none was taken, this is the converged state
+    bool projected = false;          // the Hessian was not positive definite
+    bool carries_increment = false;  // the linear solve that moves the prescribed data
+};
+
+enum class NewtonOutcome { converged, iterations_exhausted, no_descent, not_positive_definite, not_finite };
+const char* name_of(NewtonOutcome outcome);
+
+struct NewtonSummary {
+    NewtonOutcome outcome = NewtonOutcome::iterations_exhausted;
+    std::vector<NewtonIteration> iterations;
+    int factorisations = 0;
+    double seconds = 0.0;
+
+    bool converged() const { return outcome == NewtonOutcome::converged; }
+    int steps() const;  // linear solves
+};
+
+class NewtonMinimiser {
+public:
+    // prescribed: #dofs. The space outlives the minimiser.
+    NewtonMinimiser(const SimplexSpace& space, const std::vector<bool>& prescribed, DirectSolver solver);
+
+    // prescribed_values [m], #dofs, is read at prescribed degrees of freedom only. displacement [m], #dofs: the start, and the minimum;
+    // where the outcome is not converged, the last iterate.
+    NewtonSummary minimise(const std::vector<const Potential*>& terms, const Eigen::VectorXd& prescribed_values,
+                           Eigen::VectorXd& displacement, const NewtonOptions& options);
+
+    // The terms have changed (another time step, another stiffness): a factor kept of quadratic terms is stale.
+    void forget_factor() { factor_is_kept_ = false; }
+
+    const DirectFactor* factor() const { return system_ ? &system_->factor() : nullptr; }  // null before the first solve
+
+private:
+    class Iterate;
+
+    std::vector<bool> prescribed_;
+    DirectSolver solver_;
+    NodalMatrix hessian_;
+    std::unique_ptr<EliminatedSystem> system_;
+    bool factor_is_kept_ = false;
+};
+
+}  // namespace reference_fem

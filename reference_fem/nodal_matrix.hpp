@@ -1,0 +1,36 @@
+// A symmetric sparse matrix over the nodes of a space, of 3 x 3 blocks: block (i, j) exists where a tet has both nodes. It is stored as
+// the plain compressed columns that SuiteSparse reads, so adding a block is nine additions in place.
+#pragma once
+
+#include "reference_fem/simplex_space.hpp"
+#include "reference_fem/sparse_matrix.hpp"
+
+#include <vector>
+
+namespace reference_fem {
+
+class NodalMatrix {
+public:
+    explicit NodalMatrix(const SimplexSpace& space);
+
+    void set_zero() { matrix_.coeffs().setZero(); }
+    void add_block(int row_node, int column_node, const Eigen::Matrix3d& block)
+    {
+        add_at(place(row_node, column_node), column_node, block);
+    }
+    // Blocks of one tet, k of them a side: values 3 k x 3 k.
+    void add_tet(Eigen::Index tet, const Eigen::Ref<const Eigen::MatrixXd>& values);
+
+    const SparseMatrix& matrix() const { return matrix_; }  // #dofs x #dofs, both triangles
+
+private:
+    SparseMatrix::StorageIndex place(int row_node, int column_node) const;  // of the block's first row in its columns
+    template <typename Block>
+    void add_at(SparseMatrix::StorageIndex place, int column_node, const Block& block);
+
+    SparseMatrix matrix_;
+    TetNodes tet_nodes_;
+    std::vector<SparseMatrix::StorageIndex> tet_places_;  // per tet, row by row
+};
+
+}  // namespace reference_fem
