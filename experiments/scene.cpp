@@ -122,7 +122,7 @@ DeformerSpec fem_spec(const SceneValues& values, int index)
     options.attachment = option_of<FemAttachment>(values.text(at + "attachment"));
     options.core_radius = values.number(at + "core_radius");
     options.spring_factor = values.number(at + "spring_factor");
-    options.solver = option_of<reference_fem::DirectSolver>(values.text(at + "solver"));
+    options.solver = option_of<reference_fem::LinearSolver>(values.text(at + "solver"));
     const auto is_plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
     if (spec.name.empty() || !std::all_of(spec.name.begin(), spec.name.end(), is_plain) || spec.name.starts_with("pbs"))
         values.refuse(at + "name", "expected letters, digits and underscores, not beginning with pbs: it names files");

@@ -20,7 +20,7 @@ struct BoundaryValueProblem {
     VectorField displacement;                         // [m], at the held nodes
     std::function<bool(const pbs::Vec3&)> held = {};  // which boundary nodes are held; empty: all; the others are free of traction
     int element_order = 2;
-    DirectSolver solver = DirectSolver::cholmod;
+    LinearSolver solver = LinearSolver::cholmod;
 };
 
 struct BoundaryValueSolution {

@@ -4,10 +4,10 @@
 
 namespace reference_fem {
 
-std::unique_ptr<DirectFactor> factorise(const SparseMatrix& matrix, DirectSolver solver)
+std::unique_ptr<DirectFactor> factorise(const SparseMatrix& matrix, LinearSolver solver)
 {
     use_one_blas_thread();
-    return solver == DirectSolver::cholmod ? factorise_with_cholmod(matrix) : factorise_with_umfpack(matrix);
+    return solver == LinearSolver::cholmod ? factorise_with_cholmod(matrix) : factorise_with_umfpack(matrix);
 }
 
 }  // namespace reference_fem

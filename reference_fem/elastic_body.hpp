@@ -31,7 +31,7 @@ struct ElasticOptions {
     double rayleigh_mass_1_s = 0.0;  // damping C = rayleigh_mass M + rayleigh_stiffness K(rest)
     double rayleigh_stiffness_s = 0.0;
     double spectral_radius = 0.8;  // of generalised-alpha at infinite frequency
-    DirectSolver solver = DirectSolver::cholmod;
+    LinearSolver solver = LinearSolver::cholmod;
     NewtonOptions newton;
     LoadPathOptions path;
 };

@@ -14,33 +14,44 @@ std::vector<int> places(const std::vector<int>& kept, Eigen::Index size)
     return place;
 }
 
-SparseMatrix block(const SparseMatrix& matrix, const std::vector<int>& rows, const std::vector<int>& columns)
+}  // namespace
+
+EliminatedSystem::Block EliminatedSystem::block(const SparseMatrix& matrix, const std::vector<int>& rows, const std::vector<int>& columns)
 {
     const std::vector<int> row_place = places(rows, matrix.rows());
-    SparseMatrix kept(rows.size(), columns.size());
+    Block kept{SparseMatrix(rows.size(), columns.size()), {}};
     for (std::size_t c = 0; c < columns.size(); ++c) {
-        kept.startVec(c);
-        for (SparseMatrix::InnerIterator entry(matrix, columns[c]); entry; ++entry)
-            if (const int row = row_place[entry.row()]; row != not_in_block) kept.insertBack(row, c) = entry.value();
+        kept.matrix.startVec(c);
+        for (auto k = matrix.outerIndexPtr()[columns[c]]; k < matrix.outerIndexPtr()[columns[c] + 1]; ++k) {
+            const int row = row_place[matrix.innerIndexPtr()[k]];
+            if (row == not_in_block) continue;
+            kept.matrix.insertBack(row, c) = matrix.valuePtr()[k];
+            kept.source.push_back(k);
+        }
     }
-    kept.finalize();
+    kept.matrix.finalize();
     return kept;
 }
 
-}  // namespace
-
-EliminatedSystem::EliminatedSystem(const SparseMatrix& stiffness, const std::vector<bool>& prescribed, DirectSolver solver)
+EliminatedSystem::EliminatedSystem(const SparseMatrix& stiffness, const std::vector<bool>& prescribed, LinearSolver solver)
 {
     for (std::size_t i = 0; i < prescribed.size(); ++i) (prescribed[i] ? prescribed_ : free_).push_back(static_cast<int>(i));
     free_free_ = block(stiffness, free_, free_);
     free_prescribed_ = block(stiffness, free_, prescribed_);
-    factor_ = factorise(free_free_, solver);
+    factor_ = factorise(free_free_.matrix, solver);
+}
+
+void EliminatedSystem::update(const SparseMatrix& stiffness)
+{
+    for (Block* kept : {&free_free_, &free_prescribed_})
+        for (std::size_t k = 0; k < kept->source.size(); ++k) kept->matrix.valuePtr()[k] = stiffness.valuePtr()[kept->source[k]];
+    factor_->refactor();
 }
 
 EliminatedSolution EliminatedSystem::solve(const Eigen::VectorXd& load, const Eigen::VectorXd& prescribed_values) const
 {
     EliminatedSolution solution{prescribed_values, 0.0};
-    const Eigen::VectorXd right_hand_side = load(free_) - free_prescribed_ * prescribed_values(prescribed_);
+    const Eigen::VectorXd right_hand_side = load(free_) - free_prescribed_.matrix * prescribed_values(prescribed_);
     if (free_.empty()) return solution;
     if (!factor_->usable()) {
         solution.displacement.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -49,7 +60,7 @@ EliminatedSolution EliminatedSystem::solve(const Eigen::VectorXd& load, const Ei
     }
     const Eigen::VectorXd free_values = factor_->solve(right_hand_side);
     solution.displacement(free_) = free_values;
-    const double defect = (free_free_ * free_values - right_hand_side).norm();
+    const double defect = (free_free_.matrix * free_values - right_hand_side).norm();
     solution.residual = defect == 0.0 ? 0.0 : defect / right_hand_side.norm();
     return solution;
 }

@@ -16,16 +16,25 @@ struct EliminatedSolution {
 class EliminatedSystem {
 public:
     // prescribed: #dofs.
-    EliminatedSystem(const SparseMatrix& stiffness, const std::vector<bool>& prescribed, DirectSolver solver);
+    EliminatedSystem(const SparseMatrix& stiffness, const std::vector<bool>& prescribed, LinearSolver solver);
 
     // load [N] and prescribed_values [m], #dofs; the latter is read at prescribed degrees of freedom only.
     EliminatedSolution solve(const Eigen::VectorXd& load, const Eigen::VectorXd& prescribed_values) const;
 
+    // Another stiffness of the same pattern: the symbolic analysis is kept.
+    void update(const SparseMatrix& stiffness);
+
     const DirectFactor& factor() const { return *factor_; }
 
 private:
+    struct Block {
+        SparseMatrix matrix;
+        std::vector<SparseMatrix::StorageIndex> source;  // of each value, in the whole matrix
+    };
+    static Block block(const SparseMatrix& matrix, const std::vector<int>& rows, const std::vector<int>& columns);
+
     std::vector<int> free_, prescribed_;  // degrees of freedom, increasing
-    SparseMatrix free_free_, free_prescribed_;
+    Block free_free_, free_prescribed_;
     std::unique_ptr<DirectFactor> factor_;
 };
 

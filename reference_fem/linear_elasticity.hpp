@@ -7,7 +7,7 @@
 #pragma once
 
 #include "reference_fem/attachment.hpp"
-#include "reference_fem/direct_solver.hpp"
+#include "reference_fem/linear_solver.hpp"
 
 #include <memory>
 
@@ -19,7 +19,7 @@ struct LinearOptions {
     double poisson = 0.45;
     double density_kg_m3 = 1000.0;
     pbs::Vec3 gravity_m_s2 = pbs::Vec3::Zero();
-    DirectSolver solver = DirectSolver::cholmod;
+    LinearSolver solver = LinearSolver::cholmod;
 };
 
 struct SolveSummary {

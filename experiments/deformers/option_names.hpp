@@ -45,9 +45,9 @@ struct OptionNames<FemAttachment> {
         {{FemAttachment::embedded, "embedded"}, {FemAttachment::nodes, "nodes"}}};
 };
 template <>
-struct OptionNames<reference_fem::DirectSolver> {
-    static constexpr std::array<std::pair<reference_fem::DirectSolver, const char*>, 2> table{
-        {{reference_fem::DirectSolver::cholmod, "cholmod"}, {reference_fem::DirectSolver::umfpack, "umfpack"}}};
+struct OptionNames<reference_fem::LinearSolver> {
+    static constexpr std::array<std::pair<reference_fem::LinearSolver, const char*>, 2> table{
+        {{reference_fem::LinearSolver::cholmod, "cholmod"}, {reference_fem::LinearSolver::umfpack, "umfpack"}}};
 };
 
 template <typename Enum>

@@ -1,5 +1,5 @@
 // Newton's method for the displacements that minimise a sum of potentials, some degrees of freedom prescribed.
-//   NewtonMinimiser newton(space, prescribed, DirectSolver::cholmod);
+//   NewtonMinimiser newton(space, prescribed, LinearSolver::cholmod);
 //   const NewtonSummary summary = newton.minimise({&flesh, &springs}, prescribed_values, displacement, {});
 // The increment of the prescribed data goes into the first linear solve. Guards: where the Hessian is not positive definite it is
 // projected tet by tet; a step that does not lower the energy enough (Armijo) is halved. Every iteration is on record, and a step that
@@ -46,7 +46,7 @@ struct NewtonSummary {
 class NewtonMinimiser {
 public:
     // prescribed: #dofs. The space outlives the minimiser.
-    NewtonMinimiser(const SimplexSpace& space, const std::vector<bool>& prescribed, DirectSolver solver);
+    NewtonMinimiser(const SimplexSpace& space, const std::vector<bool>& prescribed, LinearSolver solver);
 
     // prescribed_values [m], #dofs, is read at prescribed degrees of freedom only. displacement [m], #dofs: the start, and the minimum;
     // where the outcome is not converged, the last iterate.
@@ -62,7 +62,7 @@ private:
     class Iterate;
 
     std::vector<bool> prescribed_;
-    DirectSolver solver_;
+    LinearSolver solver_;
     NodalMatrix hessian_;
     std::unique_ptr<EliminatedSystem> system_;
     bool factor_is_kept_ = false;

@@ -1,7 +1,7 @@
 // Options of the finite element reference as a deformer.
 #pragma once
 
-#include "reference_fem/direct_solver.hpp"
+#include "reference_fem/linear_solver.hpp"
 
 #include "pbs/geometry/types.hpp"
 
@@ -25,7 +25,7 @@ struct FemOptions {
     FemAttachment attachment = FemAttachment::embedded;
     double core_radius = 0.35;     // capsule radius over local limb radius
     double spring_factor = 1.0e4;  // q: springs of density q E / r^2, r the capsule's radius; doubling it changes nothing that is reported
-    reference_fem::DirectSolver solver = reference_fem::DirectSolver::cholmod;
+    reference_fem::LinearSolver solver = reference_fem::LinearSolver::cholmod;
 };
 
 }  // namespace experiments

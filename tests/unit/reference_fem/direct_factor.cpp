@@ -23,7 +23,7 @@ SparseMatrix spring_chain(int n, double ground)
 TEST(DirectFactor, BothSolversAgreeWithADenseSolveForManyRightHandSides)
 {
     const SparseMatrix matrix = spring_chain(30, 2.0);
-    for (const auto solver : {DirectSolver::cholmod, DirectSolver::umfpack}) {
+    for (const auto solver : {LinearSolver::cholmod, LinearSolver::umfpack}) {
         const auto factor = factorise(matrix, solver);
         ASSERT_TRUE(factor->usable());
         EXPECT_GT(factor->reciprocal_condition(), 0.0);
@@ -38,15 +38,15 @@ TEST(DirectFactor, BothSolversAgreeWithADenseSolveForManyRightHandSides)
 TEST(DirectFactor, ASingularMatrixIsReportedNotThrown)
 {
     const SparseMatrix floating = spring_chain(4, 0.0);
-    EXPECT_FALSE(factorise(floating, DirectSolver::cholmod)->usable());
-    EXPECT_FALSE(factorise(floating, DirectSolver::umfpack)->usable());
+    EXPECT_FALSE(factorise(floating, LinearSolver::cholmod)->usable());
+    EXPECT_FALSE(factorise(floating, LinearSolver::umfpack)->usable());
 }
 
 TEST(DirectFactor, CholmodRefusesAnIndefiniteMatrixThatUmfpackSolves)
 {
     const SparseMatrix indefinite = spring_chain(4, -3.0);
-    EXPECT_FALSE(factorise(indefinite, DirectSolver::cholmod)->usable());
-    EXPECT_TRUE(factorise(indefinite, DirectSolver::umfpack)->usable());
+    EXPECT_FALSE(factorise(indefinite, LinearSolver::cholmod)->usable());
+    EXPECT_TRUE(factorise(indefinite, LinearSolver::umfpack)->usable());
 }
 
 TEST(DirectFactor, TheBlasInUseIsNamedWithItsFile)

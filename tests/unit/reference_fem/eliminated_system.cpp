@@ -22,7 +22,7 @@ const std::vector<bool> first_and_fifth = {true, false, false, false, true, fals
 TEST(EliminatedSystem, PrescribedValuesStayAndFreeRowsHold)
 {
     const SparseMatrix stiffness = tridiagonal(2.5);
-    const EliminatedSystem system(stiffness, first_and_fifth, DirectSolver::cholmod);
+    const EliminatedSystem system(stiffness, first_and_fifth, LinearSolver::cholmod);
     const Eigen::VectorXd load = Eigen::VectorXd::LinSpaced(6, 1.0, 2.0);
     Eigen::VectorXd prescribed = Eigen::VectorXd::Constant(6, std::nan(""));  // read at prescribed degrees of freedom only
     for (const double first : {0.5, -3.0}) {
@@ -39,7 +39,7 @@ TEST(EliminatedSystem, PrescribedValuesStayAndFreeRowsHold)
 
 TEST(EliminatedSystem, NothingToDoHasNoResidual)
 {
-    const EliminatedSystem system(tridiagonal(2.5), first_and_fifth, DirectSolver::cholmod);
+    const EliminatedSystem system(tridiagonal(2.5), first_and_fifth, LinearSolver::cholmod);
     const EliminatedSolution solution = system.solve(Eigen::VectorXd::Zero(6), Eigen::VectorXd::Zero(6));
     EXPECT_EQ(solution.displacement, Eigen::VectorXd::Zero(6));
     EXPECT_EQ(solution.residual, 0.0);
@@ -47,14 +47,14 @@ TEST(EliminatedSystem, NothingToDoHasNoResidual)
 
 TEST(EliminatedSystem, EveryDegreeOfFreedomPrescribed)
 {
-    const EliminatedSystem system(tridiagonal(2.5), std::vector<bool>(6, true), DirectSolver::cholmod);
+    const EliminatedSystem system(tridiagonal(2.5), std::vector<bool>(6, true), LinearSolver::cholmod);
     const Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(6, 1.0, 2.0);
     EXPECT_EQ(system.solve(Eigen::VectorXd::Zero(6), values).displacement, values);
 }
 
 TEST(EliminatedSystem, ABrokenFactorisationGivesNotANumber)
 {
-    const EliminatedSystem system(tridiagonal(0.0), std::vector<bool>(6, false), DirectSolver::cholmod);
+    const EliminatedSystem system(tridiagonal(0.0), std::vector<bool>(6, false), LinearSolver::cholmod);
     const EliminatedSolution solution = system.solve(Eigen::VectorXd::Ones(6), Eigen::VectorXd::Zero(6));
     EXPECT_FALSE(solution.displacement.allFinite());
     EXPECT_FALSE(std::isfinite(solution.residual));

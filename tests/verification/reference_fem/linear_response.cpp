@@ -51,7 +51,7 @@ protected:
 TEST_P(LinearResponse, CholmodAndUmfpackAgree)
 {
     LinearOptions second = options;
-    second.solver = DirectSolver::umfpack;
+    second.solver = LinearSolver::umfpack;
     LinearElasticity cholmod(bar, options, springs()), umfpack(bar, second, springs());
     const SolveSummary first = cholmod.solve(moved_points(0.1, 0.1), bar.rest), other = umfpack.solve(moved_points(0.1, 0.1), bar.rest);
     EXPECT_LT(relative_difference(cholmod.positions(), umfpack.positions()), 1e-10);

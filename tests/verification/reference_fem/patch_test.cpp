@@ -39,7 +39,7 @@ double condition_of_inner_stiffness(const SimplexSpace& space)
     return eigen.eigenvalues().tail<1>()(0) / eigen.eigenvalues()(0);
 }
 
-class PatchTest : public testing::TestWithParam<std::tuple<int, DirectSolver>> {};
+class PatchTest : public testing::TestWithParam<std::tuple<int, LinearSolver>> {};
 
 TEST_P(PatchTest, ReturnsAnAffineDisplacementToRounding)
 {
@@ -59,6 +59,6 @@ TEST_P(PatchTest, ReturnsAnAffineDisplacementToRounding)
 }
 
 INSTANTIATE_TEST_SUITE_P(Elements, PatchTest,
-                         testing::Combine(testing::Values(1, 2), testing::Values(DirectSolver::cholmod, DirectSolver::umfpack)));
+                         testing::Combine(testing::Values(1, 2), testing::Values(LinearSolver::cholmod, LinearSolver::umfpack)));
 
 }  // namespace

@@ -73,7 +73,7 @@ TEST_P(AttachedBar, IsObjective)
 TEST_P(AttachedBar, UmfpackGivesTheSame)
 {
     const Positions cholmod = deformed(options, bent(10.0));
-    options.solver = reference_fem::DirectSolver::umfpack;
+    options.solver = reference_fem::LinearSolver::umfpack;
     EXPECT_LT(largest_distance(deformed(options, bent(10.0)), cholmod), 1e-9);
 }
 
