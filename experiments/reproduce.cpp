@@ -2,12 +2,10 @@
 
 #include "analysis/atomic_file.hpp"
 #include "analysis/claims_report.hpp"
-#include "analysis/provenance.hpp"
 #include "experiments/claims_text.hpp"
 #include "experiments/exit_status.hpp"
-#include "experiments/run.hpp"
-#include "experiments/scene_schema.hpp"
 #include "experiments/studies/study.hpp"
+#include "experiments/studies/study_run.hpp"
 #include "experiments/studies/worker_pool.hpp"
 #include "pbs/geometry/input_error.hpp"
 
@@ -33,7 +31,7 @@ bool asked_for(const Study& study, const std::vector<std::string>& names)
         const auto of_study = [&](const analysis::Claim& claim) { return claim.id == name && claim.study == study.name; };
         return name == study.name || std::any_of(claims().begin(), claims().end(), of_study);
     };
-    return names.empty() || std::any_of(names.begin(), names.end(), asks);
+    return names.empty() ? study.by_default : std::any_of(names.begin(), names.end(), asks);
 }
 
 void refuse_unknown(const std::vector<std::string>& names)
@@ -45,26 +43,6 @@ void refuse_unknown(const std::vector<std::string>& names)
         if (!std::count(known.begin(), known.end(), name))
             throw pbs::InputError("", 0, "reproduce", name,
                                   "unknown claim or study; expected one of " + fmt::format("{}", fmt::join(known, ", ")));
-}
-
-// The run in `folder` is of this scene and revision and ended: nothing of it need be done again.
-bool is_finished(const StudyRun& run, const std::string& folder)
-{
-    const fs::path record = fs::path(folder) / "run.json";
-    if (!fs::exists(record)) return false;
-    const auto json = nlohmann::json::parse(analysis::read_text(record.string()), nullptr, false);
-    if (!json.is_object() || json.value("scene", nlohmann::json()) != resolved_with_deformers(run.scene)) return false;
-    const analysis::Provenance now = analysis::collect_provenance(1);
-    const auto then = json.value("provenance", nlohmann::json::object());
-    return then.value("git_revision", "") == now.git_revision && then.value("git_dirty", true) == now.git_dirty;
-}
-
-// What broke down, if anything.
-std::string run_and_say(const StudyRun& run, const std::string& folder)
-{
-    const RunResult result = run_scene(run.scene, folder);
-    for (const auto& line : result.lines) spdlog::debug("{}", line);
-    return result.breakdown;
 }
 
 struct StudyOutcome {
@@ -81,7 +59,7 @@ StudyOutcome run_study(const std::vector<StudyRun>& runs, const std::string& stu
         if (arguments.resume && is_finished(run, folder))
             outcome.folders.push_back(folder);
         else
-            work.push_back({run.name, run.cost_s, [&run, folder] { return run_and_say(run, folder); }});
+            work.push_back({run.name, run.cost_s, [&run, folder] { return carry_out(run, folder); }});
     }
     const double cost_s =
         std::accumulate(work.begin(), work.end(), 0.0, [](double sum, const PooledWork& item) { return sum + item.cost_s; });
@@ -110,13 +88,31 @@ std::string self_intersections_of(const std::vector<std::string>& folders)
     return lines;
 }
 
-void add_records(analysis::Records& records, const std::vector<std::string>& folders, const std::string& root)
+// What the claims of a study are judged from: the records of its scene runs.
+analysis::Records records_of(const StudyPlan& plan, const std::vector<std::string>& folders, const std::string& root)
 {
+    analysis::Records records;
+    records.left_out = plan.left_out;
+    for (const StudyRun& run : plan.runs)
+        if (!run.work) records.planned_scenes.push_back(run.scene.name);
+    for (const auto& left_out : plan.left_out) records.planned_scenes.push_back(left_out.scene);
     for (const std::string& folder : folders) {
+        if (!fs::exists(fs::path(folder) / "metrics.csv")) continue;
         const auto metrics = analysis::read_csv((fs::path(folder) / "metrics.csv").string());
         for (auto& record : analysis::case_records(metrics, fs::path(folder).lexically_relative(root).string()))
             records.cases.push_back(std::move(record));
     }
+    return records;
+}
+
+// The verdicts of all studies, into DIR/claims.json, DIR/claims.md and the terminal; whether each could be computed.
+bool tell_verdicts(const std::vector<analysis::Verdict>& verdicts, const std::string& folder)
+{
+    analysis::write_text_atomically((fs::path(folder) / "claims.json").string(), analysis::claims_json(verdicts).dump(2) + "\n");
+    analysis::write_text_atomically((fs::path(folder) / "claims.md").string(), analysis::claims_markdown(verdicts));
+    fmt::print("{}", analysis::claims_table(verdicts, isatty(STDOUT_FILENO) && !std::getenv("NO_COLOR")));
+    return std::none_of(verdicts.begin(), verdicts.end(),
+                        [](const auto& verdict) { return verdict.kind == analysis::VerdictKind::not_computable; });
 }
 
 }  // namespace
@@ -125,34 +121,29 @@ int reproduce(const ReproduceArguments& arguments)
 {
     refuse_unknown(arguments.names);
     std::vector<analysis::Verdict> verdicts;
-    std::string self_intersections;
-    bool broke_down = false;
+    std::string beside;  // what stands below the table of claims
+    bool broke_down = false, all_hold = true;
     for (const Study& study : studies()) {
         if (!asked_for(study, arguments.names)) continue;
         spdlog::info("study {}: {}", study.name, study.meaning);
         const StudyPlan plan = study.plan(arguments.full);
-        analysis::Records records;
-        records.left_out = plan.left_out;
-        for (const StudyRun& run : plan.runs) records.planned_scenes.push_back(run.scene.name);
-        for (const auto& left_out : plan.left_out) {
-            records.planned_scenes.push_back(left_out.scene);
-            spdlog::warn("left out: {}: {}", left_out.scene, left_out.reason);
-        }
-        const StudyOutcome outcome = run_study(plan.runs, (fs::path(arguments.folder) / study.name).string(), arguments);
+        for (const auto& left_out : plan.left_out) spdlog::warn("left out: {}: {}", left_out.scene, left_out.reason);
+        const std::string folder = (fs::path(arguments.folder) / study.name).string();
+        const StudyOutcome outcome = run_study(plan.runs, folder, arguments);
         broke_down |= outcome.broke_down;
-        self_intersections += self_intersections_of(outcome.folders);
-        add_records(records, outcome.folders, arguments.folder);
+        beside += self_intersections_of(outcome.folders);
+        const analysis::Records records = records_of(plan, outcome.folders, arguments.folder);
         for (const auto& claim : claims())
             if (claim.study == study.name) verdicts.push_back(analysis::judge(claim, records));
+        if (!study.conclude) continue;
+        const StudyConclusion conclusion = study.conclude(folder, plan, outcome.folders);
+        beside += conclusion.text;
+        all_hold &= conclusion.holds;
     }
-    analysis::write_text_atomically((fs::path(arguments.folder) / "claims.json").string(), analysis::claims_json(verdicts).dump(2) + "\n");
-    analysis::write_text_atomically((fs::path(arguments.folder) / "claims.md").string(), analysis::claims_markdown(verdicts));
-    const bool colours = isatty(STDOUT_FILENO) && !std::getenv("NO_COLOR");
-    fmt::print("{}{}", analysis::claims_table(verdicts, colours), self_intersections);
+    const bool all_computed = verdicts.empty() || tell_verdicts(verdicts, arguments.folder);
+    fmt::print("{}", beside);
     if (broke_down) return exit_breakdown;
-    const bool all_computed = std::none_of(verdicts.begin(), verdicts.end(),
-                                           [](const auto& verdict) { return verdict.kind == analysis::VerdictKind::not_computable; });
-    return all_computed ? exit_finished : exit_bound;
+    return all_computed && all_hold ? exit_finished : exit_bound;
 }
 
 }  // namespace experiments

@@ -7,14 +7,14 @@
 namespace experiments {
 
 struct ReproduceArguments {
-    std::vector<std::string> names;  // claims or studies; empty: all
+    std::vector<std::string> names;  // claims or studies; empty: the studies that run by default
     std::string folder = "results/reproduce";
     bool full = false, resume = false;
     int jobs = 2;
 };
 
-// Writes DIR/STUDY/RUN/..., DIR/claims.json and DIR/claims.md; prints the table of claims. The exit status: 1 where a verdict could not
-// be computed.
+// Writes DIR/STUDY/RUN/... and, where claims were judged, DIR/claims.json and DIR/claims.md; prints the table of claims and what studies
+// conclude. The exit status: 1 where a verdict could not be computed or a study's own bounds do not hold.
 int reproduce(const ReproduceArguments& arguments);
 
 }  // namespace experiments

@@ -7,7 +7,7 @@ namespace experiments {
 
 void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
 {
-    CLI::App* verb = add_verb(app, common, "reproduce", "studies -> records -> verdicts; all of them by default");
+    CLI::App* verb = add_verb(app, common, "reproduce", "studies -> records -> verdicts; by default the studies of the quick set");
     auto arguments = std::make_shared<ReproduceArguments>();
     verb->add_option("names", arguments->names, "claims (C02) or studies (volume)");
     verb->add_option("-o,--output", arguments->folder, "folder of the records")->capture_default_str();

@@ -1,18 +1,26 @@
-// A study: the runs whose records decide some claims. A new one is one file and one line in studies.cpp.
+// A study: runs and what is told of their records. A new one is one file and one line in studies.cpp.
 #pragma once
 
 #include "analysis/case_record.hpp"
 #include "experiments/scene.hpp"
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace experiments {
 
+// Writes its records into `folder`, which is there and holds no earlier run.json, and says what broke down numerically, if anything; an
+// exception is its failure. It runs in a process of its own.
+using StudyWork = std::function<std::string(const std::string& folder)>;
+
+// Either a scene or, where `work` is given, a piece of work with its settings.
 struct StudyRun {
     std::string name;  // its folder inside the study's
-    Scene scene;
+    Scene scene = {};
     double cost_s = 0.0;  // expected, on one core
+    StudyWork work = {};
+    nlohmann::json settings = {};  // what the work is the result of: on record, and what --resume compares
 };
 
 struct StudyPlan {
@@ -20,9 +28,18 @@ struct StudyPlan {
     std::vector<analysis::LeftOut> left_out;  // what is not installed here
 };
 
+// What a study says when its runs have ended, beside the claims that are judged from their records.
+struct StudyConclusion {
+    std::string text;  // for the terminal
+    bool holds = true;
+};
+
 struct Study {
     std::string name, meaning, claims, cost;
     StudyPlan (*plan)(bool full);
+    bool by_default = true;  // part of `pbskin reproduce` without names
+    // Of the study's folder and the folders of the runs that ended; writes the records that sum them up.
+    StudyConclusion (*conclude)(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished) = nullptr;
 };
 const std::vector<Study>& studies();
 

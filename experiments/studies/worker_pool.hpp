@@ -20,7 +20,8 @@ struct PooledResult {
     std::string failure;    // what the worker said, or how it died
 };
 
-// At most `jobs` at once, the costliest first; results in the order of `work`. Reports each that ends, with the time left by their expected costs.
+// At most `jobs` at once, the costliest first; results in the order of `work`. Reports each that ends, with the time left by their expected
+// costs.
 std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int jobs);
 
 }  // namespace experiments

@@ -1,0 +1,71 @@
+#include "experiments/studies/study_run.hpp"
+
+#include "analysis/atomic_file.hpp"
+#include "analysis/provenance.hpp"
+#include "experiments/library_versions.hpp"
+#include "experiments/run.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/stopwatch.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What the run is the result of, under its key in run.json.
+std::pair<std::string, nlohmann::json> identity(const StudyRun& run)
+{
+    if (run.work) return {"work", {{"name", run.name}, {"settings", run.settings}}};
+    return {"scene", resolved_with_deformers(run.scene)};
+}
+
+std::string carry_out_scene(const Scene& scene, const std::string& folder)
+{
+    const RunResult result = run_scene(scene, folder);
+    for (const auto& line : result.lines) spdlog::debug("{}", line);
+    return result.breakdown;
+}
+
+std::string carry_out_work(const StudyRun& run, const std::string& folder)
+{
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
+    const fs::path record = fs::path(folder) / "run.json";
+    fs::remove(record);
+    const pbs::Stopwatch stopwatch;
+    const std::string breakdown = run.work(folder);
+
+    analysis::Provenance provenance = analysis::collect_provenance(1);
+    for (const auto& [library, version] : library_versions()) provenance.libraries[library] = version;
+    const auto [key, value] = identity(run);
+    const nlohmann::json outcome = {{"finished", true}, {"breakdown", breakdown}, {"seconds", stopwatch.seconds()}};
+    const nlohmann::json json = {{"schema", 1}, {key, value}, {"provenance", provenance}, {"outcome", outcome}};
+    analysis::write_text_atomically(record.string(), json.dump(2) + "\n");
+    return breakdown;
+}
+
+}  // namespace
+
+bool is_finished(const StudyRun& run, const std::string& folder)
+{
+    const fs::path record = fs::path(folder) / "run.json";
+    if (!fs::exists(record)) return false;
+    const auto json = nlohmann::json::parse(analysis::read_text(record.string()), nullptr, false);
+    const auto [key, value] = identity(run);
+    if (!json.is_object() || json.value(key, nlohmann::json()) != value) return false;
+    const analysis::Provenance now = analysis::collect_provenance(1);
+    const auto then = json.value("provenance", nlohmann::json::object());
+    return then.value("git_revision", "") == now.git_revision && then.value("git_dirty", true) == now.git_dirty;
+}
+
+std::string carry_out(const StudyRun& run, const std::string& folder)
+{
+    return run.work ? carry_out_work(run, folder) : carry_out_scene(run.scene, folder);
+}
+
+}  // namespace experiments

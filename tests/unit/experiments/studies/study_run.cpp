@@ -1,0 +1,60 @@
+// Pieces of work in their folders. Truth: the contract of the header: run.json comes last and only of a run that ended.
+#include "experiments/studies/study_run.hpp"
+
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace {
+
+using namespace experiments;
+namespace fs = std::filesystem;
+
+StudyRun counting_run(int count, const StudyWork& work)
+{
+    return {.name = "count", .work = work, .settings = {{"count", count}}};
+}
+
+std::string write_a_record(const std::string& folder)
+{
+    std::ofstream(fs::path(folder) / "rows.csv") << "row\n";
+    return "";
+}
+
+class StudyRunTest : public testing::Test {
+protected:
+    test_support::ScratchFolder scratch;
+    const std::string folder = scratch / "study/count";
+};
+
+TEST_F(StudyRunTest, WorkThatEndedIsFinishedUnderItsOwnSettings)
+{
+    const StudyRun run = counting_run(3, write_a_record);
+    EXPECT_FALSE(is_finished(run, folder));
+    EXPECT_EQ(carry_out(run, folder), "");
+    EXPECT_TRUE(fs::exists(fs::path(folder) / "rows.csv"));
+    EXPECT_TRUE(is_finished(run, folder));
+    EXPECT_FALSE(is_finished(counting_run(4, write_a_record), folder));
+}
+
+TEST_F(StudyRunTest, ABreakdownIsOnRecordAndTheRunEnded)
+{
+    const StudyRun run = counting_run(3, [](const std::string&) { return std::string("step 7 diverged"); });
+    EXPECT_EQ(carry_out(run, folder), "step 7 diverged");
+    EXPECT_TRUE(is_finished(run, folder));
+    std::ifstream record(fs::path(folder) / "run.json");
+    EXPECT_EQ(nlohmann::json::parse(record).at("outcome").at("breakdown"), "step 7 diverged");
+}
+
+TEST_F(StudyRunTest, WorkThatFailsLeavesNoRecordOfAnEarlierRun)
+{
+    carry_out(counting_run(3, write_a_record), folder);
+    const StudyRun failing = counting_run(3, [](const std::string&) -> std::string { throw std::runtime_error("no solver"); });
+    EXPECT_THROW(carry_out(failing, folder), std::runtime_error);
+    EXPECT_FALSE(is_finished(failing, folder));
+}
+
+}  // namespace
