@@ -8,6 +8,7 @@ endforeach()
 pbs_test(properties analysis/frame_metrics analysis)
 pbs_test(verification analysis/bootstrap analysis GSL::gsl)
 pbs_test(verification analysis/line_fit analysis GSL::gsl)
+pbs_test(unit analysis/minimise analysis GSL::gsl)
 
 # The project's own claims, read by the tests of claims and verdicts.
 foreach(name IN ITEMS claims verdict)

@@ -1,0 +1,172 @@
+// Truth: functions whose minimum is known in closed form, and the jackknife of a mean, which is its standard error.
+#include "analysis/minimise.hpp"
+
+#include "analysis/statistics.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <gsl/gsl_cdf.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using namespace analysis;
+
+TEST(Minimise, ParabolaIsFoundToTheTolerance)
+{
+    const auto minimum = minimise([](double x) { return 2.0 + std::pow(x - 0.3, 2); }, 0.0, 1.0, {.tolerance = 1e-7});
+    EXPECT_EQ(minimum.outcome, MinimumOutcome::converged);
+    EXPECT_NEAR(minimum.x, 0.3, 1e-7);
+    EXPECT_NEAR(minimum.value, 2.0, 1e-14);
+}
+
+TEST(Minimise, LogarithmicValleyIsFoundToTheTolerance)
+{
+    const auto minimum = minimise([](double x) { return x - std::log(x); }, 0.1, 7.0);  // at 1, no symmetry
+    EXPECT_EQ(minimum.outcome, MinimumOutcome::converged);
+    EXPECT_NEAR(minimum.x, 1.0, 1e-5 * 6.9);
+    EXPECT_TRUE(minimum.identifiable() == (minimum.rise >= 0.01));
+    // 1.1 - log 1.1 - 1 and 0.9 - log 0.9 - 1: the smaller of the two.
+    EXPECT_NEAR(minimum.rise, 0.1 - std::log(1.1), 1e-6);
+}
+
+TEST(Minimise, ValueZeroIsIdentifiable)
+{
+    const auto minimum = minimise([](double x) { return std::abs(x - 0.25); }, 0.0, 1.0);  // 0.25 is a sample
+    EXPECT_EQ(minimum.value, 0.0);
+    EXPECT_TRUE(std::isinf(minimum.rise));
+    EXPECT_TRUE(minimum.identifiable());
+}
+
+TEST(Minimise, TakesTheDeepestOfSeveralValleys)
+{
+    const auto two_valleys = [](double x) { return std::min(1.0 + 4.0 * std::pow(x - 0.2, 2), 0.5 + 4.0 * std::pow(x - 0.8, 2)); };
+    EXPECT_NEAR(minimise(two_valleys, 0.0, 1.0).x, 0.8, 1e-5);
+}
+
+TEST(Minimise, MonotoneEndsAtTheBound)
+{
+    const auto falling = minimise([](double x) { return 1.0 - x; }, 0.0, 0.5);
+    EXPECT_EQ(falling.outcome, MinimumOutcome::at_upper_bound);
+    EXPECT_EQ(falling.x, 0.5);
+    EXPECT_FALSE(falling.identifiable());
+    const auto rising = minimise([](double x) { return 1.0 + x; }, 0.0, 0.5);
+    EXPECT_EQ(rising.outcome, MinimumOutcome::at_lower_bound);
+    EXPECT_EQ(rising.x, 0.0);
+    EXPECT_FALSE(rising.identifiable());
+}
+
+TEST(Minimise, LooksInsideTheLastCellBeforeItSaysBound)
+{
+    for (const double centre : {0.002, 0.4987}) {  // nearer to the bound than to any other sample
+        const auto minimum = minimise([centre](double x) { return 1.0 + std::pow(x - centre, 2); }, 0.0, 0.5);
+        EXPECT_EQ(minimum.outcome, MinimumOutcome::converged);
+        EXPECT_NEAR(minimum.x, centre, 0.5e-5);
+    }
+}
+
+TEST(Minimise, FlatIsAnOutcome)
+{
+    const auto minimum = minimise([](double) { return 3.0; }, 0.0, 1.0);
+    EXPECT_EQ(minimum.outcome, MinimumOutcome::flat);
+    EXPECT_EQ(minimum.value, 3.0);
+    EXPECT_FALSE(minimum.identifiable());
+}
+
+TEST(Minimise, FlatBottomBetweenWallsIsNotIdentifiable)
+{
+    const auto tub = minimise([](double x) { return 1.0 + std::max(0.0, std::abs(x - 0.5) - 0.3); }, 0.0, 1.0);
+    EXPECT_EQ(tub.value, 1.0);
+    EXPECT_TRUE(tub.flat_valley);
+    EXPECT_FALSE(tub.identifiable());
+}
+
+TEST(Minimise, ShallowValleyIsNotIdentifiable)
+{
+    const auto valley = [](double depth) { return [depth](double x) { return 20.0 + depth * std::pow(x / 0.3 - 1.0, 2); }; };
+    // A change of 10 % raises it by depth / 100 of 20: 0.5 % and 5 %.
+    EXPECT_FALSE(minimise(valley(10.0), 0.0, 0.5).identifiable());
+    EXPECT_NEAR(minimise(valley(10.0), 0.0, 0.5).rise, 0.005, 1e-5);
+    EXPECT_TRUE(minimise(valley(100.0), 0.0, 0.5).identifiable());
+}
+
+TEST(Minimise, NotFiniteIsAnOutcome)
+{
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto nowhere = minimise([&](double) { return nan; }, 0.0, 1.0);
+    EXPECT_EQ(nowhere.outcome, MinimumOutcome::not_finite);
+    EXPECT_TRUE(std::isnan(nowhere.x));
+    EXPECT_FALSE(nowhere.identifiable());
+    // A number at one sample alone: no bracket.
+    const auto lonely = minimise([&](double x) { return x == 0.5 ? 1.0 : nan; }, 0.0, 1.0);
+    EXPECT_EQ(lonely.outcome, MinimumOutcome::not_finite);
+    EXPECT_EQ(lonely.x, 0.5);
+    // A hole elsewhere does not matter; one that Brent falls into is told, and the best number is kept.
+    EXPECT_EQ(minimise([&](double x) { return x > 0.9 ? nan : std::pow(x - 0.3, 2); }, 0.0, 1.0).outcome, MinimumOutcome::converged);
+    const auto hole = minimise([&](double x) { return std::abs(x - 0.31) < 5e-3 ? nan : std::pow(x - 0.31, 2); }, 0.0, 1.0, {.samples = 5});
+    EXPECT_EQ(hole.outcome, MinimumOutcome::not_finite);
+    EXPECT_TRUE(std::isfinite(hole.value));
+    EXPECT_NEAR(hole.x, 0.31, 0.07);
+}
+
+TEST(Minimise, ExhaustedIterationsAreAnOutcome)
+{
+    const auto minimum = minimise([](double x) { return std::pow(x - 0.31, 2); }, 0.0, 1.0, {.tolerance = 1e-9, .iterations = 1});
+    EXPECT_EQ(minimum.outcome, MinimumOutcome::iterations_exhausted);
+    EXPECT_EQ(minimum.iterations, 1);
+}
+
+TEST(Minimise, KeepsEveryEvaluationInOrder)
+{
+    int calls = 0;
+    const auto minimum = minimise([&](double x) { return ++calls, std::pow(x - 0.31, 2); }, 0.0, 1.0);
+    ASSERT_EQ(static_cast<int>(minimum.evaluations.size()), calls);
+    for (std::size_t i = 1; i < minimum.evaluations.size(); ++i)
+        EXPECT_LE(minimum.evaluations[i - 1].parameter, minimum.evaluations[i].parameter);
+}
+
+TEST(Minimise, RefusesWhatIsNoInterval)
+{
+    const auto constant = [](double) { return 0.0; };
+    EXPECT_THROW(minimise(constant, 1.0, 1.0), pbs::InputError);
+    EXPECT_THROW(minimise(constant, 1.0, 0.0), pbs::InputError);
+    EXPECT_THROW(minimise(constant, 0.0, std::numeric_limits<double>::infinity()), pbs::InputError);
+    EXPECT_THROW(minimise(constant, 0.0, 1.0, {.samples = 2}), pbs::InputError);
+    EXPECT_THROW(fit_over_cases({}, 0.0, 1.0), pbs::InputError);
+}
+
+// The minimum of the root mean square of |x - a_i| is the mean of the a_i; its jackknife error is their standard error.
+TEST(FitOverCases, JackknifeOfAMeanIsItsStandardError)
+{
+    const std::vector<double> centres = {0.2, 0.3, 0.35, 0.55};
+    std::vector<Misfit> misfits;
+    for (const double centre : centres) misfits.push_back([centre](double x) { return std::abs(x - centre); });
+    const auto fit = fit_over_cases(misfits, 0.0, 1.0, {.tolerance = 1e-8});
+    EXPECT_NEAR(fit.all.x, mean(centres), 1e-7);
+    EXPECT_NEAR(fit.interval.estimate, mean(centres), 1e-7);
+    const double half_width = gsl_cdf_tdist_Pinv(0.975, 3) * standard_error(centres);
+    EXPECT_NEAR(fit.interval.high - fit.interval.estimate, half_width, 1e-6);
+    EXPECT_NEAR(fit.interval.estimate - fit.interval.low, half_width, 1e-6);
+    ASSERT_EQ(fit.cases.size(), centres.size());
+    for (std::size_t i = 0; i < centres.size(); ++i) EXPECT_NEAR(fit.cases[i].x, centres[i], 1e-4);
+}
+
+TEST(FitOverCases, IntervalIsCutToTheBounds)
+{
+    const auto at = [](double centre) { return [centre](double x) { return std::abs(x - centre); }; };
+    const auto fit = fit_over_cases({at(0.05), at(0.9)}, 0.0, 1.0);
+    EXPECT_EQ(fit.interval.low, 0.0);
+    EXPECT_EQ(fit.interval.high, 1.0);
+}
+
+TEST(FitOverCases, OneCaseHasNoInterval)
+{
+    const auto fit = fit_over_cases({[](double x) { return std::abs(x - 0.4); }}, 0.0, 1.0);
+    EXPECT_NEAR(fit.all.x, 0.4, 1e-4);
+    EXPECT_TRUE(std::isnan(fit.interval.low));
+    EXPECT_TRUE(fit.without.empty());
+}
+
+}  // namespace
