@@ -44,15 +44,49 @@ void AttachedPoints::add_load(const pbs::Positions& targets, Eigen::VectorXd& lo
     }
 }
 
+void AttachedPoints::add_to(NodalMatrix& matrix) const
+{
+    for (Eigen::Index s = 0; s < points_.rows(); ++s) {
+        if (tet_[s] < 0) continue;
+        for (Eigen::Index a = 0; a < nodes_.rows(); ++a)
+            for (Eigen::Index b = 0; b < nodes_.rows(); ++b)
+                matrix.add_block(nodes_(a, s), nodes_(b, s), stiffness_(s) * shapes_(a, s) * shapes_(b, s) * Eigen::Matrix3d::Identity());
+    }
+}
+
+double AttachedPoints::energy(const pbs::Positions& targets, const Eigen::VectorXd& displacement) const
+{
+    double energy = 0.0;
+    for (Eigen::Index s = 0; s < points_.rows(); ++s)
+        if (tet_[s] >= 0) energy += stiffness_(s) / 2.0 * (moved(s, displacement) - targets.row(s).transpose()).squaredNorm();
+    return energy;
+}
+
+void AttachedPoints::add_pull(const pbs::Positions& targets, const Eigen::VectorXd& displacement, Eigen::VectorXd& gradient) const
+{
+    for (Eigen::Index s = 0; s < points_.rows(); ++s) {
+        if (tet_[s] < 0) continue;
+        const pbs::Vec3 pull = stiffness_(s) * (moved(s, displacement) - targets.row(s).transpose());
+        for (Eigen::Index a = 0; a < nodes_.rows(); ++a) gradient.segment<3>(3 * nodes_(a, s)) += shapes_(a, s) * pull;
+    }
+}
+
+pbs::Vec3 AttachedPoints::moved(Eigen::Index spring, const Eigen::VectorXd& displacement) const
+{
+    pbs::Vec3 point = points_.row(spring);
+    for (Eigen::Index a = 0; a < nodes_.rows(); ++a) point += shapes_(a, spring) * displacement.segment<3>(3 * nodes_(a, spring));
+    return point;
+}
+
 pbs::Positions AttachedPoints::moved(const Eigen::VectorXd& displacement) const
 {
-    pbs::Positions moved = points_;
-    for (Eigen::Index s = 0; s < points_.rows(); ++s) {
-        if (tet_[s] < 0) moved.row(s).setConstant(std::numeric_limits<double>::quiet_NaN());
-        for (Eigen::Index a = 0; tet_[s] >= 0 && a < nodes_.rows(); ++a)
-            moved.row(s) += shapes_(a, s) * displacement.segment<3>(3 * nodes_(a, s)).transpose();
-    }
-    return moved;
+    pbs::Positions moved_points = points_;
+    for (Eigen::Index s = 0; s < points_.rows(); ++s)
+        if (tet_[s] < 0)
+            moved_points.row(s).setConstant(std::numeric_limits<double>::quiet_NaN());
+        else
+            moved_points.row(s) = moved(s, displacement).transpose();
+    return moved_points;
 }
 
 }  // namespace reference_fem

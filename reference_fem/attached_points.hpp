@@ -2,8 +2,7 @@
 // interpolated by the element's own shape functions. A point outside every tet is left out.
 #pragma once
 
-#include "reference_fem/simplex_space.hpp"
-#include "reference_fem/sparse_matrix.hpp"
+#include "reference_fem/nodal_matrix.hpp"
 
 #include <vector>
 
@@ -20,12 +19,21 @@ public:
     // Adds k N^T (target - point) to the load [N], #dofs; targets [m], #S x 3.
     void add_load(const pbs::Positions& targets, Eigen::VectorXd& load) const;
 
+    // The same to a matrix whose blocks are in place.
+    void add_to(NodalMatrix& matrix) const;
+
+    // The energy [J], and its gradient k N^T (point + displacement - target) [N], #dofs.
+    double energy(const pbs::Positions& targets, const Eigen::VectorXd& displacement) const;
+    void add_pull(const pbs::Positions& targets, const Eigen::VectorXd& displacement, Eigen::VectorXd& gradient) const;
+
     // Where a displacement [m], #dofs, takes the points [m], #S x 3; not a number for those left out.
     pbs::Positions moved(const Eigen::VectorXd& displacement) const;
 
     const std::vector<int>& tets() const { return tet_; }  // #S, -1: outside
 
 private:
+    pbs::Vec3 moved(Eigen::Index spring, const Eigen::VectorXd& displacement) const;
+
     pbs::Positions points_;
     Eigen::VectorXd stiffness_;
     std::vector<int> tet_;

@@ -43,7 +43,7 @@ cholmod_dense view(const Eigen::VectorXd& vector)
 
 class CholmodFactor : public DirectFactor {
 public:
-    explicit CholmodFactor(const SparseMatrix& matrix)
+    explicit CholmodFactor(const SparseMatrix& matrix) : matrix_(matrix)
     {
         cholmod_l_start(&common_);
         common_.print = 0;
@@ -54,7 +54,14 @@ public:
         const pbs::Stopwatch analysis;
         factor_ = cholmod_l_analyze(&sparse, &common_);
         analyse_s_ = analysis.seconds();
+        refactor();
+    }
+
+    void refactor() override
+    {
+        usable_ = false;
         if (!factor_) return;
+        cholmod_sparse sparse = view(matrix_);
         const pbs::Stopwatch factorisation;
         cholmod_l_factorize(&sparse, factor_, &common_);
         factor_s_ = factorisation.seconds();
@@ -91,6 +98,7 @@ public:
     }
 
 private:
+    const SparseMatrix& matrix_;
     mutable cholmod_common common_;
     cholmod_factor* factor_ = nullptr;
     mutable cholmod_dense *solution_ = nullptr, *work_ = nullptr, *permuted_ = nullptr;

@@ -14,10 +14,7 @@ public:
     explicit NodalMatrix(const SimplexSpace& space);
 
     void set_zero() { matrix_.coeffs().setZero(); }
-    void add_block(int row_node, int column_node, const Eigen::Matrix3d& block)
-    {
-        add_at(place(row_node, column_node), column_node, block);
-    }
+    void add_block(int row_node, int column_node, const Eigen::Matrix3d& block);  // of two nodes that share a tet
     // Blocks of one tet, k of them a side: values 3 k x 3 k.
     void add_tet(Eigen::Index tet, const Eigen::Ref<const Eigen::MatrixXd>& values);
 

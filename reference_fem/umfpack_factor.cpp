@@ -13,23 +13,29 @@ class UmfpackFactor : public DirectFactor {
 public:
     explicit UmfpackFactor(const SparseMatrix& matrix) : matrix_(matrix)
     {
-        void* symbolic = nullptr;
-        double info[UMFPACK_INFO] = {};
         const pbs::Stopwatch analysis;
-        umfpack_dl_symbolic(matrix.rows(), matrix.cols(), columns(), rows(), matrix.valuePtr(), &symbolic, nullptr, info);
+        umfpack_dl_symbolic(matrix.rows(), matrix.cols(), columns(), rows(), matrix.valuePtr(), &symbolic_, nullptr, nullptr);
         analyse_s_ = analysis.seconds();
-        if (!symbolic) return;
+        refactor();
+    }
+
+    void refactor() override
+    {
+        usable_ = false;
+        if (!symbolic_) return;
+        if (numeric_) umfpack_dl_free_numeric(&numeric_);
+        double info[UMFPACK_INFO] = {};
         const pbs::Stopwatch factorisation;
-        const auto status = umfpack_dl_numeric(columns(), rows(), matrix.valuePtr(), symbolic, &numeric_, nullptr, info);
+        const auto status = umfpack_dl_numeric(columns(), rows(), matrix_.valuePtr(), symbolic_, &numeric_, nullptr, info);
         factor_s_ = factorisation.seconds();
         reciprocal_condition_ = info[UMFPACK_RCOND];
         usable_ = status == UMFPACK_OK && reciprocal_condition_ > std::numeric_limits<double>::epsilon();
-        umfpack_dl_free_symbolic(&symbolic);
     }
 
     ~UmfpackFactor() override
     {
         if (numeric_) umfpack_dl_free_numeric(&numeric_);
+        if (symbolic_) umfpack_dl_free_symbolic(&symbolic_);
     }
 
     UmfpackFactor(const UmfpackFactor&) = delete;
@@ -51,7 +57,7 @@ private:
     const SuiteSparse_long* rows() const { return matrix_.innerIndexPtr(); }
 
     const SparseMatrix& matrix_;
-    void* numeric_ = nullptr;
+    void *symbolic_ = nullptr, *numeric_ = nullptr;
 };
 
 }  // namespace

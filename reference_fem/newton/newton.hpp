@@ -15,7 +15,8 @@
 namespace reference_fem {
 
 struct NewtonOptions {
-    // Converged where |free residual| <= relative_tolerance * sum over the terms of |gradient|, reactions included.
+    // Converged where |free residual| <= relative_tolerance * sum over the terms of |gradient|, reactions included, or below what the
+    // rounding of positions makes of forces.
     double relative_tolerance = 1e-8;
     int iterations = 40;
     int halvings = 25;  // of one step
@@ -25,7 +26,7 @@ struct NewtonIteration {
     double residual_n = 0.0;         // norm of the free part of the gradient, before the step
     double force_scale_n = 0.0;      // what it is measured against
     double energy_j = 0.0;           // before the step
-    double step_length = 0.0;        // 1: a full Newton step; 0: none was taken, this is the converged state
+    double step_length = 0.0;        // 1: a full Newton step; 0: none was taken
     bool projected = false;          // the Hessian was not positive definite
     bool carries_increment = false;  // the linear solve that moves the prescribed data
 };
@@ -40,32 +41,43 @@ struct NewtonSummary {
     double seconds = 0.0;
 
     bool converged() const { return outcome == NewtonOutcome::converged; }
-    int steps() const;  // linear solves
+    int steps() const;  // that were taken
 };
+
+using Terms = std::vector<const Potential*>;
 
 class NewtonMinimiser {
 public:
-    // prescribed: #dofs. The space outlives the minimiser.
+    // prescribed: #dofs.
     NewtonMinimiser(const SimplexSpace& space, const std::vector<bool>& prescribed, LinearSolver solver);
 
     // prescribed_values [m], #dofs, is read at prescribed degrees of freedom only. displacement [m], #dofs: the start, and the minimum;
     // where the outcome is not converged, the last iterate.
-    NewtonSummary minimise(const std::vector<const Potential*>& terms, const Eigen::VectorXd& prescribed_values,
-                           Eigen::VectorXd& displacement, const NewtonOptions& options);
+    NewtonSummary minimise(const Terms& terms, const Eigen::VectorXd& prescribed_values, Eigen::VectorXd& displacement,
+                           const NewtonOptions& options);
 
-    // The terms have changed (another time step, another stiffness): a factor kept of quadratic terms is stale.
+    // The terms' Hessian has changed (another time step): a factor kept of quadratic terms is stale.
     void forget_factor() { factor_is_kept_ = false; }
 
     const DirectFactor* factor() const { return system_ ? &system_->factor() : nullptr; }  // null before the first solve
 
 private:
-    class Iterate;
+    struct State;
+    State state_at(const Terms& terms, const Eigen::VectorXd& displacement) const;
+    Eigen::VectorXd increment_to(const Eigen::VectorXd& prescribed_values, const Eigen::VectorXd& displacement) const;
+    bool is_converged(const State& state, const NewtonOptions& options) const;
+    bool factorise(const Terms& terms, const Eigen::VectorXd& displacement, NewtonSummary& summary);
+    bool factorise(const Terms& terms, const Eigen::VectorXd& displacement, Definiteness definiteness, NewtonSummary& summary);
+    double step_length(const Terms& terms, const State& state, const Eigen::VectorXd& displacement, const Eigen::VectorXd& step,
+                       const NewtonOptions& options) const;
 
     std::vector<bool> prescribed_;
     LinearSolver solver_;
+    double extent_m_;  // diagonal of the bounding box
     NodalMatrix hessian_;
     std::unique_ptr<EliminatedSystem> system_;
     bool factor_is_kept_ = false;
+    double rounding_n_ = 0.0;  // residual that the rounding of positions alone makes
 };
 
 }  // namespace reference_fem

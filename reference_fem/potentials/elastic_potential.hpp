@@ -1,4 +1,8 @@
-// The strain energy of the flesh, Pi(u) = sum over tets and quadrature points of w psi(I + grad u), by any constitutive law.
+// The strain energy of the flesh by any constitutive law: Pi(u) = sum over tets and quadrature points of w psi(I + grad u).
+//   ElasticPotential flesh(space, Model::stable_neo_hookean, lame_parameters(young_pa, poisson), Formulation::mean_dilatation);
+// With mean dilatation (J. Nagtegaal, D. Parks, J. Rice, CMAME 4, 1974; J. Simo, R. Taylor, K. Pister, CMAME 51, 1985) a tet's volume term
+// is V lambda / 2 mean(theta)^2: one volume constraint a tet, which on P2 is the P2-P0 element. On P1 theta is constant and both agree.
+// Quadrature is exact for the linear law: 1 point for P1, 4 for P2, as in CalculiX's C3D4 and C3D10.
 #pragma once
 
 #include "reference_fem/element_tables.hpp"
@@ -12,12 +16,12 @@ struct Jacobians {
     double lowest = 1.0;  // of det F over all quadrature points
     int lowest_tet = -1;  // where
     int inverted = 0;     // quadrature points with det F <= 0
-    double volume = 0.0;  // [m^3]: sum of w det F, exact for P1; for P2 up to its quadrature
+    double volume = 0.0;  // [m^3]: sum of w det F, exact
 };
 
 class ElasticPotential : public Potential {
 public:
-    // formulation: displacement or mean_dilatation. The space outlives the potential.
+    // formulation: displacement or mean_dilatation, else pbs::InputError; so is mean dilatation of a law that is not of two parts.
     ElasticPotential(const SimplexSpace& space, Model model, const Lame& lame, Formulation formulation);
 
     double value(const Eigen::VectorXd& displacement) const override;
@@ -27,12 +31,12 @@ public:
 
     Jacobians jacobians(const Eigen::VectorXd& displacement) const;
 
+    // F at quadrature point q of a tet.
+    Eigen::Matrix3d deformation_gradient(const Eigen::VectorXd& displacement, Eigen::Index tet, int q) const;
+
 private:
-    using NodalVectors = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor, 10, 3>;  // nodes of a tet x 3
-    NodalVectors nodal(const Eigen::VectorXd& displacement, Eigen::Index tet) const;
-    Eigen::Matrix3d deformation_gradient(const NodalVectors& nodal, Eigen::Index tet, int q) const;
-    // theta at the points of a tet: each point's own, or the mean of all. Infinite where the law is not defined.
-    double mean_dilatation(const std::vector<PointResponse>& responses, Eigen::Index tet) const;
+    struct TetState;
+    TetState evaluate(const Eigen::VectorXd& displacement, Eigen::Index tet, Derivatives derivatives) const;
 
     TetNodes tet_nodes_;
     Model model_;

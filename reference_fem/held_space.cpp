@@ -1,0 +1,134 @@
+#include "reference_fem/held_space.hpp"
+
+#include "reference_fem/assembly.hpp"
+#include "reference_fem/blas.hpp"
+#include "reference_fem/held_parts.hpp"
+#include "reference_fem/input_checks.hpp"
+
+namespace reference_fem {
+namespace {
+
+void check_attachment(const pbs::TetMesh& mesh, const Attachment& attachment)
+{
+    require(attachment.spring_stiffness.size() == attachment.spring_points.rows(), "spring_stiffness", attachment.spring_stiffness.size(),
+            "expected one a spring point");
+    require(attachment.spring_points.allFinite(), "spring_points", "not a number or infinite", "expected finite coordinates");
+    for (const double stiffness : attachment.spring_stiffness)
+        require(stiffness > 0.0 && std::isfinite(stiffness), "spring_stiffness", stiffness, "expected a finite stiffness > 0");
+    for (const int tet : attachment.prescribed_tets)
+        require(tet >= 0 && tet < mesh.tets.rows(), "prescribed_tets", tet, "expected an index below the number of tets");
+    require(attachment.bind_distance.size() == 0 || attachment.bind_distance.size() == mesh.rest.rows(), "bind_distance",
+            attachment.bind_distance.size(), "expected one a vertex");
+    require(attachment.bind_stiffness.size() == attachment.bind_distance.size(), "bind_stiffness", attachment.bind_stiffness.size(),
+            "expected one a bound vertex");
+    for (Eigen::Index v = 0; v < attachment.bind_distance.size(); ++v) {
+        const double distance = attachment.bind_distance(v), stiffness = attachment.bind_stiffness(v);
+        require(distance >= 0.0 && std::isfinite(distance), "bind_distance", distance, "expected a finite distance >= 0");
+        require(stiffness >= 0.0 && std::isfinite(stiffness), "bind_stiffness", stiffness, "expected a finite stiffness >= 0");
+    }
+}
+
+// Every point that the attachment holds: the springs' points, the corners of prescribed tets, bound vertices.
+void check_held(const pbs::TetMesh& mesh, const Attachment& attachment, const std::vector<int>& spring_tets)
+{
+    std::vector<int> tets = spring_tets;
+    std::vector<pbs::Vec3> corners;
+    for (const int tet : attachment.prescribed_tets)
+        for (const int vertex : mesh.tets.row(tet)) {
+            corners.emplace_back(mesh.rest.row(vertex));
+            tets.push_back(tet);
+        }
+    for (Eigen::Index t = 0; attachment.bind_stiffness.size() > 0 && t < mesh.tets.rows(); ++t)
+        for (const int vertex : mesh.tets.row(t)) {
+            if (attachment.bind_stiffness(vertex) == 0.0) continue;
+            corners.emplace_back(mesh.rest.row(vertex));
+            tets.push_back(static_cast<int>(t));
+        }
+    const Eigen::Index springs = attachment.spring_points.rows();
+    pbs::Positions points(springs + corners.size(), 3);
+    points.topRows(springs) = attachment.spring_points;
+    for (std::size_t k = 0; k < corners.size(); ++k) points.row(springs + k) = corners[k].transpose();
+    require_held(mesh, points, tets);
+}
+
+std::vector<bool> dofs_in_tets(const SimplexSpace& space, const std::vector<int>& tets)
+{
+    std::vector<bool> inside(space.dofs(), false);
+    for (const int tet : tets)
+        for (const int node : space.tet_nodes().row(tet))
+            for (int c = 0; c < 3; ++c) inside[3 * node + c] = true;
+    return inside;
+}
+
+Eigen::MatrixXd unit_gravity_loads(const SimplexSpace& space, double density_kg_m3)
+{
+    Eigen::MatrixXd loads(space.dofs(), 3);
+    for (int axis = 0; axis < 3; ++axis)
+        loads.col(axis) = load_vector(space, [&](const pbs::Vec3&) -> pbs::Vec3 { return density_kg_m3 * pbs::Vec3::Unit(axis); });
+    return loads;
+}
+
+const pbs::TetMesh& checked(const pbs::TetMesh& mesh, double density_kg_m3, const Attachment& attachment)
+{
+    require(density_kg_m3 >= 0.0 && std::isfinite(density_kg_m3), "density_kg_m3", density_kg_m3, "expected a finite density >= 0");
+    check_mesh(mesh);
+    check_attachment(mesh, attachment);
+    return mesh;
+}
+
+}  // namespace
+
+HeldSpace::HeldSpace(const pbs::TetMesh& mesh, int element_order, double density_kg_m3, const Attachment& attachment)
+    : rest_(checked(mesh, density_kg_m3, attachment).rest),
+      space_(mesh, element_order),
+      springs_(mesh, space_, attachment.spring_points, attachment.spring_stiffness),
+      prescribed_(dofs_in_tets(space_, attachment.prescribed_tets)),
+      gravity_loads_(unit_gravity_loads(space_, density_kg_m3))
+{
+    check_held(mesh, attachment, springs_.tets());
+}
+
+// Degree of freedom 3 n + c and row-major positions have the same layout.
+Eigen::VectorXd HeldSpace::prescribed_values(const pbs::Positions& vertex_targets) const
+{
+    const pbs::Positions on_nodes = space_.from_vertices(vertex_targets - rest_);
+    return Eigen::Map<const Eigen::VectorXd>(on_nodes.data(), on_nodes.size());
+}
+
+pbs::Positions HeldSpace::vertices(const Eigen::VectorXd& displacement) const
+{
+    return rest_ + Eigen::Map<const pbs::Positions>(displacement.data(), rest_.rows(), 3);
+}
+
+std::vector<bool> HeldSpace::prescribed_vertices() const
+{
+    std::vector<bool> vertices(rest_.rows());
+    for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] = prescribed_[3 * v];
+    return vertices;
+}
+
+void HeldSpace::require_targets(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets) const
+{
+    require(spring_targets.rows() == static_cast<Eigen::Index>(springs_.tets().size()), "spring_targets", spring_targets.rows(),
+            "expected one a spring point");
+    require(vertex_targets.rows() == rest_.rows(), "vertex_targets", vertex_targets.rows(), "expected one a vertex");
+}
+
+SetupSummary HeldSpace::summary(const DirectFactor* factor, double assemble_s) const
+{
+    SetupSummary summary;
+    summary.dofs = space_.dofs();
+    summary.assemble_s = assemble_s;
+    summary.elements = "deal.II " REFERENCE_FEM_DEAL_II_VERSION;
+    summary.blas = resolved_blas();
+    summary.spring_tet = springs_.tets();
+    if (!factor) return summary;
+    summary.analyse_s = factor->analyse_s();
+    summary.factor_s = factor->factor_s();
+    summary.solver = factor->name();
+    summary.factored = factor->usable();
+    summary.reciprocal_condition = factor->reciprocal_condition();
+    return summary;
+}
+
+}  // namespace reference_fem

@@ -1,0 +1,177 @@
+#include "reference_fem/newton/newton.hpp"
+
+#include "pbs/geometry/stopwatch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace reference_fem {
+namespace {
+
+constexpr double armijo = 1e-4;  // share of the predicted decrease that a step must bring
+constexpr double energy_rounding = 1e-12;
+
+double energy_of(const Terms& terms, const Eigen::VectorXd& displacement)
+{
+    double energy = 0.0;
+    for (const Potential* term : terms) energy += term->value(displacement);
+    return energy;
+}
+
+bool all_quadratic(const Terms& terms)
+{
+    return std::all_of(terms.begin(), terms.end(), [](const Potential* term) { return term->is_quadratic(); });
+}
+
+}  // namespace
+
+const char* name_of(NewtonOutcome outcome)
+{
+    switch (outcome) {
+        case NewtonOutcome::converged:
+            return "converged";
+        case NewtonOutcome::iterations_exhausted:
+            return "iterations_exhausted";
+        case NewtonOutcome::no_descent:
+            return "no_descent";
+        case NewtonOutcome::not_positive_definite:
+            return "not_positive_definite";
+        case NewtonOutcome::not_finite:
+            return "not_finite";
+    }
+    return "";
+}
+
+int NewtonSummary::steps() const
+{
+    return static_cast<int>(std::count_if(iterations.begin(), iterations.end(), [](const auto& it) { return it.step_length > 0.0; }));
+}
+
+// Energy and gradient of all terms at one displacement.
+struct NewtonMinimiser::State {
+    double energy_j = 0.0, energy_scale_j = 0.0;
+    Eigen::VectorXd gradient;  // [N], #dofs
+    double residual_n = 0.0, force_scale_n = 0.0;
+
+    bool finite() const { return std::isfinite(energy_j) && std::isfinite(force_scale_n); }
+};
+
+NewtonMinimiser::NewtonMinimiser(const SimplexSpace& space, const std::vector<bool>& prescribed, LinearSolver solver)
+    : prescribed_(prescribed),
+      solver_(solver),
+      extent_m_((space.node_positions().colwise().maxCoeff() - space.node_positions().colwise().minCoeff()).norm()),
+      hessian_(space)
+{
+}
+
+NewtonMinimiser::State NewtonMinimiser::state_at(const Terms& terms, const Eigen::VectorXd& displacement) const
+{
+    State state;
+    state.gradient = Eigen::VectorXd::Zero(displacement.size());
+    for (const Potential* term : terms) {
+        const double energy = term->value(displacement);
+        state.energy_j += energy;
+        state.energy_scale_j += std::abs(energy);
+        if (!std::isfinite(energy)) return state;
+        Eigen::VectorXd gradient = Eigen::VectorXd::Zero(displacement.size());
+        term->add_gradient(displacement, gradient);
+        state.force_scale_n += gradient.norm();
+        state.gradient += gradient;
+    }
+    double squared = 0.0;
+    for (Eigen::Index i = 0; i < state.gradient.size(); ++i)
+        if (!prescribed_[i]) squared += state.gradient(i) * state.gradient(i);
+    state.residual_n = std::sqrt(squared);
+    return state;
+}
+
+Eigen::VectorXd NewtonMinimiser::increment_to(const Eigen::VectorXd& prescribed_values, const Eigen::VectorXd& displacement) const
+{
+    Eigen::VectorXd increment = Eigen::VectorXd::Zero(displacement.size());
+    for (Eigen::Index i = 0; i < increment.size(); ++i)
+        if (prescribed_[i]) increment(i) = prescribed_values(i) - displacement(i);
+    return increment;
+}
+
+bool NewtonMinimiser::is_converged(const State& state, const NewtonOptions& options) const
+{
+    return state.residual_n <= std::max(options.relative_tolerance * state.force_scale_n, rounding_n_);
+}
+
+bool NewtonMinimiser::factorise(const Terms& terms, const Eigen::VectorXd& displacement, Definiteness definiteness, NewtonSummary& summary)
+{
+    hessian_.set_zero();
+    for (const Potential* term : terms) term->add_hessian(displacement, definiteness, hessian_);
+    if (system_)
+        system_->update(hessian_.matrix());
+    else
+        system_ = std::make_unique<EliminatedSystem>(hessian_.matrix(), prescribed_, solver_);
+    ++summary.factorisations;
+    rounding_n_ = 4.0 * std::numeric_limits<double>::epsilon() * extent_m_ * hessian_.matrix().diagonal().norm();
+    return system_->factor().usable();
+}
+
+bool NewtonMinimiser::factorise(const Terms& terms, const Eigen::VectorXd& displacement, NewtonSummary& summary)
+{
+    if (factor_is_kept_) return true;
+    NewtonIteration& iteration = summary.iterations.back();
+    bool usable = factorise(terms, displacement, Definiteness::as_it_is, summary);
+    factor_is_kept_ = usable && all_quadratic(terms);
+    if (usable || all_quadratic(terms)) return usable;
+    iteration.projected = true;
+    return factorise(terms, displacement, Definiteness::projected, summary);
+}
+
+// The largest of 1, 1/2, 1/4, ... that lowers the energy by Armijo's share; where that is below rounding, that lowers the residual. 0:
+// none.
+double NewtonMinimiser::step_length(const Terms& terms, const State& state, const Eigen::VectorXd& displacement,
+                                    const Eigen::VectorXd& step, const NewtonOptions& options) const
+{
+    const double slope = state.gradient.dot(step);
+    const double rounding = energy_rounding * state.energy_scale_j;
+    double length = 1.0;
+    for (int halving = 0; halving <= options.halvings; ++halving, length /= 2.0) {
+        const Eigen::VectorXd trial = displacement + length * step;
+        if (length * std::abs(slope) > rounding) {
+            if (slope < 0.0 && energy_of(terms, trial) <= state.energy_j + armijo * length * slope) return length;
+        } else if (const State at_trial = state_at(terms, trial); at_trial.finite() && at_trial.residual_n < state.residual_n) {
+            return length;
+        }
+    }
+    return 0.0;
+}
+
+NewtonSummary NewtonMinimiser::minimise(const Terms& terms, const Eigen::VectorXd& prescribed_values, Eigen::VectorXd& displacement,
+                                        const NewtonOptions& options)
+{
+    const pbs::Stopwatch stopwatch;
+    NewtonSummary summary;
+    const auto end = [&](NewtonOutcome outcome) {
+        summary.outcome = outcome;
+        summary.seconds = stopwatch.seconds();
+        return summary;
+    };
+    Eigen::VectorXd increment = increment_to(prescribed_values, displacement);
+    for (int k = 0; k <= options.iterations; ++k) {
+        const State state = state_at(terms, displacement);
+        const bool carries_increment = !increment.isZero(0.0);
+        summary.iterations.push_back({state.residual_n, state.force_scale_n, state.energy_j, 0.0, false, carries_increment});
+        if (!state.finite()) return end(NewtonOutcome::not_finite);
+        if (!carries_increment && is_converged(state, options)) return end(NewtonOutcome::converged);
+        if (k == options.iterations) break;
+        if (!factorise(terms, displacement, summary)) return end(NewtonOutcome::not_positive_definite);
+        const Eigen::VectorXd step = system_->solve(-state.gradient, increment).displacement;
+        if (!step.allFinite()) return end(NewtonOutcome::not_finite);
+        // The step that moves the data cannot be shortened: it is taken whole or the increment is too large.
+        double length = 1.0;
+        if (!carries_increment) length = step_length(terms, state, displacement, step, options);
+        if (length == 0.0) return end(is_converged(state, options) ? NewtonOutcome::converged : NewtonOutcome::no_descent);
+        displacement += length * step;
+        increment.setZero();
+        summary.iterations.back().step_length = length;
+    }
+    return end(NewtonOutcome::iterations_exhausted);
+}
+
+}  // namespace reference_fem
