@@ -1,5 +1,5 @@
-// psi = kappa / 4 (J^2 - 1 - 2 ln J) + mu / 2 (J^(-2/3) |F|^2 - 3), kappa = lambda + 2 mu / 3, J = det F > 0 (J. Simo, T. Hughes,
-// Computational Inelasticity, 1998, Eqs. 9.2.3 and 9.2.6; deal.II's step-44 and its code gallery's quasi-static finite strain).
+// psi = kappa / 4 (J^2 - 1 - 2 ln J) + mu / 2 (J^(-2/3) |F|^2 - 3), kappa = lambda + 2 mu / 3, J = det F > 0: deal.II's step-44 and the
+// program Quasi-Static Finite-Strain Compressible Elasticity of its code gallery, after J. Simo, T. Hughes, Computational Inelasticity.
 #include "reference_fem/laws/isotropic_laws.hpp"
 #include "reference_fem/laws/matrix_calculus.hpp"
 

@@ -2,6 +2,7 @@
 
 #include "reference_fem/laws/matrix_calculus.hpp"
 
+#include <Eigen/LU>
 #include <Eigen/SVD>
 
 #include <algorithm>
