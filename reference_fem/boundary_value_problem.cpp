@@ -29,25 +29,52 @@ std::vector<bool> boundary_nodes(const SimplexSpace& space)
     return on_boundary;
 }
 
+struct PrescribedData {
+    std::vector<bool> held;  // #dofs
+    Eigen::VectorXd values;  // [m], #dofs
+};
+
+PrescribedData prescribed_data(const SimplexSpace& space, const BoundaryValueProblem& problem)
+{
+    PrescribedData data{std::vector<bool>(space.dofs(), false), Eigen::VectorXd::Zero(space.dofs())};
+    const std::vector<bool> on_boundary = boundary_nodes(space);
+    for (int node = 0; node < space.nodes(); ++node) {
+        if (!on_boundary[node]) continue;
+        const pbs::Vec3 point = space.node_positions().row(node);
+        const Held held = problem.held ? problem.held(point) : Held(true);
+        const bool components[3] = {held.x, held.y, held.z};
+        for (int c = 0; c < 3; ++c) data.held[3 * node + c] = components[c];
+        if (problem.displacement && (held.x || held.y || held.z)) data.values.segment<3>(3 * node) = problem.displacement(point);
+    }
+    return data;
+}
+
+Eigen::VectorXd external_load(const SimplexSpace& space, const BoundaryValueProblem& problem)
+{
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(space.dofs());
+    if (problem.body_force) load += load_vector(space, problem.body_force);
+    for (const Traction& traction : problem.tractions) load += traction_load(space, traction);
+    return load;
+}
+
+int nearest(const Eigen::Ref<const pbs::Positions>& points, const pbs::Vec3& point)
+{
+    Eigen::Index index = 0;
+    (points.rowwise() - point.transpose()).rowwise().squaredNorm().minCoeff(&index);
+    return static_cast<int>(index);
+}
+
 }  // namespace
 
 BoundaryValueSolution solve(const pbs::TetMesh& mesh, const ElasticMaterial& material, const BoundaryValueProblem& problem)
 {
     const auto space = std::make_shared<const SimplexSpace>(mesh, problem.element_order);
     const SparseMatrix stiffness = stiffness_matrix(*space, lame_parameters(material.young_pa, material.poisson));
-    std::vector<bool> held(space->dofs(), false);
-    Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(space->dofs());
-    const std::vector<bool> on_boundary = boundary_nodes(*space);
-    for (int node = 0; node < space->nodes(); ++node) {
-        const pbs::Vec3 point = space->node_positions().row(node);
-        if (!on_boundary[node] || (problem.held && !problem.held(point))) continue;
-        prescribed.segment<3>(3 * node) = problem.displacement(point);
-        for (int c = 0; c < 3; ++c) held[3 * node + c] = true;
-    }
-    const Eigen::VectorXd load = problem.body_force ? load_vector(*space, problem.body_force) : Eigen::VectorXd::Zero(space->dofs()).eval();
-    const EliminatedSystem system(stiffness, held, problem.solver);
-    const EliminatedSolution solution = system.solve(load, prescribed);
-    return {space, solution.displacement, solution.residual};
+    const PrescribedData prescribed = prescribed_data(*space, problem);
+    const Eigen::VectorXd load = external_load(*space, problem);
+    const EliminatedSystem system(stiffness, prescribed.held, problem.solver);
+    const EliminatedSolution solution = system.solve(load, prescribed.values);
+    return {space, solution.displacement, solution.residual, load};
 }
 
 ErrorNorms BoundaryValueSolution::errors(const VectorField& exact, const GradientField& exact_gradient) const
@@ -66,6 +93,20 @@ double BoundaryValueSolution::largest_nodal_error(const VectorField& exact) cons
 double BoundaryValueSolution::strain_energy_j(const ElasticMaterial& material) const
 {
     return strain_energy(*space, lame_parameters(material.young_pa, material.poisson), displacement);
+}
+
+pbs::Vec3 BoundaryValueSolution::displacement_at(const pbs::Vec3& point) const
+{
+    return displacement.segment<3>(3 * nearest(space->node_positions(), point));
+}
+
+Eigen::Matrix3d BoundaryValueSolution::stress_at(const pbs::Vec3& point, const ElasticMaterial& material) const
+{
+    const int vertices = space->tet_nodes().leftCols(4).maxCoeff() + 1;
+    const Eigen::Matrix3d gradient = gradient_at_vertex(*space, displacement, nearest(space->node_positions().topRows(vertices), point));
+    const Eigen::Matrix3d strain = (gradient + gradient.transpose()) / 2.0;
+    const Lame lame = lame_parameters(material.young_pa, material.poisson);
+    return lame.lambda_pa * strain.trace() * Eigen::Matrix3d::Identity() + 2.0 * lame.mu_pa * strain;
 }
 
 }  // namespace reference_fem

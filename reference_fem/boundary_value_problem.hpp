@@ -1,5 +1,5 @@
 // Any linear elastic problem with known data on the boundary, through the very assembly, elimination and solver of the judge: what patch
-// tests, manufactured solutions and closed forms verify it with, beside the skeleton.
+// tests, manufactured solutions, closed forms and published benchmarks verify it with, beside the skeleton.
 //   BoundaryValueProblem problem{.body_force = f, .displacement = u};
 //   BoundaryValueSolution solution = solve(mesh, material, problem);
 //   solution.errors(u, grad_u).l2;
@@ -8,6 +8,8 @@
 #include "reference_fem/assembly.hpp"
 #include "reference_fem/direct_factor.hpp"
 
+#include <vector>
+
 namespace reference_fem {
 
 struct ElasticMaterial {
@@ -15,22 +17,37 @@ struct ElasticMaterial {
     double poisson = 0.3;
 };
 
+// Which components of a node's displacement are held: all or none, or single ones (rollers, planes of symmetry).
+struct Held {
+    Held(bool all) : x(all), y(all), z(all) {}
+    Held(bool hold_x, bool hold_y, bool hold_z) : x(hold_x), y(hold_y), z(hold_z) {}
+
+    bool x, y, z;
+};
+
 struct BoundaryValueProblem {
     VectorField body_force;                           // [N/m^3]; empty: none
-    VectorField displacement;                         // [m], at the held nodes
-    std::function<bool(const pbs::Vec3&)> held = {};  // which boundary nodes are held; empty: all; the others are free of traction
+    VectorField displacement;                         // [m], where it is held; empty: zero
+    std::function<Held(const pbs::Vec3&)> held = {};  // of the boundary nodes; empty: all are
     int element_order = 2;
     LinearSolver solver = LinearSolver::cholmod;
+    std::vector<Traction> tractions = {};  // elsewhere the boundary is free
 };
 
 struct BoundaryValueSolution {
     std::shared_ptr<const SimplexSpace> space;
     Eigen::VectorXd displacement;  // [m], #dofs
     double residual = 0.0;
+    Eigen::VectorXd load;  // of body force and tractions [N], #dofs
 
     ErrorNorms errors(const VectorField& exact, const GradientField& exact_gradient) const;
     double largest_nodal_error(const VectorField& exact) const;  // [m]
     double strain_energy_j(const ElasticMaterial& material) const;
+    double work_of_load_j() const { return load.dot(displacement); }  // over the total force: the mean displacement along it
+
+    pbs::Vec3 displacement_at(const pbs::Vec3& point) const;                                   // [m], of the nearest node
+    Eigen::Matrix3d stress_at(const pbs::Vec3& point, const ElasticMaterial& material) const;  // [Pa], of the nearest vertex: the mean
+                                                                                               // over the tets that meet there
 };
 
 BoundaryValueSolution solve(const pbs::TetMesh& mesh, const ElasticMaterial& material, const BoundaryValueProblem& problem);
