@@ -1,0 +1,168 @@
+// Truth: the laws' formulas, by hand, where a deformation gradient degenerates. mu = 1 and lambda = 2 (any unit).
+#include "tests/support/law_points.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include <cmath>
+
+namespace {
+
+using namespace test_support;
+using reference_fem::Lame;
+using reference_fem::PointResponse;
+using reference_fem::Tangent;
+
+const Lame lame{.lambda_pa = 2.0, .mu_pa = 1.0};
+const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity(), zero = Eigen::Matrix3d::Zero();
+
+PointResponse respond(Model model, const Eigen::Matrix3d& f)
+{
+    return constitutive_law(model, lame)->evaluate(f, Derivatives::second);
+}
+
+Eigen::Matrix3d diagonal(double a, double b, double c)
+{
+    return Eigen::Vector3d(a, b, c).asDiagonal();
+}
+
+bool all_finite(const PointResponse& response)
+{
+    return std::isfinite(response.shape) && std::isfinite(response.dilatation) && response.shape_gradient.allFinite() &&
+           response.dilatation_gradient.allFinite() && response.shape_hessian.allFinite() && response.dilatation_hessian.allFinite();
+}
+
+class EveryLaw : public testing::TestWithParam<NamedModel> {};
+
+TEST_P(EveryLaw, AtRestStoresNothing)
+{
+    const PointResponse response = respond(GetParam().model, identity);
+    EXPECT_TRUE(response.defined);
+    EXPECT_NEAR(response.shape, 0.0, 1e-15);
+    EXPECT_NEAR(response.dilatation, 0.0, 1e-15);
+    EXPECT_LE(response.shape_gradient.norm(), 1e-15);
+}
+
+TEST_P(EveryLaw, GivesTheSameWithFewerDerivatives)
+{
+    RandomPoints random(1);
+    const Eigen::Matrix3d f = random_stretch(random);
+    const auto law = constitutive_law(GetParam().model, lame);
+    const PointResponse none = law->evaluate(f, Derivatives::none), first = law->evaluate(f, Derivatives::first),
+                        second = law->evaluate(f, Derivatives::second);
+    EXPECT_EQ(none.shape, second.shape);
+    EXPECT_EQ(none.dilatation, second.dilatation);
+    EXPECT_EQ(first.shape, second.shape);
+    EXPECT_EQ(first.shape_gradient, second.shape_gradient);
+    EXPECT_EQ(first.dilatation_gradient, second.dilatation_gradient);
+}
+
+TEST_P(EveryLaw, IsDefinedAndFiniteOrSaysNot)
+{
+    const Eigen::Matrix3d flat = diagonal(1.3, 0.8, 0.0), line = diagonal(1.3, 0.0, 0.0), mirror = diagonal(1.0, 1.0, -1.0),
+                          point_mirror = -identity, inside_out = diagonal(1.4, 1.1, -0.3);
+    for (const Eigen::Matrix3d& f : {zero, flat, line, mirror, point_mirror, inside_out}) {
+        const PointResponse response = respond(GetParam().model, f);
+        EXPECT_EQ(response.defined, GetParam().through_inversion) << f;
+        if (response.defined) {
+            EXPECT_TRUE(all_finite(response)) << f;
+        }
+    }
+}
+
+TEST_P(EveryLaw, TellsWhatIsNotFinite)
+{
+    Eigen::Matrix3d broken = identity;
+    broken(1, 2) = std::nan("");
+    const LawPoint point(GetParam().model, lame);
+    const PointResponse response = point.law->evaluate(broken, Derivatives::none);
+    EXPECT_TRUE(!response.defined || !std::isfinite(energy_density(response, point.law->lambda_pa())));
+}
+
+// P(F) of a uniform dilation by s is p(s) I: at 1e6 and 1e-5 the terms of p differ by up to 30 digits.
+TEST_P(EveryLaw, HoldsAtExtremeScales)
+{
+    const double lambda = lame.lambda_pa, mu = lame.mu_pa, kappa = lambda + 2.0 / 3.0 * mu;
+    for (const double s : {1e-5, 1e6}) {
+        double expected = (2.0 * mu + 3.0 * lambda) * (s - 1.0);
+        if (GetParam().model == Model::stable_neo_hookean)
+            expected = mu * (s - 2.0 * s * s + std::pow(s, 5)) + lambda * (std::pow(s, 5) - s * s);
+        if (GetParam().model == Model::neo_hookean) expected = mu * (s - 1.0 / s) + 3.0 * lambda * std::log(s) / s;
+        if (GetParam().model == Model::st_venant_kirchhoff) expected = (mu + 1.5 * lambda) * s * (s * s - 1.0);
+        if (GetParam().model == Model::isochoric_neo_hookean) expected = 0.5 * kappa * (std::pow(s, 5) - 1.0 / s);
+        const Eigen::Matrix3d stress = LawPoint(GetParam().model, lame).stress(s * identity);
+        EXPECT_LE((stress - expected * identity).norm(), 1e-12 * std::abs(expected)) << s;
+        EXPECT_TRUE(all_finite(respond(GetParam().model, s * identity))) << s;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, EveryLaw, testing::ValuesIn(all_models()), name_of_model);
+
+// psi at F = 0 and at a mirror image, by hand.
+TEST(DegenerateStates, LinearTakesThemForLargeStrains)
+{
+    EXPECT_NEAR(LawPoint(Model::linear, lame).energy(zero), 3.0 + 9.0, 1e-14);                      // eps = -I
+    EXPECT_NEAR(LawPoint(Model::linear, lame).energy(diagonal(-1.0, 1.0, 1.0)), 4.0 + 4.0, 1e-14);  // eps = diag(-2, 0, 0)
+}
+
+TEST(DegenerateStates, StVenantKirchhoffGivesWayAtZeroAndIsBlindToMirrors)
+{
+    const LawPoint law(Model::st_venant_kirchhoff, lame);
+    EXPECT_NEAR(law.energy(zero), 0.75 + 9.0 / 4.0, 1e-14);  // E = -I / 2
+    EXPECT_EQ(law.stress(zero).norm(), 0.0);
+    EXPECT_LE((law.tangent(zero) + 4.0 * Tangent::Identity()).norm(), 1e-14);  // -(mu + 3 lambda / 2) I: a maximum
+    EXPECT_EQ(law.energy(diagonal(1.0, 1.0, -1.0)), 0.0);
+    EXPECT_EQ(law.stress(diagonal(1.0, 1.0, -1.0)).norm(), 0.0);
+}
+
+TEST(DegenerateStates, StableNeoHookeanHasAMinimumAtZeroAndResistsMirrors)
+{
+    const LawPoint law(Model::stable_neo_hookean, lame);
+    EXPECT_NEAR(law.energy(zero), 1.0, 1e-14);  // shape 0, lambda / 2
+    EXPECT_EQ(law.stress(zero).norm(), 0.0);
+    EXPECT_LE((law.tangent(zero) - Tangent::Identity()).norm(), 1e-14);                     // mu I
+    EXPECT_NEAR(law.energy(diagonal(1.0, 1.0, -1.0)), 2.0 + 2.0 + 0.5 * 2.0 * 4.0, 1e-14);  // J - 1 = -2
+}
+
+// F = diag(1, 1, 0): |F|^2 - 3 = -1, J - 1 = -1, dJ/dF = diag(0, 0, 1).
+TEST(DegenerateStates, StableNeoHookeanPushesAFlatTetOpen)
+{
+    const LawPoint law(Model::stable_neo_hookean, lame);
+    EXPECT_NEAR(law.energy(diagonal(1.0, 1.0, 0.0)), -0.5 + 1.0 + 0.5 + 1.0, 1e-14);
+    EXPECT_LE((law.stress(diagonal(1.0, 1.0, 0.0)) - diagonal(1.0, 1.0, -4.0)).norm(), 1e-14);  // -mu - mu - lambda
+}
+
+// Which of the rotations R is, is chance; |F - R|^2 = |F|^2 + 3 - 2 tr S and tr S = s_1 + s_2 + s_3 are not.
+TEST(DegenerateStates, CorotationalHasOneEnergyWhereTwoStretchesSumToZero)
+{
+    const LawPoint law(Model::corotational, lame);
+    EXPECT_NEAR(law.energy(zero), 3.0 + 9.0, 1e-14);
+    EXPECT_NEAR(law.energy(diagonal(1.0, 1.0, -1.0)), 4.0 + 4.0, 1e-14);
+    EXPECT_NEAR(law.energy(diagonal(2.0, 1.0, -1.0)), 5.0 + 1.0, 1e-14);  // |F|^2 + 3 - 4, (2 - 3)^2
+    for (const double side : {-1e-7, 1e-7}) EXPECT_NEAR(law.energy(diagonal(2.0, 1.0, -1.0 + side)), 6.0, 1e-6);
+}
+
+// Where two stretches sum to 0, or nearly, the energy has a ridge (2 mu + lambda (3 - tr S) > 0 times a concave kink): the tangent is
+// large, finite, symmetric and falls across the ridge, so that a check of definiteness cannot miss it.
+TEST(DegenerateStates, CorotationalTangentStaysFiniteWhereTwoStretchesSumToZero)
+{
+    for (const Eigen::Matrix3d& f : {diagonal(2.0, 1.0, -1.0), diagonal(2.0, 1.0, -1.0 + 1e-12), diagonal(1.0, 0.0, 0.0)}) {
+        const Tangent tangent = LawPoint(Model::corotational, lame).tangent(f);
+        EXPECT_TRUE(tangent.allFinite());
+        EXPECT_LE((tangent - tangent.transpose()).norm(), 1e-14 * tangent.norm());
+        EXPECT_LT(Eigen::SelfAdjointEigenSolver<Tangent>(tangent).eigenvalues()(0), -1e6);
+    }
+}
+
+TEST(IsochoricNeoHookean, HasNoVolumeTermOfItsOwn)
+{
+    const auto law = constitutive_law(Model::isochoric_neo_hookean, lame);
+    EXPECT_FALSE(law->volume_term());
+    EXPECT_EQ(law->lambda_pa(), 0.0);
+    const PointResponse response = law->evaluate(diagonal(1.2, 0.9, 1.1), Derivatives::second);
+    EXPECT_EQ(response.dilatation, 0.0);
+    EXPECT_EQ(response.dilatation_gradient.norm(), 0.0);
+    EXPECT_EQ(response.dilatation_hessian.norm(), 0.0);
+}
+
+}  // namespace
