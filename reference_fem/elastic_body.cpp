@@ -92,6 +92,11 @@ const pbs::Positions& ElasticBody::positions() const
     return implementation_->positions_;
 }
 
+const Eigen::VectorXd& ElasticBody::displacement() const
+{
+    return implementation_->displacement_;
+}
+
 pbs::Positions ElasticBody::spring_points_deformed() const
 {
     return implementation_->held_.springs().moved(implementation_->displacement_);

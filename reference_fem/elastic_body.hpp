@@ -58,6 +58,7 @@ public:
     void start_from(const pbs::Positions& vertices);
 
     const pbs::Positions& positions() const;        // deformed vertices [m], #V x 3
+    const Eigen::VectorXd& displacement() const;    // of every node of the space [m], #dofs: vertices, then the middles of edges
     pbs::Positions spring_points_deformed() const;  // where the tied points went [m], #S x 3
     double strain_energy_j() const;                 // of the flesh alone
     double kinetic_energy_j() const;                // 0 where quasi-static

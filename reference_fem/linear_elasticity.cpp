@@ -72,6 +72,11 @@ const pbs::Positions& LinearElasticity::positions() const
     return implementation_->positions_;
 }
 
+const Eigen::VectorXd& LinearElasticity::displacement() const
+{
+    return implementation_->displacement_;
+}
+
 pbs::Positions LinearElasticity::spring_points_deformed() const
 {
     return implementation_->held_.springs().moved(implementation_->displacement_);

@@ -40,6 +40,7 @@ public:
     SolveSummary solve(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets, const pbs::Vec3& gravity_m_s2);
 
     const pbs::Positions& positions() const;        // deformed vertices [m], #V x 3
+    const Eigen::VectorXd& displacement() const;    // of every node of the space [m], #dofs: vertices, then the middles of edges
     pbs::Positions spring_points_deformed() const;  // where the tied points went [m], #S x 3: targets minus this is the grip error
     double strain_energy_j() const;                 // of the flesh alone, without the springs
     std::vector<bool> prescribed_vertices() const;  // #V
