@@ -10,7 +10,7 @@
 namespace reference_fem {
 namespace {
 
-constexpr int most_points = 4;  // of a P2 tet
+constexpr int most_points = 6;  // of a P2 tet
 constexpr int most_nodes = 10;
 using TetMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3 * most_nodes, 3 * most_nodes>;
 using TetVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3 * most_nodes, 1>;

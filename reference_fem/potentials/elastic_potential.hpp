@@ -2,7 +2,7 @@
 //   ElasticPotential flesh(space, Model::stable_neo_hookean, lame_parameters(young_pa, poisson), Formulation::mean_dilatation);
 // With mean dilatation (J. Nagtegaal, D. Parks, J. Rice, CMAME 4, 1974; J. Simo, R. Taylor, K. Pister, CMAME 51, 1985) a tet's volume term
 // is V lambda / 2 mean(theta)^2: one volume constraint a tet, which on P2 is the P2-P0 element. On P1 theta is constant and both agree.
-// Quadrature is exact for the linear law: 1 point for P1, 4 for P2, as in CalculiX's C3D4 and C3D10.
+// Quadrature has 1 point on P1 and 6 on P2, exact to degree 3: for the linear law and for det F, hence for the volume.
 #pragma once
 
 #include "reference_fem/element_tables.hpp"

@@ -1,0 +1,155 @@
+// Truth: minima known by hand, and the outcomes that each way of failing must have.
+#include "reference_fem/newton/newton.hpp"
+
+#include "reference_fem/assembly.hpp"
+#include "reference_fem/potentials/dead_load.hpp"
+#include "reference_fem/potentials/elastic_potential.hpp"
+
+#include "tests/support/structured_bar.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace {
+
+using namespace reference_fem;
+
+const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
+const Lame lame = lame_parameters(1e3, 0.3);
+
+// The end x = 0 held.
+std::vector<bool> held_end(const SimplexSpace& space)
+{
+    std::vector<bool> held(space.dofs());
+    for (int d = 0; d < space.dofs(); ++d) held[d] = space.node_positions()(d / 3, 0) == 0.0;
+    return held;
+}
+
+Eigen::VectorXd weight(const SimplexSpace& space, double force_n_m3)
+{
+    return load_vector(space, [&](const pbs::Vec3&) { return pbs::Vec3(0, 0, -force_n_m3); });
+}
+
+// Concave along every displacement: no Hessian of it is positive definite.
+class Concave : public Potential {
+public:
+    double value(const Eigen::VectorXd& u) const override { return -u.squaredNorm(); }
+    void add_gradient(const Eigen::VectorXd& u, Eigen::VectorXd& gradient) const override { gradient -= 2.0 * u; }
+    void add_hessian(const Eigen::VectorXd&, Definiteness definiteness, NodalMatrix& hessian) const override
+    {
+        if (definiteness == Definiteness::projected) return;
+        for (int n = 0; n < hessian.matrix().rows() / 3; ++n) hessian.add_block(n, n, -2.0 * Eigen::Matrix3d::Identity());
+    }
+    bool is_quadratic() const override { return false; }
+};
+
+TEST(Newton, AQuadraticTakesOneStepAndKeepsItsFactor)
+{
+    const SimplexSpace space(bar, 1);
+    const ElasticPotential flesh(space, Model::linear, lame, Formulation::displacement);
+    DeadLoad load(weight(space, 10.0));
+    NewtonMinimiser newton(space, held_end(space), LinearSolver::cholmod);
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(space.dofs());
+    NewtonSummary summary = newton.minimise({&flesh, &load}, u, u, {});
+    EXPECT_TRUE(summary.converged());
+    EXPECT_EQ(summary.steps(), 1);
+    EXPECT_EQ(summary.factorisations, 1);
+    const Eigen::VectorXd once = u;
+
+    load.set(weight(space, 20.0));
+    summary = newton.minimise({&flesh, &load}, u, u, {});
+    EXPECT_EQ(summary.factorisations, 0);
+    EXPECT_LT((u - 2.0 * once).norm(), 1e-12 * u.norm());
+}
+
+TEST(Newton, ConvergesFasterThanLinearly)
+{
+    const SimplexSpace space(bar, 2);
+    const ElasticPotential flesh(space, Model::stable_neo_hookean, lame, Formulation::displacement);
+    const DeadLoad load(weight(space, 10.0));
+    NewtonMinimiser newton(space, held_end(space), LinearSolver::cholmod);
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(space.dofs());
+    const NewtonSummary summary = newton.minimise({&flesh, &load}, u, u, {.relative_tolerance = 1e-11});
+    ASSERT_TRUE(summary.converged());
+    ASSERT_GE(summary.iterations.size(), 4u);
+    const auto& last = summary.iterations;
+    const std::size_t n = last.size();
+    // Theory: r_{k+1} = O(r_k^2), so each reduction is stronger than the one before; a wrong tangent reduces by the same factor each time.
+    const double before_last = last[n - 3].residual_n / last[n - 4].residual_n, reduction = last[n - 2].residual_n / last[n - 3].residual_n;
+    EXPECT_LT(reduction, 0.1 * before_last);
+    for (std::size_t k = 1; k < n; ++k) EXPECT_LE(last[k].energy_j, last[k - 1].energy_j + 1e-12 * std::abs(last[k - 1].energy_j));
+}
+
+TEST(Newton, TheIncrementOfPrescribedDataGoesIntoTheFirstSolve)
+{
+    const SimplexSpace space(bar, 1);
+    const ElasticPotential flesh(space, Model::linear, lame, Formulation::displacement);
+    std::vector<bool> held(space.dofs());
+    Eigen::VectorXd stretched = Eigen::VectorXd::Constant(space.dofs(), std::numeric_limits<double>::quiet_NaN());
+    for (int d = 0; d < space.dofs(); ++d) {
+        const double x = space.node_positions()(d / 3, 0);
+        held[d] = x == 0.0 || x == 2.0;
+        if (held[d]) stretched(d) = d % 3 == 0 ? 0.1 * x : 0.0;
+    }
+    NewtonMinimiser newton(space, held, LinearSolver::cholmod);
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(space.dofs());
+    const NewtonSummary summary = newton.minimise({&flesh}, stretched, u, {});
+    ASSERT_TRUE(summary.converged());
+    EXPECT_EQ(summary.steps(), 1);
+    EXPECT_TRUE(summary.iterations.front().carries_increment);
+    for (int d = 0; d < space.dofs(); ++d) {
+        if (held[d]) {
+            EXPECT_EQ(u(d), stretched(d));
+        }
+    }
+}
+
+TEST(Newton, NothingToDoIsConvergedWithoutAStep)
+{
+    const SimplexSpace space(bar, 1);
+    const ElasticPotential flesh(space, Model::corotational, lame, Formulation::displacement);
+    NewtonMinimiser newton(space, held_end(space), LinearSolver::cholmod);
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(space.dofs());
+    const NewtonSummary summary = newton.minimise({&flesh}, u, u, {});
+    EXPECT_TRUE(summary.converged());
+    EXPECT_EQ(summary.steps(), 0);
+    EXPECT_EQ(u, Eigen::VectorXd::Zero(space.dofs()));
+}
+
+TEST(Newton, AnIndefiniteHessianIsProjectedAndSaidSo)
+{
+    const SimplexSpace space(bar, 1);
+    const ElasticPotential flesh(space, Model::stable_neo_hookean, lame, Formulation::displacement);
+    NewtonMinimiser newton(space, held_end(space), LinearSolver::cholmod);
+    Eigen::VectorXd u(space.dofs());  // squeezed flat and beyond
+    for (int d = 0; d < space.dofs(); ++d) u(d) = d % 3 == 0 ? -1.4 * space.node_positions()(d / 3, 0) : 0.0;
+    const NewtonSummary summary = newton.minimise({&flesh}, Eigen::VectorXd::Zero(space.dofs()), u, {});
+    ASSERT_TRUE(summary.converged()) << name_of(summary.outcome);
+    EXPECT_TRUE(std::any_of(summary.iterations.begin(), summary.iterations.end(), [](const auto& it) { return it.projected; }));
+    EXPECT_LT(u.norm(), 1e-6);  // the only stress-free state with this end held
+}
+
+TEST(Newton, OutcomesOfFailure)
+{
+    const SimplexSpace space(bar, 1);
+    const ElasticPotential log_law(space, Model::neo_hookean, lame, Formulation::displacement);
+    NewtonMinimiser newton(space, held_end(space), LinearSolver::cholmod);
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(space.dofs());
+
+    Eigen::VectorXd inverted(space.dofs());
+    for (int d = 0; d < space.dofs(); ++d) inverted(d) = d % 3 == 0 ? -2.0 * space.node_positions()(d / 3, 0) : 0.0;
+    EXPECT_EQ(newton.minimise({&log_law}, zero, inverted, {}).outcome, NewtonOutcome::not_finite);
+
+    const ElasticPotential flesh(space, Model::stable_neo_hookean, lame, Formulation::displacement);
+    const DeadLoad load(weight(space, 10.0));
+    Eigen::VectorXd u = zero;
+    EXPECT_EQ(newton.minimise({&flesh, &load}, zero, u, {.iterations = 1}).outcome, NewtonOutcome::iterations_exhausted);
+
+    const Concave concave;
+    NewtonMinimiser other(space, held_end(space), LinearSolver::cholmod);
+    u = Eigen::VectorXd::Ones(space.dofs());
+    EXPECT_EQ(other.minimise({&concave}, u, u, {}).outcome, NewtonOutcome::not_positive_definite);
+}
+
+}  // namespace

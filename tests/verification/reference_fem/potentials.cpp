@@ -1,0 +1,210 @@
+// Truth: calculus and theory. Each potential's gradient is the slope of its value and its Hessian the slope of its gradient (eps sweeps on
+// a distorted mesh, away from rest); the linear law's Hessian is the stiffness that deal.II assembles on its own; rotations store nothing.
+#include "reference_fem/assembly.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "reference_fem/potentials/bind_potential.hpp"
+#include "reference_fem/potentials/dead_load.hpp"
+#include "reference_fem/potentials/elastic_potential.hpp"
+#include "reference_fem/potentials/spring_potential.hpp"
+
+#include "tests/support/eps_sweep.hpp"
+#include "tests/verification/reference_fem/jittered_cube.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace {
+
+using namespace reference_fem;
+
+const pbs::TetMesh cube = test_support::jittered(test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {2, 1, 1}), {0.5, 1.0, 1.0}, 0.2);
+const Lame lame = lame_parameters(1e3, 0.4);
+
+Eigen::VectorXd random_dofs(int size, double magnitude, unsigned seed)
+{
+    std::mt19937 generator(seed);
+    std::uniform_real_distribution<double> entry(-magnitude, magnitude);
+    return Eigen::VectorXd::NullaryExpr(size, [&] { return entry(generator); });
+}
+
+void expect_consistent(const Potential& potential, const SimplexSpace& space, double size)
+{
+    const Eigen::VectorXd at = random_dofs(space.dofs(), 0.1 * size, 1), along = random_dofs(space.dofs(), 1.0, 2),
+                          across = random_dofs(space.dofs(), 1.0, 3);
+    const auto gradient = [&](const Eigen::VectorXd& u) {
+        Eigen::VectorXd g = Eigen::VectorXd::Zero(u.size());
+        potential.add_gradient(u, g);
+        return g;
+    };
+    const auto value = [&](const Eigen::VectorXd& u) { return potential.value(u); };
+    NodalMatrix hessian(space);
+    potential.add_hessian(at, Definiteness::as_it_is, hessian);
+    EXPECT_LE((hessian.matrix() - SparseMatrix(hessian.matrix().transpose())).norm(), 1e-13 * hessian.matrix().norm());
+    if (potential.is_quadratic()) {  // central differences of a quadratic are exact: there is no error to see falling
+        const double slope = (value(at + along) - value(at - along)) / 2.0;
+        EXPECT_NEAR(slope, gradient(at).dot(along), 1e-11 * (std::abs(value(at + along)) + std::abs(value(at - along))));
+        const Eigen::VectorXd turn = (gradient(at + along) - gradient(at - along)) / 2.0;
+        EXPECT_LT((turn - hessian.matrix() * along).norm(), 1e-11 * (gradient(at + along).norm() + turn.norm()));
+        return;
+    }
+    test_support::expect_slope_by_eps_sweep(value, at, along, gradient(at).dot(along), 0.1 * size);
+    test_support::expect_slope_by_eps_sweep([&](const Eigen::VectorXd& u) { return gradient(u).dot(across); }, at, along,
+                                            across.dot(hessian.matrix() * along), 0.1 * size);
+}
+
+struct Case {
+    Model model;
+    int element_order;
+    Formulation formulation;
+};
+
+class Flesh : public testing::TestWithParam<Case> {};
+
+TEST_P(Flesh, GradientIsTheSlopeOfTheEnergyAndHessianThatOfTheGradient)
+{
+    const SimplexSpace space(cube, GetParam().element_order);
+    expect_consistent(ElasticPotential(space, GetParam().model, lame, GetParam().formulation), space, 0.3);
+}
+
+TEST_P(Flesh, ARotationStoresNothingUnlessTheLawIsLinear)
+{
+    const SimplexSpace space(cube, GetParam().element_order);
+    const ElasticPotential flesh(space, GetParam().model, lame, GetParam().formulation);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.0, pbs::Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    const pbs::Positions moved = space.node_positions() * (turn - Eigen::Matrix3d::Identity()).transpose();
+    const double energy = flesh.value(Eigen::Map<const Eigen::VectorXd>(moved.data(), moved.size()));
+    if (GetParam().model == Model::linear)
+        EXPECT_GT(energy, lame.mu_pa);  // |u| is of order one: so is the fictitious strain
+    else
+        EXPECT_LT(std::abs(energy), 1e-12 * lame.mu_pa);
+}
+
+TEST_P(Flesh, ProjectedHessianHasNoNegativeEigenvalues)
+{
+    const SimplexSpace space(cube, GetParam().element_order);
+    const ElasticPotential flesh(space, GetParam().model, lame, GetParam().formulation);
+    // Squeezed to half along x: compressed laws soften, so that the bare Hessian of most has negative eigenvalues.
+    Eigen::VectorXd squeezed = random_dofs(space.dofs(), 0.02, 4);
+    for (int n = 0; n < space.nodes(); ++n) squeezed(3 * n) -= 0.5 * space.node_positions()(n, 0);
+    NodalMatrix hessian(space);
+    flesh.add_hessian(squeezed, Definiteness::projected, hessian);
+    const Eigen::MatrixXd dense = hessian.matrix();
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues()(0), -1e-12 * dense.norm());
+}
+
+std::vector<Case> all_cases()
+{
+    std::vector<Case> cases;
+    for (const Model model :
+         {Model::linear, Model::corotational, Model::stable_neo_hookean, Model::neo_hookean, Model::st_venant_kirchhoff})
+        for (const int order : {1, 2})
+            for (const Formulation formulation : {Formulation::displacement, Formulation::mean_dilatation})
+                cases.push_back({model, order, formulation});
+    for (const int order : {1, 2}) cases.push_back({Model::isochoric_neo_hookean, order, Formulation::displacement});
+    return cases;
+}
+INSTANTIATE_TEST_SUITE_P(EveryLaw, Flesh, testing::ValuesIn(all_cases()));
+
+TEST(ElasticPotential, TheLinearLawIsTheStiffnessThatDealIiAssembles)
+{
+    for (const int order : {1, 2}) {
+        const SimplexSpace space(cube, order);
+        NodalMatrix hessian(space);
+        ElasticPotential(space, Model::linear, lame, Formulation::displacement)
+            .add_hessian(Eigen::VectorXd::Zero(space.dofs()), Definiteness::as_it_is, hessian);
+        const SparseMatrix stiffness = stiffness_matrix(space, lame);
+        EXPECT_LT((hessian.matrix() - stiffness).norm(), 1e-14 * stiffness.norm()) << "P" << order;  // rounding of some 50 sums
+    }
+}
+
+TEST(ElasticPotential, EveryLawHasTheLinearStiffnessAtRest)
+{
+    const SimplexSpace space(cube, 2);
+    for (const Formulation formulation : {Formulation::displacement, Formulation::mean_dilatation}) {
+        const auto at_rest = [&](Model model) {
+            NodalMatrix hessian(space);
+            ElasticPotential(space, model, lame, formulation)
+                .add_hessian(Eigen::VectorXd::Zero(space.dofs()), Definiteness::as_it_is, hessian);
+            return SparseMatrix(hessian.matrix());
+        };
+        const SparseMatrix linear = at_rest(Model::linear);
+        for (const Model model : {Model::corotational, Model::stable_neo_hookean, Model::neo_hookean, Model::st_venant_kirchhoff})
+            EXPECT_LT((at_rest(model) - linear).norm(), 1e-13 * linear.norm());
+    }
+}
+
+TEST(ElasticPotential, MeanDilatationOnLinearTetsIsDisplacement)
+{
+    const SimplexSpace space(cube, 1);
+    const Eigen::VectorXd u = random_dofs(space.dofs(), 0.05, 5);
+    for (const Model model : {Model::linear, Model::stable_neo_hookean}) {
+        const double displacement = ElasticPotential(space, model, lame, Formulation::displacement).value(u);
+        EXPECT_NEAR(ElasticPotential(space, model, lame, Formulation::mean_dilatation).value(u), displacement, 1e-12 * displacement);
+    }
+}
+
+TEST(ElasticPotential, JacobiansOfAnAffineMotion)
+{
+    const SimplexSpace space(cube, 2);
+    const ElasticPotential flesh(space, Model::stable_neo_hookean, lame, Formulation::displacement);
+    Eigen::VectorXd mirrored = Eigen::VectorXd::Zero(space.dofs());
+    for (int n = 0; n < space.nodes(); ++n) mirrored(3 * n) = -3.0 * space.node_positions()(n, 0);  // F = diag(-2, 1, 1)
+    const Jacobians jacobians = flesh.jacobians(mirrored);
+    EXPECT_NEAR(jacobians.lowest, -2.0, 1e-12);
+    EXPECT_EQ(jacobians.inverted, 6 * cube.tets.rows());  // every quadrature point
+    EXPECT_NEAR(jacobians.volume, -2.0, 1e-12);
+    EXPECT_TRUE(std::isfinite(flesh.value(mirrored)));
+    EXPECT_TRUE(std::isinf(ElasticPotential(space, Model::neo_hookean, lame, Formulation::displacement).value(mirrored)));
+}
+
+TEST(ElasticPotential, RefusesWhatItCannotDo)
+{
+    const SimplexSpace space(cube, 2);
+    EXPECT_THROW(ElasticPotential(space, Model::linear, lame, Formulation::taylor_hood), pbs::InputError);
+    EXPECT_THROW(ElasticPotential(space, Model::isochoric_neo_hookean, lame, Formulation::mean_dilatation), pbs::InputError);
+}
+
+TEST(SpringPotential, IsConsistent)
+{
+    for (const int order : {1, 2}) {
+        const SimplexSpace space(cube, order);
+        const pbs::Positions points{{0.2, 0.3, 0.4}, {0.7, 0.6, 0.2}, {9.0, 9.0, 9.0}};  // the last lies outside and pulls nothing
+        const AttachedPoints springs(cube, space, points, Eigen::Vector3d(3.0, 5.0, 7.0));
+        SpringPotential potential(springs);
+        potential.move_to(pbs::Positions(points.array() + 0.25));
+        expect_consistent(potential, space, 1.0);
+        EXPECT_NEAR(potential.value(Eigen::VectorXd::Zero(space.dofs())), (3.0 + 5.0) / 2.0 * 3.0 * 0.25 * 0.25, 1e-12);
+    }
+}
+
+TEST(BindPotential, IsConsistent)
+{
+    const SimplexSpace space(cube, 2);
+    const Eigen::VectorXd distance = cube.rest.rowwise().norm(), stiffness = Eigen::VectorXd::LinSpaced(cube.rest.rows(), 0.0, 5.0);
+    BindPotential potential(cube.rest, distance, stiffness);
+    potential.move_to(pbs::Positions::Zero(cube.rest.rows(), 3));
+    EXPECT_EQ(potential.value(Eigen::VectorXd::Zero(space.dofs())), 0.0);
+    potential.move_to(pbs::Positions::Constant(cube.rest.rows(), 3, -0.3));
+    expect_consistent(potential, space, 1.0);
+}
+
+TEST(BindPotential, AVertexOnItsBonePointHasAFiniteHessian)
+{
+    const SimplexSpace space(cube, 1);
+    const Eigen::Index vertices = cube.rest.rows();
+    const BindPotential potential(cube.rest, Eigen::VectorXd::Zero(vertices), Eigen::VectorXd::Constant(vertices, 2.0));
+    NodalMatrix hessian(space);
+    potential.add_hessian(Eigen::VectorXd::Zero(space.dofs()), Definiteness::as_it_is, hessian);
+    EXPECT_LT((Eigen::MatrixXd(hessian.matrix()) - 2.0 * Eigen::MatrixXd::Identity(3 * vertices, 3 * vertices)).norm(), 1e-15);
+}
+
+TEST(DeadLoad, IsConsistent)
+{
+    const SimplexSpace space(cube, 1);
+    expect_consistent(DeadLoad(random_dofs(space.dofs(), 1.0, 6)), space, 1.0);
+}
+
+}  // namespace
