@@ -16,5 +16,6 @@ pbs_test(properties pbs/constraints/momentum pbs_method)
 pbs_test(properties pbs/constraints/invariance pbs_method)
 pbs_test(properties pbs/skinning/invariance pbs_method)
 pbs_test(properties pbs/solver/invariance pbs_method)
+pbs_test(verification pbs/solver/hanging_particle pbs_method)
 
 pbs_test(claims printed_equations pbs_method)

@@ -28,9 +28,9 @@ void check_rows(const char* field, const Positions& points, std::size_t vertices
 
 template <typename Scalar>
 Algorithm1<Scalar>::Algorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
-                               const PbsOptions& options)
+                               const PbsOptions& options, const std::vector<bool>& held)
     : options_(options),
-      constraints_(make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, options)),
+      constraints_(make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, options, held)),
       jiggling_(jiggling_vertices(jiggle_zone, options)),
       x_(mesh.rest),
       projected_(mesh.rest.rows()),

@@ -12,9 +12,9 @@ namespace pbs {
 template <typename Scalar>
 class Algorithm1 {
 public:
-    Algorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone, const PbsOptions& options);
-
-    // See PbsSolver::advance.
+    // See PbsSolver.
+    Algorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone, const PbsOptions& options,
+               const std::vector<bool>& held = {});
     StepSummary advance(const Positions& lbs_positions, const Positions& bind_points, double dt_s);
 
     const Positions& positions() const { return x_; }  // [m], #V x 3

@@ -21,19 +21,33 @@ void check_options(const PbsOptions& options)
     if (options.jiggle) check_stiffness("jiggle.k_stretch", options.jiggle->k_stretch);
 }
 
-void check_mesh(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone)
+void check_mesh(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
+                const std::vector<bool>& held)
 {
     const auto size_error = [&](const char* field, auto size) {
         throw InputError("pbs", 0, field, std::to_string(size) + " entries", "expected one a vertex, " + std::to_string(mesh.rest.rows()));
     };
     if (bind_distance.size() != mesh.rest.rows()) size_error("bind_distance", bind_distance.size());
     if (!jiggle_zone.empty() && Eigen::Index(jiggle_zone.size()) != mesh.rest.rows()) size_error("jiggle_zone", jiggle_zone.size());
+    if (!held.empty() && Eigen::Index(held.size()) != mesh.rest.rows()) size_error("held", held.size());
     if (mesh.tets.size() && (mesh.tets.minCoeff() < 0 || mesh.tets.maxCoeff() >= mesh.rest.rows()))
         throw InputError("mesh", 0, "tets", "", "expected vertex indices from 0 to " + std::to_string(mesh.rest.rows() - 1));
     const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets);
     for (Eigen::Index t = 0; t < volumes.size(); ++t)
         if (!(volumes(t) > 0.0))
             throw InputError("mesh", 0, "tet " + std::to_string(t), std::to_string(volumes(t)) + " m^3", "expected a positive rest volume");
+}
+
+void check_held(const std::vector<bool>& held, const std::vector<bool>& jiggle_zone, const PbsOptions& options)
+{
+    for (std::size_t i = 0; i < held.size(); ++i) {
+        if (!held[i]) continue;
+        if (options.jiggle && !jiggle_zone.empty() && jiggle_zone[i])
+            throw InputError("pbs", 0, "held", "vertex " + std::to_string(i), "expected a vertex outside the jiggling zone");
+        if (options.volume_form != VolumeForm::derived)
+            throw InputError("pbs", 0, "held", "vertex " + std::to_string(i),
+                             "expected none with a printed volume_form: all masses are one");
+    }
 }
 
 template <typename Scalar>
@@ -75,13 +89,16 @@ std::vector<BindConstraint<Scalar>> bind_constraints(const Eigen::VectorXd& dist
 }
 
 template <typename Scalar>
-std::vector<Scalar> inverse_masses(const TetMesh& mesh, Masses masses)
+std::vector<Scalar> inverse_masses(const TetMesh& mesh, Masses masses, const std::vector<bool>& held)
 {
     std::vector<Scalar> inverse_mass(mesh.rest.rows(), Scalar(1));
-    if (masses == Masses::unit) return inverse_mass;
-    const Eigen::VectorXd lumped = lumped_volumes(mesh.rest, mesh.tets);
-    for (Eigen::Index i = 0; i < lumped.size(); ++i)
-        if (lumped(i) > 0.0) inverse_mass[i] = Scalar(lumped.mean() / lumped(i));
+    if (masses == Masses::lumped) {
+        const Eigen::VectorXd lumped = lumped_volumes(mesh.rest, mesh.tets);
+        for (Eigen::Index i = 0; i < lumped.size(); ++i)
+            if (lumped(i) > 0.0) inverse_mass[i] = Scalar(lumped.mean() / lumped(i));
+    }
+    for (std::size_t i = 0; i < held.size(); ++i)
+        if (held[i]) inverse_mass[i] = Scalar(0);
     return inverse_mass;
 }
 
@@ -89,15 +106,18 @@ std::vector<Scalar> inverse_masses(const TetMesh& mesh, Masses masses)
 
 template <typename Scalar>
 ConstraintSet<Scalar> make_constraint_set(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
-                                          const PbsOptions& options)
+                                          const PbsOptions& options, const std::vector<bool>& held)
 {
     check_options(options);
-    check_mesh(mesh, bind_distance, jiggle_zone);
+    check_mesh(mesh, bind_distance, jiggle_zone, held);
+    check_held(held, jiggle_zone, options);
     return {bind_constraints<Scalar>(bind_distance, options.k_bind), stretch_constraints<Scalar>(mesh, jiggle_zone, options),
-            volume_constraints<Scalar>(mesh, options.k_volume), inverse_masses<Scalar>(mesh, options.masses)};
+            volume_constraints<Scalar>(mesh, options.k_volume), inverse_masses<Scalar>(mesh, options.masses, held)};
 }
 
-template ConstraintSet<float> make_constraint_set(const TetMesh&, const Eigen::VectorXd&, const std::vector<bool>&, const PbsOptions&);
-template ConstraintSet<double> make_constraint_set(const TetMesh&, const Eigen::VectorXd&, const std::vector<bool>&, const PbsOptions&);
+template ConstraintSet<float> make_constraint_set(const TetMesh&, const Eigen::VectorXd&, const std::vector<bool>&, const PbsOptions&,
+                                                  const std::vector<bool>&);
+template ConstraintSet<double> make_constraint_set(const TetMesh&, const Eigen::VectorXd&, const std::vector<bool>&, const PbsOptions&,
+                                                   const std::vector<bool>&);
 
 }  // namespace pbs

@@ -18,13 +18,15 @@ struct ConstraintSet {
     std::vector<BindConstraint<Scalar>> bind;
     std::vector<StretchConstraint<Scalar>> stretch;
     std::vector<VolumeConstraint<Scalar>> volume;
-    std::vector<Scalar> inverse_mass;  // unit: 1; lumped: mean lumped volume / lumped volume of the vertex, so that no unit enters, #V
+    // unit: 1; lumped: mean lumped volume / lumped volume of the vertex, so that no unit enters; held: 0, #V
+    std::vector<Scalar> inverse_mass;
 };
 
-// bind_distance [m], #V; jiggle_zone: #V, or empty: nothing jiggles. Wrong sizes, stiffnesses outside [0, 1] and tets without a positive
-// rest volume are InputErrors.
+// bind_distance [m], #V; jiggle_zone: #V, or empty: nothing jiggles; held: #V, or empty: nothing is held. Wrong sizes, stiffnesses outside
+// [0, 1], tets without a positive rest volume, and vertices held although they jiggle or Eq. 12-20 are taken as printed (which know no
+// mass) are InputErrors.
 template <typename Scalar>
 ConstraintSet<Scalar> make_constraint_set(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
-                                          const PbsOptions& options);
+                                          const PbsOptions& options, const std::vector<bool>& held = {});
 
 }  // namespace pbs

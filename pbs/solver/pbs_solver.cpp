@@ -14,11 +14,11 @@ public:
 };
 
 PbsSolver::PbsSolver(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
-                     const PbsOptions& options)
+                     const PbsOptions& options, const std::vector<bool>& held)
 {
     const auto build = [&]() -> AnyAlgorithm1 {
-        if (options.precision == Precision::f32) return Algorithm1<float>(mesh, bind_distance, jiggle_zone, options);
-        return Algorithm1<double>(mesh, bind_distance, jiggle_zone, options);
+        if (options.precision == Precision::f32) return Algorithm1<float>(mesh, bind_distance, jiggle_zone, options, held);
+        return Algorithm1<double>(mesh, bind_distance, jiggle_zone, options, held);
     };
     implementation_ = std::make_unique<Implementation>(Implementation{build()});
 }

@@ -15,8 +15,10 @@ namespace pbs {
 
 class PbsSolver {
 public:
-    // bind_distance: d_i [m], #V. jiggle_zone: #V, or empty where nothing jiggles (then no velocity exists).
-    PbsSolver(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone, const PbsOptions& options);
+    // bind_distance: d_i [m], #V. jiggle_zone: #V, or empty where nothing jiggles (then no velocity exists). held: #V, or empty; a held
+    // particle has infinite mass: it is where LBS puts it, and no projection moves it (the end of a cantilever; the paper holds none).
+    PbsSolver(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone, const PbsOptions& options,
+              const std::vector<bool>& held = {});
     ~PbsSolver();
 
     // One time step of dt [s]: particles outside the jiggling zone start at their LBS position [m] (#V x 3), those in it are integrated;

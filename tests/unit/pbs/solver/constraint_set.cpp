@@ -83,6 +83,32 @@ TEST(ConstraintSet, LumpedMassesAreRelativeToTheirMean)
     EXPECT_GT(*std::max_element(constraints.inverse_mass.begin(), constraints.inverse_mass.end()), 1.5);
 }
 
+TEST(ConstraintSet, HeldVerticesHaveNoInverseMass)
+{
+    std::vector<bool> held(bar.rest.rows(), false);
+    held[3] = true;
+    for (const auto masses : {pbs::Masses::unit, pbs::Masses::lumped}) {
+        PbsOptions options;
+        options.masses = masses;
+        const std::vector<double> free = constraints_of(options).inverse_mass;
+        const std::vector<double> inverse_mass = pbs::make_constraint_set<double>(bar, distance, {}, options, held).inverse_mass;
+        for (std::size_t i = 0; i < free.size(); ++i) EXPECT_EQ(inverse_mass[i], i == 3 ? 0.0 : free[i]);
+    }
+}
+
+TEST(ConstraintSet, RefusesToHoldWhatIsIntegratedOrHasNoMass)
+{
+    const std::vector<bool> held(bar.rest.rows(), true);
+    EXPECT_NO_THROW(pbs::make_constraint_set<double>(bar, distance, held, {}, held));  // the zone is off
+    PbsOptions options;
+    options.jiggle = pbs::Jiggle{};
+    EXPECT_THROW(pbs::make_constraint_set<double>(bar, distance, held, options, held), pbs::InputError);
+    options = {};
+    options.volume_form = pbs::VolumeForm::labels_relative;
+    EXPECT_THROW(pbs::make_constraint_set<double>(bar, distance, {}, options, held), pbs::InputError);
+    EXPECT_THROW(pbs::make_constraint_set<double>(bar, distance, {}, {}, std::vector<bool>(3, true)), pbs::InputError);
+}
+
 TEST(ConstraintSet, RefusesStiffnessesOutsideZeroToOne)
 {
     for (double PbsOptions::*field : {&PbsOptions::k_stretch, &PbsOptions::k_volume, &PbsOptions::k_bind})
