@@ -122,6 +122,26 @@ Eigen::Matrix3d gradient_at(const dealii::FEValues<3>& values, const DofIndices&
     return gradient;
 }
 
+ElementTables tables_at(const SimplexSpace& space, const dealii::Quadrature<3>& quadrature)
+{
+    const Eigen::Index tets = space.tet_nodes().rows(), nodes = space.tet_nodes().cols();
+    const auto points = static_cast<Eigen::Index>(quadrature.size());
+    ElementTables tables{static_cast<int>(nodes), static_cast<int>(points), Eigen::VectorXd(tets * points),
+                         pbs::Positions(tets * points * nodes, 3)};
+    Eigen::Index point = 0;
+    for_each_tet(space, quadrature, dealii::update_gradients | dealii::update_JxW_values,
+                 [&](const dealii::FEValues<3>& values, const DofIndices&) {
+                     for (const unsigned int q : values.quadrature_point_indices()) {
+                         tables.weights(point) = values.JxW(q);
+                         for (Eigen::Index a = 0; a < nodes; ++a)
+                             tables.shape_gradients.row(point * nodes + a) =
+                                 to_vec3(values.shape_grad(values.get_fe().component_to_system_index(0, a), q)).transpose();
+                         ++point;
+                     }
+                 });
+    return tables;
+}
+
 }  // namespace
 
 SparseMatrix stiffness_matrix(const SimplexSpace& space, const Lame& material)
@@ -169,22 +189,14 @@ SparseMatrix mass_matrix(const SimplexSpace& space, double density_kg_m3)
 
 ElementTables element_tables(const SimplexSpace& space, int points_1d)
 {
-    const Eigen::Index tets = space.tet_nodes().rows(), nodes = space.tet_nodes().cols();
-    const auto points = static_cast<Eigen::Index>(dealii::QGaussSimplex<3>(points_1d).size());
-    ElementTables tables{static_cast<int>(nodes), static_cast<int>(points), Eigen::VectorXd(tets * points),
-                         pbs::Positions(tets * points * nodes, 3)};
-    Eigen::Index point = 0;
-    for_each_tet(space, points_1d, dealii::update_gradients | dealii::update_JxW_values,
-                 [&](const dealii::FEValues<3>& values, const DofIndices&) {
-                     for (const unsigned int q : values.quadrature_point_indices()) {
-                         tables.weights(point) = values.JxW(q);
-                         for (Eigen::Index a = 0; a < nodes; ++a)
-                             tables.shape_gradients.row(point * nodes + a) =
-                                 to_vec3(values.shape_grad(values.get_fe().component_to_system_index(0, a), q)).transpose();
-                         ++point;
-                     }
-                 });
-    return tables;
+    return tables_at(space, dealii::QGaussSimplex<3>(points_1d));
+}
+
+ElementTables element_tables(const SimplexSpace& space, const TetQuadrature& quadrature)
+{
+    std::vector<dealii::Point<3>> points;
+    for (const auto& point : quadrature.points.rowwise()) points.emplace_back(point(0), point(1), point(2));
+    return tables_at(space, dealii::Quadrature<3>(points, std::vector<double>(quadrature.weights.begin(), quadrature.weights.end())));
 }
 
 Eigen::VectorXd load_vector(const SimplexSpace& space, const VectorField& body_force)

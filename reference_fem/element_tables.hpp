@@ -24,4 +24,11 @@ struct ElementTables {
 // Quadrature with `points_1d` points a direction: exact to degree 2 points_1d - 1; 1 to 4.
 ElementTables element_tables(const SimplexSpace& space, int points_1d);
 
+// Any rule: points by their coordinates on corners 2, 3, 4; the weights add up to 1/6, the volume of the unit tet.
+struct TetQuadrature {
+    pbs::Positions points;
+    Eigen::VectorXd weights;
+};
+ElementTables element_tables(const SimplexSpace& space, const TetQuadrature& quadrature);
+
 }  // namespace reference_fem

@@ -51,12 +51,18 @@ struct ElasticPotential::TetState {
 };
 
 ElasticPotential::ElasticPotential(const SimplexSpace& space, Model model, const Lame& lame, Formulation formulation)
+    : ElasticPotential(space, model, lame, formulation, element_tables(space, space.element_order()))
+{
+}
+
+ElasticPotential::ElasticPotential(const SimplexSpace& space, Model model, const Lame& lame, Formulation formulation, ElementTables tables)
     : tet_nodes_(space.tet_nodes()),
       model_(model),
       formulation_(formulation),
       law_(constitutive_law(model, lame)),
-      tables_(element_tables(space, space.element_order()))
+      tables_(std::move(tables))
 {
+    require(tables_.points_per_tet <= most_points, "quadrature points", tables_.points_per_tet, "expected at most 6 a tet");
     require(formulation != Formulation::taylor_hood, "formulation", "taylor_hood", "expected displacement or mean_dilatation here");
     require(formulation == Formulation::displacement || law_->volume_term(), "formulation", "mean_dilatation",
             "expected a law with a volume term lambda / 2 theta^2");

@@ -23,6 +23,8 @@ class ElasticPotential : public Potential {
 public:
     // formulation: displacement or mean_dilatation, else pbs::InputError; so is mean dilatation of a law that is not of two parts.
     ElasticPotential(const SimplexSpace& space, Model model, const Lame& lame, Formulation formulation);
+    // With another quadrature, of 6 points at most.
+    ElasticPotential(const SimplexSpace& space, Model model, const Lame& lame, Formulation formulation, ElementTables tables);
 
     double value(const Eigen::VectorXd& displacement) const override;
     void add_gradient(const Eigen::VectorXd& displacement, Eigen::VectorXd& gradient) const override;
