@@ -106,29 +106,55 @@ DeformerSpec pbs_spec(const SceneValues& values)
     return spec;
 }
 
-DeformerSpec fem_spec(const SceneValues& values, int index)
+// Rules that more than one key takes part in.
+void check_fem_keys(const SceneValues& values, const std::string& at, const FemOptions& options)
 {
-    const std::string at = "fem." + std::to_string(index) + ".";
-    const std::string name = values.text(at + "name");
-    DeformerSpec spec{name, "fem", name, "default", {}, {}};
-    FemOptions& options = spec.fem;
-    options.name = spec.name;
-    options.model = option_of<FemModel>(values.text(at + "model"));
+    const bool linear = options.model == reference_fem::Model::linear;
+    const bool quasi_static = options.dynamics == reference_fem::Dynamics::quasi_static;
+    if (linear && options.attachment == FemAttachment::bind)
+        values.refuse(at + "attachment", "expected embedded or nodes with model linear: the bind constraint is not linear");
+    if (!linear && options.solver == reference_fem::LinearSolver::umfpack)
+        values.refuse(at + "solver",
+                      "expected cholmod with a nonlinear model: Newton must be told of a matrix that is not positive definite");
+    if (quasi_static && (options.rayleigh_mass_1_s > 0.0 || options.rayleigh_stiffness_s > 0.0))
+        values.refuse(at + "rayleigh", "expected [0, 0] with dynamics quasi_static: nothing moves there that could be damped");
+    if (!quasi_static && !(options.density_kg_m3 > 0.0)) values.refuse(at + "density_kg_m3", "expected a density > 0 with dynamics");
+}
+
+FemOptions fem_options(const SceneValues& values, const std::string& at)
+{
+    FemOptions options;
+    options.name = values.text(at + "name");
+    options.model = option_of<reference_fem::Model>(values.text(at + "model"));
     options.element_order = values.integer(at + "element_order");
+    options.formulation = option_of<reference_fem::Formulation>(values.text(at + "formulation"));
     options.young_pa = values.number(at + "young_pa");
     options.poisson = values.number(at + "poisson");
     options.density_kg_m3 = values.number(at + "density_kg_m3");
     options.gravity_m_s2 = vec3(values.numbers(at + "gravity_m_s2"));
+    options.dynamics = option_of<reference_fem::Dynamics>(values.text(at + "dynamics"));
+    const std::vector<double> rayleigh = values.numbers(at + "rayleigh");
+    if (rayleigh.size() != 2) values.refuse(at + "rayleigh", "expected two numbers, [mass, stiffness]");
+    options.rayleigh_mass_1_s = rayleigh[0];
+    options.rayleigh_stiffness_s = rayleigh[1];
     options.attachment = option_of<FemAttachment>(values.text(at + "attachment"));
     options.core_radius = values.number(at + "core_radius");
     options.spring_factor = values.number(at + "spring_factor");
     options.solver = option_of<reference_fem::LinearSolver>(values.text(at + "solver"));
+    check_fem_keys(values, at, options);
+    return options;
+}
+
+DeformerSpec fem_spec(const SceneValues& values, int index)
+{
+    const std::string at = "fem." + std::to_string(index) + ".";
+    const std::string name = values.text(at + "name");
     const auto is_plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
-    if (spec.name.empty() || !std::all_of(spec.name.begin(), spec.name.end(), is_plain) || spec.name.starts_with("pbs"))
+    if (name.empty() || !std::all_of(name.begin(), name.end(), is_plain) || name.starts_with("pbs"))
         values.refuse(at + "name", "expected letters, digits and underscores, not beginning with pbs: it names files");
     for (const DeformerKind& kind : deformer_kinds())
-        if (spec.name == kind.kind && kind.kind != "fem") values.refuse(at + "name", "is the name of another deformer");
-    return spec;
+        if (name == kind.kind && kind.kind != "fem") values.refuse(at + "name", "is the name of another deformer");
+    return {name, "fem", name, "default", {}, fem_options(values, at)};
 }
 
 std::vector<DeformerSpec> read_deformers(const SceneValues& values)

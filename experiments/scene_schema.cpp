@@ -92,24 +92,36 @@ std::vector<SceneKey> fem_keys()
 {
     return {
         key("fem", "name", text, "\"fem\"", "", "the name this reference has in the records"),
-        one_of(key("fem", "model", text, "\"linear\"", "", "constitutive model; linear strain is fictitious by 1 - cos of the rotation"),
-               {"linear"}),
+        one_of(key("fem", "model", text, "\"linear\"", "",
+                   "constitutive model; linear strain is fictitious by 1 - cos of the rotation and st_venant_kirchhoff gives way under "
+                   "compression: both are negative controls at large rotations"),
+               {"linear", "corotational", "stable_neo_hookean", "neo_hookean", "st_venant_kirchhoff"}),
         within(key("fem", "element_order", integer, "2", "", "polynomial order of the simplices"), 1, 2),
-        one_of(key("fem", "formulation", text, "\"displacement\"", "", "finite element formulation"), {"displacement"}),
+        one_of(key("fem", "formulation", text, "\"displacement\"", "",
+                   "how volume enters: displacement, or mean_dilatation (one volume constraint a tet), which on order 1 is the same"),
+               {"displacement", "mean_dilatation"}),
         within(key("fem", "young_pa", number, "1.0e5", "Pa", "Young's modulus; cancels where displacements alone drive the body"),
                above_zero, 1e15),
         within(key("fem", "poisson", number, "0.45", "", "Poisson's ratio"), 0, 0.4999999),
-        within(key("fem", "density_kg_m3", number, "1000.0", "kg/m^3", "density, for gravity"), 0, 1e6),
+        within(key("fem", "density_kg_m3", number, "1000.0", "kg/m^3", "density, for gravity and dynamics"), 0, 1e6),
         key("fem", "gravity_m_s2", vec3, "[0.0, 0.0, 0.0]", "m/s^2", "gravity on the reference"),
-        one_of(key("fem", "dynamics", text, "\"quasi_static\"", "", "time integration"), {"quasi_static"}),
-        within(key("fem", "rayleigh", numbers, "[0.0, 0.0]", "", "Rayleigh damping; without dynamics, zero"), 0, 0),
-        one_of(key("fem", "attachment", text, "\"embedded\"", "",
-                   "embedded: bones as rigid capsules tied to the flesh by springs; nodes: whole tets inside the capsules prescribed"),
-               {"embedded", "nodes"}),
+        one_of(key("fem", "dynamics", text, "\"quasi_static\"", "",
+                   "time integration: quasi_static (equilibrium in every frame), newmark (average acceleration), generalized_alpha"),
+               {"quasi_static", "newmark", "generalized_alpha"}),
+        within(key("fem", "rayleigh", numbers, "[0.0, 0.0]", "1/s, s",
+                   "Rayleigh damping [mass, stiffness]: C = mass M + stiffness K(rest); without dynamics, zero"),
+               0, 1e6),
+        one_of(
+            key("fem", "attachment", text, "\"embedded\"", "",
+                "embedded: bones as rigid capsules tied to the flesh by springs; nodes: whole tets inside the capsules prescribed; bind: "
+                "the paper's bind constraint as an energy on every vertex, for nonlinear models"),
+            {"embedded", "nodes", "bind"}),
         within(key("fem", "core_radius", number, "0.35", "", "radius of the bone's capsule over the local limb radius"), 0.01, 1),
-        within(key("fem", "spring_factor", number, "1.0e4", "", "q: the attachment's spring density is q E / r^2, r the capsule's radius"),
+        within(key("fem", "spring_factor", number, "1.0e4", "",
+                   "q: the attachment's density is q E / r^2, r the capsule's radius (embedded) or the local limb radius (bind)"),
                1e-3, 1e9),
-        one_of(key("fem", "solver", text, "\"cholmod\"", "", "direct solver; umfpack is the second opinion"), {"cholmod", "umfpack"}),
+        one_of(key("fem", "solver", text, "\"cholmod\"", "", "direct solver; umfpack is the second opinion on the linear model"),
+               {"cholmod", "umfpack"}),
     };
 }
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "reference_fem/attachment.hpp"
+#include "reference_fem/dynamics.hpp"
 #include "reference_fem/formulation.hpp"
 #include "reference_fem/laws/constitutive_law.hpp"
 #include "reference_fem/newton/load_path.hpp"
@@ -17,8 +18,6 @@
 #include <memory>
 
 namespace reference_fem {
-
-enum class Dynamics { quasi_static, newmark, generalized_alpha };
 
 struct ElasticOptions {
     Model model = Model::stable_neo_hookean;
@@ -51,7 +50,10 @@ public:
     ~ElasticBody();
 
     LoadPathSummary solve(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2);
-    // One step of options.dynamics; the data move linearly in time from fraction 0 to 1. Of a step that does not converge nothing is kept.
+    // One step of options.dynamics from rest or the last state, whose targets are those at fraction 0; in between, targets and gravity move
+    // linearly in time. A step whose Newton fails is taken in halves, which ask for targets at their own fractions; where fraction 1 is not
+    // reached, nothing of the step is kept. After solve() the body is at rest. The frame of reference is taken to be inertial: a skeleton
+    // whose root moves is to be given as it is in the world. Gravity acts in full from the first step on.
     LoadPathSummary advance(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2, double time_step_s);
 
     // A start for Newton other than the last state [m], #V x 3; mid-edge nodes halfway. Does not change what is converged to, only the way.

@@ -25,10 +25,13 @@ nlohmann::json to_json(const FemOptions& options)
 {
     return {{"model", name_of(options.model)},
             {"element_order", options.element_order},
+            {"formulation", name_of(options.formulation)},
             {"young_pa", options.young_pa},
             {"poisson", options.poisson},
             {"density_kg_m3", options.density_kg_m3},
             {"gravity_m_s2", {options.gravity_m_s2.x(), options.gravity_m_s2.y(), options.gravity_m_s2.z()}},
+            {"dynamics", name_of(options.dynamics)},
+            {"rayleigh", {options.rayleigh_mass_1_s, options.rayleigh_stiffness_s}},
             {"attachment", name_of(options.attachment)},
             {"core_radius", options.core_radius},
             {"spring_factor", options.spring_factor},

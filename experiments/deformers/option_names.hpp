@@ -36,13 +36,30 @@ struct OptionNames<pbs::VolumeForm> {
                                                                                    {pbs::VolumeForm::as_printed, "as_printed"}}};
 };
 template <>
-struct OptionNames<FemModel> {
-    static constexpr std::array<std::pair<FemModel, const char*>, 1> table{{{FemModel::linear, "linear"}}};
+struct OptionNames<reference_fem::Model> {
+    static constexpr std::array<std::pair<reference_fem::Model, const char*>, 5> table{
+        {{reference_fem::Model::linear, "linear"},
+         {reference_fem::Model::corotational, "corotational"},
+         {reference_fem::Model::stable_neo_hookean, "stable_neo_hookean"},
+         {reference_fem::Model::neo_hookean, "neo_hookean"},
+         {reference_fem::Model::st_venant_kirchhoff, "st_venant_kirchhoff"}}};
+};
+template <>
+struct OptionNames<reference_fem::Formulation> {
+    static constexpr std::array<std::pair<reference_fem::Formulation, const char*>, 2> table{
+        {{reference_fem::Formulation::displacement, "displacement"}, {reference_fem::Formulation::mean_dilatation, "mean_dilatation"}}};
+};
+template <>
+struct OptionNames<reference_fem::Dynamics> {
+    static constexpr std::array<std::pair<reference_fem::Dynamics, const char*>, 3> table{
+        {{reference_fem::Dynamics::quasi_static, "quasi_static"},
+         {reference_fem::Dynamics::newmark, "newmark"},
+         {reference_fem::Dynamics::generalized_alpha, "generalized_alpha"}}};
 };
 template <>
 struct OptionNames<FemAttachment> {
-    static constexpr std::array<std::pair<FemAttachment, const char*>, 2> table{
-        {{FemAttachment::embedded, "embedded"}, {FemAttachment::nodes, "nodes"}}};
+    static constexpr std::array<std::pair<FemAttachment, const char*>, 3> table{
+        {{FemAttachment::embedded, "embedded"}, {FemAttachment::nodes, "nodes"}, {FemAttachment::bind, "bind"}}};
 };
 template <>
 struct OptionNames<reference_fem::LinearSolver> {

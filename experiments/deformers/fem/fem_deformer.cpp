@@ -1,5 +1,6 @@
 #include "experiments/deformers/fem/fem_deformer.hpp"
 
+#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <algorithm>
@@ -21,6 +22,9 @@ reference_fem::LinearOptions solver_options(const FemOptions& options)
 
 void FemDeformer::reset(const pbs::Character& character)
 {
+    if (options_.model != reference_fem::Model::linear || options_.formulation != reference_fem::Formulation::displacement ||
+        options_.dynamics != reference_fem::Dynamics::quasi_static)
+        throw pbs::InputError(character.name, 0, "fem", options_.name, "expected model linear: the others are declared, not yet built");
     character_ = &character;
     const auto& bones = character.skeleton.bones;
     root_ =

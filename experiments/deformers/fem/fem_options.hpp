@@ -1,7 +1,10 @@
 // Options of the finite element reference as a deformer.
 #pragma once
 
+#include "reference_fem/dynamics.hpp"
+#include "reference_fem/formulation.hpp"
 #include "reference_fem/linear_solver.hpp"
+#include "reference_fem/model.hpp"
 
 #include "pbs/geometry/types.hpp"
 
@@ -9,19 +12,22 @@
 
 namespace experiments {
 
-enum class FemModel { linear };
-
 // embedded: each bone is a rigid capsule inside the flesh, tied to it by springs. nodes: whole tets inside the capsule are prescribed.
-enum class FemAttachment { embedded, nodes };
+// bind: the paper's bind constraint as an energy, for nonlinear models.
+enum class FemAttachment { embedded, nodes, bind };
 
 struct FemOptions {
     std::string name = "fem";
-    FemModel model = FemModel::linear;
+    reference_fem::Model model = reference_fem::Model::linear;
     int element_order = 2;  // 1, 2
+    reference_fem::Formulation formulation = reference_fem::Formulation::displacement;
     double young_pa = 1.0e5;
     double poisson = 0.45;
     double density_kg_m3 = 1000.0;
     pbs::Vec3 gravity_m_s2 = pbs::Vec3::Zero();
+    reference_fem::Dynamics dynamics = reference_fem::Dynamics::quasi_static;
+    double rayleigh_mass_1_s = 0.0;  // damping C = rayleigh_mass M + rayleigh_stiffness K(rest)
+    double rayleigh_stiffness_s = 0.0;
     FemAttachment attachment = FemAttachment::embedded;
     double core_radius = 0.35;     // capsule radius over local limb radius
     double spring_factor = 1.0e4;  // q: springs of density q E / r^2, r the capsule's radius; doubling it changes nothing that is reported
