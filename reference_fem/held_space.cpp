@@ -8,26 +8,6 @@
 namespace reference_fem {
 namespace {
 
-void check_attachment(const pbs::TetMesh& mesh, const Attachment& attachment)
-{
-    require(attachment.spring_stiffness.size() == attachment.spring_points.rows(), "spring_stiffness", attachment.spring_stiffness.size(),
-            "expected one a spring point");
-    require(attachment.spring_points.allFinite(), "spring_points", "not a number or infinite", "expected finite coordinates");
-    for (const double stiffness : attachment.spring_stiffness)
-        require(stiffness > 0.0 && std::isfinite(stiffness), "spring_stiffness", stiffness, "expected a finite stiffness > 0");
-    for (const int tet : attachment.prescribed_tets)
-        require(tet >= 0 && tet < mesh.tets.rows(), "prescribed_tets", tet, "expected an index below the number of tets");
-    require(attachment.bind_distance.size() == 0 || attachment.bind_distance.size() == mesh.rest.rows(), "bind_distance",
-            attachment.bind_distance.size(), "expected one a vertex");
-    require(attachment.bind_stiffness.size() == attachment.bind_distance.size(), "bind_stiffness", attachment.bind_stiffness.size(),
-            "expected one a bound vertex");
-    for (Eigen::Index v = 0; v < attachment.bind_distance.size(); ++v) {
-        const double distance = attachment.bind_distance(v), stiffness = attachment.bind_stiffness(v);
-        require(distance >= 0.0 && std::isfinite(distance), "bind_distance", distance, "expected a finite distance >= 0");
-        require(stiffness >= 0.0 && std::isfinite(stiffness), "bind_stiffness", stiffness, "expected a finite stiffness >= 0");
-    }
-}
-
 // Every point that the attachment holds: the springs' points, the corners of prescribed tets, bound vertices.
 void check_held(const pbs::TetMesh& mesh, const Attachment& attachment, const std::vector<int>& spring_tets)
 {
@@ -77,6 +57,26 @@ const pbs::TetMesh& checked(const pbs::TetMesh& mesh, double density_kg_m3, cons
 }
 
 }  // namespace
+
+void check_attachment(const pbs::TetMesh& mesh, const Attachment& attachment)
+{
+    require(attachment.spring_stiffness.size() == attachment.spring_points.rows(), "spring_stiffness", attachment.spring_stiffness.size(),
+            "expected one a spring point");
+    require(attachment.spring_points.allFinite(), "spring_points", "not a number or infinite", "expected finite coordinates");
+    for (const double stiffness : attachment.spring_stiffness)
+        require(stiffness > 0.0 && std::isfinite(stiffness), "spring_stiffness", stiffness, "expected a finite stiffness > 0");
+    for (const int tet : attachment.prescribed_tets)
+        require(tet >= 0 && tet < mesh.tets.rows(), "prescribed_tets", tet, "expected an index below the number of tets");
+    require(attachment.bind_distance.size() == 0 || attachment.bind_distance.size() == mesh.rest.rows(), "bind_distance",
+            attachment.bind_distance.size(), "expected one a vertex");
+    require(attachment.bind_stiffness.size() == attachment.bind_distance.size(), "bind_stiffness", attachment.bind_stiffness.size(),
+            "expected one a bound vertex");
+    for (Eigen::Index v = 0; v < attachment.bind_distance.size(); ++v) {
+        const double distance = attachment.bind_distance(v), stiffness = attachment.bind_stiffness(v);
+        require(distance >= 0.0 && std::isfinite(distance), "bind_distance", distance, "expected a finite distance >= 0");
+        require(stiffness >= 0.0 && std::isfinite(stiffness), "bind_stiffness", stiffness, "expected a finite stiffness >= 0");
+    }
+}
 
 HeldSpace::HeldSpace(const pbs::TetMesh& mesh, int element_order, double density_kg_m3, const Attachment& attachment)
     : rest_(checked(mesh, density_kg_m3, attachment).rest),

@@ -7,6 +7,9 @@
 
 namespace reference_fem {
 
+// pbs::InputError where the springs, prescribed tets or bound vertices do not fit the mesh.
+void check_attachment(const pbs::TetMesh& mesh, const Attachment& attachment);
+
 class HeldSpace {
 public:
     // pbs::InputError where the mesh, an option or the attachment is out of bounds, or a connected part of the mesh is not held.

@@ -12,7 +12,7 @@ struct HeavyLibrary {
 };
 
 const std::vector<HeavyLibrary> heavy = {
-    {"deal.II/", {"reference_fem/"}, 2},
+    {"deal.II/", {"reference_fem/"}, 5},
     {"CGAL/", {"pbs/geometry/"}, 4},
     {"vtk", {"pbs/geometry/"}, 3},
     {"gmsh.h", {"pbs/geometry/"}, 1},

@@ -1,0 +1,74 @@
+#include "experiments/distributed/distributed_record.hpp"
+
+#include "analysis/csv_table.hpp"
+#include "analysis/provenance.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace experiments {
+namespace {
+
+// Mean displacement [m] of the vertices with the greatest x.
+pbs::Vec3 tip_displacement(const pbs::TetMesh& mesh, const reference_fem::ElasticSolution& solution)
+{
+    const double high = mesh.rest.col(0).maxCoeff(), rounding = 1e-9 * (high - mesh.rest.col(0).minCoeff());
+    pbs::Vec3 sum = pbs::Vec3::Zero();
+    int vertices = 0;
+    for (Eigen::Index n = 0; n < solution.nodes.rows(); ++n) {
+        const int vertex = solution.nodes(n, 0);
+        if (vertex != solution.nodes(n, 1) || mesh.rest(vertex, 0) < high - rounding) continue;
+        sum += solution.displacement.row(n);
+        ++vertices;
+    }
+    return sum / vertices;
+}
+
+}  // namespace
+
+nlohmann::json to_json(const LoadedBody& body, const reference_fem::ElasticSolution& solution)
+{
+    const reference_fem::ElasticSummary& summary = solution.summary;
+    const reference_fem::LinearOptions& options = body.problem.options;
+    const pbs::Vec3 tip = tip_displacement(body.mesh, solution);
+    const pbs::Vec3& gravity = options.gravity_m_s2;
+    const pbs::Vec3& traction = body.problem.traction_pa;
+    return {{"schema", 1},
+            {"body", body.name},
+            {"element_order", options.element_order},
+            {"young_pa", options.young_pa},
+            {"poisson", options.poisson},
+            {"density_kg_m3", options.density_kg_m3},
+            {"gravity_m_s2", {gravity.x(), gravity.y(), gravity.z()}},
+            {"traction_pa", {traction.x(), traction.y(), traction.z()}},
+            {"springs", body.problem.attachment.spring_points.rows()},
+            {"solver", summary.solver},
+            {"ranks", summary.ranks},
+            {"vertices", body.mesh.rest.rows()},
+            {"tets", summary.tets},
+            {"tets_of_rank_min", summary.tets_of_rank_min},
+            {"tets_of_rank_max", summary.tets_of_rank_max},
+            {"dofs", summary.dofs},
+            {"mesh_s", summary.mesh_s},
+            {"assembly_s", summary.assembly_s},
+            {"setup_s", summary.setup_s},
+            {"solve_s", summary.solve_s},
+            {"peak_mb_of_rank_max", summary.peak_mb},
+            {"iterations", summary.iterations},
+            {"relative_residual", summary.relative_residual},
+            {"converged", summary.converged},
+            {"compliance_j", summary.compliance_j},
+            {"tip_displacement_m", {tip.x(), tip.y(), tip.z()}},
+            {"largest_displacement_m", solution.displacement.rowwise().norm().maxCoeff()},
+            {"provenance", analysis::collect_provenance(1)}};
+}
+
+void write_nodes(const std::string& path, const reference_fem::ElasticSolution& solution)
+{
+    analysis::CsvTable table({"first", "second", "x_m", "y_m", "z_m"});
+    for (Eigen::Index n = 0; n < solution.nodes.rows(); ++n)
+        table.add_row({solution.nodes(n, 0), solution.nodes(n, 1), solution.displacement(n, 0), solution.displacement(n, 1),
+                       solution.displacement(n, 2)});
+    table.write(path);
+}
+
+}  // namespace experiments

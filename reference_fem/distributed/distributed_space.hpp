@@ -1,0 +1,47 @@
+// deal.II's side of the distributed solver: the tets spread over the ranks, each rank holding its own and one layer of its neighbours'.
+// To be included by distributed_space.cpp and distributed_elasticity.cpp only: it takes some 20 s to compile.
+// Every rank also holds the plain arrays of the whole mesh (28 bytes a tet and vertex): tet t of them is the coarse cell of id t, so
+// vertices keep their numbers.
+#pragma once
+
+#include "pbs/geometry/tet_mesh.hpp"
+#include "reference_fem/simplex_space.hpp"
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/distributed/fully_distributed_tria.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_fe.h>
+
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace reference_fem {
+
+enum BoundaryPart : dealii::types::boundary_id { free_part = 0, held_part = 1, pulled_part = 2 };
+
+struct DistributedSpace {
+    using Cell = dealii::DoFHandler<3>::active_cell_iterator;
+
+    // Boundary triangles with all three corners in a set belong to that part; held goes before pulled.
+    DistributedSpace(const pbs::TetMesh& mesh, int element_order, const std::vector<int>& held_vertices,
+                     const std::vector<int>& pulled_vertices);
+
+    Eigen::Index tet(const Cell& cell) const { return static_cast<Eigen::Index>(cell->id().get_coarse_cell_id()); }
+    unsigned int nodes_per_tet() const { return element.n_dofs_per_cell() / 3; }
+    // The two vertices of the mesh that a tet's node lies halfway between, lower first; a vertex twice for itself.
+    std::pair<int, int> ends(const Cell& cell, unsigned int node_in_tet) const;
+    pbs::Vec3 position(const std::pair<int, int>& ends) const { return (mesh.rest.row(ends.first) + mesh.rest.row(ends.second)) / 2.0; }
+    bool node_on_face(const Cell& cell, unsigned int node_in_tet, unsigned int face) const;
+
+    const pbs::TetMesh& mesh;  // outlives the space
+    dealii::parallel::fullydistributed::Triangulation<3> triangulation;
+    dealii::FESystem<3> element;
+    dealii::MappingFE<3> mapping;
+    dealii::DoFHandler<3> dof_handler;
+    dealii::IndexSet owned, relevant;  // degrees of freedom of this rank; and those of its neighbours' tets
+};
+
+}  // namespace reference_fem

@@ -1,0 +1,10 @@
+// The distributed problem by the serial judge: SimplexSpace, its assembly and its solvers. What the distributed solution is held against.
+#pragma once
+
+#include "reference_fem/distributed/elastic_problem.hpp"
+
+namespace reference_fem {
+
+ElasticSolution solve_serially(const pbs::TetMesh& mesh, const ElasticProblem& problem);
+
+}  // namespace reference_fem
