@@ -1,5 +1,5 @@
 # Tests of the method: pbs/geometry (topology, quality, volumes), skinning, constraints, solver.
-foreach(name IN ITEMS topology quality tet_volume nearest_name)
+foreach(name IN ITEMS topology quality refinement tet_volume nearest_name)
     pbs_test(unit pbs/geometry/${name} pbs_method)
 endforeach()
 foreach(name IN ITEMS skeleton pose bone_binding weights blend)
@@ -12,6 +12,7 @@ foreach(name IN ITEMS constraint_set residuals project_plain algorithm_1 pbs_sol
     pbs_test(unit pbs/solver/${name} pbs_method)
 endforeach()
 
+pbs_test(properties pbs/geometry/refinement pbs_method)
 pbs_test(properties pbs/constraints/momentum pbs_method)
 pbs_test(properties pbs/constraints/invariance pbs_method)
 pbs_test(properties pbs/skinning/invariance pbs_method)

@@ -1,0 +1,157 @@
+// Truth: counts of red refinement (V + E vertices, 2E + 3F + T edges, 8T tets), Euler's formula, and the definition of a midpoint.
+#include "pbs/geometry/refinement.hpp"
+
+#include "pbs/geometry/quality.hpp"
+#include "pbs/geometry/tet_volume.hpp"
+#include "tests/support/structured_bar.hpp"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace {
+
+using pbs::Refinement;
+using pbs::TetMesh;
+
+TetMesh one_tet()
+{
+    TetMesh mesh{pbs::Positions(4, 3), pbs::Tets(1, 4)};
+    mesh.rest << 0, 0, 0, 1, 0, 0, 0.2, 1, 0, 0.1, 0.3, 1;
+    mesh.tets << 0, 1, 2, 3;
+    return mesh;
+}
+
+// A 3 x 3 x 1 box of unit cubes without the middle one: a body with one handle.
+TetMesh ring()
+{
+    TetMesh box = test_support::structured_bar({0, 0, 0}, {3, 3, 1}, {3, 3, 1});
+    constexpr int middle = 4, tets_a_cell = 6;
+    pbs::Tets kept(box.tets.rows() - tets_a_cell, 4);
+    kept << box.tets.topRows(tets_a_cell * middle), box.tets.bottomRows(box.tets.rows() - tets_a_cell * (middle + 1));
+    box.tets = kept;
+    return box;
+}
+
+// Of a point in a tet.
+Eigen::Vector4d barycentric(const TetMesh& mesh, Eigen::Index tet, const pbs::Vec3& point)
+{
+    Eigen::Matrix4d corners = Eigen::Matrix4d::Ones();
+    for (int corner = 0; corner < 4; ++corner) corners.col(corner).head<3>() = mesh.rest.row(mesh.tets(tet, corner));
+    return corners.inverse() * point.homogeneous();
+}
+
+TEST(Refinement, OfOneTetIsEightOfAnEighthOfItsVolume)
+{
+    const Refinement fine = pbs::refine(one_tet());
+    ASSERT_EQ(fine.mesh.rest.rows(), 10);
+    ASSERT_EQ(fine.mesh.tets.rows(), 8);
+    const double volume = pbs::tet_volumes(one_tet().rest, one_tet().tets)(0);
+    const Eigen::VectorXd volumes = pbs::tet_volumes(fine.mesh.rest, fine.mesh.tets);
+    for (const double child : volumes) EXPECT_NEAR(child, volume / 8.0, 1e-16);  // sums of products of numbers below 1
+}
+
+TEST(Refinement, KeepsTheCoarseVerticesAndHalvesTheEdges)
+{
+    const TetMesh bar = test_support::structured_bar({-1, 0, 0}, {1, 1, 1}, {3, 2, 2});
+    const Refinement fine = pbs::refine(bar);
+    EXPECT_EQ(fine.mesh.rest.topRows(bar.rest.rows()), bar.rest);
+    ASSERT_EQ(fine.mesh.rest.rows(), bar.rest.rows() + fine.parents.rows());
+    EXPECT_EQ(fine.parents, pbs::edges_of(bar.tets));  // each once
+    for (Eigen::Index e = 0; e < fine.parents.rows(); ++e)
+        EXPECT_EQ(fine.mesh.rest.row(bar.rest.rows() + e), 0.5 * (bar.rest.row(fine.parents(e, 0)) + bar.rest.row(fine.parents(e, 1))));
+}
+
+TEST(Refinement, CountsAreThoseOfRedRefinement)
+{
+    const TetMesh bar = test_support::structured_bar({0, 0, 0}, {4, 3, 2}, {4, 3, 2});
+    const pbs::Quality coarse = pbs::quality_of(bar), fine = pbs::quality_of(pbs::refine(bar).mesh);
+    const int faces = (4 * coarse.tets + coarse.boundary_triangles) / 2;
+    EXPECT_EQ(fine.vertices, coarse.vertices + coarse.edges);
+    EXPECT_EQ(fine.tets, 8 * coarse.tets);
+    EXPECT_EQ(fine.edges, 2 * coarse.edges + 3 * faces + coarse.tets);
+    EXPECT_EQ(fine.boundary_triangles, 4 * coarse.boundary_triangles);  // neighbours agree on the faces between them
+    EXPECT_NEAR(fine.volume_m3, coarse.volume_m3, 1e-13);               // a thousand terms of 0.02
+}
+
+TEST(Refinement, ABodyWithAHandleKeepsIt)
+{
+    for (TetMesh mesh = ring(); mesh.tets.rows() < 10000; mesh = pbs::refine(mesh).mesh) {
+        const pbs::Topology topology = pbs::topology_of(mesh.tets, mesh.rest.rows());
+        EXPECT_TRUE(topology.boundary_manifold);
+        EXPECT_EQ(topology.boundary_euler, 0);
+        EXPECT_EQ(topology.components, 1);
+        EXPECT_EQ(topology.unused_vertices, 0);
+    }
+}
+
+TEST(Refinement, ChildrenLieInTheirParentAndAtItsCorners)
+{
+    const TetMesh bar = test_support::structured_bar({0, 0, 0}, {1, 2, 3}, {2, 2, 2});
+    const TetMesh fine = pbs::refine(bar).mesh;
+    for (Eigen::Index t = 0; t < fine.tets.rows(); ++t) {
+        for (const int v : fine.tets.row(t)) EXPECT_GE(barycentric(bar, t / 8, fine.rest.row(v)).minCoeff(), -1e-14);
+        if (const Eigen::Index child = t % 8; child < 4) {
+            EXPECT_EQ(fine.tets(t, child), bar.tets(t / 8, child));
+        }
+    }
+}
+
+TEST(Refinement, CutsTheOctahedronAlongItsShortestDiagonal)
+{
+    for (int longest = 0; longest < 3; ++longest) {  // pairs of opposite edges of a box: the diagonals are its extents
+        const pbs::Vec3 extent = pbs::Vec3(longest == 0 ? 1 : 3, longest == 1 ? 1 : 3, longest == 2 ? 1 : 3);
+        TetMesh mesh{pbs::Positions(4, 3), pbs::Tets(1, 4)};
+        mesh.rest << 0, 0, 0, 1, 1, 0, 0, 1, 1, 1, 0, 1;
+        mesh.rest = mesh.rest * extent.asDiagonal();
+        mesh.tets << 0, 1, 2, 3;
+        const TetMesh fine = pbs::refine(mesh).mesh;
+        std::set<double> inner;  // lengths of edges from midpoint to midpoint of opposite edges: along one axis alone
+        for (Eigen::Index t = 4; t < 8; ++t)
+            for (int a = 0; a < 4; ++a)
+                for (int b = 0; b < a; ++b) {
+                    const pbs::Vec3 edge = fine.rest.row(fine.tets(t, a)) - fine.rest.row(fine.tets(t, b));
+                    if ((edge.array() != 0.0).count() == 1) inner.insert(edge.norm());
+                }
+        EXPECT_EQ(inner, std::set<double>{1.0});
+    }
+}
+
+TEST(Refinement, AnInvertedTetStaysInverted)
+{
+    TetMesh mesh = one_tet();
+    mesh.tets << 1, 0, 2, 3;
+    const TetMesh fine = pbs::refine(mesh).mesh;
+    EXPECT_LT(pbs::tet_volumes(fine.rest, fine.tets).maxCoeff(), 0.0);
+}
+
+TEST(Refinement, AnUnusedVertexIsKept)
+{
+    TetMesh mesh = one_tet();
+    mesh.rest.conservativeResize(5, 3);
+    mesh.rest.row(4) << 7, 8, 9;
+    const TetMesh fine = pbs::refine(mesh).mesh;
+    EXPECT_EQ(fine.rest.rows(), 11);
+    EXPECT_EQ(fine.rest.row(4), mesh.rest.row(4));
+    EXPECT_EQ(pbs::topology_of(fine.tets, fine.rest.rows()).unused_vertices, 1);
+}
+
+TEST(Refinement, OfNothingIsNothing)
+{
+    const Refinement fine = pbs::refine({pbs::Positions(0, 3), pbs::Tets(0, 4)});
+    EXPECT_EQ(fine.mesh.rest.rows(), 0);
+    EXPECT_EQ(fine.mesh.tets.rows(), 0);
+    EXPECT_EQ(fine.parents.rows(), 0);
+}
+
+TEST(Prolongated, CarriesAnAffineFieldExactly)
+{
+    const TetMesh bar = test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {2, 2, 2});
+    const Refinement fine = pbs::refine(bar);
+    const Eigen::Matrix3d map = (Eigen::Matrix3d() << 1, 2, 3, -4, 5, 6, 7, 8, -9).finished();
+    const pbs::Positions carried = pbs::prolongated(bar.rest * map, fine.parents);
+    EXPECT_LT((carried - fine.mesh.rest * map).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+}  // namespace
