@@ -21,7 +21,7 @@ endforeach()
 
 if(TARGET fem_deformer)
     find_package(nlohmann_json REQUIRED)
-    foreach(name bone_attachment bone_capsules fem_deformer)
+    foreach(name bone_attachment bone_capsules linear_fem_deformer)
         pbs_test(unit experiments/deformers/fem/${name} fem_deformer)
     endforeach()
     pbs_test(unit experiments/deformers/fem/fem_module pbs_method pbs_module nlohmann_json::nlohmann_json)

@@ -1,6 +1,7 @@
 #include "experiments/deformers/fem/bone_attachment.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/tet_volume.hpp"
 
 #include <algorithm>
 
@@ -20,9 +21,22 @@ std::vector<int> tets_inside(const pbs::TetMesh& mesh, const BoneCapsule& capsul
 
 }  // namespace
 
+BoneAttachment bone_attachment(const pbs::Character& character, const FemOptions& options)
+{
+    switch (options.attachment) {
+        case FemAttachment::embedded:
+            return embedded_attachment(character, options);
+        case FemAttachment::nodes:
+            return nodes_attachment(character, options);
+        case FemAttachment::bind:
+            return bind_attachment(character, options);
+    }
+    return {};
+}
+
 BoneAttachment embedded_attachment(const pbs::Character& character, const FemOptions& options)
 {
-    BoneAttachment bones{bone_capsules(character, options.core_radius), {}, {}, std::vector<int>(character.mesh.rest.rows(), -1), {}};
+    BoneAttachment bones{bone_capsules(character, options.core_radius), {}, {}, std::vector<int>(character.mesh.rest.rows(), -1), {}, {}};
     const Eigen::Index per_bone = bones.capsules.empty() ? 0 : sample_points(bones.capsules.front()).rows();
     const auto springs = static_cast<Eigen::Index>(bones.capsules.size()) * per_bone;
     bones.attachment.spring_points.resize(springs, 3);
@@ -41,7 +55,7 @@ BoneAttachment embedded_attachment(const pbs::Character& character, const FemOpt
 BoneAttachment nodes_attachment(const pbs::Character& character, const FemOptions& options)
 {
     const pbs::TetMesh& mesh = character.mesh;
-    BoneAttachment bones{bone_capsules(character, options.core_radius), {}, {}, std::vector<int>(mesh.rest.rows(), -1), {}};
+    BoneAttachment bones{bone_capsules(character, options.core_radius), {}, {}, std::vector<int>(mesh.rest.rows(), -1), {}, {}};
     for (int j = 0; j < static_cast<int>(bones.capsules.size()); ++j) {
         int kept = 0;
         for (const int tet : tets_inside(mesh, bones.capsules[j])) {
@@ -61,6 +75,20 @@ BoneAttachment nodes_attachment(const pbs::Character& character, const FemOption
     return bones;
 }
 
+BoneAttachment bind_attachment(const pbs::Character& character, const FemOptions& options)
+{
+    const pbs::TetMesh& mesh = character.mesh;
+    constexpr double whole_limb = 1.0;
+    BoneAttachment bones{bone_capsules(character, whole_limb), {}, {}, std::vector<int>(mesh.rest.rows(), -1), {}, character.binding};
+    bones.attachment.bind_distance = character.binding.distance;
+    bones.attachment.bind_stiffness = options.spring_factor * options.young_pa * pbs::lumped_volumes(mesh.rest, mesh.tets);
+    for (Eigen::Index v = 0; v < mesh.rest.rows(); ++v) {
+        const double radius = bones.capsules[character.binding.bone[v]].radius_m;
+        bones.attachment.bind_stiffness(v) /= radius * radius;
+    }
+    return bones;
+}
+
 pbs::Positions spring_targets(const BoneAttachment& bones, const pbs::Pose& pose)
 {
     pbs::Positions targets = bones.attachment.spring_points;
@@ -75,6 +103,11 @@ pbs::Positions vertex_targets(const BoneAttachment& bones, const pbs::Positions&
     for (Eigen::Index v = 0; v < rest.rows(); ++v)
         if (bones.vertex_bone[v] >= 0) targets.row(v) = (pose[bones.vertex_bone[v]] * pbs::Vec3(rest.row(v).transpose())).transpose();
     return targets;
+}
+
+reference_fem::Targets targets(const BoneAttachment& bones, const pbs::Positions& rest, const pbs::Pose& pose)
+{
+    return {spring_targets(bones, pose), vertex_targets(bones, rest, pose), pbs::posed_bind_points(bones.binding, pose)};
 }
 
 }  // namespace experiments

@@ -1,20 +1,23 @@
-// From capsules to what the finite element solver is given: springs at sample points, or prescribed tets, each with the bone that moves
-// it. "Attachment of the reference to the skeleton" in two forms, see FemAttachment.
+// From bones to what the finite element solver is given: springs at sample points, prescribed tets, or bound vertices, each with the bone
+// that moves it. "Attachment of the reference to the skeleton" in three forms, see FemAttachment.
 #pragma once
 
 #include "experiments/deformers/fem/bone_capsules.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "reference_fem/linear_elasticity.hpp"
+#include "reference_fem/elastic_body.hpp"
 
 namespace experiments {
 
 struct BoneAttachment {
     std::vector<BoneCapsule> capsules;     // #bones
-    reference_fem::Attachment attachment;  // springs or prescribed tets
+    reference_fem::Attachment attachment;  // springs, prescribed tets or bound vertices
     std::vector<int> spring_bone;          // #springs
     std::vector<int> vertex_bone;          // #V, -1: not prescribed
     std::vector<int> tet_bone;             // of each prescribed tet
+    pbs::BoneBinding binding;              // of bound vertices, else empty
 };
+
+BoneAttachment bone_attachment(const pbs::Character& character, const FemOptions& options);  // as the options have it
 
 // Springs of density q E / r^2 over each capsule's volume.
 BoneAttachment embedded_attachment(const pbs::Character& character, const FemOptions& options);
@@ -23,8 +26,15 @@ BoneAttachment embedded_attachment(const pbs::Character& character, const FemOpt
 // (fewer than four vertices that are not in one plane) is a pbs::InputError.
 BoneAttachment nodes_attachment(const pbs::Character& character, const FemOptions& options);
 
-// Where a pose (relative to the root) takes what is attached [m]: #springs x 3; #V x 3, rest positions where nothing is prescribed.
+// Every vertex at its rest distance d from its rest projection on its bone: k_i = q E V_i / R^2, V_i the vertex's lumped rest volume and R
+// the limb radius of its bone. The sum over the vertices is then the vertex rule for the integral over the flesh of
+// q E / (2 R^2) (|x - q(X)| - d(X))^2 dV, which knows nothing of the mesh. The weight is R, not d, since 1 / d^2 is not integrable at the
+// bone.
+BoneAttachment bind_attachment(const pbs::Character& character, const FemOptions& options);
+
+// Where a pose takes what is attached [m]: #springs x 3; #V x 3, rest positions where nothing is prescribed; all of it.
 pbs::Positions spring_targets(const BoneAttachment& bones, const pbs::Pose& pose);
 pbs::Positions vertex_targets(const BoneAttachment& bones, const pbs::Positions& rest, const pbs::Pose& pose);
+reference_fem::Targets targets(const BoneAttachment& bones, const pbs::Positions& rest, const pbs::Pose& pose);
 
 }  // namespace experiments

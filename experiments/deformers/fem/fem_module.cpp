@@ -1,8 +1,12 @@
 #include "experiments/deformers/fem/fem_module.hpp"
 
-#include "experiments/deformers/fem/fem_deformer.hpp"
+#include "experiments/deformers/fem/elastic_fem_deformer.hpp"
+#include "experiments/deformers/fem/linear_fem_deformer.hpp"
 
 experiments::Deformer* pbskin_make_fem(const experiments::FemOptions& options)
 {
-    return new experiments::FemDeformer(options);
+    const bool linear = options.model == reference_fem::Model::linear && options.formulation == reference_fem::Formulation::displacement &&
+                        options.dynamics == reference_fem::Dynamics::quasi_static;
+    if (linear) return new experiments::LinearFemDeformer(options);
+    return new experiments::ElasticFemDeformer(options);
 }

@@ -1,5 +1,6 @@
 #include "experiments/deformers/fem/fem_record.hpp"
 
+#include "experiments/deformers/option_names.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 
@@ -18,22 +19,34 @@ std::set<int> vertices_of(const pbs::Tets& tets, const std::set<int>& gripped)
     return vertices;
 }
 
+// Share of the vertices that lie on the skin.
+double skin_share(const pbs::Character& character, const std::set<int>& vertices)
+{
+    if (vertices.empty()) return 0.0;
+    const std::vector<bool> skin = pbs::boundary_vertices(character.mesh.tets, character.mesh.rest.rows());
+    const auto on_skin = std::count_if(vertices.begin(), vertices.end(), [&](int v) { return skin[v]; });
+    return static_cast<double>(on_skin) / static_cast<double>(vertices.size());
+}
+
 nlohmann::json to_json(const BoneGrip& grip, const BoneCapsule& capsule, FemAttachment attachment)
 {
-    nlohmann::json json = {{"bone", grip.name},         {"radius_m", capsule.radius_m},  {"radius_from", capsule.radius_from},
-                           {"tets_gripped", grip.tets}, {"skin_share", grip.skin_share}, {"shared_vertices", grip.shared_vertices}};
+    nlohmann::json json = {
+        {"bone", grip.name}, {"radius_m", capsule.radius_m}, {"radius_from", capsule.radius_from}, {"skin_share", grip.skin_share}};
+    if (attachment == FemAttachment::bind) {
+        json.update({{"bound_vertices", grip.holds}, {"bind_error_rms_m", grip.error_rms_m}});
+        return json;
+    }
+    json.update({{"tets_gripped", grip.tets}, {"shared_vertices", grip.shared_vertices}});
     if (attachment == FemAttachment::embedded)
-        json.update({{"samples", grip.samples}, {"inside", grip.inside}, {"grip_error_rms_m", grip.error_rms_m}});
+        json.update({{"samples", grip.holds}, {"inside", grip.inside}, {"grip_error_rms_m", grip.error_rms_m}});
     return json;
 }
 
 nlohmann::json to_json(const reference_fem::SetupSummary& setup)
 {
-    return {{"dofs", setup.dofs},           {"assemble_s", setup.assemble_s},
-            {"analyse_s", setup.analyse_s}, {"factor_s", setup.factor_s},
-            {"elements", setup.elements},
-            {"solver", setup.solver},       {"blas", setup.blas},
-            {"factored", setup.factored},   {"reciprocal_condition_estimate", setup.reciprocal_condition}};
+    return {{"dofs", setup.dofs},         {"assemble_s", setup.assemble_s}, {"analyse_s", setup.analyse_s},
+            {"factor_s", setup.factor_s}, {"elements", setup.elements},     {"solver", setup.solver},
+            {"blas", setup.blas},         {"factored", setup.factored},     {"reciprocal_condition_estimate", setup.reciprocal_condition}};
 }
 
 }  // namespace
@@ -42,80 +55,105 @@ FemRecord::FemRecord(const pbs::Character& character, const FemOptions& options,
                      const std::vector<int>& spring_tet)
     : options_(options), bones_(bones), grips_(bones.capsules.size())
 {
+    for (std::size_t j = 0; j < grips_.size(); ++j) grips_[j].name = character.skeleton.bones[j].name;
+    if (options.attachment == FemAttachment::bind)
+        add_bound_vertices(character);
+    else
+        add_gripped_tets(character, spring_tet);
+}
+
+void FemRecord::add_bound_vertices(const pbs::Character& character)
+{
+    hold_bone_ = bones_.binding.bone;
+    hold_rest_ = bones_.binding.rest_point;
+    std::vector<std::set<int>> bound(grips_.size());
+    for (std::size_t v = 0; v < hold_bone_.size(); ++v) bound[hold_bone_[v]].insert(static_cast<int>(v));
+    for (std::size_t j = 0; j < grips_.size(); ++j) {
+        grips_[j].holds = grips_[j].inside = static_cast<int>(bound[j].size());
+        grips_[j].skin_share = skin_share(character, bound[j]);
+    }
+}
+
+void FemRecord::add_gripped_tets(const pbs::Character& character, const std::vector<int>& spring_tet)
+{
+    hold_bone_ = bones_.spring_bone;
+    hold_rest_ = bones_.attachment.spring_points;
     std::vector<std::set<int>> gripped(grips_.size());
     for (std::size_t s = 0; s < spring_tet.size(); ++s) {
-        BoneGrip& grip = grips_[bones.spring_bone[s]];
-        ++grip.samples;
+        BoneGrip& grip = grips_[hold_bone_[s]];
+        ++grip.holds;
         if (spring_tet[s] < 0) continue;
         ++grip.inside;
-        gripped[bones.spring_bone[s]].insert(spring_tet[s]);
+        gripped[hold_bone_[s]].insert(spring_tet[s]);
     }
-    for (std::size_t k = 0; k < bones.tet_bone.size(); ++k) gripped[bones.tet_bone[k]].insert(bones.attachment.prescribed_tets[k]);
+    for (std::size_t k = 0; k < bones_.tet_bone.size(); ++k) gripped[bones_.tet_bone[k]].insert(bones_.attachment.prescribed_tets[k]);
 
     std::vector<int> bones_at_vertex(character.mesh.rest.rows(), 0);
     for (const std::set<int>& tets : gripped)
         for (const int v : vertices_of(character.mesh.tets, tets)) ++bones_at_vertex[v];
-    const std::vector<bool> skin = pbs::boundary_vertices(character.mesh.tets, character.mesh.rest.rows());
     for (std::size_t j = 0; j < grips_.size(); ++j) {
-        grips_[j].name = character.skeleton.bones[j].name;
         if (gripped[j].empty())
             throw pbs::InputError(character.name, 0, "bone", grips_[j].name, "expected a part of its middle to lie inside the flesh");
         const std::set<int> vertices = vertices_of(character.mesh.tets, gripped[j]);
-        const auto on_skin = std::count_if(vertices.begin(), vertices.end(), [&](int v) { return skin[v]; });
         grips_[j].tets = static_cast<int>(gripped[j].size());
-        grips_[j].skin_share = static_cast<double>(on_skin) / static_cast<double>(vertices.size());
+        grips_[j].skin_share = skin_share(character, vertices);
         grips_[j].shared_vertices =
             static_cast<int>(std::count_if(vertices.begin(), vertices.end(), [&](int v) { return bones_at_vertex[v] > 1; }));
     }
 }
 
-void FemRecord::add_frame(const pbs::Pose& relative_pose, const pbs::Positions& targets, const pbs::Positions& deformed,
-                          const reference_fem::SolveSummary& solve)
+void FemRecord::add_frame(const pbs::Pose& relative_pose)
 {
     ++frames_;
-    if (!solve.finite) ++frames_not_finite_;
-    largest_residual_ = std::max(largest_residual_, solve.residual);
     for (const Eigen::Isometry3d& bone : relative_pose)
         largest_rotation_rad_ = std::max(largest_rotation_rad_, Eigen::AngleAxisd(bone.linear()).angle());
-    if (solve.finite) add_grip_errors(targets, deformed);
 }
 
-void FemRecord::add_grip_errors(const pbs::Positions& targets, const pbs::Positions& deformed)
+void FemRecord::add_grip(const pbs::Positions& targets, const Eigen::VectorXd& errors_m)
 {
     std::vector<double> squared(grips_.size(), 0.0);
     double error_squared = 0.0, motion_squared = 0.0;
     for (Eigen::Index s = 0; s < targets.rows(); ++s) {
-        if (!deformed.row(s).allFinite()) continue;  // outside the flesh
-        const double error = (targets.row(s) - deformed.row(s)).norm();
-        largest_grip_error_m_ = std::max(largest_grip_error_m_, error);
-        squared[bones_.spring_bone[s]] += error * error;
-        error_squared += error * error;
-        motion_squared += (targets.row(s) - bones_.attachment.spring_points.row(s)).squaredNorm();
+        if (!std::isfinite(errors_m(s))) continue;  // outside the flesh
+        largest_grip_error_m_ = std::max(largest_grip_error_m_, std::abs(errors_m(s)));
+        squared[hold_bone_[s]] += errors_m(s) * errors_m(s);
+        error_squared += errors_m(s) * errors_m(s);
+        motion_squared += (targets.row(s) - hold_rest_.row(s)).squaredNorm();
     }
-    for (std::size_t j = 0; j < grips_.size() && targets.rows() > 0; ++j)
-        grips_[j].error_rms_m = std::max(grips_[j].error_rms_m, std::sqrt(squared[j] / grips_[j].inside));
+    for (std::size_t j = 0; j < grips_.size(); ++j)
+        if (grips_[j].inside > 0) grips_[j].error_rms_m = std::max(grips_[j].error_rms_m, std::sqrt(squared[j] / grips_[j].inside));
     if (motion_squared > 0.0) grip_error_over_motion_ = std::max(grip_error_over_motion_, std::sqrt(error_squared / motion_squared));
+}
+
+nlohmann::json FemRecord::attachment_json() const
+{
+    nlohmann::json attachment = {{"kind", name_of(options_.attachment)}};
+    if (options_.attachment != FemAttachment::bind) attachment["core_radius"] = options_.core_radius;
+    if (options_.attachment != FemAttachment::nodes) attachment["spring_factor"] = options_.spring_factor;
+    for (std::size_t j = 0; j < grips_.size(); ++j)
+        attachment["bones"].push_back(experiments::to_json(grips_[j], bones_.capsules[j], options_.attachment));
+    return attachment;
 }
 
 nlohmann::json FemRecord::to_json(const reference_fem::SetupSummary& setup) const
 {
-    const bool embedded = options_.attachment == FemAttachment::embedded;
-    nlohmann::json attachment = {{"kind", embedded ? "embedded" : "nodes"}, {"core_radius", options_.core_radius}};
-    if (embedded) attachment["spring_factor"] = options_.spring_factor;
-    for (std::size_t j = 0; j < grips_.size(); ++j)
-        attachment["bones"].push_back(experiments::to_json(grips_[j], bones_.capsules[j], options_.attachment));
-
     nlohmann::json json = {
-        {"attachment", attachment},
+        {"model", name_of(options_.model)},
+        {"formulation", name_of(options_.formulation)},
+        {"dynamics", name_of(options_.dynamics)},
+        {"attachment", attachment_json()},
         {"setup", experiments::to_json(setup)},
         {"frames", frames_},
-        {"frames_not_finite", frames_not_finite_},
         {"largest_rotation_deg", largest_rotation_rad_ * 180.0 / std::numbers::pi},
-        {"fictitious_strain", 1.0 - std::cos(largest_rotation_rad_)},
-        {"fictitious_strain_note", "linear strain takes a rotation by theta for a strain of 1 - cos(theta): fictitious by that much"},
-        {"root_motion", "the root's rigid motion is removed before the solve and applied after; gravity is turned into its frame"},
-        {"largest_residual", largest_residual_}};
-    if (embedded) json.update({{"largest_grip_error_m", largest_grip_error_m_}, {"grip_error_over_motion", grip_error_over_motion_}});
+        {"root_motion", options_.dynamics == reference_fem::Dynamics::quasi_static
+                            ? "the root's rigid motion is removed before the solve and applied after; gravity is turned into its frame"
+                            : "the root moves as the pose has it: the solve is in the world"}};
+    if (options_.model == reference_fem::Model::linear)
+        json.update({{"fictitious_strain", 1.0 - std::cos(largest_rotation_rad_)},
+                     {"fictitious_strain_note",
+                      "linear strain takes a rotation by theta for a strain of 1 - cos(theta): fictitious by that much"}});
+    if (!hold_bone_.empty())
+        json.update({{"largest_grip_error_m", largest_grip_error_m_}, {"grip_error_over_motion", grip_error_over_motion_}});
     return json;
 }
 

@@ -1,6 +1,6 @@
 // Truth: rigid motion and objectivity, which removing the root's motion makes exact for a linear law; the limit of stiff springs; a
 // second solver. The bar of two bones, both attachments, both element orders.
-#include "experiments/deformers/fem/fem_deformer.hpp"
+#include "experiments/deformers/fem/linear_fem_deformer.hpp"
 #include "tests/unit/experiments/deformers/fem/bar_character.hpp"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ pbs::Pose bent(double angle_deg)
 
 Positions deformed(const FemOptions& options, const pbs::Pose& pose)
 {
-    FemDeformer fem(options);
+    LinearFemDeformer fem(options);
     fem.reset(bar());
     EXPECT_EQ(fem.advance(pose, 0.01).outcome, pbs::Outcome::finished);
     return fem.positions();
@@ -120,7 +120,7 @@ TEST(EmbeddedBar, ElementOrderDoesNotChangeWhatIsGripped)
 {
     nlohmann::json grips[2];
     for (const int order : {1, 2}) {
-        FemDeformer fem({.element_order = order});
+        LinearFemDeformer fem({.element_order = order});
         fem.reset(bar());
         grips[order - 1] = fem.record()["attachment"];
     }

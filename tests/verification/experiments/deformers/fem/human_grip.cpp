@@ -2,7 +2,7 @@
 // 10 degrees, P1, nu 0.45. Bound on the error over the motion at q = 1e4: the fictitious strain 1 - cos(10 deg) = 1.5 %, which the flesh
 // would shed and the springs forbid, times the share that tets with samples of two bones cannot follow; a tenth of it, 1.5e-3, is asked.
 // Needs Debian's assimp-testmodels, which set-up installs.
-#include "experiments/deformers/fem/fem_deformer.hpp"
+#include "experiments/deformers/fem/linear_fem_deformer.hpp"
 #include "pbs/character/bodies.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ TEST(HumanGrip, EveryBoneIsGrippedAndTheErrorFallsWithTheSprings)
     std::vector<double> errors;
     std::vector<pbs::Positions> positions;
     for (const double q : {1e2, 1e3, 1e4, 2e4}) {
-        FemDeformer fem({.element_order = 1, .spring_factor = q});
+        LinearFemDeformer fem({.element_order = 1, .spring_factor = q});
         fem.reset(human);
         ASSERT_EQ(fem.advance(pose, 0.01).outcome, pbs::Outcome::finished);
         const nlohmann::json record = fem.record();

@@ -1,5 +1,5 @@
 // What the deformer reports, and what it refuses. That it deforms rightly is shown under verification.
-#include "experiments/deformers/fem/fem_deformer.hpp"
+#include "experiments/deformers/fem/linear_fem_deformer.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "tests/unit/experiments/deformers/fem/bar_character.hpp"
@@ -17,10 +17,10 @@ pbs::Pose bent(const pbs::Character& character, double angle_deg)
     return pbs::joint_sweep(character.skeleton, 1, pbs::Vec3::UnitZ(), angle_deg, 2, 0.01).steps.back();
 }
 
-TEST(FemDeformer, RecordsWhatIsGrippedOfEachBone)
+TEST(LinearFemDeformer, RecordsWhatIsGrippedOfEachBone)
 {
     const auto character = test_support::bar_character({24, 4, 4});
-    FemDeformer fem(linear_tets);
+    LinearFemDeformer fem(linear_tets);
     EXPECT_TRUE(fem.record().is_null());
     fem.reset(character);
     fem.advance(bent(character, 10.0), 0.01);
@@ -44,13 +44,13 @@ TEST(FemDeformer, RecordsWhatIsGrippedOfEachBone)
     }
 }
 
-TEST(FemDeformer, OnlyNodesArePrescribedVertices)
+TEST(LinearFemDeformer, OnlyNodesArePrescribedVertices)
 {
     const auto character = test_support::bar_character({48, 8, 8});
-    FemDeformer embedded(linear_tets);
+    LinearFemDeformer embedded(linear_tets);
     embedded.reset(character);
     EXPECT_TRUE(embedded.prescribed().empty());
-    FemDeformer nodes({.element_order = 1, .attachment = FemAttachment::nodes, .core_radius = 0.6});
+    LinearFemDeformer nodes({.element_order = 1, .attachment = FemAttachment::nodes, .core_radius = 0.6});
     nodes.reset(character);
     const std::vector<bool> prescribed = nodes.prescribed();
     ASSERT_EQ(static_cast<Eigen::Index>(prescribed.size()), character.mesh.rest.rows());
@@ -65,11 +65,11 @@ TEST(FemDeformer, OnlyNodesArePrescribedVertices)
     }
 }
 
-TEST(FemDeformer, ABoneOutsideTheFleshIsRefusedByName)
+TEST(LinearFemDeformer, ABoneOutsideTheFleshIsRefusedByName)
 {
     auto character = test_support::bar_character({24, 4, 4});
     character.skeleton.bones.push_back({"ghost", 0, {0, 5, 0}, {0, 6, 0}});
-    FemDeformer fem(linear_tets);
+    LinearFemDeformer fem(linear_tets);
     try {
         fem.reset(character);
         FAIL();
@@ -78,10 +78,10 @@ TEST(FemDeformer, ABoneOutsideTheFleshIsRefusedByName)
     }
 }
 
-TEST(FemDeformer, APoseThatIsNotANumberIsAReportedOutcome)
+TEST(LinearFemDeformer, APoseThatIsNotANumberIsAReportedOutcome)
 {
     const auto character = test_support::bar_character({24, 4, 4});
-    FemDeformer fem(linear_tets);
+    LinearFemDeformer fem(linear_tets);
     fem.reset(character);
     pbs::Pose broken = bent(character, 10.0);
     broken[1].translation()(0) = std::nan("");
@@ -90,10 +90,10 @@ TEST(FemDeformer, APoseThatIsNotANumberIsAReportedOutcome)
     EXPECT_EQ(fem.record()["frames_not_finite"], 1);
 }
 
-TEST(FemDeformer, ResetStartsTheRecordAnew)
+TEST(LinearFemDeformer, ResetStartsTheRecordAnew)
 {
     const auto character = test_support::bar_character({24, 4, 4});
-    FemDeformer fem(linear_tets);
+    LinearFemDeformer fem(linear_tets);
     fem.reset(character);
     fem.advance(bent(character, 10.0), 0.01);
     fem.reset(character);

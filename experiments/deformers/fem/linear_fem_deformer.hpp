@@ -1,16 +1,18 @@
-// The judge as a deformer: linear elasticity on the character's own tets, held by its bones.
+// Linear elasticity in the displacement formulation on the character's own tets, held by its bones, quasi-static: one factor, and a
+// re-solve a frame.
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/deformers/fem/fem_record.hpp"
+#include "reference_fem/linear_elasticity.hpp"
 
 #include <memory>
 
 namespace experiments {
 
-class FemDeformer : public Deformer {
+class LinearFemDeformer : public Deformer {
 public:
-    explicit FemDeformer(const FemOptions& options) : options_(options) {}
+    explicit LinearFemDeformer(const FemOptions& options) : options_(options) {}
 
     // Assembles and factors. A bone that cannot be gripped is a pbs::InputError that names it.
     void reset(const pbs::Character& character) override;
@@ -30,6 +32,8 @@ private:
     BoneAttachment bones_;
     std::unique_ptr<reference_fem::LinearElasticity> elasticity_;
     FemRecord record_;
+    int frames_not_finite_ = 0;
+    double largest_residual_ = 0.0;
     pbs::Positions positions_;  // [m], #V x 3
 };
 

@@ -1,0 +1,156 @@
+#include "experiments/deformers/fem/elastic_fem_deformer.hpp"
+
+#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/tet_volume.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace experiments {
+namespace {
+
+constexpr double largest_turn_deg = 45.0;  // of a bone in one solve
+
+reference_fem::ElasticOptions solver_options(const FemOptions& options)
+{
+    return {.model = options.model,
+            .element_order = options.element_order,
+            .formulation = options.formulation,
+            .young_pa = options.young_pa,
+            .poisson = options.poisson,
+            .density_kg_m3 = options.density_kg_m3,
+            .dynamics = options.dynamics,
+            .rayleigh_mass_1_s = options.rayleigh_mass_1_s,
+            .rayleigh_stiffness_s = options.rayleigh_stiffness_s,
+            .solver = options.solver,
+            .newton = {},
+            .path = {}};
+}
+
+pbs::Pose placed(pbs::Pose pose, const Eigen::Isometry3d& place)
+{
+    for (Eigen::Isometry3d& bone : pose) bone = place * bone;
+    return pose;
+}
+
+pbs::Pose rest_pose(const pbs::Skeleton& skeleton)
+{
+    return pbs::Pose(skeleton.bones.size(), Eigen::Isometry3d::Identity());
+}
+
+}  // namespace
+
+void ElasticFemDeformer::reset(const pbs::Character& character)
+{
+    character_ = &character;
+    bones_ = bone_attachment(character, options_);
+    body_ = std::make_unique<reference_fem::ElasticBody>(character.mesh, solver_options(options_), bones_.attachment);
+    reached_pose_ = rest_pose(character.skeleton);
+    unspent_s_ = 0.0;
+    is_started_ = false;
+    failures_in_a_row_ = 0;
+    record_ = FemRecord(character, options_, bones_, body_->setup().spring_tet);
+    newton_record_ = NewtonRecord(pbs::tet_volumes(character.mesh.rest, character.mesh.tets).sum());
+    positions_ = character.mesh.rest;
+}
+
+pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
+{
+    const pbs::Stopwatch stopwatch;
+    const RootFrame frame(character_->skeleton, pose);
+    FrameSolve solve;
+    if (!has_memory()) {
+        solve = settle(frame);
+        positions_ = frame.to_world(body_->positions());
+    } else {
+        solve = is_started_ ? move(pose, dt_s) : start_at(frame);
+        positions_ = body_->positions();
+    }
+    pbs::StepSummary summary;
+    summary.outcome = solve.converged() ? pbs::Outcome::finished : pbs::Outcome::not_converged;
+    summary.seconds = stopwatch.seconds();
+
+    record_.add_frame(frame.pose());
+    newton_record_.add_frame(solve, body_->jacobians());
+    if (solve.converged()) record_grip();
+    return summary;
+}
+
+// Equilibria along a way of poses, in their place in the world.
+void ElasticFemDeformer::follow(const PosePath& way, const Eigen::Isometry3d& place, const pbs::Vec3& gravity_m_s2, FrameSolve& solve)
+{
+    const int stages = std::max(1, static_cast<int>(std::ceil(way.largest_turn_deg() / largest_turn_deg)));
+    for (int stage = 0; stage < stages; ++stage) {
+        const auto on_the_way = [&](double fraction) { return (stage + fraction) / stages; };
+        const auto targets_at = [&](double fraction) { return targets_of(placed(way.at(on_the_way(fraction)), place)); };
+        solve.stages.push_back(body_->solve(targets_at, gravity_m_s2));
+        solve.reached = on_the_way(solve.stages.back().reached);
+        if (!solve.stages.back().converged()) break;
+    }
+    reached_pose_ = placed(way.at(solve.reached), place);
+}
+
+FrameSolve ElasticFemDeformer::settle(const RootFrame& frame)
+{
+    const pbs::Skeleton& skeleton = character_->skeleton;
+    const Eigen::Isometry3d here = Eigen::Isometry3d::Identity();
+    const pbs::Vec3 gravity_m_s2 = frame.from_world(options_.gravity_m_s2);
+    FrameSolve solve;
+    follow(PosePath(skeleton, reached_pose_, frame.pose()), here, gravity_m_s2, solve);
+    failures_in_a_row_ = solve.converged() ? 0 : failures_in_a_row_ + 1;
+    if (failures_in_a_row_ != 2) return solve;
+
+    solve.restarted = true;
+    body_->start_from(character_->mesh.rest);
+    follow(PosePath(skeleton, rest_pose(skeleton), frame.pose()), here, gravity_m_s2, solve);
+    if (solve.converged()) failures_in_a_row_ = 0;
+    return solve;
+}
+
+FrameSolve ElasticFemDeformer::start_at(const RootFrame& frame)
+{
+    FrameSolve solve;
+    body_->start_from(frame.to_world(character_->mesh.rest));
+    follow(PosePath(character_->skeleton, rest_pose(character_->skeleton), frame.pose()), frame.root(), options_.gravity_m_s2, solve);
+    is_started_ = true;
+    return solve;
+}
+
+FrameSolve ElasticFemDeformer::move(const pbs::Pose& pose, double dt_s)
+{
+    const PosePath way(character_->skeleton, reached_pose_, pose);
+    unspent_s_ += dt_s;
+    FrameSolve solve;
+    solve.stages.push_back(
+        body_->advance([&](double fraction) { return targets_of(way.at(fraction)); }, options_.gravity_m_s2, unspent_s_));
+    if (!solve.stages.back().converged()) return solve;
+    solve.reached = 1.0;
+    reached_pose_ = pose;
+    unspent_s_ = 0.0;
+    return solve;
+}
+
+void ElasticFemDeformer::record_grip()
+{
+    const reference_fem::Targets held = targets_of(reached_pose_);
+    if (options_.attachment == FemAttachment::embedded)
+        record_.add_grip(held.springs, (held.springs - body_->spring_points_deformed()).rowwise().norm());
+    if (options_.attachment == FemAttachment::bind)
+        record_.add_grip(held.bind_points, (body_->positions() - held.bind_points).rowwise().norm() - bones_.attachment.bind_distance);
+}
+
+std::vector<bool> ElasticFemDeformer::prescribed() const
+{
+    if (!body_ || options_.attachment != FemAttachment::nodes) return {};
+    return body_->prescribed_vertices();
+}
+
+nlohmann::json ElasticFemDeformer::record() const
+{
+    if (!body_) return nullptr;
+    nlohmann::json json = record_.to_json(body_->setup());
+    json["newton"] = newton_record_.to_json();
+    return json;
+}
+
+}  // namespace experiments

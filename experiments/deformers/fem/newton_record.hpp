@@ -1,0 +1,45 @@
+// What goes on record of Newton's method beside a nonlinear reference's frames: what it cost, which guards were needed, and each frame
+// that was not reached, with the reason. Accumulated over the frames so far.
+#pragma once
+
+#include "reference_fem/elastic_body.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace experiments {
+
+// What was done for one frame.
+struct FrameSolve {
+    std::vector<reference_fem::LoadPathSummary> stages;  // in their order; after a restart those of both tries
+    double reached = 0.0;                                // fraction of the last way taken, 1: the frame's own pose
+    bool restarted = false;                              // from rest
+
+    bool converged() const { return reached >= 1.0; }
+};
+
+class NewtonRecord {
+public:
+    NewtonRecord() = default;
+    explicit NewtonRecord(double rest_volume_m3) : rest_volume_m3_(rest_volume_m3) {}
+
+    void add_frame(const FrameSolve& solve, const reference_fem::Jacobians& flesh);  // the flesh as the frame left it
+
+    nlohmann::json to_json() const;
+
+private:
+    void add_stage(const reference_fem::LoadPathSummary& stage);
+    void add_failure(const FrameSolve& solve, const reference_fem::Jacobians& flesh);
+
+    int frames_ = 0, restarts_ = 0;
+    int newton_steps_ = 0, most_newton_steps_ = 0;  // in all, and of one frame
+    int factorisations_ = 0, projected_ = 0, halvings_ = 0;
+    double seconds_ = 0.0, longest_s_ = 0.0;
+    nlohmann::json not_converged_ = nlohmann::json::array();
+
+    // Of the frames that converged, at the elements' own quadrature points.
+    double rest_volume_m3_ = 0.0, smallest_volume_change_ = 0.0, largest_volume_change_ = 0.0;
+    double lowest_det_f_ = 1.0;
+    int most_inverted_points_ = 0;
+};
+
+}  // namespace experiments

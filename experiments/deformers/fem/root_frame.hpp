@@ -1,0 +1,23 @@
+// A pose as seen from its root bone, and back: the rigid motion of the whole body is removed before a quasi-static solve and put back
+// after. That is exact: no law of the reference but the linear one notices a rigid motion, and the linear one must not be shown any.
+#pragma once
+
+#include "pbs/skinning/pose.hpp"
+
+namespace experiments {
+
+class RootFrame {
+public:
+    RootFrame(const pbs::Skeleton& skeleton, const pbs::Pose& pose);
+
+    const pbs::Pose& pose() const { return pose_; }          // relative to the root
+    const Eigen::Isometry3d& root() const { return root_; }  // the root in the world
+    pbs::Vec3 from_world(const pbs::Vec3& direction) const { return root_.linear().transpose() * direction; }
+    pbs::Positions to_world(const pbs::Positions& points) const;  // [m], #points x 3
+
+private:
+    Eigen::Isometry3d root_;
+    pbs::Pose pose_;
+};
+
+}  // namespace experiments
