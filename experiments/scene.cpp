@@ -113,7 +113,7 @@ void check_fem_keys(const SceneValues& values, const std::string& at, const FemO
     const bool quasi_static = options.dynamics == reference_fem::Dynamics::quasi_static;
     if (linear && options.attachment == FemAttachment::bind)
         values.refuse(at + "attachment", "expected embedded or nodes with model linear: the bind constraint is not linear");
-    if (!linear && options.solver == reference_fem::LinearSolver::umfpack)
+    if (!linear && options.solver != reference_fem::LinearSolver::cholmod)
         values.refuse(at + "solver",
                       "expected cholmod with a nonlinear model: Newton must be told of a matrix that is not positive definite");
     if (quasi_static && (options.rayleigh_mass_1_s > 0.0 || options.rayleigh_stiffness_s > 0.0))

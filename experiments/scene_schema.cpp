@@ -120,8 +120,10 @@ std::vector<SceneKey> fem_keys()
         within(key("fem", "spring_factor", number, "1.0e4", "",
                    "q: the attachment's density is q E / r^2, r the capsule's radius (embedded) or the local limb radius (bind)"),
                1e-3, 1e9),
-        one_of(key("fem", "solver", text, "\"cholmod\"", "", "direct solver; umfpack is the second opinion on the linear model"),
-               {"cholmod", "umfpack"}),
+        one_of(key("fem", "solver", text, "\"cholmod\"", "",
+                   "cholmod; umfpack is the second opinion on the linear model; cg_ml: conjugate gradients with algebraic "
+                   "multigrid, linear model, for what a factor does not fit in memory for"),
+               {"cholmod", "umfpack", "cg_ml"}),
     };
 }
 

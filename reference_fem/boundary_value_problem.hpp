@@ -6,7 +6,7 @@
 #pragma once
 
 #include "reference_fem/assembly.hpp"
-#include "reference_fem/direct_factor.hpp"
+#include "reference_fem/prepared_solver.hpp"
 
 #include <vector>
 

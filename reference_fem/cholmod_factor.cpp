@@ -1,5 +1,5 @@
 // CHOLMOD: Y. Chen, T. Davis, W. Hager, S. Rajamanickam, Algorithm 887, ACM TOMS 35(3), 2008.
-#include "reference_fem/direct_factor.hpp"
+#include "reference_fem/prepared_solver.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <cholmod.h>
@@ -41,7 +41,7 @@ cholmod_dense view(const Eigen::VectorXd& vector)
     return dense;
 }
 
-class CholmodFactor : public DirectFactor {
+class CholmodFactor : public PreparedSolver {
 public:
     explicit CholmodFactor(const SparseMatrix& matrix) : matrix_(matrix)
     {
@@ -106,7 +106,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<DirectFactor> factorise_with_cholmod(const SparseMatrix& matrix)
+std::unique_ptr<PreparedSolver> prepare_cholmod(const SparseMatrix& matrix)
 {
     return std::make_unique<CholmodFactor>(matrix);
 }

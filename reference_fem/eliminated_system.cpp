@@ -14,6 +14,13 @@ std::vector<int> places(const std::vector<int>& kept, Eigen::Index size)
     return place;
 }
 
+bool are_whole_nodes(const std::vector<int>& dofs)
+{
+    for (std::size_t k = 0; k < dofs.size(); ++k)
+        if (dofs[k] % 3 != static_cast<int>(k % 3) || (k % 3 > 0 && dofs[k] != dofs[k - 1] + 1)) return false;
+    return dofs.size() % 3 == 0;
+}
+
 }  // namespace
 
 EliminatedSystem::Block EliminatedSystem::block(const SparseMatrix& matrix, const std::vector<int>& rows, const std::vector<int>& columns)
@@ -33,12 +40,15 @@ EliminatedSystem::Block EliminatedSystem::block(const SparseMatrix& matrix, cons
     return kept;
 }
 
-EliminatedSystem::EliminatedSystem(const SparseMatrix& stiffness, const std::vector<bool>& prescribed, LinearSolver solver)
+EliminatedSystem::EliminatedSystem(const SparseMatrix& stiffness, const std::vector<bool>& prescribed, LinearSolver solver,
+                                   const Eigen::MatrixXd& near_null_space)
 {
     for (std::size_t i = 0; i < prescribed.size(); ++i) (prescribed[i] ? prescribed_ : free_).push_back(static_cast<int>(i));
     free_free_ = block(stiffness, free_, free_);
     free_prescribed_ = block(stiffness, free_, prescribed_);
-    factor_ = factorise(free_free_.matrix, solver);
+    NearNullSpace free_space{.block_size = are_whole_nodes(free_) ? 3 : 1};
+    if (near_null_space.size() > 0) free_space.modes = near_null_space(free_, Eigen::all);
+    factor_ = prepare(free_free_.matrix, solver, free_space);
 }
 
 void EliminatedSystem::update(const SparseMatrix& stiffness)

@@ -2,7 +2,7 @@
 // new loads and new prescribed values cost a right-hand side and a re-solve.
 #pragma once
 
-#include "reference_fem/direct_factor.hpp"
+#include "reference_fem/prepared_solver.hpp"
 
 #include <vector>
 
@@ -15,8 +15,9 @@ struct EliminatedSolution {
 
 class EliminatedSystem {
 public:
-    // prescribed: #dofs.
-    EliminatedSystem(const SparseMatrix& stiffness, const std::vector<bool>& prescribed, LinearSolver solver);
+    // prescribed: #dofs. near_null_space, #dofs x #modes: for an iterative solver, see near_null_space.hpp.
+    EliminatedSystem(const SparseMatrix& stiffness, const std::vector<bool>& prescribed, LinearSolver solver,
+                     const Eigen::MatrixXd& near_null_space = {});
 
     // load [N] and prescribed_values [m], #dofs; the latter is read at prescribed degrees of freedom only.
     EliminatedSolution solve(const Eigen::VectorXd& load, const Eigen::VectorXd& prescribed_values) const;
@@ -24,7 +25,7 @@ public:
     // Another stiffness of the same pattern: the symbolic analysis is kept.
     void update(const SparseMatrix& stiffness);
 
-    const DirectFactor& factor() const { return *factor_; }
+    const PreparedSolver& factor() const { return *factor_; }
 
 private:
     struct Block {
@@ -35,7 +36,7 @@ private:
 
     std::vector<int> free_, prescribed_;  // degrees of freedom, increasing
     Block free_free_, free_prescribed_;
-    std::unique_ptr<DirectFactor> factor_;
+    std::unique_ptr<PreparedSolver> factor_;
 };
 
 }  // namespace reference_fem

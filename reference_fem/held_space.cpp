@@ -114,7 +114,7 @@ void HeldSpace::require_targets(const pbs::Positions& spring_targets, const pbs:
     require(vertex_targets.rows() == rest_.rows(), "vertex_targets", vertex_targets.rows(), "expected one a vertex");
 }
 
-SetupSummary HeldSpace::summary(const DirectFactor* factor, double assemble_s) const
+SetupSummary HeldSpace::summary(const PreparedSolver* factor, double assemble_s) const
 {
     SetupSummary summary;
     summary.dofs = space_.dofs();

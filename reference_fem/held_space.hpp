@@ -3,7 +3,7 @@
 
 #include "reference_fem/attached_points.hpp"
 #include "reference_fem/attachment.hpp"
-#include "reference_fem/direct_factor.hpp"
+#include "reference_fem/prepared_solver.hpp"
 
 namespace reference_fem {
 
@@ -28,7 +28,7 @@ public:
     std::vector<bool> prescribed_vertices() const;  // #V
 
     void require_targets(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets) const;
-    SetupSummary summary(const DirectFactor* factor, double assemble_s) const;  // null: nothing is factored yet
+    SetupSummary summary(const PreparedSolver* factor, double assemble_s) const;  // null: nothing is factored yet
 
 private:
     pbs::Positions rest_;

@@ -4,6 +4,7 @@
 #include "reference_fem/eliminated_system.hpp"
 #include "reference_fem/held_space.hpp"
 #include "reference_fem/input_checks.hpp"
+#include "reference_fem/near_null_space.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 namespace reference_fem {
@@ -21,7 +22,9 @@ public:
         SparseMatrix stiffness = stiffness_matrix(held_.space(), material_);
         held_.springs().add_to(stiffness);
         const double assemble_s = assembly.seconds();
-        system_ = std::make_unique<EliminatedSystem>(stiffness, held_.prescribed(), options.solver);
+        system_ = std::make_unique<EliminatedSystem>(
+            stiffness, held_.prescribed(), options.solver,
+            options.solver == LinearSolver::cg_ml ? rigid_body_modes(held_.space().node_positions()) : Eigen::MatrixXd());
         setup_ = held_.summary(&system_->factor(), assemble_s);
     }
 
@@ -34,7 +37,7 @@ public:
         const EliminatedSolution solution = system_->solve(load, held_.prescribed_values(vertex_targets));
         displacement_ = solution.displacement;
         positions_ = held_.vertices(displacement_);
-        return {stopwatch.seconds(), solution.residual, displacement_.allFinite()};
+        return {stopwatch.seconds(), solution.residual, displacement_.allFinite(), system_->factor().iterations()};
     }
 
     LinearOptions options_;

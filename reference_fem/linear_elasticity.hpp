@@ -25,7 +25,8 @@ struct LinearOptions {
 struct SolveSummary {
     double seconds = 0.0;
     double residual = 0.0;  // |K u - f| / |f|
-    bool finite = true;
+    bool finite = true;     // false: the matrix is singular in double, or an iterative solver did not converge
+    int iterations = 0;     // of an iterative solver
 };
 
 class LinearElasticity {

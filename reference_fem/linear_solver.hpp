@@ -1,8 +1,8 @@
-// Which sparse solver answers K u = f: two direct ones of SuiteSparse.
+// Which sparse solver answers K u = f: two direct ones of SuiteSparse, and conjugate gradients with Trilinos ML for what does not fit.
 #pragma once
 
 namespace reference_fem {
 
-enum class LinearSolver { cholmod, umfpack };
+enum class LinearSolver { cholmod, umfpack, cg_ml };
 
 }  // namespace reference_fem

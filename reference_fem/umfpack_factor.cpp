@@ -1,5 +1,5 @@
 // UMFPACK: T. Davis, Algorithm 832, ACM TOMS 30(2), 2004. It knows nothing of symmetry: a second opinion on the same matrix.
-#include "reference_fem/direct_factor.hpp"
+#include "reference_fem/prepared_solver.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <umfpack.h>
@@ -9,7 +9,7 @@
 namespace reference_fem {
 namespace {
 
-class UmfpackFactor : public DirectFactor {
+class UmfpackFactor : public PreparedSolver {
 public:
     explicit UmfpackFactor(const SparseMatrix& matrix) : matrix_(matrix)
     {
@@ -62,7 +62,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<DirectFactor> factorise_with_umfpack(const SparseMatrix& matrix)
+std::unique_ptr<PreparedSolver> prepare_umfpack(const SparseMatrix& matrix)
 {
     return std::make_unique<UmfpackFactor>(matrix);
 }

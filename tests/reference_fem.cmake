@@ -3,7 +3,7 @@ if(NOT TARGET reference_fem)
     return()
 endif()
 
-foreach(name assembly boundary_value_problem direct_factor eliminated_system linear_elasticity material point_location simplex_space)
+foreach(name assembly boundary_value_problem prepared_solver eliminated_system linear_elasticity material point_location simplex_space)
     pbs_test(unit reference_fem/${name} reference_fem)
 endforeach()
 foreach(name newton/load_path newton/newton nodal_matrix)

@@ -63,8 +63,10 @@ struct OptionNames<FemAttachment> {
 };
 template <>
 struct OptionNames<reference_fem::LinearSolver> {
-    static constexpr std::array<std::pair<reference_fem::LinearSolver, const char*>, 2> table{
-        {{reference_fem::LinearSolver::cholmod, "cholmod"}, {reference_fem::LinearSolver::umfpack, "umfpack"}}};
+    static constexpr std::array<std::pair<reference_fem::LinearSolver, const char*>, 3> table{
+        {{reference_fem::LinearSolver::cholmod, "cholmod"},
+         {reference_fem::LinearSolver::umfpack, "umfpack"},
+         {reference_fem::LinearSolver::cg_ml, "cg_ml"}}};
 };
 
 template <typename Enum>

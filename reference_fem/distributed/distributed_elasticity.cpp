@@ -5,7 +5,6 @@
 #include "reference_fem/distributed/prescribed_nodes.hpp"
 #include "reference_fem/distributed/springs_in_tets.hpp"
 #include "reference_fem/material.hpp"
-#include "reference_fem/near_null_space.hpp"
 #include "reference_fem/smoothed_aggregation.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
@@ -26,6 +25,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 namespace reference_fem {
 namespace {
@@ -36,6 +36,7 @@ using dealii::FEFaceValues;
 using dealii::FEValues;
 using dealii::TrilinosWrappers::MPI::Vector;
 using Cell = DistributedSpace::Cell;
+using DofIndices = DistributedSpace::DofIndices;
 
 class DistributedSystem {
 public:
@@ -60,26 +61,13 @@ private:
     static double slowest(const pbs::Stopwatch& stopwatch) { return mpi::max(stopwatch.seconds(), MPI_COMM_WORLD); }
 
     void constrain();
-    void constrain(const Cell& cell, const std::vector<dealii::types::global_dof_index>& dofs);
+    void constrain(const Cell& cell, const DofIndices& dofs);
     void allocate();
     void assemble();
     void add_tet(const FEValues<3>& values);
     void add_traction(const FEFaceValues<3>& values);
     void add_springs(Eigen::Index tet);
-    std::vector<double> near_null_space() const;  // #owned x 6
-    void gather(const Vector& displacement, ElasticSolution& solution) const;
     void summarise(const Vector& displacement);
-
-    template <typename Visit>
-    void for_each_own_cell(Visit visit) const
-    {
-        std::vector<dealii::types::global_dof_index> dofs(space_.element.n_dofs_per_cell());
-        for (const auto& cell : space_.dof_handler.active_cell_iterators()) {
-            if (!cell->is_locally_owned()) continue;
-            cell->get_dof_indices(dofs);
-            visit(cell, dofs);
-        }
-    }
 
     pbs::Stopwatch stopwatch_;
     const ElasticProblem& problem_;
@@ -98,7 +86,7 @@ private:
 void DistributedSystem::constrain()
 {
     constraints_.reinit(space_.relevant);
-    std::vector<dealii::types::global_dof_index> dofs(space_.element.n_dofs_per_cell());
+    DofIndices dofs(space_.element.n_dofs_per_cell());
     for (const auto& cell : space_.dof_handler.active_cell_iterators()) {
         if (cell->is_artificial()) continue;
         cell->get_dof_indices(dofs);
@@ -107,7 +95,7 @@ void DistributedSystem::constrain()
     constraints_.close();
 }
 
-void DistributedSystem::constrain(const Cell& cell, const std::vector<dealii::types::global_dof_index>& dofs)
+void DistributedSystem::constrain(const Cell& cell, const DofIndices& dofs)
 {
     std::vector<unsigned int> held_faces;
     for (const unsigned int face : cell->face_indices())
@@ -146,7 +134,7 @@ void DistributedSystem::assemble()
                                 dealii::update_values | dealii::update_JxW_values);
     of_tet_.reinit(space_.element.n_dofs_per_cell(), space_.element.n_dofs_per_cell());
     load_of_tet_.reinit(space_.element.n_dofs_per_cell());
-    for_each_own_cell([&](const Cell& cell, const std::vector<dealii::types::global_dof_index>& dofs) {
+    space_.for_each_own_cell([&](const Cell& cell, const DofIndices& dofs) {
         of_tet_ = 0.0;
         load_of_tet_ = 0.0;
         values.reinit(cell);
@@ -208,29 +196,10 @@ void DistributedSystem::add_springs(Eigen::Index tet)
     }
 }
 
-std::vector<double> DistributedSystem::near_null_space() const
-{
-    const pbs::Vec3 low = space_.mesh.rest.colwise().minCoeff(), high = space_.mesh.rest.colwise().maxCoeff();
-    const std::size_t rows = space_.owned.n_elements();
-    std::vector<double> modes(6 * rows);
-    for_each_own_cell([&](const Cell& cell, const std::vector<dealii::types::global_dof_index>& dofs) {
-        for (unsigned int node = 0; node < space_.nodes_per_tet(); ++node) {
-            const pbs::Positions position = space_.position(space_.ends(cell, node)).transpose();
-            const Eigen::MatrixXd of_node = rigid_body_modes(position, (low + high) / 2.0, (high - low).norm());
-            for (unsigned int c = 0; c < 3; ++c) {
-                const auto dof = dofs[space_.element.component_to_system_index(c, node)];
-                if (!space_.owned.is_element(dof)) continue;
-                for (int mode = 0; mode < 6; ++mode) modes[mode * rows + space_.owned.index_within_set(dof)] = of_node(c, mode);
-            }
-        }
-    });
-    return modes;
-}
-
 ElasticSolution DistributedSystem::solve(const IterativeOptions& options)
 {
     const pbs::Stopwatch setup;
-    std::vector<double> modes = near_null_space();
+    std::vector<double> modes = space_.rigid_body_modes();
     dealii::TrilinosWrappers::PreconditionAMG preconditioner;
     preconditioner.initialize(matrix_, smoothed_aggregation(modes.data(), 6, 3));
     summary_.setup_s = slowest(setup);
@@ -252,7 +221,7 @@ ElasticSolution DistributedSystem::solve(const IterativeOptions& options)
     constraints_.distribute(displacement);
     summary_.compliance_j = load_ * displacement;
     summary_.peak_mb = mpi::max(peak_memory_mb(), MPI_COMM_WORLD);
-    gather(displacement, solution);
+    std::tie(solution.nodes, solution.displacement) = space_.on_rank_0([&](auto dof) { return displacement(dof); });
     solution.summary = summary_;
     return solution;
 }
@@ -270,32 +239,6 @@ void DistributedSystem::summarise(const Vector& displacement)
     const auto own_tets = static_cast<double>(space_.triangulation.n_locally_owned_active_cells());
     summary_.tets_of_rank_min = static_cast<long long>(mpi::min(own_tets, MPI_COMM_WORLD));
     summary_.tets_of_rank_max = static_cast<long long>(mpi::max(own_tets, MPI_COMM_WORLD));
-}
-
-// Rows of (first end, second end, displacement), each node from the rank that owns it, sorted on rank 0.
-void DistributedSystem::gather(const Vector& displacement, ElasticSolution& solution) const
-{
-    using Row = std::array<double, 5>;
-    std::vector<bool> seen(space_.owned.n_elements(), false);
-    std::vector<Row> rows;
-    for_each_own_cell([&](const Cell& cell, const std::vector<dealii::types::global_dof_index>& dofs) {
-        for (unsigned int node = 0; node < space_.nodes_per_tet(); ++node) {
-            const auto dof = [&](unsigned int c) { return dofs[space_.element.component_to_system_index(c, node)]; };
-            if (!space_.owned.is_element(dof(0)) || seen[space_.owned.index_within_set(dof(0))]) continue;
-            seen[space_.owned.index_within_set(dof(0))] = true;
-            const auto [first, second] = space_.ends(cell, node);
-            rows.push_back({double(first), double(second), displacement(dof(0)), displacement(dof(1)), displacement(dof(2))});
-        }
-    });
-    std::vector<Row> all;
-    for (const auto& of_rank : mpi::gather(MPI_COMM_WORLD, rows, 0)) all.insert(all.end(), of_rank.begin(), of_rank.end());
-    std::ranges::sort(all);
-    solution.nodes.resize(all.size(), 2);
-    solution.displacement.resize(all.size(), 3);
-    for (std::size_t n = 0; n < all.size(); ++n) {
-        solution.nodes.row(n) << static_cast<int>(all[n][0]), static_cast<int>(all[n][1]);
-        solution.displacement.row(n) << all[n][2], all[n][3], all[n][4];
-    }
 }
 
 }  // namespace

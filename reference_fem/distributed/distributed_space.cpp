@@ -1,11 +1,14 @@
 #include "reference_fem/distributed/distributed_space.hpp"
 
+#include "reference_fem/near_null_space.hpp"
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria_description.h>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 namespace reference_fem {
@@ -98,6 +101,63 @@ bool DistributedSpace::node_on_face(const Cell& cell, unsigned int node_in_tet, 
     const auto [first, second] = ends_in_tet(node_in_tet);
     const auto corners = {cell->face(face)->vertex_index(0), cell->face(face)->vertex_index(1), cell->face(face)->vertex_index(2)};
     return std::ranges::count(corners, cell->vertex_index(first)) && std::ranges::count(corners, cell->vertex_index(second));
+}
+
+void DistributedSpace::for_each_own_cell(const std::function<void(const Cell&, const DofIndices&)>& visit) const
+{
+    DofIndices dofs(element.n_dofs_per_cell());
+    for (const auto& cell : dof_handler.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        cell->get_dof_indices(dofs);
+        visit(cell, dofs);
+    }
+}
+
+std::vector<double> DistributedSpace::rigid_body_modes() const
+{
+    const pbs::Vec3 low = mesh.rest.colwise().minCoeff(), high = mesh.rest.colwise().maxCoeff();
+    const std::size_t rows = owned.n_elements();
+    std::vector<double> modes(6 * rows);
+    for_each_own_cell([&](const Cell& cell, const DofIndices& dofs) {
+        for (unsigned int node = 0; node < nodes_per_tet(); ++node) {
+            const auto [first, second] = ends(cell, node);
+            const pbs::Positions position = (mesh.rest.row(first) + mesh.rest.row(second)) / 2.0;
+            const Eigen::MatrixXd of_node = reference_fem::rigid_body_modes(position, (low + high) / 2.0, (high - low).norm());
+            for (unsigned int c = 0; c < 3; ++c) {
+                const DofIndex dof = dofs[element.component_to_system_index(c, node)];
+                if (!owned.is_element(dof)) continue;
+                for (int mode = 0; mode < 6; ++mode) modes[mode * rows + owned.index_within_set(dof)] = of_node(c, mode);
+            }
+        }
+    });
+    return modes;
+}
+
+std::pair<pbs::Edges, pbs::Positions> DistributedSpace::on_rank_0(const std::function<double(DofIndex)>& value_at_own) const
+{
+    using Row = std::array<double, 5>;  // first end, second end, value
+    std::vector<bool> seen(owned.n_elements(), false);
+    std::vector<Row> rows;
+    for_each_own_cell([&](const Cell& cell, const DofIndices& dofs) {
+        for (unsigned int node = 0; node < nodes_per_tet(); ++node) {
+            const auto dof = [&](unsigned int c) { return dofs[element.component_to_system_index(c, node)]; };
+            if (!owned.is_element(dof(0)) || seen[owned.index_within_set(dof(0))]) continue;
+            seen[owned.index_within_set(dof(0))] = true;
+            const auto [first, second] = ends(cell, node);
+            rows.push_back({double(first), double(second), value_at_own(dof(0)), value_at_own(dof(1)), value_at_own(dof(2))});
+        }
+    });
+    std::vector<Row> all;
+    for (const auto& of_rank : dealii::Utilities::MPI::gather(MPI_COMM_WORLD, rows, 0))
+        all.insert(all.end(), of_rank.begin(), of_rank.end());
+    std::ranges::sort(all);
+    pbs::Edges nodes(all.size(), 2);
+    pbs::Positions values(all.size(), 3);
+    for (std::size_t n = 0; n < all.size(); ++n) {
+        nodes.row(n) << static_cast<int>(all[n][0]), static_cast<int>(all[n][1]);
+        values.row(n) << all[n][2], all[n][3], all[n][4];
+    }
+    return {nodes, values};
 }
 
 }  // namespace reference_fem

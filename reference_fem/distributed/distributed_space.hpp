@@ -14,7 +14,7 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_fe.h>
 
-#include <array>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -24,6 +24,8 @@ enum BoundaryPart : dealii::types::boundary_id { free_part = 0, held_part = 1, p
 
 struct DistributedSpace {
     using Cell = dealii::DoFHandler<3>::active_cell_iterator;
+    using DofIndex = dealii::types::global_dof_index;
+    using DofIndices = std::vector<DofIndex>;
 
     // Boundary triangles with all three corners in a set belong to that part; held goes before pulled.
     DistributedSpace(const pbs::TetMesh& mesh, int element_order, const std::vector<int>& held_vertices,
@@ -33,8 +35,12 @@ struct DistributedSpace {
     unsigned int nodes_per_tet() const { return element.n_dofs_per_cell() / 3; }
     // The two vertices of the mesh that a tet's node lies halfway between, lower first; a vertex twice for itself.
     std::pair<int, int> ends(const Cell& cell, unsigned int node_in_tet) const;
-    pbs::Vec3 position(const std::pair<int, int>& ends) const { return (mesh.rest.row(ends.first) + mesh.rest.row(ends.second)) / 2.0; }
     bool node_on_face(const Cell& cell, unsigned int node_in_tet, unsigned int face) const;
+
+    void for_each_own_cell(const std::function<void(const Cell&, const DofIndices&)>& visit) const;
+    std::vector<double> rigid_body_modes() const;  // of this rank's degrees of freedom, mode after mode, #owned x 6
+    // All nodes by their ends, increasing, #nodes x 2, and their values, #nodes x 3; empty on the other ranks.
+    std::pair<pbs::Edges, pbs::Positions> on_rank_0(const std::function<double(DofIndex)>& value_at_own) const;
 
     const pbs::TetMesh& mesh;  // outlives the space
     dealii::parallel::fullydistributed::Triangulation<3> triangulation;

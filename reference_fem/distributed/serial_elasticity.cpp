@@ -5,6 +5,7 @@
 #include "reference_fem/distributed/peak_memory.hpp"
 #include "reference_fem/distributed/prescribed_nodes.hpp"
 #include "reference_fem/eliminated_system.hpp"
+#include "reference_fem/near_null_space.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/geometry/topology.hpp"
 
@@ -140,7 +141,9 @@ ElasticSolution SerialSystem::solve() const
         if (const auto value = prescribed.displacement(ends_[node])) fix(node, *value);
     const double assembly_s = assembly.seconds();
 
-    const EliminatedSystem system(stiffness, fixed, problem_.options.solver);
+    const bool iterative = problem_.options.solver == LinearSolver::cg_ml;
+    const EliminatedSystem system(stiffness, fixed, problem_.options.solver,
+                                  iterative ? rigid_body_modes(space_.node_positions()) : Eigen::MatrixXd());
     const pbs::Stopwatch solving;
     const EliminatedSolution eliminated = system.solve(load, values);
     ElasticSolution solution = sorted(eliminated.displacement);
@@ -149,6 +152,7 @@ ElasticSolution SerialSystem::solve() const
     summary.assembly_s = assembly_s;
     summary.setup_s = system.factor().analyse_s() + system.factor().factor_s();
     summary.solver = system.factor().name();
+    summary.iterations = system.factor().iterations();
     summary.tets = summary.tets_of_rank_min = summary.tets_of_rank_max = mesh_.tets.rows();
     summary.dofs = space_.dofs();
     summary.relative_residual = eliminated.residual;

@@ -1,5 +1,6 @@
 #include "reference_fem/newton/newton.hpp"
 
+#include "reference_fem/near_null_space.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <algorithm>
@@ -60,6 +61,7 @@ struct NewtonMinimiser::State {
 NewtonMinimiser::NewtonMinimiser(const SimplexSpace& space, const std::vector<bool>& prescribed, LinearSolver solver)
     : prescribed_(prescribed),
       solver_(solver),
+      near_null_space_(solver == LinearSolver::cg_ml ? rigid_body_modes(space.node_positions()) : Eigen::MatrixXd()),
       extent_m_((space.node_positions().colwise().maxCoeff() - space.node_positions().colwise().minCoeff()).norm()),
       hessian_(space)
 {
@@ -106,7 +108,7 @@ bool NewtonMinimiser::factorise(const Terms& terms, const Eigen::VectorXd& displ
     if (system_)
         system_->update(hessian_.matrix());
     else
-        system_ = std::make_unique<EliminatedSystem>(hessian_.matrix(), prescribed_, solver_);
+        system_ = std::make_unique<EliminatedSystem>(hessian_.matrix(), prescribed_, solver_, near_null_space_);
     ++summary.factorisations;
     rounding_n_ = 4.0 * std::numeric_limits<double>::epsilon() * extent_m_ * hessian_.matrix().diagonal().norm();
     return system_->factor().usable();

@@ -59,7 +59,7 @@ public:
     // The terms' Hessian has changed (another time step): a factor kept of quadratic terms is stale.
     void forget_factor() { factor_is_kept_ = false; }
 
-    const DirectFactor* factor() const { return system_ ? &system_->factor() : nullptr; }  // null before the first solve
+    const PreparedSolver* factor() const { return system_ ? &system_->factor() : nullptr; }  // null before the first solve
 
 private:
     struct State;
@@ -73,7 +73,8 @@ private:
 
     std::vector<bool> prescribed_;
     LinearSolver solver_;
-    double extent_m_;  // diagonal of the bounding box
+    Eigen::MatrixXd near_null_space_;  // of an iterative solver
+    double extent_m_;                  // diagonal of the bounding box
     NodalMatrix hessian_;
     std::unique_ptr<EliminatedSystem> system_;
     bool factor_is_kept_ = false;

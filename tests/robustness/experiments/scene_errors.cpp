@@ -59,6 +59,8 @@ const WrongScene wrong_lines[] = {
     {"unknown_attachment", "[[fem]]\nattachment = \"glue\"\n", "expected one of embedded, nodes, bind"},
     {"bind_of_a_linear_model", "[[fem]]\nattachment = \"bind\"\n",
      "scene.toml:12: fem.0.attachment = bind: expected embedded or nodes with model linear"},
+    {"cg_ml_of_a_nonlinear_model", "[[fem]]\nmodel = \"stable_neo_hookean\"\nsolver = \"cg_ml\"\n",
+     "scene.toml:13: fem.0.solver = cg_ml: expected cholmod with a nonlinear model"},
     {"umfpack_of_a_nonlinear_model", "[[fem]]\nmodel = \"corotational\"\nsolver = \"umfpack\"\n",
      "scene.toml:13: fem.0.solver = umfpack: expected cholmod with a nonlinear model"},
     {"negative_rayleigh", "[[fem]]\nrayleigh = [-1.0, 0.0]\n", "scene.toml:12: fem.0.rayleigh = [-1.0,0.0]: expected a list of numbers"},

@@ -59,6 +59,20 @@ TEST_P(LinearResponse, CholmodAndUmfpackAgree)
     EXPECT_LT(other.residual, 1e-12);
 }
 
+// |e| / |u| <= cond(K) |r| / |f|: 1e5 times the 1e-10 that conjugate gradients are asked for.
+TEST_P(LinearResponse, ConjugateGradientsAgreeWithCholmod)
+{
+    LinearOptions second = options;
+    second.solver = LinearSolver::cg_ml;
+    LinearElasticity cholmod(bar, options, springs()), iterative(bar, second, springs());
+    cholmod.solve(moved_points(0.1, 0.1), bar.rest);
+    const SolveSummary summary = iterative.solve(moved_points(0.1, 0.1), bar.rest);
+    EXPECT_TRUE(summary.finite);
+    EXPECT_GT(summary.iterations, 0);
+    EXPECT_LT(summary.residual, 1.01e-10);
+    EXPECT_LT(relative_difference(cholmod.positions(), iterative.positions()), 1e-5);
+}
+
 TEST_P(LinearResponse, DisplacementsSuperpose)
 {
     LinearElasticity fem(bar, options, springs());

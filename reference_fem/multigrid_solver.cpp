@@ -1,0 +1,183 @@
+// Conjugate gradients (Eigen), preconditioned by one V-cycle of smoothed aggregation (Trilinos ML through Epetra, on this process alone).
+#include "reference_fem/prepared_solver.hpp"
+
+#include "reference_fem/iterative_options.hpp"
+#include "reference_fem/smoothed_aggregation.hpp"
+#include "pbs/geometry/stopwatch.hpp"
+
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Map.h>
+#include <Epetra_MpiComm.h>
+#include <Epetra_Vector.h>
+#include <ml_MultiLevelPreconditioner.h>
+#include <mpi.h>
+
+#include <Eigen/IterativeLinearSolvers>
+
+#include <algorithm>
+#include <limits>
+
+namespace reference_fem {
+namespace {
+
+// ML asks MPI who it is even on one process. Started with the first hierarchy, ended with the program, unless the program did so itself.
+void start_mpi()
+{
+    static const struct Mpi {
+        Mpi()
+        {
+            int started = 0;
+            MPI_Initialized(&started);
+            ours = !started;
+            if (ours) MPI_Init(nullptr, nullptr);
+        }
+        ~Mpi()
+        {
+            int ended = 0;
+            MPI_Finalized(&ended);
+            if (ours && !ended) MPI_Finalize();
+        }
+        bool ours = false;
+    } mpi;
+}
+
+const Epetra_Comm& this_process()
+{
+    start_mpi();
+    static const Epetra_MpiComm comm(MPI_COMM_SELF);
+    return comm;
+}
+
+// A symmetric matrix's compressed columns are its compressed rows.
+class Multigrid {
+public:
+    Multigrid(const SparseMatrix& matrix, const NearNullSpace& near_null_space)
+        : modes_(near_null_space.modes.size() > 0 ? near_null_space.modes : constants(matrix.rows(), near_null_space.block_size)),
+          rows_(static_cast<int>(matrix.rows()), 0, this_process()),
+          matrix_(Copy, rows_, rows_, entries_of_rows(matrix).data(), true)
+    {
+        std::vector<int> columns;
+        for (int row = 0; row < matrix.rows(); ++row) {
+            const auto first = matrix.outerIndexPtr()[row], end = matrix.outerIndexPtr()[row + 1];
+            columns.assign(matrix.innerIndexPtr() + first, matrix.innerIndexPtr() + end);
+            matrix_.InsertMyValues(row, static_cast<int>(end - first), matrix.valuePtr() + first, columns.data());
+        }
+        matrix_.FillComplete(rows_, rows_);
+        const auto parameters = smoothed_aggregation(modes_.data(), static_cast<int>(modes_.cols()), near_null_space.block_size);
+        hierarchy_ = std::make_unique<ML_Epetra::MultiLevelPreconditioner>(matrix_, parameters, true);
+    }
+
+    bool usable() const { return hierarchy_->IsPreconditionerComputed(); }
+
+    void apply(const Eigen::VectorXd& residual, Eigen::VectorXd& correction) const
+    {
+        correction.resize(residual.size());
+        const Epetra_Vector in(View, rows_, const_cast<double*>(residual.data()));
+        Epetra_Vector out(View, rows_, correction.data());
+        hierarchy_->ApplyInverse(in, out);
+    }
+
+private:
+    static Eigen::MatrixXd constants(Eigen::Index rows, int block_size)
+    {
+        Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(rows, block_size);
+        for (Eigen::Index row = 0; row < rows; ++row) modes(row, row % block_size) = 1.0;
+        return modes;
+    }
+
+    static std::vector<int> entries_of_rows(const SparseMatrix& matrix)
+    {
+        std::vector<int> entries(matrix.rows());
+        for (std::size_t row = 0; row < entries.size(); ++row)
+            entries[row] = static_cast<int>(matrix.outerIndexPtr()[row + 1] - matrix.outerIndexPtr()[row]);
+        return entries;
+    }
+
+    Eigen::MatrixXd modes_;
+    Epetra_Map rows_;
+    Epetra_CrsMatrix matrix_;
+    std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> hierarchy_;
+};
+
+// What Eigen asks of a preconditioner.
+class MultigridPreconditioner {
+public:
+    void use(const Multigrid* multigrid) { multigrid_ = multigrid; }
+
+    template <typename Matrix>
+    MultigridPreconditioner& analyzePattern(const Matrix&)
+    {
+        return *this;
+    }
+    template <typename Matrix>
+    MultigridPreconditioner& factorize(const Matrix&)
+    {
+        return *this;
+    }
+    template <typename Matrix>
+    MultigridPreconditioner& compute(const Matrix&)
+    {
+        return *this;
+    }
+    Eigen::VectorXd solve(const Eigen::VectorXd& residual) const
+    {
+        Eigen::VectorXd correction;
+        multigrid_->apply(residual, correction);
+        return correction;
+    }
+    Eigen::ComputationInfo info() const { return Eigen::Success; }
+
+private:
+    const Multigrid* multigrid_ = nullptr;
+};
+
+class MultigridSolver : public PreparedSolver {
+public:
+    MultigridSolver(const SparseMatrix& matrix, const NearNullSpace& near_null_space) : matrix_(matrix), near_null_space_(near_null_space)
+    {
+        refactor();
+    }
+
+    void refactor() override
+    {
+        usable_ = matrix_.rows() == 0;
+        if (usable_) return;
+        const pbs::Stopwatch setup;
+        multigrid_ = std::make_unique<Multigrid>(matrix_, near_null_space_);
+        gradients_.preconditioner().use(multigrid_.get());
+        gradients_.setTolerance(options_.tolerance);
+        gradients_.setMaxIterations(options_.most_iterations);
+        gradients_.compute(matrix_);
+        factor_s_ = setup.seconds();
+        usable_ = multigrid_->usable();
+    }
+
+    Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const override
+    {
+        Eigen::VectorXd solution = gradients_.solve(right_hand_side);
+        const auto counted = gradients_.iterations();  // Eigen leaves out the one that converged
+        iterations_ = right_hand_side.isZero(0.0) ? 0 : std::min(static_cast<int>(counted) + 1, options_.most_iterations);
+        if (gradients_.info() != Eigen::Success) solution.setConstant(std::numeric_limits<double>::quiet_NaN());
+        return solution;
+    }
+
+    std::string name() const override { return "conjugate gradients, Trilinos ML smoothed aggregation"; }
+    int iterations() const override { return iterations_; }
+
+private:
+    const SparseMatrix& matrix_;
+    NearNullSpace near_null_space_;
+    IterativeOptions options_;
+    std::unique_ptr<Multigrid> multigrid_;
+    Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper, MultigridPreconditioner> gradients_;
+    mutable int iterations_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<PreparedSolver> prepare_cg_ml(const SparseMatrix& matrix, const NearNullSpace& near_null_space)
+{
+    return std::make_unique<MultigridSolver>(matrix, near_null_space);
+}
+
+}  // namespace reference_fem

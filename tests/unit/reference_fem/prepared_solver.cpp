@@ -1,0 +1,99 @@
+// Truth: a dense solve of the same small system by Eigen.
+#include "reference_fem/prepared_solver.hpp"
+
+#include "reference_fem/blas.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace reference_fem;
+
+SparseMatrix spring_chain(int n, double ground)
+{
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+    for (int i = 0; i + 1 < n; ++i) matrix.block<2, 2>(i, i) += (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
+    matrix(0, 0) += ground;
+    SparseMatrix sparse = matrix.sparseView();
+    sparse.makeCompressed();
+    return sparse;
+}
+
+TEST(PreparedSolver, DirectSolversAgreeWithADenseSolveForManyRightHandSides)
+{
+    const SparseMatrix matrix = spring_chain(30, 2.0);
+    for (const auto solver : {LinearSolver::cholmod, LinearSolver::umfpack}) {
+        const auto factor = prepare(matrix, solver);
+        ASSERT_TRUE(factor->usable());
+        EXPECT_GT(factor->reciprocal_condition(), 0.0);
+        for (int i = 0; i < 30; i += 5) {
+            const Eigen::VectorXd right_hand_side = Eigen::VectorXd::Unit(30, i);
+            const Eigen::VectorXd dense = Eigen::MatrixXd(matrix).lu().solve(right_hand_side);
+            EXPECT_LT((factor->solve(right_hand_side) - dense).norm() / dense.norm(), 1e-12) << factor->name();
+        }
+    }
+}
+
+// |e| <= |A^-1| |r|, and |x| >= |b| / |A|: the condition times the residual that is asked for, 1e-10.
+TEST(PreparedSolver, ConjugateGradientsAgreeWithADenseSolveToTheirTolerance)
+{
+    const SparseMatrix matrix = spring_chain(30, 2.0);
+    const auto solver = prepare(matrix, LinearSolver::cg_ml);
+    ASSERT_TRUE(solver->usable());
+    const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(Eigen::MatrixXd(matrix)).eigenvalues();
+    for (int i = 0; i < 30; i += 5) {
+        const Eigen::VectorXd right_hand_side = Eigen::VectorXd::Unit(30, i);
+        const Eigen::VectorXd dense = Eigen::MatrixXd(matrix).lu().solve(right_hand_side);
+        EXPECT_LT((solver->solve(right_hand_side) - dense).norm() / dense.norm(), 1e-10 * eigenvalues(29) / eigenvalues(0));
+        EXPECT_GT(solver->iterations(), 0);
+    }
+}
+
+TEST(PreparedSolver, AnotherMatrixOfTheSamePatternIsSolvedAfterRefactor)
+{
+    for (const auto kind : {LinearSolver::cholmod, LinearSolver::umfpack, LinearSolver::cg_ml}) {
+        SparseMatrix matrix = spring_chain(30, 2.0);
+        const auto solver = prepare(matrix, kind);
+        const Eigen::VectorXd once = solver->solve(Eigen::VectorXd::Ones(30));
+        matrix.coeffs() *= 4.0;
+        solver->refactor();
+        EXPECT_LT((4.0 * solver->solve(Eigen::VectorXd::Ones(30)) - once).norm() / once.norm(), 1e-9) << solver->name();
+    }
+}
+
+TEST(PreparedSolver, ConjugateGradientsThatDoNotConvergeReportIt)
+{
+    const SparseMatrix floating = spring_chain(4, 0.0);  // and a load that no displacement answers
+    EXPECT_FALSE(prepare(floating, LinearSolver::cg_ml)->solve(Eigen::VectorXd::Ones(4)).allFinite());
+}
+
+TEST(PreparedSolver, NothingToSolveForIsNoError)
+{
+    const SparseMatrix nothing(0, 0);
+    EXPECT_TRUE(prepare(nothing, LinearSolver::cg_ml)->usable());
+}
+
+TEST(PreparedSolver, ASingularMatrixIsReportedNotThrown)
+{
+    const SparseMatrix floating = spring_chain(4, 0.0);
+    EXPECT_FALSE(prepare(floating, LinearSolver::cholmod)->usable());
+    EXPECT_FALSE(prepare(floating, LinearSolver::umfpack)->usable());
+}
+
+TEST(PreparedSolver, CholmodRefusesAnIndefiniteMatrixThatUmfpackSolves)
+{
+    const SparseMatrix indefinite = spring_chain(4, -3.0);
+    EXPECT_FALSE(prepare(indefinite, LinearSolver::cholmod)->usable());
+    EXPECT_TRUE(prepare(indefinite, LinearSolver::umfpack)->usable());
+}
+
+TEST(PreparedSolver, TheBlasInUseIsNamedWithItsFile)
+{
+    EXPECT_NE(resolved_blas().find("blas"), std::string::npos) << resolved_blas();
+    EXPECT_NE(resolved_blas().find(".so"), std::string::npos) << resolved_blas();
+    EXPECT_EQ(resolved_blas().find('/'), std::string::npos) << resolved_blas();
+}
+
+}  // namespace
