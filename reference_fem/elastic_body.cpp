@@ -1,13 +1,30 @@
 #include "reference_fem/elastic_body.hpp"
 
+#include "reference_fem/dynamics/time_stepper.hpp"
 #include "reference_fem/held_space.hpp"
 #include "reference_fem/input_checks.hpp"
 #include "reference_fem/potentials/bind_potential.hpp"
 #include "reference_fem/potentials/dead_load.hpp"
 #include "reference_fem/potentials/spring_potential.hpp"
-#include "pbs/geometry/stopwatch.hpp"
 
 namespace reference_fem {
+namespace {
+
+TimeStepperOptions stepper_options(const ElasticOptions& options)
+{
+    return {.scheme = options.dynamics == Dynamics::newmark ? newmark() : generalized_alpha(options.spectral_radius),
+            .density_kg_m3 = options.density_kg_m3,
+            .rayleigh_mass_1_s = options.rayleigh_mass_1_s,
+            .rayleigh_stiffness_s = options.rayleigh_stiffness_s};
+}
+
+Targets between(const Targets& from, const Targets& to, double share)
+{
+    const auto part = [&](const pbs::Positions& a, const pbs::Positions& b) -> pbs::Positions { return a + share * (b - a); };
+    return {part(from.springs, to.springs), part(from.vertices, to.vertices), part(from.bind_points, to.bind_points)};
+}
+
+}  // namespace
 
 class ElasticBody::Implementation {
 public:
@@ -23,15 +40,23 @@ public:
           terms_{&flesh_, &gravity_},
           setup_(held_.summary(nullptr, 0.0))
     {
+        if (flesh_.is_quadratic()) {
+            linear_flesh_ = std::make_unique<StiffnessPotential>(rest_stiffness(held_.space(), flesh_));
+            terms_.front() = linear_flesh_.get();
+        }
         if (attachment.spring_points.rows() > 0) terms_.push_back(&springs_);
-        if (attachment.bind_distance.size() == 0) return;
-        bind_ = std::make_unique<BindPotential>(mesh.rest, attachment.bind_distance, attachment.bind_stiffness);
-        terms_.push_back(bind_.get());
+        if (attachment.bind_distance.size() > 0) {
+            bind_ = std::make_unique<BindPotential>(mesh.rest, attachment.bind_distance, attachment.bind_stiffness);
+            terms_.push_back(bind_.get());
+        }
+        if (options.dynamics == Dynamics::quasi_static) return;
+        stepper_ = std::make_unique<TimeStepper>(held_.space(), held_.prescribed(), flesh_, stepper_options(options), newton_);
     }
 
     LoadPathSummary solve(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2)
     {
         const Eigen::VectorXd weight_before = gravity_.force(), weight = held_.gravity_load(gravity_m_s2);
+        if (stepper_) newton_.forget_factor();
         const LoadPathSummary path = follow_load_path(
             [&](double fraction) {
                 gravity_.set(weight_before + fraction * (weight - weight_before));
@@ -39,31 +64,65 @@ public:
             },
             displacement_, options_.path);
         gravity_.set(weight_before + path.reached * (weight - weight_before));
+        if (stepper_) {
+            stepper_->forget_factor();
+            stepper_->start(displacement_);
+            weighs_ = true;
+        }
+        show();
+        return path;
+    }
+
+    LoadPathSummary advance(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2, double time_step_s)
+    {
+        const Eigen::VectorXd weight = held_.gravity_load(gravity_m_s2), weight_before = weighs_ ? gravity_.force() : weight;
+        const MovingData data{
+            [&](double fraction) { return held_.prescribed_values(checked(targets_at(fraction)).vertices); },
+            [&](double from, double to, double share) {
+                move_to(share == 1.0 ? targets_at(to) : between(checked(targets_at(from)), checked(targets_at(to)), share));
+                gravity_.set(weight_before + (from + share * (to - from)) * (weight - weight_before));
+            }};
+        const LoadPathSummary path = stepper_->advance(terms_, data, time_step_s, displacement_, options_.newton, options_.path);
+        weighs_ |= path.converged();
+        gravity_.set(path.converged() ? weight : weight_before);
+        show();
+        return path;
+    }
+
+    void show()
+    {
         positions_ = held_.vertices(displacement_);
         setup_ = held_.summary(newton_.factor(), 0.0);
-        return path;
+    }
+
+    Targets checked(const Targets& targets) const
+    {
+        held_.require_targets(targets.springs, targets.vertices);
+        require(!bind_ || targets.bind_points.rows() == held_.rest().rows(), "bind_points", targets.bind_points.rows(),
+                "expected one a vertex");
+        return targets;
     }
 
     // Springs and bind points go to their targets; what the prescribed degrees of freedom shall be [m], #dofs.
     Eigen::VectorXd move_to(const Targets& targets)
     {
-        held_.require_targets(targets.springs, targets.vertices);
+        checked(targets);
         springs_.move_to(targets.springs);
-        if (bind_) {
-            require(targets.bind_points.rows() == held_.rest().rows(), "bind_points", targets.bind_points.rows(), "expected one a vertex");
-            bind_->move_to(targets.bind_points);
-        }
+        if (bind_) bind_->move_to(targets.bind_points);
         return held_.prescribed_values(targets.vertices);
     }
 
     ElasticOptions options_;
     HeldSpace held_;
     ElasticPotential flesh_;
+    std::unique_ptr<StiffnessPotential> linear_flesh_;  // the same by its matrix; null where the law is not linear
     SpringPotential springs_;
     std::unique_ptr<BindPotential> bind_;
     DeadLoad gravity_;
+    bool weighs_ = false;  // a gravity was given before
     NewtonMinimiser newton_;
-    Eigen::VectorXd displacement_;  // [m], #dofs
+    std::unique_ptr<TimeStepper> stepper_;  // null: quasi-static
+    Eigen::VectorXd displacement_;          // [m], #dofs
     pbs::Positions positions_;
     Terms terms_;
     SetupSummary setup_;
@@ -80,6 +139,13 @@ LoadPathSummary ElasticBody::solve(const TargetsAt& targets_at, const pbs::Vec3&
 {
     require(gravity_m_s2.allFinite(), "gravity_m_s2", gravity_m_s2.transpose(), "expected finite components");
     return implementation_->solve(targets_at, gravity_m_s2);
+}
+
+LoadPathSummary ElasticBody::advance(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2, double time_step_s)
+{
+    require(gravity_m_s2.allFinite(), "gravity_m_s2", gravity_m_s2.transpose(), "expected finite components");
+    require(implementation_->stepper_ != nullptr, "dynamics", "quasi_static", "expected newmark or generalized_alpha for a step in time");
+    return implementation_->advance(targets_at, gravity_m_s2, time_step_s);
 }
 
 void ElasticBody::start_from(const pbs::Positions& vertices)
@@ -105,6 +171,11 @@ pbs::Positions ElasticBody::spring_points_deformed() const
 double ElasticBody::strain_energy_j() const
 {
     return implementation_->flesh_.value(implementation_->displacement_);
+}
+
+double ElasticBody::kinetic_energy_j() const
+{
+    return implementation_->stepper_ ? implementation_->stepper_->kinetic_energy_j() : 0.0;
 }
 
 Jacobians ElasticBody::jacobians() const

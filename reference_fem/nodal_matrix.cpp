@@ -68,4 +68,18 @@ void NodalMatrix::add_tet(Eigen::Index tet, const Eigen::Ref<const Eigen::Matrix
         for (Eigen::Index b = 0; b < nodes; ++b) add_at(places[a * nodes + b], tet_nodes_(tet, b), values.block<3, 3>(3 * a, 3 * b));
 }
 
+void NodalMatrix::add(const SparseMatrix& same_pattern, double factor)
+{
+    matrix_.coeffs() += factor * same_pattern.coeffs();
+}
+
+void NodalMatrix::add_isotropic(const SparseMatrix& of_nodes, double factor)
+{
+    for (Eigen::Index node = 0; node < of_nodes.cols(); ++node) {
+        SparseMatrix::StorageIndex place = 0;
+        for (SparseMatrix::InnerIterator entry(of_nodes, node); entry; ++entry, place += 3)
+            for (int c = 0; c < 3; ++c) matrix_.valuePtr()[matrix_.outerIndexPtr()[3 * node + c] + place + c] += factor * entry.value();
+    }
+}
+
 }  // namespace reference_fem

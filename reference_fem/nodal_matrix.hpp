@@ -17,6 +17,10 @@ public:
     void add_block(int row_node, int column_node, const Eigen::Matrix3d& block);  // of two nodes that share a tet
     // Blocks of one tet, k of them a side: values 3 k x 3 k.
     void add_tet(Eigen::Index tet, const Eigen::Ref<const Eigen::MatrixXd>& values);
+    // factor times another NodalMatrix of this space, #dofs x #dofs.
+    void add(const SparseMatrix& same_pattern, double factor);
+    // factor times a matrix over the nodes, #nodes x #nodes with an entry where a tet has both: a multiple of the identity in each block.
+    void add_isotropic(const SparseMatrix& of_nodes, double factor);
 
     const SparseMatrix& matrix() const { return matrix_; }  // #dofs x #dofs, both triangles
 

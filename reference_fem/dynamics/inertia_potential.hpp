@@ -1,0 +1,38 @@
+// Inertia as a potential of one time step: c / 2 |w - w~|_M^2, whose gradient is M a. The mass-proportional part of Rayleigh's damping is
+// another one, with its own c and centre.
+#pragma once
+
+#include "reference_fem/dynamics/consistent_mass.hpp"
+#include "reference_fem/potentials/potential.hpp"
+
+namespace reference_fem {
+
+class InertiaPotential : public Potential {
+public:
+    explicit InertiaPotential(const ConsistentMass& mass) : mass_(mass) {}  // which outlives the potential
+
+    void set(double coefficient, Eigen::VectorXd centre)  // c [1/s^2], w~ [m], #dofs
+    {
+        coefficient_ = coefficient;
+        centre_ = std::move(centre);
+    }
+
+    double value(const Eigen::VectorXd& displacement) const override
+    {
+        const Eigen::VectorXd offset = displacement - centre_;
+        return coefficient_ / 2.0 * offset.dot(mass_.times(offset));
+    }
+    void add_gradient(const Eigen::VectorXd& displacement, Eigen::VectorXd& gradient) const override
+    {
+        gradient += coefficient_ * mass_.times(displacement - centre_);
+    }
+    void add_hessian(const Eigen::VectorXd&, Definiteness, NodalMatrix& hessian) const override { mass_.add_to(hessian, coefficient_); }
+    bool is_quadratic() const override { return true; }
+
+private:
+    const ConsistentMass& mass_;
+    double coefficient_ = 0.0;
+    Eigen::VectorXd centre_;
+};
+
+}  // namespace reference_fem

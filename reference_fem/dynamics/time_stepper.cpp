@@ -1,0 +1,165 @@
+#include "reference_fem/dynamics/time_stepper.hpp"
+
+#include "reference_fem/input_checks.hpp"
+
+namespace reference_fem {
+namespace {
+
+const TimeStepperOptions& checked(const TimeStepperOptions& options)
+{
+    require(options.density_kg_m3 > 0.0 && std::isfinite(options.density_kg_m3), "density_kg_m3", options.density_kg_m3,
+            "expected a finite density > 0 where there is inertia");
+    for (const double damping : {options.rayleigh_mass_1_s, options.rayleigh_stiffness_s})
+        require(damping >= 0.0 && std::isfinite(damping), "rayleigh", damping, "expected finite factors >= 0");
+    return options;
+}
+
+// `share` of the way from one to the other; where they are equal, that to the bit.
+Eigen::VectorXd between(const Eigen::VectorXd& from, const Eigen::VectorXd& to, double share)
+{
+    return from + share * (to - from);
+}
+
+}  // namespace
+
+TimeStepper::TimeStepper(const SimplexSpace& space, const std::vector<bool>& prescribed, const Potential& flesh,
+                         const TimeStepperOptions& options, NewtonMinimiser& newton)
+    : fixed_(prescribed),
+      options_(checked(options)),
+      newton_(newton),
+      mass_(space, options.density_kg_m3),
+      inertia_(mass_),
+      mass_damping_(mass_),
+      state_{{}, PrescribedMotion(prescribed), 0.0, {}}
+{
+    if (options.rayleigh_stiffness_s > 0.0) stiffness_damping_ = std::make_unique<StiffnessPotential>(rest_stiffness(space, flesh));
+    start(Eigen::VectorXd::Zero(space.dofs()));
+}
+
+void TimeStepper::start(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity)
+{
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(displacement.size());
+    state_.motion = {displacement, velocity.size() > 0 ? velocity : zero, zero};
+    state_.prescribed.start();
+    state_.last_step_s = 0.0;
+}
+
+double TimeStepper::kinetic_energy_j() const
+{
+    return state_.motion.velocity.dot(mass_.times(state_.motion.velocity)) / 2.0;
+}
+
+LoadPathSummary TimeStepper::advance(const Terms& terms, const MovingData& data, double step_s, Eigen::VectorXd& guess,
+                                     const NewtonOptions& newton, const LoadPathOptions& path)
+{
+    require(step_s > 0.0 && std::isfinite(step_s), "time_step_s", step_s, "expected a finite step > 0");
+    const State before = state_;
+    double reached = 0.0;
+    const LoadPathSummary summary = follow_load_path(
+        [&](double fraction) {
+            const NewtonSummary part = attempt(terms, data, reached, fraction, (fraction - reached) * step_s, guess, newton);
+            if (part.converged()) reached = fraction;
+            return part;
+        },
+        guess, path);
+    if (summary.converged()) return summary;
+    state_ = before;
+    guess = state_.motion.displacement;
+    return summary;
+}
+
+NewtonSummary TimeStepper::attempt(const Terms& terms, const MovingData& data, double from, double to, double step_s,
+                                   Eigen::VectorXd& guess, const NewtonOptions& options)
+{
+    Motion now = state_.motion;
+    const Motion end = state_.prescribed.next(now, data.prescribed ? data.prescribed(to) : now.displacement, step_s);
+    const auto move_terms = [&](double share) {
+        if (data.move_terms) data.move_terms(from, to, share);
+    };
+    if (state_.last_step_s == 0.0) {
+        move_terms(0.0);
+        now.acceleration = start_acceleration(terms, end.acceleration);
+    } else {
+        now.acceleration = later_acceleration(step_s);
+    }
+    const double share = end_share(options_.scheme);
+    move_terms(share);
+    set_centres(now, end, step_s);
+    if (step_s != factored_step_s_) newton_.forget_factor();
+    factored_step_s_ = step_s;
+
+    Eigen::VectorXd w = between(now.displacement, guess, share);
+    const NewtonSummary summary = newton_.minimise(with_inertia(terms), between(now.displacement, end.displacement, share), w, options);
+    if (!summary.converged()) return summary;
+    accept_step(now, end, w, step_s);
+    guess = state_.motion.displacement;
+    return summary;
+}
+
+// M a = -(grad Pi(u) + C v) at the free degrees of freedom, given a at the others.
+Eigen::VectorXd TimeStepper::start_acceleration(const Terms& terms, const Eigen::VectorXd& of_prescribed)
+{
+    const Motion& motion = state_.motion;
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(motion.displacement.size());
+    Eigen::VectorXd force = zero;
+    for (const Potential* term : terms) term->add_gradient(motion.displacement, force);
+    set_damping(1.0, zero);
+    mass_damping_.add_gradient(motion.velocity, force);
+    if (stiffness_damping_) stiffness_damping_->add_gradient(motion.velocity, force);
+    const SparseMatrix mass = mass_.matrix();
+    return EliminatedSystem(mass, fixed_, LinearSolver::cholmod).solve(-force, of_prescribed).displacement;
+}
+
+// Where the displacement is prescribed the acceleration is that at t_n itself.
+Eigen::VectorXd TimeStepper::later_acceleration(double step_s) const
+{
+    if (step_s == state_.last_step_s) return state_.motion.acceleration;
+    Eigen::VectorXd acceleration =
+        moved_acceleration(options_.scheme, state_.motion.acceleration, state_.acceleration_rate, step_s - state_.last_step_s);
+    const auto& prescribed = state_.prescribed.dofs();
+    acceleration(prescribed) = state_.motion.acceleration(prescribed);
+    return acceleration;
+}
+
+void TimeStepper::set_damping(double coefficient, const Eigen::VectorXd& centre)
+{
+    mass_damping_.set(coefficient * options_.rayleigh_mass_1_s, centre);
+    if (stiffness_damping_) stiffness_damping_->set(coefficient * options_.rayleigh_stiffness_s, centre);
+}
+
+// Where the displacement is prescribed so are the rates at t_(n+1-alpha_f): the centres are put where Eqs. (d), (e) give those.
+void TimeStepper::set_centres(const Motion& now, const Motion& end, double step_s)
+{
+    const TimeScheme& scheme = options_.scheme;
+    const double c_m = inertia_coefficient(scheme, step_s), c_c = damping_coefficient(scheme, step_s), share = end_share(scheme);
+    Eigen::VectorXd of_inertia = inertia_centre(scheme, now, step_s), of_damping = damping_centre(scheme, now, step_s);
+    for (const int i : state_.prescribed.dofs()) {
+        const auto at_w = [&](const Eigen::VectorXd& from, const Eigen::VectorXd& to) { return from(i) + share * (to(i) - from(i)); };
+        const double w = at_w(now.displacement, end.displacement);
+        of_inertia(i) = w - at_w(now.acceleration, end.acceleration) / c_m;
+        of_damping(i) = w - at_w(now.velocity, end.velocity) / c_c;
+    }
+    inertia_.set(c_m, of_inertia);
+    set_damping(c_c, of_damping);
+}
+
+Terms TimeStepper::with_inertia(const Terms& terms) const
+{
+    Terms all = terms;
+    all.push_back(&inertia_);
+    if (options_.rayleigh_mass_1_s > 0.0) all.push_back(&mass_damping_);
+    if (stiffness_damping_) all.push_back(stiffness_damping_.get());
+    return all;
+}
+
+void TimeStepper::accept_step(const Motion& now, const Motion& end, const Eigen::VectorXd& w, double step_s)
+{
+    Motion next = accept(options_.scheme, now, w, step_s);
+    state_.prescribed.copy(end, next);
+    state_.prescribed.accept(now, next, step_s);
+    state_.acceleration_rate = (next.acceleration - now.acceleration) / step_s;
+    state_.last_step_s = step_s;
+    state_.motion = next;
+}
+
+}  // namespace reference_fem

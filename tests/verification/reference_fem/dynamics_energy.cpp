@@ -1,0 +1,121 @@
+// Truth: theory of the schemes for linear systems. Newmark's average acceleration keeps v M v / 2 + u K u / 2 (T. Hughes, The Finite
+// Element Method, 1987, ch. 9); generalised-alpha damps each mode by the spectral radius of its amplification matrix, which falls from 1 at
+// low to rho at infinite frequency (J. Chung, G. Hulbert, J. Appl. Mech. 60(2), 1993); both are stable for every time step.
+#include "tests/verification/reference_fem/vibrating_bar.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace reference_fem;
+using test_support::Mode;
+using test_support::VibratingBar;
+
+class EnergyInTime : public testing::Test {
+protected:
+    VibratingBar bar{test_support::structured_bar({0, 0, 0}, {1, 0.2, 0.2}, {6, 2, 2}), {}};
+};
+
+// All modes at once, omega h from 0.03 to some 5. A step's direct solve is in error by some eps times the condition of c_m M + K, 1e2
+// here, of random sign: 1e-14 sqrt(300) of the energy.
+TEST_F(EnergyInTime, NewmarkKeepsItToRounding)
+{
+    TimeStepper stepper = bar.stepper({});
+    stepper.start(1e-2 * bar.random_free_vector(), bar.random_free_vector());
+    const double before = bar.energy_j(stepper);
+    double largest_drift = 0.0;
+    bar.run(stepper, 0.01, 300,
+            [&](int, const TimeStepper& now) { largest_drift = std::max(largest_drift, std::abs(bar.energy_j(now) / before - 1.0)); });
+    RecordProperty("largest_relative_drift_e-15", std::to_string(largest_drift * 1e15));
+    EXPECT_LT(largest_drift, 1e-12);
+}
+
+// The amplification matrix of (u, h v / Omega, h^2 a / Omega^2) for u'' + omega^2 u = 0 and Omega = omega h: the scheme's three equations
+// as they stand, each divided by Omega^2.
+Eigen::Matrix3d amplification(const TimeScheme& s, double Omega)
+{
+    const double one = 1.0 / (Omega * Omega), velocity = 1.0 / Omega;
+    Eigen::Matrix3d now, next;
+    next << 1.0 - s.alpha_f, 0, 1.0 - s.alpha_m, one, 0, -s.beta, 0, velocity, -s.gamma;
+    now << -s.alpha_f, 0, -s.alpha_m, one, velocity, 0.5 - s.beta, 0, velocity, 1.0 - s.gamma;
+    return next.inverse() * now;
+}
+
+double spectral_radius(const TimeScheme& scheme, double Omega)
+{
+    return amplification(scheme, Omega).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+TEST(SpectralRadius, FallsFromOneToRho)
+{
+    for (const double rho : {0.0, 0.5, 0.8, 1.0}) {
+        const TimeScheme scheme = generalized_alpha(rho);
+        double before = 1.0;
+        for (double Omega = 1e-3; Omega < 1e5; Omega *= 1.5) {
+            const double radius = spectral_radius(scheme, Omega);
+            // Double eigenvalues are found to the root of rounding, of eps times the condition Omega + 1 / Omega^2.
+            EXPECT_LE(radius, before + 1e-5) << "rho " << rho << " Omega " << Omega;
+            before = radius;
+        }
+        EXPECT_NEAR(before, rho, 1e-3);  // at Omega = 8e4: the triple eigenvalue at infinity is off by Omega^(-2/3)
+    }
+    EXPECT_NEAR(spectral_radius(newmark(), 7.0), 1.0, 1e-14);
+}
+
+class DissipationInTime : public EnergyInTime, public testing::WithParamInterface<double> {};
+
+// A mode of the bar decays by its spectral radius a step. From a state that is not the eigenvector of the amplification matrix the ratio of
+// two energies two steps apart wavers, hence the mean over many; the complex pair of eigenvalues needs Omega at which there is one.
+TEST_P(DissipationInTime, OfAModeIsTheSpectralRadiusOfTheory)
+{
+    const TimeScheme scheme = generalized_alpha(GetParam());
+    const Mode mode = bar.last_mode();
+    for (const double Omega : {0.5, 1.0, 2.0}) {
+        const double expected = spectral_radius(scheme, Omega);
+        ASSERT_LT(expected, 1.0);
+        Eigen::Vector3d state(1.0, 0.0, -1.0);  // what the scheme itself makes of one mode, from the same start
+        const int steps = 40;
+        for (int k = 0; k < steps; ++k) state = amplification(scheme, Omega) * state;
+        TimeStepper stepper = bar.stepper({.scheme = scheme});
+        stepper.start(mode.shape);
+        bar.run(stepper, Omega / mode.omega_rad_s, steps);
+        const double amplitude = stepper.motion().displacement.dot(mode.shape) / mode.shape.squaredNorm();
+        EXPECT_NEAR(amplitude, state(0), 1e-9) << "Omega " << Omega;
+        // Both quadratures of the oscillation: |u + i v / omega|, in the long run proportional to radius^k.
+        const double envelope = std::hypot(state(0), state(1));
+        EXPECT_NEAR(std::pow(envelope, 1.0 / steps), expected, 0.05 * expected) << "Omega " << Omega;
+    }
+}
+
+// At infinite frequency rho is a triple eigenvalue: amplitudes go as a polynomial of degree 2 in n times rho^n, may overshoot at first, and
+// fall by rho to within 2 / n a step in the end.
+TEST_P(DissipationInTime, OfTheHighestModesIsMonotoneAfterTheOvershoot)
+{
+    const double rho = GetParam();
+    const Mode mode = bar.last_mode();
+    TimeStepper stepper = bar.stepper({.scheme = generalized_alpha(rho)});
+    stepper.start(mode.shape);
+    std::vector<double> energies = {bar.energy_j(stepper)};
+    bar.run(stepper, 1e4 / mode.omega_rad_s, 40, [&](int, const TimeStepper& now) { energies.push_back(bar.energy_j(now)); });
+    for (std::size_t k = 1; k < energies.size(); ++k)
+        if (k > 1.0 + 1.0 / (1.0 - rho)) EXPECT_LT(energies[k], energies[k - 1]) << "step " << k;
+    EXPECT_NEAR(std::sqrt(energies[40] / energies[39]), rho, 2.0 / 39.0 * rho);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rho, DissipationInTime, testing::Values(0.5, 0.8));
+
+// A time step of 0.1 s is 20 to 60 times what an explicit scheme could take: no mode grows.
+TEST_F(EnergyInTime, NoTimeStepIsTooLong)
+{
+    for (const TimeScheme& scheme : {newmark(), generalized_alpha(0.8), generalized_alpha(0.0)})
+        for (const double step_s : {0.1, 10.0}) {
+            TimeStepper stepper = bar.stepper({.scheme = scheme});
+            stepper.start(1e-2 * bar.random_free_vector(), bar.random_free_vector());
+            const double before = bar.energy_j(stepper);
+            bar.run(stepper, step_s, 200);
+            EXPECT_LT(bar.energy_j(stepper), (1.0 + 1e-9) * before) << "step " << step_s;
+        }
+}
+
+}  // namespace
