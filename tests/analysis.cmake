@@ -1,6 +1,6 @@
 # Tests of the ruler.
 find_package(GSL REQUIRED)
-foreach(name IN ITEMS frame_metrics error_norms cross_section surface_volume statistics bootstrap
+foreach(name IN ITEMS frame_metrics error_norms cross_section surface_volume statistics bootstrap grid_convergence
         state_hash atomic_file csv_table provenance
         claims case_record case_row verdict claims_report)
     pbs_test(unit analysis/${name} analysis)
@@ -8,6 +8,7 @@ endforeach()
 pbs_test(properties analysis/frame_metrics analysis)
 pbs_test(verification analysis/bootstrap analysis GSL::gsl)
 pbs_test(verification analysis/line_fit analysis GSL::gsl)
+pbs_test(verification analysis/grid_convergence analysis)
 pbs_test(unit analysis/minimise analysis GSL::gsl)
 
 # The project's own claims, read by the tests of claims and verdicts.

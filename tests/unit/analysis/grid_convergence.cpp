@@ -1,0 +1,148 @@
+// Degenerate series, factors, limits of the order used. Truth: the formulas of the header, worked by hand.
+#include "analysis/grid_convergence.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using analysis::FieldDifferences;
+using analysis::GridBehaviour;
+using analysis::GridConvergence;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// |f1 - f2| = 0.3, r = 2, p = 1: the limit lies 0.3 beyond the finer and 0.6 beyond the coarser.
+TEST(TwoGrids, AreBoundedByThreeTimesTheDistanceFromTheLimit)
+{
+    const GridConvergence grids = analysis::two_grids({1.0, 1.3}, 2.0, 1.0);
+    EXPECT_EQ(grids.behaviour, GridBehaviour::presumed);
+    EXPECT_NEAR(grids.extrapolated, 0.7, 1e-15);
+    ASSERT_EQ(grids.bounds.size(), 2u);
+    EXPECT_NEAR(grids.bounds[0], 0.9, 1e-14);
+    EXPECT_NEAR(grids.bounds[1], 1.8, 1e-14);
+    EXPECT_TRUE(std::isnan(grids.observed_order));
+    EXPECT_FALSE(grids.asymptotic);
+}
+
+// With the presumed order 1 the factor of 3 holds down to an observed order of log2(6 / 5).
+TEST(TwoGrids, AtOrderOneCoverSlowerConvergence)
+{
+    for (const double order : {0.27, 0.5, 1.0, 2.0, 3.0}) {
+        const auto error = [&](double h) { return std::pow(h, order); };
+        EXPECT_GE(analysis::two_fields(error(1.0) - error(0.5), 2.0, 1.0).bounds[1], error(1.0)) << order;
+    }
+    const auto too_slow = [](double h) { return std::pow(h, 0.25); };
+    EXPECT_LT(analysis::two_fields(too_slow(1.0) - too_slow(0.5), 2.0, 1.0).bounds[1], too_slow(1.0));
+}
+
+TEST(ThreeGrids, UseNoHigherOrderThanTheFormalOne)
+{
+    const GridConvergence grids = analysis::three_grids({1.0, 1.1, 1.9}, {2.0, 2.0}, 1.0);  // observed: 3
+    EXPECT_NEAR(grids.observed_order, 3.0, 1e-12);
+    EXPECT_EQ(grids.order, 1.0);
+    EXPECT_NEAR(grids.bounds[0], 1.25 * 0.1, 1e-14);
+    EXPECT_NEAR(grids.bounds[1], 1.25 * 0.2, 1e-14);
+    EXPECT_NEAR(grids.bounds[2], 1.25 * 1.0, 1e-14);
+    EXPECT_FALSE(grids.asymptotic);
+}
+
+TEST(ThreeGrids, ThatOscillateAreBoundedByThreeTimesTheirRange)
+{
+    for (const double middle : {0.9, 1.4}) {
+        const GridConvergence grids = analysis::three_grids({1.0, middle, 1.2}, {2.0, 2.0}, 2.0);
+        EXPECT_EQ(grids.behaviour, GridBehaviour::oscillating);
+        EXPECT_EQ(grids.safety_factor, 3.0);
+        for (const double bound : grids.bounds) EXPECT_NEAR(bound, 3.0 * (std::max(middle, 1.2) - std::min(middle, 1.0)), 1e-14);
+    }
+}
+
+TEST(ThreeGrids, ThatDoNotChangeHaveNoError)
+{
+    const GridConvergence grids = analysis::three_grids({4.0, 4.0, 4.0}, {2.0, 1.5}, 2.0);
+    EXPECT_EQ(grids.behaviour, GridBehaviour::constant);
+    EXPECT_EQ(grids.extrapolated, 4.0);
+    for (const double bound : grids.bounds) EXPECT_EQ(bound, 0.0);
+}
+
+TEST(ThreeGrids, ThatNoLongerChangeHaveReachedTheirLimit)
+{
+    const GridConvergence grids = analysis::three_grids({4.0, 4.0, 5.0}, {2.0, 2.0}, 2.0);
+    EXPECT_EQ(grids.behaviour, GridBehaviour::monotone);
+    EXPECT_EQ(grids.order, 2.0);
+    EXPECT_EQ(grids.bounds[0], 0.0);
+    EXPECT_EQ(grids.bounds[2], 1.25);
+}
+
+TEST(ThreeGrids, ThatChangeOnTheFinestAloneDiverge)
+{
+    const GridConvergence grids = analysis::three_grids({4.0, 5.0, 5.0}, {2.0, 2.0}, 2.0);
+    EXPECT_EQ(grids.behaviour, GridBehaviour::diverging);
+    EXPECT_EQ(grids.bounds[0], 3.0);
+}
+
+TEST(ThreeGrids, ThatAreNotFiniteAreReportedNotRefused)
+{
+    for (const double broken : {nan, std::numeric_limits<double>::infinity()}) {
+        const GridConvergence grids = analysis::three_grids({1.0, broken, 2.0}, {2.0, 2.0}, 2.0);
+        EXPECT_EQ(grids.behaviour, GridBehaviour::not_finite);
+        for (const double bound : grids.bounds) EXPECT_TRUE(std::isnan(bound));
+    }
+    EXPECT_EQ(analysis::two_grids({1.0, nan}, 2.0, 1.0).behaviour, GridBehaviour::not_finite);
+}
+
+TEST(ThreeGrids, DoNotAskForTheUnit)
+{
+    const GridConvergence metres = analysis::three_grids({1.0, 1.2, 1.5}, {1.5, 1.7}, 2.0);
+    const GridConvergence others = analysis::three_grids({-7.0 - 1e6, -7.0 - 1.2e6, -7.0 - 1.5e6}, {1.5, 1.7}, 2.0);
+    EXPECT_NEAR(others.observed_order, metres.observed_order, 1e-9);
+    EXPECT_NEAR(others.bounds[1], 1e6 * metres.bounds[1], 1e-3);
+}
+
+TEST(ObservedOrder, OfRatiosThatHardlyDifferIsThatOfEqualOnes)
+{
+    const double equal = analysis::observed_order_of_three(3.0, {2.0, 2.0});
+    EXPECT_NEAR(equal, std::log2(3.0), 1e-15);
+    EXPECT_NEAR(analysis::observed_order_of_three(3.0, {2.0, 2.0 + 1e-9}), equal, 1e-8);
+    EXPECT_NEAR(analysis::observed_order_of_three(-3.0, {2.0, 2.0 + 1e-9}), equal, 1e-8);
+}
+
+TEST(ObservedOrder, BeyondWhatCanBeSeenIsInfinite)
+{
+    EXPECT_EQ(analysis::observed_order_of_three(1e300, {2.0, 1.5}), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(analysis::observed_order_of_three(0.0, {2.0, 1.5}), -std::numeric_limits<double>::infinity());
+}
+
+// |f1 - f2| = 1, |f2 - f3| = 2: in one direction f3 is 3 away from f1, in opposite ones 1.
+TEST(Fields, WhoseDifferencesTurnRoundOscillate)
+{
+    EXPECT_NEAR((FieldDifferences{1.0, 2.0, 3.0}.alignment()), 1.0, 1e-15);
+    EXPECT_NEAR((FieldDifferences{1.0, 2.0, 1.0}.alignment()), -1.0, 1e-15);
+    EXPECT_NEAR((FieldDifferences{1.0, 2.0, std::sqrt(5.0)}.alignment()), 0.0, 1e-15);
+    EXPECT_EQ(analysis::three_fields({1.0, 2.0, 3.0}, {2.0, 2.0}, 2.0).behaviour, GridBehaviour::monotone);
+    EXPECT_EQ(analysis::three_fields({1.0, 2.0, 1.5}, {2.0, 2.0}, 2.0).behaviour, GridBehaviour::oscillating);
+    EXPECT_TRUE(std::isnan(analysis::three_fields({1.0, 2.0, 3.0}, {2.0, 2.0}, 2.0).extrapolated));
+}
+
+TEST(Fields, ThatDoNotChangeHaveNoError)
+{
+    const GridConvergence grids = analysis::three_fields({0.0, 0.0, 0.0}, {2.0, 2.0}, 1.0);
+    EXPECT_EQ(grids.behaviour, GridBehaviour::constant);
+    EXPECT_EQ(grids.bounds[1], 0.0);
+}
+
+TEST(GridConvergence, RefusesRatiosAndOrdersThatAreNone)
+{
+    EXPECT_THROW(analysis::two_grids({1.0, 2.0}, 1.0, 1.0), pbs::InputError);
+    EXPECT_THROW(analysis::two_grids({1.0, 2.0}, nan, 1.0), pbs::InputError);
+    EXPECT_THROW(analysis::two_grids({1.0, 2.0}, 2.0, 0.0), pbs::InputError);
+    EXPECT_THROW(analysis::three_grids({1.0, 2.0, 3.0}, {2.0, 0.5}, 1.0), pbs::InputError);
+    EXPECT_THROW(analysis::three_grids({1.0, 2.0, 3.0}, {2.0, 2.0}, -1.0), pbs::InputError);
+    EXPECT_THROW(analysis::extrapolated_field(pbs::Positions(2, 3), pbs::Positions(3, 3), 2.0, 1.0), pbs::InputError);
+}
+
+}  // namespace

@@ -1,0 +1,137 @@
+// Grid convergence against figures in print and against series and fields that were made with a known order. Truth: the sample table of
+// I. B. Celik et al., Journal of Fluids Engineering 130, 078001, 2008 (three columns; tolerance: half the last printed digit); the worked
+// example of NASA's NPARC tutorial "Examining Spatial (Grid) Convergence" (J. W. Slater; pressure recovery of an inlet), which follows
+// P. J. Roache.
+#include "analysis/grid_convergence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using analysis::GridBehaviour;
+using analysis::GridConvergence;
+
+constexpr double no_limit = 100.0;  // formal order: the observed one is used, as in print
+
+struct PrintedColumn {
+    std::array<double, 3> values;
+    std::array<double, 2> ratios;
+    double order, extrapolated, approximate_error_pct, extrapolated_error_pct, gci_pct;
+};
+
+class CelikTable : public testing::TestWithParam<PrintedColumn> {};
+
+TEST_P(CelikTable, Monotone)
+{
+    const PrintedColumn& column = GetParam();
+    const GridConvergence grids = analysis::three_grids(column.values, column.ratios, no_limit);
+    const double fine = column.values[0];
+    EXPECT_EQ(grids.behaviour, GridBehaviour::monotone);
+    EXPECT_NEAR(grids.observed_order, column.order, 0.005);
+    EXPECT_NEAR(grids.extrapolated, column.extrapolated, 0.002);  // printed from an order of more digits than are printed
+    EXPECT_NEAR(100.0 * std::abs((fine - column.values[1]) / fine), column.approximate_error_pct, 0.05);
+    const double extrapolated_error_pct = 100.0 * std::abs((grids.extrapolated - fine) / grids.extrapolated);
+    EXPECT_NEAR(extrapolated_error_pct, column.extrapolated_error_pct, 0.06);  // 0.9 in print is 0.847 by the table's own values
+    EXPECT_NEAR(100.0 * grids.bounds[0] / fine, column.gci_pct, 0.05);
+}
+
+// Reattachment length and axial velocity over a backward facing step.
+INSTANTIATE_TEST_SUITE_P(Columns, CelikTable,
+                         testing::Values(PrintedColumn{{6.063, 5.972, 5.863}, {1.5, 4.0 / 3.0}, 1.53, 6.1685, 1.5, 1.7, 2.2},
+                                         PrintedColumn{{10.7880, 10.7250, 10.6050}, {2.0, 2.143}, 0.75, 10.8801, 0.6, 0.9, 1.1}));
+
+TEST(CelikTable, Oscillating)
+{
+    const GridConvergence grids = analysis::three_grids({6.0042, 5.9624, 6.0909}, {2.0, 2.143}, no_limit);
+    EXPECT_EQ(grids.behaviour, GridBehaviour::oscillating);
+    EXPECT_NEAR(grids.observed_order, 1.51, 0.005);
+    // No limit is extrapolated, though the table does so: the bound is wider than its 0.5 %.
+    EXPECT_TRUE(std::isnan(grids.extrapolated));
+    EXPECT_NEAR(grids.bounds[0], 3.0 * (6.0909 - 5.9624), 1e-12);
+}
+
+TEST(NparcTutorial, PressureRecovery)
+{
+    const GridConvergence grids = analysis::three_grids({0.97050, 0.96854, 0.96178}, {2.0, 2.0}, 2.0);
+    EXPECT_NEAR(grids.observed_order, 1.786170, 5e-7);
+    EXPECT_NEAR(grids.extrapolated, 0.97130, 5e-6);
+    const double gci_12_pct = 100.0 * grids.bounds[0] / 0.97050, gci_23_pct = 100.0 * grids.bounds[1] / 0.96854;
+    EXPECT_NEAR(gci_12_pct, 0.103083, 5e-7);
+    EXPECT_NEAR(gci_23_pct, 0.356249, 5e-7);
+    EXPECT_NEAR(std::pow(2.0, grids.observed_order) * gci_12_pct / gci_23_pct, 0.997980, 5e-7);
+}
+
+// f + C h^p with unequal ratios is seen through exactly, whatever f, C and p.
+TEST(MadeUpSeries, HasItsOrderAndItsLimit)
+{
+    for (const double order : {0.3, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0})
+        for (const double r21 : {1.3, 2.0})
+            for (const double r32 : {1.4, 2.0, 3.0})
+                for (const double size : {-0.7, 40.0}) {
+                    const auto value = [&](double h) { return 5.0 + size * std::pow(h, order); };
+                    const GridConvergence grids = analysis::three_grids({value(1.0), value(r21), value(r21 * r32)}, {r21, r32}, no_limit);
+                    EXPECT_EQ(grids.behaviour, GridBehaviour::monotone);
+                    EXPECT_NEAR(grids.observed_order, order, 1e-9);
+                    EXPECT_NEAR(grids.extrapolated, 5.0, 1e-8 * std::abs(size));
+                    for (int grid = 0; grid < 3; ++grid)
+                        EXPECT_NEAR(grids.bounds[grid], 1.25 * std::abs(value(grid == 0 ? 1.0 : grid == 1 ? r21 : r21 * r32) - 5.0), 1e-7);
+                }
+}
+
+// An order that decreases the closer one looks is told from one that does not: f + C h^-p.
+TEST(MadeUpSeries, ThatDivergesHasItsNegativeOrder)
+{
+    const auto value = [](double h) { return 2.0 + std::pow(h, -0.5); };
+    const GridConvergence grids = analysis::three_grids({value(1.0), value(1.5), value(3.3)}, {1.5, 2.2}, 2.0);
+    EXPECT_EQ(grids.behaviour, GridBehaviour::diverging);
+    EXPECT_NEAR(grids.observed_order, -0.5, 1e-9);
+    EXPECT_TRUE(std::isnan(grids.extrapolated));
+}
+
+// Two orders at once, as real errors are: the bound holds, and the nearer the limit the truer the order.
+TEST(MadeUpSeries, WithATailOfHigherOrderIsCovered)
+{
+    double last_gap = 1.0;
+    for (const double h : {0.2, 0.1, 0.05, 0.025}) {
+        const auto error = [](double size) { return 0.8 * size * size - 1.1 * size * size * size; };
+        const GridConvergence grids = analysis::three_grids({error(h), error(2 * h), error(4 * h)}, {2.0, 2.0}, 2.0);
+        if (grids.behaviour != GridBehaviour::monotone) continue;
+        EXPECT_LT(std::abs(error(h)), grids.bounds[0]);
+        EXPECT_LT(std::abs(grids.observed_order - 2.0), last_gap);
+        EXPECT_EQ(grids.asymptotic, std::abs(grids.observed_order - 2.0) <= 0.2);
+        last_gap = std::abs(grids.observed_order - 2.0);
+    }
+    EXPECT_LT(last_gap, 0.2);  // the last is asymptotic
+}
+
+pbs::Positions wave(double length, double height)
+{
+    pbs::Positions field(200, 3);
+    for (Eigen::Index i = 0; i < field.rows(); ++i) {
+        const double x = 2.0 * std::numbers::pi * static_cast<double>(i) / 200.0;
+        field.row(i) << height * std::sin(x * length), height * std::cos(x * length), 0.1 * height;
+    }
+    return field;
+}
+
+TEST(MadeUpField, HasItsOrderAndIsBounded)
+{
+    for (const double order : {0.5, 1.0, 2.0}) {
+        const pbs::Positions limit = wave(1.0, 3.0), error = wave(4.0, 0.05);
+        const auto at = [&](double h) -> pbs::Positions { return limit + std::pow(h, order) * error; };
+        const pbs::Positions fine = at(0.25), middle = at(0.5), coarse = at(1.0);
+        const analysis::FieldDifferences differences{(fine - middle).norm(), (middle - coarse).norm(), (fine - coarse).norm()};
+        const GridConvergence grids = analysis::three_fields(differences, {2.0, 2.0}, order);
+        EXPECT_NEAR(grids.observed_order, order, 1e-9);
+        EXPECT_NEAR(differences.alignment(), 1.0, 1e-9);
+        EXPECT_TRUE(grids.asymptotic);
+        EXPECT_NEAR(grids.bounds[1], 1.25 * (middle - limit).norm(), 1e-9);
+        EXPECT_LT((analysis::extrapolated_field(fine, middle, 2.0, order) - limit).norm(), 1e-12);
+        EXPECT_NEAR(analysis::two_fields(differences.middle_coarse, 2.0, order).bounds[1], 3.0 * (coarse - limit).norm(), 1e-9);
+    }
+}
+
+}  // namespace
