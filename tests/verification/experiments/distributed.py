@@ -1,0 +1,110 @@
+"""The linear reference on one and two processes against the serial one's CHOLMOD, node by node.
+
+Truth: the same discrete problem, assembled and solved by other code. Tolerance: with a residual r, the error is K^-1 r, at most |r| over
+the lowest eigenvalue; the solution of a load f is at least its share in the softest mode over that eigenvalue. A cantilever's first
+bending mode has 0.78 of a uniform load across it, so |error| <= 1.3 |r| / |f| |solution|; both solutions' own residuals are recorded."""
+import csv
+import json
+import os
+import subprocess
+import unittest
+
+import numpy
+
+import foreign_arm
+import program
+
+PROGRAM = os.environ["PBSKIN_DISTRIBUTED"]
+MPIRUN = [os.environ["MPIEXEC"], "--oversubscribe", "-n"]
+ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_btl_vader_single_copy_mechanism="none",
+                   OMPI_MCA_rmaps_base_oversubscribe="1", OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
+MODE_SHARE = 0.78  # of a uniform transverse load in a cantilever's first mode
+ACROSS = ("--gravity", 0, 0, -9.81, "--traction", 0, 0, -1000)
+
+
+def run(ranks, *arguments):
+    """The finished process; 0 ranks: without mpirun."""
+    start = MPIRUN + [str(ranks)] if ranks else []
+    return subprocess.run([*start, PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=200, env=ENVIRONMENT)
+
+
+class Distributed(program.ProgramTest):
+    def solve(self, ranks, *arguments):
+        """Record, nodes (two vertices each) and displacements [m]."""
+        folder = self.path("out")
+        process = run(ranks, *arguments, "--nodes", "-o", folder)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        record = json.loads(self.read("out", "record.json"))
+        self.assertEqual(record, json.loads(process.stdout))
+        with open(self.path("out", "nodes.csv"), encoding="utf-8") as file:
+            rows = numpy.array(list(csv.reader(file))[1:], dtype=float)
+        self.assertEqual(3 * len(rows), record["dofs"])
+        return record, rows[:, :2].astype(int), rows[:, 2:]
+
+    def compare(self, arguments, tolerance_of):
+        serial, nodes, expected = self.solve(0, *arguments, "--solver", "cholmod")
+        for ranks in (0, 2):
+            with self.subTest(ranks=ranks):
+                record, distributed_nodes, found = self.solve(ranks, *arguments)
+                self.assertEqual(record["ranks"], max(ranks, 1))
+                self.assertGreater(record["tets_of_rank_min"], 0.4 * record["tets"] / record["ranks"])
+                self.assertTrue(record["converged"])
+                self.assertTrue((distributed_nodes == nodes).all())
+                error = numpy.linalg.norm(found - expected) / numpy.linalg.norm(expected)
+                self.assertLess(error, tolerance_of(serial, record))
+                self.assertAlmostEqual(record["compliance_j"] / serial["compliance_j"], 1.0, delta=tolerance_of(serial, record))
+
+    @staticmethod
+    def of_residuals(serial, record):
+        return (serial["relative_residual"] + record["relative_residual"]) / MODE_SHARE
+
+    def test_cantilever_of_linear_elements(self):
+        self.compare(("--bar", 6000, *ACROSS), self.of_residuals)
+
+    def test_cantilever_of_quadratic_elements(self):
+        self.compare(("--bar", 1500, "--order", 2, *ACROSS), self.of_residuals)
+
+    def test_mesh_of_a_file(self):
+        foreign_arm.write_msh(self.path("arm.msh"), *foreign_arm.mesh())
+        self.compare(("--mesh", self.path("arm.msh"), "--order", 2, *ACROSS), self.of_residuals)
+
+    def test_limb_held_by_its_skeleton(self):
+        """The springs' pull is some q = 1e4 times the forces in the flesh, and the residual is relative to it: q times the tolerance."""
+        limb = ("--limb", 1775, "--bend", 10, "--poisson", 0.45, "--tolerance")
+        self.compare((*limb, 1e-12), lambda serial, record: 1e-8)
+        _, _, expected = self.solve(0, *limb, 1e-12, "--solver", "cholmod")
+        _, _, coarse = self.solve(2, *limb, 1e-6)
+        self.assertGreater(numpy.linalg.norm(coarse - expected) / numpy.linalg.norm(expected), 1e-6)  # it is the tolerance that tells
+
+    def test_serial_conjugate_gradients(self):
+        serial, _, expected = self.solve(0, "--bar", 6000, *ACROSS, "--solver", "cholmod")
+        record, _, found = self.solve(0, "--bar", 6000, *ACROSS, "--serial")
+        self.assertGreater(record["iterations"], 1)
+        self.assertLess(numpy.linalg.norm(found - expected) / numpy.linalg.norm(expected), self.of_residuals(serial, record))
+
+
+class Outcomes(program.ProgramTest):
+    def test_not_converging_is_an_outcome(self):
+        process = run(2, "--bar", 6000, *ACROSS, "--most-iterations", 3)
+        self.assertEqual(process.returncode, 3)
+        record = json.loads(process.stdout)
+        self.assertFalse(record["converged"])
+        self.assertEqual(record["iterations"], 3)
+        self.assertGreater(record["relative_residual"], 1e-10)
+
+    def test_bad_input_is_refused_by_all_ranks(self):
+        damaged = self.write("damaged.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n")
+        for arguments, message in ((("--mesh", damaged), "damaged.msh"),
+                                   (("--bar", 100, "--limb", 300), "expected one of --bar, --limb and --mesh"),
+                                   (("--bar", 100, "--held-below", -1), "expected three held points"),
+                                   (("--bar", 100, "--solver", "cholmod"), "expected cg_ml without --serial"),
+                                   (("--bar", "many"), "--bar")):
+            with self.subTest(arguments=arguments):
+                process = run(2, *arguments)
+                self.assertEqual(process.returncode, 2, process.stderr)
+                self.assertEqual(process.stderr.count("pbskin_distributed: "), 1, process.stderr)
+                self.assertIn(message, process.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
