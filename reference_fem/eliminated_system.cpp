@@ -47,7 +47,7 @@ EliminatedSystem::EliminatedSystem(const SparseMatrix& stiffness, const std::vec
     free_free_ = block(stiffness, free_, free_);
     free_prescribed_ = block(stiffness, free_, prescribed_);
     NearNullSpace free_space{.block_size = are_whole_nodes(free_) ? 3 : 1};
-    if (near_null_space.size() > 0) free_space.modes = near_null_space(free_, Eigen::all);
+    if (near_null_space.rows() == stiffness.rows()) free_space.modes = near_null_space(free_, Eigen::all);
     factor_ = prepare(free_free_.matrix, solver, free_space);
 }
 
