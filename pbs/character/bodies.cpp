@@ -2,6 +2,7 @@
 
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/human.hpp"
+#include "pbs/character/refined_character.hpp"
 #include "pbs/character/skeleton_file.hpp"
 #include "pbs/character/skeleton_from_clip.hpp"
 #include "pbs/character/weights_file.hpp"
@@ -105,7 +106,9 @@ Character make_character(const CharacterSource& source)
     const Weights paper = paper_weights(character.binding, character.skeleton);
     for (int vertex = 0; vertex < paper.vertices(); ++vertex) character.blended.push_back(paper.blended(vertex));
     character.weights = weights_of(character, source, paper);
+    character.weight_kind = source.weights_file.empty() ? source.weights : WeightKind::file;
     if (!source.weights_file.empty()) character.inputs.emplace_back(file_name(source.weights_file), hash_of_file(source.weights_file));
+    for (int level = 0; level < source.refinements; ++level) character = refined(character);
     return character;
 }
 

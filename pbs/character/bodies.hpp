@@ -5,8 +5,6 @@
 
 namespace pbs {
 
-enum class WeightKind { paper, rigid };
-
 struct CharacterSource {
     std::string body = {};  // limb, bar, human; empty: from files
     std::string mesh_file = {}, skeleton_file = {};
@@ -14,6 +12,7 @@ struct CharacterSource {
     int vertices = 0;  // wanted size of a built-in body; 0: its default (limb 1,775, bar 1,800, human as in Table 1's neighbourhood)
     WeightKind weights = WeightKind::paper;
     std::string weights_file = {};  // CSV vertex,joint,weight; empty: `weights`
+    int refinements = 0;            // every tet into eight so many times; `vertices` and a weights file are of the unrefined mesh
 };
 
 // Builds it, or takes the tets from the cache (content hash of what they are made from). A body that is not installed is an InputError

@@ -5,12 +5,16 @@
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/weights.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace pbs {
+
+// The rule that weights come from: Eq. 2, the nearest bone alone, a file.
+enum class WeightKind { paper, rigid, file };
 
 struct Character {
     std::string name;
@@ -21,6 +25,9 @@ struct Character {
     std::vector<bool> blended;                                // vertices that Eq. 2 blends between bones, whatever `weights` is, #V
     std::optional<EmbeddedSurface> surface;                   // the surface people see, carried by the tets
     std::vector<std::pair<std::string, std::string>> inputs;  // what it was made from -> content hash
+    WeightKind weight_kind = WeightKind::paper;
+    int refinements = 0;                         // how often its tets were cut into eight; see refined_character.hpp
+    std::shared_ptr<const Character> unrefined;  // whose first vertices and whose bones' sizes it keeps; null: itself
 };
 
 // Vertices farther from their nearest bone than the mean over all (Sec. 4), #V.

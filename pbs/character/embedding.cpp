@@ -102,6 +102,24 @@ EmbeddedSurface embed(const Positions& surface, const Triangles& triangles, cons
     return embedded;
 }
 
+EmbeddedSurface embed_in_children(const EmbeddedSurface& surface, const TetMesh& coarse, const TetMesh& fine)
+{
+    constexpr int children = 8;
+    const Positions points = embedded_positions(surface, coarse.rest, coarse.tets);
+    EmbeddedSurface embedded = surface;
+    for (Eigen::Index s = 0; s < surface.tet.rows(); ++s) {
+        double most_inside = -std::numeric_limits<double>::max();
+        for (int child = children * surface.tet(s); child < children * (surface.tet(s) + 1); ++child) {
+            const Eigen::Vector4d barycentric = barycentric_in_tet(points.row(s).transpose(), corners_of(fine, child));
+            if (barycentric.minCoeff() <= most_inside) continue;
+            most_inside = barycentric.minCoeff();
+            embedded.tet(s) = child;
+            embedded.barycentric.row(s) = barycentric.transpose();
+        }
+    }
+    return embedded;
+}
+
 Positions embedded_positions(const EmbeddedSurface& surface, const Positions& positions, const Tets& tets)
 {
     Positions points = Positions::Zero(surface.tet.rows(), 3);

@@ -14,6 +14,9 @@ struct EmbeddedSurface {
 
 EmbeddedSurface embed(const Positions& surface, const Triangles& triangles, const TetMesh& mesh);
 
+// The same surface points carried by the children of their tets, which `fine` holds in the order of pbs::refine.
+EmbeddedSurface embed_in_children(const EmbeddedSurface& surface, const TetMesh& coarse, const TetMesh& fine);
+
 // Surface positions [m], #S x 3, from deformed tet vertices [m], #V x 3.
 Positions embedded_positions(const EmbeddedSurface& surface, const Positions& positions, const Tets& tets);
 

@@ -19,6 +19,23 @@ std::vector<int> tets_inside(const pbs::TetMesh& mesh, const BoneCapsule& capsul
     return inside;
 }
 
+// The children of the tets that are held in the unrefined character: the same parts of the flesh.
+BoneAttachment nodes_of_unrefined(const pbs::Character& character, const FemOptions& options)
+{
+    const BoneAttachment coarse = nodes_attachment(*character.unrefined, options);
+    BoneAttachment bones{coarse.capsules, {}, {}, std::vector<int>(character.mesh.rest.rows(), -1), {}, {}};
+    const int children = 1 << 3 * character.refinements;
+    for (std::size_t k = 0; k < coarse.tet_bone.size(); ++k) {
+        const int first = children * coarse.attachment.prescribed_tets[k];
+        for (int child = first; child < first + children; ++child) {
+            bones.attachment.prescribed_tets.push_back(child);
+            bones.tet_bone.push_back(coarse.tet_bone[k]);
+            for (const int v : character.mesh.tets.row(child)) bones.vertex_bone[v] = coarse.tet_bone[k];
+        }
+    }
+    return bones;
+}
+
 }  // namespace
 
 BoneAttachment bone_attachment(const pbs::Character& character, const FemOptions& options)
@@ -54,6 +71,7 @@ BoneAttachment embedded_attachment(const pbs::Character& character, const FemOpt
 
 BoneAttachment nodes_attachment(const pbs::Character& character, const FemOptions& options)
 {
+    if (character.unrefined) return nodes_of_unrefined(character, options);
     const pbs::TetMesh& mesh = character.mesh;
     BoneAttachment bones{bone_capsules(character, options.core_radius), {}, {}, std::vector<int>(mesh.rest.rows(), -1), {}, {}};
     for (int j = 0; j < static_cast<int>(bones.capsules.size()); ++j) {

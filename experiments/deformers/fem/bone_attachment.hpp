@@ -23,7 +23,7 @@ BoneAttachment bone_attachment(const pbs::Character& character, const FemOptions
 BoneAttachment embedded_attachment(const pbs::Character& character, const FemOptions& options);
 
 // Whole tets inside the capsules. No vertex is shared by two bones: the tet of the later bone is left out. A bone that keeps no tet
-// (fewer than four vertices that are not in one plane) is a pbs::InputError.
+// (fewer than four vertices that are not in one plane) is a pbs::InputError. Of a refined character: the children of the unrefined one's.
 BoneAttachment nodes_attachment(const pbs::Character& character, const FemOptions& options);
 
 // Every vertex at its rest distance d from its rest projection on its bone: k_i = q E V_i / R^2, V_i the vertex's lumped rest volume and R

@@ -59,6 +59,7 @@ double BoneCapsule::volume_m3() const
 
 std::vector<BoneCapsule> bone_capsules(const pbs::Character& character, double core_radius)
 {
+    if (character.unrefined) return bone_capsules(*character.unrefined, core_radius);
     const LimbRadii radii = limb_radii(character);
     std::vector<BoneCapsule> capsules;
     for (std::size_t j = 0; j < character.skeleton.bones.size(); ++j) {

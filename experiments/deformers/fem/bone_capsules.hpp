@@ -21,7 +21,8 @@ struct BoneCapsule {
 
 // The local limb radius is the mean rest distance to the bone over the skin vertices that are nearest to it and project on its middle;
 // where there are none, over all skin vertices nearest to it; where there are none either, over the whole skin to its nearest bones.
-// A bone without length is a pbs::InputError.
+// A refined character has the capsules of the unrefined one, though its skin vertices are others. A bone without length is a
+// pbs::InputError.
 std::vector<BoneCapsule> bone_capsules(const pbs::Character& character, double core_radius);
 
 // Sample points of a capsule [m], 130 x 3, each standing for the same share of its volume: 10 stations along the axis, and in each disc

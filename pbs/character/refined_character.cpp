@@ -1,0 +1,60 @@
+#include "pbs/character/refined_character.hpp"
+
+#include "pbs/geometry/refinement.hpp"
+
+#include <map>
+
+namespace pbs {
+namespace {
+
+void append(Weights& weights, const std::map<int, double>& of_bones)
+{
+    for (const auto& [bone, weight] : of_bones) {
+        weights.bone.push_back(bone);
+        weights.weight.push_back(weight);
+    }
+    weights.first.push_back(static_cast<int>(weights.bone.size()));
+}
+
+// Those of the coarse vertices, and of the new ones the mean of their parents'.
+Weights mean_of_parents(Weights weights, const Edges& parents)
+{
+    for (Eigen::Index e = 0; e < parents.rows(); ++e) {
+        std::map<int, double> mean;
+        for (const int parent : parents.row(e))
+            for (int entry = weights.first[parent]; entry < weights.first[parent + 1]; ++entry)
+                mean[weights.bone[entry]] += 0.5 * weights.weight[entry];
+        append(weights, mean);
+    }
+    return weights;
+}
+
+}  // namespace
+
+Character refined(const Character& character)
+{
+    const Refinement fine = refine(character.mesh);
+    Character result = character;
+    result.mesh = fine.mesh;
+    result.binding = bind_to_nearest_bone(fine.mesh.rest, character.skeleton);
+    const Weights paper = paper_weights(result.binding, character.skeleton);
+    result.blended.clear();
+    for (int vertex = 0; vertex < paper.vertices(); ++vertex) result.blended.push_back(paper.blended(vertex));
+    switch (character.weight_kind) {
+        case WeightKind::paper:
+            result.weights = paper;
+            break;
+        case WeightKind::rigid:
+            result.weights = rigid_weights(result.binding);
+            break;
+        case WeightKind::file:
+            result.weights = mean_of_parents(character.weights, fine.parents);
+            break;
+    }
+    if (character.surface) result.surface = embed_in_children(*character.surface, character.mesh, fine.mesh);
+    if (!character.unrefined) result.unrefined = std::make_shared<const Character>(character);
+    ++result.refinements;
+    return result;
+}
+
+}  // namespace pbs

@@ -1,0 +1,54 @@
+// What holds the flesh is the same on a refined character. Truth: the continuous problem does not know the mesh.
+#include "experiments/deformers/fem/bone_attachment.hpp"
+#include "pbs/character/refined_character.hpp"
+#include "pbs/geometry/tet_volume.hpp"
+#include "tests/unit/experiments/deformers/fem/bar_character.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace experiments;
+
+double volume_of(const pbs::TetMesh& mesh, const std::vector<int>& tets)
+{
+    const Eigen::VectorXd volumes = pbs::tet_volumes(mesh.rest, mesh.tets);
+    double volume = 0.0;
+    for (const int tet : tets) volume += volumes(tet);
+    return volume;
+}
+
+// Skin vertices give the radius: in the middle of edges and faces they lie nearer to the bone, so that without what the character
+// remembers the capsules would shrink.
+TEST(RefinedAttachment, CapsulesAndSamplePointsAreTheSame)
+{
+    const pbs::Character coarse = test_support::bar_character({24, 2, 2});
+    pbs::Character fine = pbs::refined(pbs::refined(coarse));
+    const FemOptions options;
+    const BoneAttachment before = embedded_attachment(coarse, options), after = embedded_attachment(fine, options);
+    EXPECT_EQ(after.attachment.spring_points, before.attachment.spring_points);
+    EXPECT_EQ(after.attachment.spring_stiffness, before.attachment.spring_stiffness);
+    EXPECT_EQ(after.vertex_bone.size(), static_cast<std::size_t>(fine.mesh.rest.rows()));
+    fine.unrefined = nullptr;
+    EXPECT_NE(bone_capsules(fine, 0.35)[0].radius_m, before.capsules[0].radius_m);
+}
+
+TEST(RefinedAttachment, NodesHoldTheSameFlesh)
+{
+    const pbs::Character coarse = test_support::bar_character({48, 8, 8});
+    const FemOptions options{.core_radius = 0.6};
+    const BoneAttachment before = nodes_attachment(coarse, options);
+    pbs::Character fine = coarse;
+    for (int level = 1; level <= 2; ++level) {
+        fine = pbs::refined(fine);
+        const BoneAttachment after = nodes_attachment(fine, options);
+        ASSERT_EQ(after.tet_bone.size(), after.attachment.prescribed_tets.size());
+        const double volume = volume_of(coarse.mesh, before.attachment.prescribed_tets);
+        EXPECT_NEAR(volume_of(fine.mesh, after.attachment.prescribed_tets), volume, 1e-12 * volume);
+        EXPECT_TRUE(std::equal(before.vertex_bone.begin(), before.vertex_bone.end(), after.vertex_bone.begin()));
+        for (std::size_t k = 0; k < after.tet_bone.size(); ++k)
+            for (const int v : fine.mesh.tets.row(after.attachment.prescribed_tets[k])) EXPECT_EQ(after.vertex_bone[v], after.tet_bone[k]);
+    }
+}
+
+}  // namespace
