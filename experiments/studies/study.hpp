@@ -44,5 +44,7 @@ struct Study {
 const std::vector<Study>& studies();
 
 StudyPlan plan_volume_study(bool full);
+StudyPlan plan_verification_study(bool full);
+StudyConclusion conclude_verification_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 
 }  // namespace experiments

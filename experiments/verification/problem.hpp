@@ -1,0 +1,20 @@
+// The problems that the judge is verified by. A new one is a function that returns its rows and one line in problem_list.cpp.
+#pragma once
+
+#include "experiments/verification/verification_row.hpp"
+
+namespace experiments {
+
+struct Effort {
+    bool full = false;          // the whole ladder of meshes
+    double lambda_error = 0.0;  // for tests: a relative error in the solver's first Lame parameter, of which no reference knows
+};
+
+struct VerificationProblem {
+    std::string name, meaning;
+    double quick_s, full_s;  // expected, on one core
+    VerificationRows (*rows)(const Effort& effort);
+};
+const std::vector<VerificationProblem>& verification_problems();
+
+}  // namespace experiments

@@ -1,0 +1,23 @@
+#include "experiments/verification/problem.hpp"
+#include "experiments/verification/problems/common.hpp"
+
+namespace experiments {
+
+const std::vector<VerificationProblem>& verification_problems()
+{
+    static const std::vector<VerificationProblem> all = {
+        {"patch_test", "affine displacements come back to rounding", 1.0, 1.0, patch_test_rows},
+        {"manufactured_solution", "orders of convergence in L2 and H1", 3.0, 30.0, manufactured_solution_rows},
+        {"own_weight", "a quadratic displacement comes back to rounding", 1.0, 1.0, own_weight_rows},
+        {"cantilever", "bending against Timoshenko's beam", 5.0, 20.0, cantilever_rows},
+        {"gravity_cantilever", "a soft bar under its own weight", 3.0, 3.0, gravity_cantilever_rows},
+        {"torsion", "a square bar against Saint-Venant's series", 3.0, 30.0, torsion_rows},
+        {"thick_sphere", "Lame's sphere under internal pressure, nu = 0.3 and 0.499", 3.0, 30.0, thick_sphere_rows},
+        {"cooks_membrane", "Cook's membrane, plane strain and plane stress", 5.0, 6.0, cooks_membrane_rows},
+        {"twisted_beam", "MacNeal and Harder's twisted beam, in and out of plane", 2.0, 10.0, twisted_beam_rows},
+        {"thick_plate", "NAFEMS LE10, stress at the edge of a hole", 4.0, 20.0, thick_plate_rows},
+    };
+    return all;
+}
+
+}  // namespace experiments

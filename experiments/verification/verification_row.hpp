@@ -1,0 +1,44 @@
+// One line of the verification record: a figure of the judge beside the one that theory, another code or a published benchmark has for it.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+struct VerificationRow {
+    std::string problem = {};   // its name in the list of problems
+    std::string quantity = {};  // what is compared
+    std::string elements = {};  // P1, P2, with the formulation where it is not that of displacements
+    std::string material = {};  // law and Poisson's ratio
+    std::string mesh = {};      // divisions
+    double h_m = 0.0;           // edge of a cell
+    int dofs = 0;
+    double value = 0.0, reference = 0.0;
+    std::string unit = {};    // of both; 1 where there is none
+    std::string source = {};  // of the reference: a full citation, or 'closed form: ...'
+
+    // What must hold; a row without bounds is there to be seen.
+    std::optional<double> low = {}, high = {};  // of the value
+    std::string bound_from = {};                // where the bounds come from
+    std::optional<double> observed_order = {};  // in h, between the next coarser mesh and this one
+    std::optional<double> expected_order = {};
+    std::string note = {};
+};
+using VerificationRows = std::vector<VerificationRow>;
+
+inline constexpr double order_tolerance = 0.1;
+
+// 100 (value - reference) / |reference|; nothing where the reference is 0.
+std::optional<double> difference_pct(const VerificationRow& row);
+
+// Value within the bounds and order within order_tolerance; nothing where neither is asked for.
+std::optional<bool> holds(const VerificationRow& row);
+
+nlohmann::json to_json(const VerificationRow& row);
+VerificationRow verification_row(const nlohmann::json& json);
+
+}  // namespace experiments
