@@ -1,7 +1,6 @@
 #include "reference_fem/boundary_value_problem.hpp"
 
 #include "reference_fem/eliminated_system.hpp"
-#include "reference_fem/linear_flesh.hpp"
 
 #include "pbs/geometry/topology.hpp"
 
@@ -70,19 +69,12 @@ int nearest(const Eigen::Ref<const pbs::Positions>& points, const pbs::Vec3& poi
 BoundaryValueSolution solve(const pbs::TetMesh& mesh, const ElasticMaterial& material, const BoundaryValueProblem& problem)
 {
     const auto space = std::make_shared<const SimplexSpace>(mesh, problem.element_order);
-    const LinearFlesh flesh(*space, lame_parameters(material.young_pa, material.poisson), problem.formulation);
-    const SparseMatrix stiffness = flesh.stiffness();
+    const SparseMatrix stiffness = stiffness_matrix(*space, lame_parameters(material.young_pa, material.poisson));
     const PrescribedData prescribed = prescribed_data(*space, problem);
     const Eigen::VectorXd load = external_load(*space, problem);
-    const EliminatedSystem system(stiffness, flesh.prescribed(prescribed.held), flesh.solver(problem.solver));
-    const EliminatedSolution solution = system.solve(flesh.on_unknowns(load), flesh.on_unknowns(prescribed.values));
-    return {space,
-            flesh.displacement(solution.displacement),
-            solution.residual,
-            load,
-            prescribed.held,
-            problem.formulation,
-            flesh.pressure_pa(solution.displacement)};
+    const EliminatedSystem system(stiffness, prescribed.held, problem.solver);
+    const EliminatedSolution solution = system.solve(load, prescribed.values);
+    return {space, solution.displacement, solution.residual, load, prescribed.held};
 }
 
 ErrorNorms BoundaryValueSolution::errors(const VectorField& exact, const GradientField& exact_gradient) const
@@ -100,8 +92,7 @@ double BoundaryValueSolution::largest_nodal_error(const VectorField& exact) cons
 
 double BoundaryValueSolution::strain_energy_j(const ElasticMaterial& material) const
 {
-    const LinearFlesh flesh(*space, lame_parameters(material.young_pa, material.poisson), formulation);
-    return flesh.strain_energy_j(displacement, pressure_pa);
+    return strain_energy(*space, lame_parameters(material.young_pa, material.poisson), displacement);
 }
 
 pbs::Vec3 BoundaryValueSolution::displacement_at(const pbs::Vec3& point) const
@@ -112,12 +103,10 @@ pbs::Vec3 BoundaryValueSolution::displacement_at(const pbs::Vec3& point) const
 Eigen::Matrix3d BoundaryValueSolution::stress_at(const pbs::Vec3& point, const ElasticMaterial& material) const
 {
     const int vertices = space->tet_nodes().leftCols(4).maxCoeff() + 1;
-    const int vertex = nearest(space->node_positions().topRows(vertices), point);
-    const Eigen::Matrix3d gradient = gradient_at_vertex(*space, displacement, vertex);
+    const Eigen::Matrix3d gradient = gradient_at_vertex(*space, displacement, nearest(space->node_positions().topRows(vertices), point));
     const Eigen::Matrix3d strain = (gradient + gradient.transpose()) / 2.0;
     const Lame lame = lame_parameters(material.young_pa, material.poisson);
-    const double pressure = LinearFlesh(*space, lame, formulation).pressure_at_vertex_pa(displacement, pressure_pa, vertex);
-    return pressure * Eigen::Matrix3d::Identity() + 2.0 * lame.mu_pa * strain;
+    return lame.lambda_pa * strain.trace() * Eigen::Matrix3d::Identity() + 2.0 * lame.mu_pa * strain;
 }
 
 }  // namespace reference_fem
