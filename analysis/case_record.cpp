@@ -39,6 +39,11 @@ void add_frame(CaseRecord& record, const CsvTable& metrics, int row)
     if (const auto angle = metrics.number_or_nothing(row, "angle_deg")) record.angle_deg.push_back(*angle);
 }
 
+bool is_not_reached(const CaseRecord& record, const CsvTable& metrics, int row)
+{
+    return record.iterations == 0 && metrics.has_column("outcome") && metrics.text_at(row, "outcome") == "not_converged";
+}
+
 void require_whole(const CaseRecord& record)
 {
     const std::size_t frames = record.frame.size();
@@ -58,7 +63,11 @@ std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string&
     for (int row = 0; row < metrics.rows(); ++row) {
         const auto [place, is_new] = places.try_emplace(key_of(metrics, row), records.size());
         if (is_new) records.push_back(empty_record(metrics, row, run));
-        add_frame(records[place->second], metrics, row);
+        CaseRecord& record = records[place->second];
+        if (is_not_reached(record, metrics, row))
+            ++record.frames_not_converged;
+        else
+            add_frame(record, metrics, row);
     }
     for (const CaseRecord& record : records) require_whole(record);
     return records;

@@ -13,6 +13,7 @@ struct CaseRecord {
     std::string scene, deformer, variant;
     int iterations = 0;                            // 0: the deformer has none
     std::vector<double> frame, time_s, angle_deg;  // angle_deg is empty for clips
+    int frames_not_converged = 0;                  // left out of the series
     std::vector<double> volume_change_pct, volume_abs_change_pct, inverted_tets;
     std::string run;  // the folder it came from, as to be named in reports
 
@@ -39,6 +40,7 @@ struct Records {
 
 // The cases in a metrics.csv: its rows grouped by scene, deformer, variant, order, precision, iterations and threads, in order of first
 // appearance; empty iterations (a deformer that has none) are 0. A column angle_deg, filled in throughout a case, makes it a sweep.
+// Left out and counted: rows of a deformer without iterations, that is a reference, whose outcome is not_converged. They show another pose.
 std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string& run);
 
 // The series that a metric of a claim names, #frames; InputError for an unknown name or a record with series of different lengths.

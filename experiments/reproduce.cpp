@@ -75,8 +75,8 @@ StudyOutcome run_study(const std::vector<StudyRun>& runs, const std::string& stu
     return outcome;
 }
 
-// Frames in which the reference intersects itself stand beside the figures: no deformer has contact.
-std::string self_intersections_of(const std::vector<std::string>& folders)
+// Frames in which the reference intersects itself stand beside the figures (no deformer has contact), and those without a reference.
+std::string frames_to_mark(const std::vector<std::string>& folders)
 {
     std::string lines;
     for (const std::string& folder : folders) {
@@ -84,6 +84,10 @@ std::string self_intersections_of(const std::vector<std::string>& folders)
         if (const int count = outcome.value("self_intersecting_reference_frames", 0); count > 0)
             lines += fmt::format("     {}: the reference intersects itself in {} of {} frames; their errors are marked\n",
                                  fs::path(folder).filename().string(), count, outcome.at("frames").get<int>());
+        const auto none = nlohmann::json::object();
+        for (const auto& [label, frames] : outcome.value("not_converged", none).items())
+            lines += fmt::format("     {}: {} did not converge in {} of {} frames\n", fs::path(folder).filename().string(), label,
+                                 frames.size(), outcome.at("frames").get<int>());
     }
     return lines;
 }
@@ -131,7 +135,7 @@ int reproduce(const ReproduceArguments& arguments)
         const std::string folder = (fs::path(arguments.folder) / study.name).string();
         const StudyOutcome outcome = run_study(plan.runs, folder, arguments);
         broke_down |= outcome.broke_down;
-        beside += self_intersections_of(outcome.folders);
+        beside += frames_to_mark(outcome.folders);
         const analysis::Records records = records_of(plan, outcome.folders, arguments.folder);
         for (const auto& claim : claims())
             if (claim.study == study.name) verdicts.push_back(analysis::judge(claim, records));

@@ -115,12 +115,13 @@ private:
     void record_deformer(Runner& runner, int frame, double time_s, const FrameContext& context)
     {
         const pbs::Positions& positions = runner.deformer->positions();
-        const FrameMeasurement measured = measurer_.measure(positions, context);
+        const FrameMeasurement measured = measurer_.measure(positions, context_for(runner, context));
         folder_.add_frame(runner.spec, frame, time_s, measured, runner.step);
         folder_.add_state(runner.spec, positions);
         runner.lowest_change_pct = std::min(runner.lowest_change_pct, measured.metrics.volume_change_pct);
         runner.highest_change_pct = std::max(runner.highest_change_pct, measured.metrics.volume_change_pct);
         runner.most_inverted = std::max(runner.most_inverted, measured.metrics.inverted_tets);
+        if (runner.step.outcome == pbs::Outcome::not_converged) not_converged_[runner.spec.label].push_back(frame);
         if (runner.step.outcome == pbs::Outcome::not_finite) {
             // Negative controls: the printed forms, and linear elasticity at large rotations. Their breakdown is on record, no failure.
             const bool expected = runner.spec.pbs.volume_form != pbs::VolumeForm::derived || runner.spec.kind == "fem";
@@ -132,12 +133,19 @@ private:
                                 runner.deformer->prescribed());
     }
 
+    // A reference that has not reached its pose stands in another one: it has no error.
+    static FrameContext context_for(const Runner& runner, FrameContext context)
+    {
+        if (runner.spec.kind == "fem" && runner.step.outcome == pbs::Outcome::not_converged) context.reference = nullptr;
+        return context;
+    }
+
     RunResult finish()
     {
         std::map<std::string, nlohmann::json> records;
         for (const Runner& runner : runners_)
             if (const auto record = runner.deformer->record(); !record.is_null()) records[runner.spec.label] = record;
-        nlohmann::json outcome = {{"finished", true}, {"frames", frames_}, {"breakdowns", breakdowns_}};
+        nlohmann::json outcome = {{"finished", true}, {"frames", frames_}, {"breakdowns", breakdowns_}, {"not_converged", not_converged_}};
         if (!scene_.reference.empty()) outcome["self_intersecting_reference_frames"] = self_intersecting_frames_;
         folder_.finish(character_, records, outcome);
 
@@ -145,6 +153,9 @@ private:
         for (const Runner& runner : runners_)
             result.lines.push_back(fmt::format("  {:<12} volume change {:8.3f} to {:7.3f} %, at most {} inverted tets", runner.spec.label,
                                                runner.lowest_change_pct, runner.highest_change_pct, runner.most_inverted));
+        for (const auto& [label, frames] : not_converged_)
+            result.lines.push_back(fmt::format("  {:<12} did not converge in {} of {} frames; as a reference, it is not compared there",
+                                               label, frames.size(), frames_));
         return result;
     }
 
@@ -157,7 +168,7 @@ private:
     RunFolder folder_;  // made when all else stands: it clears an earlier run's records
     int frames_ = 0, self_intersecting_frames_ = 0;
     std::string breakdown_;
-    std::map<std::string, std::vector<int>> breakdowns_;
+    std::map<std::string, std::vector<int>> breakdowns_, not_converged_;  // label -> frames
 };
 
 }  // namespace

@@ -11,7 +11,8 @@ namespace experiments {
 struct RunResult {
     int frames = 0;
     double seconds = 0.0;
-    std::string breakdown;           // the first deformer and frame that were not finite; empty: none
+    std::string breakdown;           // the first deformer and frame that were not finite; empty: none. A step that does not converge is no
+                                     // breakdown: it is on record, its frame is marked and compared with nothing
     std::vector<std::string> lines;  // a summary for the terminal, one line a deformer
 };
 

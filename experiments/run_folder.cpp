@@ -127,7 +127,8 @@ void RunFolder::add_frame(const DeformerSpec& spec, int frame, double time_s, co
     cells.insert(cells.end(), figures.begin(), figures.end());
     if (!scene_.reference.empty())
         for (const Cell& error : error_cells(measured)) cells.push_back(error);
-    const Cell strain = spec.kind == "fem" ? Cell(fictitious_strain(measured.rotation_deg)) : Cell(std::nullopt);
+    const bool small_strain = spec.kind == "fem" && spec.fem.model == reference_fem::Model::linear;
+    const Cell strain = small_strain ? Cell(fictitious_strain(measured.rotation_deg)) : Cell(std::nullopt);
     for (const Cell& further : std::vector<Cell>{cell(measured.angle_deg), measured.rotation_deg, strain, cell(measured.min_section_pct),
                                                  cell(measured.surface_volume_change_pct), std::string(to_string(step.outcome))})
         cells.push_back(further);

@@ -42,6 +42,18 @@ TEST(CaseRecords, AnglesMakeASweep)
     EXPECT_FALSE(records[1].is_sweep());
 }
 
+TEST(CaseRecords, AReferencesFramesThatAreNotReachedAreLeftOutAndCounted)
+{
+    const auto table = parse_csv(head +
+                                     ",outcome\nlimb,snh,,,,,1,0,0,0,0,0,finished\nlimb,snh,,,,,1,1,0.01,-9,9,9,not_converged\n"
+                                     "limb,pbs,,plain,f32,24,1,1,0.01,-1,1,0,not_converged\n",
+                                 "metrics.csv");
+    const auto records = case_records(table, "");
+    EXPECT_EQ(records[0].frame, (std::vector<double>{0.0}));
+    EXPECT_EQ(records[0].frames_not_converged, 1);
+    EXPECT_EQ(records[1].frame.size(), 1u) << "PBS above its residual still is in its pose";
+}
+
 TEST(CaseRecords, AnglesOfSomeFramesOnlyAreRefused)
 {
     EXPECT_THROW(case_records(parse_csv(head + ",angle_deg\nlimb,lbs,,,,0,1,0,0,0,0,0,0\nlimb,lbs,,,,0,1,1,0.01,-3,4,2,\n", "m.csv"), ""),
