@@ -31,8 +31,8 @@ struct ElasticOptions {
     double rayleigh_stiffness_s = 0.0;
     double spectral_radius = 0.8;  // of generalised-alpha at infinite frequency
     LinearSolver solver = LinearSolver::cholmod;
-    NewtonOptions newton;
-    LoadPathOptions path;
+    NewtonOptions newton = {};
+    LoadPathOptions path = {};
 };
 
 // What the skeleton asks for at a fraction of the way from the last solved state (0) to this one (1).

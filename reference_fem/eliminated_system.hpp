@@ -25,6 +25,7 @@ public:
     // Another stiffness of the same pattern: the symbolic analysis is kept.
     void update(const SparseMatrix& stiffness);
 
+    bool usable() const { return free_.empty() || factor_->usable(); }  // false: solve() gives what is not a number
     const PreparedSolver& factor() const { return *factor_; }
 
 private:

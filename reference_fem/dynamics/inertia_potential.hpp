@@ -24,7 +24,13 @@ public:
     }
     void add_gradient(const Eigen::VectorXd& displacement, Eigen::VectorXd& gradient) const override
     {
-        gradient += coefficient_ * mass_.times(displacement - centre_);
+        value_and_add_gradient(displacement, gradient);
+    }
+    double value_and_add_gradient(const Eigen::VectorXd& displacement, Eigen::VectorXd& gradient) const override
+    {
+        const Eigen::VectorXd offset = displacement - centre_, force = coefficient_ * mass_.times(offset);
+        gradient += force;
+        return force.dot(offset) / 2.0;
     }
     void add_hessian(const Eigen::VectorXd&, Definiteness, NodalMatrix& hessian) const override { mass_.add_to(hessian, coefficient_); }
     bool is_quadratic() const override { return true; }

@@ -72,12 +72,11 @@ NewtonMinimiser::State NewtonMinimiser::state_at(const Terms& terms, const Eigen
     State state;
     state.gradient = Eigen::VectorXd::Zero(displacement.size());
     for (const Potential* term : terms) {
-        const double energy = term->value(displacement);
+        Eigen::VectorXd gradient = Eigen::VectorXd::Zero(displacement.size());
+        const double energy = term->value_and_add_gradient(displacement, gradient);
         state.energy_j += energy;
         state.energy_scale_j += std::abs(energy);
         if (!std::isfinite(energy)) return state;
-        Eigen::VectorXd gradient = Eigen::VectorXd::Zero(displacement.size());
-        term->add_gradient(displacement, gradient);
         state.force_scale_n += gradient.norm();
         state.gradient += gradient;
     }
@@ -111,7 +110,7 @@ bool NewtonMinimiser::factorise(const Terms& terms, const Eigen::VectorXd& displ
         system_ = std::make_unique<EliminatedSystem>(hessian_.matrix(), prescribed_, solver_, near_null_space_);
     ++summary.factorisations;
     rounding_n_ = 4.0 * std::numeric_limits<double>::epsilon() * extent_m_ * hessian_.matrix().diagonal().norm();
-    return system_->factor().usable();
+    return system_->usable();
 }
 
 bool NewtonMinimiser::factorise(const Terms& terms, const Eigen::VectorXd& displacement, NewtonSummary& summary)
@@ -165,9 +164,10 @@ NewtonSummary NewtonMinimiser::minimise(const Terms& terms, const Eigen::VectorX
         if (!factorise(terms, displacement, summary)) return end(NewtonOutcome::not_positive_definite);
         const Eigen::VectorXd step = system_->solve(-state.gradient, increment).displacement;
         if (!step.allFinite()) return end(NewtonOutcome::not_finite);
-        // The step that moves the data cannot be shortened: it is taken whole or the increment is too large.
+        // The step that moves the data cannot be shortened: it is taken whole or the increment is too large. That of a quadratic ends in
+        // its minimum.
         double length = 1.0;
-        if (!carries_increment) length = step_length(terms, state, displacement, step, options);
+        if (!carries_increment && !all_quadratic(terms)) length = step_length(terms, state, displacement, step, options);
         if (length == 0.0) return end(is_converged(state, options) ? NewtonOutcome::converged : NewtonOutcome::no_descent);
         displacement += length * step;
         increment.setZero();

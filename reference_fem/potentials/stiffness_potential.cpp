@@ -15,14 +15,22 @@ void StiffnessPotential::set(double coefficient, Eigen::VectorXd centre)
 
 double StiffnessPotential::value(const Eigen::VectorXd& displacement) const
 {
-    const Eigen::VectorXd offset = displacement - centre_;
-    return coefficient_ / 2.0 * offset.dot(stiffness_.transpose() * offset);
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(displacement.size());
+    return value_and_add_gradient(displacement, gradient);
 }
 
 void StiffnessPotential::add_gradient(const Eigen::VectorXd& displacement, Eigen::VectorXd& gradient) const
 {
+    value_and_add_gradient(displacement, gradient);
+}
+
+double StiffnessPotential::value_and_add_gradient(const Eigen::VectorXd& displacement, Eigen::VectorXd& gradient) const
+{
+    const Eigen::VectorXd offset = displacement - centre_;
     // The matrix is symmetric: its columns are read as rows, which gathers instead of scattering.
-    gradient += coefficient_ * (stiffness_.transpose() * (displacement - centre_));
+    const Eigen::VectorXd force = coefficient_ * (stiffness_.transpose() * offset);
+    gradient += force;
+    return force.dot(offset) / 2.0;
 }
 
 void StiffnessPotential::add_hessian(const Eigen::VectorXd&, Definiteness, NodalMatrix& hessian) const

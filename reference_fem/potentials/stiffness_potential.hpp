@@ -15,6 +15,7 @@ public:
 
     double value(const Eigen::VectorXd& displacement) const override;
     void add_gradient(const Eigen::VectorXd& displacement, Eigen::VectorXd& gradient) const override;
+    double value_and_add_gradient(const Eigen::VectorXd& displacement, Eigen::VectorXd& gradient) const override;
     void add_hessian(const Eigen::VectorXd& displacement, Definiteness definiteness, NodalMatrix& hessian) const override;
     bool is_quadratic() const override { return true; }
 

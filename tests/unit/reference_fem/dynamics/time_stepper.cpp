@@ -1,0 +1,183 @@
+// Truth: the balance of forces, and what the header promises of failures, degenerate data and rest.
+#include "reference_fem/dynamics/time_stepper.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "reference_fem/potentials/elastic_potential.hpp"
+
+#include "tests/support/structured_bar.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using namespace reference_fem;
+
+enum class Held { end, everywhere, nowhere };
+
+class Stepper : public testing::Test {
+protected:
+    TimeStepper stepper(const TimeStepperOptions& options, Held held = Held::end)
+    {
+        for (int node = 0; node < space.nodes(); ++node)
+            for (int c = 0; c < 3; ++c)
+                fixed[3 * node + c] = held == Held::everywhere || (held == Held::end && space.node_positions()(node, 0) < 1e-9);
+        newton = std::make_unique<NewtonMinimiser>(space, fixed, LinearSolver::cholmod);
+        return {space, fixed, flesh, options, *newton};
+    }
+
+    Eigen::VectorXd pulled() const
+    {
+        Eigen::VectorXd u = Eigen::VectorXd::Zero(space.dofs());
+        for (int node = 0; node < space.nodes(); ++node) u(3 * node) = 0.1 * space.node_positions()(node, 0);
+        return u;
+    }
+
+    LoadPathSummary step(TimeStepper& stepper, double step_s, const MovingData& data = {}, const NewtonOptions& options = {})
+    {
+        Eigen::VectorXd guess = stepper.motion().displacement;
+        return stepper.advance({&flesh}, data, step_s, guess, options, {});
+    }
+
+    const SimplexSpace space{test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {2, 1, 1}), 1};
+    const ElasticPotential flesh{space, Model::stable_neo_hookean, lame_parameters(1e3, 0.3), Formulation::displacement};
+    std::vector<bool> fixed = std::vector<bool>(space.dofs());
+    std::unique_ptr<NewtonMinimiser> newton;
+};
+
+TEST_F(Stepper, RefusesAStepThatIsNotPositive)
+{
+    TimeStepper time = stepper({});
+    for (const double step_s : {0.0, -0.01, std::nan(""), std::numeric_limits<double>::infinity()})
+        EXPECT_THROW(step(time, step_s), pbs::InputError) << step_s;
+}
+
+TEST_F(Stepper, RefusesABodyWithoutMass)
+{
+    for (const double density : {0.0, -1.0, std::nan("")}) EXPECT_THROW(stepper({.density_kg_m3 = density}), pbs::InputError);
+}
+
+TEST_F(Stepper, RefusesNegativeDamping)
+{
+    EXPECT_THROW(stepper({.rayleigh_mass_1_s = -1.0}), pbs::InputError);
+    EXPECT_THROW(stepper({.rayleigh_stiffness_s = -1.0}), pbs::InputError);
+}
+
+TEST_F(Stepper, RestStaysRestToTheBit)
+{
+    for (const TimeScheme& scheme : {newmark(), generalized_alpha(0.8)}) {
+        TimeStepper time = stepper({.scheme = scheme, .rayleigh_mass_1_s = 1.0, .rayleigh_stiffness_s = 0.1});
+        for (int k = 0; k < 10; ++k) ASSERT_TRUE(step(time, 0.01).converged());
+        const Eigen::VectorXd zero = Eigen::VectorXd::Zero(space.dofs());
+        EXPECT_EQ(time.motion().displacement, zero);
+        EXPECT_EQ(time.motion().velocity, zero);
+        EXPECT_EQ(time.motion().acceleration, zero);
+        EXPECT_EQ(time.kinetic_energy_j(), 0.0);
+    }
+}
+
+TEST_F(Stepper, WithEveryDegreeOfFreedomPrescribedTheDataAreReturned)
+{
+    TimeStepper time = stepper({}, Held::everywhere);
+    const Eigen::VectorXd end = pulled();
+    const MovingData data{[&](double fraction) -> Eigen::VectorXd { return fraction * end; }, {}};
+    ASSERT_TRUE(step(time, 0.1, data).converged());
+    EXPECT_EQ(time.motion().displacement, end);
+    EXPECT_LT((time.motion().velocity - 2.0 / 0.1 * end).norm(), 1e-13);  // from rest: the mean velocity doubled
+}
+
+// Nothing holds it and nothing pulls: it goes on as it is.
+TEST_F(Stepper, AnUnheldBodyFliesOn)
+{
+    TimeStepper time = stepper({}, Held::nowhere);
+    Eigen::VectorXd velocity(space.dofs());
+    for (int node = 0; node < space.nodes(); ++node) velocity.segment<3>(3 * node) = pbs::Vec3(1.0, 2.0, -3.0);
+    time.start(Eigen::VectorXd::Zero(space.dofs()), velocity);
+    for (int k = 0; k < 10; ++k) ASSERT_TRUE(step(time, 0.1).converged());
+    EXPECT_LT((time.motion().displacement - velocity).norm(), 1e-12);
+}
+
+// M a = -grad Pi - C v at the start; one short step later the velocity has changed by h a.
+TEST_F(Stepper, TheFirstAccelerationFollowsFromTheBalanceOfForces)
+{
+    const double density = 10.0, a = 2.0, b = 0.05, h = 1e-7;
+    TimeStepper time = stepper({.density_kg_m3 = density, .rayleigh_mass_1_s = a, .rayleigh_stiffness_s = b});
+    Eigen::VectorXd velocity = Eigen::VectorXd::LinSpaced(space.dofs(), -1.0, 1.0);
+    for (Eigen::Index i = 0; i < velocity.size(); ++i) velocity(i) *= !fixed[i];
+    time.start(pulled(), velocity);
+    ASSERT_TRUE(step(time, h, {}, {.relative_tolerance = 1e-13}).converged());
+    Eigen::VectorXd balance = time.mass().times((time.motion().velocity - velocity) / h) + a * time.mass().times(velocity) +
+                              b * (rest_stiffness(space, flesh).matrix() * velocity);
+    flesh.add_gradient(pulled(), balance);
+    for (Eigen::Index i = 0; i < balance.size(); ++i)
+        if (fixed[i]) balance(i) = 0.0;
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(space.dofs());
+    flesh.add_gradient(pulled(), force);
+    EXPECT_LT(balance.norm(), 1e-3 * force.norm());  // h times the rate of change, some (c / cell)^2 h with c = 10 m/s, and rounding / h
+}
+
+void expect_same(const Motion& a, const Motion& b)
+{
+    EXPECT_EQ(a.displacement, b.displacement);
+    EXPECT_EQ(a.velocity, b.velocity);
+    EXPECT_EQ(a.acceleration, b.acceleration);
+}
+
+// The end asks for what is not a number: parts of the step are reached, and given up again with it.
+TEST_F(Stepper, OfAStepThatFailsNothingIsKept)
+{
+    TimeStepper time = stepper({.density_kg_m3 = 10.0});
+    time.start(pulled());
+    ASSERT_TRUE(step(time, 0.01).converged());
+    const Motion before = time.motion();
+    const Eigen::VectorXd end = Eigen::VectorXd::Constant(space.dofs(), std::nan(""));
+    const MovingData data{[&](double fraction) -> Eigen::VectorXd { return fraction < 1.0 ? before.displacement : end; }, {}};
+    const LoadPathSummary failed = step(time, 0.01, data);
+    EXPECT_FALSE(failed.converged());
+    EXPECT_GT(failed.reached, 0.9);
+    expect_same(time.motion(), before);
+}
+
+TEST_F(Stepper, AFailureLeavesNoTraceInWhatFollows)
+{
+    TimeStepper plain = stepper({.density_kg_m3 = 10.0});
+    plain.start(pulled());
+    for (int k = 0; k < 3; ++k) ASSERT_TRUE(step(plain, 0.01).converged());
+    const Motion expected = plain.motion();
+
+    TimeStepper time = stepper({.density_kg_m3 = 10.0});
+    time.start(pulled());
+    for (int k = 0; k < 3; ++k) {
+        ASSERT_FALSE(step(time, 0.02, {}, {.iterations = 0}).converged());
+        ASSERT_TRUE(step(time, 0.01).converged());
+    }
+    expect_same(time.motion(), expected);
+}
+
+// Newton is given one iteration too few for the whole step: it is taken in parts that land on its end.
+TEST_F(Stepper, AStepThatFailsIsTakenInParts)
+{
+    TimeStepper time = stepper({.density_kg_m3 = 10.0});
+    time.start(3.0 * pulled());
+    const NewtonOptions stingy{.iterations = 3};
+    const LoadPathSummary path = step(time, 0.1, {}, stingy);
+    ASSERT_TRUE(path.converged());
+    EXPECT_GT(path.halvings(), 0);
+    EXPECT_EQ(path.steps.back().fraction, 1.0);
+}
+
+// A stretched bar under its own elasticity, damped by each part alone, ends up where it is at rest.
+TEST_F(Stepper, DampingBringsTheBarToRest)
+{
+    for (const auto& [mass, stiffness] : {std::pair(2.0, 0.0), std::pair(0.0, 0.2)}) {
+        TimeStepper time = stepper({.density_kg_m3 = 10.0, .rayleigh_mass_1_s = mass, .rayleigh_stiffness_s = stiffness});
+        time.start(pulled());
+        double before = flesh.value(pulled());
+        for (int k = 0; k < 300; ++k) ASSERT_TRUE(step(time, 0.03).converged());
+        EXPECT_LT(flesh.value(time.motion().displacement) + time.kinetic_energy_j(), 1e-3 * before);
+    }
+}
+
+}  // namespace
