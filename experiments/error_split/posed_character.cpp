@@ -1,0 +1,58 @@
+#include "experiments/error_split/posed_character.hpp"
+
+#include "experiments/cases/motion_case.hpp"
+#include "experiments/frame_measurement.hpp"
+#include "experiments/interruption.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/meshing.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace experiments {
+
+PosedCharacter::PosedCharacter(const Scene& scene, const std::vector<int>& frames)
+    : character_(pbs::make_character(scene.character)),
+      time_step_s_(scene.motion.time_step_s),
+      ruler_(error_domain(character_, {})),
+      boundary_(pbs::boundary_of(character_.mesh.tets))
+{
+    const pbs::Motion motion = make_motion(scene.motion, character_.skeleton, scene.file);
+    for (const int frame : frames) {
+        poses_.push_back(motion.steps.at(static_cast<std::size_t>(frame) * motion.steps_per_frame));
+        angles_deg_.push_back(motion.angle_deg.empty() ? std::numeric_limits<double>::quiet_NaN() : motion.angle_deg[frame]);
+    }
+}
+
+Shapes PosedCharacter::shapes(const DeformerSpec& spec) const
+{
+    const std::unique_ptr<Deformer> deformer = make_deformer(spec);
+    deformer->reset(character_);
+    Shapes shapes;
+    for (const pbs::Pose& pose : poses_) {
+        stop_if_interrupted();
+        const pbs::StepSummary step = deformer->advance(pose, time_step_s_);
+        const bool finished = step.outcome == pbs::Outcome::finished;
+        shapes.push_back(
+            {deformer->positions(), finished, finished && pbs::self_intersects(deformer->positions(), boundary_), step.seconds});
+    }
+    return shapes;
+}
+
+analysis::ErrorNorms PosedCharacter::distance(const Shape& one, const Shape& other) const
+{
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    if (!one.finished || !other.finished) return {nothing, nothing, nothing};
+    const Eigen::Index vertices = character_.mesh.rest.rows();
+    return ruler_.measure(one.positions.topRows(vertices), other.positions.topRows(vertices));
+}
+
+const DeformerSpec& spec_of(const Scene& scene, const std::string& name)
+{
+    const auto found = std::find_if(scene.deformers.begin(), scene.deformers.end(), [&](const auto& spec) { return spec.name == name; });
+    if (found == scene.deformers.end()) throw pbs::InputError(scene.file, 0, "deformers.use", name, "expected this deformer in the scene");
+    return *found;
+}
+
+}  // namespace experiments
