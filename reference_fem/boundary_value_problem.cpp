@@ -1,6 +1,7 @@
 #include "reference_fem/boundary_value_problem.hpp"
 
 #include "reference_fem/eliminated_system.hpp"
+#include "reference_fem/linear_flesh.hpp"
 
 #include "pbs/geometry/topology.hpp"
 
@@ -69,12 +70,19 @@ int nearest(const Eigen::Ref<const pbs::Positions>& points, const pbs::Vec3& poi
 BoundaryValueSolution solve(const pbs::TetMesh& mesh, const ElasticMaterial& material, const BoundaryValueProblem& problem)
 {
     const auto space = std::make_shared<const SimplexSpace>(mesh, problem.element_order);
-    const SparseMatrix stiffness = stiffness_matrix(*space, lame_parameters(material.young_pa, material.poisson));
+    const LinearFlesh flesh(*space, lame_parameters(material.young_pa, material.poisson), problem.formulation);
+    const SparseMatrix stiffness = flesh.stiffness();
     const PrescribedData prescribed = prescribed_data(*space, problem);
     const Eigen::VectorXd load = external_load(*space, problem);
-    const EliminatedSystem system(stiffness, prescribed.held, problem.solver);
-    const EliminatedSolution solution = system.solve(load, prescribed.values);
-    return {space, solution.displacement, solution.residual, load, prescribed.held};
+    const EliminatedSystem system(stiffness, flesh.prescribed(prescribed.held), flesh.solver(problem.solver));
+    const EliminatedSolution solution = system.solve(flesh.on_unknowns(load), flesh.on_unknowns(prescribed.values));
+    return {space,
+            flesh.displacement(solution.displacement),
+            solution.residual,
+            load,
+            prescribed.held,
+            problem.formulation,
+            flesh.pressure_pa(solution.displacement)};
 }
 
 ErrorNorms BoundaryValueSolution::errors(const VectorField& exact, const GradientField& exact_gradient) const
@@ -92,7 +100,8 @@ double BoundaryValueSolution::largest_nodal_error(const VectorField& exact) cons
 
 double BoundaryValueSolution::strain_energy_j(const ElasticMaterial& material) const
 {
-    return strain_energy(*space, lame_parameters(material.young_pa, material.poisson), displacement);
+    const LinearFlesh flesh(*space, lame_parameters(material.young_pa, material.poisson), formulation);
+    return flesh.strain_energy_j(displacement, pressure_pa);
 }
 
 pbs::Vec3 BoundaryValueSolution::displacement_at(const pbs::Vec3& point) const
@@ -103,10 +112,12 @@ pbs::Vec3 BoundaryValueSolution::displacement_at(const pbs::Vec3& point) const
 Eigen::Matrix3d BoundaryValueSolution::stress_at(const pbs::Vec3& point, const ElasticMaterial& material) const
 {
     const int vertices = space->tet_nodes().leftCols(4).maxCoeff() + 1;
-    const Eigen::Matrix3d gradient = gradient_at_vertex(*space, displacement, nearest(space->node_positions().topRows(vertices), point));
+    const int vertex = nearest(space->node_positions().topRows(vertices), point);
+    const Eigen::Matrix3d gradient = gradient_at_vertex(*space, displacement, vertex);
     const Eigen::Matrix3d strain = (gradient + gradient.transpose()) / 2.0;
     const Lame lame = lame_parameters(material.young_pa, material.poisson);
-    return lame.lambda_pa * strain.trace() * Eigen::Matrix3d::Identity() + 2.0 * lame.mu_pa * strain;
+    const double pressure = LinearFlesh(*space, lame, formulation).pressure_at_vertex_pa(displacement, pressure_pa, vertex);
+    return pressure * Eigen::Matrix3d::Identity() + 2.0 * lame.mu_pa * strain;
 }
 
 }  // namespace reference_fem

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "reference_fem/assembly.hpp"
+#include "reference_fem/formulation.hpp"
 #include "reference_fem/prepared_solver.hpp"
 
 #include <vector>
@@ -26,12 +27,13 @@ struct Held {
 };
 
 struct BoundaryValueProblem {
-    VectorField body_force = {};                           // [N/m^3]; empty: none
-    VectorField displacement = {};                         // [m], where it is held; empty: zero
+    VectorField body_force = {};                      // [N/m^3]; empty: none
+    VectorField displacement = {};                    // [m], where it is held; empty: zero
     std::function<Held(const pbs::Vec3&)> held = {};  // of the boundary nodes; empty: all are
     int element_order = 2;
     LinearSolver solver = LinearSolver::cholmod;
     std::vector<Traction> tractions = {};  // elsewhere the boundary is free
+    Formulation formulation = Formulation::displacement;
 };
 
 struct BoundaryValueSolution {
@@ -40,6 +42,8 @@ struct BoundaryValueSolution {
     double residual = 0.0;
     Eigen::VectorXd load;    // of body force and tractions [N], #dofs
     std::vector<bool> held;  // #dofs
+    Formulation formulation = Formulation::displacement;
+    Eigen::VectorXd pressure_pa = {};  // lambda div u at the vertices, #V, with taylor_hood, else empty
 
     ErrorNorms errors(const VectorField& exact, const GradientField& exact_gradient) const;
     double largest_nodal_error(const VectorField& exact) const;  // [m]

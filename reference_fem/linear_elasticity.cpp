@@ -1,9 +1,9 @@
 #include "reference_fem/linear_elasticity.hpp"
 
-#include "reference_fem/assembly.hpp"
 #include "reference_fem/eliminated_system.hpp"
 #include "reference_fem/held_space.hpp"
 #include "reference_fem/input_checks.hpp"
+#include "reference_fem/linear_flesh.hpp"
 #include "reference_fem/near_null_space.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
@@ -13,19 +13,21 @@ class LinearElasticity::Implementation {
 public:
     Implementation(const pbs::TetMesh& mesh, const LinearOptions& options, const Attachment& attachment)
         : options_(options),
-          material_(lame_parameters(options.young_pa, options.poisson)),
           held_(mesh, options.element_order, options.density_kg_m3, attachment),
+          flesh_(held_.space(), lame_parameters(options.young_pa, options.poisson), options.formulation, attachment.prescribed_tets),
           positions_(mesh.rest),
-          displacement_(Eigen::VectorXd::Zero(held_.space().dofs()))
+          displacement_(Eigen::VectorXd::Zero(held_.space().dofs())),
+          pressure_pa_(Eigen::VectorXd::Zero(flesh_.pressures()))
     {
         const pbs::Stopwatch assembly;
-        SparseMatrix stiffness = stiffness_matrix(held_.space(), material_);
+        SparseMatrix stiffness = flesh_.stiffness();
         held_.springs().add_to(stiffness);
         const double assemble_s = assembly.seconds();
         system_ = std::make_unique<EliminatedSystem>(
-            stiffness, held_.prescribed(), options.solver,
+            stiffness, flesh_.prescribed(held_.prescribed()), flesh_.solver(options.solver),
             options.solver == LinearSolver::cg_ml ? rigid_body_modes(held_.space().node_positions()) : Eigen::MatrixXd());
         setup_ = held_.summary(&system_->factor(), assemble_s);
+        setup_.dofs = flesh_.unknowns();
     }
 
     SolveSummary solve(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets, const pbs::Vec3& gravity_m_s2)
@@ -34,17 +36,20 @@ public:
         const pbs::Stopwatch stopwatch;
         Eigen::VectorXd load = held_.gravity_load(gravity_m_s2);
         held_.springs().add_load(spring_targets, load);
-        const EliminatedSolution solution = system_->solve(load, held_.prescribed_values(vertex_targets));
-        displacement_ = solution.displacement;
+        const EliminatedSolution solution =
+            system_->solve(flesh_.on_unknowns(load), flesh_.on_unknowns(held_.prescribed_values(vertex_targets)));
+        displacement_ = flesh_.displacement(solution.displacement);
+        pressure_pa_ = flesh_.pressure_pa(solution.displacement);
         positions_ = held_.vertices(displacement_);
         return {stopwatch.seconds(), solution.residual, displacement_.allFinite(), system_->factor().iterations()};
     }
 
     LinearOptions options_;
-    Lame material_;
     HeldSpace held_;
+    LinearFlesh flesh_;
     pbs::Positions positions_;
     Eigen::VectorXd displacement_;  // [m], #dofs
+    Eigen::VectorXd pressure_pa_;   // #V, with taylor_hood
     std::unique_ptr<EliminatedSystem> system_;
     SetupSummary setup_;
 };
@@ -80,6 +85,11 @@ const Eigen::VectorXd& LinearElasticity::displacement() const
     return implementation_->displacement_;
 }
 
+const Eigen::VectorXd& LinearElasticity::pressure_pa() const
+{
+    return implementation_->pressure_pa_;
+}
+
 pbs::Positions LinearElasticity::spring_points_deformed() const
 {
     return implementation_->held_.springs().moved(implementation_->displacement_);
@@ -87,7 +97,7 @@ pbs::Positions LinearElasticity::spring_points_deformed() const
 
 double LinearElasticity::strain_energy_j() const
 {
-    return strain_energy(implementation_->held_.space(), implementation_->material_, implementation_->displacement_);
+    return implementation_->flesh_.strain_energy_j(implementation_->displacement_, implementation_->pressure_pa_);
 }
 
 std::vector<bool> LinearElasticity::prescribed_vertices() const

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "reference_fem/attachment.hpp"
+#include "reference_fem/formulation.hpp"
 #include "reference_fem/linear_solver.hpp"
 
 #include <memory>
@@ -19,7 +20,8 @@ struct LinearOptions {
     double poisson = 0.45;
     double density_kg_m3 = 1000.0;
     pbs::Vec3 gravity_m_s2 = pbs::Vec3::Zero();
-    LinearSolver solver = LinearSolver::cholmod;
+    LinearSolver solver = LinearSolver::cholmod;  // taylor_hood: UMFPACK for either direct solver
+    Formulation formulation = Formulation::displacement;
 };
 
 struct SolveSummary {
@@ -42,6 +44,7 @@ public:
 
     const pbs::Positions& positions() const;        // deformed vertices [m], #V x 3
     const Eigen::VectorXd& displacement() const;    // of every node of the space [m], #dofs: vertices, then the middles of edges
+    const Eigen::VectorXd& pressure_pa() const;     // lambda div u at the vertices, #V, with taylor_hood, else empty
     pbs::Positions spring_points_deformed() const;  // where the tied points went [m], #S x 3: targets minus this is the grip error
     double strain_energy_j() const;                 // of the flesh alone, without the springs
     std::vector<bool> prescribed_vertices() const;  // #V

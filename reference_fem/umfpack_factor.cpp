@@ -13,8 +13,12 @@ class UmfpackFactor : public PreparedSolver {
 public:
     explicit UmfpackFactor(const SparseMatrix& matrix) : matrix_(matrix)
     {
+        umfpack_dl_defaults(control_);
+        control_[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
+        control_[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;  // half the fill and time of AMD on P2
+        control_[UMFPACK_IRSTEP] = 0;                         // refinement took thrice the time for half the residual
         const pbs::Stopwatch analysis;
-        umfpack_dl_symbolic(matrix.rows(), matrix.cols(), columns(), rows(), matrix.valuePtr(), &symbolic_, nullptr, nullptr);
+        umfpack_dl_symbolic(matrix.rows(), matrix.cols(), columns(), rows(), matrix.valuePtr(), &symbolic_, control_, nullptr);
         analyse_s_ = analysis.seconds();
         refactor();
     }
@@ -26,7 +30,7 @@ public:
         if (numeric_) umfpack_dl_free_numeric(&numeric_);
         double info[UMFPACK_INFO] = {};
         const pbs::Stopwatch factorisation;
-        const auto status = umfpack_dl_numeric(columns(), rows(), matrix_.valuePtr(), symbolic_, &numeric_, nullptr, info);
+        const auto status = umfpack_dl_numeric(columns(), rows(), matrix_.valuePtr(), symbolic_, &numeric_, control_, info);
         factor_s_ = factorisation.seconds();
         reciprocal_condition_ = info[UMFPACK_RCOND];
         usable_ = status == UMFPACK_OK && reciprocal_condition_ > std::numeric_limits<double>::epsilon();
@@ -45,7 +49,7 @@ public:
     {
         Eigen::VectorXd solution(right_hand_side.size());
         const auto status = umfpack_dl_solve(UMFPACK_A, columns(), rows(), matrix_.valuePtr(), solution.data(), right_hand_side.data(),
-                                             numeric_, nullptr, nullptr);
+                                             numeric_, control_, nullptr);
         if (status != UMFPACK_OK) solution.setConstant(std::numeric_limits<double>::quiet_NaN());
         return solution;
     }
@@ -57,6 +61,7 @@ private:
     const SuiteSparse_long* rows() const { return matrix_.innerIndexPtr(); }
 
     const SparseMatrix& matrix_;
+    double control_[UMFPACK_CONTROL] = {};
     void *symbolic_ = nullptr, *numeric_ = nullptr;
 };
 

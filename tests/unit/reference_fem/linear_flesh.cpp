@@ -1,0 +1,121 @@
+// Truth: by hand, from the weak forms in the header. That the formulations solve rightly is shown under verification.
+#include "reference_fem/linear_flesh.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "reference_fem/assembly.hpp"
+#include "tests/verification/reference_fem/jittered_cube.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace reference_fem;
+
+const pbs::TetMesh cube = test_support::jittered_cube(2);
+const Lame lame{300.0, 100.0};
+
+// u = (2 x + y, -y + 3 z, 4 z - x) [m]: div u = 5, |eps|^2 = 2^2 + 1^2 + 4^2 + 2 ((1/2)^2 + (1/2)^2 + (3/2)^2) = 26.5.
+Eigen::VectorXd affine(const SimplexSpace& space)
+{
+    Eigen::Matrix3d gradient;
+    gradient << 2, 1, 0, 0, -1, 3, -1, 0, 4;
+    const pbs::Positions values = space.node_positions() * gradient.transpose();
+    return Eigen::Map<const Eigen::VectorXd>(values.data(), values.size());
+}
+const double affine_energy_j = lame.lambda_pa / 2.0 * 25.0 + lame.mu_pa * 26.5;
+
+std::vector<int> all_tets_but_the_last()
+{
+    std::vector<int> tets(cube.tets.rows() - 1);
+    for (std::size_t t = 0; t < tets.size(); ++t) tets[t] = static_cast<int>(t);
+    return tets;
+}
+
+class EveryFormulation : public testing::TestWithParam<Formulation> {};
+
+TEST_P(EveryFormulation, AffineDisplacementsHaveTheEnergyByHand)
+{
+    const SimplexSpace space(cube, 2);
+    for (const auto& held : {std::vector<int>{}, all_tets_but_the_last()}) {
+        const LinearFlesh flesh(space, lame, GetParam(), held);
+        const Eigen::VectorXd pressure = Eigen::VectorXd::Constant(flesh.pressures(), 5.0 * lame.lambda_pa);
+        EXPECT_NEAR(flesh.strain_energy_j(affine(space), pressure), affine_energy_j, 1e-12 * affine_energy_j);
+    }
+}
+
+// u K u / 2 is the energy where the pressure is lambda div u, for then the row of every q holds.
+TEST_P(EveryFormulation, TheMatrixHasTheEnergyOfAffineDisplacements)
+{
+    const SimplexSpace space(cube, 2);
+    const LinearFlesh flesh(space, lame, GetParam());
+    Eigen::VectorXd unknowns = flesh.on_unknowns(affine(space));
+    unknowns.tail(flesh.pressures()).setConstant(5.0 * lame.lambda_pa / flesh.pressure_unit_pa());
+    const SparseMatrix stiffness = flesh.stiffness();
+    ASSERT_EQ(stiffness.rows(), flesh.unknowns());
+    EXPECT_NEAR(unknowns.dot(stiffness * unknowns) / 2.0, affine_energy_j, 1e-11 * affine_energy_j);
+    EXPECT_LT((stiffness * unknowns).tail(flesh.pressures()).norm(), 1e-12 * (stiffness * unknowns).norm());
+    const SparseMatrix transposed = stiffness.transpose();
+    EXPECT_LT((stiffness - transposed).norm(), 1e-14 * stiffness.norm());
+}
+
+TEST_P(EveryFormulation, PressureAtAVertexIsLambdaTimesTheDilatation)
+{
+    const SimplexSpace space(cube, 2);
+    const LinearFlesh flesh(space, lame, GetParam());
+    const Eigen::VectorXd pressure = Eigen::VectorXd::Constant(flesh.pressures(), 5.0 * lame.lambda_pa);
+    for (const int vertex : {0, 13, 26}) EXPECT_NEAR(flesh.pressure_at_vertex_pa(affine(space), pressure, vertex), 1500.0, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formulations, EveryFormulation,
+                         testing::Values(Formulation::displacement, Formulation::mean_dilatation, Formulation::taylor_hood));
+
+// u = (x^2, 0, 0) on the unit tet: div u = 2 x, of mean 1/2; the mean of x^2 is 1/10.
+TEST(LinearFlesh, MeanDilatationTakesEachTetsMean)
+{
+    pbs::TetMesh tet{pbs::Positions::Zero(4, 3), pbs::Tets(1, 4)};
+    tet.rest.bottomRows(3).setIdentity();
+    tet.tets << 0, 1, 2, 3;
+    const SimplexSpace space(tet, 2);
+    Eigen::VectorXd displacement = Eigen::VectorXd::Zero(space.dofs());
+    for (int node = 0; node < space.nodes(); ++node) displacement(3 * node) = std::pow(space.node_positions()(node, 0), 2);
+    const LinearFlesh mean(space, lame, Formulation::mean_dilatation), pointwise(space, lame, Formulation::displacement);
+    EXPECT_NEAR(mean.pressure_at_vertex_pa(displacement, {}, 1), lame.lambda_pa * 0.5, 1e-10);
+    EXPECT_NEAR(pointwise.pressure_at_vertex_pa(displacement, {}, 1), lame.lambda_pa * 2.0, 1e-10);
+    // 2 mu eps:eps / 2 integrates to mu * 4 * V / 10; the volume terms to lambda / 2 * V (1/2)^2 and lambda / 2 * 4 * V / 10.
+    const double volume = 1.0 / 6.0, shear = lame.mu_pa * 0.4 * volume;
+    EXPECT_NEAR(mean.strain_energy_j(displacement, {}), shear + lame.lambda_pa / 2.0 * 0.25 * volume, 1e-12);
+    EXPECT_NEAR(pointwise.strain_energy_j(displacement, {}), shear + lame.lambda_pa / 2.0 * 0.4 * volume, 1e-12);
+}
+
+TEST(LinearFlesh, PressuresThatOnlyHeldTetsHaveAreNotSolvedFor)
+{
+    const SimplexSpace space(cube, 2);
+    const LinearFlesh flesh(space, lame, Formulation::taylor_hood, all_tets_but_the_last());
+    const std::vector<bool> prescribed = flesh.prescribed(std::vector<bool>(space.dofs(), false));
+    const auto last = cube.tets.bottomRows<1>();
+    for (int v = 0; v < cube.rest.rows(); ++v) EXPECT_EQ(!prescribed[space.dofs() + v], (last.array() == v).any());
+}
+
+TEST(LinearFlesh, PressureComesBackInPascals)
+{
+    const SimplexSpace space(cube, 2);
+    const LinearFlesh flesh(space, lame, Formulation::taylor_hood);
+    Eigen::VectorXd unknowns = flesh.on_unknowns(affine(space));
+    EXPECT_EQ(flesh.displacement(unknowns), affine(space));
+    EXPECT_EQ(flesh.pressure_pa(unknowns), Eigen::VectorXd::Zero(cube.rest.rows()));
+    unknowns(space.dofs() + 4) = 2.0;
+    EXPECT_EQ(flesh.pressure_pa(unknowns)(4), 2.0 * flesh.pressure_unit_pa());
+}
+
+TEST(LinearFlesh, TaylorHoodRefusesWhatItCannot)
+{
+    const SimplexSpace linear(cube, 1), quadratic(cube, 2);
+    EXPECT_THROW(LinearFlesh(linear, lame, Formulation::taylor_hood), pbs::InputError);
+    EXPECT_THROW(LinearFlesh(quadratic, {0.0, 100.0}, Formulation::taylor_hood), pbs::InputError);
+    const LinearFlesh flesh(quadratic, lame, Formulation::taylor_hood);
+    EXPECT_THROW(flesh.solver(LinearSolver::cg_ml), pbs::InputError);
+    EXPECT_EQ(flesh.solver(LinearSolver::cholmod), LinearSolver::umfpack);
+    EXPECT_EQ(LinearFlesh(linear, lame, Formulation::mean_dilatation).solver(LinearSolver::cg_ml), LinearSolver::cg_ml);
+}
+
+}  // namespace

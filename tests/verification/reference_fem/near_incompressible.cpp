@@ -1,0 +1,226 @@
+// Near incompressibility, nu up to 0.49999, in the forms that are made for it; P1, which locks, is the negative control.
+#include "reference_fem/boundary_value_problem.hpp"
+#include "reference_fem/linear_flesh.hpp"
+
+#include "tests/verification/reference_fem/jittered_cube.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SparseCholesky>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace {
+
+using namespace reference_fem;
+using pbs::Vec3;
+
+struct Element {
+    int order;
+    Formulation formulation;
+};
+const Element taylor_hood{2, Formulation::taylor_hood}, mean_dilatation{2, Formulation::mean_dilatation},
+    linear{1, Formulation::displacement};
+
+// Manufactured: u = w + grad(phi) / lambda with w_i = sin(a_i . x + phase_i), a_ii = 0, so that div w = 0, and laplace(phi) = p =
+// sin(b . x + c). Then lambda div u = p whatever lambda is, and f = -(1 + mu / lambda) grad p - mu laplace(u).
+class KnownPressure {
+public:
+    explicit KnownPressure(const ElasticMaterial& material) : lame_(lame_parameters(material.young_pa, material.poisson))
+    {
+        a_ << 0, 0.9, -1.6, -0.8, 0, 1.1, 1.5, -1.2, 0;
+    }
+
+    double pressure(const Vec3& x) const { return std::sin(b_.dot(x) + 0.2); }
+    Vec3 displacement(const Vec3& x) const { return Vec3(angles(x).array().sin()) - pressure_gradient(x) / scale(); }
+    Eigen::Matrix3d gradient(const Vec3& x) const
+    {
+        const Eigen::Matrix3d of_w = Vec3(angles(x).array().cos()).asDiagonal() * a_;
+        return of_w + pressure(x) / scale() * b_ * b_.transpose();
+    }
+    Vec3 body_force(const Vec3& x) const
+    {
+        const Vec3 laplacian =
+            -a_.rowwise().squaredNorm().cwiseProduct(Vec3(angles(x).array().sin())) + pressure_gradient(x) / lame_.lambda_pa;
+        return -(1.0 + lame_.mu_pa / lame_.lambda_pa) * pressure_gradient(x) - lame_.mu_pa * laplacian;
+    }
+
+private:
+    Vec3 angles(const Vec3& x) const { return a_ * x + Vec3(0.3, 1.1, -0.4); }
+    Vec3 pressure_gradient(const Vec3& x) const { return b_ * std::cos(b_.dot(x) + 0.2); }
+    double scale() const { return b_.squaredNorm() * lame_.lambda_pa; }
+
+    Lame lame_;
+    Eigen::Matrix3d a_;
+    Vec3 b_{1.3, -0.9, 0.7};
+};
+
+struct Errors {
+    double l2, h1, pressure;
+};
+
+Errors errors_on(int cells, const ElasticMaterial& material, const Element& element)
+{
+    const KnownPressure exact(material);
+    const auto u = [&](const Vec3& x) { return exact.displacement(x); };
+    const pbs::TetMesh mesh = test_support::jittered_cube(cells);
+    const BoundaryValueSolution solution = solve(mesh, material,
+                                                 {.body_force = [&](const Vec3& x) { return exact.body_force(x); },
+                                                  .displacement = u,
+                                                  .element_order = element.order,
+                                                  .formulation = element.formulation});
+    const ErrorNorms norms = solution.errors(u, [&](const Vec3& x) { return exact.gradient(x); });
+    Eigen::VectorXd defect = solution.pressure_pa;
+    for (Eigen::Index v = 0; v < defect.size(); ++v) defect(v) -= exact.pressure(mesh.rest.row(v));
+    const double pressure = defect.size() == 0 ? 0.0 : std::sqrt(defect.dot(mass_matrix(SimplexSpace(mesh, 1), 1.0) * defect));
+    return {norms.l2, norms.h1_seminorm, pressure};
+}
+
+double order(double coarse, double fine)
+{
+    return std::log2(coarse / fine);
+}
+
+// Truth: theory. Taylor-Hood's error is that of the best approximation of u by P2 and of p by P1, whatever lambda is: order 3 in L2, 2 in
+// H1 and in the pressure (D. Boffi, F. Brezzi, M. Fortin, Mixed finite element methods and applications, Springer 2013, section 8.8;
+// D. Boffi, SIAM J. Numer. Anal. 34, 1997). Tolerance: on jittered meshes the constants of two differ by a few percent, 0.05 in the order.
+// The pressure's error is taken against its interpolation, which differs from it by that order too.
+TEST(NearIncompressible, TaylorHoodKeepsItsOrders)
+{
+    const ElasticMaterial material{1.0, 0.4999};
+    const Errors coarse = errors_on(4, material, taylor_hood), fine = errors_on(8, material, taylor_hood);
+    EXPECT_NEAR(order(coarse.l2, fine.l2), 3.0, 0.1);
+    EXPECT_NEAR(order(coarse.h1, fine.h1), 2.0, 0.1);
+    EXPECT_NEAR(order(coarse.pressure, fine.pressure), 2.0, 0.1);
+}
+
+// Truth: theory, as above: constant pressures approximate with order 1, and so H1 has order 1 and L2 order 2. These meshes are coarse for
+// that: with an error C h^p (1 + c h + ...) an observed order is p - c' h, so that two of them, on meshes twice as fine, extrapolate to
+// p + O(h^2).
+TEST(NearIncompressible, MeanDilatationOfQuadraticTetsHasOrdersTwoAndOne)
+{
+    const ElasticMaterial material{1.0, 0.4999};
+    Errors errors[3];
+    for (int level = 0; level < 3; ++level) errors[level] = errors_on(2 << level, material, mean_dilatation);
+    const double l2[] = {order(errors[0].l2, errors[1].l2), order(errors[1].l2, errors[2].l2)};
+    const double h1[] = {order(errors[0].h1, errors[1].h1), order(errors[1].h1, errors[2].h1)};
+    EXPECT_NEAR(2.0 * l2[1] - l2[0], 2.0, 0.1);
+    EXPECT_NEAR(2.0 * h1[1] - h1[0], 1.0, 0.1);
+}
+
+// Truth: theory, in the patch test's words: an affine displacement and its constant pressure are in the spaces. Tolerance: rounding of a
+// direct solve, sqrt(n) eps cond of this very matrix (Higham 2002, Theorem 9.4 with a growth of 1), by eigenvalues. LDL^T without
+// pivoting, which a quasi-definite matrix has in every order, is the second opinion on the same matrix.
+TEST(NearIncompressible, TaylorHoodPassesThePatchTest)
+{
+    const ElasticMaterial material{1.0, 0.4999};
+    const Lame lame = lame_parameters(material.young_pa, material.poisson);
+    Eigen::Matrix3d gradient;
+    gradient << 0.02, -0.03, 0.04, 0.06, 0.02, 0.02, -0.02, 0.05, -0.04 + 1e-5;
+    const double pressure_pa = 1e-5 * lame.lambda_pa;
+    const auto affine = [&](const Vec3& x) -> Vec3 { return gradient * x; };
+    const pbs::TetMesh mesh = test_support::jittered_cube(3, 0.45);
+    const BoundaryValueSolution solution = solve(mesh, material, {.displacement = affine, .formulation = Formulation::taylor_hood});
+
+    const LinearFlesh flesh(*solution.space, lame, Formulation::taylor_hood);
+    const SparseMatrix stiffness = flesh.stiffness();
+    const std::vector<bool> prescribed = flesh.prescribed(solution.held);
+    std::vector<int> free, held;
+    for (int i = 0; i < flesh.unknowns(); ++i) (prescribed[i] ? held : free).push_back(i);
+    const Eigen::MatrixXd dense = stiffness;
+    const Eigen::MatrixXd inner = dense(free, free);
+    const Eigen::ArrayXd eigenvalues =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(inner, Eigen::EigenvaluesOnly).eigenvalues().array().abs();
+    const double bound =
+        std::sqrt(double(free.size())) * std::numeric_limits<double>::epsilon() * eigenvalues.maxCoeff() / eigenvalues.minCoeff();
+    ASSERT_LT(bound, 1e-9) << "a bound that would let an error of a percent pass proves nothing";
+
+    Eigen::VectorXd exact = flesh.on_unknowns(solution.displacement);
+    for (int node = 0; node < solution.space->nodes(); ++node)
+        exact.segment<3>(3 * node) = affine(solution.space->node_positions().row(node));
+    exact.tail(flesh.pressures()).setConstant(pressure_pa / flesh.pressure_unit_pa());
+    const double size = exact(free).norm();
+    Eigen::VectorXd ours = flesh.on_unknowns(solution.displacement);
+    ours.tail(flesh.pressures()) = solution.pressure_pa / flesh.pressure_unit_pa();
+    EXPECT_LT((ours - exact)(free).norm(), bound * size);
+
+    const Eigen::SparseMatrix<double> inner_sparse = inner.sparseView();
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> without_pivoting(inner_sparse);
+    const Eigen::VectorXd second = without_pivoting.solve(-dense(free, held) * exact(held));
+    EXPECT_LT((second - exact(free)).norm(), bound * size);
+}
+
+// A cantilever, L = 10 m, h = 1 m, clamped whole at one end, 1 N of shear traction at the other: mean deflection of the loaded face.
+struct Beam {
+    static constexpr double length_m = 10.0, young_pa = 1e5;
+
+    static double deflection_m(const Element& element, double nu, int cells)
+    {
+        const BoundaryValueSolution solution =
+            solve(test_support::structured_bar({0, 0, 0}, {length_m, 1, 1}, {8 * cells, cells, cells}), {young_pa, nu},
+                  {.held = [](const Vec3& x) { return x.x() < 1e-9; },
+                   .element_order = element.order,
+                   .tractions = {{[](const Vec3& centre) { return centre.x() > length_m - 1e-9; },
+                                  [](const Vec3&, const Vec3&) -> Vec3 {
+                                      return {0, 0, -1};
+                                  }}},
+                   .formulation = element.formulation});
+        return solution.work_of_load_j();
+    }
+    static double bending_m() { return 12.0 * length_m * length_m * length_m / (3.0 * young_pa); }
+    static double shear_m(double nu) { return length_m * (12.0 + 11.0 * nu) / (10.0 * (1.0 + nu)) * 2.0 * (1.0 + nu) / young_pa; }
+};
+
+// Truth: Timoshenko's beam with Cowper's shear coefficient, J. Appl. Mech. 33, 1966. The solid differs from it within one depth h of its
+// ends (Saint-Venant): the clamp holds the anticlastic curvature, at most 3 nu^2 h / L of the bending, and warping there may be free or
+// held, at most the shear deflection of one depth.
+TEST(NearIncompressible, TheCantileverBendsLikeTheBeamAtEveryPoissonRatio)
+{
+    for (const auto& [element, cells] : {std::pair(taylor_hood, 3), std::pair(mean_dilatation, 4)})
+        for (const double nu : {0.3, 0.4999}) {
+            const double deflection = Beam::deflection_m(element, nu, cells), shear = Beam::shear_m(nu) / Beam::length_m;
+            RecordProperty("over_theory_at_" + std::to_string(nu), std::to_string(deflection / (Beam::bending_m() + Beam::shear_m(nu))));
+            EXPECT_GT(deflection, Beam::bending_m() * (1.0 - 3.0 * nu * nu / Beam::length_m) + Beam::shear_m(nu) - shear) << nu;
+            EXPECT_LT(deflection, Beam::bending_m() + Beam::shear_m(nu) + shear) << nu;
+        }
+}
+
+// The negative control: a constraint on the volume of every tet leaves P1 next to nothing to bend with.
+TEST(NearIncompressible, LinearTetsLock)
+{
+    EXPECT_GT(Beam::deflection_m(linear, 0.3, 3), 0.5 * Beam::bending_m());
+    EXPECT_LT(Beam::deflection_m(linear, 0.4999, 3), 0.1 * Beam::bending_m());
+}
+
+// Truth: theory. The solution is analytic in 1/2 - nu and has the incompressible one for its limit, so what is missing to it falls in
+// proportion: (u(0.4999) - u(0.49999)) / (u(0.49999) - u(0.499999)) = 10 (1 + O(1e-4)). A matrix whose condition grew with lambda would
+// lose these differences, a millionth of u, to rounding: mean dilatation's does.
+TEST(NearIncompressible, TaylorHoodReachesTheIncompressibleLimitInProportion)
+{
+    double at[3];
+    for (int k = 0; k < 3; ++k) at[k] = Beam::deflection_m(taylor_hood, 0.5 - 1e-4 * std::pow(0.1, k), 2);
+    EXPECT_NEAR((at[0] - at[1]) / (at[1] - at[2]), 10.0, 0.05);
+}
+
+// Truth: closed form. A bar on rollers under tension t: stress diag(t, 0, 0), so p = lambda t (1 - 2 nu) / E.
+TEST(NearIncompressible, StressesOfABarUnderTensionAreExactInEveryForm)
+{
+    const ElasticMaterial material{2.0e5, 0.4999};
+    const double tension_pa = 1.0e3;
+    for (const Element& element : {taylor_hood, mean_dilatation, linear}) {
+        const BoundaryValueSolution solution =
+            solve(test_support::jittered_cube(3), material,
+                  {.held = [](const Vec3& x) { return Held(x.x() < 1e-9, x.y() < 1e-9, x.z() < 1e-9); },
+                   .element_order = element.order,
+                   .tractions = {{[](const Vec3& centre) { return centre.x() > 1.0 - 1e-9; },
+                                  [&](const Vec3&, const Vec3& normal) -> Vec3 { return tension_pa * normal; }}},
+                   .formulation = element.formulation});
+        const Eigen::Matrix3d stress = Vec3(tension_pa, 0, 0).asDiagonal();
+        // lambda / mu = 5e3 times the rounding of a strain, some cond(K) eps = 1e-12.
+        EXPECT_LT((solution.stress_at({0.33, 0.33, 0.66}, material) - stress).norm(), 1e-8 * tension_pa);
+        EXPECT_NEAR(solution.strain_energy_j(material), tension_pa * tension_pa / (2.0 * material.young_pa),
+                    1e-8 * solution.work_of_load_j());
+    }
+}
+
+}  // namespace

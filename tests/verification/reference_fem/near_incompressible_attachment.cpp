@@ -1,0 +1,172 @@
+// The forms for near incompressibility under the skeleton's attachment, nu = 0.4999.
+#include "reference_fem/boundary_value_problem.hpp"
+#include "reference_fem/elastic_body.hpp"
+#include "reference_fem/linear_elasticity.hpp"
+
+#include "tests/verification/reference_fem/jittered_cube.hpp"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+namespace {
+
+using namespace reference_fem;
+using pbs::Positions;
+using pbs::Vec3;
+
+constexpr double young_pa = 1e5, poisson = 0.4999, cell_m = 0.25;
+const pbs::TetMesh bar =
+    test_support::jittered(test_support::structured_bar({0, -0.25, -0.25}, {2, 0.25, 0.25}, {8, 2, 2}), Vec3::Constant(cell_m), 0.25);
+
+// Whole tets with every corner at most so far along the bar.
+std::vector<int> tets_up_to(double x)
+{
+    std::vector<int> tets;
+    for (int t = 0; t < bar.tets.rows(); ++t) {
+        const auto corners = bar.tets.row(t);
+        if (std::all_of(corners.begin(), corners.end(), [&](int v) { return bar.rest(v, 0) < x; })) tets.push_back(t);
+    }
+    return tets;
+}
+
+Attachment holding(const std::vector<int>& tets)
+{
+    return {.spring_points = Positions(0, 3), .spring_stiffness = {}, .prescribed_tets = tets, .bind_distance = {}, .bind_stiffness = {}};
+}
+
+LinearOptions options_of(Formulation formulation)
+{
+    return {.young_pa = young_pa, .poisson = poisson, .formulation = formulation};
+}
+
+class Attached : public testing::TestWithParam<Formulation> {};
+
+// Truth: theory. A rotation's linear part x + w x x has no strain and no stress: prescribed at one end, the whole bar follows. Tolerance:
+// rounding, a condition of some 1e4 times eps with room.
+TEST_P(Attached, AnInfinitesimalRotationIsFollowedWithoutStrain)
+{
+    LinearElasticity fem(bar, options_of(GetParam()), holding(tets_up_to(1.3 * cell_m)));
+    const Vec3 axis(0.3, -0.2, 0.5);
+    Positions targets = bar.rest;
+    for (auto point : targets.rowwise()) point += axis.cross(Vec3(point.transpose())).transpose();
+    ASSERT_TRUE(fem.solve(Positions(0, 3), targets).finite);
+    EXPECT_LT((fem.positions() - targets).norm(), 1e-10 * (targets - bar.rest).norm());
+    EXPECT_LT(fem.strain_energy_j(), 1e-18 * young_pa / (1.0 - 2.0 * poisson));
+}
+
+// Truth: equilibrium of forces, exact since translations are in the space: the springs carry the weight.
+TEST_P(Attached, SpringsCarryTheWeight)
+{
+    Positions points(6, 3);
+    points << 0.1, 0, 0, 0.3, 0.1, 0, 0.2, 0, -0.1, 1.9, 0, 0, 1.7, 0.1, 0, 1.8, 0, -0.1;
+    const double k = 1e2 * young_pa * cell_m;
+    Attachment attachment = holding({});
+    attachment.spring_points = points;
+    attachment.spring_stiffness.setConstant(points.rows(), k);
+    LinearOptions options = options_of(GetParam());
+    options.gravity_m_s2 = {1.0, -2.0, -9.81};
+    LinearElasticity fem(bar, options, attachment);
+    ASSERT_TRUE(fem.solve(points, bar.rest).finite);
+    const Vec3 reaction = k * (points - fem.spring_points_deformed()).colwise().sum().transpose();
+    const Vec3 weight = options.density_kg_m3 * 0.5 * options.gravity_m_s2;  // 2 x 0.5 x 0.5 m^3
+    EXPECT_LT((reaction + weight).norm(), 1e-9 * weight.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(Formulations, Attached, testing::Values(Formulation::mean_dilatation, Formulation::taylor_hood));
+
+// Truth: another path to the same minimum, Newton on the potential of the same energy.
+TEST(NearIncompressibleAttachment, MeanDilatationIsThatOfTheElasticBody)
+{
+    const Attachment attachment = holding(tets_up_to(1.3 * cell_m));
+    const Vec3 gravity(0, 0, -9.81);
+    LinearOptions options = options_of(Formulation::mean_dilatation);
+    options.gravity_m_s2 = gravity;
+    LinearElasticity kept(bar, options, attachment);
+    kept.solve(Positions(0, 3), bar.rest);
+    ElasticBody newton(bar,
+                       {.model = Model::linear,
+                        .formulation = Formulation::mean_dilatation,
+                        .young_pa = young_pa,
+                        .poisson = poisson,
+                        .newton = {},
+                        .path = {}},
+                       attachment);
+    ASSERT_TRUE(newton.solve([&](double) { return Targets{Positions(0, 3), bar.rest, {}}; }, gravity).converged());
+    // Newton's own tolerance of 1e-8 on the forces is met by one linear solve, whose error is rounding.
+    EXPECT_LT((kept.positions() - newton.positions()).norm(), 1e-9 * (kept.positions() - bar.rest).norm());
+    EXPECT_NEAR(kept.strain_energy_j(), newton.strain_energy_j(), 1e-9 * newton.strain_energy_j());
+}
+
+// The flesh that is not held, as a mesh of its own, and where its vertices are in the bar.
+struct FreePart {
+    pbs::TetMesh mesh;
+    std::vector<int> vertex_of_bar;
+};
+
+FreePart without(const std::vector<int>& held_tets)
+{
+    FreePart part;
+    std::map<int, int> vertex;
+    std::vector<Eigen::RowVector4i> tets;
+    for (int t = 0; t < bar.tets.rows(); ++t) {
+        if (std::binary_search(held_tets.begin(), held_tets.end(), t)) continue;
+        Eigen::RowVector4i corners;
+        for (int c = 0; c < 4; ++c) {
+            const auto [entry, is_new] = vertex.emplace(bar.tets(t, c), static_cast<int>(vertex.size()));
+            if (is_new) part.vertex_of_bar.push_back(bar.tets(t, c));
+            corners(c) = entry->second;
+        }
+        tets.push_back(corners);
+    }
+    part.mesh.rest = bar.rest(part.vertex_of_bar, Eigen::all);
+    part.mesh.tets.resize(tets.size(), 4);
+    for (std::size_t t = 0; t < tets.size(); ++t) part.mesh.tets.row(t) = tets[t];
+    return part;
+}
+
+// Truth: the boundary value problem of the free flesh alone, its nodes at the held tets given. What the tets are asked for, here to swell
+// by 3 s, has no pressure to share with the flesh beside them; it counts in the energy, V (lambda / 2 (3 s)^2 + 3 mu s^2).
+TEST(NearIncompressibleAttachment, HeldTetsActByTheirNodesAlone)
+{
+    const std::vector<int> held = tets_up_to(1.3 * cell_m);
+    const double swelling = 0.01;
+    const auto swollen = [&](const Vec3& x) -> Vec3 { return swelling * x; };
+    LinearElasticity fem(bar, options_of(Formulation::taylor_hood), holding(held));
+    ASSERT_TRUE(fem.solve(Positions(0, 3), (1.0 + swelling) * bar.rest).finite);
+
+    const FreePart part = without(held);
+    std::vector<Vec3> corners;
+    double held_volume = 0.0;
+    for (const int t : held) {
+        for (const int v : bar.tets.row(t)) corners.emplace_back(bar.rest.row(v));
+        const Vec3 a = bar.rest.row(bar.tets(t, 0)), b = bar.rest.row(bar.tets(t, 1)), c = bar.rest.row(bar.tets(t, 2)),
+                   d = bar.rest.row(bar.tets(t, 3));
+        held_volume += (b - a).cross(c - a).dot(d - a) / 6.0;
+    }
+    const auto is_held_node = [&](const Vec3& x) {  // a corner of a held tet, or the middle of two
+        for (std::size_t k = 0; k < corners.size(); ++k)
+            for (std::size_t l = k - k % 4; l <= k; ++l)
+                if ((x - (corners[k] + corners[l]) / 2.0).norm() < 1e-9) return true;
+        return false;
+    };
+    const ElasticMaterial material{young_pa, poisson};
+    const BoundaryValueSolution alone =
+        solve(part.mesh, material, {.displacement = swollen, .held = is_held_node, .formulation = Formulation::taylor_hood});
+
+    double largest = 0.0;
+    for (std::size_t v = 0; v < part.vertex_of_bar.size(); ++v) {
+        const Vec3 moved = fem.positions().row(part.vertex_of_bar[v]) - bar.rest.row(part.vertex_of_bar[v]);
+        largest = std::max(largest, (moved - alone.displacement.segment<3>(3 * v)).norm());
+        EXPECT_NEAR(fem.pressure_pa()(part.vertex_of_bar[v]), alone.pressure_pa(v), 1e-8 * alone.pressure_pa.cwiseAbs().maxCoeff());
+    }
+    EXPECT_LT(largest, 1e-10);
+    const Lame lame = lame_parameters(young_pa, poisson);
+    const double of_held = held_volume * swelling * swelling * (4.5 * lame.lambda_pa + 3.0 * lame.mu_pa);
+    const double energy = alone.strain_energy_j(material) + of_held;
+    EXPECT_NEAR(fem.strain_energy_j(), energy, 1e-9 * energy);
+}
+
+}  // namespace
