@@ -28,6 +28,7 @@ void LinearFemDeformer::reset(const pbs::Character& character)
     record_ = FemRecord(character, options_, bones_, elasticity_->setup().spring_tet);
     frames_not_finite_ = 0;
     largest_residual_ = 0.0;
+    most_iterations_ = 0;
     positions_ = character.mesh.rest;
 }
 
@@ -45,6 +46,7 @@ pbs::StepSummary LinearFemDeformer::advance(const pbs::Pose& pose, double)
 
     record_.add_frame(frame.pose());
     largest_residual_ = std::max(largest_residual_, solve.residual);
+    most_iterations_ = std::max(most_iterations_, solve.iterations);
     if (solve.finite)
         record_.add_grip(held.springs, (held.springs - elasticity_->spring_points_deformed()).rowwise().norm());
     else
@@ -63,6 +65,7 @@ nlohmann::json LinearFemDeformer::record() const
     if (!elasticity_) return nullptr;
     nlohmann::json json = record_.to_json(elasticity_->setup());
     json.update({{"frames_not_finite", frames_not_finite_}, {"largest_residual", largest_residual_}});
+    if (options_.solver == reference_fem::LinearSolver::cg_ml) json["most_iterations"] = most_iterations_;
     return json;
 }
 

@@ -34,6 +34,7 @@ private:
     FemRecord record_;
     int frames_not_finite_ = 0;
     double largest_residual_ = 0.0;
+    int most_iterations_ = 0;   // of an iterative solver, in a frame
     pbs::Positions positions_;  // [m], #V x 3
 };
 

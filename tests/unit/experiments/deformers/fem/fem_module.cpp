@@ -38,6 +38,23 @@ TEST(FemModule, BringsDealIIOnlyWhenItIsAskedFor)
     EXPECT_NE(fem->record()["setup"]["blas"].get<std::string>().find("blas"), std::string::npos);
 }
 
+// MPI starts with the first multigrid hierarchy and ends with the program. |error| <= cond(K) 1e-10 |motion|, see AttachedBar.
+TEST(FemModule, ConjugateGradientsRunInsideIt)
+{
+    const auto character = test_support::bar_character({24, 4, 4});
+    const auto direct = make_fem({.element_order = 2});
+    const auto iterative = make_fem({.element_order = 2, .solver = reference_fem::LinearSolver::cg_ml});
+    pbs::Pose turned(2, Eigen::Isometry3d::Identity());
+    turned[1].rotate(Eigen::AngleAxisd(0.1, pbs::Vec3::UnitX()));
+    for (experiments::Deformer* fem : {direct.get(), iterative.get()}) {
+        fem->reset(character);
+        EXPECT_EQ(fem->advance(turned, 0.01).outcome, pbs::Outcome::finished);
+    }
+    EXPECT_LT((iterative->positions() - direct->positions()).cwiseAbs().maxCoeff(), 1e-5);
+    EXPECT_GT(iterative->record()["most_iterations"].get<int>(), 0);
+    EXPECT_FALSE(direct->record().contains("most_iterations"));
+}
+
 TEST(FemModule, ItsInputErrorsAreCaughtOutside)
 {
     const auto fem = make_fem({.element_order = 7});
