@@ -5,8 +5,11 @@ import records
 
 
 def table_lines(results):
-    """The lines of the first table, header first."""
-    file = results / "claims.md"
+    return lines_of_first_table(results / "claims.md")
+
+
+def lines_of_first_table(file):
+    """Header first."""
     if not file.is_file():
         raise records.RecordsMissing(f"{file}: not there")
     lines = file.read_text().splitlines()

@@ -1,4 +1,5 @@
-"""Deletes DIR/figures and draws every figure anew from the records in DIR; exit status 1 where one could not be drawn.
+"""Deletes DIR/figures and draws the figures of every study in DIR anew from its records; exit status 1 where one could not be drawn, or
+DIR holds no study.
 
     xvfb-run -a python3 paper_figures/make_all.py results/reproduce
 """
@@ -9,7 +10,9 @@ import sys
 
 import records
 
-figures = ["volume_over_angle", "volume_over_clip", "volume_over_iterations", "frames"]
+# Which study's records a figure shows.
+figures = {"volume_over_angle": "volume", "volume_over_clip": "volume", "volume_over_iterations": "volume", "frames": "volume",
+           "verification": "verification"}
 
 
 def main(results):
@@ -18,7 +21,12 @@ def main(results):
     folder = results / "figures"
     shutil.rmtree(folder, ignore_errors=True)
     missing = 0
-    for name in figures:
+    if not any((results / study).is_dir() for study in figures.values()):
+        sys.exit(f"{results}: no study in it; run ./reproduce first")
+    for name, study in figures.items():
+        if not (results / study).is_dir():
+            print(f"figures: {name} left out: the study {study} was not run")
+            continue
         try:
             importlib.import_module(name).draw(results, folder)
             print(f"figures: {folder / name}")

@@ -20,7 +20,7 @@ class Run:
         self.folder = folder
         self.name = folder.name
         self.record = _read_json(folder / "run.json")
-        self.rows = _read_csv(folder / "metrics.csv")
+        self.rows = table(folder / "metrics.csv", {"scene", "deformer", "variant", "iterations", "frame", "time_s"})
 
     def select(self, deformer, iterations=None, variant="default"):
         """The deformer's rows in the order of frames."""
@@ -49,11 +49,16 @@ class Run:
 def numbers(rows, column):
     """The column as floats; an empty cell is nan, a column that is missing or empty throughout an error."""
     if column not in rows[0]:
-        raise RecordsMissing(f"metrics.csv of {rows[0]['scene']}: no column {column}")
+        raise RecordsMissing(f"{_place(rows[0])}: no column {column}")
     values = [float(row[column]) if row[column] not in ("", None) else math.nan for row in rows]
     if all(math.isnan(value) for value in values):
-        raise RecordsMissing(f"metrics.csv of {rows[0]['scene']}: column {column} is empty for {rows[0]['deformer']}")
+        raise RecordsMissing(f"{_place(rows[0])}: column {column} is empty for {rows[0].get('deformer') or rows[0].get('quantity')}")
     return values
+
+
+def _place(row):
+    """Which table a row is from."""
+    return f"metrics.csv of {row['scene']}" if "scene" in row else f"verification.csv, {row.get('problem', '')}"
 
 
 def at_angle(rows, angle_deg):
@@ -81,7 +86,8 @@ def _read_json(file):
         raise RecordsMissing(f"{file}:{error.lineno}: not JSON: {error.msg}") from None
 
 
-def _read_csv(file):
+def table(file, columns):
+    """The rows of a CSV file that has these columns."""
     try:
         with open(file, newline="") as stream:
             rows = list(csv.DictReader(stream))
@@ -89,7 +95,7 @@ def _read_csv(file):
         raise RecordsMissing(f"{file}: not there") from None
     if not rows:
         raise RecordsMissing(f"{file}: no rows")
-    absent = {"scene", "deformer", "variant", "iterations", "frame", "time_s"} - rows[0].keys()
+    absent = columns - rows[0].keys()
     if absent:
         raise RecordsMissing(f"{file}: no column {', '.join(sorted(absent))}")
     return rows

@@ -17,7 +17,9 @@ captions = {
     "volume_over_iterations": "PBS volume change against the number of iterations.",
     "frames_skin": "The human under LBS, PBS and FEM.",
     "frames_volume_ratio": "The same frames, each tet coloured by its volume ratio.",
+    "verification": "The finite element reference against theory and published benchmarks.",
 }
+studies = {"verification": "verification"}  # whose records a figure shows; else those of the study volume
 page = """<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>pbskin: claims</title>
 <style>
@@ -50,6 +52,8 @@ def html_figures(results):
     parts = []
     for name, caption in captions.items():
         file = results / "figures" / f"{name}.png"
+        if not file.is_file() and not (results / studies.get(name, "volume")).is_dir():
+            continue
         if not file.is_file():
             parts.append(f'<p class="missing">{html.escape(name)}: not drawn</p>')
             continue
@@ -57,6 +61,22 @@ def html_figures(results):
         parts.append(f'<figure><img alt="{html.escape(caption)}" src="data:image/png;base64,{data}">'
                      f"<figcaption>{html.escape(caption)}</figcaption></figure>")
     return "\n".join(parts)
+
+
+def html_claims(results):
+    if not (results / "claims.md").is_file() and (results / "verification").is_dir():
+        return []
+    return ["<h2>Claims</h2>", html_table(claims_table.table_lines(results))]
+
+
+def html_verification(results):
+    """The reference's own record, where that study was run: its table, and the notes below it."""
+    file = results / "verification" / "verification.md"
+    if not file.is_file():
+        return []
+    notes = [line.split(". ", 1)[1] for line in file.read_text().splitlines() if re.match(r"[0-9]+\. ", line)]
+    return ["<h2>Verification of the finite element reference</h2>", html_table(claims_table.lines_of_first_table(file)),
+            "<ol>" + "".join(f"<li>{inline(note)}</li>" for note in notes) + "</ol>"]
 
 
 def html_provenance(facts):
@@ -69,7 +89,7 @@ def html_provenance(facts):
 
 def main(results):
     try:
-        parts = ["<h2>Claims</h2>", html_table(claims_table.table_lines(results)), "<h2>Figures</h2>", html_figures(results),
+        parts = [*html_claims(results), *html_verification(results), "<h2>Figures</h2>", html_figures(results),
                  "<h2>Where the records come from</h2>", html_provenance(records.provenance(results))]
     except records.RecordsMissing as error:
         print(f"report: {error}", file=sys.stderr)

@@ -8,6 +8,11 @@ pbs_test(unit experiments/limb_stations experiments)
 pbs_test(unit experiments/frame_measurement experiments)
 pbs_test(unit experiments/studies/worker_pool experiments)
 pbs_test(unit experiments/studies/study_run experiments)
+pbs_test(unit experiments/verification/verification_row experiments)
+if(TARGET fem_verification)
+    pbs_test(unit experiments/verification/structured_mesh fem_verification)
+    pbs_test(verification experiments/verification_record fem_verification experiments)
+endif()
 pbs_test(robustness experiments/scene_errors experiments)
 
 # The program as its users meet it: exit status, messages, folders. Python stands outside, so that no code is shared with what it checks.

@@ -84,6 +84,35 @@ class Figures(unittest.TestCase):
         self.assertIn("volume_over_angle: not drawn", page)
         self.assertIn(synthetic_records.revision, page)
 
+    def test_a_study_that_was_not_run_is_left_out(self):
+        said = io.StringIO()
+        with contextlib.redirect_stderr(io.StringIO()), contextlib.redirect_stdout(said):
+            make_all.main(self.results)
+        self.assertIn("verification left out: the study verification was not run", said.getvalue())
+        with self.assertRaises(SystemExit):
+            make_all.main(self.results / "figures")
+
+    def test_verification_shows_the_finest_mesh_of_each_benchmark(self):
+        with tempfile.TemporaryDirectory() as folder:
+            results = pathlib.Path(folder)
+            synthetic_records.write_verification(results)
+            with contextlib.redirect_stdout(io.StringIO()):
+                self.assertEqual(make_all.main(results), 0)
+            self.assertIn(synthetic_records.revision.encode(), (results / "figures" / "verification.png").read_bytes())
+            with open(results / "figures" / "verification.csv", newline="") as stream:
+                rows = [row for row in csv.DictReader(stream) if row["problem"] == "cantilever"]
+            self.assertEqual([(row["elements"], float(row["difference_pct"])) for row in rows], [("P1", -10.0), ("P2", -0.625)])
+            self.assertEqual(report.main(results), 0)
+            page = (results / "report.html").read_text()
+            self.assertIn("<td>cantilever</td><td>yes</td>", page)
+            self.assertIn("<li>closed form: a beam</li>", page)
+            self.assertNotIn("Claims</h2>", page)
+            (results / "verification" / "verification.csv").unlink()
+            with contextlib.redirect_stderr(io.StringIO()) as said:
+                with contextlib.redirect_stdout(io.StringIO()):
+                    self.assertEqual(make_all.main(results), 1)
+            self.assertIn("verification.csv: not there", said.getvalue())
+
     def test_readme_is_changed_between_its_markers_alone(self):
         readme = self.results / "README.md"
         readme.write_text(f"before\n{readme_claims.begin}\nold\n{readme_claims.end}\nafter\n")

@@ -30,3 +30,25 @@ def write_study(results):
     write_run(results / "volume" / "limb_bend", frames=31, last_angle_deg=150.0)
     write_run(results / "volume" / "human_01_01", frames=50, last_angle_deg=None)
     (results / "claims.md").write_text("# Claims\n\n| id | measured |\n|---|---|\n| C01 | 9 \\| 17 %, *signed* |\n\nmore text\n")
+
+
+verification_columns = ["problem", "quantity", "elements", "material", "mesh", "h_m", "dofs", "value", "reference", "unit", "difference_pct"]
+
+
+def write_verification(results):
+    """Errors h^(p + 1) and h^p of P1 and P2, and one benchmark, coarse and fine, of each."""
+    folder = results / "verification"
+    (folder / "beam").mkdir(parents=True)
+    (folder / "beam" / "run.json").write_text(json.dumps({"provenance": {"version": "0.1.0", "git_revision": revision, "git_dirty": False}}))
+    with open(folder / "verification.csv", "w", newline="") as stream:
+        writer = csv.DictWriter(stream, verification_columns)
+        writer.writeheader()
+        for order in (1, 2):
+            for h in (0.5, 0.25, 0.125):
+                for norm, gain in (("error in L2 over that of the solution", 1), ("error in the H1 seminorm over that of the solution", 0)):
+                    writer.writerow({"problem": "manufactured_solution", "quantity": norm, "elements": f"P{order}", "h_m": h, "dofs": 1 / h,
+                                     "value": h ** (order + gain), "material": "linear, nu = 0.3", "difference_pct": ""})
+            for dofs, difference in ((10, -30.0), (20, -10.0 / order ** 4)):
+                writer.writerow({"problem": "cantilever", "quantity": "tip deflection", "elements": f"P{order}", "h_m": 1, "dofs": dofs,
+                                 "value": 1, "reference": 1, "material": "linear, nu = 0.3", "difference_pct": difference})
+    (folder / "verification.md").write_text("| problem | holds |\n|---|---|\n| cantilever | yes |\n\n1. closed form: a beam\n")

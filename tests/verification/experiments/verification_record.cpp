@@ -1,0 +1,68 @@
+// The quick verification record of the judge. Truth: what each row cites: closed forms, published benchmarks, other codes; its tolerance
+// and where that comes from stand in the row. And that the record can fail: with an error of 5 % in the solver's lambda, of which no
+// reference knows, named rows do not hold.
+#include "experiments/verification/problem.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace {
+
+using namespace experiments;
+
+const VerificationProblem& problem(const std::string& name)
+{
+    const auto& all = verification_problems();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
+    EXPECT_NE(found, all.end()) << name;
+    return *found;
+}
+
+std::vector<std::string> names()
+{
+    std::vector<std::string> all;
+    for (const auto& one : verification_problems()) all.push_back(one.name);
+    return all;
+}
+
+class VerificationRecord : public testing::TestWithParam<std::string> {};
+
+TEST_P(VerificationRecord, EveryJudgedRowHoldsAndSaysWhy)
+{
+    int judged = 0;
+    for (const VerificationRow& row : problem(GetParam()).rows({})) {
+        const std::string place = row.quantity + ", " + row.elements + ", " + row.material + ", " + row.mesh;
+        EXPECT_EQ(row.problem, GetParam());
+        EXPECT_FALSE(row.quantity.empty() || row.elements.empty() || row.mesh.empty() || row.unit.empty()) << place;
+        EXPECT_FALSE(row.source.empty()) << place;
+        if (!holds(row)) continue;
+        ++judged;
+        EXPECT_FALSE(row.bound_from.empty()) << place;
+        EXPECT_TRUE(*holds(row)) << place << ": " << to_json(row).dump(2);
+    }
+    EXPECT_GT(judged, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Problem, VerificationRecord, testing::ValuesIn(names()), [](const auto& info) { return info.param; });
+
+// (problem, beginning of the quantity): of the finest mesh's row.
+using Named = std::pair<const char*, const char*>;
+class WrongLameParameter : public testing::TestWithParam<Named> {};
+
+TEST_P(WrongLameParameter, DoesNotPass)
+{
+    const auto [name, quantity] = GetParam();
+    bool failed = false;
+    for (const VerificationRow& row : problem(name).rows({.lambda_error = 0.05}))
+        failed |= row.quantity.starts_with(quantity) && !holds(row).value_or(true);
+    EXPECT_TRUE(failed);
+}
+
+INSTANTIATE_TEST_SUITE_P(Row, WrongLameParameter,
+                         testing::Values(Named{"patch_test", "largest nodal error over largest displacement, from tractions"},
+                                         Named{"own_weight", "largest nodal error"}, Named{"manufactured_solution", "error in L2"},
+                                         Named{"manufactured_solution", "error in the H1"},
+                                         Named{"cooks_membrane", "rise of the corner (48,60), plane strain"}));
+
+}  // namespace
