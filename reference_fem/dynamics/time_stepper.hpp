@@ -31,6 +31,8 @@ public:
     // pbs::InputError where the density is not positive or a damping is negative. `newton` outlives the stepper.
     TimeStepper(const SimplexSpace& space, const std::vector<bool>& prescribed, const Potential& flesh, const TimeStepperOptions& options,
                 NewtonMinimiser& newton);
+    TimeStepper(const TimeStepper&) = delete;
+    TimeStepper& operator=(const TimeStepper&) = delete;
 
     // Displacement [m] and velocity [m/s], #dofs; no velocity: 0. Time begins anew: the acceleration is solved for in the first step.
     void start(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity = {});

@@ -1,0 +1,20 @@
+// The lowest mode of free vibration: K phi = omega^2 M phi, phi = 0 where prescribed. By subspace iteration (K.-J. Bathe, Finite Element
+// Procedures, 1996, section 11.6), which tells modes of nearly one frequency apart, as a bar of square section has them.
+#pragma once
+
+#include "reference_fem/dynamics/consistent_mass.hpp"
+#include "reference_fem/linear_solver.hpp"
+
+#include <vector>
+
+namespace reference_fem {
+
+struct Mode {
+    double omega_rad_s = 0.0;  // not a number where the stiffness is singular: a body that may move rigidly
+    Eigen::VectorXd shape;     // #dofs, the largest component 1 [m]
+};
+
+Mode first_mode(const SparseMatrix& stiffness, const ConsistentMass& mass, const std::vector<bool>& prescribed,
+                LinearSolver solver = LinearSolver::cholmod);
+
+}  // namespace reference_fem

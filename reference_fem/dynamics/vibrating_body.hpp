@@ -1,0 +1,52 @@
+// A body of the linear law that vibrates freely, for what is known of it in closed form: modes, energies, damping. Beside the skeleton, as
+// BoundaryValueProblem is for equilibrium, through the very elements, mass, solver and time stepper of the judge.
+//   VibratingBody bar(mesh, {.held = [](const pbs::Vec3& x) { return x.x() < 1e-9; }});
+//   const Mode mode = bar.first_mode();
+//   TimeStepper time = bar.stepper({.scheme = generalized_alpha(0.8)});
+//   time.start(mode.shape);
+//   bar.run(time, step_s, steps);
+#pragma once
+
+#include "reference_fem/boundary_value_problem.hpp"
+#include "reference_fem/dynamics/first_mode.hpp"
+#include "reference_fem/dynamics/time_stepper.hpp"
+
+namespace reference_fem {
+
+struct VibratingOptions {
+    int element_order = 2;
+    double young_pa = 1e5, poisson = 0.3, density_kg_m3 = 1000.0;
+    std::function<Held(const pbs::Vec3& node)> held = {};  // empty: none
+};
+
+class VibratingBody {
+public:
+    VibratingBody(const pbs::TetMesh& mesh, const VibratingOptions& options);
+
+    const SimplexSpace& space() const { return space_; }
+    const std::vector<bool>& fixed() const { return fixed_; }  // #dofs
+    const StiffnessPotential& flesh() const { return flesh_; }
+    const ConsistentMass& mass() const { return mass_; }
+    Mode first_mode() const { return reference_fem::first_mode(stiffness_.matrix(), mass_, fixed_); }
+
+    // The density is the body's. One stepper at a time: they share the factor.
+    TimeStepper stepper(TimeStepperOptions options);
+
+    // `steps` steps of free motion, each looked at by after_step(number from 1); false: one did not converge.
+    bool run(TimeStepper& stepper, double step_s, int steps, const std::function<void(int)>& after_step = {}) const;
+
+    double energy_j(const TimeStepper& stepper) const;  // of strain and of motion
+    // How much of a mode there is in the motion: phi M u / phi M phi.
+    double amplitude(const TimeStepper& stepper, const Mode& mode) const;
+
+private:
+    SimplexSpace space_;
+    std::vector<bool> fixed_;
+    double density_kg_m3_;
+    NodalMatrix stiffness_;
+    StiffnessPotential flesh_;
+    ConsistentMass mass_;
+    NewtonMinimiser newton_;
+};
+
+}  // namespace reference_fem
