@@ -1,0 +1,63 @@
+"""The error of PBS against stable neo-Hookean flesh, split three ways, over the iterations: what the solver leaves, what the constraints
+themselves leave when converged, and the bound of the reference's own discretisation. Beneath: what other attachments and thicker or thinner
+bones do to the model's part."""
+import math
+
+import records
+import style
+
+parts = [("error_joint_pct", "whole error", style.black, "x", "-"), ("solver_pct", "solver", style.vermillion, "v", (0, (4, 1.5))),
+         ("model_pct", "model", style.blue, "o", "-"), ("discretisation_pct", "discretisation (bound)", style.green, "^", (0, (1, 1)))]
+poses = [("limb_twist", 90), ("limb_bend", 90)]
+part_columns = {"scene", "angle_deg", "k_stretch", "iterations", *(column for column, *_ in parts)}
+attachment_columns = {"scene", "angle_deg", "k_stretch", "reference", "attachment", "core_radius", "model_pct"}
+
+
+def of_pose(rows, angle_deg, k_stretch):
+    return [row for row in rows if math.isclose(float(row["angle_deg"]), angle_deg) and math.isclose(float(row["k_stretch"]), k_stretch)]
+
+
+def draw_parts(axes, rows, angle_deg):
+    drawn = []
+    for k_stretch, shade in ((0.2, 1.0), (0.9, 0.35)):
+        chosen = of_pose(rows, angle_deg, k_stretch)
+        if not chosen:
+            raise records.RecordsMissing(f"parts.csv of {rows[0]['scene']}: no pose at {angle_deg:g} degrees with k_stretch {k_stretch}")
+        for column, label, color, marker, line in parts:
+            axes.plot(records.numbers(chosen, "iterations"), records.numbers(chosen, column), color=color, marker=marker, linestyle=line,
+                      alpha=shade, label=f"{label}, k_stretch {k_stretch}")
+        drawn += [{"scene": row["scene"], "angle_deg": row["angle_deg"], "k_stretch": row["k_stretch"], "shown": column,
+                   "at": row["iterations"], "value_pct": row[column]} for row in chosen for column, *_ in parts]
+    axes.set_xscale("log")
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel("iterations")
+    axes.set_ylabel("error at the joint [% of the bone distance]")
+    axes.set_title(f"{rows[0]['scene'].replace('_', ', ')} {angle_deg}\u00b0")
+    return drawn
+
+
+def name_of(row):
+    if row["attachment"] == "bind":
+        return "bind constraint"
+    return f"bones, core {float(row['core_radius']):g}"
+
+
+def draw_attachments(axes, rows, angle_deg):
+    chosen = of_pose(rows, angle_deg, 0.2)
+    chosen.sort(key=lambda row: (row["attachment"] == "bind", float(row["core_radius"])))
+    axes.barh([name_of(row) for row in chosen], [float(row["model_pct"] or "nan") for row in chosen], color=style.sky, height=0.6)
+    axes.set_xlabel("model error, k_stretch 0.2 [% of the bone distance]")
+    axes.grid(axis="y", visible=False)
+    return [{"scene": row["scene"], "angle_deg": row["angle_deg"], "k_stretch": row["k_stretch"], "shown": "model_pct", "at": row["reference"],
+             "value_pct": row["model_pct"]} for row in chosen]
+
+
+def draw(results, figures):
+    figure, axes = style.panels(2, 2, height_in=2.3)
+    behind = []
+    for column, (scene, angle_deg) in enumerate(poses):
+        folder = results / "error_split" / scene
+        behind += draw_parts(axes[0][column], records.table(folder / "parts.csv", part_columns), angle_deg)
+        behind += draw_attachments(axes[1][column], records.table(folder / "attachments.csv", attachment_columns), angle_deg)
+    style.legend_above(figure, axes[0][0], columns=4)
+    style.save(figure, figures / "error_split", records.provenance(results), behind)
