@@ -116,6 +116,12 @@ void check_fem_keys(const SceneValues& values, const std::string& at, const FemO
     if (!linear && options.solver != reference_fem::LinearSolver::cholmod)
         values.refuse(at + "solver",
                       "expected cholmod with a nonlinear model: Newton must be told of a matrix that is not positive definite");
+    if (options.formulation == reference_fem::Formulation::taylor_hood)
+        if (!linear || !quasi_static || options.element_order != 2 || !(options.poisson > 0.0) ||
+            options.solver == reference_fem::LinearSolver::cg_ml)
+            values.refuse(
+                at + "formulation",
+                "expected taylor_hood only with model linear, dynamics quasi_static, element_order 2, poisson > 0 and a direct solver");
     if (quasi_static && (options.rayleigh_mass_1_s > 0.0 || options.rayleigh_stiffness_s > 0.0))
         values.refuse(at + "rayleigh", "expected [0, 0] with dynamics quasi_static: nothing moves there that could be damped");
     if (!quasi_static && !(options.density_kg_m3 > 0.0)) values.refuse(at + "density_kg_m3", "expected a density > 0 with dynamics");

@@ -97,9 +97,11 @@ std::vector<SceneKey> fem_keys()
                    "compression: both are negative controls at large rotations"),
                {"linear", "corotational", "stable_neo_hookean", "neo_hookean", "st_venant_kirchhoff"}),
         within(key("fem", "element_order", integer, "2", "", "polynomial order of the simplices"), 1, 2),
-        one_of(key("fem", "formulation", text, "\"displacement\"", "",
-                   "how volume enters: displacement, or mean_dilatation (one volume constraint a tet), which on order 1 is the same"),
-               {"displacement", "mean_dilatation"}),
+        one_of(
+            key("fem", "formulation", text, "\"displacement\"", "",
+                "how volume enters: displacement; mean_dilatation (one volume constraint a tet), which on order 1 is the same; taylor_hood "
+                "(order 2 with a continuous pressure, the most accurate near nu = 1/2; of the linear model, quasi-static)"),
+            {"displacement", "mean_dilatation", "taylor_hood"}),
         within(key("fem", "young_pa", number, "1.0e5", "Pa", "Young's modulus; cancels where displacements alone drive the body"),
                above_zero, 1e15),
         within(key("fem", "poisson", number, "0.45", "", "Poisson's ratio"), 0, 0.4999999),

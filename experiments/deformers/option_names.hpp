@@ -46,8 +46,10 @@ struct OptionNames<reference_fem::Model> {
 };
 template <>
 struct OptionNames<reference_fem::Formulation> {
-    static constexpr std::array<std::pair<reference_fem::Formulation, const char*>, 2> table{
-        {{reference_fem::Formulation::displacement, "displacement"}, {reference_fem::Formulation::mean_dilatation, "mean_dilatation"}}};
+    static constexpr std::array<std::pair<reference_fem::Formulation, const char*>, 3> table{
+        {{reference_fem::Formulation::displacement, "displacement"},
+         {reference_fem::Formulation::mean_dilatation, "mean_dilatation"},
+         {reference_fem::Formulation::taylor_hood, "taylor_hood"}}};
 };
 template <>
 struct OptionNames<reference_fem::Dynamics> {

@@ -5,8 +5,7 @@
 
 experiments::Deformer* pbskin_make_fem(const experiments::FemOptions& options)
 {
-    const bool linear = options.model == reference_fem::Model::linear && options.formulation == reference_fem::Formulation::displacement &&
-                        options.dynamics == reference_fem::Dynamics::quasi_static;
+    const bool linear = options.model == reference_fem::Model::linear && options.dynamics == reference_fem::Dynamics::quasi_static;
     if (linear) return new experiments::LinearFemDeformer(options);
     return new experiments::ElasticFemDeformer(options);
 }

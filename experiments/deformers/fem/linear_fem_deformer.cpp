@@ -15,7 +15,8 @@ reference_fem::LinearOptions solver_options(const FemOptions& options)
             .poisson = options.poisson,
             .density_kg_m3 = options.density_kg_m3,
             .gravity_m_s2 = options.gravity_m_s2,
-            .solver = options.solver};
+            .solver = options.solver,
+            .formulation = options.formulation};
 }
 
 }  // namespace

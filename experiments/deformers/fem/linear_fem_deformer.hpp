@@ -1,5 +1,4 @@
-// Linear elasticity in the displacement formulation on the character's own tets, held by its bones, quasi-static: one factor, and a
-// re-solve a frame.
+// Linear elasticity on the character's own tets, held by its bones, quasi-static: one factor, and a re-solve a frame.
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"

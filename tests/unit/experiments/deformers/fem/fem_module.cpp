@@ -55,6 +55,27 @@ TEST(FemModule, ConjugateGradientsRunInsideIt)
     EXPECT_FALSE(direct->record().contains("most_iterations"));
 }
 
+// At nu = 0.3 nothing locks, and the forms differ by their discretisation errors: a few percent of the motion on these tets.
+TEST(FemModule, EveryFormulationOfTheLinearModelKeepsItsFactor)
+{
+    const auto character = test_support::bar_character({24, 4, 4});
+    pbs::Pose turned(2, Eigen::Isometry3d::Identity());
+    turned[1].rotate(Eigen::AngleAxisd(0.1, pbs::Vec3::UnitX()));
+    pbs::Positions of_displacement;
+    for (const auto formulation :
+         {reference_fem::Formulation::displacement, reference_fem::Formulation::mean_dilatation, reference_fem::Formulation::taylor_hood}) {
+        const auto fem = make_fem({.formulation = formulation, .poisson = 0.3});
+        fem->reset(character);
+        EXPECT_EQ(fem->advance(turned, 0.01).outcome, pbs::Outcome::finished);
+        EXPECT_TRUE(fem->record().contains("largest_residual")) << "only the linear deformer has it";
+        if (formulation == reference_fem::Formulation::displacement) of_displacement = fem->positions();
+        const pbs::Positions motion = of_displacement - character.mesh.rest;
+        const double difference = (fem->positions() - of_displacement).norm() / motion.norm();
+        EXPECT_LT(difference, 0.03);
+        EXPECT_EQ(difference == 0.0, formulation == reference_fem::Formulation::displacement);
+    }
+}
+
 TEST(FemModule, ItsInputErrorsAreCaughtOutside)
 {
     const auto fem = make_fem({.element_order = 7});
