@@ -4,18 +4,11 @@
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
 
+#include <cmath>
 #include <numbers>
 
 namespace experiments {
 namespace {
-
-analysis::ErrorDomain error_domain(const pbs::Character& character, const std::vector<bool>& prescribed)
-{
-    analysis::ErrorDomain domain{character.mesh.rest, character.mesh.tets, prescribed, {}, character.binding.distance};
-    for (std::size_t v = 0; v < character.blended.size(); ++v)
-        if (character.blended[v]) domain.blended.push_back(static_cast<int>(v));
-    return domain;
-}
 
 // The largest rotation [deg] of a bone relative to the root's.
 double largest_rotation_deg(const pbs::Pose& pose)
@@ -27,6 +20,20 @@ double largest_rotation_deg(const pbs::Pose& pose)
 }
 
 }  // namespace
+
+analysis::ErrorDomain error_domain(const pbs::Character& character, const std::vector<bool>& prescribed)
+{
+    analysis::ErrorDomain domain{character.mesh.rest, character.mesh.tets, prescribed, {}, character.binding.distance};
+    for (std::size_t v = 0; v < character.blended.size(); ++v)
+        if (character.blended[v]) domain.blended.push_back(static_cast<int>(v));
+    return domain;
+}
+
+bool FrameMeasurement::error_below_reference_error() const
+{
+    if (!errors || !reference_error) return false;
+    return std::isnan(errors->joint_pct) ? errors->l2_pct <= reference_error->l2_pct : errors->joint_pct <= reference_error->joint_pct;
+}
 
 FrameMeasurer::FrameMeasurer(const pbs::Character& character, const OutputSpec& output, const std::vector<bool>& prescribed)
     : character_(character), ruler_(character.mesh.rest, character.mesh.tets), boundary_(pbs::boundary_of(character.mesh.tets))
@@ -48,6 +55,7 @@ FrameMeasurement FrameMeasurer::measure(const pbs::Positions& positions, const F
     if (error_ruler_ && context.reference) {
         measured.errors = error_ruler_->measure(positions, *context.reference);
         measured.reference_self_intersects = context.reference_self_intersects;
+        measured.reference_error = context.reference_error;
     }
     if (!positions.allFinite()) return measured;
     if (!stations_.empty()) measured.min_section_pct = min_section_pct(positions, *context.pose);

@@ -17,10 +17,14 @@ struct FrameMeasurement {
     double bind_rms_m = 0.0;
     std::optional<analysis::ErrorNorms> errors;
     bool reference_self_intersects = false;
+    std::optional<analysis::ErrorNorms> reference_error;  // how far the reference may be from the limit of ever finer tets
     std::optional<double> min_section_pct;
     std::optional<double> surface_volume_change_pct;
     std::optional<double> angle_deg;
     double rotation_deg = 0.0;  // the largest of a bone relative to the root's
+
+    // The error at the joints (over the whole body where nothing is blended) is not above the reference's own: it may be the reference's.
+    bool error_below_reference_error() const;
 };
 
 // The pose of a frame and what the reference made of it.
@@ -29,13 +33,19 @@ struct FrameContext {
     std::optional<double> angle_deg;
     const pbs::Positions* reference = nullptr;  // null: none, or not finite
     bool reference_self_intersects = false;
+    std::optional<analysis::ErrorNorms> reference_error;
 };
+
+// What errors of a character are measured on. prescribed: vertices a deformer is told where to be, #V or empty; they are left out.
+analysis::ErrorDomain error_domain(const pbs::Character& character, const std::vector<bool>& prescribed);
 
 class FrameMeasurer {
 public:
     // prescribed: vertices the reference is told where to be, #V or empty; the errors leave them out.
     FrameMeasurer(const pbs::Character& character, const OutputSpec& output, const std::vector<bool>& prescribed);
     FrameMeasurement measure(const pbs::Positions& positions, const FrameContext& context) const;
+    // In the norms of the errors, which the scene must have asked for.
+    analysis::ErrorNorms difference(const pbs::Positions& a, const pbs::Positions& b) const { return error_ruler_.value().measure(a, b); }
     Eigen::VectorXd volume_ratios(const pbs::Positions& positions) const { return ruler_.volume_ratios(positions); }
     bool self_intersects(const pbs::Positions& positions) const;
 

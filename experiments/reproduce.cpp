@@ -85,6 +85,9 @@ std::string frames_to_mark(const std::vector<std::string>& folders)
             lines += fmt::format("     {}: the reference intersects itself in {} of {} frames; their errors are marked\n",
                                  fs::path(folder).filename().string(), count, outcome.at("frames").get<int>());
         const auto none = nlohmann::json::object();
+        for (const auto& [label, count] : outcome.value("frames_below_reference_error", none).items())
+            lines += fmt::format("     {}: the error of {} at the joints is not above the reference's own in {} of {} frames\n",
+                                 fs::path(folder).filename().string(), label, count.get<int>(), outcome.at("frames").get<int>());
         for (const auto& [label, frames] : outcome.value("not_converged", none).items())
             lines += fmt::format("     {}: {} did not converge in {} of {} frames\n", fs::path(folder).filename().string(), label,
                                  frames.size(), outcome.at("frames").get<int>());

@@ -3,6 +3,7 @@
 #include "experiments/cases/motion_case.hpp"
 #include "experiments/interruption.hpp"
 #include "experiments/progress.hpp"
+#include "experiments/reference_error_bar.hpp"
 #include "experiments/run_folder.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
@@ -68,6 +69,7 @@ public:
           measurer_(character_, scene.output, prescribed_by_any(runners_)),
           folder_((refuse_frames_beyond(motion_, scene), scene), folder)
     {
+        if (scene.error_bar != ErrorBar::none) error_bar_.emplace(scene.error_bar, runners_.front().spec, character_);
     }
 
     RunResult run()
@@ -91,6 +93,8 @@ private:
             for (Runner& runner : runners_)
                 if (is_frame || runner.deformer->has_memory())
                     runner.step = runner.deformer->advance(motion_.steps[step], motion_.time_step_s);
+            if (error_bar_ && (is_frame || runners_.front().deformer->has_memory()))
+                error_bar_->advance(motion_.steps[step], motion_.time_step_s);
             if (is_frame) record_frame(static_cast<int>(step / motion_.steps_per_frame), step);
             progress.advance_to(static_cast<int>(step) + 1);
         }
@@ -107,6 +111,7 @@ private:
             context.reference = &first.deformer->positions();
             context.reference_self_intersects = measurer_.self_intersects(*context.reference);
             self_intersecting_frames_ += context.reference_self_intersects;
+            if (error_bar_) context.reference_error = error_bar_->bound(*context.reference, measurer_);
         }
         for (Runner& runner : runners_) record_deformer(runner, frame, time_s, context);
         ++frames_;
@@ -121,6 +126,8 @@ private:
         runner.lowest_change_pct = std::min(runner.lowest_change_pct, measured.metrics.volume_change_pct);
         runner.highest_change_pct = std::max(runner.highest_change_pct, measured.metrics.volume_change_pct);
         runner.most_inverted = std::max(runner.most_inverted, measured.metrics.inverted_tets);
+        if (measured.error_below_reference_error() && runner.spec.name != scene_.reference)
+            ++frames_below_reference_error_[runner.spec.label];
         if (runner.step.outcome == pbs::Outcome::not_converged) not_converged_[runner.spec.label].push_back(frame);
         if (runner.step.outcome == pbs::Outcome::not_finite) {
             // Negative controls: the printed forms, and linear elasticity at large rotations. Their breakdown is on record, no failure.
@@ -147,7 +154,8 @@ private:
             if (const auto record = runner.deformer->record(); !record.is_null()) records[runner.spec.label] = record;
         nlohmann::json outcome = {{"finished", true}, {"frames", frames_}, {"breakdowns", breakdowns_}, {"not_converged", not_converged_}};
         if (!scene_.reference.empty()) outcome["self_intersecting_reference_frames"] = self_intersecting_frames_;
-        folder_.finish(character_, records, outcome);
+        if (error_bar_) outcome["frames_below_reference_error"] = frames_below_reference_error_;
+        folder_.finish(character_, records, outcome, error_bar_ ? error_bar_->method() : nlohmann::json());
 
         RunResult result{frames_, stopwatch_.seconds(), breakdown_, {}};
         for (const Runner& runner : runners_)
@@ -165,10 +173,12 @@ private:
     pbs::Motion motion_;
     std::vector<Runner> runners_;
     FrameMeasurer measurer_;
+    std::optional<ReferenceErrorBar> error_bar_;
     RunFolder folder_;  // made when all else stands: it clears an earlier run's records
     int frames_ = 0, self_intersecting_frames_ = 0;
     std::string breakdown_;
     std::map<std::string, std::vector<int>> breakdowns_, not_converged_;  // label -> frames
+    std::map<std::string, int> frames_below_reference_error_ = {};        // label -> how many
 };
 
 }  // namespace

@@ -42,11 +42,15 @@ const std::vector<std::string> error_columns = {"error_l2_pct", "error_joint_pct
 const std::vector<std::string> further_columns = {
     "angle_deg", "rotation_deg", "fictitious_strain", "min_section_pct", "surface_volume_change_pct", "outcome"};
 
+const std::vector<std::string> error_bar_columns = {"reference_error_l2_pct", "reference_error_joint_pct", "reference_error_linf_m",
+                                                    "error_below_reference_error"};
+
 std::vector<std::string> columns_of(const Scene& scene)
 {
     std::vector<std::string> columns = metric_columns;
     if (!scene.reference.empty()) columns.insert(columns.end(), error_columns.begin(), error_columns.end());
     columns.insert(columns.end(), further_columns.begin(), further_columns.end());
+    if (scene.error_bar != ErrorBar::none) columns.insert(columns.end(), error_bar_columns.begin(), error_bar_columns.end());
     return columns;
 }
 
@@ -68,6 +72,15 @@ std::vector<Cell> error_cells(const FrameMeasurement& measured)
     if (!measured.errors) return std::vector<Cell>(error_columns.size(), std::nullopt);
     const auto& errors = *measured.errors;
     return {errors.l2_pct, errors.joint_pct, errors.linf_m, static_cast<int>(measured.reference_self_intersects)};
+}
+
+// The reference's own row has no difference that could be below.
+std::vector<Cell> error_bar_cells(const FrameMeasurement& measured, bool is_reference)
+{
+    if (!measured.reference_error) return std::vector<Cell>(error_bar_columns.size(), std::nullopt);
+    const analysis::ErrorNorms& bar = *measured.reference_error;
+    return {bar.l2_pct, bar.joint_pct, bar.linf_m,
+            is_reference ? Cell(std::nullopt) : Cell(static_cast<int>(measured.error_below_reference_error()))};
 }
 
 // Linear strain of a rigid rotation by theta: cos(theta) - 1 along the two axes across it.
@@ -132,6 +145,8 @@ void RunFolder::add_frame(const DeformerSpec& spec, int frame, double time_s, co
     for (const Cell& further : std::vector<Cell>{cell(measured.angle_deg), measured.rotation_deg, strain, cell(measured.min_section_pct),
                                                  cell(measured.surface_volume_change_pct), std::string(to_string(step.outcome))})
         cells.push_back(further);
+    if (scene_.error_bar != ErrorBar::none)
+        for (const Cell& bar : error_bar_cells(measured, spec.name == scene_.reference)) cells.push_back(bar);
     metrics_.add_row(cells);
     for (std::size_t k = 0; k < step.history.size(); ++k)
         iterations_.add_row({spec.label, frame, static_cast<int>(k) + 1, step.history[k].stretch_rms, step.history[k].volume_rms,
@@ -173,7 +188,7 @@ void RunFolder::write_tables() const
 }
 
 void RunFolder::finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
-                       const nlohmann::json& outcome)
+                       const nlohmann::json& outcome, const nlohmann::json& reference_error_method)
 {
     write_tables();
     analysis::Provenance provenance = analysis::collect_provenance(1);
@@ -190,6 +205,8 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
                         {"tets", character.mesh.tets.rows()},
                         {"bones", character.skeleton.bones.size()},
                         {"quality", quality_record(character.mesh)}};
+    if (character.refinements > 0) run["character"]["refinements"] = character.refinements;
+    if (!reference_error_method.is_null()) run["reference_error_method"] = reference_error_method;
     if (character.surface) run["character"]["surface_outside_m"] = character.surface->largest_distance_outside_m;
     analysis::write_text_atomically((fs::path(folder_) / "run.json").string(), run.dump(2) + "\n");
 }

@@ -24,9 +24,9 @@ public:
 
     void write_tables() const;  // metrics.csv, iterations.csv and the collections: of an interrupted run, all there is
 
-    // Writes the tables and, last, run.json.
+    // Writes the tables and, last, run.json; a null method of the reference's error bar is left out.
     void finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
-                const nlohmann::json& outcome);
+                const nlohmann::json& outcome, const nlohmann::json& reference_error_method = nullptr);
 
 private:
     const Scene& scene_;

@@ -37,6 +37,7 @@ pbs::CharacterSource read_character(const SceneValues& values, const std::string
     source.skeleton_file = beside(folder, values.text("character.skeleton"));
     source.skeleton_scale = values.number("character.skeleton_scale");
     source.vertices = values.integer("character.vertices");
+    source.refinements = values.integer("character.refine");
     if (source.body.empty() && source.mesh_file.empty()) values.refuse("character.body", "expected a body, or mesh and skeleton files");
     if (!source.body.empty() && !source.mesh_file.empty()) values.refuse("character.mesh", "expected either a body or files, not both");
     if (source.body.empty() && source.skeleton_file.empty()) values.refuse("character.skeleton", "expected the skeleton of the mesh");
@@ -218,6 +219,23 @@ OutputSpec read_output(const SceneValues& values)
     return output;
 }
 
+ErrorBar read_error_bar(const SceneValues& values, const std::string& reference, const std::vector<DeformerSpec>& deformers,
+                        const OutputSpec& output)
+{
+    const ErrorBar error_bar = option_of<ErrorBar>(values.text("reference.error_bar"));
+    const auto reference_spec = std::find_if(deformers.begin(), deformers.end(),
+                                             [&](const DeformerSpec& spec) { return spec.name == reference && spec.kind == "fem"; });
+    if (error_bar == ErrorBar::none) return error_bar;
+    if (reference_spec == deformers.end())
+        values.refuse("reference.error_bar", "expected none where the reference is not a [[fem]] table: it has no elements to refine");
+    const bool other_order = error_bar == ErrorBar::orders || error_bar == ErrorBar::both;
+    if (other_order && reference_spec->fem.formulation == reference_fem::Formulation::taylor_hood)
+        values.refuse("reference.error_bar", "expected none or refined with formulation taylor_hood, which is of order 2 alone");
+    if (!output.errors)
+        values.refuse("reference.error_bar", "expected none where output.metrics leaves out the errors that it stands beside");
+    return error_bar;
+}
+
 std::string read_text(const std::string& path)
 {
     std::ifstream file(path);
@@ -272,6 +290,7 @@ Scene read_scene(const std::string& file_or_name, const std::vector<std::string>
     scene.deformers = read_deformers(values);
     scene.reference = read_reference(values, scene.deformers);
     scene.output = read_output(values);
+    scene.error_bar = read_error_bar(values, scene.reference, scene.deformers, scene.output);
     scene.resolved = values.resolved();
     return scene;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiments/deformers/deformer_spec.hpp"
+#include "experiments/error_bar.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/skinning/pose.hpp"
 
@@ -34,6 +35,7 @@ struct Scene {
     MotionSpec motion;
     std::vector<DeformerSpec> deformers;
     std::string reference;  // name of the deformer that errors are measured against; empty: none
+    ErrorBar error_bar = ErrorBar::none;
     OutputSpec output;
     nlohmann::json resolved;  // every key and value, for run.json; paths as the scene has them
 };

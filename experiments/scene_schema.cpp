@@ -41,6 +41,10 @@ std::vector<SceneKey> character_and_motion_keys()
         within(key("character", "skeleton_scale", number, "1.0", "m", "metres a unit of the skeleton file; CMU's clips: 0.0254 / 0.45"),
                above_zero, 1e6),
         within(key("character", "vertices", integer, "0", "", "wanted number of vertices of a built-in body; 0: its own default"), 0, 1e7),
+        within(key("character", "refine", integer, "0", "",
+                   "how often every tet is cut into eight (8 and 64 times the tets); bones' sizes stay, the other metrics are of the finer "
+                   "mesh"),
+               0, 2),
         key("motion", "joint", text, "\"\"", "", "the joint a sweep turns"),
         key("motion", "axis", vec3, "[1.0, 0.0, 0.0]", "", "axis of a sweep in rest world axes"),
         within(key("motion", "angle_deg", number, "0.0", "deg", "angle of a sweep's last frame; frame i has angle_deg * i / (frames - 1)"),
@@ -133,6 +137,12 @@ std::vector<SceneKey> output_keys()
 {
     return {
         key("reference", "name", text, "\"\"", "", "the deformer that errors are measured against; empty: none"),
+        one_of(
+            key("reference", "error_bar", text, "\"none\"", "",
+                "the reference's own discretisation error beside the deformers' errors: orders (solved again with the other element order "
+                "on the same tets: cheap for order 2), refined (on tets cut into eight: some 30 times the time of order 2), both (three "
+                "solutions, the order of convergence observed); bounds by the grid convergence index, see run.json"),
+            {"none", "orders", "refined", "both"}),
         key("deformers", "use", texts, "[\"lbs\", \"pbs\"]", "",
             "what moves the character: lbs, dqs, pbs and the names of the [[fem]] tables"),
         within(key("output", "frames_every", integer, "1", "", "write every n-th frame as VTU; 0: none"), 0, 1e9),

@@ -92,4 +92,20 @@ TEST(FrameMeasurement, ABrokenFrameIsMeasuredNotRefused)
     EXPECT_FALSE(measured.min_section_pct);
 }
 
+// Judged at the joints; where nothing is blended there is no figure for them, and the whole body decides.
+TEST(FrameMeasurement, AnErrorNotAboveTheReferencesOwnIsMarked)
+{
+    experiments::FrameMeasurement measured;
+    measured.errors = analysis::ErrorNorms{0.1, 2.0, 0.01};
+    EXPECT_FALSE(measured.error_below_reference_error());  // no bar
+    measured.reference_error = analysis::ErrorNorms{0.5, 1.0, 0.5};
+    EXPECT_FALSE(measured.error_below_reference_error());
+    measured.reference_error->joint_pct = 2.0;
+    EXPECT_TRUE(measured.error_below_reference_error());
+    measured.errors->joint_pct = measured.reference_error->joint_pct = std::nan("");
+    EXPECT_TRUE(measured.error_below_reference_error());
+    measured.errors->l2_pct = 0.6;
+    EXPECT_FALSE(measured.error_below_reference_error());
+}
+
 }  // namespace

@@ -85,6 +85,15 @@ TEST(Scene, PathsAreRelativeToTheFile)
     EXPECT_EQ(scene.character.weights_file, folder / "weights.csv");
 }
 
+TEST(Scene, ReadsRefinementAndErrorBar)
+{
+    EXPECT_EQ(read_scene("limb_twist", {}).character.refinements, 0);
+    EXPECT_EQ(read_scene("limb_twist", {}).error_bar, experiments::ErrorBar::none);
+    const Scene scene = read_scene("limb_twist", {"character.refine=2", "reference.error_bar=both"});
+    EXPECT_EQ(scene.character.refinements, 2);
+    EXPECT_EQ(scene.error_bar, experiments::ErrorBar::both);
+}
+
 TEST(Scene, OutputNamesFrames)
 {
     experiments::OutputSpec output;

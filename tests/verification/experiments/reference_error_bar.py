@@ -1,0 +1,98 @@
+"""The reference's error bar against what it stands for. Truth: a better solution of the same problem, order 2 on refined tets, from another
+run of the program; distances recomputed with numpy from the written frames. A bar must cover the distance of the reference to it, and be of
+its size: the factors that the method puts on a difference are at most 6."""
+import csv
+import json
+import unittest
+
+import numpy
+import vtk
+from vtk.util.numpy_support import vtk_to_numpy
+
+import foreign_arm
+import program
+
+SMALL_ANGLE = """
+[[fem]]
+name = "p1"
+element_order = 1
+[[fem]]
+name = "p2"
+element_order = 2
+"""
+
+
+def points(path):
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(path)
+    reader.Update()
+    return vtk_to_numpy(reader.GetOutput().GetPoints().GetData()), vtk_to_numpy(reader.GetOutput().GetCells().GetConnectivityArray())
+
+
+def lumped_volumes(rest, tets):
+    tets = tets.reshape(-1, 4)
+    a, b, c, d = (rest[tets[:, corner]] for corner in range(4))
+    volumes = numpy.einsum("ij,ij->i", numpy.cross(b - a, c - a), d - a) / 6.0
+    lumped = numpy.zeros(len(rest))
+    for corner in range(4):
+        numpy.add.at(lumped, tets[:, corner], volumes / 4.0)
+    return lumped
+
+
+class ReferenceErrorBar(program.ProgramTest):
+    def setUp(self):
+        super().setUp()
+        foreign_arm.write_msh(self.path("arm.msh"), *foreign_arm.mesh((10, 2, 2)))
+        self.write("arm.skeleton.toml", foreign_arm.SKELETON)
+        self.scene = self.write("arm.toml", foreign_arm.SCENE + SMALL_ANGLE)
+
+    def run_scene(self, name, *settings):
+        arguments = ["motion.angle_deg=5", "motion.frames=2", *settings]
+        self.succeeds("run", self.scene, "-o", self.path(name), "--quiet", *[part for text in arguments for part in ("--set", text)])
+        with open(self.path(name, "metrics.csv"), encoding="utf-8") as file:
+            rows = {row["deformer"]: row for row in csv.DictReader(file) if row["frame"] == "1"}
+        with open(self.path(name, "run.json"), encoding="utf-8") as file:
+            return rows, json.load(file)
+
+    def frame(self, name, deformer, number=1):
+        return points(self.path(name, "frames", "%s_%06d.vtu" % (deformer, number)))
+
+    def test_covers_the_distance_to_a_better_solution(self):
+        self.run_scene("better", 'deformers.use=["p2"]', "character.refine=1")
+        better, _ = self.frame("better", "p2")
+        for deformer in ("p1", "p2"):
+            for bar in ("orders", "refined", "both"):
+                name = deformer + "_" + bar
+                rows, record = self.run_scene(name, 'deformers.use=["%s", "lbs"]' % deformer, "reference.name=" + deformer,
+                                              "reference.error_bar=" + bar)
+                found, tets = self.frame(name, deformer)
+                rest, _ = self.frame(name, deformer, 0)
+                squares = ((found - better[:len(found)]) ** 2).sum(axis=1)
+                mass = lumped_volumes(rest, tets)
+                diagonal = numpy.linalg.norm(rest.max(axis=0) - rest.min(axis=0))
+                truth = {"reference_error_l2_pct": 100.0 * numpy.sqrt((mass * squares).sum() / mass.sum()) / diagonal,
+                         "reference_error_linf_m": numpy.sqrt(squares.max())}
+                for column, error in truth.items():
+                    figure = float(rows[deformer][column])
+                    self.assertGreater(figure, error, name + " " + column)
+                    self.assertLess(figure, 20.0 * error, name + " " + column)
+                    self.assertEqual(figure, float(rows["lbs"][column]))  # of the frame, whoever's row
+                self.assertEqual(rows[deformer]["error_below_reference_error"], "")
+                self.assertEqual(len(record["reference_error_method"]["solutions"]), 3 if bar == "both" else 2)
+
+    def test_marks_what_it_does_not_tell_apart(self):
+        rows, record = self.run_scene("marked", 'deformers.use=["p1", "p2", "lbs"]', "reference.name=p2", "reference.error_bar=orders")
+        # The difference to order 1 is what the bar is made of, times more than 3.
+        self.assertEqual(rows["p1"]["error_below_reference_error"], "1")
+        below = float(rows["lbs"]["error_joint_pct"]) <= float(rows["lbs"]["reference_error_joint_pct"])
+        self.assertEqual(rows["lbs"]["error_below_reference_error"], "1" if below else "0")
+        self.assertEqual(record["outcome"]["frames_below_reference_error"]["p1"], 2)  # in the rest pose both are zero
+
+    def test_leaves_the_records_as_they_were_without_it(self):
+        rows, record = self.run_scene("none", 'deformers.use=["p1", "lbs"]', "reference.name=p1")
+        self.assertNotIn("reference_error_l2_pct", rows["p1"])
+        self.assertNotIn("reference_error_method", record)
+
+
+if __name__ == "__main__":
+    unittest.main()
