@@ -16,6 +16,8 @@ const std::vector<VerificationProblem>& verification_problems()
         {"cooks_membrane", "Cook's membrane, plane strain and plane stress", 5.0, 6.0, cooks_membrane_rows},
         {"twisted_beam", "MacNeal and Harder's twisted beam, in and out of plane", 2.0, 10.0, twisted_beam_rows},
         {"thick_plate", "NAFEMS LE10, stress at the edge of a hole", 4.0, 20.0, thick_plate_rows},
+        {"dynamics", "a vibrating cantilever: order in the time step, energy, damping, first frequency", 2.0, 8.0, dynamics_rows},
+        {"moving_skeleton", "order in the time step where the skeleton moves the flesh, large strains", 2.0, 2.0, moving_skeleton_rows},
     };
     return all;
 }

@@ -24,7 +24,7 @@ struct VerificationRow {
     // What must hold; a row without bounds is there to be seen.
     std::optional<double> low = {}, high = {};  // of the value
     std::string bound_from = {};                // where the bounds come from
-    std::optional<double> observed_order = {};  // in h, between the next coarser mesh and this one
+    std::optional<double> observed_order = {};  // in h, between the next coarser mesh and this one; or in the time step
     std::optional<double> expected_order = {};
     std::string note = {};
 };

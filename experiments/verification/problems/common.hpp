@@ -16,6 +16,8 @@ VerificationRows thick_sphere_rows(const Effort& effort);
 VerificationRows cooks_membrane_rows(const Effort& effort);
 VerificationRows twisted_beam_rows(const Effort& effort);
 VerificationRows thick_plate_rows(const Effort& effort);
+VerificationRows dynamics_rows(const Effort& effort);
+VerificationRows moving_skeleton_rows(const Effort& effort);
 
 // What the solver is given in place of `material`: the same, unless the effort asks for an error in lambda.
 reference_fem::ElasticMaterial solver_material(const Effort& effort, const reference_fem::ElasticMaterial& material);

@@ -1,0 +1,49 @@
+// Truth: beam theory. A slender beam is Bernoulli and Euler's, and what shear and rotary inertia take away goes with (h / L)^2.
+#include "experiments/verification/problems/beam_frequency.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace experiments;
+
+double share_of_shear(double length_m)
+{
+    const Beam beam{length_m, 0.1, 1e5, 0.3, 1000.0};
+    return 1.0 - timoshenko_rad_s(beam) / bernoulli_euler_rad_s(beam);
+}
+
+TEST(BeamFrequency, OfASlenderBeamIsBernoulliAndEulers)
+{
+    EXPECT_GT(share_of_shear(10.0), 0.0);
+    EXPECT_LT(share_of_shear(10.0), 1e-4);
+}
+
+TEST(BeamFrequency, IsLoweredByTheSquareOfTheSlenderness)
+{
+    EXPECT_NEAR(std::log2(share_of_shear(2.0) / share_of_shear(4.0)), 2.0, 0.05);
+}
+
+// Rayleigh's quotient over the Bernoulli-Euler mode: 4.647 (r / L)^2 (1 + E / (k G)) / 2, to its square.
+TEST(BeamFrequency, IsLoweredByRotaryInertiaAndShear)
+{
+    const double nu = 0.3, r_over_l = std::sqrt(1.0 / 12.0) / 20.0;
+    EXPECT_NEAR(share_of_shear(2.0), 4.647 * r_over_l * r_over_l * (1.0 + (12.0 + 11.0 * nu) / 5.0) / 2.0, 1e-4);
+}
+
+TEST(BeamFrequency, ScalesAsTheRootOfYoungsModulusOverDensity)
+{
+    const Beam beam{1.0, 0.1, 1e5, 0.3, 1000.0}, stiff{1.0, 0.1, 4e5, 0.3, 1000.0}, heavy{1.0, 0.1, 1e5, 0.3, 4000.0};
+    EXPECT_NEAR(timoshenko_rad_s(stiff), 2.0 * timoshenko_rad_s(beam), 1e-9);
+    EXPECT_NEAR(timoshenko_rad_s(heavy), 0.5 * timoshenko_rad_s(beam), 1e-9);
+}
+
+TEST(BeamFrequency, OfBernoulliAndEulerIsAsPrinted)
+{
+    // Blevins, Formulas for natural frequency and mode shape, 1979, table 8-1: f = 1.87510407^2 / (2 pi L^2) sqrt(E I / m).
+    EXPECT_NEAR(bernoulli_euler_rad_s({1.0, 0.1, 1e5, 0.0, 1000.0}), 3.51601527 * std::sqrt(1e5 * 1e-4 / 12.0 / (1000.0 * 1e-2)), 1e-7);
+}
+
+}  // namespace
