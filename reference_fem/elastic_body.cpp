@@ -57,10 +57,15 @@ public:
     {
         const Eigen::VectorXd weight_before = gravity_.force(), weight = held_.gravity_load(gravity_m_s2);
         if (stepper_) newton_.forget_factor();
+        pbs::Positions guide = targets_at(0.0).guide;
         const LoadPathSummary path = follow_load_path(
             [&](double fraction) {
                 gravity_.set(weight_before + fraction * (weight - weight_before));
-                return newton_.minimise(terms_, move_to(targets_at(fraction)), displacement_, options_.newton);
+                const Targets targets = targets_at(fraction);
+                if (guide.rows() > 0) displacement_ += held_.prescribed_values(held_.rest() + targets.guide - guide);
+                const NewtonSummary summary = newton_.minimise(terms_, move_to(targets), displacement_, options_.newton);
+                if (summary.converged()) guide = targets.guide;
+                return summary;
             },
             displacement_, options_.path);
         gravity_.set(weight_before + path.reached * (weight - weight_before));

@@ -40,6 +40,8 @@ struct Targets {
     pbs::Positions springs;      // [m], #S x 3
     pbs::Positions vertices;     // [m], #V x 3, read at the vertices of prescribed tets only
     pbs::Positions bind_points;  // [m], #V x 3, where the attachment binds; else empty
+    pbs::Positions guide = {};   // [m], #V x 3, or empty: solve() sets out from the last state plus the guide's change since. Not what is
+                                 // converged to depends on it, only the way
 };
 using TargetsAt = std::function<Targets(double fraction)>;
 

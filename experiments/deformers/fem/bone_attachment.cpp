@@ -107,6 +107,17 @@ BoneAttachment bind_attachment(const pbs::Character& character, const FemOptions
     return bones;
 }
 
+std::vector<int> gripping_bones(const BoneAttachment& bones, const pbs::Tets& tets, const std::vector<int>& spring_tet)
+{
+    std::vector<int> gripping = bones.vertex_bone;
+    for (std::size_t s = 0; s < spring_tet.size(); ++s)
+        if (spring_tet[s] >= 0)
+            for (const int v : tets.row(spring_tet[s])) gripping[v] = bones.spring_bone[s];
+    for (std::size_t v = 0; v < bones.binding.bone.size(); ++v)
+        if (is_on_middle(bones.binding.parameter(v))) gripping[v] = bones.binding.bone[v];
+    return gripping;
+}
+
 pbs::Positions spring_targets(const BoneAttachment& bones, const pbs::Pose& pose)
 {
     pbs::Positions targets = bones.attachment.spring_points;

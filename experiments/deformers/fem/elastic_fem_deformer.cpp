@@ -1,7 +1,9 @@
 #include "experiments/deformers/fem/elastic_fem_deformer.hpp"
 
+#include "experiments/deformers/fem/harmonic_weights.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/geometry/tet_volume.hpp"
+#include "pbs/skinning/blend.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +35,13 @@ pbs::Pose placed(pbs::Pose pose, const Eigen::Isometry3d& place)
     return pose;
 }
 
+// What carries each bone from one pose to the other.
+pbs::Pose turned_from(const pbs::Pose& from, pbs::Pose to)
+{
+    for (std::size_t j = 0; j < to.size(); ++j) to[j] = to[j] * from[j].inverse();
+    return to;
+}
+
 pbs::Pose rest_pose(const pbs::Skeleton& skeleton)
 {
     return pbs::Pose(skeleton.bones.size(), Eigen::Isometry3d::Identity());
@@ -45,6 +54,8 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
     character_ = &character;
     bones_ = bone_attachment(character, options_);
     body_ = std::make_unique<reference_fem::ElasticBody>(character.mesh, solver_options(options_), bones_.attachment);
+    guide_weights_ = harmonic_weights(character.mesh, gripping_bones(bones_, character.mesh.tets, body_->setup().spring_tet),
+                                      static_cast<int>(character.skeleton.bones.size()));
     reached_pose_ = rest_pose(character.skeleton);
     unspent_s_ = 0.0;
     is_started_ = false;
@@ -79,10 +90,18 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
 // Equilibria along a way of poses, in their place in the world.
 void ElasticFemDeformer::follow(const PosePath& way, const Eigen::Isometry3d& place, const pbs::Vec3& gravity_m_s2, FrameSolve& solve)
 {
+    const pbs::Positions& rest = character_->mesh.rest;
     const int stages = std::max(1, static_cast<int>(std::ceil(way.largest_turn_deg() / largest_turn_deg)));
     for (int stage = 0; stage < stages; ++stage) {
         const auto on_the_way = [&](double fraction) { return (stage + fraction) / stages; };
-        const auto targets_at = [&](double fraction) { return targets_of(placed(way.at(on_the_way(fraction)), place)); };
+        const pbs::Pose from = placed(way.at(on_the_way(0.0)), place);
+        const pbs::Positions before = rest + Eigen::Map<const pbs::Positions>(body_->displacement().data(), rest.rows(), 3);
+        const auto targets_at = [&](double fraction) {
+            const pbs::Pose pose = placed(way.at(on_the_way(fraction)), place);
+            reference_fem::Targets held = targets_of(pose);
+            pbs::dual_quaternion_skinning(before, guide_weights_, turned_from(from, pose), held.guide);
+            return held;
+        };
         solve.stages.push_back(body_->solve(targets_at, gravity_m_s2));
         solve.reached = on_the_way(solve.stages.back().reached);
         if (!solve.stages.back().converged()) break;

@@ -1,0 +1,83 @@
+#include "experiments/deformers/fem/harmonic_weights.hpp"
+
+#include <Eigen/SparseCholesky>
+
+namespace experiments {
+namespace {
+
+constexpr double negligible = 1e-6;
+constexpr double regular = 1e-9;  // keeps a part that nothing grips from being singular; its weights come out as 0
+
+using Laplacian = Eigen::SparseMatrix<double>;
+using Gradients = Eigen::Matrix<double, 3, 4>;
+
+// Gradients of the four barycentric coordinates [1/m], one a column, and the tet's volume [m^3].
+Gradients barycentric_gradients(const pbs::TetMesh& mesh, Eigen::Index tet, double& volume_m3)
+{
+    Eigen::Matrix3d edges;
+    for (int k = 0; k < 3; ++k) edges.row(k) = mesh.rest.row(mesh.tets(tet, k + 1)) - mesh.rest.row(mesh.tets(tet, 0));
+    volume_m3 = edges.determinant() / 6.0;
+    Gradients gradients;
+    gradients.rightCols<3>() = edges.inverse();
+    gradients.col(0) = -gradients.rightCols<3>().rowwise().sum();
+    return gradients;
+}
+
+// Rows of gripped vertices are those of the identity; what they would couple to goes to the right-hand side.
+Laplacian held_laplacian(const pbs::TetMesh& mesh, const std::vector<int>& gripping_bone, Eigen::MatrixXd& right_hand_sides)
+{
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t v = 0; v < gripping_bone.size(); ++v)
+        if (gripping_bone[v] >= 0) entries.emplace_back(v, v, 1.0);
+    for (Eigen::Index tet = 0; tet < mesh.tets.rows(); ++tet) {
+        double volume_m3 = 0.0;
+        const Gradients gradients = barycentric_gradients(mesh, tet, volume_m3);
+        for (int a = 0; a < 4; ++a)
+            for (int b = 0; b < 4; ++b) {
+                const int row = mesh.tets(tet, a), column = mesh.tets(tet, b);
+                if (gripping_bone[row] >= 0) continue;
+                const double entry = volume_m3 * gradients.col(a).dot(gradients.col(b));
+                if (gripping_bone[column] >= 0)
+                    right_hand_sides(row, gripping_bone[column]) -= entry;
+                else
+                    entries.emplace_back(row, column, row == column ? (1.0 + regular) * entry : entry);
+            }
+    }
+    Laplacian laplacian(mesh.rest.rows(), mesh.rest.rows());
+    laplacian.setFromTriplets(entries.begin(), entries.end());
+    return laplacian;
+}
+
+pbs::Weights sparse(const Eigen::MatrixXd& weights)
+{
+    pbs::Weights result;
+    result.first.push_back(0);
+    for (Eigen::Index v = 0; v < weights.rows(); ++v) {
+        const double sum = (weights.row(v).array() > negligible).select(weights.row(v), 0.0).sum();
+        for (int j = 0; j < weights.cols(); ++j) {
+            if (!(weights(v, j) > negligible)) continue;
+            result.bone.push_back(j);
+            result.weight.push_back(weights(v, j) / sum);
+        }
+        if (result.first.back() == static_cast<int>(result.bone.size())) {
+            result.bone.push_back(0);
+            result.weight.push_back(1.0);
+        }
+        result.first.push_back(static_cast<int>(result.bone.size()));
+    }
+    return result;
+}
+
+}  // namespace
+
+pbs::Weights harmonic_weights(const pbs::TetMesh& mesh, const std::vector<int>& gripping_bone, int bones)
+{
+    Eigen::MatrixXd right_hand_sides = Eigen::MatrixXd::Zero(mesh.rest.rows(), bones);
+    for (std::size_t v = 0; v < gripping_bone.size(); ++v)
+        if (gripping_bone[v] >= 0) right_hand_sides(v, gripping_bone[v]) = 1.0;
+    const Laplacian laplacian = held_laplacian(mesh, gripping_bone, right_hand_sides);
+    const Eigen::SimplicialLDLT<Laplacian> factor(laplacian);
+    return sparse(factor.solve(right_hand_sides));
+}
+
+}  // namespace experiments
