@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -128,6 +130,15 @@ MinimumOutcome search(Recorder& recorder, double low, double high, const Minimis
     return refine(recorder, samples[first - 1], samples[first], samples[next], options, tolerance, iterations);
 }
 
+// A misfit that is asked once at each parameter, however many of the fits need it.
+Misfit remembered(const Misfit& misfit)
+{
+    return [misfit, known = std::make_shared<std::map<double, double>>()](double parameter) {
+        const auto found = known->find(parameter);
+        return found != known->end() ? found->second : known->emplace(parameter, misfit(parameter)).first->second;
+    };
+}
+
 double rise_around(Recorder& recorder, const Evaluation& best, double low, double high, double perturbation)
 {
     double rise = std::numeric_limits<double>::infinity();
@@ -183,17 +194,19 @@ FittedParameter fit_over_cases(const std::vector<Misfit>& misfits, double low, d
 {
     if (misfits.empty()) throw pbs::InputError("", 0, "cases of a fit", "none", "expected at least one");
     const std::size_t n = misfits.size();
+    std::vector<Misfit> known;
+    std::transform(misfits.begin(), misfits.end(), std::back_inserter(known), remembered);
     const auto rms_without = [&](std::size_t left_out) {
-        return [&misfits, n, left_out](double parameter) {
+        return [&known, n, left_out](double parameter) {
             double squares = 0.0;
             for (std::size_t i = 0; i < n; ++i)
-                if (i != left_out) squares += std::pow(misfits[i](parameter), 2);
+                if (i != left_out) squares += std::pow(known[i](parameter), 2);
             return std::sqrt(squares / static_cast<double>(left_out < n ? n - 1 : n));
         };
     };
     FittedParameter fit;
     fit.all = minimise(rms_without(n), low, high, options);
-    for (const Misfit& misfit : misfits) fit.cases.push_back(minimise(misfit, low, high, options));
+    for (const Misfit& misfit : known) fit.cases.push_back(minimise(misfit, low, high, options));
     fit.interval = {fit.all.x, not_known, not_known, level, static_cast<int>(n), 0};
     if (n < 2) return fit;
     for (std::size_t i = 0; i < n; ++i) fit.without.push_back(minimise(rms_without(i), low, high, options).x);

@@ -7,6 +7,7 @@
 #include <gsl/gsl_cdf.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -159,6 +160,15 @@ TEST(FitOverCases, IntervalIsCutToTheBounds)
     const auto fit = fit_over_cases({at(0.05), at(0.9)}, 0.0, 1.0);
     EXPECT_EQ(fit.interval.low, 0.0);
     EXPECT_EQ(fit.interval.high, 1.0);
+}
+
+TEST(FitOverCases, AsksACaseOnceAtEachParameter)
+{
+    std::vector<double> asked;
+    const Misfit counted = [&](double x) { return asked.push_back(x), std::abs(x - 0.3); };
+    fit_over_cases({counted, [](double x) { return std::abs(x - 0.4); }}, 0.0, 1.0);
+    std::sort(asked.begin(), asked.end());
+    EXPECT_EQ(std::adjacent_find(asked.begin(), asked.end()), asked.end());
 }
 
 TEST(FitOverCases, OneCaseHasNoInterval)

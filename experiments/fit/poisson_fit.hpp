@@ -1,0 +1,53 @@
+// Poisson's ratio of the elastic body that the skeleton deforms as it deforms another body. With displacement data, free surfaces and no
+// body force Young's modulus cancels, so nu is all there is to fit.
+//   PoissonStudy study(character, poses, fem_options, 7);
+//   for (const PoissonFit& fit : study.fit(positions_of_each_pose)) ...
+#pragma once
+
+#include "analysis/error_norms.hpp"
+#include "analysis/minimise.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/fit/poisson_family.hpp"
+#include "pbs/character/character.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+struct NamedPose {
+    std::string name;  // twist 30
+    pbs::Pose pose;
+};
+
+// The elastic solutions of the poses at several Poisson's ratios. A pose is reached from the one before it, so they go along one path.
+class ElasticPoses {
+public:
+    ElasticPoses(const pbs::Character& character, const std::vector<std::vector<NamedPose>>& paths, const FemOptions& options, int ratios);
+
+    struct Elastic {
+        NamedPose pose;
+        std::optional<PoissonFamily> family;   // none: some ratio did not converge
+        std::string breakdown;                 // which
+        double interpolation_error_pct = 0.0;  // error_joint between the interpolant and a solve between two ratios, where it is largest
+    };
+    const std::vector<Elastic>& poses() const { return poses_; }
+    const std::vector<bool>& prescribed() const { return prescribed_; }  // #V, or empty
+
+private:
+    std::vector<Elastic> poses_;
+    std::vector<bool> prescribed_;
+};
+
+struct PoissonFit {
+    analysis::FittedParameter poisson;         // misfits: error_joint [%]; cases: the poses, in order of those that have a family
+    std::vector<std::string> poses;            // their names
+    std::vector<analysis::Evaluation> valley;  // misfit of all poses over a fine grid of nu
+};
+
+// positions: of the body to be fitted, one a pose of `elastic`, in that order [m], #V x 3. Nothing where no pose has a family.
+std::optional<PoissonFit> fit_poisson(const pbs::Character& character, const ElasticPoses& elastic,
+                                      const std::vector<pbs::Positions>& positions);
+
+}  // namespace experiments
