@@ -15,6 +15,8 @@ const std::vector<VerificationProblem>& verification_problems()
         {"thick_sphere", "Lame's sphere under internal pressure, nu = 0.3 and 0.499", 3.0, 30.0, thick_sphere_rows},
         {"cooks_membrane", "Cook's membrane, plane strain and plane stress", 5.0, 6.0, cooks_membrane_rows},
         {"twisted_beam", "MacNeal and Harder's twisted beam, in and out of plane", 2.0, 10.0, twisted_beam_rows},
+        {"half_turn", "Newton's iterations and states of a bar turned by 180 degrees, against another implementation", 10.0, 30.0,
+         half_turn_rows},
         {"thick_plate", "NAFEMS LE10, stress at the edge of a hole", 4.0, 20.0, thick_plate_rows},
         {"dynamics", "a vibrating cantilever: order in the time step, energy, damping, first frequency", 2.0, 8.0, dynamics_rows},
         {"moving_skeleton", "order in the time step where the skeleton moves the flesh, large strains", 2.0, 2.0, moving_skeleton_rows},
