@@ -12,6 +12,15 @@ const std::vector<Study>& studies()
          "the FEM reference against theory and published benchmarks: patch tests, manufactured solutions, beams, sphere, plates",
          "none: how far the reference itself may be trusted", "some 30 seconds (--quick), 5 minutes (--full)", plan_verification_study,
          true, conclude_verification_study},
+        {"fit",
+         "the elastic body that PBS is: Young's modulus by sag and by first frequency against k_stretch, iterations, time step and mesh; "
+         "Poisson's ratio from twist and bend",
+         "C11, in figures; no verdict", "some 4 minutes (--quick), 40 (--full)", plan_fit_study, false, conclude_fit_study},
+        {"error_split",
+         "the error of PBS against the reference, split into solver, model and discretisation; the share of the attachment and of the "
+         "bones' thickness",
+         "none: what C03 and C12 converge towards", "some 3 minutes (--quick: to 90 degrees), an hour (--full: with the refined reference)",
+         plan_error_split_study, false, conclude_error_split_study},
     };
     return all;
 }

@@ -44,6 +44,10 @@ struct Study {
 const std::vector<Study>& studies();
 
 StudyPlan plan_volume_study(bool full);
+StudyPlan plan_fit_study(bool full);
+StudyConclusion conclude_fit_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
+StudyPlan plan_error_split_study(bool full);
+StudyConclusion conclude_error_split_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_verification_study(bool full);
 StudyConclusion conclude_verification_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 
