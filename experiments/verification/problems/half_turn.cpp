@@ -8,6 +8,7 @@
 #include "reference_fem/potentials/elastic_potential.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numbers>
 
