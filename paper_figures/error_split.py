@@ -25,14 +25,14 @@ def draw_parts(axes, rows, angle_deg):
             raise records.RecordsMissing(f"parts.csv of {rows[0]['scene']}: no pose at {angle_deg:g} degrees with k_stretch {k_stretch}")
         for column, label, color, marker, line in parts:
             axes.plot(records.numbers(chosen, "iterations"), records.numbers(chosen, column), color=color, marker=marker, linestyle=line,
-                      alpha=shade, label=f"{label}, k_stretch {k_stretch}")
+                      alpha=shade, label=label if shade == 1.0 else None)
         drawn += [{"scene": row["scene"], "angle_deg": row["angle_deg"], "k_stretch": row["k_stretch"], "shown": column,
                    "at": row["iterations"], "value_pct": row[column]} for row in chosen for column, *_ in parts]
     axes.set_xscale("log")
     axes.set_ylim(bottom=0)
     axes.set_xlabel("iterations")
-    axes.set_ylabel("error at the joint [% of the bone distance]")
-    axes.set_title(f"{rows[0]['scene'].replace('_', ', ')} {angle_deg}\u00b0")
+    axes.set_ylabel("error at the joint [%]")
+    axes.set_title(f"{rows[0]['scene'].replace('_', ', ')} {angle_deg}\u00b0; k_stretch 0.2, faint: 0.9")
     return drawn
 
 
@@ -46,7 +46,7 @@ def draw_attachments(axes, rows, angle_deg):
     chosen = of_pose(rows, angle_deg, 0.2)
     chosen.sort(key=lambda row: (row["attachment"] == "bind", float(row["core_radius"])))
     axes.barh([name_of(row) for row in chosen], [float(row["model_pct"] or "nan") for row in chosen], color=style.sky, height=0.6)
-    axes.set_xlabel("model error, k_stretch 0.2 [% of the bone distance]")
+    axes.set_xlabel("model error against P1, k_stretch 0.2 [%]")
     axes.grid(axis="y", visible=False)
     return [{"scene": row["scene"], "angle_deg": row["angle_deg"], "k_stretch": row["k_stretch"], "shown": "model_pct", "at": row["reference"],
              "value_pct": row["model_pct"]} for row in chosen]

@@ -51,14 +51,14 @@ struct NamedReference {
 
 // The references of a case, each in every pose.
 struct References {
-    Shapes truth, twin, twin_refined, truth_refined;  // the last is empty unless asked for
+    Shapes truth, twin, twin_refined, truth_refined;  // the last of the first poses only
     std::vector<NamedReference> variants;             // of the twin: other attachments
 };
 
 References solve_references(const ErrorSplitCase& of, const PosedCharacter& base, const PosedCharacter& fine)
 {
     References references{base.shapes(of.truth), base.shapes(of.twin), fine.shapes(of.twin), {}, {}};
-    if (of.refined_truth) references.truth_refined = fine.shapes(of.truth);
+    if (of.refined_poses > 0) references.truth_refined = fine.shapes(of.truth, of.refined_poses);
     for (const double core_radius : of.core_radii) {
         DeformerSpec other = of.twin;
         other.fem.core_radius = core_radius;
@@ -77,7 +77,7 @@ References solve_references(const ErrorSplitCase& of, const PosedCharacter& base
 double discretisation_pct(const PosedCharacter& base, const References& references, std::size_t pose)
 {
     constexpr double halved = 2.0, order = 1.0;
-    if (references.truth_refined.empty())
+    if (pose >= references.truth_refined.size())
         return analysis::two_fields(base.distance(references.twin_refined[pose], references.twin[pose]).joint_pct, halved, order).bounds[0];
     return analysis::two_fields(base.distance(references.truth_refined[pose], references.truth[pose]).joint_pct, halved, order).bounds[1];
 }
@@ -126,7 +126,7 @@ private:
             split_.parts.add_row({of_.scene.name, of_.frames[pose], base_.angle_deg(pose), k_stretch, iterations, total.joint_pct,
                                   base_.distance(shapes[pose], converged.shapes[pose]).joint_pct,
                                   base_.distance(converged.shapes[pose], truth).joint_pct, discretisation_pct(base_, references_, pose),
-                                  references_.truth_refined.empty() ? "twin" : "truth",
+                                  pose >= references_.truth_refined.size() ? "twin" : "truth",
                                   base_.distance(converged.shapes[pose], converged.half_way[pose]).joint_pct,
                                   base_.distance(converged.shapes[pose], converged.refined[pose]).joint_pct, total.l2_pct, total.linf_m,
                                   int(truth.self_intersects)});

@@ -20,7 +20,7 @@ struct ErrorSplitCase {
     std::vector<int> iterations;
     int converged_iterations = 8000;  // x_inf; half of it says how far from converged
     std::vector<double> core_radii;   // beside the scene's own
-    bool refined_truth = false;       // the truth on the refined mesh too, else its twin only
+    int refined_poses = 0;            // the first so many with the truth on the refined mesh too, the others with its twin alone
 };
 
 struct ErrorSplit {

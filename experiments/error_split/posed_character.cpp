@@ -25,14 +25,15 @@ PosedCharacter::PosedCharacter(const Scene& scene, const std::vector<int>& frame
     }
 }
 
-Shapes PosedCharacter::shapes(const DeformerSpec& spec) const
+Shapes PosedCharacter::shapes(const DeformerSpec& spec, std::optional<std::size_t> poses) const
 {
     const std::unique_ptr<Deformer> deformer = make_deformer(spec);
     deformer->reset(character_);
     Shapes shapes;
-    for (const pbs::Pose& pose : poses_) {
+    const std::size_t count = std::min(poses.value_or(poses_.size()), poses_.size());
+    for (std::size_t pose = 0; pose < count; ++pose) {
         stop_if_interrupted();
-        const pbs::StepSummary step = deformer->advance(pose, time_step_s_);
+        const pbs::StepSummary step = deformer->advance(poses_[pose], time_step_s_);
         const bool finished = step.outcome == pbs::Outcome::finished;
         shapes.push_back(
             {deformer->positions(), finished, finished && pbs::self_intersects(deformer->positions(), boundary_), step.seconds});

@@ -8,6 +8,7 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace experiments {
@@ -25,8 +26,8 @@ public:
     // frames: of the scene's motion, increasing.
     PosedCharacter(const Scene& scene, const std::vector<int>& frames);
 
-    // A deformer goes from pose to pose in their order, without the frames between.
-    Shapes shapes(const DeformerSpec& spec) const;
+    // A deformer goes from pose to pose in their order, without the frames between; through the first `poses` of them, or all.
+    Shapes shapes(const DeformerSpec& spec, std::optional<std::size_t> poses = {}) const;
 
     // Between two shapes, on this character's vertices, which a refined one's begin with; by the ruler of every record. Not a number where
     // one of them did not finish.
