@@ -15,10 +15,31 @@
 #include <Eigen/IterativeLinearSolvers>
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 #include <limits>
+#include <set>
+#include <string>
+
+#include <unistd.h>
 
 namespace reference_fem {
 namespace {
+
+// Open MPI puts into the environment of a process that mpirun has not started what makes its children think they were this very rank; an
+// mpirun among them then fails.
+void init_leaving_the_environment()
+{
+    const auto names = [] {
+        std::set<std::string> found;
+        for (char** variable = environ; *variable; ++variable) found.emplace(*variable, std::strcspn(*variable, "="));
+        return found;
+    };
+    const std::set<std::string> before = names();
+    MPI_Init(nullptr, nullptr);
+    for (const std::string& name : names())
+        if (!before.contains(name)) unsetenv(name.c_str());
+}
 
 // ML asks MPI who it is even on one process. Started with the first hierarchy, ended with the program, unless the program did so itself.
 void start_mpi()
@@ -29,7 +50,7 @@ void start_mpi()
             int started = 0;
             MPI_Initialized(&started);
             ours = !started;
-            if (ours) MPI_Init(nullptr, nullptr);
+            if (ours) init_leaving_the_environment();
         }
         ~Mpi()
         {

@@ -16,6 +16,7 @@ VerificationRows thick_sphere_rows(const Effort& effort);
 VerificationRows cooks_membrane_rows(const Effort& effort);
 VerificationRows twisted_beam_rows(const Effort& effort);
 VerificationRows thick_plate_rows(const Effort& effort);
+VerificationRows distributed_rows(const Effort& effort);
 VerificationRows half_turn_rows(const Effort& effort);
 VerificationRows dynamics_rows(const Effort& effort);
 VerificationRows moving_skeleton_rows(const Effort& effort);

@@ -7,6 +7,10 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
+#include <cstdlib>
+
 namespace {
 
 using namespace reference_fem;
@@ -67,6 +71,20 @@ TEST(PreparedSolver, ConjugateGradientsThatDoNotConvergeReportIt)
 {
     const SparseMatrix floating = spring_chain(4, 0.0);  // and a load that no displacement answers
     EXPECT_FALSE(prepare(floating, LinearSolver::cg_ml)->solve(Eigen::VectorXd::Ones(4)).allFinite());
+}
+
+// Open MPI's own variables make an mpirun among the children fail.
+TEST(PreparedSolver, StartingMpiLeavesTheEnvironmentAsItWas)
+{
+    const auto count = [] {
+        int variables = 0;
+        for (char** variable = environ; *variable; ++variable) ++variables;
+        return variables;
+    };
+    const int before = count();  // where this test runs alone, as under ctest, MPI starts below
+    prepare(spring_chain(4, 1.0), LinearSolver::cg_ml);
+    EXPECT_EQ(count(), before);
+    EXPECT_EQ(std::getenv("PMIX_RANK"), nullptr);
 }
 
 TEST(PreparedSolver, NothingToSolveForIsNoError)
