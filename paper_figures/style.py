@@ -54,6 +54,13 @@ def panels(rows, columns, height_in=2.0, width_in=None, **options):
     return pyplot.subplots(rows, columns, figsize=(width, height_in * rows), squeeze=False, **options)
 
 
+def stacked(*rows):
+    """Rows of panels, each a number of columns and a height [in], laid out on their own: the axes of each row."""
+    figure = pyplot.figure(figsize=(page_in, sum(height for _, height in rows)))
+    parts = figure.subfigures(len(rows), 1, height_ratios=[height for _, height in rows])
+    return figure, [part.subplots(1, columns, squeeze=False)[0] for part, (columns, _) in zip(parts, rows)]
+
+
 def draw(axes, deformer, x, y, markers=True, **options):
     """One deformer's line; a marker about every tenth point."""
     look = look_of(deformer)

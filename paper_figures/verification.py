@@ -1,86 +1,115 @@
-"""The finite element reference against theory: errors of a manufactured solution against the cell size with the slopes they should have,
-and every benchmark's difference from its reference on the finest mesh, by element order."""
-import math
+"""The finite element reference against theory: errors of a manufactured solution against the cell size with the slopes they should have;
+what is left of bending and torsion as Poisson's ratio goes to 1/2; every benchmark's difference from its reference on the finest mesh."""
+import re
 
 import records
 import style
 
-looks = {"P1": (style.vermillion, "v"), "P2": (style.blue, "o")}
-norms = {"error in L2 over that of the solution": ("L2", "-", 1), "error in the H1 seminorm over that of the solution": ("H1", (0, (4, 1.5)), 0)}
-labels = {
+looks = {"P1": (style.vermillion, "v"), "P2": (style.blue, "o"), "P2 mean dilatation": (style.orange, "s"), "P2 Taylor-Hood": (style.green, "D")}
+norms = {"error in L2 over that of the solution": ("$L^2$", "-", 1),
+         "error in the H1 seminorm over that of the solution": ("$H^1$", (0, (4, 1.5)), 0)}
+# What is shown of each problem, and how it is called.
+benchmarks = {
     ("cantilever", "tip deflection"): "cantilever, tip",
     ("gravity_cantilever", "deflection of the end's middle"): "cantilever, own weight",
     ("torsion", "torque"): "torsion of a square bar",
-    ("thick_sphere", "radial displacement of the inner surface"): "Lam\u00e9's sphere",
-    ("thick_plate", "sigma_yy at D"): "NAFEMS LE10, stress",
+    ("thick_sphere", "radial displacement of the inner surface"): "Lam\u00e9's thick sphere",
+    ("cooks_membrane", "rise of the corner (48,60), plane strain"): "Cook, plane strain",
+    ("cooks_membrane", "rise of the right edge's middle (48,52), plane stress"): "Cook, plane stress",
+    ("cooks_membrane_finite_strain", "rise of the corner (48,60), free faces"): "Cook, finite strain, free faces",
+    ("cooks_membrane_finite_strain", "rise of the corner (48,60), plane strain"): "Cook, finite strain, plane strain",
+    ("twisted_beam", "tip deflection, load along the tip's width (in plane)"): "MacNeal\u2013Harder twisted beam, in plane",
+    ("twisted_beam", "tip deflection, load across the tip's width (out of plane)"): "MacNeal\u2013Harder twisted beam, out of plane",
+    ("thick_plate", "sigma_yy at D"): "NAFEMS LE10, stress at D",
 }
 
 
-def look_of(elements):
-    return looks.get(elements, (style.purple if "dilatation" in elements else style.green, "D"))
+def poisson(row):
+    return re.search(r"nu = ([0-9.]+)", row["material"]).group(1)
 
 
 def draw_convergence(axes, rows):
     """One line a norm and element order; from its finest mesh the slope of theory, dotted, to the coarsest."""
-    for elements, (color, marker) in looks.items():
+    for elements in ("P1", "P2"):
+        color, marker = looks[elements]
         for quantity, (norm, line, gain) in norms.items():
             ladder = [row for row in rows if row["elements"] == elements and row["quantity"] == quantity]
+            if not ladder:
+                raise records.RecordsMissing(f"verification.csv: no {quantity} of {elements}")
             h, error = records.numbers(ladder, "h_m"), records.numbers(ladder, "value")
             order = int(elements[1]) + gain
-            axes.plot(h, error, color=color, linestyle=line, marker=marker, label=f"{elements}, {norm}: h^{order}")
+            axes.plot(h, error, color=color, linestyle=line, marker=marker, label=f"{elements} in {norm}, theory $h^{order}$")
             axes.plot(h, [error[-1] * (x / h[-1]) ** order for x in h], color=style.black, linestyle=(0, (1, 2)), linewidth=0.7)
     axes.set_xscale("log", base=2)
     axes.set_yscale("log")
-    axes.set_xlabel("cell size h [m]")
+    axes.set_xlabel("cell size over the cube's side")
     axes.set_ylabel("error over the solution's norm")
     axes.set_title("manufactured solution; dotted: theory")
-    axes.legend(loc="upper left")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncol=2)
 
 
-def label_of(row):
-    quantity = labels.get((row["problem"], row["quantity"]), row["quantity"].split(" (")[0])
-    return f"{quantity}, {row['material'].split('nu = ')[-1]}"
+def draw_locking(axes, rows):
+    """Value over reference against the distance to incompressibility."""
+    for quantity, line in (("tip deflection", "-"), ("torque", (0, (4, 1.5)))):
+        for elements, (color, marker) in looks.items():
+            ladder = [row for row in rows if row["elements"] == elements and row["quantity"] == quantity]
+            if ladder:
+                distance = [1.0 - 2.0 * float(poisson(row)) for row in ladder]
+                ratio = [float(row["value"]) / float(row["reference"]) for row in ladder]
+                axes.plot(distance, ratio, color=color, linestyle=line, marker=marker, label=elements if line == "-" else None)
+    axes.axhline(1.0, color=style.black, linewidth=0.6)
+    axes.set_xscale("log")
+    axes.invert_xaxis()
+    axes.set_ylim(0.0, 1.65)
+    axes.set_xlabel("1 \u2212 2 \u03bd, from compressible to incompressible")
+    axes.set_ylabel("figure over theory")
+    axes.set_title("locking: bending (full lines), torsion (dashed)")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncol=2)
 
 
 def finest(rows):
-    """Of each quantity with a reference, material and element order the row with the most degrees of freedom."""
+    """Of each benchmark, material and element the row with the most degrees of freedom."""
     chosen = {}
     for row in rows:
-        if not row["difference_pct"]:
-            continue
         key = (row["problem"], row["quantity"], row["material"], row["elements"])
-        if key not in chosen or int(row["dofs"]) > int(chosen[key]["dofs"]):
+        if key[:2] in benchmarks and row["difference_pct"] and (key not in chosen or int(row["dofs"]) > int(chosen[key]["dofs"])):
             chosen[key] = row
     return list(chosen.values())
 
 
+def label_of(row):
+    return f"{benchmarks[row['problem'], row['quantity']]}, \u03bd = {float(poisson(row)):.4g}"
+
+
 def draw_benchmarks(axes, rows):
     places = {label: place for place, label in enumerate(dict.fromkeys(label_of(row) for row in rows))}
-    for elements in dict.fromkeys(row["elements"] for row in rows):
-        color, marker = look_of(elements)
-        of_elements = [row for row in rows if row["elements"] == elements]
-        axes.plot(records.numbers(of_elements, "difference_pct"), [places[label_of(row)] for row in of_elements], color=color, marker=marker,
-                  linestyle="none", label=elements, markersize=4)
-    axes.axvspan(-2.0, 2.0, color="#E8E8E8", linewidth=0, zorder=0, label="within 2 %: grade A (MacNeal, Harder 1985)")
+    axes.axvspan(-2.0, 2.0, color="#E8E8E8", linewidth=0, zorder=0)
     axes.axvline(0.0, color=style.black, linewidth=0.6)
+    for elements, (color, marker) in looks.items():
+        shown = [row for row in rows if row["elements"] == elements]
+        if shown:
+            axes.plot(records.numbers(shown, "difference_pct"), [places[label_of(row)] for row in shown], color=color, marker=marker,
+                      linestyle="none", label=elements, markersize=4.5)
     axes.set_xscale("symlog", linthresh=2.0, linscale=1.5)
     ticks = [-50, -10, -2, -1, 0, 1, 2, 10, 50]
     axes.set_xticks(ticks, [f"{tick:+g}".replace("-", "\u2212") if tick else "0" for tick in ticks])
-    axes.set_xlim(-100, 100)
+    axes.set_xlim(-70, 70)
     axes.set_yticks(range(len(places)), list(places))
     axes.set_ylim(len(places) - 0.5, -0.5)
-    axes.set_xlabel("difference from the reference [%], finest mesh")
-    axes.set_title("benchmarks, with Poisson's ratio")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.4, -0.2), ncol=3)
+    axes.set_xlabel("difference from the reference on the finest mesh [%]")
+    axes.set_title("benchmarks; grey: grade A of MacNeal and Harder (1985)")
+    axes.legend(loc="upper right")
 
 
 def draw(results, figures):
-    rows = records.table(results / "verification" / "verification.csv", {"problem", "quantity", "elements", "h_m", "value", "difference_pct"})
-    manufactured = [row for row in rows if row["problem"] == "manufactured_solution"]
-    benchmarks = [row for row in finest(rows) if math.isfinite(float(row["difference_pct"]))]
-    if not manufactured or not benchmarks:
-        raise records.RecordsMissing(f"{results / 'verification' / 'verification.csv'}: no manufactured solution or no benchmark")
-    figure, axes = style.panels(1, 2, height_in=3.4, gridspec_kw={"width_ratios": [1, 1.15]})
-    draw_convergence(axes[0][0], manufactured)
-    draw_benchmarks(axes[0][1], benchmarks)
-    style.save(figure, figures / "verification", records.provenance(results / "verification"), manufactured + benchmarks)
+    rows = records.table(results / "verification" / "verification.csv",
+                         {"problem", "quantity", "elements", "material", "h_m", "dofs", "value", "reference", "difference_pct"})
+    manufactured, locking = ([row for row in rows if row["problem"] == name] for name in ("manufactured_solution", "locking"))
+    shown = finest(rows)
+    if not shown:
+        raise records.RecordsMissing("verification.csv: no benchmark")
+    figure, (above, below) = style.stacked((2, 2.5), (1, 2.9))
+    draw_convergence(above[0], manufactured)
+    draw_locking(above[1], locking)
+    draw_benchmarks(below[0], shown)
+    style.save(figure, figures / "verification", records.provenance(results / "verification"), manufactured + locking + shown)

@@ -31,10 +31,14 @@ std::vector<bool> boundary_nodes(const SimplexSpace& space)
     return on_boundary;
 }
 
-struct PrescribedData {
-    std::vector<bool> held;  // #dofs
-    Eigen::VectorXd values;  // [m], #dofs
-};
+int nearest(const Eigen::Ref<const pbs::Positions>& points, const pbs::Vec3& point)
+{
+    Eigen::Index index = 0;
+    (points.rowwise() - point.transpose()).rowwise().squaredNorm().minCoeff(&index);
+    return static_cast<int>(index);
+}
+
+}  // namespace
 
 PrescribedData prescribed_data(const SimplexSpace& space, const BoundaryValueProblem& problem)
 {
@@ -59,14 +63,10 @@ Eigen::VectorXd external_load(const SimplexSpace& space, const BoundaryValueProb
     return load;
 }
 
-int nearest(const Eigen::Ref<const pbs::Positions>& points, const pbs::Vec3& point)
+int nearest_node(const SimplexSpace& space, const pbs::Vec3& point)
 {
-    Eigen::Index index = 0;
-    (points.rowwise() - point.transpose()).rowwise().squaredNorm().minCoeff(&index);
-    return static_cast<int>(index);
+    return nearest(space.node_positions(), point);
 }
-
-}  // namespace
 
 BoundaryValueSolution solve(const pbs::TetMesh& mesh, const ElasticMaterial& material, const BoundaryValueProblem& problem)
 {
@@ -108,7 +108,7 @@ double BoundaryValueSolution::strain_energy_j(const ElasticMaterial& material) c
 
 pbs::Vec3 BoundaryValueSolution::displacement_at(const pbs::Vec3& point) const
 {
-    return displacement.segment<3>(3 * nearest(space->node_positions(), point));
+    return displacement.segment<3>(3 * nearest_node(*space, point));
 }
 
 Eigen::Matrix3d BoundaryValueSolution::stress_at(const pbs::Vec3& point, const ElasticMaterial& material) const

@@ -57,4 +57,13 @@ struct BoundaryValueSolution {
 
 BoundaryValueSolution solve(const pbs::TetMesh& mesh, const ElasticMaterial& material, const BoundaryValueProblem& problem);
 
+// What a problem says of a space.
+struct PrescribedData {
+    std::vector<bool> held;  // #dofs
+    Eigen::VectorXd values;  // [m], #dofs
+};
+PrescribedData prescribed_data(const SimplexSpace& space, const BoundaryValueProblem& problem);
+Eigen::VectorXd external_load(const SimplexSpace& space, const BoundaryValueProblem& problem);  // [N], #dofs
+int nearest_node(const SimplexSpace& space, const pbs::Vec3& point);
+
 }  // namespace reference_fem

@@ -6,8 +6,7 @@
 // The solid differs from the beam near its ends, over one depth by Saint-Venant's principle: a clamp that holds the anticlastic curvature
 // bends as a plate there, 1 - nu^2 as much, and the first depth h of a tip-loaded cantilever makes 3 h / L of its deflection; at either
 // end the warping of the cross-section may be free or held, which is at most the shear deflection of one depth.
-#include "experiments/verification/problems/common.hpp"
-#include "experiments/verification/structured_mesh.hpp"
+#include "experiments/verification/problems/beam_problems.hpp"
 
 namespace experiments {
 namespace {
@@ -30,7 +29,9 @@ BeamTheory timoshenko(double nu)
             force_n * depth_m / (k * shear_pa * area)};
 }
 
-VerificationRow row_of(const Effort& effort, double nu, int element_order, const Divisions& divisions)
+}  // namespace
+
+VerificationRow cantilever_row(const Effort& effort, double nu, int element_order, Formulation formulation, const Divisions& divisions)
 {
     const ElasticMaterial material{young_pa, nu};
     const BoundaryValueSolution solution =
@@ -40,11 +41,12 @@ VerificationRow row_of(const Effort& effort, double nu, int element_order, const
                .tractions = {{[](const Vec3& centre) { return centre.x() > length_m - 1e-9; },
                               [](const Vec3&, const Vec3&) -> Vec3 {
                                   return {0, 0, -force_n / (depth_m * depth_m)};
-                              }}}});
+                              }}},
+               .formulation = formulation});
     const BeamTheory theory = timoshenko(nu);
     VerificationRow row = {.problem = "cantilever",
                            .quantity = "tip deflection",
-                           .elements = elements_name(element_order),
+                           .elements = elements_name(element_order, formulation),
                            .material = linear_material(nu),
                            .mesh = text_of(divisions),
                            .h_m = depth_m / divisions[1],
@@ -64,15 +66,14 @@ VerificationRow row_of(const Effort& effort, double nu, int element_order, const
     return row;
 }
 
-}  // namespace
-
 VerificationRows cantilever_rows(const Effort& effort)
 {
     VerificationRows rows;
     for (const double nu : {0.0, 0.3})
         for (const int element_order : {1, 2})
             for (const int n : {3, 6, 12})
-                if (n < 12 || (effort.full && element_order == 1)) rows.push_back(row_of(effort, nu, element_order, {8 * n, n, n}));
+                if (n < 12 || (effort.full && element_order == 1))
+                    rows.push_back(cantilever_row(effort, nu, element_order, Formulation::displacement, {8 * n, n, n}));
     return rows;
 }
 

@@ -18,9 +18,12 @@ ElasticMaterial solver_material(const Effort& effort, const ElasticMaterial& mat
     return {mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu), lambda / (2.0 * (lambda + mu))};
 }
 
-std::string elements_name(int element_order)
+std::string elements_name(int element_order, reference_fem::Formulation formulation)
 {
-    return "P" + std::to_string(element_order);
+    const std::string order = "P" + std::to_string(element_order);
+    if (formulation == reference_fem::Formulation::mean_dilatation) return order + " mean dilatation";
+    if (formulation == reference_fem::Formulation::taylor_hood) return order + " Taylor-Hood";
+    return order;
 }
 
 std::string linear_material(double poisson)

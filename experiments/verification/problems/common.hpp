@@ -14,6 +14,8 @@ VerificationRows gravity_cantilever_rows(const Effort& effort);
 VerificationRows torsion_rows(const Effort& effort);
 VerificationRows thick_sphere_rows(const Effort& effort);
 VerificationRows cooks_membrane_rows(const Effort& effort);
+VerificationRows cooks_membrane_finite_strain_rows(const Effort& effort);
+VerificationRows locking_rows(const Effort& effort);
 VerificationRows twisted_beam_rows(const Effort& effort);
 VerificationRows thick_plate_rows(const Effort& effort);
 VerificationRows distributed_rows(const Effort& effort);
@@ -24,7 +26,8 @@ VerificationRows moving_skeleton_rows(const Effort& effort);
 // What the solver is given in place of `material`: the same, unless the effort asks for an error in lambda.
 reference_fem::ElasticMaterial solver_material(const Effort& effort, const reference_fem::ElasticMaterial& material);
 
-std::string elements_name(int element_order);      // P1, P2
+// P1, P2, P2 mean dilatation, P2 Taylor-Hood
+std::string elements_name(int element_order, reference_fem::Formulation formulation = reference_fem::Formulation::displacement);
 std::string linear_material(double poisson);       // linear, nu = 0.3
 double order_between(double coarse, double fine);  // of errors on two meshes, one twice as fine
 

@@ -30,7 +30,7 @@ double radial_displacement(const ElasticMaterial& material, double r)
     return pressure_pa * a3 / (material.young_pa * (b3 - a3)) * ((1.0 - 2.0 * nu) * r + (1.0 + nu) * b3 / (2.0 * r * r));
 }
 
-VerificationRow row_of(const Effort& effort, double nu, int element_order, int n)
+VerificationRow row_of(const Effort& effort, double nu, int element_order, Formulation formulation, int n)
 {
     const ElasticMaterial material{1.0, nu};
     const pbs::TetMesh mesh = octant(n);
@@ -39,7 +39,8 @@ VerificationRow row_of(const Effort& effort, double nu, int element_order, int n
               {.held = [](const Vec3& x) { return Held(x.x() < 1e-9, x.y() < 1e-9, x.z() < 1e-9); },
                .element_order = element_order,
                .tractions = {{[](const Vec3& centre) { return centre.minCoeff() > 1e-9 && centre.norm() < (inner_m + outer_m) / 2.0; },
-                              [](const Vec3&, const Vec3& normal) -> Vec3 { return -pressure_pa * normal; }}}});
+                              [](const Vec3&, const Vec3& normal) -> Vec3 { return -pressure_pa * normal; }}},
+               .formulation = formulation});
     double sum = 0.0;
     int count = 0;
     for (Eigen::Index v = 0; v < mesh.rest.rows(); ++v) {
@@ -49,7 +50,7 @@ VerificationRow row_of(const Effort& effort, double nu, int element_order, int n
     }
     return {.problem = "thick_sphere",
             .quantity = "radial displacement of the inner surface",
-            .elements = elements_name(element_order),
+            .elements = elements_name(element_order, formulation),
             .material = linear_material(nu),
             .mesh = "3 x " + text_of({n, n, n}) + " in an octant",
             .h_m = (outer_m - inner_m) / n,
@@ -61,11 +62,11 @@ VerificationRow row_of(const Effort& effort, double nu, int element_order, int n
 }
 
 // Meshes of n, 2n, ... cells across.
-VerificationRows ladder(const Effort& effort, double nu, int element_order, int coarsest, int levels)
+VerificationRows ladder(const Effort& effort, double nu, int element_order, Formulation formulation, int coarsest, int levels)
 {
     VerificationRows rows;
     for (int level = 0; level < levels; ++level) {
-        rows.push_back(row_of(effort, nu, element_order, coarsest << level));
+        rows.push_back(row_of(effort, nu, element_order, formulation, coarsest << level));
         if (level == 0) continue;
         const VerificationRow& coarser = rows[level - 1];
         rows.back().observed_order = order_between(coarser.value - coarser.reference, rows.back().value - rows.back().reference);
@@ -84,9 +85,11 @@ void judge_as_second_order(VerificationRow& row)
 
 VerificationRows thick_sphere_rows(const Effort& effort)
 {
+    const int coarsest = effort.full ? 6 : 4;
     VerificationRows rows;
     for (const double nu : {0.3, 0.499}) {
-        VerificationRows linear = ladder(effort, nu, 1, 4, 3), quadratic = ladder(effort, nu, 2, effort.full ? 6 : 4, 2);
+        VerificationRows linear = ladder(effort, nu, 1, Formulation::displacement, 4, 3);
+        VerificationRows quadratic = ladder(effort, nu, 2, Formulation::displacement, coarsest, 2);
         bound_by_grade_a(quadratic.back());
         if (nu < 0.4) {
             judge_as_second_order(linear.back());
@@ -97,6 +100,10 @@ VerificationRows thick_sphere_rows(const Effort& effort)
         rows.insert(rows.end(), linear.begin(), linear.end());
         rows.insert(rows.end(), quadratic.begin(), quadratic.end());
     }
+    VerificationRows taylor_hood = ladder(effort, 0.4999, 2, Formulation::taylor_hood, coarsest, 2);
+    bound_by_grade_a(taylor_hood.back());
+    judge_as_second_order(taylor_hood.back());
+    rows.insert(rows.end(), taylor_hood.begin(), taylor_hood.end());
     return rows;
 }
 

@@ -2,8 +2,7 @@
 // Torque = G J theta / L, J = s^4 / 3 (1 - 192 / pi^5 sum over odd n of tanh(n pi / 2) / n^5) (Timoshenko and Goodier, Theory of
 // elasticity, art. 109). The data are displacements, so the strain energy, hence the torque, comes from above, with twice the order of
 // the displacement gradient.
-#include "experiments/verification/problems/common.hpp"
-#include "experiments/verification/structured_mesh.hpp"
+#include "experiments/verification/problems/beam_problems.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -14,8 +13,7 @@ namespace {
 using namespace reference_fem;
 using pbs::Vec3;
 
-constexpr double length_m = 1.0, side_m = 1.0, angle = 1.0e-3;
-const ElasticMaterial material{1.0e5, 0.3};
+constexpr double length_m = 1.0, side_m = 1.0, angle = 1.0e-3, young_pa = 1.0e5;
 
 double torsion_constant()
 {
@@ -24,8 +22,11 @@ double torsion_constant()
     return std::pow(side_m, 4) / 3.0 * (1.0 - 192.0 / std::pow(std::numbers::pi, 5) * sum);
 }
 
-VerificationRow row_of(const Effort& effort, int element_order, int n)
+}  // namespace
+
+VerificationRow torsion_row(const Effort& effort, double nu, int element_order, Formulation formulation, int n)
 {
+    const ElasticMaterial material{young_pa, nu};
     const auto turned = [](const Vec3& x) -> Vec3 { return angle * x.x() / length_m * Vec3(0.0, -x.z(), x.y()); };
     const auto held = [](const Vec3& x) {
         const bool at_end = x.x() < 1e-9 || x.x() > length_m - 1e-9;
@@ -34,12 +35,12 @@ VerificationRow row_of(const Effort& effort, int element_order, int n)
     const ElasticMaterial solved = solver_material(effort, material);
     const BoundaryValueSolution solution =
         solve(box_mesh({0, -side_m / 2.0, -side_m / 2.0}, {length_m, side_m / 2.0, side_m / 2.0}, {n, n, n}), solved,
-              {.displacement = turned, .held = held, .element_order = element_order});
-    const double shear_pa = material.young_pa / (2.0 * (1.0 + material.poisson));
+              {.displacement = turned, .held = held, .element_order = element_order, .formulation = formulation});
+    const double shear_pa = young_pa / (2.0 * (1.0 + nu));
     return {.problem = "torsion",
             .quantity = "torque",
-            .elements = elements_name(element_order),
-            .material = linear_material(material.poisson),
+            .elements = elements_name(element_order, formulation),
+            .material = linear_material(nu),
             .mesh = text_of({n, n, n}),
             .h_m = side_m / n,
             .dofs = solution.space->dofs(),
@@ -49,11 +50,13 @@ VerificationRow row_of(const Effort& effort, int element_order, int n)
             .source = "closed form: Saint-Venant's series (Timoshenko and Goodier, Theory of elasticity, art. 109)"};
 }
 
+namespace {
+
 VerificationRows ladder(const Effort& effort, int element_order, int coarsest, int levels)
 {
     VerificationRows rows;
     for (int level = 0; level < levels; ++level) {
-        rows.push_back(row_of(effort, element_order, coarsest << level));
+        rows.push_back(torsion_row(effort, 0.3, element_order, Formulation::displacement, coarsest << level));
         if (level == 0) continue;
         const VerificationRow& coarser = rows[level - 1];
         rows.back().observed_order = order_between(coarser.value - coarser.reference, rows.back().value - rows.back().reference);
