@@ -27,7 +27,7 @@ struct TimeScheme {
 TimeScheme newmark();
 
 // Second order, unconditionally stable, the least dissipation at low frequencies for a given spectral radius at infinite frequency, 0 to 1,
-// else pbs::InputError: 1 keeps the energy, 0 annihilates the highest modes in one step.
+// else pbs::InputError: 1 keeps the energy, 0 annihilates the highest modes, in three steps.
 TimeScheme generalized_alpha(double spectral_radius);
 
 // #dofs each [m], [m/s], [m/s^2].

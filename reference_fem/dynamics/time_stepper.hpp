@@ -1,8 +1,9 @@
 // Steps a sum of potentials through time: M u'' + C u' + grad Pi(u) = 0, some degrees of freedom prescribed, by either scheme of
 // time_scheme.hpp. Consistent mass; Rayleigh's damping C = a M + b K, K the flesh's stiffness at rest.
 //   TimeStepper stepper(space, prescribed, flesh, {.density_kg_m3 = 1000.0}, newton);
-//   stepper.start({u0, v0});                                     // free motion; the acceleration follows from the balance of forces
-//   const LoadPathSummary step = stepper.advance({&flesh, &springs}, data, 0.01, {}, {});
+//   stepper.start(u0, v0);  // the acceleration follows from the balance of forces
+//   const LoadPathSummary step = stepper.advance({&flesh, &springs}, data, step_s, displacement, {}, {});
+//   stepper.motion();
 // C is that of the rest pose: once a body has turned, b K resists rigid rotation too; a M resists all motion, rigid or not.
 #pragma once
 
