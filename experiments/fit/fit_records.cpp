@@ -88,9 +88,9 @@ double frequency_over_sag(double static_rad)
 
 analysis::CsvTable poisson_table()
 {
-    return analysis::CsvTable({"model", "element_order", "attachment", "body", "k_stretch", "iterations", "poses", "poisson", "poisson_low",
-                               "poisson_high", "misfit_pct", "rise", "outcome", "identifiable", "misfit_at_0_pct",
-                               "misfit_at_highest_pct"});
+    return analysis::CsvTable({"model", "element_order", "attachment", "body", "k_stretch", "iterations", "converged_poses", "poses",
+                               "poisson", "poisson_low", "poisson_high", "misfit_pct", "rise", "outcome", "identifiable", "misfit_at_0_pct",
+                               "misfit_at_highest_pct", "highest_poisson"});
 }
 
 analysis::CsvTable poisson_poses_table()
@@ -108,10 +108,11 @@ void add_poisson(analysis::CsvTable& fits, analysis::CsvTable& poses, analysis::
                  const PoissonFit& fit)
 {
     const analysis::FittedParameter& poisson = fit.poisson;
-    Cells cells = {static_cast<int>(fit.poses.size()), poisson.interval.estimate, poisson.interval.low, poisson.interval.high};
+    Cells cells = {setting.converged_poses, static_cast<int>(fit.poses.size()), poisson.interval.estimate, poisson.interval.low,
+                   poisson.interval.high};
     const Cells minimum = cells_of(poisson.all);
     cells.insert(cells.end(), minimum.begin(), minimum.end());
-    cells.insert(cells.end(), {fit.valley.front().value, fit.valley.back().value});
+    cells.insert(cells.end(), {fit.valley.front().value, fit.valley.back().value, fit.highest_poisson});
     add(fits, cells_of(setting), cells);
     for (std::size_t p = 0; p < fit.poses.size(); ++p) {
         Cells of_pose = {fit.poses[p], poisson.cases[p].x};

@@ -45,8 +45,9 @@ struct PoissonSetting {
     std::string model, attachment;
     int element_order = 0;
     double k_stretch = 0.0;
-    std::string body;  // pbs_24, pbs_converged
-    int iterations = 0;
+    std::string body;         // pbs, pbs_converged
+    int iterations = 0;       // most of any pose
+    int converged_poses = 0;  // of pbs_converged, those that did
 };
 analysis::CsvTable poisson_table();        // a row a fit
 analysis::CsvTable poisson_poses_table();  // and one a pose of it

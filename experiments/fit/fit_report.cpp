@@ -154,15 +154,16 @@ std::string poisson_markdown(const CsvTable& fits)
     std::string text =
         "\n## Poisson's ratio\n\nThe nu of the finite elements nearest to PBS over all poses (error_joint, root mean square); the interval "
         "leaves out one pose at a time. Young's modulus cancels. The misfit is what no nu removes.\n\n"
-        "| elements | attachment | body | k_stretch | nu | interval | misfit [%] | misfit at nu 0 | at 0.4999 | |\n"
+        "| elements | attachment | body | k_stretch | nu | interval | misfit [%] | misfit at nu 0 | at the highest nu that converged | |\n"
         "|---|---|---|---|---|---|---|---|---|---|\n";
     for (int r = 0; r < fits.rows(); ++r) {
         const auto number = [&](const char* column) { return fits.number(r, column); };
-        text += fmt::format("| {} P{} | {} | {}, {} iterations | {:g} | {:.3f} | {:.3f} to {:.3f} | {:.3g} | {:.3g} | {:.3g} | {} |\n",
-                            fits.text_at(r, "model"), fits.text_at(r, "element_order"), fits.text_at(r, "attachment"),
-                            fits.text_at(r, "body"), fits.text_at(r, "iterations"), number("k_stretch"), number("poisson"),
-                            number("poisson_low"), number("poisson_high"), number("misfit_pct"), number("misfit_at_0_pct"),
-                            number("misfit_at_highest_pct"), verdict_of(fits, r));
+        text += fmt::format(
+            "| {} P{} | {} | {}, {} iterations | {:g} | {:.3f} | {:.3f} to {:.3f} | {:.3g} | {:.3g} | {:.3g} at {:.4g} | {} |\n",
+            fits.text_at(r, "model"), fits.text_at(r, "element_order"), fits.text_at(r, "attachment"), fits.text_at(r, "body"),
+            fits.text_at(r, "iterations"), number("k_stretch"), number("poisson"), number("poisson_low"), number("poisson_high"),
+            number("misfit_pct"), number("misfit_at_0_pct"), number("misfit_at_highest_pct"), number("highest_poisson"),
+            verdict_of(fits, r));
     }
     return text;
 }
@@ -208,7 +209,7 @@ nlohmann::json to_json(const ElasticPoses& elastic)
     for (const auto& pose : elastic.poses())
         json.push_back({{"pose", pose.pose.name},
                         {"converged", pose.family.has_value()},
-                        {"breakdown", pose.breakdown},
+                        {"highest_poisson", pose.highest_poisson},
                         {"interpolation_error_pct", pose.interpolation_error_pct}});
     return json;
 }

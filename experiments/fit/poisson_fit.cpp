@@ -2,9 +2,8 @@
 
 #include "experiments/deformers/registry.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace experiments {
@@ -12,6 +11,7 @@ namespace {
 
 constexpr double level = 0.95;
 constexpr int valley_points = 101;
+constexpr std::size_t least_nodes = 4;
 
 analysis::ErrorRuler joint_ruler(const pbs::Character& character, const std::vector<bool>& prescribed)
 {
@@ -21,7 +21,7 @@ analysis::ErrorRuler joint_ruler(const pbs::Character& character, const std::vec
     return analysis::ErrorRuler(domain);
 }
 
-// The poses of a path at one Poisson's ratio; nothing from the first that did not converge.
+// The poses of a path at one Poisson's ratio, up to the first that did not converge.
 struct Solved {
     std::vector<pbs::Positions> positions;
     std::vector<bool> prescribed;
@@ -49,31 +49,39 @@ Solved solve(const pbs::Character& character, const std::vector<NamedPose>& path
 ElasticPoses::ElasticPoses(const pbs::Character& character, const std::vector<std::vector<NamedPose>>& paths, const FemOptions& options,
                            int ratios)
 {
-    const std::vector<double> nodes = poisson_nodes(ratios);
-    const std::vector<double> checks = {between(nodes, ratios / 2 - 1), between(nodes, ratios - 2)};
-    for (const auto& path : paths) {
-        std::vector<Solved> at_nodes, at_checks;
-        for (const double poisson : nodes) at_nodes.push_back(solve(character, path, options, poisson));
-        for (const double poisson : checks) at_checks.push_back(solve(character, path, options, poisson));
-        prescribed_ = at_nodes.front().prescribed;
-        const analysis::ErrorRuler ruler = joint_ruler(character, prescribed_);
-        for (std::size_t p = 0; p < path.size(); ++p) {
-            Elastic elastic{path[p], std::nullopt, "", 0.0};
-            std::vector<pbs::Positions> positions;
-            for (std::size_t i = 0; i < nodes.size(); ++i)
-                if (p < at_nodes[i].positions.size())
-                    positions.push_back(at_nodes[i].positions[p]);
-                else
-                    elastic.breakdown += fmt::format("nu {:.4g} did not converge. ", nodes[i]);
-            if (elastic.breakdown.empty()) {
-                elastic.family.emplace(nodes, std::move(positions));
-                for (std::size_t c = 0; c < checks.size(); ++c)
-                    if (p < at_checks[c].positions.size())
-                        elastic.interpolation_error_pct =
-                            std::max(elastic.interpolation_error_pct,
-                                     ruler.measure(elastic.family->at(checks[c]), at_checks[c].positions[p]).joint_pct);
-            }
-            poses_.push_back(std::move(elastic));
+    for (const auto& path : paths) add_path(character, path, options, poisson_nodes(ratios));
+}
+
+void ElasticPoses::add_path(const pbs::Character& character, const std::vector<NamedPose>& path, const FemOptions& options,
+                            const std::vector<double>& nodes)
+{
+    std::vector<Solved> at_nodes;
+    for (const double poisson : nodes) at_nodes.push_back(solve(character, path, options, poisson));
+    prescribed_ = at_nodes.front().prescribed;
+    std::size_t usable_in_all = nodes.size();
+    std::vector<std::size_t> usable(path.size(), 0);  // nodes up to the first that did not converge
+    for (std::size_t p = 0; p < path.size(); ++p) {
+        while (usable[p] < nodes.size() && p < at_nodes[usable[p]].positions.size()) ++usable[p];
+        usable_in_all = std::min(usable_in_all, usable[p]);
+    }
+    const std::size_t first = poses_.size();
+    for (std::size_t p = 0; p < path.size(); ++p) {
+        Elastic elastic{path[p], std::nullopt, usable[p] > 0 ? nodes[usable[p] - 1] : 0.0, 0.0};
+        std::vector<pbs::Positions> positions;
+        for (std::size_t i = 0; i < usable[p]; ++i) positions.push_back(at_nodes[i].positions[p]);
+        if (usable[p] >= least_nodes)
+            elastic.family.emplace(std::vector<double>(nodes.begin(), nodes.begin() + static_cast<int>(usable[p])), std::move(positions));
+        poses_.push_back(std::move(elastic));
+    }
+    if (usable_in_all < least_nodes) return;
+    const analysis::ErrorRuler ruler = joint_ruler(character, prescribed_);
+    for (const int before : {static_cast<int>(nodes.size()) / 2 - 1, static_cast<int>(usable_in_all) - 2}) {
+        const double poisson = between(nodes, before);
+        const Solved check = solve(character, path, options, poisson);
+        for (std::size_t p = 0; p < check.positions.size(); ++p) {
+            Elastic& elastic = poses_[first + p];
+            elastic.interpolation_error_pct =
+                std::max(elastic.interpolation_error_pct, ruler.measure(elastic.family->at(poisson), check.positions[p]).joint_pct);
         }
     }
 }
@@ -84,17 +92,19 @@ std::optional<PoissonFit> fit_poisson(const pbs::Character& character, const Ela
     const analysis::ErrorRuler ruler = joint_ruler(character, elastic.prescribed());
     std::vector<analysis::Misfit> misfits;
     PoissonFit fit;
+    fit.highest_poisson = highest_poisson;
     for (std::size_t p = 0; p < elastic.poses().size(); ++p) {
         const auto& pose = elastic.poses()[p];
         if (!pose.family) continue;
         fit.poses.push_back(pose.pose.name);
+        fit.highest_poisson = std::min(fit.highest_poisson, pose.highest_poisson);
         misfits.push_back(
             [&ruler, &pose, &body = positions[p]](double poisson) { return ruler.measure(body, pose.family->at(poisson)).joint_pct; });
     }
     if (misfits.empty()) return std::nullopt;
-    fit.poisson = analysis::fit_over_cases(misfits, 0.0, highest_poisson, {}, level);
+    fit.poisson = analysis::fit_over_cases(misfits, 0.0, fit.highest_poisson, {}, level);
     for (int i = 0; i < valley_points; ++i) {
-        const double poisson = highest_poisson * i / (valley_points - 1);
+        const double poisson = fit.highest_poisson * i / (valley_points - 1);
         double squares = 0.0;
         for (const auto& misfit : misfits) squares += std::pow(misfit(poisson), 2);
         fit.valley.push_back({poisson, std::sqrt(squares / static_cast<double>(misfits.size()))});

@@ -28,14 +28,17 @@ public:
 
     struct Elastic {
         NamedPose pose;
-        std::optional<PoissonFamily> family;   // none: some ratio did not converge
-        std::string breakdown;                 // which
-        double interpolation_error_pct = 0.0;  // error_joint between the interpolant and a solve between two ratios, where it is largest
+        std::optional<PoissonFamily> family;   // none: fewer than four ratios converged
+        double highest_poisson = 0.0;          // of the ratios from 0 on without one that did not converge
+        double interpolation_error_pct = 0.0;  // error_joint between the interpolant and a solve between two ratios, the larger of two
     };
     const std::vector<Elastic>& poses() const { return poses_; }
     const std::vector<bool>& prescribed() const { return prescribed_; }  // #V, or empty
 
 private:
+    void add_path(const pbs::Character& character, const std::vector<NamedPose>& path, const FemOptions& options,
+                  const std::vector<double>& nodes);
+
     std::vector<Elastic> poses_;
     std::vector<bool> prescribed_;
 };
@@ -43,6 +46,7 @@ private:
 struct PoissonFit {
     analysis::FittedParameter poisson;         // misfits: error_joint [%]; cases: the poses, in order of those that have a family
     std::vector<std::string> poses;            // their names
+    double highest_poisson = 0.0;              // up to where all of them converged: the fit's upper bound
     std::vector<analysis::Evaluation> valley;  // misfit of all poses over a fine grid of nu
 };
 

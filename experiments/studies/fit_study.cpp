@@ -132,46 +132,69 @@ std::vector<NamedPose> sweep_poses(const pbs::Skeleton& skeleton, const std::str
     return poses;
 }
 
+// Several elastic bodies in the same poses, beside the same PBS.
 struct PoissonRun {
     std::string name;
-    FemOptions fem;
-    int vertices = 0, ratios = 0;
+    std::vector<FemOptions> elastic;
+    int vertices = 0, ratios = 0, most_iterations = 0;
     std::vector<double> angles_deg;
 };
 
-void fit_and_add(const pbs::Character& character, const ElasticPoses& elastic, PoissonSetting setting, bool converged,
-                 analysis::CsvTable& fits, analysis::CsvTable& poses, analysis::CsvTable& valleys)
+struct PosedPbs {
+    double k_stretch = 0.0;
+    bool until_converged = false;
+    int iterations = 0, converged_poses = 0;
+    std::vector<pbs::Positions> positions;  // one a pose
+};
+
+PosedPbs posed_pbs(const pbs::Character& character, const std::vector<std::vector<NamedPose>>& paths, double k_stretch,
+                   bool until_converged, int most_iterations)
 {
-    pbs::PbsOptions pbs;
-    pbs.k_stretch = setting.k_stretch;
-    pbs.precision = pbs::Precision::f64;
-    std::vector<pbs::Positions> positions;
-    setting.body = converged ? "pbs_converged" : "pbs";
-    setting.iterations = pbs.iterations;
-    for (const auto& pose : elastic.poses()) {
-        const ConvergedPbs limit = converged ? converge(character, pose.pose.pose, pbs) : ConvergedPbs{};
-        positions.push_back(converged ? limit.positions : after_iterations(character, pose.pose.pose, pbs));
-        if (converged) setting.iterations = std::max(setting.iterations, limit.iterations);
-    }
-    if (const auto fit = fit_poisson(character, elastic, positions)) add_poisson(fits, poses, valleys, setting, *fit);
+    pbs::PbsOptions options;
+    options.k_stretch = k_stretch;
+    options.precision = pbs::Precision::f64;
+    PosedPbs posed{k_stretch, until_converged, options.iterations, 0, {}};
+    for (const auto& path : paths)
+        for (const NamedPose& pose : path) {
+            if (!until_converged) {
+                posed.positions.push_back(after_iterations(character, pose.pose, options));
+                continue;
+            }
+            ConvergedPbs limit = converge(character, pose.pose, options, most_iterations);
+            posed.iterations = std::max(posed.iterations, limit.iterations);
+            posed.converged_poses += limit.converged;
+            posed.positions.push_back(std::move(limit.positions));
+        }
+    return posed;
 }
 
 std::string record_poisson(const std::string& folder, const PoissonRun& run)
 {
     const pbs::Character limb = pbs::make_character({.body = "limb", .vertices = run.vertices});
-    const ElasticPoses elastic(limb,
-                               {sweep_poses(limb.skeleton, "twist", pbs::Vec3::UnitX(), run.angles_deg),
-                                sweep_poses(limb.skeleton, "bend", pbs::Vec3::UnitZ(), run.angles_deg)},
-                               run.fem, run.ratios);
-    analysis::CsvTable fits = poisson_table(), poses = poisson_poses_table(), valleys = valley_table();
+    const std::vector<std::vector<NamedPose>> paths = {sweep_poses(limb.skeleton, "twist", pbs::Vec3::UnitX(), run.angles_deg),
+                                                       sweep_poses(limb.skeleton, "bend", pbs::Vec3::UnitZ(), run.angles_deg)};
+    std::vector<PosedPbs> bodies;
     for (const double k_stretch : {0.05, 0.2, 0.9})
-        for (const bool converged : {false, true})
-            fit_and_add(limb, elastic, {name_of(run.fem.model), name_of(run.fem.attachment), run.fem.element_order, k_stretch, "", 0},
-                        converged, fits, poses, valleys);
+        for (const bool until_converged : {false, true})
+            bodies.push_back(posed_pbs(limb, paths, k_stretch, until_converged, run.most_iterations));
+
+    analysis::CsvTable fits = poisson_table(), poses = poisson_poses_table(), valleys = valley_table();
+    nlohmann::json elastic_json;
+    for (const FemOptions& options : run.elastic) {
+        const ElasticPoses elastic(limb, paths, options, run.ratios);
+        const std::string name = fmt::format("{} P{} {}", name_of(options.model), options.element_order, name_of(options.attachment));
+        elastic_json[name] = to_json(elastic);
+        for (const PosedPbs& body : bodies)
+            if (const auto fit = fit_poisson(limb, elastic, body.positions))
+                add_poisson(fits, poses, valleys,
+                            {name_of(options.model), name_of(options.attachment), options.element_order, body.k_stretch,
+                             body.until_converged ? "pbs_converged" : "pbs", body.iterations, body.converged_poses},
+                            *fit);
+    }
     fits.write((fs::path(folder) / "poisson.csv").string());
     poses.write((fs::path(folder) / "poisson_poses.csv").string());
     valleys.write((fs::path(folder) / "valley.csv").string());
-    analysis::write_text_atomically((fs::path(folder) / "elastic.json").string(), to_json(elastic).dump(2) + "\n");
+    analysis::write_text_atomically((fs::path(folder) / "elastic.json").string(), elastic_json.dump(2) + "\n");
     return "";
 }
 
@@ -187,11 +210,13 @@ StudyRun work_run(const std::string& name, double cost_s, StudyWork work, nlohma
 
 StudyRun poisson_run(const PoissonRun& run, double cost_s)
 {
-    const nlohmann::json settings = {{"model", name_of(run.fem.model)},
-                                     {"element_order", run.fem.element_order},
-                                     {"attachment", name_of(run.fem.attachment)},
+    nlohmann::json elastic;
+    for (const FemOptions& fem : run.elastic)
+        elastic.push_back({{"model", name_of(fem.model)}, {"element_order", fem.element_order}, {"attachment", name_of(fem.attachment)}});
+    const nlohmann::json settings = {{"elastic", elastic},
                                      {"vertices", run.vertices},
                                      {"ratios", run.ratios},
+                                     {"most_iterations", run.most_iterations},
                                      {"angles_deg", run.angles_deg}};
     return work_run(
         run.name, cost_s, [run](const std::string& folder) { return record_poisson(folder, run); }, settings);
@@ -221,15 +246,20 @@ StudyPlan plan_fit_study(bool full)
                                      [=](const std::string& folder) { return record_swings(folder, vertices); }, {{"vertices", vertices}}));
 
     using reference_fem::Model;
-    const int vertices = full ? 1775 : 600, ratios = full ? 9 : 7;
-    const std::vector<double> large = {30.0, 60.0, 90.0}, small = {5.0};
-    const auto add = [&](const std::string& name, const FemOptions& fem, const std::vector<double>& angles_deg, double cost_s) {
-        plan.runs.push_back(poisson_run({name, fem, vertices, ratios, angles_deg}, full ? 10.0 * cost_s : cost_s));
-    };
-    add("poisson_p1", limb_options(Model::stable_neo_hookean, 1, FemAttachment::embedded), large, 15.0);
-    add("poisson_p2", limb_options(Model::stable_neo_hookean, 2, FemAttachment::embedded), large, 60.0);
-    add("poisson_p1_bind", limb_options(Model::stable_neo_hookean, 1, FemAttachment::bind), large, 20.0);
-    add("poisson_p2_linear", limb_options(Model::linear, 2, FemAttachment::embedded), small, 10.0);
+    const int limb_vertices = full ? 1775 : 600, ratios = full ? 9 : 7, most_iterations = full ? 40000 : 10000;
+    const double cost = full ? 10.0 : 1.0;
+    plan.runs.push_back(poisson_run({"poisson_large",
+                                     {limb_options(Model::stable_neo_hookean, 1, FemAttachment::embedded),
+                                      limb_options(Model::stable_neo_hookean, 2, FemAttachment::embedded),
+                                      limb_options(Model::stable_neo_hookean, 1, FemAttachment::bind)},
+                                     limb_vertices,
+                                     ratios,
+                                     most_iterations,
+                                     {30.0, 60.0, 90.0}},
+                                    120.0 * cost));
+    plan.runs.push_back(poisson_run(
+        {"poisson_small", {limb_options(Model::linear, 2, FemAttachment::embedded)}, limb_vertices, ratios, most_iterations, {5.0}},
+        15.0 * cost));
     return plan;
 }
 

@@ -40,7 +40,8 @@ Clamped clamped_bar(int across)
 Positions end_load(const pbs::TetMesh& bar)
 {
     Positions load = Positions::Zero(bar.rest.rows(), 3);
-    for (const auto& triangle : pbs::boundary_of(bar.tets).rowwise()) {
+    const pbs::Triangles boundary = pbs::boundary_of(bar.tets);
+    for (const auto& triangle : boundary.rowwise()) {
         const Vec3 a = bar.rest.row(triangle(0)), b = bar.rest.row(triangle(1)), c = bar.rest.row(triangle(2));
         if (std::min({a.x(), b.x(), c.x()}) < length_m - 1e-9) continue;
         for (const int v : triangle) load(v, 2) -= (b - a).cross(c - a).norm() / 6.0;
@@ -139,10 +140,10 @@ VerificationRows pbs_locking_rows(const Effort& effort)
     for (const int across : {2, 3, 6}) {
         if (across == 6 && !effort.full) continue;
         const Clamped clamped = clamped_bar(across);
-        for (VerificationRow& row : deflection_rows(effort, clamped)) rows.push_back(std::move(row));
+        for (const VerificationRow& row : deflection_rows(effort, clamped)) rows.push_back(row);
         if (across < 6) rows.push_back(count_row(clamped));
         for (const double k_stretch : {0.2, 0.9})
-            for (VerificationRow& row : sag_rows(clamped, k_stretch)) rows.push_back(std::move(row));
+            for (const VerificationRow& row : sag_rows(clamped, k_stretch)) rows.push_back(row);
     }
     return rows;
 }
