@@ -11,7 +11,7 @@
 namespace experiments {
 namespace {
 
-constexpr double presumed_order = 1.0;
+constexpr double presumed_order = 1.0, factor_elsewhere = 3.0;
 constexpr double smallest_difference_pct = 1e-9;  // below it, as in the rest pose, differences are rounding and show no order
 constexpr std::array<double analysis::ErrorNorms::*, 3> norms = {&analysis::ErrorNorms::l2_pct, &analysis::ErrorNorms::joint_pct,
                                                                  &analysis::ErrorNorms::linf_m};
@@ -121,7 +121,8 @@ double ReferenceErrorBar::norm_bound(std::size_t norm, const std::vector<double>
         observed_order_[norm].push_back(grids.observed_order);
         if (norm == 0) alignment_.push_back(differences.alignment());
     }
-    return grids.bounds[reference_];
+    frames_asymptotic_[norm] += grids.asymptotic;
+    return grids.bounds[reference_] * (grids.asymptotic ? 1.0 : std::max(1.0, factor_elsewhere / grids.safety_factor));
 }
 
 nlohmann::json ReferenceErrorBar::method() const
@@ -133,7 +134,7 @@ nlohmann::json ReferenceErrorBar::method() const
         {"order", presumed_order},
         {"order_note", three ? "observed, but no higher than this" : "presumed"},
         {"order_because", why_order_1},
-        {"safety_factor", three ? 1.25 : 3.0},
+        {"safety_factor", factor_elsewhere},
         {"ratios", ratios()},
         {"frames", frames_},
         {"frames_without", frames_without_}};
@@ -148,7 +149,11 @@ nlohmann::json ReferenceErrorBar::method() const
         method["solutions"].push_back(entry);
     }
     if (!three) return method;
-    for (std::size_t norm = 0; norm < norms.size(); ++norm) method["observed_order"][norm_names[norm]] = spread(observed_order_[norm]);
+    method["safety_factor_in_asymptotic_range"] = 1.25;
+    for (std::size_t norm = 0; norm < norms.size(); ++norm) {
+        method["observed_order"][norm_names[norm]] = spread(observed_order_[norm]);
+        method["frames_in_asymptotic_range"][norm_names[norm]] = frames_asymptotic_[norm];
+    }
     method["alignment_of_differences"] = spread(alignment_);
     return method;
 }

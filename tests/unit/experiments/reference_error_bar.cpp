@@ -78,6 +78,20 @@ TEST(ReferenceErrorBar, IsSixTimesTheDifferenceToTheRefinedSolution)
     EXPECT_NEAR(bound->linf_m, 6.0 * difference.linf_m, 1e-12);
 }
 
+// PBS does not ask for the element order: solutions order 1 and 2 are the same one, the third differs. An infinite series of what is seen
+// would not converge, and 3 times the range stands for the error.
+TEST(ReferenceErrorBar, OfSolutionsThatDoNotConvergeIsThreeTimesTheirRange)
+{
+    const pbs::Character limb = small_limb();
+    const FrameMeasurer measurer(limb, {}, {});
+    const pbs::Positions reference = solved("pbs", limb);
+    const auto difference = measurer.difference(reference, solved("pbs", pbs::refined(limb)).topRows(reference.rows()));
+    ReferenceErrorBar bar(ErrorBar::both, spec_of("pbs"), limb);
+    bar.advance(bent(limb), 0.01);
+    EXPECT_NEAR(bar.bound(reference, measurer)->joint_pct, 3.0 * difference.joint_pct, 1e-12);
+    EXPECT_EQ(bar.method()["frames_in_asymptotic_range"]["joint"], 0);
+}
+
 // Orders 1, 2 on the same tets: nodes are V and V + E.
 TEST(ReferenceErrorBar, SaysWhichSolutionsAndRatios)
 {
@@ -99,7 +113,8 @@ TEST(ReferenceErrorBar, SaysWhichSolutionsAndRatios)
         EXPECT_EQ(refined["solutions"][0]["element_order"], order);
         EXPECT_EQ(refined["safety_factor"], 3.0);
         EXPECT_EQ(method(ErrorBar::both, order)["solutions"].size(), 3u);
-        EXPECT_EQ(method(ErrorBar::both, order)["safety_factor"], 1.25);
+        EXPECT_EQ(method(ErrorBar::both, order)["safety_factor"], 3.0);
+        EXPECT_EQ(method(ErrorBar::both, order)["safety_factor_in_asymptotic_range"], 1.25);
     }
     const auto first = method(ErrorBar::both, 1)["solutions"], second = method(ErrorBar::both, 2)["solutions"];
     EXPECT_EQ(first[2]["is_reference"], true);   // order 1, order 1 refined, order 2 refined
