@@ -113,8 +113,6 @@ std::vector<int> gripping_bones(const BoneAttachment& bones, const pbs::Tets& te
     for (std::size_t s = 0; s < spring_tet.size(); ++s)
         if (spring_tet[s] >= 0)
             for (const int v : tets.row(spring_tet[s])) gripping[v] = bones.spring_bone[s];
-    for (std::size_t v = 0; v < bones.binding.bone.size(); ++v)
-        if (is_on_middle(bones.binding.parameter(v))) gripping[v] = bones.binding.bone[v];
     return gripping;
 }
 

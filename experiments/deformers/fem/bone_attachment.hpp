@@ -32,8 +32,7 @@ BoneAttachment nodes_attachment(const pbs::Character& character, const FemOption
 // bone.
 BoneAttachment bind_attachment(const pbs::Character& character, const FemOptions& options);
 
-// The bone that grips each vertex, #V, -1: none. spring_tet: the tet that holds each spring, -1: outside. Where vertices are bound, each on
-// its bone's middle is taken for gripped.
+// The bone that grips each vertex by springs or as prescribed, #V, -1: none. spring_tet: the tet that holds each spring, -1: outside.
 std::vector<int> gripping_bones(const BoneAttachment& bones, const pbs::Tets& tets, const std::vector<int>& spring_tet);
 
 // Where a pose takes what is attached [m]: #springs x 3; #V x 3, rest positions where nothing is prescribed; all of it.

@@ -38,17 +38,12 @@ LimbRadii limb_radii(const pbs::Character& character)
         const double distance = binding.distance(v), parameter = binding.parameter(v);
         radii.on_skeleton.add(distance);
         radii.on_bone[binding.bone[v]].add(distance);
-        if (is_on_middle(parameter)) radii.on_middle[binding.bone[v]].add(distance);
+        if (parameter >= middle_begin && parameter <= middle_end) radii.on_middle[binding.bone[v]].add(distance);
     }
     return radii;
 }
 
 }  // namespace
-
-bool is_on_middle(double parameter)
-{
-    return parameter >= middle_begin && parameter <= middle_end;
-}
 
 bool BoneCapsule::contains(const pbs::Vec3& point) const
 {

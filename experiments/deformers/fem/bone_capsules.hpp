@@ -10,8 +10,6 @@
 
 namespace experiments {
 
-bool is_on_middle(double parameter);  // along the bone, 0 at its head and 1 at its tail
-
 struct BoneCapsule {
     pbs::Vec3 start, end;  // of its axis [m]
     double radius_m = 0.0;

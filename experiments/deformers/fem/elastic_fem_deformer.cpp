@@ -54,8 +54,10 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
     character_ = &character;
     bones_ = bone_attachment(character, options_);
     body_ = std::make_unique<reference_fem::ElasticBody>(character.mesh, solver_options(options_), bones_.attachment);
-    guide_weights_ = harmonic_weights(character.mesh, gripping_bones(bones_, character.mesh.tets, body_->setup().spring_tet),
-                                      static_cast<int>(character.skeleton.bones.size()));
+    guide_weights_ = {};
+    if (options_.attachment != FemAttachment::bind)
+        guide_weights_ = harmonic_weights(character.mesh, gripping_bones(bones_, character.mesh.tets, body_->setup().spring_tet),
+                                          static_cast<int>(character.skeleton.bones.size()));
     reached_pose_ = rest_pose(character.skeleton);
     unspent_s_ = 0.0;
     is_started_ = false;
@@ -99,7 +101,7 @@ void ElasticFemDeformer::follow(const PosePath& way, const Eigen::Isometry3d& pl
         const auto targets_at = [&](double fraction) {
             const pbs::Pose pose = placed(way.at(on_the_way(fraction)), place);
             reference_fem::Targets held = targets_of(pose);
-            pbs::dual_quaternion_skinning(before, guide_weights_, turned_from(from, pose), held.guide);
+            if (guide_weights_.vertices() > 0) pbs::dual_quaternion_skinning(before, guide_weights_, turned_from(from, pose), held.guide);
             return held;
         };
         solve.stages.push_back(body_->solve(targets_at, gravity_m_s2));

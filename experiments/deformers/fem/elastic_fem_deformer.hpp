@@ -43,7 +43,7 @@ private:
     FemOptions options_;
     const pbs::Character* character_ = nullptr;
     BoneAttachment bones_;
-    pbs::Weights guide_weights_;
+    pbs::Weights guide_weights_;  // empty where the attachment leaves turns free: the start alone would decide on them
     std::unique_ptr<reference_fem::ElasticBody> body_;
     pbs::Pose reached_pose_;   // that the body is in: relative to the root, or in the world where it moves in time
     double unspent_s_ = 0.0;   // time of steps that were taken back

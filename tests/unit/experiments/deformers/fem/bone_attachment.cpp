@@ -1,4 +1,5 @@
-// Truth: the definitions of the two attachments (springs of density q E / r^2 over the capsule; whole tets, no vertex of two bones).
+// Truth: the definitions of the attachments (springs of density q E / r^2 over the capsule; whole tets, no vertex of two bones; bind
+// stiffness of density q E / R^2 over the flesh).
 #include "experiments/deformers/fem/bone_attachment.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -6,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 namespace {
@@ -72,6 +74,47 @@ TEST(NodesAttachment, AMeshTooCoarseForWholeTetsIsRefusedWithTheBonesName)
     } catch (const pbs::InputError& error) {
         EXPECT_NE(std::string(error.what()).find("upper"), std::string::npos) << error.what();
     }
+}
+
+// The integral of q E / R^2 over the flesh of both bones, whatever the mesh: sum k_i R^2 = q E V.
+TEST(BindAttachment, StiffnessAddsUpToItsDensityTimesTheFlesh)
+{
+    for (const auto& cells : {std::array{24, 2, 2}, std::array{16, 4, 4}}) {
+        const auto character = test_support::bar_character(cells);
+        const BoneAttachment bones = bind_attachment(character, options);
+        double sum = 0.0;
+        for (Eigen::Index v = 0; v < character.mesh.rest.rows(); ++v) {
+            const double radius = bones.capsules[character.binding.bone[v]].radius_m;
+            sum += bones.attachment.bind_stiffness(v) * radius * radius;
+        }
+        EXPECT_NEAR(sum, 1e3 * 2e5 * 2.0 * 0.3 * 0.3, 1e-9 * sum);
+        EXPECT_EQ(bones.attachment.bind_distance, character.binding.distance);
+    }
+}
+
+TEST(BindAttachment, TargetsAreTheRestProjectionsCarriedByTheirBones)
+{
+    const auto character = test_support::bar_character({24, 2, 2});
+    const BoneAttachment bones = bind_attachment(character, options);
+    pbs::Pose pose(2, Eigen::Isometry3d::Identity());
+    pose[1].translation() = pbs::Vec3(1, 2, 3);
+    const reference_fem::Targets held = targets(bones, character.mesh.rest, pose);
+    for (Eigen::Index v = 0; v < held.bind_points.rows(); ++v) {
+        const pbs::Vec3 moved = held.bind_points.row(v) - character.binding.rest_point.row(v);
+        EXPECT_LT((moved - (character.binding.bone[v] == 1 ? pbs::Vec3(1, 2, 3) : pbs::Vec3(0, 0, 0))).norm(), 1e-14);
+    }
+    EXPECT_EQ(held.springs.rows(), 0);
+    EXPECT_EQ(held.vertices, character.mesh.rest);
+}
+
+TEST(GrippingBones, AreThoseOfTheSpringsTets)
+{
+    const auto character = test_support::bar_character({24, 2, 2});
+    const BoneAttachment springs{{}, {}, {1, 0}, std::vector<int>(character.mesh.rest.rows(), -1), {}, {}};
+    const std::vector<int> gripping = gripping_bones(springs, character.mesh.tets, {5, -1});
+    const auto corners = character.mesh.tets.row(5);
+    for (int v = 0; v < character.mesh.rest.rows(); ++v)
+        EXPECT_EQ(gripping[v], std::find(corners.begin(), corners.end(), v) != corners.end() ? 1 : -1);
 }
 
 }  // namespace

@@ -1,0 +1,177 @@
+// What the deformer does about frames: how it gets to them, what it reports of those it does not reach. That it deforms rightly is shown
+// under verification.
+#include "experiments/deformers/fem/elastic_fem_deformer.hpp"
+
+#include "tests/unit/experiments/deformers/fem/bar_character.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace experiments;
+using reference_fem::Dynamics;
+using reference_fem::Model;
+
+const FemOptions coarse{.model = Model::stable_neo_hookean, .element_order = 1};
+
+const pbs::Character& bar()
+{
+    static const pbs::Character character = test_support::bar_character({24, 4, 4});
+    return character;
+}
+
+pbs::Pose bent(double angle_deg)
+{
+    return pbs::joint_sweep(bar().skeleton, 1, pbs::Vec3::UnitZ(), angle_deg, 2, 0.01).steps.back();
+}
+
+pbs::Pose not_a_number()
+{
+    pbs::Pose broken = bent(10.0);
+    broken[1].translation()(0) = std::nan("");
+    return broken;
+}
+
+// The forearm pushed 0.7 m into the upper arm: the flesh between the capsules' facing ends, 1/3 m long, would have to turn inside out,
+// which a law that is infinite at det F <= 0 does not.
+pbs::Pose crushed()
+{
+    pbs::Pose pose = bent(0.0);
+    pose[1].translation()(0) = -0.7;
+    return pose;
+}
+
+double largest_distance(const pbs::Positions& a, const pbs::Positions& b)
+{
+    return (a - b).rowwise().norm().maxCoeff();
+}
+
+TEST(ElasticFemDeformer, RecordsModelGripAndNewton)
+{
+    ElasticFemDeformer fem(coarse);
+    EXPECT_TRUE(fem.record().is_null());
+    fem.reset(bar());
+    fem.advance(bent(0.0), 0.01);
+    EXPECT_EQ(fem.positions(), bar().mesh.rest);
+    EXPECT_EQ(fem.advance(bent(20.0), 0.01).outcome, pbs::Outcome::finished);
+    const nlohmann::json record = fem.record();
+    EXPECT_EQ(record["model"], "stable_neo_hookean");
+    EXPECT_EQ(record["formulation"], "displacement");
+    EXPECT_EQ(record["dynamics"], "quasi_static");
+    EXPECT_EQ(record["frames"], 2);
+    EXPECT_FALSE(record.contains("fictitious_strain")) << "the law is objective";
+    EXPECT_GT(record["newton"]["newton_steps"]["most"].get<int>(), 0);
+    EXPECT_EQ(record["newton"]["frames_not_converged"], 0);
+    EXPECT_GT(record["attachment"]["bones"][0]["grip_error_rms_m"].get<double>(), 0.0);
+}
+
+TEST(ElasticFemDeformer, AFrameThatIsNotReachedIsReportedAndTheNextSetsOutFromThere)
+{
+    ElasticFemDeformer fem({.model = Model::neo_hookean, .element_order = 1});
+    fem.reset(bar());
+    EXPECT_EQ(fem.advance(crushed(), 0.01).outcome, pbs::Outcome::not_converged);
+    const nlohmann::json failure = fem.record()["newton"]["not_converged"][0];
+    EXPECT_EQ(failure["frame"], 0);
+    EXPECT_GT(failure["reached"].get<double>(), 0.0);
+    EXPECT_LT(failure["reached"].get<double>(), 1.0);
+    EXPECT_NE(failure["newton"], "converged");
+    EXPECT_GT(failure["lowest_det_f"].get<double>(), 0.0) << "the last state that converged";
+    EXPECT_FALSE(failure["restarted_from_rest"].get<bool>());
+    EXPECT_TRUE(fem.positions().allFinite());
+    EXPECT_GT(largest_distance(fem.positions(), bar().mesh.rest), 0.01);
+
+    EXPECT_EQ(fem.advance(bent(0.0), 0.01).outcome, pbs::Outcome::finished);
+    EXPECT_LT(largest_distance(fem.positions(), bar().mesh.rest), 1e-6);
+}
+
+TEST(ElasticFemDeformer, TheSecondFailureInARowIsTriedAgainFromRestOnce)
+{
+    ElasticFemDeformer fem(coarse);
+    fem.reset(bar());
+    for (int frame = 0; frame < 4; ++frame) EXPECT_EQ(fem.advance(not_a_number(), 0.01).outcome, pbs::Outcome::not_converged);
+    const nlohmann::json newton = fem.record()["newton"];
+    EXPECT_EQ(newton["restarts_from_rest"], 1);
+    EXPECT_EQ(newton["not_converged"][1]["restarted_from_rest"], true);
+    EXPECT_EQ(newton["not_converged"][1]["newton"], "not_finite");
+    EXPECT_EQ(fem.advance(bent(10.0), 0.01).outcome, pbs::Outcome::finished);
+}
+
+TEST(ElasticFemDeformer, OnlyNodesArePrescribedVertices)
+{
+    ElasticFemDeformer embedded(coarse);
+    embedded.reset(bar());
+    EXPECT_TRUE(embedded.prescribed().empty());
+    FemOptions by_nodes = coarse;
+    by_nodes.attachment = FemAttachment::nodes;
+    by_nodes.core_radius = 1.0;
+    ElasticFemDeformer nodes(by_nodes);
+    nodes.reset(bar());
+    nodes.advance(bent(30.0), 0.01);
+    const std::vector<bool> prescribed = nodes.prescribed();
+    const BoneAttachment bones = nodes_attachment(bar(), by_nodes);
+    const pbs::Positions targets = vertex_targets(bones, bar().mesh.rest, bent(30.0));
+    for (Eigen::Index v = 0; v < targets.rows(); ++v) {
+        EXPECT_EQ(prescribed[v], bones.vertex_bone[v] >= 0);
+        if (prescribed[v]) EXPECT_LT((nodes.positions().row(v) - targets.row(v)).norm(), 1e-14);
+    }
+}
+
+TEST(ElasticFemDeformer, ResetStartsAnew)
+{
+    ElasticFemDeformer fem(coarse);
+    fem.reset(bar());
+    fem.advance(bent(30.0), 0.01);
+    const pbs::Positions first = fem.positions();
+    fem.reset(bar());
+    EXPECT_EQ(fem.record()["frames"], 0);
+    EXPECT_EQ(fem.positions(), bar().mesh.rest);
+    fem.advance(bent(30.0), 0.01);
+    EXPECT_EQ(fem.positions(), first);
+}
+
+TEST(ElasticFemDeformer, OnlyDynamicsHasMemory)
+{
+    EXPECT_FALSE(ElasticFemDeformer(coarse).has_memory());
+    FemOptions moving = coarse;
+    moving.dynamics = Dynamics::newmark;
+    EXPECT_TRUE(ElasticFemDeformer(moving).has_memory());
+}
+
+class InTime : public testing::TestWithParam<Dynamics> {
+protected:
+    InTime()
+    {
+        options.dynamics = GetParam();
+        options.gravity_m_s2 = {0, -9.81, 0};
+    }
+    FemOptions options = coarse;
+};
+
+// The first pose is taken in equilibrium under gravity and at rest, so nothing moves after it. Tolerance: Newton's, on a sag of some cm.
+TEST_P(InTime, StartsInEquilibriumAndStaysThere)
+{
+    ElasticFemDeformer fem(options);
+    fem.reset(bar());
+    EXPECT_EQ(fem.advance(bent(30.0), 0.01).outcome, pbs::Outcome::finished);
+    const pbs::Positions start = fem.positions();
+    EXPECT_GT(largest_distance(start, bar().mesh.rest), 0.1);
+    for (int step = 0; step < 5; ++step) EXPECT_EQ(fem.advance(bent(30.0), 0.01).outcome, pbs::Outcome::finished);
+    EXPECT_LT(largest_distance(fem.positions(), start), 1e-6);
+}
+
+TEST_P(InTime, TheStepAfterOneThatWasTakenBackCoversItsTimeToo)
+{
+    ElasticFemDeformer interrupted(options), whole(options);
+    interrupted.reset(bar());
+    whole.reset(bar());
+    interrupted.advance(bent(0.0), 0.01);
+    whole.advance(bent(0.0), 0.01);
+    EXPECT_EQ(interrupted.advance(not_a_number(), 0.01).outcome, pbs::Outcome::not_converged);
+    EXPECT_EQ(interrupted.advance(bent(10.0), 0.01).outcome, pbs::Outcome::finished);
+    EXPECT_EQ(whole.advance(bent(10.0), 0.02).outcome, pbs::Outcome::finished);
+    EXPECT_LT(largest_distance(interrupted.positions(), whole.positions()), 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Schemes, InTime, testing::Values(Dynamics::newmark, Dynamics::generalized_alpha));
+
+}  // namespace

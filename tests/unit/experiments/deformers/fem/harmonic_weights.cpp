@@ -1,0 +1,43 @@
+// Truth: harmonic functions of one coordinate are linear in it, and linear elements hold those exactly.
+#include "experiments/deformers/fem/harmonic_weights.hpp"
+
+#include "tests/support/structured_bar.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using experiments::harmonic_weights;
+
+const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {1, 0.2, 0.2}, {10, 2, 2});
+
+double weight_of(const pbs::Weights& weights, int vertex, int bone)
+{
+    for (int k = weights.first[vertex]; k < weights.first[vertex + 1]; ++k)
+        if (weights.bone[k] == bone) return weights.weight[k];
+    return 0.0;
+}
+
+// Gripped beyond x = 0.2 and x = 0.7, whole cross-sections each. Tolerance: what keeps the matrix regular, 1e-9 of its diagonal.
+TEST(HarmonicWeights, AreLinearBetweenGrippedCrossSections)
+{
+    std::vector<int> gripping(bar.rest.rows(), -1);
+    for (Eigen::Index v = 0; v < bar.rest.rows(); ++v) {
+        if (bar.rest(v, 0) < 0.2 + 1e-9) gripping[v] = 0;
+        if (bar.rest(v, 0) > 0.7 - 1e-9) gripping[v] = 1;
+    }
+    const pbs::Weights weights = harmonic_weights(bar, gripping, 2);
+    for (int v = 0; v < bar.rest.rows(); ++v) {
+        const double expected = std::clamp((bar.rest(v, 0) - 0.2) / 0.5, 0.0, 1.0);
+        EXPECT_NEAR(weight_of(weights, v, 1), expected, 1e-6);
+        EXPECT_NEAR(weight_of(weights, v, 0) + weight_of(weights, v, 1), 1.0, 1e-12);
+    }
+}
+
+TEST(HarmonicWeights, APartThatNothingGripsGoesWithTheFirstBone)
+{
+    const pbs::Weights weights = harmonic_weights(bar, std::vector<int>(bar.rest.rows(), -1), 2);
+    for (int v = 0; v < bar.rest.rows(); ++v) EXPECT_EQ(weight_of(weights, v, 0), 1.0);
+}
+
+}  // namespace
