@@ -4,11 +4,7 @@
 #include "reference_fem/simplex_elements.hpp"
 
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/sparse_matrix.h>
 
 #include <cmath>
 
@@ -60,49 +56,6 @@ void for_each_boundary_face(const SimplexSpace& space, const std::function<bool(
         }
 }
 
-// Both triangles of one tet's stiffness at the quadrature points of `values`.
-void tet_stiffness(const dealii::FEValues<3>& values, const Lame& material, dealii::FullMatrix<double>& stiffness)
-{
-    const auto& element = values.get_fe();
-    stiffness = 0.0;
-    for (const unsigned int q : values.quadrature_point_indices())
-        for (const unsigned int i : values.dof_indices()) {
-            const unsigned int a = element.system_to_component_index(i).first;
-            const auto& gradient_i = values.shape_grad(i, q);
-            for (unsigned int j = 0; j <= i; ++j) {
-                const unsigned int b = element.system_to_component_index(j).first;
-                const auto& gradient_j = values.shape_grad(j, q);
-                const double shear = gradient_i[b] * gradient_j[a] + (a == b ? gradient_i * gradient_j : 0.0);
-                stiffness(i, j) += (material.lambda_pa * gradient_i[a] * gradient_j[b] + material.mu_pa * shear) * values.JxW(q);
-            }
-        }
-    for (const unsigned int i : values.dof_indices())
-        for (unsigned int j = 0; j < i; ++j) stiffness(j, i) = stiffness(i, j);
-}
-
-// deal.II stores the diagonal first, then increasing columns; compressed columns want all of them increasing.
-SparseMatrix compressed(const dealii::SparseMatrix<double>& matrix)
-{
-    SparseMatrix columns(matrix.m(), matrix.n());
-    columns.reserve(matrix.n_nonzero_elements());
-    for (unsigned int c = 0; c < matrix.m(); ++c) {
-        columns.startVec(c);
-        bool diagonal_stored = false;
-        const auto store_diagonal = [&] {
-            if (!diagonal_stored) columns.insertBack(c, c) = matrix.diag_element(c);
-            diagonal_stored = true;
-        };
-        for (auto entry = matrix.begin(c); entry != matrix.end(c); ++entry) {
-            if (entry->column() == c) continue;
-            if (entry->column() > c) store_diagonal();
-            columns.insertBack(entry->column(), c) = entry->value();
-        }
-        store_diagonal();
-    }
-    columns.finalize();
-    return columns;
-}
-
 // u_h at quadrature point q.
 pbs::Vec3 value_at(const dealii::FEValues<3>& values, const DofIndices& dofs, const Eigen::VectorXd& displacement, unsigned int q)
 {
@@ -143,25 +96,6 @@ ElementTables tables_at(const SimplexSpace& space, const dealii::Quadrature<3>& 
 }
 
 }  // namespace
-
-SparseMatrix stiffness_matrix(const SimplexSpace& space, const Lame& material)
-{
-    dealii::DynamicSparsityPattern dynamic_pattern(space.dofs());
-    dealii::DoFTools::make_sparsity_pattern(space.elements().dof_handler, dynamic_pattern);
-    dealii::SparsityPattern pattern;
-    pattern.copy_from(dynamic_pattern);
-    dynamic_pattern.reinit(0, 0);
-
-    dealii::SparseMatrix<double> matrix(pattern);
-    dealii::FullMatrix<double> of_tet(space.elements().element.n_dofs_per_cell());
-    // Products of gradients have degree 2 (order - 1); n points a direction integrate degree 2 n - 1.
-    for_each_tet(space, space.element_order(), dealii::update_gradients | dealii::update_JxW_values,
-                 [&](const dealii::FEValues<3>& values, const DofIndices& dofs) {
-                     tet_stiffness(values, material, of_tet);
-                     matrix.add(dofs, of_tet);
-                 });
-    return compressed(matrix);
-}
 
 SparseMatrix mass_matrix(const SimplexSpace& space, double density_kg_m3)
 {

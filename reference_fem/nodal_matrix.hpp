@@ -5,6 +5,7 @@
 #include "reference_fem/simplex_space.hpp"
 #include "reference_fem/sparse_matrix.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace reference_fem {
@@ -22,7 +23,8 @@ public:
     // factor times a matrix over the nodes, #nodes x #nodes with an entry where a tet has both: a multiple of the identity in each block.
     void add_isotropic(const SparseMatrix& of_nodes, double factor);
 
-    const SparseMatrix& matrix() const { return matrix_; }  // #dofs x #dofs, both triangles
+    const SparseMatrix& matrix() const& { return matrix_; }  // #dofs x #dofs, both triangles
+    SparseMatrix matrix() && { return std::move(matrix_); }
 
 private:
     SparseMatrix::StorageIndex place(int row_node, int column_node) const;  // of the block's first row in its columns

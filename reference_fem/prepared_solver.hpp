@@ -2,8 +2,9 @@
 //   auto solver = prepare(matrix, LinearSolver::cholmod);
 //   if (solver->usable()) x = solver->solve(b);
 //   solver->refactor();   // the matrix has other values in the same pattern: a symbolic analysis is kept
-// CHOLMOD (supernodal Cholesky, METIS ordering) is the default; UMFPACK (unsymmetric LU) is the second opinion on the same matrix. Both
-// are SuiteSparse's, called directly. Conjugate gradients with Trilinos ML are for what their factors do not fit in memory for.
+// CHOLMOD (supernodal Cholesky, ordered by AMD, or METIS where that fills in less) is the default; UMFPACK (unsymmetric LU) is the second
+// opinion on the same matrix. Both are SuiteSparse's, called directly. Conjugate gradients with Trilinos ML are for what their factors do
+// not fit in memory for.
 #pragma once
 
 #include "reference_fem/linear_solver.hpp"
