@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
 namespace experiments {
 namespace {
@@ -89,6 +90,49 @@ std::string markdown(const VerificationRows& rows)
     return text;
 }
 
+// Of what was seen of a quantity.
+struct Range {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+
+    void add(double value)
+    {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+    std::string text(const char* format) const
+    {
+        if (low > high) return "";
+        return number(low, format) + (low < high ? " to " + number(high, format) : "");
+    }
+};
+
+struct ProblemSummary {
+    int judged = 0, held = 0, beside = 0;
+    Range difference_pct, order_difference;  // of the judged rows
+    std::string failing;                     // a line each
+};
+
+ProblemSummary summarise(const std::string& problem, const VerificationRows& rows)
+{
+    ProblemSummary summary;
+    for (const VerificationRow& row : rows) {
+        if (row.problem != problem) continue;
+        const std::optional<bool> row_holds = holds(row);
+        if (!row_holds) {
+            ++summary.beside;
+            continue;
+        }
+        ++summary.judged;
+        summary.held += *row_holds;
+        if (const auto difference = difference_pct(row)) summary.difference_pct.add(*difference);
+        if (row.expected_order && row.observed_order) summary.order_difference.add(*row.observed_order - *row.expected_order);
+        if (!*row_holds)
+            summary.failing += fmt::format("  does not hold: {}, {}, {}, {}: {} {}, expected {} {}\n", row.quantity, row.elements,
+                                           row.material, row.mesh, number(row.value), row.unit, bounds_text(row), order_text(row));
+    }
+    return summary;
+}
+
 }  // namespace
 
 void write_verification_record(const std::string& folder, const VerificationRows& rows)
@@ -103,16 +147,19 @@ void write_verification_record(const std::string& folder, const VerificationRows
 
 std::string verification_table(const VerificationRows& rows)
 {
-    std::string text = fmt::format("{:<22} {:<34} {:<8} {:<19} {:>12} {:>12} {:>9} {:>12}  {}\n", "problem", "quantity", "elements",
-                                   "material", "value", "reference", "diff [%]", "order", "holds");
+    constexpr auto line = "{:<30} {:>8} {:>7}   {:<22} {:<18}\n";
+    std::string text = fmt::format(line, "problem", "hold", "beside", "difference [%]", "order less theory");
+    std::vector<std::string> problems;
+    for (const VerificationRow& row : rows)
+        if (!std::count(problems.begin(), problems.end(), row.problem)) problems.push_back(row.problem);
     int judged = 0, held = 0;
-    for (const VerificationRow& row : rows) {
-        if (!holds(row)) continue;
-        ++judged;
-        held += *holds(row);
-        text += fmt::format("{:<22} {:<34.34} {:<8} {:<19} {:>12.5g} {:>12.5g} {:>9} {:>12}  {}\n", row.problem, row.quantity, row.elements,
-                            row.material, row.value, row.reference, number(difference_pct(row), "{:+.3f}"), order_text(row),
-                            *holds(row) ? "yes" : "NO, expected " + bounds_text(row));
+    for (const std::string& problem : problems) {
+        const ProblemSummary summary = summarise(problem, rows);
+        judged += summary.judged;
+        held += summary.held;
+        text += fmt::format(line, problem, fmt::format("{}/{}", summary.held, summary.judged), summary.beside,
+                            summary.difference_pct.text("{:+.3g}"), summary.order_difference.text("{:+.2f}")) +
+                summary.failing;
     }
     return text + fmt::format("{} of {} rows hold; {} more are there to be seen\n", held, judged, rows.size() - judged);
 }

@@ -7,6 +7,7 @@ namespace experiments {
 
 void write_verification_record(const std::string& folder, const VerificationRows& rows);
 
-std::string verification_table(const VerificationRows& rows);  // the rows that are judged, one line each, and how many hold
+// One line a problem: how many rows hold, the range of their differences and of their orders less theory; and each row that fails.
+std::string verification_table(const VerificationRows& rows);
 
 }  // namespace experiments

@@ -102,13 +102,19 @@ TEST(VerificationRecordTest, IsWrittenAsCsvJsonAndMarkdown)
     EXPECT_TRUE(std::filesystem::exists(folder / "verification.md"));
 }
 
-TEST(VerificationRecordTest, TheTableCountsWhatHolds)
+TEST(VerificationRecordTest, TheTableCountsWhatHoldsAndNamesWhatDoesNot)
 {
     VerificationRow failing = row(), seen = row();
     failing.value = 3.0;
+    failing.observed_order = 1.75;
+    failing.expected_order = 2.0;
     seen.low = seen.high = std::nullopt;
     const std::string table = verification_table({row(), failing, seen});
-    EXPECT_NE(table.find("NO, expected 1.95 to 2.05"), std::string::npos) << table;
+    EXPECT_NE(table.find("+198 to +250"), std::string::npos) << table;
+    EXPECT_NE(table.find("-0.25"), std::string::npos) << table;
+    EXPECT_NE(table.find("does not hold: deflection, \"mean\", P2, linear, nu = 0.3, 4 x 1 x 1: 3 m, expected 1.95 to 2.05 1.75 (2)"),
+              std::string::npos)
+        << table;
     EXPECT_NE(table.find("1 of 2 rows hold; 1 more"), std::string::npos) << table;
 }
 
