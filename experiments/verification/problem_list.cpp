@@ -21,6 +21,7 @@ const std::vector<VerificationProblem>& verification_problems()
          half_turn_rows},
         {"thick_plate", "NAFEMS LE10, stress at the edge of a hole", 4.0, 20.0, thick_plate_rows},
         {"locking", "bending and torsion as Poisson's ratio goes to 1/2, by element", 15.0, 60.0, locking_rows},
+        {"pbs_locking", "the same bending under PBS: one volume constraint a tet", 5.0, 40.0, pbs_locking_rows},
         {"dynamics", "a vibrating cantilever: order in the time step, energy, damping, first frequency", 2.0, 8.0, dynamics_rows},
         {"moving_skeleton", "order in the time step where the skeleton moves the flesh, large strains", 2.0, 2.0, moving_skeleton_rows},
         {"distributed", "multigrid and several processes give what the direct solver gives at every node", 5.0, 5.0, distributed_rows},

@@ -16,6 +16,7 @@ VerificationRows thick_sphere_rows(const Effort& effort);
 VerificationRows cooks_membrane_rows(const Effort& effort);
 VerificationRows cooks_membrane_finite_strain_rows(const Effort& effort);
 VerificationRows locking_rows(const Effort& effort);
+VerificationRows pbs_locking_rows(const Effort& effort);
 VerificationRows twisted_beam_rows(const Effort& effort);
 VerificationRows thick_plate_rows(const Effort& effort);
 VerificationRows distributed_rows(const Effort& effort);
