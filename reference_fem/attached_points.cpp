@@ -3,6 +3,7 @@
 #include "reference_fem/point_location.hpp"
 
 #include <limits>
+#include <map>
 
 namespace reference_fem {
 
@@ -22,17 +23,27 @@ AttachedPoints::AttachedPoints(const pbs::TetMesh& mesh, const SimplexSpace& spa
         nodes_.col(s) = space.tet_nodes().row(location.tet);
         shapes_.col(s) = space.shape_values(location.barycentric);
     }
+    sum_tets();
+}
+
+void AttachedPoints::sum_tets()
+{
+    std::map<int, GrippedTet> of_tet;
+    for (Eigen::Index s = 0; s < points_.rows(); ++s) {
+        if (tet_[s] < 0) continue;
+        GrippedTet& gripped = of_tet[tet_[s]];
+        if (gripped.nodes.size() == 0) gripped = {nodes_.col(s), Eigen::MatrixXd::Zero(nodes_.rows(), nodes_.rows())};
+        gripped.stiffness += stiffness_(s) * shapes_.col(s) * shapes_.col(s).transpose();
+    }
+    for (auto& [tet, gripped] : of_tet) gripped_.push_back(std::move(gripped));
 }
 
 void AttachedPoints::add_to(SparseMatrix& matrix) const
 {
-    for (Eigen::Index s = 0; s < points_.rows(); ++s) {
-        if (tet_[s] < 0) continue;
+    for (const GrippedTet& tet : gripped_)
         for (Eigen::Index a = 0; a < nodes_.rows(); ++a)
             for (Eigen::Index b = 0; b < nodes_.rows(); ++b)
-                for (int c = 0; c < 3; ++c)
-                    matrix.coeffRef(3 * nodes_(a, s) + c, 3 * nodes_(b, s) + c) += stiffness_(s) * shapes_(a, s) * shapes_(b, s);
-    }
+                for (int c = 0; c < 3; ++c) matrix.coeffRef(3 * tet.nodes(a) + c, 3 * tet.nodes(b) + c) += tet.stiffness(a, b);
 }
 
 void AttachedPoints::add_load(const pbs::Positions& targets, Eigen::VectorXd& load) const
@@ -46,12 +57,10 @@ void AttachedPoints::add_load(const pbs::Positions& targets, Eigen::VectorXd& lo
 
 void AttachedPoints::add_to(NodalMatrix& matrix) const
 {
-    for (Eigen::Index s = 0; s < points_.rows(); ++s) {
-        if (tet_[s] < 0) continue;
+    for (const GrippedTet& tet : gripped_)
         for (Eigen::Index a = 0; a < nodes_.rows(); ++a)
             for (Eigen::Index b = 0; b < nodes_.rows(); ++b)
-                matrix.add_block(nodes_(a, s), nodes_(b, s), stiffness_(s) * shapes_(a, s) * shapes_(b, s) * Eigen::Matrix3d::Identity());
-    }
+                matrix.add_block(tet.nodes(a), tet.nodes(b), tet.stiffness(a, b) * Eigen::Matrix3d::Identity());
 }
 
 double AttachedPoints::energy(const pbs::Positions& targets, const Eigen::VectorXd& displacement) const

@@ -33,12 +33,19 @@ public:
 
 private:
     pbs::Vec3 moved(Eigen::Index spring, const Eigen::VectorXd& displacement) const;
+    void sum_tets();
 
     pbs::Positions points_;
     Eigen::VectorXd stiffness_;
     std::vector<int> tet_;
     Eigen::MatrixXi nodes_;   // nodes per tet x #S
     Eigen::MatrixXd shapes_;  // their shape functions at the point
+    // k N^T N summed over the springs of each gripped tet, nodes per tet x nodes per tet: as stiff as any number of springs in it.
+    struct GrippedTet {
+        Eigen::VectorXi nodes;
+        Eigen::MatrixXd stiffness;  // [N/m]
+    };
+    std::vector<GrippedTet> gripped_;
 };
 
 }  // namespace reference_fem

@@ -10,7 +10,7 @@ namespace experiments {
 namespace {
 
 constexpr double middle_begin = 1.0 / 6.0, middle_end = 5.0 / 6.0;  // Eq. 2
-constexpr int stations = 10, rings = 2, spokes = 6;
+constexpr int stations = 40, rings = 8, spokes = 24;
 constexpr int points_per_disc = 1 + rings * spokes;
 
 struct Mean {
@@ -92,7 +92,7 @@ pbs::Positions sample_points(const BoneCapsule& capsule)
         const pbs::Vec3 centre = capsule.start + (station + 0.5) / stations * axis;
         points.row(next++) = centre;
         for (int ring = 0; ring < rings; ++ring) {
-            // Of the disc's points, 1 + 6 ring lie further in and 3 of this ring's own: half its area.
+            // Of the disc's points, those further in and half of this ring's own lie within: half its area.
             const double radius = capsule.radius_m * std::sqrt((1.0 + spokes * (ring + 0.5)) / points_per_disc);
             for (int spoke = 0; spoke < spokes; ++spoke) {
                 const double angle = 2.0 * std::numbers::pi * spoke / spokes;

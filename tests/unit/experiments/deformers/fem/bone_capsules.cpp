@@ -71,16 +71,16 @@ TEST(BoneCapsules, ContainsItsAxisAndNothingBeyondItsEndsOrRadius)
 }
 
 // Equal shares of the volume: means over the samples are those over the capsule, centre (1, 0, 0) and <radius^2> = r^2 / 2. A ring at the
-// radius that halves its area has exactly the mean square of the area it stands for; the centre point alone, 1 / 13 of the disc, is
-// counted with 0 instead of r^2 / 26: (r^2 / 26) / 13 = 0.3 % of r^2.
+// radius that halves its area has exactly the mean square of the area it stands for; the centre point alone, 1 / n of the disc, is
+// counted with 0 instead of r^2 / (2 n), n = 193 points a disc: 1.3e-5 of r^2.
 TEST(BoneCapsules, SamplesStandForEqualSharesOfTheVolume)
 {
     const BoneCapsule capsule{{0, 0, 0}, {2, 0, 0}, 0.5, ""};
     const pbs::Positions samples = sample_points(capsule);
-    EXPECT_EQ(samples.rows(), 130);
+    EXPECT_EQ(samples.rows(), 40 * 193);
     EXPECT_LT((samples.colwise().mean() - Eigen::RowVector3d(1, 0, 0)).norm(), 1e-14);
     const double mean_square = samples.rightCols(2).rowwise().squaredNorm().mean();
-    EXPECT_NEAR(mean_square, 0.25 / 2.0 - 0.25 / 26.0 / 13.0, 1e-14);
+    EXPECT_NEAR(mean_square, 0.25 / 2.0 - 0.25 / (2.0 * 193.0) / 193.0, 1e-14);
     for (const auto& sample : samples.rowwise()) EXPECT_TRUE(capsule.contains(sample.transpose()));
 }
 

@@ -33,8 +33,8 @@ TEST(LinearFemDeformer, RecordsWhatIsGrippedOfEachBone)
     EXPECT_EQ(record["setup"]["dofs"], 3 * character.mesh.rest.rows());
     ASSERT_EQ(record["attachment"]["bones"].size(), 2u);
     for (const auto& bone : record["attachment"]["bones"]) {
-        EXPECT_EQ(bone["samples"], 130);
-        EXPECT_EQ(bone["inside"], 130);
+        EXPECT_EQ(bone["samples"], 7720);
+        EXPECT_EQ(bone["inside"], 7720);
         EXPECT_GT(bone["tets_gripped"].get<int>(), 0);
         EXPECT_GE(bone["skin_share"].get<double>(), 0.0);
         EXPECT_LT(bone["skin_share"].get<double>(), 1.0);
