@@ -39,7 +39,8 @@ Cells cells_of(const analysis::Minimum& minimum)
 
 Cells cells_of(const PoissonSetting& setting)
 {
-    return {setting.model, setting.element_order, setting.attachment, setting.body, setting.k_stretch, setting.iterations};
+    return {setting.model, setting.element_order, setting.formulation, setting.attachment,
+            setting.body,  setting.k_stretch,     setting.iterations};
 }
 
 }  // namespace
@@ -88,20 +89,21 @@ double frequency_over_sag(double static_rad)
 
 analysis::CsvTable poisson_table()
 {
-    return analysis::CsvTable({"model", "element_order", "attachment", "body", "k_stretch", "iterations", "converged_poses", "poses",
-                               "poisson", "poisson_low", "poisson_high", "misfit_pct", "rise", "outcome", "identifiable", "misfit_at_0_pct",
-                               "misfit_at_highest_pct", "highest_poisson"});
+    return analysis::CsvTable({"model", "element_order", "formulation", "attachment", "body", "k_stretch", "iterations", "converged_poses",
+                               "poses", "poisson", "poisson_low", "poisson_high", "misfit_pct", "rise", "outcome", "identifiable",
+                               "misfit_at_0_pct", "misfit_at_highest_pct", "highest_poisson"});
 }
 
 analysis::CsvTable poisson_poses_table()
 {
-    return analysis::CsvTable({"model", "element_order", "attachment", "body", "k_stretch", "iterations", "pose", "poisson", "misfit_pct",
-                               "rise", "outcome", "identifiable"});
+    return analysis::CsvTable({"model", "element_order", "formulation", "attachment", "body", "k_stretch", "iterations", "pose", "poisson",
+                               "misfit_pct", "rise", "outcome", "identifiable"});
 }
 
 analysis::CsvTable valley_table()
 {
-    return analysis::CsvTable({"model", "element_order", "attachment", "body", "k_stretch", "iterations", "poisson", "misfit_pct"});
+    return analysis::CsvTable(
+        {"model", "element_order", "formulation", "attachment", "body", "k_stretch", "iterations", "poisson", "misfit_pct"});
 }
 
 void add_poisson(analysis::CsvTable& fits, analysis::CsvTable& poses, analysis::CsvTable& valleys, const PoissonSetting& setting,

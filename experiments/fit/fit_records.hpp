@@ -42,7 +42,7 @@ void add_swing(analysis::CsvTable& table, const FitSetting& setting, const Swing
 double frequency_over_sag(double static_rad);
 
 struct PoissonSetting {
-    std::string model, attachment;
+    std::string model, formulation, attachment;
     int element_order = 0;
     double k_stretch = 0.0;
     std::string body;         // pbs, pbs_converged

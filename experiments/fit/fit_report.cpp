@@ -159,11 +159,11 @@ std::string poisson_markdown(const CsvTable& fits)
     for (int r = 0; r < fits.rows(); ++r) {
         const auto number = [&](const char* column) { return fits.number(r, column); };
         text += fmt::format(
-            "| {} P{} | {} | {}, {} iterations | {:g} | {:.3f} | {:.3f} to {:.3f} | {:.3g} | {:.3g} | {:.3g} at {:.4g} | {} |\n",
-            fits.text_at(r, "model"), fits.text_at(r, "element_order"), fits.text_at(r, "attachment"), fits.text_at(r, "body"),
-            fits.text_at(r, "iterations"), number("k_stretch"), number("poisson"), number("poisson_low"), number("poisson_high"),
-            number("misfit_pct"), number("misfit_at_0_pct"), number("misfit_at_highest_pct"), number("highest_poisson"),
-            verdict_of(fits, r));
+            "| {} P{}, {} | {} | {}, {} iterations | {:g} | {:.3f} | {:.3f} to {:.3f} | {:.3g} | {:.3g} | {:.3g} at {:.4g} | {} |\n",
+            fits.text_at(r, "model"), fits.text_at(r, "element_order"), fits.text_at(r, "formulation"), fits.text_at(r, "attachment"),
+            fits.text_at(r, "body"), fits.text_at(r, "iterations"), number("k_stretch"), number("poisson"), number("poisson_low"),
+            number("poisson_high"), number("misfit_pct"), number("misfit_at_0_pct"), number("misfit_at_highest_pct"),
+            number("highest_poisson"), verdict_of(fits, r));
     }
     return text;
 }

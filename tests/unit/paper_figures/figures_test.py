@@ -113,6 +113,25 @@ class Figures(unittest.TestCase):
                     self.assertEqual(make_all.main(results), 1)
             self.assertIn("verification.csv: not there", said.getvalue())
 
+    def test_the_fit_shows_moduli_with_volume_constraints_alone(self):
+        with tempfile.TemporaryDirectory() as folder:
+            results = pathlib.Path(folder)
+            synthetic_records.write_fit(results)
+            with contextlib.redirect_stdout(io.StringIO()):
+                self.assertEqual(make_all.main(results), 0)
+            self.assertIn(synthetic_records.revision.encode(), (results / "figures" / "fit.png").read_bytes())
+            with open(results / "figures" / "fit.csv", newline="") as stream:
+                rows = list(csv.DictReader(stream))
+            young = {(row["of"], float(row["at"])): float(row["value"]) for row in rows if row["shown"] == "young_kpa"}
+            self.assertEqual(len(young), 6)
+            self.assertAlmostEqual(young["300 vertices, 24 iterations", 0.2], 480.0)
+            self.assertEqual(len([row for row in rows if row["shown"] == "misfit_pct"]), 6)
+            (results / "fit" / "valley.csv").unlink()
+            with contextlib.redirect_stderr(io.StringIO()) as said:
+                with contextlib.redirect_stdout(io.StringIO()):
+                    self.assertEqual(make_all.main(results), 1)
+            self.assertIn("valley.csv: not there", said.getvalue())
+
     def test_readme_is_changed_between_its_markers_alone(self):
         readme = self.results / "README.md"
         readme.write_text(f"before\n{readme_claims.begin}\nold\n{readme_claims.end}\nafter\n")

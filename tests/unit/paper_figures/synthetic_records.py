@@ -52,3 +52,25 @@ def write_verification(results):
                 writer.writerow({"problem": "cantilever", "quantity": "tip deflection", "elements": f"P{order}", "h_m": 1, "dofs": dofs,
                                  "value": 1, "reference": 1, "material": "linear, nu = 0.3", "difference_pct": difference})
     (folder / "verification.md").write_text("| problem | holds |\n|---|---|\n| cantilever | yes |\n\n1. closed form: a beam\n")
+
+
+def write_fit(results):
+    """E = 100 kPa k_stretch * iterations; the misfit is 20 % + |nu - 0.3|."""
+    folder = results / "fit"
+    (folder / "sag_300").mkdir(parents=True)
+    (folder / "sag_300" / "run.json").write_text(json.dumps({"provenance": {"version": "0.1.0", "git_revision": revision, "git_dirty": False}}))
+    with open(folder / "sag.csv", "w", newline="") as stream:
+        writer = csv.DictWriter(stream, ["vertices", "k_stretch", "k_volume", "iterations", "young_pa", "settled"])
+        writer.writeheader()
+        for k_stretch in (0.05, 0.2, 0.9):
+            for iterations in (24, 96):
+                for k_volume, settled in ((0.0, 1), (1.0, 1)):
+                    writer.writerow({"vertices": 300, "k_stretch": k_stretch, "k_volume": k_volume, "iterations": iterations,
+                                     "young_pa": 1e5 * k_stretch * iterations, "settled": settled})
+    with open(folder / "valley.csv", "w", newline="") as stream:
+        writer = csv.DictWriter(stream, ["model", "element_order", "attachment", "body", "k_stretch", "poisson", "misfit_pct"])
+        writer.writeheader()
+        for body in ("pbs", "pbs_converged"):
+            for poisson in (0.0, 0.3, 0.49):
+                writer.writerow({"model": "stable_neo_hookean", "element_order": 2, "attachment": "embedded", "body": body,
+                                 "k_stretch": 0.2, "poisson": poisson, "misfit_pct": 20 + abs(poisson - 0.3)})

@@ -1,0 +1,57 @@
+"""What k_stretch is worth: Young's modulus of the elastic bar that sags as PBS does, over k_stretch, for several iteration counts and meshes;
+and how near any Poisson's ratio comes to PBS in twist and bend."""
+import records
+import style
+
+sag_columns = {"vertices", "k_stretch", "k_volume", "iterations", "young_pa", "settled"}
+valley_columns = {"model", "element_order", "attachment", "body", "k_stretch", "poisson", "misfit_pct"}
+shades = {"0.05": style.sky, "0.2": style.blue, "0.9": style.vermillion}
+lines = {"pbs": "-", "pbs_converged": (0, (4, 1.5))}
+names = {"pbs": "24 iterations", "pbs_converged": "converged"}
+
+
+def draw_young(axes, rows):
+    """One line a mesh and number of iterations, with the volume constraints on."""
+    rows = [row for row in rows if float(row["k_volume"]) == 1.0 and float(row["settled"]) == 1.0]
+    meshes = sorted({int(row["vertices"]) for row in rows})
+    for vertices, line in zip(meshes, ("-", (0, (4, 1.5)), (0, (1, 1)))):
+        counts = sorted({int(row["iterations"]) for row in rows})
+        for iterations, (color, marker) in zip(counts, style.sequence):
+            chosen = [row for row in rows if int(row["vertices"]) == vertices and int(row["iterations"]) == iterations]
+            axes.plot([float(row["k_stretch"]) for row in chosen], [float(row["young_pa"]) / 1e3 for row in chosen], color=color,
+                      marker=marker, linestyle=line, label=f"{iterations} iterations, {vertices} vertices")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("k_stretch")
+    axes.set_ylabel("Young's modulus [kPa]")
+    axes.set_title("by sag: k_volume 1, time step 10 ms, 1000 kg/m\u00b3")
+    axes.legend(fontsize=5.5)
+    return [{"shown": "young_kpa", "of": f"{row['vertices']} vertices, {row['iterations']} iterations", "at": row["k_stretch"],
+             "value": float(row["young_pa"]) / 1e3} for row in rows]
+
+
+def draw_valley(axes, rows):
+    """Stable neo-Hookean P2 held by embedded bones; where that is not on record, what comes first."""
+    wanted = [row for row in rows if (row["model"], row["element_order"], row["attachment"]) == ("stable_neo_hookean", "2", "embedded")]
+    first = rows[0]
+    chosen = wanted or [row for row in rows if all(row[key] == first[key] for key in ("model", "element_order", "attachment"))]
+    for body, line in lines.items():
+        for k_stretch, color in shades.items():
+            valley = [row for row in chosen if row["body"] == body and float(row["k_stretch"]) == float(k_stretch)]
+            axes.plot([float(row["poisson"]) for row in valley], [float(row["misfit_pct"]) for row in valley], color=color, linestyle=line,
+                      label=f"k_stretch {k_stretch}, {names[body]}")
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel("Poisson's ratio of the finite elements")
+    axes.set_ylabel("distance to PBS at the joint [%]")
+    axes.set_title("twist and bend, 30\u00b0 to 90\u00b0")
+    axes.legend(fontsize=5.5)
+    return [{"shown": "misfit_pct", "of": f"{row['body']}, k_stretch {row['k_stretch']}", "at": row["poisson"], "value": row["misfit_pct"]}
+            for row in chosen]
+
+
+def draw(results, figures):
+    folder = results / "fit"
+    figure, axes = style.panels(1, 2, height_in=2.6)
+    behind = draw_young(axes[0][0], records.table(folder / "sag.csv", sag_columns))
+    behind += draw_valley(axes[0][1], records.table(folder / "valley.csv", valley_columns))
+    style.save(figure, figures / "fit", records.provenance(results), behind)
