@@ -6,7 +6,6 @@
 #include "reference_fem/distributed/springs_in_tets.hpp"
 #include "reference_fem/material.hpp"
 #include "reference_fem/smoothed_aggregation.hpp"
-#include "pbs/geometry/stopwatch.hpp"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -48,17 +47,21 @@ public:
           prescribed_(mesh, problem.attachment, problem.vertex_targets)
     {
         constrain();
-        summary_.mesh_s = slowest(stopwatch_);
-        const pbs::Stopwatch assembly;
+        summary_.mesh = slowest(mesh_clock_);
+        const PhaseClock assembly;
         allocate();
         assemble();
-        summary_.assembly_s = slowest(assembly);
+        summary_.assembly = slowest(assembly);
     }
 
     ElasticSolution solve(const IterativeOptions& options);
 
 private:
-    static double slowest(const pbs::Stopwatch& stopwatch) { return mpi::max(stopwatch.seconds(), MPI_COMM_WORLD); }
+    static PhaseTime slowest(const PhaseClock& clock)
+    {
+        const PhaseTime time = clock.elapsed();
+        return {mpi::max(time.wall_s, MPI_COMM_WORLD), mpi::max(time.cpu_s, MPI_COMM_WORLD)};
+    }
 
     void constrain();
     void constrain(const Cell& cell, const DofIndices& dofs);
@@ -69,7 +72,7 @@ private:
     void add_springs(Eigen::Index tet);
     void summarise(const Vector& displacement);
 
-    pbs::Stopwatch stopwatch_;
+    PhaseClock mesh_clock_;
     const ElasticProblem& problem_;
     Lame lame_;
     DistributedSpace space_;
@@ -198,13 +201,13 @@ void DistributedSystem::add_springs(Eigen::Index tet)
 
 ElasticSolution DistributedSystem::solve(const IterativeOptions& options)
 {
-    const pbs::Stopwatch setup;
+    const PhaseClock setup;
     std::vector<double> modes = space_.rigid_body_modes();
     dealii::TrilinosWrappers::PreconditionAMG preconditioner;
     preconditioner.initialize(matrix_, smoothed_aggregation(modes.data(), 6, 3));
-    summary_.setup_s = slowest(setup);
+    summary_.setup = slowest(setup);
 
-    const pbs::Stopwatch solving;
+    const PhaseClock solving;
     Vector displacement(space_.owned, MPI_COMM_WORLD);
     dealii::SolverControl control(options.most_iterations, options.tolerance * right_hand_side_.l2_norm());
     summary_.converged = true;
@@ -213,7 +216,7 @@ ElasticSolution DistributedSystem::solve(const IterativeOptions& options)
     } catch (const dealii::SolverControl::NoConvergence&) {
         summary_.converged = false;
     }
-    summary_.solve_s = slowest(solving);
+    summary_.solve = slowest(solving);
     summary_.iterations = static_cast<int>(control.last_step());
     summarise(displacement);
 

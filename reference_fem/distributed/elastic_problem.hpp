@@ -3,6 +3,7 @@
 #pragma once
 
 #include "reference_fem/attachment.hpp"
+#include "reference_fem/distributed/phase_clock.hpp"
 #include "reference_fem/linear_elasticity.hpp"
 
 namespace reference_fem {
@@ -22,8 +23,8 @@ struct ElasticSummary {
     int ranks = 1;
     long long tets = 0, dofs = 0;
     long long tets_of_rank_min = 0, tets_of_rank_max = 0;
-    double mesh_s = 0.0, assembly_s = 0.0, setup_s = 0.0, solve_s = 0.0;  // of the slowest rank; setup: multigrid hierarchy, or factor
-    double peak_mb = 0.0;                                                 // of the rank that needed most
+    PhaseTime mesh, assembly, setup, solve;  // of the slowest rank; setup: multigrid hierarchy, or factor
+    double peak_mb = 0.0;                    // of the rank that needed most
     int iterations = 0;
     double relative_residual = 0.0;  // |K u - f| / |f| over the free degrees of freedom, computed anew from the solution
     bool converged = false;          // false: the displacement is whatever was reached, or not finite

@@ -6,7 +6,6 @@
 #include "reference_fem/distributed/prescribed_nodes.hpp"
 #include "reference_fem/eliminated_system.hpp"
 #include "reference_fem/near_null_space.hpp"
-#include "pbs/geometry/stopwatch.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <Eigen/Geometry>
@@ -121,7 +120,7 @@ ElasticSolution SerialSystem::sorted(const Eigen::VectorXd& displacement) const
 
 ElasticSolution SerialSystem::solve() const
 {
-    const pbs::Stopwatch assembly;
+    const PhaseClock assembly;
     const Attachment& attachment = problem_.attachment;
     const AttachedPoints springs(mesh_, space_, attachment.spring_points, attachment.spring_stiffness);
     SparseMatrix stiffness = stiffness_matrix(space_, lame_parameters(problem_.options.young_pa, problem_.options.poisson));
@@ -139,18 +138,20 @@ ElasticSolution SerialSystem::solve() const
     const PrescribedNodes prescribed(mesh_, attachment, problem_.vertex_targets);
     for (int node = 0; node < space_.nodes(); ++node)
         if (const auto value = prescribed.displacement(ends_[node])) fix(node, *value);
-    const double assembly_s = assembly.seconds();
+    const PhaseTime assembly_time = assembly.elapsed();
 
+    const PhaseClock setup;
     const bool iterative = problem_.options.solver == LinearSolver::cg_ml;
     const EliminatedSystem system(stiffness, fixed, problem_.options.solver,
                                   iterative ? rigid_body_modes(space_.node_positions()) : Eigen::MatrixXd());
-    const pbs::Stopwatch solving;
+    const PhaseTime setup_time = setup.elapsed();
+    const PhaseClock solving;
     const EliminatedSolution eliminated = system.solve(load, values);
     ElasticSolution solution = sorted(eliminated.displacement);
     ElasticSummary& summary = solution.summary;
-    summary.solve_s = solving.seconds();
-    summary.assembly_s = assembly_s;
-    summary.setup_s = system.factor().analyse_s() + system.factor().factor_s();
+    summary.solve = solving.elapsed();
+    summary.assembly = assembly_time;
+    summary.setup = setup_time;
     summary.solver = system.factor().name();
     summary.iterations = system.factor().iterations();
     summary.tets = summary.tets_of_rank_min = summary.tets_of_rank_max = mesh_.tets.rows();
@@ -166,11 +167,11 @@ ElasticSolution SerialSystem::solve() const
 ElasticSolution solve_serially(const pbs::TetMesh& mesh, const ElasticProblem& problem)
 {
     check_problem(mesh, problem);
-    const pbs::Stopwatch preparation;
+    const PhaseClock preparation;
     const SerialSystem system(mesh, problem);
-    const double mesh_s = preparation.seconds();
+    const PhaseTime mesh_time = preparation.elapsed();
     ElasticSolution solution = system.solve();
-    solution.summary.mesh_s = mesh_s;
+    solution.summary.mesh = mesh_time;
     solution.summary.peak_mb = peak_memory_mb();
     return solution;
 }
