@@ -51,7 +51,7 @@ void write_analysis(std::ostream& deck, const DeckOptions& options)
 {
     const bool large_strain = options.analysis == CalculixAnalysis::large_strain;
     deck << (large_strain ? "*STEP, NLGEOM, INC=10000\n" : "*STEP\n");
-    deck << (options.analysis == CalculixAnalysis::none ? "*NO ANALYSIS\n" : "*STATIC\n");
+    deck << "*STATIC\n";
     // Newton's residual over the mean force, and the last correction over the largest increment: CalculiX asks for 5e-3 and 1e-2.
     if (large_strain) deck << calculix_number(options.first_increment) << ", 1.\n*CONTROLS, PARAMETERS=FIELD\n1e-9, 1e-9\n";
 }
@@ -107,6 +107,7 @@ void write_calculix_deck(std::ostream& deck, const NodalProblem& problem, const 
 {
     write_mesh(deck, problem);
     write_material(deck, problem);
+    if (options.analysis == CalculixAnalysis::none) return;
     write_analysis(deck, options);
     write_held_nodes(deck, problem);
     write_loads(deck, problem);

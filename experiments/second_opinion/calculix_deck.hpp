@@ -15,7 +15,7 @@ enum class CalculixAnalysis {
     // NLGEOM: second Piola-Kirchhoff stress linear in the Green-Lagrange strain, the law of St Venant and Kirchhoff. Data grow linearly
     // with the fraction of the step.
     large_strain,
-    none,  // the deck is read and checked, nothing is solved: what reading costs
+    none,  // nodes, tets and material without a step: what reading costs
 };
 
 struct DeckOptions {

@@ -17,6 +17,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -103,7 +104,7 @@ private:
 };
 
 // `program OPTION deck` in a folder; finished where it ended by itself, in time and with exit status 0.
-CalculixOutcome run_in(const std::string& folder, const std::string& program, const char* option, double limit_s)
+CalculixOutcome run_in(const std::string& folder, const std::string& program, const char* option, double limit_s, double& cpu_s)
 {
     std::vector<std::string> variables = one_thread_environment();
     std::vector<char*> environment;
@@ -123,8 +124,11 @@ CalculixOutcome run_in(const std::string& folder, const std::string& program, co
     if (!started) return CalculixOutcome::not_started;
     if (!in_time) kill(child, SIGKILL);
     int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    rusage usage{};
+    while (wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {
     }
+    const auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
+    cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
     if (!in_time) return CalculixOutcome::out_of_time;
     return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? CalculixOutcome::finished : CalculixOutcome::refused;
 }
@@ -159,7 +163,8 @@ std::optional<std::string> calculix_on_path()
 std::string calculix_version(const std::string& program)
 {
     const ScratchFolder folder;
-    run_in(folder.path(), program, "-v", 10.0);
+    double cpu_s = 0.0;
+    run_in(folder.path(), program, "-v", 10.0, cpu_s);
     const std::string output = text_of(folder / "output.txt");
     std::smatch match;
     return std::regex_search(output, match, std::regex(R"(Version\s+([\w.]+))")) ? "CalculiX " + match[1].str() : "unknown version";
@@ -175,7 +180,7 @@ CalculixRun run_calculix(const std::string& program, const std::function<void(st
     }
     CalculixRun run;
     const pbs::Stopwatch stopwatch;
-    run.outcome = run_in(folder.path(), program, "-i", limits.seconds);
+    run.outcome = run_in(folder.path(), program, "-i", limits.seconds, run.cpu_s);
     run.wall_s = stopwatch.seconds();
     run.output = text_of(folder / "output.txt");
     run.printed = text_of(folder / "deck.dat");

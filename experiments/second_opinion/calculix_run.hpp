@@ -25,6 +25,7 @@ const char* name_of(CalculixOutcome outcome);
 struct CalculixRun {
     CalculixOutcome outcome = CalculixOutcome::not_started;
     double wall_s = 0.0;  // from the start of the process to its end, reading and writing of its files included
+    double cpu_s = 0.0;   // user and system time
     std::string output;   // what it said
     std::string printed;  // deck.dat
     std::string restart;  // deck.rout, binary

@@ -4,55 +4,47 @@
 #include "experiments/second_opinion/calculix_run.hpp"
 #include "reference_fem/blas.hpp"
 
-#include "pbs/geometry/stopwatch.hpp"
-
 #include <algorithm>
+#include <ctime>
 #include <stdexcept>
-#include <vector>
 
 namespace experiments {
 namespace {
 
-double median(std::vector<double> values)
+double cpu_s()
 {
-    const auto middle = values.begin() + values.size() / 2;
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-double wall_s(const std::string& program, const NodalProblem& problem, CalculixAnalysis analysis)
+double calculix_cpu_s(const std::string& program, const NodalProblem& problem, CalculixAnalysis analysis)
 {
     const DeckOptions options{.analysis = analysis, .restart_file = false};
     const CalculixRun run = run_calculix(program, [&](std::ostream& deck) { write_calculix_deck(deck, problem, options); }, {});
     if (run.outcome != CalculixOutcome::finished)
         throw std::runtime_error(program + ": " + name_of(run.outcome) + ": " + last_words(run.output));
-    return run.wall_s;
+    return run.cpu_s;
 }
 
 }  // namespace
 
-FirstSolveTiming time_first_solve(const std::string& program, const pbs::TetMesh& mesh, int element_order, const Cantilever& cantilever,
-                                  int repeats)
+FirstSolveTiming time_first_solve(const std::string& program, const pbs::TetMesh& mesh, int element_order,
+                                  const LoadedCantilever& cantilever, int repeats)
 {
     reference_fem::use_one_blas_thread();
-    std::vector<double> elements, solves, calculix, reading;
-    FirstSolveTiming timing{static_cast<int>(mesh.rest.rows()), 0, repeats};
+    FirstSolveTiming timing;
+    const auto keep_smallest = [](double& kept, double seconds) { kept = kept > 0.0 ? std::min(kept, seconds) : seconds; };
     for (int repeat = 0; repeat < repeats; ++repeat) {
-        const pbs::Stopwatch stopwatch;
+        const double start = cpu_s();
         const reference_fem::SimplexSpace space(mesh, element_order);
-        elements.push_back(stopwatch.seconds());
+        keep_smallest(timing.elements_s, cpu_s() - start);
         const NodalProblem problem = cantilever_problem(space, cantilever);
-        const pbs::Stopwatch solve;
+        const double solve_start = cpu_s();
         linear_displacements(space, problem);
-        solves.push_back(solve.seconds());
+        keep_smallest(timing.solve_s, cpu_s() - solve_start);
+        keep_smallest(timing.calculix_s, calculix_cpu_s(program, problem, CalculixAnalysis::linear));
+        keep_smallest(timing.reading_s, calculix_cpu_s(program, problem, CalculixAnalysis::none));
         timing.dofs = space.dofs();
-        calculix.push_back(wall_s(program, problem, CalculixAnalysis::linear));
-        reading.push_back(wall_s(program, problem, CalculixAnalysis::none));
     }
-    timing.elements_s = median(elements);
-    timing.solve_s = median(solves);
-    timing.calculix_s = median(calculix);
-    timing.reading_s = median(reading);
     return timing;
 }
 

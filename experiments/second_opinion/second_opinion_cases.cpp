@@ -86,7 +86,7 @@ void answer_by_four_points(const pbs::TetMesh& mesh, int element_order, const He
 
 }  // namespace
 
-NodalProblem cantilever_problem(const reference_fem::SimplexSpace& space, const Cantilever& cantilever)
+NodalProblem cantilever_problem(const reference_fem::SimplexSpace& space, const LoadedCantilever& cantilever)
 {
     NodalProblem problem = nodal_problem(space, cantilever.material);
     problem.density_kg_m3 = cantilever.density_kg_m3;
@@ -99,7 +99,7 @@ NodalProblem cantilever_problem(const reference_fem::SimplexSpace& space, const 
     return problem;
 }
 
-AnsweredProblem answered_cantilever(const pbs::TetMesh& mesh, int element_order, const Cantilever& cantilever)
+AnsweredProblem answered_cantilever(const pbs::TetMesh& mesh, int element_order, const LoadedCantilever& cantilever)
 {
     const reference_fem::SimplexSpace space(mesh, element_order);
     AnsweredProblem answer{cantilever_problem(space, cantilever), {}};

@@ -10,13 +10,13 @@
 namespace experiments {
 
 // Nodes at the lowest x held; gravity [m/s^2] and an end load [N], shared equally by the nodes at the highest x.
-struct Cantilever {
+struct LoadedCantilever {
     reference_fem::ElasticMaterial material;
     double density_kg_m3 = 1000.0;
     pbs::Vec3 gravity_m_s2 = pbs::Vec3::Zero(), end_load_n = pbs::Vec3::Zero();
 };
-NodalProblem cantilever_problem(const reference_fem::SimplexSpace& space, const Cantilever& cantilever);
-AnsweredProblem answered_cantilever(const pbs::TetMesh& mesh, int element_order, const Cantilever& cantilever);
+NodalProblem cantilever_problem(const reference_fem::SimplexSpace& space, const LoadedCantilever& cantilever);
+AnsweredProblem answered_cantilever(const pbs::TetMesh& mesh, int element_order, const LoadedCantilever& cantilever);
 
 // The character held by whole tets inside its bones' capsules, by the linear model or that of St Venant and Kirchhoff. pose_at(1) is the
 // frame; pose_at(0), where a large rotation starts from, is the rest pose. Poses are relative to the root.

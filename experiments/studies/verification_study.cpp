@@ -4,6 +4,7 @@
 #include "experiments/studies/study.hpp"
 #include "experiments/verification/verification_module.hpp"
 #include "experiments/verification/verification_record.hpp"
+#include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/module.hpp"
 
@@ -21,6 +22,11 @@ namespace fs = std::filesystem;
 const std::vector<VerificationProblem>& problems_of_module()
 {
     return *pbs::load_module("pbskin_fem").function<decltype(pbskin_verification_problems)>("pbskin_verification_problems")();
+}
+
+pbs::Character limb(int vertices)
+{
+    return pbs::make_character({.body = "limb", .vertices = vertices});
 }
 
 std::string solve_and_record(const VerificationProblem& problem, const Effort& effort, const std::string& folder)
@@ -45,7 +51,8 @@ StudyPlan plan_verification_study(bool full)
             plan.runs.push_back(
                 {.name = problem.name,
                  .cost_s = full ? problem.full_s : problem.quick_s,
-                 .work = [&problem, full](const std::string& folder) { return solve_and_record(problem, {.full = full}, folder); },
+                 .work = [&problem,
+                          full](const std::string& folder) { return solve_and_record(problem, {.full = full, .limb = limb}, folder); },
                  .settings = {{"problem", problem.name}, {"full", full}}});
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({"verification", error.what()});

@@ -20,6 +20,7 @@ const std::vector<VerificationProblem>& verification_problems()
         {"half_turn", "Newton's iterations and states of a bar turned by 180 degrees, against another implementation", 10.0, 30.0,
          half_turn_rows},
         {"thick_plate", "NAFEMS LE10, stress at the edge of a hole", 4.0, 20.0, thick_plate_rows},
+        {"calculix", "the same answer from CalculiX at every node, and its time", 40.0, 120.0, calculix_rows},
         {"locking", "bending and torsion as Poisson's ratio goes to 1/2, by element", 15.0, 60.0, locking_rows},
         {"pbs_locking", "the same bending under PBS: one volume constraint a tet", 5.0, 40.0, pbs_locking_rows},
         {"dynamics", "a vibrating cantilever: order in the time step, energy, damping, first frequency", 2.0, 8.0, dynamics_rows},

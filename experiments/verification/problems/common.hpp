@@ -19,6 +19,7 @@ VerificationRows locking_rows(const Effort& effort);
 VerificationRows pbs_locking_rows(const Effort& effort);
 VerificationRows twisted_beam_rows(const Effort& effort);
 VerificationRows thick_plate_rows(const Effort& effort);
+VerificationRows calculix_rows(const Effort& effort);
 VerificationRows distributed_rows(const Effort& effort);
 VerificationRows half_turn_rows(const Effort& effort);
 VerificationRows dynamics_rows(const Effort& effort);

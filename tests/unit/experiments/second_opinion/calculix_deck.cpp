@@ -118,7 +118,7 @@ TEST(CalculixDeck, AsksForTheAnalysis)
     const NodalProblem problem = test_support::one_tet_problem(1);
     EXPECT_NE(deck_of(problem).find("*STEP\n*STATIC\n"), std::string::npos);
     EXPECT_NE(deck_of(problem).find("*RESTART, WRITE\n"), std::string::npos);
-    EXPECT_NE(deck_of(problem, {.analysis = CalculixAnalysis::none}).find("*STEP\n*NO ANALYSIS\n"), std::string::npos);
+    EXPECT_EQ(deck_of(problem, {.analysis = CalculixAnalysis::none}).find("*STEP"), std::string::npos);
     EXPECT_NE(deck_of(problem, {.analysis = CalculixAnalysis::large_strain}).find("*STEP, NLGEOM"), std::string::npos);
     EXPECT_EQ(deck_of(problem, {.restart_file = false}).find("*RESTART"), std::string::npos);
 }

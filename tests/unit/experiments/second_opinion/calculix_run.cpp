@@ -64,6 +64,12 @@ TEST_F(CalculixStandIn, TheTimeLimitHolds)
     EXPECT_LT(result.wall_s, 10.0);
 }
 
+TEST_F(CalculixStandIn, ProcessorTimeIsThatOfTheProgram)
+{
+    EXPECT_LT(run(program("exec sleep 0.3\n")).cpu_s, 0.2);
+    EXPECT_GT(run(program("i=0; while [ $i -lt 30000 ]; do i=$((i+1)); done\n")).cpu_s, 0.002);
+}
+
 TEST_F(CalculixStandIn, AProgramThatIsNoneIsNotStarted)
 {
     EXPECT_EQ(run(folder_ / "none").outcome, CalculixOutcome::not_started);

@@ -47,7 +47,7 @@ HeldFrame frame_of(const pbs::Character& limb, const pbs::Vec3& axis, double ang
 
 AnsweredProblem small_cantilever(int element_order)
 {
-    const Cantilever loads{flesh, 1000.0, {0, 1e-3, -1e-2}, {0.3, 0, -0.5}};
+    const LoadedCantilever loads{flesh, 1000.0, {0, 1e-3, -1e-2}, {0.3, 0, -0.5}};
     return answered_cantilever(test_support::structured_bar({0, 0, 0}, {10, 1, 1}, {24, 3, 3}), element_order, loads);
 }
 
