@@ -6,6 +6,8 @@
 
 namespace experiments {
 
+VerificationRows laws_rows(const Effort& effort);
+VerificationRows attached_limb_rows(const Effort& effort);
 VerificationRows patch_test_rows(const Effort& effort);
 VerificationRows manufactured_solution_rows(const Effort& effort);
 VerificationRows own_weight_rows(const Effort& effort);
@@ -19,11 +21,11 @@ VerificationRows locking_rows(const Effort& effort);
 VerificationRows pbs_locking_rows(const Effort& effort);
 VerificationRows twisted_beam_rows(const Effort& effort);
 VerificationRows thick_plate_rows(const Effort& effort);
-VerificationRows calculix_rows(const Effort& effort);
-VerificationRows distributed_rows(const Effort& effort);
 VerificationRows half_turn_rows(const Effort& effort);
 VerificationRows dynamics_rows(const Effort& effort);
 VerificationRows moving_skeleton_rows(const Effort& effort);
+VerificationRows calculix_rows(const Effort& effort);
+VerificationRows distributed_rows(const Effort& effort);
 
 // What the solver is given in place of `material`: the same, unless the effort asks for an error in lambda.
 reference_fem::ElasticMaterial solver_material(const Effort& effort, const reference_fem::ElasticMaterial& material);

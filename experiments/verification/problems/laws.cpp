@@ -92,6 +92,7 @@ VerificationRow slope_row(const Law& law, const std::string& quantity, double co
     if (coarse < rounding) return bounded(row, rounding, "a polynomial of degree 2 has no error but rounding over the step, 1e-10");
     row.observed_order = std::log10(coarse / fine);
     row.expected_order = 2.0;
+    row.bound_from = "order 2 of a central difference within 0.1";
     row.note = "order in the step of the difference";
     return row;
 }
