@@ -42,7 +42,11 @@ const std::vector<DeformerKind>& deformer_kinds()
         {"lbs", "linear blend skinning, Eq. 1", false, make_lbs},
         {"dqs", "dual quaternion skinning (Kavan 2007), the paper's comparison", false, make_dqs},
         {"pbs", "the paper: LBS, then bind, stretch and volume constraints (Algorithm 1)", true, make_pbs},
-        {"fem", "implicit linear elasticity on the same tets (deal.II, CHOLMOD); fictitious strain 1 - cos(rotation)", true, make_fem},
+        {"fem",
+         "finite elements on the same tets (deal.II, CHOLMOD): linear (fictitious strain 1 - cos(rotation)), corotational, neo-Hookean "
+         "(also "
+         "stable), St Venant-Kirchhoff; in equilibrium or in time; a frame that is not reached is marked not_converged",
+         true, make_fem},
     };
     return kinds;
 }
