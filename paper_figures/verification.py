@@ -57,6 +57,10 @@ def draw_locking(axes, rows):
                 distance = [1.0 - 2.0 * float(poisson(row)) for row in ladder]
                 ratio = [float(row["value"]) / float(row["reference"]) for row in ladder]
                 axes.plot(distance, ratio, color=color, linestyle=line, marker=marker, label=elements if line == "-" else None)
+    kept = [row for row in rows if row["elements"] == "PBS, volumes kept" and row["quantity"] == "tip deflection"]
+    if kept:  # at nu = 1/2, beyond a logarithmic axis: a line
+        axes.axhline(float(kept[-1]["value"]) / float(kept[-1]["reference"]), color=style.purple, linestyle=(0, (1, 1)),
+                     label="PBS constraints, every volume kept")
     axes.axhline(1.0, color=style.black, linewidth=0.6)
     axes.set_xscale("log")
     axes.invert_xaxis()
