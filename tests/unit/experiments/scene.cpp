@@ -38,8 +38,8 @@ TEST(Scene, EveryBuiltInSceneReads)
     for (const auto& scene : experiments::built_in_scenes()) {
         const Scene read = read_scene(scene.name, {});
         EXPECT_EQ(read.name, scene.name);
-        EXPECT_EQ(read.reference, "fem_p2");
-        EXPECT_EQ(read.deformers.size(), 5u);
+        EXPECT_FALSE(read.reference.empty());
+        EXPECT_GE(read.deformers.size(), 5u);
     }
 }
 
