@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <limits>
 
 namespace experiments {
 namespace {
@@ -90,16 +91,16 @@ StudyConclusion conclude_error_split_study(const std::string& folder, const Stud
         const analysis::CsvTable attachments = analysis::read_csv((fs::path(run) / "attachments.csv").string());
         for (int row = 0; row < parts.rows(); ++row) {
             if (parts.integer(row, "iterations") != 24) continue;
-            double bound = std::numeric_limits<double>::quiet_NaN();
+            double bind_pct = std::numeric_limits<double>::quiet_NaN();
             for (int other = 0; other < attachments.rows(); ++other)
                 if (attachments.text_at(other, "attachment") == "bind" &&
                     attachments.integer(other, "frame") == parts.integer(row, "frame") &&
                     attachments.number(other, "k_stretch") == parts.number(row, "k_stretch"))
-                    bound = attachments.number(other, "model_pct");
+                    bind_pct = attachments.number(other, "model_pct");
             table += fmt::format("| {} | {:.0f} | {} | {:.1f} | {:.1f} | {:.1f} | {:.2f} | {:.1f} |\n", parts.text_at(row, "scene"),
                                  parts.number(row, "angle_deg"), parts.number(row, "k_stretch"), parts.number(row, "error_joint_pct"),
                                  parts.number(row, "solver_pct"), parts.number(row, "model_pct"), parts.number(row, "discretisation_pct"),
-                                 bound);
+                                 bind_pct);
         }
     }
     analysis::write_text_atomically((fs::path(folder) / "error_split.md").string(), table);

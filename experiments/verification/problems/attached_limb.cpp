@@ -70,10 +70,10 @@ VerificationRow young_cancels(const pbs::Character& limb)
     soft.young_pa = 1e3;
     hard.young_pa = 1e7;
     const pbs::Pose pose = twisted(limb, 40.0);
-    // Newton stops at 1e-8 of the forces, and springs of q = 1e4 times the flesh's stiffness hold most of them.
+
     return row_of(limb, "change of the shape with Young's modulus, 1e3 to 1e7 Pa",
                   distance(limb, shape(limb, soft, pose), shape(limb, hard, pose)), 0.0, 1e-6,
-                  "Newton stops at 1e-8 of the forces, those of springs some 100 times the flesh's");
+                  "every force scales with Young's modulus; Newton stops at 1e-8 of them, 1e-6 leaves a condition of 100");
 }
 
 VerificationRow rigid_motion(const pbs::Character& limb, FemAttachment attachment, const std::string& name)
@@ -85,7 +85,7 @@ VerificationRow rigid_motion(const pbs::Character& limb, FemAttachment attachmen
     for (auto row : turned.rowwise()) row = (pose.front() * pbs::Vec3(row.transpose())).transpose();
     return row_of(limb, "distance from a rigid turn of 120 degrees, bones hold by " + name,
                   distance(limb, shape(limb, options, pose), turned), 0.0, 1e-9,
-                  "the rotation is rounded to eps and Newton starts from it");
+                  "rounding of positions, eps, times at most some 1e6 of condition");
 }
 
 VerificationRow found_poisson(const Effort& effort, const pbs::Character& limb)

@@ -50,8 +50,7 @@ VerificationRow row_of(const Comparison& comparison, const std::string& quantity
     row.high = most_difference;
     row.bound_from = most_difference_from;
     if (opinion.outcome != CalculixOutcome::finished) {
-        row.value = 0.0;
-        row.high.reset();
+        row.value = std::numeric_limits<double>::quiet_NaN();
         row.note = std::string("CalculiX has no answer (") + name_of(opinion.outcome) + "): " + opinion.last_words;
     } else if (!opinion.in_double)
         row.note = "CalculiX's displacements to 7 digits only";
