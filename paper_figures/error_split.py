@@ -59,5 +59,5 @@ def draw(results, figures):
         folder = results / "error_split" / scene
         behind += draw_parts(axes[0][column], records.table(folder / "parts.csv", part_columns), angle_deg)
         behind += draw_attachments(axes[1][column], records.table(folder / "attachments.csv", attachment_columns), angle_deg)
-    style.legend_above(figure, axes[0][0], columns=4)
+    style.legend_above(figure, columns=4)
     style.save(figure, figures / "error_split", records.provenance(results), behind)

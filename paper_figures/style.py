@@ -87,9 +87,13 @@ def paper_band(axes, signed):
     axes.axhspan(-0.5 if signed else 0.0, 0.5, color="#E8E8E8", linewidth=0, zorder=0, label="within 0.5 % (Sec. 4)")
 
 
-def legend_above(figure, axes, columns=None):
-    """The panels' common legend, above them all."""
-    handles, labels = axes.get_legend_handles_labels()
+def legend_above(figure, columns=None):
+    """The panels' common legend, above them all: every label that one of them shows, once."""
+    shown = {}
+    for panel in figure.axes:
+        for handle, label in zip(*panel.get_legend_handles_labels()):
+            shown.setdefault(label, handle)
+    labels, handles = list(shown), list(shown.values())
     columns = columns or min(len(labels), 5)
     rows = -(-len(labels) // columns)
     height = 0.17 * rows + 0.06  # [in]

@@ -26,5 +26,5 @@ def draw(results, figures):
         for panel in axes[row]:
             style.paper_band(panel, signed=row == 0)
             style.per_cent_scale(panel, signed=row == 0)
-    style.legend_above(figure, axes[0][0])
+    style.legend_above(figure)
     style.save(figure, figures / "volume_over_angle", records.provenance(results), behind)

@@ -28,5 +28,5 @@ def draw(results, figures):
     for time_s in times_of_stills(run, rows):
         axes[0][0].plot(time_s, 1.0, "v", color="black", transform=axes[0][0].get_xaxis_transform(), clip_on=False)
     axes[1][0].set_xlabel("time in the clip [s]")
-    style.legend_above(figure, axes[0][0])
+    style.legend_above(figure)
     style.save(figure, figures / "volume_over_clip", records.provenance(results), behind)

@@ -47,5 +47,5 @@ def draw(results, figures):
         panel.set_xticks(human.pbs_iterations(), human.pbs_iterations())
         panel.set_xlabel("iterations per step")
         panel.set_ylabel(label)
-    style.legend_above(figure, axes[0][0])
+    style.legend_above(figure)
     style.save(figure, figures / "volume_over_iterations", records.provenance(results), behind)
