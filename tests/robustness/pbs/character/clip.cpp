@@ -2,7 +2,7 @@
 #include "pbs/character/clip.hpp"
 
 #include "tests/unit/pbs/character/expect_input_error.hpp"
-#include "tests/unit/pbs/character/temporary_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <random>
 
@@ -38,8 +38,8 @@ class RefusedClip : public testing::TestWithParam<BadClip> {};
 
 TEST_P(RefusedClip, NamesFileAndReason)
 {
-    const TemporaryFolder folder;
-    const std::string path = folder.write(GetParam().file, GetParam().text);
+    const test_support::ScratchFolder folder;
+    const std::string path = folder.file(GetParam().file, GetParam().text);
     expect_input_error([&] { read_clip(path); }, path, GetParam().holds);
 }
 
@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(Clip, RefusedClip, testing::ValuesIn(bad_clips),
 
 TEST(Clip, MissingFileAndFolder)
 {
-    const TemporaryFolder folder;
+    const test_support::ScratchFolder folder;
     const std::string none = (folder.path() / "none.bvh").string();
     expect_input_error([&] { read_clip(none); }, none, "cannot be opened");
     expect_input_error([&] { read_clip(folder.path().string()); }, folder.path().string(), "cannot be opened");
@@ -92,10 +92,10 @@ TEST(Clip, MissingFileAndFolder)
 
 TEST(Clip, TruncatedAtEveryEighthByteItIsRefusedOrWhole)
 {
-    const TemporaryFolder folder;
+    const test_support::ScratchFolder folder;
     const std::string whole = bvh("2", "0.01", row + row);
     for (std::size_t length = 0; length < whole.size(); length += 8) {
-        const std::string path = folder.write("cut.bvh", whole.substr(0, length));
+        const std::string path = folder.file("cut.bvh", whole.substr(0, length));
         try {
             EXPECT_EQ(read_clip(path).frames(), 2) << length;
         } catch (const InputError&) {
@@ -105,8 +105,8 @@ TEST(Clip, TruncatedAtEveryEighthByteItIsRefusedOrWhole)
 
 TEST(Clip, FindClipLooksInTheFolderAndSaysWhereItLooked)
 {
-    const TemporaryFolder folder;
-    const std::string path = folder.write("own.bvh", "");
+    const test_support::ScratchFolder folder;
+    const std::string path = folder.file("own.bvh", "");
     EXPECT_EQ(find_clip("own.bvh", folder.path().string()), path);
     EXPECT_EQ(find_clip(path, "elsewhere"), path);
     expect_input_error([&] { find_clip("none.bvh", folder.path().string()); }, "motion.clip = none.bvh: ", "assimp-testmodels");

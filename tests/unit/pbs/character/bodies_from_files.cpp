@@ -3,7 +3,7 @@
 #include "pbs/geometry/mesh_io.hpp"
 
 #include "tests/support/structured_bar.hpp"
-#include "tests/unit/pbs/character/temporary_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,14 +13,14 @@ using namespace pbs;
 
 TEST(Bodies, FromFiles)
 {
-    const TemporaryFolder folder;
+    const test_support::ScratchFolder folder;
     const std::string mesh = (folder.path() / "bar.vtu").string();
     write_tet_mesh(mesh, test_support::structured_bar(Vec3(-1, -0.1, -0.1), Vec3(1, 0.1, 0.1), {2, 1, 1}));
     const std::string bones = "[[joint]]\nname = \"only\"\nparent = \"\"\nhead_m = [-1, 0, 0]\ntail_m = [1, 0, 0]\n";
-    const std::string skeleton = folder.write("bar.skeleton.toml", bones);
+    const std::string skeleton = folder.file("bar.skeleton.toml", bones);
     std::string rows = "vertex,joint,weight\n";
     for (int vertex = 0; vertex < 12; ++vertex) rows += std::to_string(vertex) + ",only,1\n";
-    const std::string weights = folder.write("bar.csv", rows);
+    const std::string weights = folder.file("bar.csv", rows);
 
     const Character bar = make_character({.mesh_file = mesh, .skeleton_file = skeleton, .weights_file = weights});
     EXPECT_EQ(bar.mesh.rest.rows(), 12);

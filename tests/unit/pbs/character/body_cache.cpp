@@ -2,7 +2,7 @@
 #include "pbs/character/body_cache.hpp"
 
 #include "pbs/geometry/mesh_io.hpp"
-#include "tests/unit/pbs/character/temporary_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ protected:
         return files.at(0);
     }
 
-    TemporaryFolder folder;
+    test_support::ScratchFolder folder;
     int made = 0;
 };
 

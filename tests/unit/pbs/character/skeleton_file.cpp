@@ -2,7 +2,7 @@
 #include "pbs/character/skeleton_file.hpp"
 
 #include "tests/unit/pbs/character/expect_input_error.hpp"
-#include "tests/unit/pbs/character/temporary_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace {
 
@@ -40,8 +40,8 @@ TEST(SkeletonFile, ParentsComeBeforeTheirChildrenWhateverTheFilesOrder)
 
 TEST(SkeletonFile, ReadsAFileAndNamesTheMissingOne)
 {
-    const TemporaryFolder folder;
-    EXPECT_EQ(read_skeleton(folder.write("arm.skeleton.toml", root + child)).bones.size(), 2u);
+    const test_support::ScratchFolder folder;
+    EXPECT_EQ(read_skeleton(folder.file("arm.skeleton.toml", root + child)).bones.size(), 2u);
     expect_input_error([&] { read_skeleton((folder.path() / "none.toml").string()); }, (folder.path() / "none.toml").string(),
                        "cannot be opened");
 }

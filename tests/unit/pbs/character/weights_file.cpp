@@ -2,7 +2,7 @@
 #include "pbs/character/weights_file.hpp"
 
 #include "tests/unit/pbs/character/expect_input_error.hpp"
-#include "tests/unit/pbs/character/temporary_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace {
 
@@ -13,8 +13,8 @@ const std::string header = "vertex,joint,weight\n";
 
 TEST(WeightsFile, ReadsRowsInAnyOrder)
 {
-    const TemporaryFolder folder;
-    const std::string path = folder.write("w.csv", header + "1,forearm,0.25\n0,upper,1\n1,upper,0.75\n");
+    const test_support::ScratchFolder folder;
+    const std::string path = folder.file("w.csv", header + "1,forearm,0.25\n0,upper,1\n1,upper,0.75\n");
     const Weights weights = read_weights(path, two_bones, 2);
     EXPECT_EQ(weights.first, (std::vector<int>{0, 1, 3}));
     EXPECT_EQ(weights.bone, (std::vector<int>{0, 1, 0}));
@@ -23,16 +23,16 @@ TEST(WeightsFile, ReadsRowsInAnyOrder)
 
 TEST(WeightsFile, LeavesOutZerosAndTakesWindowsLineEnds)
 {
-    const TemporaryFolder folder;
-    const Weights weights = read_weights(folder.write("w.csv", "vertex,joint,weight\r\n0,upper,1.0\r\n0,forearm,0\r\n"), two_bones, 1);
+    const test_support::ScratchFolder folder;
+    const Weights weights = read_weights(folder.file("w.csv", "vertex,joint,weight\r\n0,upper,1.0\r\n0,forearm,0\r\n"), two_bones, 1);
     EXPECT_FALSE(weights.blended(0));
     EXPECT_EQ(weights.bone, (std::vector<int>{0}));
 }
 
 TEST(WeightsFile, SumsMayDifferFromOneByAMillionth)
 {
-    const TemporaryFolder folder;
-    EXPECT_NO_THROW(read_weights(folder.write("w.csv", header + "0,upper,0.5\n0,forearm,0.5000009\n"), two_bones, 1));
+    const test_support::ScratchFolder folder;
+    EXPECT_NO_THROW(read_weights(folder.file("w.csv", header + "0,upper,0.5\n0,forearm,0.5000009\n"), two_bones, 1));
 }
 
 struct BadWeights {
@@ -44,8 +44,8 @@ class RefusedWeights : public testing::TestWithParam<BadWeights> {};
 
 TEST_P(RefusedWeights, NamesFileLineFieldAndRule)
 {
-    const TemporaryFolder folder;
-    const std::string path = folder.write("bad.csv", GetParam().text);
+    const test_support::ScratchFolder folder;
+    const std::string path = folder.file("bad.csv", GetParam().text);
     expect_input_error([&] { read_weights(path, two_bones, 2); }, path + GetParam().begins, GetParam().holds);
 }
 

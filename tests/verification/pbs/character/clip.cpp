@@ -2,7 +2,7 @@
 // Needs Debian's assimp-testmodels, which set-up installs.
 #include "pbs/character/clip.hpp"
 
-#include "tests/unit/pbs/character/temporary_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/verification/pbs/character/bvh_kinematics.hpp"
 
 #include <gtest/gtest.h>
@@ -79,8 +79,8 @@ Frame Time: 0.025
 
 TEST(ReadClip, ClosedForm)
 {
-    const TemporaryFolder folder;
-    const Clip clip = read_clip(folder.write("closed.bvh", closed_form));
+    const test_support::ScratchFolder folder;
+    const Clip clip = read_clip(folder.file("closed.bvh", closed_form));
     ASSERT_EQ(clip.frames(), 2);
     EXPECT_NEAR(clip.frame_time_s, 0.025, 1e-9);
     EXPECT_EQ(clip.joints, (std::vector<std::string>{"upper", "forearm", "EndSite_forearm"}));
