@@ -24,9 +24,9 @@ const std::vector<VerificationProblem>& problems_of_module()
     return *pbs::load_module("pbskin_fem").function<decltype(pbskin_verification_problems)>("pbskin_verification_problems")();
 }
 
-pbs::Character limb(int vertices)
+pbs::Character limb(int vertices, int refinements)
 {
-    return pbs::make_character({.body = "limb", .vertices = vertices});
+    return pbs::make_character({.body = "limb", .vertices = vertices, .refinements = refinements});
 }
 
 std::string solve_and_record(const VerificationProblem& problem, const Effort& effort, const std::string& folder)

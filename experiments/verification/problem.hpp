@@ -12,8 +12,9 @@ namespace experiments {
 struct Effort {
     bool full = false;          // the whole ladder of meshes
     double lambda_error = 0.0;  // for tests: a relative error in the solver's first Lame parameter, of which no reference knows
-    // The built-in limb of about so many vertices, 0: its default; meshed by the caller, who has CGAL. Empty: no limb.
-    std::function<pbs::Character(int vertices)> limb = {};
+    // The built-in limb of about so many vertices, 0: its default, its tets cut into eight so many times; meshed by the caller, who has
+    // CGAL. Empty: no limb.
+    std::function<pbs::Character(int vertices, int refinements)> limb = {};
 };
 
 struct VerificationProblem {

@@ -25,6 +25,7 @@ const std::vector<VerificationProblem>& verification_problems()
         {"pbs_locking", "the same bending under PBS: one volume constraint a tet", 5.0, 40.0, pbs_locking_rows},
         {"attached_limb", "what holds of the limb whatever its flesh; a fit that finds what was put in; the cost of a further frame", 15.0,
          15.0, attached_limb_rows},
+        {"error_split", "the parts of an error beside the whole; an error bar beside a better solution", 20.0, 20.0, error_split_rows},
         {"grid_convergence", "the error bar's order and index on a published example", 1.0, 1.0, grid_convergence_rows},
         {"dynamics", "a vibrating cantilever: order in the time step, energy, damping, first frequency", 2.0, 8.0, dynamics_rows},
         {"moving_skeleton", "order in the time step where the skeleton moves the flesh, large strains", 2.0, 2.0, moving_skeleton_rows},

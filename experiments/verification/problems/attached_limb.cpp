@@ -129,9 +129,9 @@ VerificationRow kept_factor(const pbs::Character& limb)
 VerificationRows attached_limb_rows(const Effort& effort)
 {
     if (!effort.limb) return {};
-    const pbs::Character limb = effort.limb(coarse);
+    const pbs::Character limb = effort.limb(coarse, 0);
     return {young_cancels(limb), rigid_motion(limb, FemAttachment::embedded, "embedded"), rigid_motion(limb, FemAttachment::bind, "bind"),
-            found_poisson(effort, limb), kept_factor(effort.limb(0))};
+            found_poisson(effort, limb), kept_factor(effort.limb(0, 0))};
 }
 
 }  // namespace experiments

@@ -107,7 +107,7 @@ VerificationRow limb_row(const Comparison& comparison, const pbs::Character& lim
 VerificationRows limbs(const Comparison& comparison)
 {
     const pbs::Vec3 twist = pbs::Vec3::UnitX(), bend = pbs::Vec3::UnitZ();
-    const pbs::Character limb = comparison.effort.limb(0), coarse_limb = comparison.effort.limb(600);
+    const pbs::Character limb = comparison.effort.limb(0, 0), coarse_limb = comparison.effort.limb(600, 0);
     VerificationRows rows;
     for (const int element_order : {1, 2}) {
         rows.push_back(limb_row(comparison, limb, {"bent by 10 deg", bend, 10.0, FrameModel::linear, element_order}));

@@ -8,6 +8,7 @@ namespace experiments {
 
 VerificationRows laws_rows(const Effort& effort);
 VerificationRows attached_limb_rows(const Effort& effort);
+VerificationRows error_split_rows(const Effort& effort);
 VerificationRows grid_convergence_rows(const Effort& effort);
 VerificationRows patch_test_rows(const Effort& effort);
 VerificationRows manufactured_solution_rows(const Effort& effort);
