@@ -1,0 +1,44 @@
+// Skinning weights as the blend kernels read them: which vertices need no blending of their own, and the rows of the others.
+#pragma once
+
+#include "pbs/skinning/weights.hpp"
+
+namespace pbs {
+
+// A bone's dual quaternion on the side of the pivot's: q and -q are the same rotation, and the heaviest bone of a row decides.
+struct TurnedBone {
+    int bone, pivot;
+    bool operator==(const TurnedBone&) const = default;
+};
+
+// Rows of weights, sparse in bones: row i has the entries first[i] <= k < first[i + 1]. Weights of zero are left out.
+template <class Scalar>
+struct WeightRows {
+    std::vector<int> first = {0};
+    std::vector<int> bone;         // #entries
+    std::vector<int> turned_bone;  // index into PackedWeights::turned_bones, #entries
+    std::vector<Scalar> weight;    // #entries
+
+    int rows() const { return static_cast<int>(first.size()) - 1; }
+};
+
+// Consecutive vertices that are moved by one matrix each, or are blended by one row of PackedWeights::own each.
+struct VertexStretch {
+    int first, last;  // vertices first .. last - 1
+    int own_row;      // of the first vertex; -1: a matrix each
+};
+
+template <class Scalar>
+struct PackedWeights {
+    int bones = 0;                         // the largest bone that has a vertex, and one
+    WeightRows<Scalar> shared;             // blended once a pose: rows that several vertices have (Eq. 2 knows few)
+    WeightRows<Scalar> own;                // rows of one vertex alone, in the order of the vertices
+    std::vector<int> matrix;               // of a vertex: its only bone, or bones + a shared row; -1: blended by a row of its own, #V
+    std::vector<VertexStretch> stretches;  // all vertices, in order
+    std::vector<TurnedBone> turned_bones;  // each that a row asks for, once
+};
+
+template <class Scalar>
+PackedWeights<Scalar> pack_weights(const Weights& weights);
+
+}  // namespace pbs

@@ -1,0 +1,159 @@
+// Truth: the plain blends, which read like the paper; rigid motions; what a change of origin may not change.
+#include "pbs/skinning/blend_skinning.hpp"
+
+#include "pbs/skinning/blend.hpp"
+#include "tests/support/random_points.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numbers>
+
+namespace {
+
+using namespace test_support;
+using pbs::BlendSkinning;
+using pbs::Pose;
+using pbs::Positions;
+using pbs::Vec3;
+using pbs::Weights;
+
+template <class Scalar>
+class PackedBlends : public testing::Test {
+};
+using Scalars = testing::Types<float, double>;
+TYPED_TEST_SUITE(PackedBlends, Scalars);
+
+constexpr int bones = 12;
+
+// Numbers of order one go through some 40 roundings (8 bones, 4 columns, two cross products). DQS divides by |r|^2 of the blend, and the
+// heaviest of n bones leaves |r| >= 1 / n, which magnifies them.
+template <class Scalar>
+double tolerance(int bones_a_vertex)
+{
+    return 40.0 * bones_a_vertex * std::numeric_limits<Scalar>::epsilon();
+}
+
+struct RandomBody {
+    Positions rest;
+    Weights weights{{0}, {}, {}};
+    Pose pose;
+};
+
+// Each vertex has one to `most` bones; every third repeats the row of the one before.
+RandomBody random_body(unsigned seed, int vertices, int most)
+{
+    RandomPoints random(seed);
+    RandomBody body;
+    body.rest.resize(vertices, 3);
+    Weights& weights = body.weights;
+    for (int bone = 0; bone < bones; ++bone) body.pose.push_back(random.rigid_motion(1.0));
+    for (int i = 0; i < vertices; ++i) {
+        body.rest.row(i) = random.point(1.0);
+        const int count = static_cast<int>(random.number(1.0, most + 0.999));
+        const int begin = weights.first[i], first = static_cast<int>(random.number(0.0, bones - 0.001));
+        double sum = 0.0;
+        for (int k = 0; k < count; ++k) {
+            weights.bone.push_back((first + 5 * k) % bones);
+            weights.weight.push_back(count == 1 ? 1.0 : random.number(0.1, 1.0));
+            sum += weights.weight.back();
+        }
+        for (int k = 0; k < count; ++k) weights.weight[begin + k] /= sum;
+        if (i % 3 == 2) {
+            weights.bone.resize(begin), weights.weight.resize(begin);
+            for (int entry = weights.first[i - 1]; entry < begin; ++entry) {
+                weights.bone.push_back(int{weights.bone[entry]});
+                weights.weight.push_back(double{weights.weight[entry]});
+            }
+        }
+        weights.first.push_back(static_cast<int>(weights.bone.size()));
+    }
+    return body;
+}
+
+template <class Scalar>
+void expect_as_plain(const RandomBody& body, double tolerance)
+{
+    BlendSkinning<Scalar> skinning(body.rest, body.weights);
+    Positions plain, posed;
+    pbs::linear_blend_skinning(body.rest, body.weights, body.pose, plain);
+    skinning.linear(body.pose, posed);
+    EXPECT_LT((posed - plain).cwiseAbs().maxCoeff(), tolerance);
+    pbs::dual_quaternion_skinning(body.rest, body.weights, body.pose, plain);
+    skinning.dual_quaternion(body.pose, posed);
+    EXPECT_LT((posed - plain).cwiseAbs().maxCoeff(), tolerance);
+}
+
+TYPED_TEST(PackedBlends, AreThePlainOnesForOneToEightBonesAVertex)
+{
+    for (int most = 1; most <= 8; ++most) expect_as_plain<TypeParam>(random_body(70 + most, 500, most), tolerance<TypeParam>(most));
+}
+
+TYPED_TEST(PackedBlends, AreThePlainOnesForAnyNumberOfVertices)
+{
+    for (int vertices = 1; vertices < 40; ++vertices)
+        expect_as_plain<TypeParam>(random_body(80 + vertices, vertices, 3), tolerance<TypeParam>(3));
+}
+
+TYPED_TEST(PackedBlends, DoNotRememberTheLastPose)
+{
+    const RandomBody body = random_body(60, 200, 4), other = random_body(61, 1, 4);
+    BlendSkinning<TypeParam> skinning(body.rest, body.weights);
+    Positions once, again;
+    skinning.dual_quaternion(body.pose, once);
+    skinning.linear(other.pose, again);
+    skinning.dual_quaternion(body.pose, again);
+    EXPECT_EQ(once, again);
+}
+
+TYPED_TEST(PackedBlends, OfOneRigidMotionAreThatMotion)
+{
+    RandomBody body = random_body(62, 300, 5);
+    RandomPoints random(63);
+    for (int trial = 0; trial < 20; ++trial) {
+        body.pose.assign(bones, random.rigid_motion(1.0));
+        const Positions expected = transformed(body.rest, body.pose[0]);
+        BlendSkinning<TypeParam> skinning(body.rest, body.weights);
+        Positions posed;
+        skinning.linear(body.pose, posed);
+        EXPECT_LT((posed - expected).cwiseAbs().maxCoeff(), tolerance<TypeParam>(1));
+        skinning.dual_quaternion(body.pose, posed);
+        EXPECT_LT((posed - expected).cwiseAbs().maxCoeff(), tolerance<TypeParam>(1));
+    }
+}
+
+// Turns of 170 and -170 degrees are 20 degrees apart; their quaternions lie on opposite sides.
+TYPED_TEST(PackedBlends, TakeTheShortWayForAntipodalQuaternions)
+{
+    RandomBody body = random_body(64, 300, 6);
+    for (int bone = 0; bone < bones; ++bone) {
+        const double angle = (bone % 2 == 0 ? 170.0 : -170.0) * std::numbers::pi / 180.0;
+        body.pose[bone].linear() = Eigen::AngleAxisd(angle, Vec3::UnitX()).toRotationMatrix();
+    }
+    expect_as_plain<TypeParam>(body, tolerance<TypeParam>(6));
+}
+
+// 10 km away the spacing of floats is 1 mm; blended about the body's middle no more than the roundings near the origin are left. The plain
+// blends in double lose 1e4 of their digits there, 40 x 1e4 x 2e-16 = 1e-10.
+TYPED_TEST(PackedBlends, FarFromTheOriginLoseNoDigits)
+{
+    RandomBody body = random_body(65, 300, 4);
+    const Vec3 far(1e4, -1e4, 1e4);
+    const Eigen::Translation3d away(far), back(-far);
+    for (Eigen::Isometry3d& bone : body.pose) bone = away * bone * back;
+    body.rest.rowwise() += far.transpose();
+    expect_as_plain<TypeParam>(body, tolerance<TypeParam>(4) + 1e-9);
+}
+
+TYPED_TEST(PackedBlends, ScaleWithTheBody)
+{
+    RandomBody body = random_body(66, 300, 4);
+    for (const double size : {1e-6, 1e6}) {
+        RandomBody scaled = body;
+        scaled.rest *= size;
+        for (Eigen::Isometry3d& bone : scaled.pose) bone.translation() *= size;
+        expect_as_plain<TypeParam>(scaled, size * tolerance<TypeParam>(4));
+    }
+}
+
+}  // namespace
