@@ -68,9 +68,9 @@ StudyPlan plan_error_split_study(bool full)
                                    bend = {"motion.angle_deg=120", "motion.frames=13"};
     const std::vector<int> gentle = {3, 6, 9};  // 10 degrees a frame
     plan.runs.push_back(
-        split_run("limb_twist", "limb_twist", twist, full ? std::vector<int>{3, 6, 9, 12, 15} : gentle, full, full ? 900.0 : 90.0));
+        split_run("limb_twist", "limb_twist", twist, full ? std::vector<int>{3, 6, 9, 12, 15} : gentle, full, full ? 1800.0 : 300.0));
     plan.runs.push_back(
-        split_run("limb_bend", "limb_bend", bend, full ? std::vector<int>{3, 6, 9, 11} : gentle, full, full ? 900.0 : 90.0));
+        split_run("limb_bend", "limb_bend", bend, full ? std::vector<int>{3, 6, 9, 11} : gentle, full, full ? 1800.0 : 300.0));
     if (!full) return plan;
     try {
         plan.runs.push_back(split_run("human_01_01", "human_01_01", {}, {164, 672}, full, 600.0));
