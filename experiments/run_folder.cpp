@@ -64,7 +64,7 @@ std::vector<Cell> spec_cells(const Scene& scene, const DeformerSpec& spec)
     const nlohmann::json options = to_json(spec).value("options", nlohmann::json::object());
     const Cell iterations = spec.kind == "pbs" ? Cell(spec.pbs.iterations) : Cell(std::nullopt);
     return {scene.name, spec.name, spec.variant, options.value("order", ""), options.value("precision", spec.kind == "pbs" ? "" : "f64"),
-            iterations, 1};
+            iterations, spec.kind == "pbs" ? spec.pbs.threads : 1};
 }
 
 std::vector<Cell> error_cells(const FrameMeasurement& measured)

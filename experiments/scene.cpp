@@ -81,9 +81,17 @@ MotionSpec read_motion(const SceneValues& values, const std::string& folder)
     return motion;
 }
 
+// The printed forms are written in the plain order alone.
+void take_as_printed(const SceneValues& values, DeformerSpec& spec)
+{
+    if (values.given("pbs.order") && spec.pbs.order != pbs::Order::plain)
+        values.refuse("pbs.order", "expected plain with a printed volume_form");
+    spec.pbs.order = pbs::Order::plain;
+    spec.variant = name_of(spec.pbs.volume_form);
+}
+
 DeformerSpec pbs_spec(const SceneValues& values)
 {
-    if (values.boolean("pbs.sleep")) values.refuse("pbs.sleep", "expected false: this version lets nothing sleep");
     DeformerSpec spec{"pbs", "pbs", "pbs", "default", {}, {}};
     pbs::PbsOptions& options = spec.pbs;
     options.iterations = values.integer("pbs.iterations");
@@ -94,6 +102,8 @@ DeformerSpec pbs_spec(const SceneValues& values)
     options.order = option_of<pbs::Order>(values.text("pbs.order"));
     options.precision = option_of<pbs::Precision>(values.text("pbs.precision"));
     options.masses = option_of<pbs::Masses>(values.text("pbs.masses"));
+    options.sleep = values.boolean("pbs.sleep");
+    options.sleep_tolerance = values.number("pbs.sleep_tolerance");
     options.stop_residual = values.number("pbs.stop_residual");
     options.record_iterations = values.boolean("pbs.record_iterations");
     if (values.has_table("pbs.jiggle")) {
@@ -102,7 +112,7 @@ DeformerSpec pbs_spec(const SceneValues& values)
     }
     if (values.has_table("pbs.variant")) {
         options.volume_form = option_of<pbs::VolumeForm>(values.text("pbs.variant.volume_form"));
-        if (options.volume_form != pbs::VolumeForm::derived) spec.variant = name_of(options.volume_form);
+        if (options.volume_form != pbs::VolumeForm::derived) take_as_printed(values, spec);
     }
     return spec;
 }

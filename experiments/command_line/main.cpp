@@ -20,7 +20,7 @@ CLI::App* add_verb(CLI::App& app, CommonOptions& common, const std::string& name
     CLI::App* verb = app.add_subcommand(name, meaning);
     verb->add_flag("--quiet", common.quiet, "errors only");
     verb->add_flag("--verbose", common.verbose, "say more");
-    verb->add_option("--threads", common.threads, "threads of one deformer (the plain order uses one)")->check(CLI::Range(1, 1024));
+    verb->add_option("--threads", common.threads, "threads of one deformer (pbs, in the orders ordered and grouped, on meshes that are worth it)")->check(CLI::Range(1, 1024));
     return verb;
 }
 

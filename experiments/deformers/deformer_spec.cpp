@@ -17,6 +17,7 @@ nlohmann::json to_json(const pbs::PbsOptions& options)
                            {"masses", name_of(options.masses)},
                            {"volume_form", name_of(options.volume_form)},
                            {"stop_residual", options.stop_residual}};
+    if (options.sleep) json["sleep_tolerance"] = options.sleep_tolerance;
     if (options.jiggle) json["jiggle"] = {{"k_stretch", options.jiggle->k_stretch}};
     return json;
 }

@@ -15,7 +15,8 @@ struct OptionNames;
 
 template <>
 struct OptionNames<pbs::Order> {
-    static constexpr std::array<std::pair<pbs::Order, const char*>, 1> table{{{pbs::Order::plain, "plain"}}};
+    static constexpr std::array<std::pair<pbs::Order, const char*>, 3> table{
+        {{pbs::Order::ordered, "ordered"}, {pbs::Order::grouped, "grouped"}, {pbs::Order::plain, "plain"}}};
 };
 template <>
 struct OptionNames<pbs::Precision> {

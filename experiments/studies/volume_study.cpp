@@ -38,6 +38,7 @@ DeformerSpec in_print(DeformerSpec spec, pbs::VolumeForm form)
 {
     spec.name = "pbs_printed";
     spec.pbs.volume_form = form;
+    spec.pbs.order = pbs::Order::plain;
     spec.variant = name_of(form);
     spec.label += "_" + spec.variant;
     return spec;

@@ -2,7 +2,6 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
-#include "pbs/solver/project_plain.hpp"
 #include "pbs/solver/residuals.hpp"
 
 #include <type_traits>
@@ -30,11 +29,9 @@ template <typename Scalar>
 Algorithm1<Scalar>::Algorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
                                const PbsOptions& options, const std::vector<bool>& held)
     : options_(options),
-      constraints_(make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, options, held)),
+      projection_(make_projection(make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, options, held), mesh.tets, options)),
       jiggling_(jiggling_vertices(jiggle_zone, options)),
-      x_(mesh.rest),
-      projected_(mesh.rest.rows()),
-      bind_points_(mesh.rest.rows())
+      x_(mesh.rest)
 {
 }
 
@@ -57,17 +54,18 @@ StepSummary Algorithm1<Scalar>::advance(const Positions& lbs_positions, const Po
         p_.row(i) = x_.row(i) + v_.row(j) * dt_s;               // (8)
     }                                                           // (9)
 
-    load(bind_points);
+    const Vec3 origin = local_origin();
+    projection_->load(p_, bind_points, origin);
     bool converged = false;
     // (10)
     while (summary.iterations < options_.iterations && !converged) {
-        project_bind_constraints(constraints_, bind_points_, projected_);  // (11)
-        project_stretch_constraints(constraints_, projected_);             // (12)
-        project_volumes();                                                 // (13)
+        projection_->project_bind_constraints();     // (11)
+        projection_->project_stretch_constraints();  // (12)
+        projection_->project_volume_constraints();   // (13)
         ++summary.iterations;
         converged = examine_residuals(summary);
     }  // (14)
-    store();
+    projection_->store(origin, p_);
 
     for (std::size_t j = 0; j < jiggling_.size(); ++j)                     // (15)
         v_.row(j) = (p_.row(jiggling_[j]) - x_.row(jiggling_[j])) / dt_s;  // (16)
@@ -82,46 +80,19 @@ StepSummary Algorithm1<Scalar>::advance(const Positions& lbs_positions, const Po
 template <typename Scalar>
 void Algorithm1<Scalar>::check_input(const Positions& lbs_positions, const Positions& bind_points, double dt_s) const
 {
-    check_rows("lbs_positions", lbs_positions, projected_.size());
-    check_rows("bind_points", bind_points, projected_.size());
+    check_rows("lbs_positions", lbs_positions, static_cast<std::size_t>(x_.rows()));
+    check_rows("bind_points", bind_points, static_cast<std::size_t>(x_.rows()));
     if (!jiggling_.empty() && !(dt_s > 0.0)) throw InputError("pbs", 0, "dt", std::to_string(dt_s) + " s", "expected a positive time step");
 }
 
 // The printed form of absolute positions depends on the world's origin, so it is left there.
 template <typename Scalar>
-void Algorithm1<Scalar>::load(const Positions& bind_points)
+Vec3 Algorithm1<Scalar>::local_origin() const
 {
     const bool of_absolute_positions =
         options_.volume_form == VolumeForm::labels_absolute || options_.volume_form == VolumeForm::as_printed;
     const bool local = std::is_same_v<Scalar, float> && !of_absolute_positions && p_.rows() > 0;
-    origin_ = local ? Vec3(p_.colwise().mean()) : Vec3(Vec3::Zero());
-    for (std::size_t i = 0; i < projected_.size(); ++i) {
-        projected_[i] = (p_.row(i).transpose() - origin_).template cast<Scalar>();
-        bind_points_[i] = (bind_points.row(i).transpose() - origin_).template cast<Scalar>();
-    }
-}
-
-template <typename Scalar>
-void Algorithm1<Scalar>::project_volumes()
-{
-    switch (options_.volume_form) {
-        case VolumeForm::derived:
-            return project_volume_constraints(constraints_, projected_);
-        case VolumeForm::labels_relative:
-            return project_volume_constraints_printed<Printed::labels_relative>(constraints_, projected_);
-        case VolumeForm::labels_absolute:
-            return project_volume_constraints_printed<Printed::labels_absolute>(constraints_, projected_);
-        case VolumeForm::as_printed:
-            return project_volume_constraints_printed<Printed::as_printed>(constraints_, projected_);
-        case VolumeForm::sign:
-            return project_volume_constraints_printed<Printed::sign>(constraints_, projected_);
-    }
-}
-
-template <typename Scalar>
-void Algorithm1<Scalar>::store()
-{
-    for (std::size_t i = 0; i < projected_.size(); ++i) p_.row(i) = projected_[i].template cast<double>() + origin_;
+    return local ? Vec3(p_.colwise().mean()) : Vec3(Vec3::Zero());
 }
 
 // Records residuals where asked; true when the largest is below stop_residual.
@@ -129,7 +100,7 @@ template <typename Scalar>
 bool Algorithm1<Scalar>::examine_residuals(StepSummary& summary) const
 {
     if (!options_.record_iterations && options_.stop_residual <= 0.0) return false;
-    const Residuals residuals = residuals_of(constraints_, projected_, bind_points_);
+    const Residuals residuals = projection_->residuals();
     if (options_.record_iterations) summary.history.push_back(residuals);
     return largest(residuals) < options_.stop_residual;
 }

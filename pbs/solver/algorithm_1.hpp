@@ -4,7 +4,7 @@
 // mean LBS position of the step), so that a character far from the world's origin loses no digits.
 #pragma once
 
-#include "pbs/solver/constraint_set.hpp"
+#include "pbs/solver/projection.hpp"
 #include "pbs/solver/step_summary.hpp"
 
 namespace pbs {
@@ -21,22 +21,16 @@ public:
 
 private:
     void check_input(const Positions& lbs_positions, const Positions& bind_points, double dt_s) const;
-    void load(const Positions& bind_points);
-    void project_volumes();
-    void store();
+    Vec3 local_origin() const;
     bool examine_residuals(StepSummary& summary) const;
 
     PbsOptions options_;
-    ConstraintSet<Scalar> constraints_;
+    std::unique_ptr<Projection<Scalar>> projection_;
     std::vector<int> jiggling_;  // vertices that are integrated
 
     Positions x_;  // x_i [m], #V x 3
     Positions v_;  // v_i [m/s] of the jiggling vertices, #jiggling x 3
     Positions p_;  // p_i [m], #V x 3
-
-    Vec3 origin_ = Vec3::Zero();                // [m]; what follows is relative to it
-    std::vector<Vector3<Scalar>> projected_;    // p_i while it is projected
-    std::vector<Vector3<Scalar>> bind_points_;  // q_i
 };
 
 }  // namespace pbs

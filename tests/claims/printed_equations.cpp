@@ -33,6 +33,7 @@ Finding run(const TwoBoneLimb& limb, VolumeForm form, pbs::Precision precision =
     options.k_stretch = 0.5;
     options.precision = precision;
     options.volume_form = form;
+    options.order = pbs::Order::plain;
     pbs::PbsSolver solver(limb.mesh, limb.binding.distance, {}, options);
     const Outcome outcome = solver.advance(limb.lbs, limb.bind_points, 0.01).outcome;
     return {outcome, abs_change_pct(limb, solver.positions())};

@@ -32,6 +32,7 @@ inline pbs::PbsOptions stretch_alone(int iterations, double k_stretch)
     options.k_stretch = k_stretch;
     options.k_volume = options.k_bind = 0.0;
     options.precision = pbs::Precision::f64;
+    options.order = pbs::Order::plain;  // of the step matrix below
     return options;
 }
 

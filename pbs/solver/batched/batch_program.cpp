@@ -1,0 +1,99 @@
+#include "pbs/solver/batched/batch_program.hpp"
+
+#include "pbs/solver/batched/batch_schedule.hpp"
+
+#include <algorithm>
+#include <new>
+#include <numeric>
+
+namespace pbs {
+namespace {
+
+constexpr std::size_t groups_a_cluster = 4096;
+constexpr GroupKind kinds_in_order[] = {GroupKind::edge_tet,  GroupKind::edge_triangle, GroupKind::edge_wedge, GroupKind::edge,
+                                        GroupKind::tet_fan_3, GroupKind::tet_fan_2,     GroupKind::tet};
+
+int first_vertex(const ConstraintGroup& group, const VertexOrder& order)
+{
+    int first = order.new_of_old[group.vertex[0]];
+    for (int v = 1; v < vertices_of(group.kind); ++v) first = std::min(first, order.new_of_old[group.vertex[v]]);
+    return first;
+}
+
+// Groups of each slab by the first of their vertices.
+std::vector<std::vector<ConstraintGroup>> by_slab(const std::vector<ConstraintGroup>& groups, const VertexOrder& order)
+{
+    std::vector<int> first(groups.size()), sorted(groups.size());
+    for (std::size_t g = 0; g < groups.size(); ++g) first[g] = first_vertex(groups[g], order);
+    std::iota(sorted.begin(), sorted.end(), 0);
+    std::stable_sort(sorted.begin(), sorted.end(), [&](int a, int b) { return first[a] < first[b]; });
+
+    const std::vector<int> slab_of = order.slab_of_new();
+    std::vector<std::vector<ConstraintGroup>> slabs(order.slabs());
+    for (const int g : sorted) slabs[slab_of[first[g]]].push_back(groups[g]);
+    return slabs;
+}
+
+}  // namespace
+
+template <typename Scalar>
+BatchProgram<Scalar>::BatchProgram(const std::vector<ConstraintGroup>& groups, const ConstraintValues<Scalar>& values,
+                                   const VertexOrder& order, int dummy_begin)
+    : runs_(order.slabs()), groups_(groups.size())
+{
+    BatchScheduler scheduler(static_cast<int>(order.new_of_old.size()));
+    const std::vector<std::vector<ConstraintGroup>> slabs = by_slab(groups, order);
+    for (int slab = 0; slab < order.slabs(); ++slab)
+        for (std::size_t begin = 0; begin < slabs[slab].size();) {
+            const std::size_t left = slabs[slab].size() - begin;
+            const std::size_t size = left < 3 * groups_a_cluster / 2 ? left : groups_a_cluster;  // no small last one
+            for (const GroupKind kind : kinds_in_order) {
+                std::vector<ConstraintGroup> cluster;
+                std::copy_if(slabs[slab].begin() + begin, slabs[slab].begin() + begin + size, std::back_inserter(cluster),
+                             [&](const ConstraintGroup& group) { return group.kind == kind; });
+                with_kind(kind, [&](auto of_kind) {
+                    append<of_kind()>(cluster, scheduler.schedule(cluster), values, order, slab, dummy_begin + slab * dummies_a_slab);
+                });
+            }
+            begin += size;
+        }
+}
+
+template <typename Scalar>
+template <GroupKind kind>
+void BatchProgram<Scalar>::append(const std::vector<ConstraintGroup>& groups, const std::vector<std::vector<int>>& batches,
+                                  const ConstraintValues<Scalar>& values, const VertexOrder& order, int slab, int dummy)
+{
+    using Shape = GroupShape<kind>;
+    if (batches.empty()) return;
+    constexpr std::size_t lines_a_batch = sizeof(Batch<Scalar, kind>) / sizeof(CacheLine);
+    runs_[slab].push_back({kind, static_cast<int>(batches.size()), lines_.size()});
+    lines_.resize(lines_.size() + batches.size() * lines_a_batch);
+    lanes_ += batches.size() * batch_size;
+    auto* to = reinterpret_cast<CacheLine*>(lines_.data() + runs_[slab].back().first_line);
+    for (const std::vector<int>& members : batches) {
+        auto& batch = *new (to) Batch<Scalar, kind>{};
+        for (int lane = 0; lane < batch_size; ++lane) {
+            const ConstraintGroup* group = lane < static_cast<int>(members.size()) ? &groups[members[lane]] : nullptr;
+            for (int v = 0; v < Shape::vertices; ++v)
+                batch.offset[v][lane] = 4u * (group ? order.new_of_old[group->vertex[v]] : dummy + lane * largest_group + v);
+            for (int c = 0; group && c < Shape::constraints; ++c) {
+                if (group->constraint[c] < 0) continue;
+                batch.rest[c][lane] = values.rest[group->constraint[c]];
+                batch.stiffness[c][lane] = values.stiffness[group->constraint[c]];
+            }
+        }
+        to += lines_a_batch;
+    }
+}
+
+template <typename Scalar>
+double BatchProgram<Scalar>::fill() const
+{
+    return lanes_ == 0 ? 1.0 : double(groups_) / double(lanes_);
+}
+
+template class BatchProgram<float>;
+template class BatchProgram<double>;
+
+}  // namespace pbs

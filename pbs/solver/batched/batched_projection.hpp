@@ -1,0 +1,48 @@
+// Orders `ordered` and `grouped` as a Projection: constraints in batches of sixteen that share no vertex (batch.hpp), vertices reordered
+// for locality, slabs of the mesh in parallel (vertex_order.hpp). The order of projection belongs to the mesh: any machine and any number
+// of threads project alike, and threads give the same bits. It is another order than `plain`; stretch, volume and bind contradict each
+// other, so the two settle on slightly different limits.
+#pragma once
+
+#include "pbs/solver/batched/batch_program.hpp"
+#include "pbs/solver/projection.hpp"
+
+#include <vector>
+
+namespace pbs {
+
+template <typename Scalar>
+class BatchedProjection : public Projection<Scalar> {
+public:
+    BatchedProjection(const ConstraintSet<Scalar>& constraints, const Tets& tets, const PbsOptions& options);
+
+    void load(const Positions& p, const Positions& q, const Vec3& origin) override;
+    void project_bind_constraints() override;
+    void project_stretch_constraints() override;
+    void project_volume_constraints() override;
+    void store(const Vec3& origin, Positions& p) const override;
+    Residuals residuals() const override;
+
+    std::size_t bytes_an_iteration() const;  // constraint data once, positions read and written in each class
+    double stretch_fill() const { return stretch_.fill(); }
+    double volume_fill() const { return volume_.fill(); }
+
+private:
+    struct alignas(64) Block {  // sixteen vertices of x, y, z, w
+        Scalar xyzw[4 * batch_size];
+    };
+    Scalar* vertices() { return vertices_.front().xyzw; }
+    const Scalar* vertices() const { return vertices_.front().xyzw; }
+
+    void fill_bind(const ConstraintSet<Scalar>& constraints);
+    void project(const BatchProgram<Scalar>& program);
+
+    VertexOrder order_;
+    int threads_;
+    std::size_t edges_, tets_;  // constraints of each class
+    BatchProgram<Scalar> stretch_, volume_;
+    std::vector<BindBatch<Scalar>> bind_;  // of all vertices in the new order; empty: no bind constraints
+    std::vector<Block> vertices_;          // then dummies
+};
+
+}  // namespace pbs

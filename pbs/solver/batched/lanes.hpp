@@ -1,0 +1,158 @@
+// The one place of SIMD: as many numbers side by side as a register of this machine holds, and vertices going in and out of registers.
+// For the kernels' translation units alone, which are compiled for one machine: nothing of this may reach another.
+// A vertex is x, y, z, w in memory, one load of four numbers; Vertices<Scalar> is one vertex in every lane. Loads of four and a transpose
+// are some three times quicker than gather and scatter instructions.
+#pragma once
+
+#include <cstdint>
+#include <experimental/simd>
+#include <utility>
+
+#ifdef __AVX512DQ__
+#include <immintrin.h>
+#endif
+
+namespace pbs {
+
+template <typename Scalar>
+using Lanes = std::experimental::native_simd<Scalar>;
+template <typename Scalar>
+inline constexpr int lanes = static_cast<int>(Lanes<Scalar>::size());
+
+template <typename Scalar>
+struct Vertices {
+    Lanes<Scalar> x, y, z, w;
+};
+
+template <typename Scalar>
+[[gnu::always_inline]] inline Lanes<Scalar> load(const Scalar* from)
+{
+    return Lanes<Scalar>(from, std::experimental::vector_aligned);
+}
+
+namespace simd_detail {
+
+template <typename Scalar, int count>
+using Vector [[gnu::vector_size(count * sizeof(Scalar)), gnu::may_alias]] = Scalar;
+
+template <typename Scalar>
+using Row = Vector<Scalar, lanes<Scalar>>;
+
+// Which element of (a, b), b's counted after a's, becomes element i, within blocks of four.
+template <int width>
+struct UnpackLow {
+    static constexpr int at(int i) { return i / 4 * 4 + i % 4 / 2 + i % 2 * width; }
+};
+template <int width>
+struct UnpackHigh {
+    static constexpr int at(int i) { return UnpackLow<width>::at(i) + 2; }
+};
+template <int width>
+struct LowHalves {
+    static constexpr int at(int i) { return i / 4 * 4 + i % 2 + (i % 4 < 2 ? 0 : width); }
+};
+template <int width>
+struct HighHalves {
+    static constexpr int at(int i) { return LowHalves<width>::at(i) + 2; }
+};
+
+template <template <int> typename Pattern, typename V, std::size_t... i>
+[[gnu::always_inline]] inline V shuffled(V a, V b, std::index_sequence<i...>)
+{
+    return __builtin_shufflevector(a, b, Pattern<sizeof...(i)>::at(i)...);
+}
+
+template <template <int> typename Pattern, typename Scalar>
+[[gnu::always_inline]] inline Row<Scalar> shuffled(Row<Scalar> a, Row<Scalar> b)
+{
+    return shuffled<Pattern>(a, b, std::make_index_sequence<lanes<Scalar>>());
+}
+
+// Columns of rows, in each block of four: its own inverse.
+template <typename Scalar>
+[[gnu::always_inline]] inline void transpose(Row<Scalar> (&rows)[4])
+{
+    const Row<Scalar> xy_01 = shuffled<UnpackLow, Scalar>(rows[0], rows[1]), zw_01 = shuffled<UnpackHigh, Scalar>(rows[0], rows[1]);
+    const Row<Scalar> xy_23 = shuffled<UnpackLow, Scalar>(rows[2], rows[3]), zw_23 = shuffled<UnpackHigh, Scalar>(rows[2], rows[3]);
+    rows[0] = shuffled<LowHalves, Scalar>(xy_01, xy_23);
+    rows[1] = shuffled<HighHalves, Scalar>(xy_01, xy_23);
+    rows[2] = shuffled<LowHalves, Scalar>(zw_01, zw_23);
+    rows[3] = shuffled<HighHalves, Scalar>(zw_01, zw_23);
+}
+
+// Row k of a transpose: the vertices of lanes k, k + 4, k + 8 ...
+template <typename Scalar>
+[[gnu::always_inline]] inline Row<Scalar> row(const Scalar* vertices, const std::uint32_t* offset)
+{
+    const auto vertex = [&](int lane) { return *reinterpret_cast<const Vector<Scalar, 4>*>(vertices + offset[lane]); };
+    if constexpr (lanes<Scalar> == 4) return vertex(0);
+#ifdef __AVX512DQ__
+    else if constexpr (lanes<Scalar> == 16) {
+        const auto pair = [&](int lane) {
+            return _mm256_insertf128_ps(_mm256_castps128_ps256((__m128)vertex(lane)), (__m128)vertex(lane + 4), 1);
+        };
+        return (Row<Scalar>)_mm512_insertf32x8(_mm512_castps256_ps512(pair(0)), pair(8), 1);
+    } else
+        return (Row<Scalar>)_mm512_insertf64x4(_mm512_castpd256_pd512((__m256d)vertex(0)), (__m256d)vertex(4), 1);
+#else
+    else
+        return __builtin_shufflevector(vertex(0), vertex(4), 0, 1, 2, 3, 4, 5, 6, 7);
+#endif
+}
+
+template <int which, typename Scalar>
+[[gnu::always_inline]] inline Vector<Scalar, 4> block(Row<Scalar> row)
+{
+    constexpr int i = 4 * which;
+#ifdef __AVX512DQ__
+    if constexpr (lanes<Scalar> == 16) {
+        const __m256 half = which < 2 ? _mm512_castps512_ps256((__m512)row) : _mm512_extractf32x8_ps((__m512)row, 1);
+        return (Vector<Scalar, 4>)(which % 2 == 0 ? _mm256_castps256_ps128(half) : _mm256_extractf128_ps(half, 1));
+    }
+#endif
+    return __builtin_shufflevector(row, row, i, i + 1, i + 2, i + 3);
+}
+
+template <typename Scalar, std::size_t... blocks>
+[[gnu::always_inline]] inline void store_row(const Row<Scalar>& row, Scalar* vertices, const std::uint32_t* offset,
+                                             std::index_sequence<blocks...>)
+{
+    ((*reinterpret_cast<Vector<Scalar, 4>*>(vertices + offset[4 * blocks]) = block<blocks, Scalar>(row)), ...);
+}
+
+}  // namespace simd_detail
+
+// One vertex a lane from `vertices` + offset[lane], offsets in numbers.
+template <typename Scalar>
+[[gnu::always_inline]] inline Vertices<Scalar> gather(const Scalar* vertices, const std::uint32_t* offset)
+{
+    if constexpr (lanes<Scalar> < 4) {
+        const auto component = [&](int which) { return Lanes<Scalar>([&](auto lane) { return vertices[offset[lane] + which]; }); };
+        return {component(0), component(1), component(2), component(3)};
+    } else {
+        using namespace simd_detail;
+        Row<Scalar> rows[4] = {row(vertices, offset), row(vertices, offset + 1), row(vertices, offset + 2), row(vertices, offset + 3)};
+        transpose<Scalar>(rows);
+        const auto lane = [](Row<Scalar> row) { return reinterpret_cast<const Lanes<Scalar>&>(row); };
+        return {lane(rows[0]), lane(rows[1]), lane(rows[2]), lane(rows[3])};
+    }
+}
+
+template <typename Scalar>
+[[gnu::always_inline]] inline void scatter(const Vertices<Scalar>& from, Scalar* vertices, const std::uint32_t* offset)
+{
+    if constexpr (lanes<Scalar> < 4) {
+        for (int lane = 0; lane < lanes<Scalar>; ++lane) {
+            Scalar* to = vertices + offset[lane];
+            to[0] = from.x[lane], to[1] = from.y[lane], to[2] = from.z[lane], to[3] = from.w[lane];
+        }
+    } else {
+        using namespace simd_detail;
+        const auto row = [](const Lanes<Scalar>& lane) { return reinterpret_cast<const Row<Scalar>&>(lane); };
+        Row<Scalar> rows[4] = {row(from.x), row(from.y), row(from.z), row(from.w)};
+        transpose<Scalar>(rows);
+        for (int k = 0; k < 4; ++k) store_row<Scalar>(rows[k], vertices, offset + k, std::make_index_sequence<lanes<Scalar> / 4>());
+    }
+}
+
+}  // namespace pbs

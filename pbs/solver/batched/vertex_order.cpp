@@ -1,0 +1,95 @@
+#include "pbs/solver/batched/vertex_order.hpp"
+
+#include "pbs/geometry/topology.hpp"
+
+#include <algorithm>
+
+namespace pbs {
+namespace {
+
+struct Adjacency {
+    std::vector<int> first, neighbour;
+};
+
+Adjacency adjacency_of(const Tets& tets, int vertices)
+{
+    const Edges edges = edges_of(tets);
+    Adjacency adjacency{std::vector<int>(vertices + 1, 0), std::vector<int>(2 * edges.rows())};
+    for (const int vertex : edges.reshaped()) ++adjacency.first[vertex + 1];
+    for (int i = 0; i < vertices; ++i) adjacency.first[i + 1] += adjacency.first[i];
+    std::vector<int> next(adjacency.first.begin(), adjacency.first.end() - 1);
+    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
+        adjacency.neighbour[next[edges(e, 0)]++] = edges(e, 1);
+        adjacency.neighbour[next[edges(e, 1)]++] = edges(e, 0);
+    }
+    return adjacency;
+}
+
+// Vertices in breadth-first order from `start`, and where each level begins in it; -1 in `level` marks what is not visited yet.
+struct Levels {
+    std::vector<int> order, begin;
+};
+
+Levels levels_from(int start, const Adjacency& adjacency, std::vector<int>& visited_by, int visit)
+{
+    Levels levels{{start}, {0}};
+    visited_by[start] = visit;
+    for (std::size_t done = 0; done < levels.order.size();) {
+        const std::size_t end = levels.order.size();
+        for (; done < end; ++done)
+            for (int k = adjacency.first[levels.order[done]]; k < adjacency.first[levels.order[done] + 1]; ++k) {
+                const int neighbour = adjacency.neighbour[k];
+                if (visited_by[neighbour] == visit) continue;
+                visited_by[neighbour] = visit;
+                levels.order.push_back(neighbour);
+            }
+        if (levels.order.size() > end) levels.begin.push_back(static_cast<int>(end));
+    }
+    return levels;
+}
+
+// From one end to the other: the last vertex reached from anywhere is an end, or near one.
+Levels levels_of_component(int anywhere, const Adjacency& adjacency, std::vector<int>& visited_by, int& visit)
+{
+    Levels levels = levels_from(anywhere, adjacency, visited_by, ++visit);
+    for (int sweep = 0; sweep < 2; ++sweep) levels = levels_from(levels.order.back(), adjacency, visited_by, ++visit);
+    return levels;
+}
+
+}  // namespace
+
+std::vector<int> VertexOrder::slab_of_new() const
+{
+    std::vector<int> slab_of(old_of_new.size());
+    for (int slab = 0; slab < slabs(); ++slab) std::fill(slab_of.begin() + slab_begin[slab], slab_of.begin() + slab_begin[slab + 1], slab);
+    return slab_of;
+}
+
+VertexOrder order_vertices(const Tets& tets, int vertices, int vertices_a_slab)
+{
+    const Adjacency adjacency = adjacency_of(tets, vertices);
+    std::vector<int> visited_by(vertices, 0);
+    int visit = 0;
+    VertexOrder order;
+    order.slab_begin.push_back(0);
+    for (int i = 0, levels_in_slab = 0; i < vertices; ++i) {
+        if (visited_by[i] != 0) continue;
+        const Levels levels = levels_of_component(i, adjacency, visited_by, visit);
+        const int before = static_cast<int>(order.old_of_new.size());
+        order.old_of_new.insert(order.old_of_new.end(), levels.order.begin(), levels.order.end());
+        for (const int begin : levels.begin) {
+            if (levels_in_slab >= 2 && before + begin - order.slab_begin.back() >= vertices_a_slab) {
+                order.slab_begin.push_back(before + begin);
+                levels_in_slab = 0;
+            }
+            ++levels_in_slab;
+        }
+    }
+    if (order.slab_begin.size() > 1 && vertices - order.slab_begin.back() < vertices_a_slab / 2) order.slab_begin.pop_back();
+    order.slab_begin.push_back(vertices);
+    order.new_of_old.resize(vertices);
+    for (int i = 0; i < vertices; ++i) order.new_of_old[order.old_of_new[i]] = i;
+    return order;
+}
+
+}  // namespace pbs

@@ -1,0 +1,25 @@
+// Where vertices lie in memory, and the slabs that threads share a mesh by.
+// Vertices follow each other in Cuthill and McKee's order: by their distance in edges from one end of the mesh (levels), neighbours near
+// each other. A slab is a run of whole levels, two at least; a constraint, or a group of them round one edge, belongs to the slab of its
+// first vertex and reaches into the next slab at most. So slabs 0, 2, 4 ... share no vertex and neither do 1, 3, 5 ...: either half may be
+// worked off in parallel. Slabs belong to the mesh, never to the number of threads, so that every number of threads gives the same bits.
+#pragma once
+
+#include "pbs/geometry/types.hpp"
+
+#include <vector>
+
+namespace pbs {
+
+struct VertexOrder {
+    std::vector<int> old_of_new, new_of_old;  // #V
+    std::vector<int> slab_begin;              // first vertex of each slab, in the new order; #slabs + 1
+
+    int slabs() const { return static_cast<int>(slab_begin.size()) - 1; }
+    std::vector<int> slab_of_new() const;  // #V
+};
+
+// A slab has at least `vertices_a_slab` vertices; a last one of less than half of that joins the one before.
+VertexOrder order_vertices(const Tets& tets, int vertices, int vertices_a_slab = 1024);
+
+}  // namespace pbs

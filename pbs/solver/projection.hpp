@@ -1,0 +1,41 @@
+// Lines 11-13 of Algorithm 1: each class of constraints projected once, in a chosen order, on positions in a layout of its own.
+//   const auto projection = make_projection(std::move(constraints), mesh.tets, options);
+//   projection->load(p, q, origin);
+//   projection->project_bind_constraints(); ..stretch.. ..volume..
+//   projection->store(origin, p);
+#pragma once
+
+#include "pbs/solver/constraint_set.hpp"
+#include "pbs/solver/step_summary.hpp"
+
+#include <memory>
+
+namespace pbs {
+
+template <typename Scalar>
+class Projection {
+public:
+    virtual ~Projection() = default;
+
+    // p: positions, q: posed bind points [m], #V x 3; inside, positions are relative to origin [m].
+    virtual void load(const Positions& p, const Positions& q, const Vec3& origin) = 0;
+    virtual void project_bind_constraints() = 0;
+    virtual void project_stretch_constraints() = 0;
+    virtual void project_volume_constraints() = 0;
+    virtual void store(const Vec3& origin, Positions& p) const = 0;
+
+    virtual Residuals residuals() const = 0;
+
+    // Constraints that the loaded positions satisfy within `tolerance` (ratios, bind in shares of the mean rest length), with all around
+    // them, rest until the next load. An order that knows no sleep projects all.
+    virtual void sleep(double /*tolerance*/) {}
+    // Wakes what rests and exceeds the tolerance now; how many constraints that were.
+    virtual int wake(double /*tolerance*/) { return 0; }
+    virtual double sleeping_share() const { return 0.0; }  // of all constraints
+};
+
+// The order that options.order names. Eq. 12-20 as printed know one order alone, `plain`: InputError for others.
+template <typename Scalar>
+std::unique_ptr<Projection<Scalar>> make_projection(ConstraintSet<Scalar> constraints, const Tets& tets, const PbsOptions& options);
+
+}  // namespace pbs
