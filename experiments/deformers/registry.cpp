@@ -4,7 +4,6 @@
 #include "experiments/deformers/fem/fem_module.hpp"
 #include "experiments/deformers/pbs/pbs_deformer.hpp"
 #include "pbs/geometry/module.hpp"
-#include "pbs/skinning/blend.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -16,11 +15,11 @@ using Made = std::unique_ptr<Deformer>;
 
 Made make_lbs(const DeformerSpec&)
 {
-    return std::make_unique<BlendDeformer>(&pbs::linear_blend_skinning);
+    return std::make_unique<BlendDeformer>(&pbs::BlendSkinning<double>::linear);
 }
 Made make_dqs(const DeformerSpec&)
 {
-    return std::make_unique<BlendDeformer>(&pbs::dual_quaternion_skinning);
+    return std::make_unique<BlendDeformer>(&pbs::BlendSkinning<double>::dual_quaternion);
 }
 Made make_pbs(const DeformerSpec& spec)
 {

@@ -1,173 +1,180 @@
 #include "pbs/skinning/blend_kernels.hpp"
 
+#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors never pass from here to another file
+
+// Too small to be called: the compiler would pass their vectors through memory.
+#define PBS_INLINE [[gnu::always_inline]] inline
+
 namespace pbs {
 namespace {
 
-// Four numbers side by side: a column, a quaternion or a point; `Unaligned` is how they lie in memory.
-template <class Scalar>
+#if defined(__AVX512F__)
+constexpr int widest = 64;  // bytes of a vector register
+#elif defined(__AVX__)
+constexpr int widest = 32;
+#else
+constexpr int widest = 16;
+#endif
+
+// Numbers side by side, n * sizeof(Scalar) bytes of them.
+template <class Scalar, int n>
 struct Lanes {
-    using Four [[gnu::vector_size(4 * sizeof(Scalar))]] = Scalar;
-    using Unaligned [[gnu::vector_size(4 * sizeof(Scalar)), gnu::aligned(alignof(Scalar)), gnu::may_alias]] = Scalar;
+    using Aligned [[gnu::vector_size(n * sizeof(Scalar)), gnu::may_alias]] = Scalar;
+    using Unaligned [[gnu::vector_size(n * sizeof(Scalar)), gnu::aligned(alignof(Scalar)), gnu::may_alias]] = Scalar;
 };
 template <class Scalar>
-using Four = typename Lanes<Scalar>::Four;
+using Four = typename Lanes<Scalar, 4>::Aligned;  // a column or a point
+template <class Scalar>
+using Eight = typename Lanes<Scalar, 8>::Aligned;  // two of them
 
 template <class Scalar>
-Four<Scalar> load(const Scalar* numbers)
+PBS_INLINE Four<Scalar> load(const Scalar* numbers)
 {
-    return *reinterpret_cast<const typename Lanes<Scalar>::Unaligned*>(numbers);
+    return *reinterpret_cast<const typename Lanes<Scalar, 4>::Unaligned*>(numbers);
 }
 
+// Where the machine has registers for it: (c_0 x, c_1 y) + (c_2 z, t 1), then the halves of the sum.
 template <class Scalar>
-void store(Scalar* numbers, Four<Scalar> four)
+PBS_INLINE Four<Scalar> moved(const PaddedMatrix<Scalar>& matrix, const Scalar* point)
 {
-    *reinterpret_cast<typename Lanes<Scalar>::Unaligned*>(numbers) = four;
-}
-
-template <class Scalar>
-struct Matrix {
-    Four<Scalar> c0, c1, c2, t;
-};
-
-template <class Scalar>
-Matrix<Scalar> load_matrix(const Scalar* matrix)
-{
-    return {load(matrix), load(matrix + 4), load(matrix + 8), load(matrix + 12)};
-}
-
-template <class Scalar>
-Four<Scalar> moved(const Matrix<Scalar>& matrix, const Scalar* point)
-{
-    return matrix.c0 * point[0] + (matrix.c1 * point[1] + (matrix.c2 * point[2] + matrix.t));
-}
-
-// A blended dual quaternion, not unit: `twice` = 2 / |real|^2 takes its length out without a square root.
-template <class Scalar>
-struct DualQuaternion {
-    Four<Scalar> real, dual;
-    Scalar twice;
-};
-
-// a x b of the first three; the fourth is zero.
-template <class Scalar>
-Four<Scalar> cross(Four<Scalar> a, Four<Scalar> b)
-{
-    return __builtin_shufflevector(a, a, 1, 2, 0, 3) * __builtin_shufflevector(b, b, 2, 0, 1, 3) -
-           __builtin_shufflevector(a, a, 2, 0, 1, 3) * __builtin_shufflevector(b, b, 1, 2, 0, 3);
-}
-
-// R v - v with R v = v + 2 r x (r x v + r_w v) (Kavan 2007, Algorithm 1).
-template <class Scalar>
-Four<Scalar> turned(const DualQuaternion<Scalar>& q, Four<Scalar> point)
-{
-    return q.twice * cross<Scalar>(q.real, cross<Scalar>(q.real, point) + q.real[3] * point);
-}
-
-// 2 (r_w d - d_w r + r x d)
-template <class Scalar>
-Four<Scalar> translation(const DualQuaternion<Scalar>& q)
-{
-    return q.twice * (q.real[3] * q.dual - q.dual[3] * q.real + cross<Scalar>(q.real, q.dual));
-}
-
-template <class Scalar>
-Four<Scalar> moved(const DualQuaternion<Scalar>& q, const Scalar* point)
-{
-    const Four<Scalar> v = {point[0], point[1], point[2], 0};
-    return v + (turned(q, v) + translation(q));
-}
-
-template <class Scalar>
-Matrix<Scalar> matrix_of(const DualQuaternion<Scalar>& q)
-{
-    const Four<Scalar> x = {1, 0, 0, 0}, y = {0, 1, 0, 0}, z = {0, 0, 1, 0};
-    return {x + turned(q, x), y + turned(q, y), z + turned(q, z), translation(q)};
-}
-
-// sum_j w_j P_j R_j^-1 of Eq. 1
-template <class Scalar>
-Matrix<Scalar> blended_matrix(const BlendRows<Scalar>& rows, int row, const Scalar* matrices)
-{
-    Matrix<Scalar> sum = {};
-    for (int k = rows.first[row]; k < rows.first[row + 1]; ++k) {
-        const Matrix<Scalar> bone = load_matrix(matrices + 16L * rows.transform[k]);
-        const Scalar weight = rows.weight[k];
-        sum = {sum.c0 + weight * bone.c0, sum.c1 + weight * bone.c1, sum.c2 + weight * bone.c2, sum.t + weight * bone.t};
+    if constexpr (sizeof(Eight<Scalar>) <= widest) {
+        const auto* columns = reinterpret_cast<const Eight<Scalar>*>(matrix.numbers);
+        Four<Scalar> v = load(point);
+        v[3] = 1;
+        const Eight<Scalar> sum = columns[0] * __builtin_shufflevector(v, v, 0, 0, 0, 0, 1, 1, 1, 1) +
+                                  columns[1] * __builtin_shufflevector(v, v, 2, 2, 2, 2, 3, 3, 3, 3);
+        return __builtin_shufflevector(sum, sum, 0, 1, 2, 3) + __builtin_shufflevector(sum, sum, 4, 5, 6, 7);
+    } else {
+        const Scalar* c = matrix.numbers;
+        return load(c) * point[0] + (load(c + 4) * point[1] + (load(c + 8) * point[2] + load(c + 12)));
     }
-    return sum;
+}
+
+// sum_j w_j T_j over a row, T_j all numbers of a matrix (Eq. 1) or of a dual quaternion.
+template <class Scalar, class Transform>
+PBS_INLINE Transform blended(const BlendRows<Scalar>& rows, int row, const Transform* transforms)
+{
+    constexpr int bytes = sizeof(Transform) < widest ? sizeof(Transform) : widest, parts = sizeof(Transform) / bytes;
+    using Part = typename Lanes<Scalar, bytes / sizeof(Scalar)>::Aligned;
+    Part sum[parts] = {};
+    for (int k = rows.first[row]; k < rows.first[row + 1]; ++k) {
+        const auto* transform = reinterpret_cast<const Part*>(transforms[rows.transform[k]].numbers);
+        for (int part = 0; part < parts; ++part) sum[part] += rows.weight[k] * transform[part];
+    }
+    Transform all;
+    for (int part = 0; part < parts; ++part) reinterpret_cast<Part*>(all.numbers)[part] = sum[part];
+    return all;
+}
+
+// v' = v + 2 r x (r x v + r_w v) + 2 (r_w d - d_w r + r x d) for the unit dual quaternion (Kavan 2007, Algorithm 1). A blended one is
+// not unit: 2 / |r|^2 in the place of 2 takes its length out without a square root.
+template <class Scalar>
+PBS_INLINE void move(const PackedDualQuaternion<Scalar>& blended, const Scalar* v, Scalar* moved)
+{
+    const Scalar* r = blended.numbers;
+    const Scalar* d = r + 4;
+    const Scalar twice = 2 / ((r[0] * r[0] + r[1] * r[1]) + (r[2] * r[2] + r[3] * r[3]));
+    const Scalar u[] = {r[1] * v[2] - r[2] * v[1] + r[3] * v[0] + d[0], r[2] * v[0] - r[0] * v[2] + r[3] * v[1] + d[1],
+                        r[0] * v[1] - r[1] * v[0] + r[3] * v[2] + d[2]};  // r x v + r_w v + d
+    const Scalar x = v[0] + twice * ((r[1] * u[2] - r[2] * u[1]) + (r[3] * d[0] - d[3] * r[0]));
+    const Scalar y = v[1] + twice * ((r[2] * u[0] - r[0] * u[2]) + (r[3] * d[1] - d[3] * r[1]));
+    const Scalar z = v[2] + twice * ((r[0] * u[1] - r[1] * u[0]) + (r[3] * d[2] - d[3] * r[2]));
+    moved[0] = x, moved[1] = y, moved[2] = z;
 }
 
 template <class Scalar>
-DualQuaternion<Scalar> blended_dual_quaternion(const BlendRows<Scalar>& rows, int row, const Scalar* dual_quaternions)
+PaddedMatrix<Scalar> matrix_of(const PaddedMatrix<Scalar>& matrix)
 {
-    DualQuaternion<Scalar> sum = {};
-    for (int k = rows.first[row]; k < rows.first[row + 1]; ++k) {
-        const Scalar* bone = dual_quaternions + 8L * rows.transform[k];
-        sum.real += rows.weight[k] * load(bone);
-        sum.dual += rows.weight[k] * load(bone + 4);
-    }
-    const Four<Scalar> squares = sum.real * sum.real;
-    sum.twice = 2 / ((squares[0] + squares[1]) + (squares[2] + squares[3]));
-    return sum;
+    return matrix;
+}
+
+// Its columns are where it moves the origin to, and the axes less that with no translation.
+template <class Scalar>
+PaddedMatrix<Scalar> matrix_of(const PackedDualQuaternion<Scalar>& blended)
+{
+    PaddedMatrix<Scalar> matrix = {};
+    const Scalar axes[4][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
+    move(blended, axes[3], matrix.numbers + 12);
+    PackedDualQuaternion<Scalar> rotation = blended;
+    for (int i = 4; i < 8; ++i) rotation.numbers[i] = 0;
+    for (int axis = 0; axis < 3; ++axis) move(rotation, axes[axis], matrix.numbers + 4 * axis);
+    return matrix;
 }
 
 // Four numbers are stored for each point but the last; the next point overwrites the fourth.
 template <class Scalar, class MovedPoint>
-void store_points(int n, Scalar* posed, const MovedPoint& moved_point)
+PBS_INLINE void store_points(int n, Scalar* posed, const MovedPoint& moved_point)
 {
     if (n <= 0) return;
-    for (int i = 0; i + 1 < n; ++i) store(posed + 3L * i, moved_point(i));
+    for (int i = 0; i + 1 < n; ++i) *reinterpret_cast<typename Lanes<Scalar, 4>::Unaligned*>(posed + 3L * i) = moved_point(i);
     const Four<Scalar> last = moved_point(n - 1);
     for (int axis = 0; axis < 3; ++axis) posed[3L * (n - 1) + axis] = last[axis];
 }
 
 template <class Scalar>
-void store_matrix(Scalar* numbers, const Matrix<Scalar>& matrix)
+void move_points(int n, const PackedDualQuaternion<Scalar>* __restrict dual_quaternions, const Scalar* __restrict rest,
+                 Scalar* __restrict posed)
 {
-    store(numbers, matrix.c0);
-    store(numbers + 4, matrix.c1);
-    store(numbers + 8, matrix.c2);
-    store(numbers + 12, matrix.t);
+    for (int i = 0; i < n; ++i) move(dual_quaternions[i], rest + 3L * i, posed + 3L * i);
 }
 
 }  // namespace
 
 template <class Scalar>
-void transform_points(int n, const int* transform, const Scalar* matrices, const Scalar* rest, Scalar* posed)
+void transform_points(int n, const PaddedMatrix<Scalar>& matrix, const Scalar* rest, Scalar* posed)
 {
-    store_points(n, posed, [=](int i) { return moved(load_matrix(matrices + 16L * transform[i]), rest + 3L * i); });
+    const Four<Scalar> c0 = load(matrix.numbers), c1 = load(matrix.numbers + 4), c2 = load(matrix.numbers + 8),
+                       t = load(matrix.numbers + 12);
+    store_points(n, posed, [=](int i) {
+        const Scalar* v = rest + 3L * i;
+        return c0 * v[0] + (c1 * v[1] + (c2 * v[2] + t));
+    });
 }
 
 template <class Scalar>
-void blend_points_linear(const BlendRows<Scalar>& rows, const Scalar* matrices, const Scalar* rest, Scalar* posed)
+void transform_points(int n, const int* transform, const PaddedMatrix<Scalar>* matrices, const Scalar* rest, Scalar* posed)
 {
-    store_points(rows.n, posed, [=](int i) { return moved(blended_matrix(rows, i, matrices), rest + 3L * i); });
+    store_points(n, posed, [=](int i) { return moved(matrices[transform[i]], rest + 3L * i); });
 }
 
 template <class Scalar>
-void blend_points_dual(const BlendRows<Scalar>& rows, const Scalar* dual_quaternions, const Scalar* rest, Scalar* posed)
+void blend_points(const BlendRows<Scalar>& rows, const PaddedMatrix<Scalar>* matrices, const Scalar* rest, Scalar* posed)
 {
-    store_points(rows.n, posed, [=](int i) { return moved(blended_dual_quaternion(rows, i, dual_quaternions), rest + 3L * i); });
+    store_points(rows.n, posed, [=](int i) { return moved(blended(rows, i, matrices), rest + 3L * i); });
 }
 
 template <class Scalar>
-void blend_matrices_linear(const BlendRows<Scalar>& rows, const Scalar* matrices, Scalar* blended)
+void blend_points(const BlendRows<Scalar>& rows, const PackedDualQuaternion<Scalar>* dual_quaternions, const Scalar* rest, Scalar* posed)
 {
-    for (int i = 0; i < rows.n; ++i) store_matrix(blended + 16L * i, blended_matrix(rows, i, matrices));
+    constexpr int tile = 64;  // points whose dual quaternions wait in the nearest cache, to be used side by side
+    PackedDualQuaternion<Scalar> waiting[tile];
+    for (int start = 0; start < rows.n; start += tile) {
+        const int n = rows.n - start < tile ? rows.n - start : tile;
+        for (int i = 0; i < n; ++i) waiting[i] = blended(rows, start + i, dual_quaternions);
+        move_points(n, waiting, rest + 3L * start, posed + 3L * start);
+    }
 }
 
 template <class Scalar>
-void blend_matrices_dual(const BlendRows<Scalar>& rows, const Scalar* dual_quaternions, Scalar* blended)
+void blend_matrices(const BlendRows<Scalar>& rows, const PaddedMatrix<Scalar>* matrices, PaddedMatrix<Scalar>* blended_matrices)
 {
-    for (int i = 0; i < rows.n; ++i) store_matrix(blended + 16L * i, matrix_of(blended_dual_quaternion(rows, i, dual_quaternions)));
+    for (int i = 0; i < rows.n; ++i) blended_matrices[i] = matrix_of(blended(rows, i, matrices));
 }
 
-#define PBS_BLEND_KERNELS(Scalar)                                                                               \
-    template void transform_points<Scalar>(int, const int*, const Scalar*, const Scalar*, Scalar*);             \
-    template void blend_points_linear<Scalar>(const BlendRows<Scalar>&, const Scalar*, const Scalar*, Scalar*); \
-    template void blend_points_dual<Scalar>(const BlendRows<Scalar>&, const Scalar*, const Scalar*, Scalar*);   \
-    template void blend_matrices_linear<Scalar>(const BlendRows<Scalar>&, const Scalar*, Scalar*);              \
-    template void blend_matrices_dual<Scalar>(const BlendRows<Scalar>&, const Scalar*, Scalar*);
+template <class Scalar>
+void blend_matrices(const BlendRows<Scalar>& rows, const PackedDualQuaternion<Scalar>* dual_quaternions,
+                    PaddedMatrix<Scalar>* blended_matrices)
+{
+    for (int i = 0; i < rows.n; ++i) blended_matrices[i] = matrix_of(blended(rows, i, dual_quaternions));
+}
+
+#define PBS_BLEND_KERNELS(Scalar)                                                                                      \
+    template void transform_points(int, const PaddedMatrix<Scalar>&, const Scalar*, Scalar*);                          \
+    template void transform_points(int, const int*, const PaddedMatrix<Scalar>*, const Scalar*, Scalar*);              \
+    template void blend_points(const BlendRows<Scalar>&, const PaddedMatrix<Scalar>*, const Scalar*, Scalar*);         \
+    template void blend_points(const BlendRows<Scalar>&, const PackedDualQuaternion<Scalar>*, const Scalar*, Scalar*); \
+    template void blend_matrices(const BlendRows<Scalar>&, const PaddedMatrix<Scalar>*, PaddedMatrix<Scalar>*);        \
+    template void blend_matrices(const BlendRows<Scalar>&, const PackedDualQuaternion<Scalar>*, PaddedMatrix<Scalar>*);
 PBS_BLEND_KERNELS(float)
 PBS_BLEND_KERNELS(double)
 

@@ -1,8 +1,7 @@
 #include "pbs/skinning/blend_skinning.hpp"
 
-#include "pbs/skinning/blend_kernels.hpp"
-
 #include <type_traits>
+#include <utility>
 
 namespace pbs {
 namespace {
@@ -32,22 +31,28 @@ BlendRows<Scalar> raw(const WeightRows<Scalar>& rows, const std::vector<int>& tr
     return {rows.rows(), rows.first.data(), transform.data(), rows.weight.data()};
 }
 
-template <class Scalar>
-BlendRows<Scalar> raw(const WeightRows<Scalar>& rows, const std::vector<int>& transform, const VertexStretch& stretch)
+// The points of vertices whose rows are their own are blended from `transforms`.
+template <class Scalar, class Transform>
+void move_points(const PackedWeights<Scalar>& packed, const PaddedMatrix<Scalar>* matrices, BlendRows<Scalar> own,
+                 const Transform* transforms, const Scalar* rest, Scalar* posed)
 {
-    return {stretch.last - stretch.first, rows.first.data() + stretch.own_row, transform.data(), rows.weight.data()};
-}
-
-// blend(stretch, rest, posed) for the stretches of blended vertices; the others are moved by their matrices.
-template <class Scalar, class Blend>
-void move_points(const PackedWeights<Scalar>& packed, const Scalar* matrices, const Scalar* rest, Scalar* posed, const Blend& blend)
-{
+    const int* first_row = own.first;
     for (const VertexStretch& stretch : packed.stretches) {
-        const long start = 3L * stretch.first;
-        if (stretch.own_row >= 0)
-            blend(stretch, rest + start, posed + start);
-        else
-            transform_points(stretch.last - stretch.first, packed.matrix.data() + stretch.first, matrices, rest + start, posed + start);
+        const int n = stretch.last - stretch.first, *matrix = &packed.matrix[stretch.first];
+        const Scalar* from = rest + 3L * stretch.first;
+        Scalar* to = posed + 3L * stretch.first;
+        switch (stretch.kind) {
+            case VertexStretch::Kind::one_matrix:
+                transform_points(n, matrices[*matrix], from, to);
+                break;
+            case VertexStretch::Kind::matrix_each:
+                transform_points(n, matrix, matrices, from, to);
+                break;
+            case VertexStretch::Kind::own_rows:
+                own.n = n;
+                own.first = first_row + stretch.own_row;
+                blend_points(own, transforms, from, to);
+        }
     }
 }
 
@@ -55,11 +60,11 @@ void move_points(const PackedWeights<Scalar>& packed, const Scalar* matrices, co
 
 template <class Scalar>
 BlendSkinning<Scalar>::BlendSkinning(const Positions& rest, const Weights& weights)
-    : packed_(pack_weights<Scalar>(weights)), middle_(middle_of<Scalar>(rest)), rest_(rest.size())
+    : packed_(pack_weights<Scalar>(weights)), middle_(middle_of<Scalar>(rest)), rest_(rest.size() + 1)
 {
     Eigen::Map<Rows>(rest_.data(), rest.rows(), 3) = (rest.rowwise() - middle_.transpose()).template cast<Scalar>();
-    matrices_.resize(16 * (packed_.bones + packed_.shared.rows()));
-    dual_quaternions_.resize(8 * packed_.turned_bones.size());
+    matrices_.resize(packed_.bones + packed_.shared.rows());
+    dual_quaternions_.resize(packed_.turned_bones.size());
     placed_.resize(packed_.bones);
 }
 
@@ -69,7 +74,7 @@ void BlendSkinning<Scalar>::place_bones(const Pose& pose, const Vec3& origin)
     for (int j = 0; j < packed_.bones; ++j) {
         placed_[j].linear() = pose[j].linear();
         placed_[j].translation() = pose[j] * middle_ - origin;
-        Eigen::Map<Eigen::Matrix<Scalar, 4, 4>> matrix(&matrices_[16 * j]);
+        Eigen::Map<Eigen::Matrix<Scalar, 4, 4>> matrix(matrices_[j].numbers);
         matrix = placed_[j].matrix().template cast<Scalar>();
     }
 }
@@ -82,32 +87,28 @@ void BlendSkinning<Scalar>::place_turned_bones()
     for (std::size_t i = 0; i < packed_.turned_bones.size(); ++i) {
         const DualQuaternion &bone = bones[packed_.turned_bones[i].bone], &pivot = bones[packed_.turned_bones[i].pivot];
         const double side = bone.head<4>().dot(pivot.head<4>()) < 0.0 ? -1.0 : 1.0;
-        Eigen::Map<Eigen::Matrix<Scalar, 8, 1>> turned(&dual_quaternions_[8 * i]);
+        Eigen::Map<Eigen::Matrix<Scalar, 8, 1>> turned(dual_quaternions_[i].numbers);
         turned = (side * bone).template cast<Scalar>();
     }
 }
 
 template <class Scalar>
-void BlendSkinning<Scalar>::linear(const Pose& pose, const Vec3& origin, Scalar* posed)
+void BlendSkinning<Scalar>::linear_rows(const Pose& pose, const Vec3& origin, Scalar* posed)
 {
     place_bones(pose, origin);
-    Scalar* matrices = matrices_.data();
-    blend_matrices_linear(raw(packed_.shared, packed_.shared.bone), matrices, matrices + 16 * packed_.bones);
-    move_points(packed_, matrices, rest_.data(), posed, [&](const VertexStretch& stretch, const Scalar* from, Scalar* to) {
-        blend_points_linear(raw(packed_.own, packed_.own.bone, stretch), matrices, from, to);
-    });
+    const PaddedMatrix<Scalar>* bones = matrices_.data();
+    blend_matrices(raw(packed_.shared, packed_.shared.bone), bones, matrices_.data() + packed_.bones);
+    move_points(packed_, bones, raw(packed_.own, packed_.own.bone), bones, rest_.data(), posed);
 }
 
 template <class Scalar>
-void BlendSkinning<Scalar>::dual_quaternion(const Pose& pose, const Vec3& origin, Scalar* posed)
+void BlendSkinning<Scalar>::dual_quaternion_rows(const Pose& pose, const Vec3& origin, Scalar* posed)
 {
     place_bones(pose, origin);
     place_turned_bones();
-    Scalar *matrices = matrices_.data(), *dual_quaternions = dual_quaternions_.data();
-    blend_matrices_dual(raw(packed_.shared, packed_.shared.turned_bone), dual_quaternions, matrices + 16 * packed_.bones);
-    move_points(packed_, matrices, rest_.data(), posed, [&](const VertexStretch& stretch, const Scalar* from, Scalar* to) {
-        blend_points_dual(raw(packed_.own, packed_.own.turned_bone, stretch), dual_quaternions, from, to);
-    });
+    const PackedDualQuaternion<Scalar>* bones = dual_quaternions_.data();
+    blend_matrices(raw(packed_.shared, packed_.shared.turned_bone), bones, matrices_.data() + packed_.bones);
+    move_points(packed_, std::as_const(matrices_).data(), raw(packed_.own, packed_.own.turned_bone), bones, rest_.data(), posed);
 }
 
 // double writes where it is asked to, in world coordinates; float blends about the middle and is carried there in double.
@@ -120,7 +121,7 @@ void BlendSkinning<Scalar>::blend_in_world(const Pose& pose, Positions& posed, c
         blend(Vec3(Vec3::Zero()), posed.data());
     } else {
         const Vec3 origin = pose.empty() ? middle_ : pose[0] * middle_;
-        posed_.resize(rest_.size());
+        posed_.resize(rest_.size() - 1);
         blend(origin, posed_.data());
         posed = Eigen::Map<const Rows>(posed_.data(), vertices(), 3).template cast<double>().rowwise() + origin.transpose();
     }
@@ -129,13 +130,13 @@ void BlendSkinning<Scalar>::blend_in_world(const Pose& pose, Positions& posed, c
 template <class Scalar>
 void BlendSkinning<Scalar>::linear(const Pose& pose, Positions& posed)
 {
-    blend_in_world(pose, posed, [&](const Vec3& origin, Scalar* rows) { linear(pose, origin, rows); });
+    blend_in_world(pose, posed, [&](const Vec3& origin, Scalar* rows) { linear_rows(pose, origin, rows); });
 }
 
 template <class Scalar>
 void BlendSkinning<Scalar>::dual_quaternion(const Pose& pose, Positions& posed)
 {
-    blend_in_world(pose, posed, [&](const Vec3& origin, Scalar* rows) { dual_quaternion(pose, origin, rows); });
+    blend_in_world(pose, posed, [&](const Vec3& origin, Scalar* rows) { dual_quaternion_rows(pose, origin, rows); });
 }
 
 template class BlendSkinning<float>;

@@ -6,6 +6,7 @@
 // A pose has every bone that the weights name. One thread at a time: the transforms of the last pose are kept in it.
 #pragma once
 
+#include "pbs/skinning/blend_kernels.hpp"
 #include "pbs/skinning/packed_weights.hpp"
 
 namespace pbs {
@@ -21,8 +22,8 @@ public:
     void dual_quaternion(const Pose& pose, Positions& posed);
 
     // Without conversion: posed position - origin [m], #V rows x, y, z. Float loses no digits where `origin` is near the posed body.
-    void linear(const Pose& pose, const Vec3& origin, Scalar* posed);
-    void dual_quaternion(const Pose& pose, const Vec3& origin, Scalar* posed);
+    void linear_rows(const Pose& pose, const Vec3& origin, Scalar* posed);
+    void dual_quaternion_rows(const Pose& pose, const Vec3& origin, Scalar* posed);
 
     int vertices() const { return static_cast<int>(packed_.matrix.size()); }
     const PackedWeights<Scalar>& packed_weights() const { return packed_; }
@@ -37,12 +38,12 @@ private:
 
     PackedWeights<Scalar> packed_;
     Vec3 middle_;               // what rest_ is relative to [m]; double: zero
-    std::vector<Scalar> rest_;  // #V x 3
+    std::vector<Scalar> rest_;  // #V x 3, and one number that the kernels ask for
 
-    std::vector<Eigen::Isometry3d> placed_;  // the bones: rest position - middle -> posed position - origin
-    std::vector<Scalar> matrices_;           // of the bones, then of the shared rows, 16 each
-    std::vector<Scalar> dual_quaternions_;   // of the turned bones, 8 each
-    std::vector<Scalar> posed_;              // #V x 3; empty where nothing has to be converted
+    std::vector<Eigen::Isometry3d> placed_;                       // the bones: rest position - middle -> posed position - origin
+    std::vector<PaddedMatrix<Scalar>> matrices_;                  // of the bones, then of the shared rows
+    std::vector<PackedDualQuaternion<Scalar>> dual_quaternions_;  // of the turned bones
+    std::vector<Scalar> posed_;                                   // #V x 3; empty where nothing has to be converted
 };
 
 }  // namespace pbs

@@ -102,13 +102,26 @@ void share_rows(const Weights& weights, RowWriter<Scalar>& writer, PackedWeights
     }
 }
 
+// A loop of its own pays from some 30 vertices on: it saves 0.2 ns each, and the branch into it, mispredicted, costs some 5 ns.
+constexpr int shortest_run = 32;
+
 template <class Scalar>
-void append_to_stretches(PackedWeights<Scalar>& packed, int vertex)
+void cut_into_stretches(PackedWeights<Scalar>& packed)
 {
-    const bool blended = packed.matrix[vertex] < 0;
-    if (packed.stretches.empty() || (packed.stretches.back().own_row >= 0) != blended)
-        packed.stretches.push_back({vertex, vertex, blended ? packed.own.rows() : -1});
-    packed.stretches.back().last = vertex + 1;
+    using enum VertexStretch::Kind;
+    const std::vector<int>& matrix = packed.matrix;
+    int rows = 0;  // of their own that stand before
+    for (auto run = matrix.begin(); run != matrix.end();) {
+        const auto end = std::find_if(run, matrix.end(), [&](int other) { return other != *run; });
+        const auto kind = *run < 0 ? own_rows : end - run < shortest_run ? matrix_each : one_matrix;
+        const int first = static_cast<int>(run - matrix.begin()), last = static_cast<int>(end - matrix.begin());
+        if (kind == matrix_each && !packed.stretches.empty() && packed.stretches.back().kind == matrix_each)
+            packed.stretches.back().last = last;
+        else
+            packed.stretches.push_back({kind, first, last, rows});
+        if (kind == own_rows) rows += last - first;
+        run = end;
+    }
 }
 
 }  // namespace
@@ -124,10 +137,9 @@ PackedWeights<Scalar> pack_weights(const Weights& all_weights)
         if (is_rigid(weights, vertex)) packed.matrix[vertex] = weights.bone[weights.first[vertex]];
     RowWriter<Scalar> writer(weights, packed);
     share_rows(weights, writer, packed);
-    for (int vertex = 0; vertex < weights.vertices(); ++vertex) {
-        append_to_stretches(packed, vertex);
+    for (int vertex = 0; vertex < weights.vertices(); ++vertex)
         if (packed.matrix[vertex] < 0) writer.append(packed.own, vertex);
-    }
+    cut_into_stretches(packed);
     return packed;
 }
 

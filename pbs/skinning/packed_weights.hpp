@@ -22,10 +22,12 @@ struct WeightRows {
     int rows() const { return static_cast<int>(first.size()) - 1; }
 };
 
-// Consecutive vertices that are moved by one matrix each, or are blended by one row of PackedWeights::own each.
+// Consecutive vertices that are moved in one loop.
 struct VertexStretch {
+    enum class Kind { one_matrix, matrix_each, own_rows };
+    Kind kind;
     int first, last;  // vertices first .. last - 1
-    int own_row;      // of the first vertex; -1: a matrix each
+    int own_row;      // the first one's row of PackedWeights::own
 };
 
 template <class Scalar>

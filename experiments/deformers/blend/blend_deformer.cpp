@@ -6,14 +6,14 @@ namespace experiments {
 
 void BlendDeformer::reset(const pbs::Character& character)
 {
-    character_ = &character;
+    skinning_.emplace(character.mesh.rest, character.weights);
     positions_ = character.mesh.rest;
 }
 
 pbs::StepSummary BlendDeformer::advance(const pbs::Pose& pose, double /*dt_s*/)
 {
     const pbs::Stopwatch stopwatch;
-    blend_(character_->mesh.rest, character_->weights, pose, positions_);
+    ((*skinning_).*blend_)(pose, positions_);
     pbs::StepSummary summary;
     summary.seconds = stopwatch.seconds();
     if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;

@@ -2,12 +2,15 @@
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"
+#include "pbs/skinning/blend_skinning.hpp"
+
+#include <optional>
 
 namespace experiments {
 
 class BlendDeformer : public Deformer {
 public:
-    using Blend = void (*)(const pbs::Positions& rest, const pbs::Weights& weights, const pbs::Pose& pose, pbs::Positions& posed);
+    using Blend = void (pbs::BlendSkinning<double>::*)(const pbs::Pose& pose, pbs::Positions& posed);
     explicit BlendDeformer(Blend blend) : blend_(blend) {}
 
     void reset(const pbs::Character& character) override;
@@ -16,7 +19,7 @@ public:
 
 private:
     Blend blend_;
-    const pbs::Character* character_ = nullptr;
+    std::optional<pbs::BlendSkinning<double>> skinning_;
     pbs::Positions positions_;
 };
 

@@ -1,13 +1,13 @@
 #include "experiments/deformers/pbs/pbs_deformer.hpp"
 
 #include "pbs/geometry/stopwatch.hpp"
-#include "pbs/skinning/blend.hpp"
 
 namespace experiments {
 
 void PbsDeformer::reset(const pbs::Character& character)
 {
     character_ = &character;
+    skinning_.emplace(character.mesh.rest, character.weights);
     const std::vector<bool> zone = options_.jiggle ? pbs::jiggle_zone(character.binding) : std::vector<bool>{};
     solver_ = std::make_unique<pbs::PbsSolver>(character.mesh, character.binding.distance, zone, options_);
 }
@@ -15,7 +15,7 @@ void PbsDeformer::reset(const pbs::Character& character)
 pbs::StepSummary PbsDeformer::advance(const pbs::Pose& pose, double dt_s)
 {
     const pbs::Stopwatch stopwatch;
-    pbs::linear_blend_skinning(character_->mesh.rest, character_->weights, pose, lbs_);
+    skinning_->linear(pose, lbs_);
     pbs::StepSummary summary = solver_->advance(lbs_, pbs::posed_bind_points(character_->binding, pose), dt_s);
     summary.seconds = stopwatch.seconds();
     return summary;

@@ -2,7 +2,10 @@
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"
+#include "pbs/skinning/blend_skinning.hpp"
 #include "pbs/solver/pbs_solver.hpp"
+
+#include <optional>
 
 namespace experiments {
 
@@ -18,6 +21,7 @@ public:
 private:
     pbs::PbsOptions options_;
     const pbs::Character* character_ = nullptr;
+    std::optional<pbs::BlendSkinning<double>> skinning_;
     std::unique_ptr<pbs::PbsSolver> solver_;
     pbs::Positions lbs_;
 };

@@ -1,8 +1,9 @@
 // LBS and DQS, plain (blend.hpp) and packed (blend_skinning.hpp), in ns a vertex; what is held against them is a copy of as many bytes.
 // Read ratios from one run; absolute times are the machine's of that moment.
-//   paper: two bones and Eq. 2's weights, long runs of equal ones    mixed: the same, vertices in random order
+//   limb, human: the built-in characters    paper: two bones and Eq. 2's weights, ordered along them    mixed: the same in random order
 //   smooth: four bones of twenty and weights of its own for every vertex
 //   build/release/tests/benchmark_blend --benchmark_filter=paper
+#include "pbs/character/bodies.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
 #include "tests/support/random_points.hpp"
@@ -56,19 +57,30 @@ PosedBody smooth_body(int vertices)
     return body;
 }
 
+PosedBody character_body(const std::string& name)
+{
+    const Character character = make_character({.body = name});
+    test_support::RandomPoints random(3);
+    PosedBody body{character.mesh.rest, character.weights, {}};
+    for (std::size_t bone = 0; bone < character.skeleton.bones.size(); ++bone) body.pose.push_back(random.rigid_motion(1.0));
+    return body;
+}
+
 const PosedBody& body_of(const std::string& kind, int vertices)
 {
     static std::map<std::pair<std::string, int>, PosedBody> bodies;
     const auto place = bodies.find({kind, vertices});
     if (place != bodies.end()) return place->second;
-    return bodies[{kind, vertices}] = kind == "smooth" ? smooth_body(vertices) : paper_body(vertices, kind == "mixed");
+    PosedBody& body = bodies[{kind, vertices}];
+    if (kind == "limb" || kind == "human") return body = character_body(kind);
+    return body = kind == "smooth" ? smooth_body(vertices) : paper_body(vertices, kind == "mixed");
 }
 
 // Seconds a vertex, which the console prints as e.g. 0.52n.
-void count_vertices(benchmark::State& state)
+void count_vertices(benchmark::State& state, std::int64_t vertices)
 {
     using benchmark::Counter;
-    state.counters["s_per_vertex"] = Counter(static_cast<double>(state.range(0)), Counter::kIsIterationInvariantRate | Counter::kInvert);
+    state.counters["s_per_vertex"] = Counter(static_cast<double>(vertices), Counter::kIsIterationInvariantRate | Counter::kInvert);
 }
 
 void plain(benchmark::State& state, const std::string& kind, decltype(linear_blend_skinning) blend)
@@ -76,7 +88,7 @@ void plain(benchmark::State& state, const std::string& kind, decltype(linear_ble
     const PosedBody& body = body_of(kind, static_cast<int>(state.range(0)));
     Positions posed;
     for (auto _ : state) blend(body.rest, body.weights, body.pose, posed);
-    count_vertices(state);
+    count_vertices(state, body.rest.rows());
 }
 
 template <class Scalar>
@@ -92,7 +104,7 @@ void packed(benchmark::State& state, const std::string& kind, RawBlend<Scalar> b
         (skinning.*blend)(body.pose, Vec3::Zero(), posed.data());
         benchmark::ClobberMemory();
     }
-    count_vertices(state);
+    count_vertices(state, body.rest.rows());
 }
 
 // Reads and writes what a blend must at least: rest and posed positions.
@@ -105,28 +117,33 @@ void copy(benchmark::State& state)
         std::ranges::copy(from, to.begin());
         benchmark::ClobberMemory();
     }
-    count_vertices(state);
+    count_vertices(state, state.range(0));
     state.SetBytesProcessed(state.iterations() * 2 * sizeof(Scalar) * from.size());
 }
 
-const std::vector<std::int64_t> sizes = {2'000, 20'000, 1'000'000};
+using Sizes = std::vector<std::int64_t>;
 
 template <class Scalar>
-void register_packed(const std::string& kind, const std::string& precision)
+void register_packed(const std::string& kind, const std::string& precision, const Sizes& sizes)
 {
-    const RawBlend<Scalar> linear = &BlendSkinning<Scalar>::linear, dual = &BlendSkinning<Scalar>::dual_quaternion;
+    const RawBlend<Scalar> linear = &BlendSkinning<Scalar>::linear_rows, dual = &BlendSkinning<Scalar>::dual_quaternion_rows;
     benchmark::RegisterBenchmark((kind + "/lbs/packed_" + precision).c_str(), packed<Scalar>, kind, linear)->ArgsProduct({sizes});
     benchmark::RegisterBenchmark((kind + "/dqs/packed_" + precision).c_str(), packed<Scalar>, kind, dual)->ArgsProduct({sizes});
 }
 
+void register_kind(const std::string& kind, const Sizes& sizes)
+{
+    benchmark::RegisterBenchmark((kind + "/lbs/plain_f64").c_str(), plain, kind, linear_blend_skinning)->ArgsProduct({sizes});
+    benchmark::RegisterBenchmark((kind + "/dqs/plain_f64").c_str(), plain, kind, dual_quaternion_skinning)->ArgsProduct({sizes});
+    register_packed<float>(kind, "f32", sizes);
+    register_packed<double>(kind, "f64", sizes);
+}
+
 void register_all()
 {
-    for (const std::string kind : {"paper", "mixed", "smooth"}) {
-        benchmark::RegisterBenchmark((kind + "/lbs/plain_f64").c_str(), plain, kind, linear_blend_skinning)->ArgsProduct({sizes});
-        benchmark::RegisterBenchmark((kind + "/dqs/plain_f64").c_str(), plain, kind, dual_quaternion_skinning)->ArgsProduct({sizes});
-        register_packed<float>(kind, "f32");
-        register_packed<double>(kind, "f64");
-    }
+    const Sizes sizes = {2'000, 20'000, 1'000'000}, its_own = {0};
+    for (const std::string kind : {"limb", "human"}) register_kind(kind, its_own);
+    for (const std::string kind : {"paper", "mixed", "smooth"}) register_kind(kind, sizes);
     benchmark::RegisterBenchmark("copy/f32", copy<float>)->ArgsProduct({sizes});
     benchmark::RegisterBenchmark("copy/f64", copy<double>)->ArgsProduct({sizes});
 }

@@ -65,7 +65,7 @@ TYPED_TEST(BlendSkinningOf, RawRowsAreRelativeToTheOriginAndEndWithTheLastVertex
     std::vector<TypeParam> rows(3 * 4 + 4, untouched);
     Positions posed;
     pbs::linear_blend_skinning(four_points, four_vertices, two_bones(), posed);
-    skinning.linear(two_bones(), origin, rows.data());
+    skinning.linear_rows(two_bones(), origin, rows.data());
     for (int i = 0; i < 4; ++i)
         for (int axis = 0; axis < 3; ++axis)
             EXPECT_NEAR(rows[3 * i + axis], posed(i, axis) - origin[axis], 10.0 * std::numeric_limits<TypeParam>::epsilon());
@@ -103,7 +103,7 @@ TYPED_TEST(BlendSkinningOf, BonesWithoutVertices)  // 0 and 2 of four
     std::vector<TypeParam> posed(6);
     BlendSkinning<TypeParam> skinning(points, weights);
     for (const bool linear : {true, false}) {
-        linear ? skinning.linear(pose, Vec3::Zero(), posed.data()) : skinning.dual_quaternion(pose, Vec3::Zero(), posed.data());
+        linear ? skinning.linear_rows(pose, Vec3::Zero(), posed.data()) : skinning.dual_quaternion_rows(pose, Vec3::Zero(), posed.data());
         for (int i = 0; i < 2; ++i) {
             const Vec3 expected = pose[1] * Vec3(points.row(i));
             for (int axis = 0; axis < 3; ++axis)

@@ -11,6 +11,22 @@ using pbs::Weights;
 // Vertices 0, 3: bone 2 alone; 1, 4: half and half of 0 and 1; 2: a row of its own, its second bone the heaviest.
 const Weights five_vertices = {{0, 1, 3, 5, 6, 8}, {2, 0, 1, 0, 1, 2, 0, 1}, {1.0, 0.5, 0.5, 0.25, 0.75, 1.0, 0.5, 0.5}};
 
+using Kind = pbs::VertexStretch::Kind;
+
+void expect_stretch(const pbs::VertexStretch& stretch, Kind kind, int first, int last)
+{
+    EXPECT_EQ(stretch.kind, kind);
+    EXPECT_EQ(stretch.first, first);
+    EXPECT_EQ(stretch.last, last);
+}
+
+void append_rigid(Weights& weights, int bone)
+{
+    weights.bone.push_back(bone);
+    weights.weight.push_back(1.0);
+    weights.first.push_back(static_cast<int>(weights.bone.size()));
+}
+
 TEST(PackedWeights, AVertexOfOneBoneIsMovedByItsMatrix)
 {
     const PackedWeights<double> packed = pbs::pack_weights<double>(five_vertices);
@@ -40,9 +56,20 @@ TEST(PackedWeights, StretchesCoverTheVerticesInOrder)
 {
     const auto stretches = pbs::pack_weights<double>(five_vertices).stretches;
     ASSERT_EQ(stretches.size(), 3U);
-    EXPECT_EQ(std::tie(stretches[0].first, stretches[0].last, stretches[0].own_row), std::make_tuple(0, 2, -1));
-    EXPECT_EQ(std::tie(stretches[1].first, stretches[1].last, stretches[1].own_row), std::make_tuple(2, 3, 0));
-    EXPECT_EQ(std::tie(stretches[2].first, stretches[2].last, stretches[2].own_row), std::make_tuple(3, 5, -1));
+    expect_stretch(stretches[0], Kind::matrix_each, 0, 2);
+    expect_stretch(stretches[1], Kind::own_rows, 2, 3);
+    expect_stretch(stretches[2], Kind::matrix_each, 3, 5);
+}
+
+TEST(PackedWeights, ManyVerticesOfOneMatrixAreAStretchOfTheirOwn)
+{
+    Weights weights = {{0}, {}, {}};
+    for (int vertex = 0; vertex < 300; ++vertex) append_rigid(weights, vertex < 100 ? vertex % 2 : vertex < 200 ? 2 : 3);
+    const auto stretches = pbs::pack_weights<double>(weights).stretches;
+    ASSERT_EQ(stretches.size(), 3U);
+    expect_stretch(stretches[0], Kind::matrix_each, 0, 100);
+    expect_stretch(stretches[1], Kind::one_matrix, 100, 200);
+    expect_stretch(stretches[2], Kind::one_matrix, 200, 300);
 }
 
 TEST(PackedWeights, TheHeaviestBoneIsThePivotAndEachPairStandsOnce)
