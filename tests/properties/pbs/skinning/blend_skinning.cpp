@@ -40,8 +40,13 @@ struct RandomBody {
     Pose pose;
 };
 
-// Each vertex has one to `most` bones; every third repeats the row of the one before.
-RandomBody random_body(unsigned seed, int vertices, int most)
+// Of each `period` vertices the last `repeats` have the row of weights of the one before.
+struct RowPattern {
+    int period = 3, repeats = 1, fewest_bones = 1;
+};
+
+// Each vertex has `fewest_bones` to `most` bones.
+RandomBody random_body(unsigned seed, int vertices, int most, const RowPattern& pattern = {})
 {
     RandomPoints random(seed);
     RandomBody body;
@@ -50,7 +55,7 @@ RandomBody random_body(unsigned seed, int vertices, int most)
     for (int bone = 0; bone < bones; ++bone) body.pose.push_back(random.rigid_motion(1.0));
     for (int i = 0; i < vertices; ++i) {
         body.rest.row(i) = random.point(1.0);
-        const int count = static_cast<int>(random.number(1.0, most + 0.999));
+        const int count = static_cast<int>(random.number(pattern.fewest_bones, most + 0.999));
         const int begin = weights.first[i], first = static_cast<int>(random.number(0.0, bones - 0.001));
         double sum = 0.0;
         for (int k = 0; k < count; ++k) {
@@ -59,7 +64,7 @@ RandomBody random_body(unsigned seed, int vertices, int most)
             sum += weights.weight.back();
         }
         for (int k = 0; k < count; ++k) weights.weight[begin + k] /= sum;
-        if (i % 3 == 2) {
+        if (i % pattern.period >= pattern.period - pattern.repeats) {
             weights.bone.resize(begin), weights.weight.resize(begin);
             for (int entry = weights.first[i - 1]; entry < begin; ++entry) {
                 weights.bone.push_back(int{weights.bone[entry]});
@@ -95,6 +100,13 @@ TYPED_TEST(PackedBlends, AreThePlainOnesForAnyNumberOfVertices)
         expect_as_plain<TypeParam>(random_body(80 + vertices, vertices, 3), tolerance<TypeParam>(3));
 }
 
+TYPED_TEST(PackedBlends, AreThePlainOnesInLongStretches)
+{
+    const RowPattern all_own = {1, 0, 2}, all_shared = {2, 1, 2}, one_matrix = {50, 49}, changing = {200, 80, 2};
+    for (const RowPattern& pattern : {all_own, all_shared, one_matrix, changing})
+        expect_as_plain<TypeParam>(random_body(69, 600, 4, pattern), tolerance<TypeParam>(4));
+}
+
 TYPED_TEST(PackedBlends, DoNotRememberTheLastPose)
 {
     const RandomBody body = random_body(60, 200, 4), other = random_body(61, 1, 4);
@@ -122,12 +134,12 @@ TYPED_TEST(PackedBlends, OfOneRigidMotionAreThatMotion)
     }
 }
 
-// Turns of 170 and -170 degrees are 20 degrees apart; their quaternions lie on opposite sides.
+// Turns of 110 and -110 degrees are 140 degrees apart; their quaternions with a positive scalar part lie on opposite sides.
 TYPED_TEST(PackedBlends, TakeTheShortWayForAntipodalQuaternions)
 {
     RandomBody body = random_body(64, 300, 6);
     for (int bone = 0; bone < bones; ++bone) {
-        const double angle = (bone % 2 == 0 ? 170.0 : -170.0) * std::numbers::pi / 180.0;
+        const double angle = (bone % 2 == 0 ? 110.0 : -110.0) * std::numbers::pi / 180.0;
         body.pose[bone].linear() = Eigen::AngleAxisd(angle, Vec3::UnitX()).toRotationMatrix();
     }
     expect_as_plain<TypeParam>(body, tolerance<TypeParam>(6));
