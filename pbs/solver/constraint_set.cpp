@@ -12,6 +12,8 @@ void check_stiffness(const char* field, double k)
     if (!(k >= 0.0 && k <= 1.0)) throw InputError("pbs", 0, field, std::to_string(k), "expected 0 <= k <= 1");
 }
 
+}  // namespace
+
 void check_options(const PbsOptions& options)
 {
     if (options.iterations < 0) throw InputError("pbs", 0, "iterations", std::to_string(options.iterations), "expected 0 or more");
@@ -19,7 +21,12 @@ void check_options(const PbsOptions& options)
     check_stiffness("k_volume", options.k_volume);
     check_stiffness("k_bind", options.k_bind);
     if (options.jiggle) check_stiffness("jiggle.k_stretch", options.jiggle->k_stretch);
+    if (options.threads < 1) throw InputError("pbs", 0, "threads", std::to_string(options.threads), "expected 1 or more");
+    if (!(options.sleep_tolerance >= 0.0))
+        throw InputError("pbs", 0, "sleep_tolerance", std::to_string(options.sleep_tolerance), "expected 0 or more");
 }
+
+namespace {
 
 void check_mesh(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
                 const std::vector<bool>& held)

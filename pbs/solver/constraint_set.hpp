@@ -22,6 +22,9 @@ struct ConstraintSet {
     std::vector<Scalar> inverse_mass;
 };
 
+// InputError for stiffnesses outside [0, 1] and counts that make no sense.
+void check_options(const PbsOptions& options);
+
 // bind_distance [m], #V; jiggle_zone: #V, or empty: nothing jiggles; held: #V, or empty: nothing is held. Wrong sizes, stiffnesses outside
 // [0, 1], tets without a positive rest volume, and vertices held although they jiggle or Eq. 12-20 are taken as printed (which know no
 // mass) are InputErrors.

@@ -26,12 +26,12 @@ public:
 
     virtual Residuals residuals() const = 0;
 
-    // Constraints that the loaded positions satisfy within `tolerance` (ratios, bind in shares of the mean rest length), with all around
-    // them, rest until the next load. An order that knows no sleep projects all.
+    // Constraints far from any that the loaded positions leave unsatisfied sleep from now on; tolerance: |l / l0 - 1|, |V / V0 - 1|, bind
+    // in shares of the mean edge. Where options.sleep is not set, and in an order that knows no sleep, nothing sleeps.
     virtual void sleep(double /*tolerance*/) {}
-    // Wakes what rests and exceeds the tolerance now; how many constraints that were.
+    // Wakes what is unsatisfied now and those around it; how many vertices had been asleep there.
     virtual int wake(double /*tolerance*/) { return 0; }
-    virtual double sleeping_share() const { return 0.0; }  // of all constraints
+    virtual double sleeping_share() const { return 0.0; }  // of stretch and volume constraints
 };
 
 // The order that options.order names. Eq. 12-20 as printed know one order alone, `plain`: InputError for others.

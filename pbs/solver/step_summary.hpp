@@ -17,6 +17,8 @@ const char* to_string(Outcome outcome);
 struct StepSummary {
     int iterations = 0;
     Outcome outcome = Outcome::finished;
+    double sleeping_share = 0.0;     // of stretch and volume constraints that were left out
+    int wakings = 0;                 // how often the step was redone because some of them were needed
     double seconds = 0.0;            // wall time of the step
     std::vector<Residuals> history;  // one an iteration, where asked
 };

@@ -48,7 +48,7 @@ Part<Scalar, kind> part(const Batch<Scalar, kind>* batches, int i)
 
 // C over its value at rest, of constraint c of every group; zero where there is none.
 template <typename Scalar, GroupKind kind>
-Lanes<Scalar> relative_error(const Part<Scalar, kind>& part, const Vertices<Scalar>* p, int c)
+[[gnu::always_inline]] inline Lanes<Scalar> relative_error(const Part<Scalar, kind>& part, const Vertices<Scalar>* p, int c)
 {
     const Lanes<Scalar> rest = load(part.batch->rest[c] + part.first);
     const auto& join = GroupShape<kind>::joins[c];
@@ -119,6 +119,25 @@ double sum_squared_errors(GroupKind kind, const void* batches, int count, const 
 }
 
 template <typename Scalar>
+void largest_errors(GroupKind kind, const void* batches, int count, const Scalar* vertices, Scalar* errors)
+{
+    with_kind(kind, [&](auto of_kind) {
+        using Shape = GroupShape<of_kind()>;
+        for (int i = 0; i < count * Part<Scalar, of_kind()>::a_batch; ++i) {
+            const auto of = part(static_cast<const Batch<Scalar, of_kind()>*>(batches), i);
+            Vertices<Scalar> p[Shape::vertices];
+            of.gather_from(vertices, p);
+            Lanes<Scalar> largest = Scalar(0);
+            for (int c = 0; c < Shape::constraints; ++c) {
+                const Lanes<Scalar> error = abs(relative_error(of, p, c));
+                where(!(error <= largest), largest) = error;
+            }
+            largest.copy_to(errors + i * lanes<Scalar>, std::experimental::element_aligned);
+        }
+    });
+}
+
+template <typename Scalar>
 double sum_squared_bind_errors(const BindBatch<Scalar>* batches, int count, const Scalar* vertices)
 {
     double sum = 0.0;
@@ -156,6 +175,8 @@ template double sum_squared_errors(GroupKind, const void*, int, const float*);
 template double sum_squared_errors(GroupKind, const void*, int, const double*);
 template double sum_squared_bind_errors(const BindBatch<float>*, int, const float*);
 template double sum_squared_bind_errors(const BindBatch<double>*, int, const double*);
+template void largest_errors(GroupKind, const void*, int, const float*, float*);
+template void largest_errors(GroupKind, const void*, int, const double*, double*);
 template void project_bind_batches(const BindBatch<float>*, int, float*);
 template void project_bind_batches(const BindBatch<double>*, int, double*);
 

@@ -17,6 +17,9 @@ void project_bind_batches(const BindBatch<Scalar>* batches, int count, Scalar* v
 // Sum over the constraints of (l / l0 - 1)^2, (V / V0 - 1)^2, and of bind's C^2 [m^2].
 template <typename Scalar>
 double sum_squared_errors(GroupKind kind, const void* batches, int count, const Scalar* vertices);
+// The largest |l / l0 - 1| or |V / V0 - 1| of each group, batch_size a batch; zero for lanes without one.
+template <typename Scalar>
+void largest_errors(GroupKind kind, const void* batches, int count, const Scalar* vertices, Scalar* errors);
 template <typename Scalar>
 double sum_squared_bind_errors(const BindBatch<Scalar>* batches, int count, const Scalar* vertices);
 

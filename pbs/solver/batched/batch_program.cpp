@@ -1,5 +1,6 @@
 #include "pbs/solver/batched/batch_program.hpp"
 
+#include "pbs/solver/batched/batch_kernels.hpp"
 #include "pbs/solver/batched/batch_schedule.hpp"
 
 #include <algorithm>
@@ -85,6 +86,42 @@ void BatchProgram<Scalar>::append(const std::vector<ConstraintGroup>& groups, co
         }
         to += lines_a_batch;
     }
+}
+
+template <typename Scalar>
+std::vector<BatchRun> BatchProgram<Scalar>::runs_awake(int slab, const std::vector<char>& awake) const
+{
+    std::vector<BatchRun> result;
+    for (const BatchRun& run : runs_[slab])
+        with_kind(run.kind, [&](auto of_kind) {
+            const auto* all = static_cast<const Batch<Scalar, of_kind()>*>(batches(run));
+            for (int b = 0, next = -1; b < run.count; ++b) {
+                const bool is_awake = std::any_of(all[b].offset[0], all[b].offset[0] + sizeof(all[b].offset) / sizeof(std::uint32_t),
+                                                  [&](std::uint32_t offset) { return awake[offset / 4]; });
+                if (!is_awake) continue;
+                if (b != next) result.push_back({run.kind, 0, run.first_line + b * sizeof(all[b]) / sizeof(CacheLine)});
+                ++result.back().count;
+                next = b + 1;
+            }
+        });
+    return result;
+}
+
+template <typename Scalar>
+void BatchProgram<Scalar>::mark_unsatisfied(const Scalar* vertices, double tolerance, std::vector<char>& marked) const
+{
+    std::vector<Scalar> errors;
+    for (const std::vector<BatchRun>& slab : runs_)
+        for (const BatchRun& run : slab)
+            with_kind(run.kind, [&](auto of_kind) {
+                const auto* all = static_cast<const Batch<Scalar, of_kind()>*>(batches(run));
+                errors.resize(static_cast<std::size_t>(run.count) * batch_size);
+                largest_errors(run.kind, all, run.count, vertices, errors.data());
+                for (std::size_t lane = 0; lane < errors.size(); ++lane) {
+                    if (errors[lane] <= Scalar(tolerance)) continue;
+                    for (const auto& offsets : all[lane / batch_size].offset) marked[offsets[lane % batch_size] / 4] = true;
+                }
+            });
 }
 
 template <typename Scalar>

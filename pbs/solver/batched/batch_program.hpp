@@ -33,9 +33,22 @@ public:
 
     static constexpr int dummies_a_slab = batch_size * largest_group;
 
-    const std::vector<BatchRun>& runs(int slab) const { return runs_[slab]; }
+    const std::vector<BatchRun>& runs(int slab) const { return runs_[slab]; }  // all of a slab
     const void* batches(const BatchRun& run) const { return lines_.data() + run.first_line; }
     std::size_t bytes() const { return lines_.size() * sizeof(CacheLine); }
+    int slabs() const { return static_cast<int>(runs_.size()); }
+    int batches() const { return static_cast<int>(lanes_ / batch_size); }
+
+    // f(vertices in the new order, rest, stiffness) of every constraint in the order of projection: even slabs, then odd ones; of each
+    // batch the first constraint of every lane, then the second. Sixteen in a row share no vertex.
+    template <typename F>
+    void for_each_constraint(F&& f) const;
+
+    // What of a slab has a group with an awake vertex; awake: of each vertex in the new order, dummies included.
+    std::vector<BatchRun> runs_awake(int slab, const std::vector<char>& awake) const;
+    // Sets the flag of every vertex of a group that is off by more than the tolerance at these positions, or not a number.
+    void mark_unsatisfied(const Scalar* vertices, double tolerance, std::vector<char>& marked) const;
+
     double fill() const;  // share of lanes that have a group
 
 private:
@@ -50,5 +63,25 @@ private:
     std::vector<std::vector<BatchRun>> runs_;  // of each slab
     std::size_t groups_ = 0, lanes_ = 0;
 };
+
+template <typename Scalar>
+template <typename F>
+void BatchProgram<Scalar>::for_each_constraint(F&& f) const
+{
+    const auto of_run = [&]<GroupKind kind>(const Batch<Scalar, kind>* all, int count) {
+        for (int b = 0; b < count; ++b)
+            for (int c = 0; c < GroupShape<kind>::constraints; ++c)
+                for (int lane = 0; lane < batch_size; ++lane) {
+                    if (all[b].stiffness[c][lane] == Scalar(0)) continue;
+                    auto vertex = GroupShape<kind>::joins[c];
+                    for (int& v : vertex) v = static_cast<int>(all[b].offset[v][lane] / 4);
+                    f(vertex, all[b].rest[c][lane], all[b].stiffness[c][lane]);
+                }
+    };
+    for (const int parity : {0, 1})
+        for (int slab = parity; slab < slabs(); slab += 2)
+            for (const BatchRun& run : runs_[slab])
+                with_kind(run.kind, [&](auto kind) { of_run(static_cast<const Batch<Scalar, kind()>*>(batches(run)), run.count); });
+}
 
 }  // namespace pbs

@@ -6,41 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace pbs {
 namespace {
-
-template <typename Constraints>
-auto vertices_of_class(const Constraints& constraints)
-{
-    std::vector<decltype(constraints.front().vertex)> vertices;
-    vertices.reserve(constraints.size());
-    for (const auto& constraint : constraints) vertices.push_back(constraint.vertex);
-    return vertices;
-}
-
-template <typename Scalar>
-ConstraintValues<Scalar> stretch_values(const ConstraintSet<Scalar>& constraints)
-{
-    ConstraintValues<Scalar> values;
-    for (const StretchConstraint<Scalar>& edge : constraints.stretch) {
-        const Scalar w = constraints.inverse_mass[edge.vertex[0]] + constraints.inverse_mass[edge.vertex[1]];
-        values.rest.push_back(edge.rest_length);
-        values.stiffness.push_back(w > Scalar(0) ? edge.stiffness / w : Scalar(0));
-    }
-    return values;
-}
-
-template <typename Scalar>
-ConstraintValues<Scalar> volume_values(const ConstraintSet<Scalar>& constraints)
-{
-    ConstraintValues<Scalar> values;
-    for (const VolumeConstraint<Scalar>& tet : constraints.volume) {
-        values.rest.push_back(Scalar(6) * tet.rest_volume);
-        values.stiffness.push_back(tet.stiffness);
-    }
-    return values;
-}
 
 int blocks_of(int vertices)
 {
@@ -51,20 +20,22 @@ int blocks_of(int vertices)
 
 template <typename Scalar>
 BatchedProjection<Scalar>::BatchedProjection(const ConstraintSet<Scalar>& constraints, const Tets& tets, const PbsOptions& options)
-    : order_(order_vertices(tets, static_cast<int>(constraints.inverse_mass.size()))),
+    : batched_(make_batched_constraints(constraints, tets, options.order)),
       threads_(options.threads),
       edges_(constraints.stretch.size()),
       tets_(constraints.volume.size())
 {
-    const int vertices = static_cast<int>(constraints.inverse_mass.size()), dummies = batch_size * blocks_of(vertices);
-    const auto edges = vertices_of_class(constraints.stretch);
-    const auto volumes = vertices_of_class(constraints.volume);
-    const bool grouped = options.order == Order::grouped;
-    stretch_ = {grouped ? grouped_edges(edges, tets) : single_edges(edges), stretch_values(constraints), order_, dummies};
-    volume_ = {grouped ? grouped_tets(volumes) : single_tets(volumes), volume_values(constraints), order_, dummies};
-    vertices_.resize(blocks_of(dummies + order_.slabs() * BatchProgram<Scalar>::dummies_a_slab), Block{});
-    for (int i = 0; i < vertices; ++i) this->vertices()[4 * i + 3] = constraints.inverse_mass[order_.old_of_new[i]];
+    const int vertices = batched_.vertices();
+    vertices_.resize(blocks_of(batched_.dummy_begin + batched_.order.slabs() * BatchProgram<Scalar>::dummies_a_slab), Block{});
+    for (int i = 0; i < vertices; ++i) this->vertices()[4 * i + 3] = constraints.inverse_mass[batched_.order.old_of_new[i]];
     fill_bind(constraints);
+    for (int slab = 0; slab < batched_.order.slabs(); ++slab) {
+        stretch_runs_.push_back(batched_.stretch.runs(slab));
+        volume_runs_.push_back(batched_.volume.runs(slab));
+    }
+    if (!options.sleep) return;
+    neighbours_ = adjacency_of(Tets(tets.unaryExpr([&](int old) { return batched_.order.new_of_old[old]; })), vertices);
+    for (const StretchConstraint<Scalar>& edge : constraints.stretch) mean_edge_m_ += edge.rest_length / double(edges_);
 }
 
 template <typename Scalar>
@@ -73,7 +44,7 @@ void BatchedProjection<Scalar>::fill_bind(const ConstraintSet<Scalar>& constrain
     if (constraints.bind.empty()) return;
     bind_.resize(blocks_of(static_cast<int>(constraints.inverse_mass.size())), BindBatch<Scalar>{});
     for (const BindConstraint<Scalar>& bind : constraints.bind) {
-        const int i = order_.new_of_old[bind.vertex];
+        const int i = batched_.order.new_of_old[bind.vertex];
         BindBatch<Scalar>& batch = bind_[i / batch_size];
         batch.rest_distance[i % batch_size] = bind.rest_distance;
         batch.stiffness[i % batch_size] = constraints.inverse_mass[bind.vertex] > Scalar(0) ? bind.stiffness : Scalar(0);
@@ -83,8 +54,8 @@ void BatchedProjection<Scalar>::fill_bind(const ConstraintSet<Scalar>& constrain
 template <typename Scalar>
 void BatchedProjection<Scalar>::load(const Positions& p, const Positions& q, const Vec3& origin)
 {
-    for (std::size_t i = 0; i < order_.old_of_new.size(); ++i) {
-        const int old = order_.old_of_new[i];
+    for (std::size_t i = 0; i < batched_.order.old_of_new.size(); ++i) {
+        const int old = batched_.order.old_of_new[i];
         for (int axis = 0; axis < 3; ++axis) vertices()[4 * i + axis] = Scalar(p(old, axis) - origin(axis));
         if (bind_.empty()) continue;
         BindBatch<Scalar>& batch = bind_[i / batch_size];
@@ -97,8 +68,8 @@ void BatchedProjection<Scalar>::load(const Positions& p, const Positions& q, con
 template <typename Scalar>
 void BatchedProjection<Scalar>::store(const Vec3& origin, Positions& p) const
 {
-    for (std::size_t i = 0; i < order_.old_of_new.size(); ++i)
-        for (int axis = 0; axis < 3; ++axis) p(order_.old_of_new[i], axis) = double(vertices()[4 * i + axis]) + origin(axis);
+    for (std::size_t i = 0; i < batched_.order.old_of_new.size(); ++i)
+        for (int axis = 0; axis < 3; ++axis) p(batched_.order.old_of_new[i], axis) = double(vertices()[4 * i + axis]) + origin(axis);
 }
 
 template <typename Scalar>
@@ -115,22 +86,21 @@ void BatchedProjection<Scalar>::project_bind_constraints()
 template <typename Scalar>
 void BatchedProjection<Scalar>::project_stretch_constraints()
 {
-    project(stretch_);
+    project(batched_.stretch, stretch_runs_);
 }
 
 template <typename Scalar>
 void BatchedProjection<Scalar>::project_volume_constraints()
 {
-    project(volume_);
+    project(batched_.volume, volume_runs_);
 }
 
 template <typename Scalar>
-void BatchedProjection<Scalar>::project(const BatchProgram<Scalar>& program)
+void BatchedProjection<Scalar>::project(const BatchProgram<Scalar>& program, const std::vector<std::vector<BatchRun>>& runs)
 {
     for (const int parity : {0, 1})
-        parallel_for((order_.slabs() + 1 - parity) / 2, threads_, [&](int pair) {
-            for (const BatchRun& run : program.runs(2 * pair + parity))
-                project_batches(run.kind, program.batches(run), run.count, vertices());
+        parallel_for((batched_.order.slabs() + 1 - parity) / 2, threads_, [&](int pair) {
+            for (const BatchRun& run : runs[2 * pair + parity]) project_batches(run.kind, program.batches(run), run.count, vertices());
         });
 }
 
@@ -138,8 +108,8 @@ template <typename Scalar>
 Residuals BatchedProjection<Scalar>::residuals() const
 {
     const auto sum = [&](const BatchProgram<Scalar>& program) {
-        std::vector<double> of_slab(order_.slabs(), 0.0);
-        parallel_for(order_.slabs(), threads_, [&](int slab) {
+        std::vector<double> of_slab(batched_.order.slabs(), 0.0);
+        parallel_for(batched_.order.slabs(), threads_, [&](int slab) {
             for (const BatchRun& run : program.runs(slab))
                 of_slab[slab] += sum_squared_errors(run.kind, program.batches(run), run.count, vertices());
         });
@@ -147,14 +117,83 @@ Residuals BatchedProjection<Scalar>::residuals() const
     };
     const auto rms = [](double sum, std::size_t count) { return count == 0 ? 0.0 : std::sqrt(sum / double(count)); };
     const double bind = sum_squared_bind_errors(bind_.data(), static_cast<int>(bind_.size()), vertices());
-    return {rms(sum(stretch_), edges_), rms(sum(volume_), tets_), rms(bind, bind_.empty() ? 0 : order_.old_of_new.size())};
+    return {rms(sum(batched_.stretch), edges_), rms(sum(batched_.volume), tets_),
+            rms(bind, bind_.empty() ? 0 : batched_.order.old_of_new.size())};
+}
+
+template <typename Scalar>
+std::vector<char> BatchedProjection<Scalar>::unsatisfied(double tolerance) const
+{
+    std::vector<char> vertices(vertices_.size() * batch_size, false);
+    batched_.stretch.mark_unsatisfied(this->vertices(), tolerance, vertices);
+    batched_.volume.mark_unsatisfied(this->vertices(), tolerance, vertices);
+    for (std::size_t i = 0; !bind_.empty() && i < batched_.order.old_of_new.size(); ++i) {
+        const BindBatch<Scalar>& batch = bind_[i / batch_size];
+        const int lane = i % batch_size;
+        const Scalar* p = this->vertices() + 4 * i;
+        const double distance = std::hypot(p[0] - batch.x[lane], p[1] - batch.y[lane], p[2] - batch.z[lane]);
+        if (!(std::abs(distance - batch.rest_distance[lane]) <= tolerance * mean_edge_m_)) vertices[i] = true;
+    }
+    return vertices;
+}
+
+template <typename Scalar>
+void BatchedProjection<Scalar>::sleep(double tolerance)
+{
+    if (neighbours_.first.empty()) return;
+    awake_.assign(vertices_.size() * batch_size, false);
+    keep_awake(unsatisfied(tolerance));
+}
+
+template <typename Scalar>
+int BatchedProjection<Scalar>::wake(double tolerance)
+{
+    if (awake_.empty()) return 0;
+    std::vector<char> woken = unsatisfied(tolerance);
+    for (std::size_t i = 0; i < woken.size(); ++i) woken[i] = woken[i] && !awake_[i];
+    const auto count = std::count(woken.begin(), woken.end(), true);
+    if (count > 0) keep_awake(woken);
+    return static_cast<int>(count);
+}
+
+template <typename Scalar>
+void BatchedProjection<Scalar>::keep_awake(const std::vector<char>& vertices)
+{
+    constexpr int rings = 3;
+    std::vector<int> ring;
+    for (int i = 0; i < static_cast<int>(batched_.order.old_of_new.size()); ++i)
+        if (vertices[i] && !std::exchange(awake_[i], true)) ring.push_back(i);
+    for (int r = 0; r < rings; ++r) {
+        std::vector<int> next;
+        for (const int i : ring)
+            for (int k = neighbours_.first[i]; k < neighbours_.first[i + 1]; ++k)
+                if (!std::exchange(awake_[neighbours_.neighbour[k]], true)) next.push_back(neighbours_.neighbour[k]);
+        ring = std::move(next);
+    }
+    for (int slab = 0; slab < batched_.order.slabs(); ++slab) {
+        stretch_runs_[slab] = batched_.stretch.runs_awake(slab, awake_);
+        volume_runs_[slab] = batched_.volume.runs_awake(slab, awake_);
+    }
+}
+
+template <typename Scalar>
+double BatchedProjection<Scalar>::sleeping_share() const
+{
+    const auto count = [](const std::vector<std::vector<BatchRun>>& runs) {
+        int batches = 0;
+        for (const auto& slab : runs)
+            for (const BatchRun& run : slab) batches += run.count;
+        return batches;
+    };
+    const int all = batched_.stretch.batches() + batched_.volume.batches();
+    return all == 0 ? 0.0 : 1.0 - double(count(stretch_runs_) + count(volume_runs_)) / all;
 }
 
 template <typename Scalar>
 std::size_t BatchedProjection<Scalar>::bytes_an_iteration() const
 {
-    const std::size_t positions = 4 * sizeof(Scalar) * order_.old_of_new.size();
-    return stretch_.bytes() + volume_.bytes() + bind_.size() * sizeof(BindBatch<Scalar>) + 2 * 3 * positions;
+    const std::size_t positions = 4 * sizeof(Scalar) * batched_.order.old_of_new.size();
+    return batched_.stretch.bytes() + batched_.volume.bytes() + bind_.size() * sizeof(BindBatch<Scalar>) + 2 * 3 * positions;
 }
 
 template class BatchedProjection<float>;

@@ -4,7 +4,7 @@
 // other, so the two settle on slightly different limits.
 #pragma once
 
-#include "pbs/solver/batched/batch_program.hpp"
+#include "pbs/solver/batched/batched_constraints.hpp"
 #include "pbs/solver/projection.hpp"
 
 #include <vector>
@@ -23,9 +23,13 @@ public:
     void store(const Vec3& origin, Positions& p) const override;
     Residuals residuals() const override;
 
+    void sleep(double tolerance) override;
+    int wake(double tolerance) override;
+    double sleeping_share() const override;
+
     std::size_t bytes_an_iteration() const;  // constraint data once, positions read and written in each class
-    double stretch_fill() const { return stretch_.fill(); }
-    double volume_fill() const { return volume_.fill(); }
+    double stretch_fill() const { return batched_.stretch.fill(); }
+    double volume_fill() const { return batched_.volume.fill(); }
 
 private:
     struct alignas(64) Block {  // sixteen vertices of x, y, z, w
@@ -35,14 +39,20 @@ private:
     const Scalar* vertices() const { return vertices_.front().xyzw; }
 
     void fill_bind(const ConstraintSet<Scalar>& constraints);
-    void project(const BatchProgram<Scalar>& program);
+    void project(const BatchProgram<Scalar>& program, const std::vector<std::vector<BatchRun>>& runs);
+    std::vector<char> unsatisfied(double tolerance) const;  // vertices, dummies included
+    void keep_awake(const std::vector<char>& vertices);     // and all around them
 
-    VertexOrder order_;
+    BatchedConstraints<Scalar> batched_;
     int threads_;
-    std::size_t edges_, tets_;  // constraints of each class
-    BatchProgram<Scalar> stretch_, volume_;
+    std::size_t edges_, tets_;             // constraints of each class
     std::vector<BindBatch<Scalar>> bind_;  // of all vertices in the new order; empty: no bind constraints
     std::vector<Block> vertices_;          // then dummies
+
+    std::vector<std::vector<BatchRun>> stretch_runs_, volume_runs_;  // what is projected, of each slab
+    std::vector<char> awake_;                                        // vertices, dummies included; empty: all are
+    Adjacency neighbours_;                                           // in the new order; empty without sleep
+    double mean_edge_m_ = 0.0;
 };
 
 }  // namespace pbs

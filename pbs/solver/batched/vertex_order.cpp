@@ -7,24 +7,6 @@
 namespace pbs {
 namespace {
 
-struct Adjacency {
-    std::vector<int> first, neighbour;
-};
-
-Adjacency adjacency_of(const Tets& tets, int vertices)
-{
-    const Edges edges = edges_of(tets);
-    Adjacency adjacency{std::vector<int>(vertices + 1, 0), std::vector<int>(2 * edges.rows())};
-    for (const int vertex : edges.reshaped()) ++adjacency.first[vertex + 1];
-    for (int i = 0; i < vertices; ++i) adjacency.first[i + 1] += adjacency.first[i];
-    std::vector<int> next(adjacency.first.begin(), adjacency.first.end() - 1);
-    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
-        adjacency.neighbour[next[edges(e, 0)]++] = edges(e, 1);
-        adjacency.neighbour[next[edges(e, 1)]++] = edges(e, 0);
-    }
-    return adjacency;
-}
-
 // Vertices in breadth-first order from `start`, and where each level begins in it; -1 in `level` marks what is not visited yet.
 struct Levels {
     std::vector<int> order, begin;
@@ -57,6 +39,20 @@ Levels levels_of_component(int anywhere, const Adjacency& adjacency, std::vector
 }
 
 }  // namespace
+
+Adjacency adjacency_of(const Tets& tets, int vertices)
+{
+    const Edges edges = edges_of(tets);
+    Adjacency adjacency{std::vector<int>(vertices + 1, 0), std::vector<int>(2 * edges.rows())};
+    for (const int vertex : edges.reshaped()) ++adjacency.first[vertex + 1];
+    for (int i = 0; i < vertices; ++i) adjacency.first[i + 1] += adjacency.first[i];
+    std::vector<int> next(adjacency.first.begin(), adjacency.first.end() - 1);
+    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
+        adjacency.neighbour[next[edges(e, 0)]++] = edges(e, 1);
+        adjacency.neighbour[next[edges(e, 1)]++] = edges(e, 0);
+    }
+    return adjacency;
+}
 
 std::vector<int> VertexOrder::slab_of_new() const
 {

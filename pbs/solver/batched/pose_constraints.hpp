@@ -1,0 +1,38 @@
+// Constraints as many poses of a mesh are projected with side by side. Plain data, for builders and kernels alike.
+#pragma once
+
+#include <cstdint>
+
+namespace pbs {
+
+// Poses of one vertex side by side: x of sixteen poses [m], then y, then z.
+inline constexpr int poses_a_block = 16;
+
+// Which of a pose's stiffnesses a constraint has.
+enum class StiffnessOf : std::uint32_t { stretch, jiggling_stretch, volume };
+inline constexpr int stiffness_classes = 3;
+
+template <typename Scalar>
+struct PoseEdge {
+    std::uint32_t vertex[2];
+    StiffnessOf stiffness;
+    Scalar rest_length;  // [m]
+    Scalar w[2];         // inverse masses
+    Scalar one_over_w;   // 1 / (w1 + w2), zero where both are pinned
+};
+
+template <typename Scalar>
+struct PoseTet {
+    std::uint32_t vertex[4];
+    StiffnessOf stiffness;
+    Scalar six_rest_volume;  // [m^3]
+    Scalar w[4];
+};
+
+template <typename Scalar>
+struct PoseBind {
+    Scalar rest_distance;  // [m]
+    Scalar free;           // 1, or 0 where the vertex is pinned
+};
+
+}  // namespace pbs

@@ -1,0 +1,104 @@
+#include "pbs/solver/batched/poses_algorithm_1.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/solver/parallel.hpp"
+
+#include <algorithm>
+
+namespace pbs {
+namespace {
+
+// Every class that any of the poses has, with stiffness one.
+PbsOptions of_any(const std::vector<PbsOptions>& options)
+{
+    PbsOptions any = options.front();
+    any.k_stretch = any.k_volume = any.k_bind = 0.0;
+    if (any.jiggle) any.jiggle->k_stretch = 0.0;
+    for (const PbsOptions& pose : options) {
+        if (pose.k_stretch > 0.0) any.k_stretch = 1.0;
+        if (pose.k_volume > 0.0) any.k_volume = 1.0;
+        if (pose.k_bind > 0.0) any.k_bind = 1.0;
+        if (pose.jiggle && pose.jiggle->k_stretch > 0.0) any.jiggle->k_stretch = 1.0;
+    }
+    return any;
+}
+
+template <typename T>
+const T& of_pose(const std::vector<T>& all, std::size_t pose)
+{
+    return all.size() == 1 ? all.front() : all[pose];
+}
+
+void check_count(const char* field, std::size_t count, std::size_t poses)
+{
+    if (count != 1 && count != poses)
+        throw InputError("pbs", 0, field, std::to_string(count), "expected one a pose, " + std::to_string(poses) + ", or one for all");
+}
+
+}  // namespace
+
+template <typename Scalar>
+PosesAlgorithm1<Scalar>::PosesAlgorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
+                                         const std::vector<PbsOptions>& options, const std::vector<bool>& held)
+    : options_(options)
+{
+    for (const PbsOptions& pose : options) {
+        check_options(pose);
+        particles_.emplace_back(mesh.rest, jiggle_zone, pose);
+    }
+    const bool jiggle = options.front().jiggle.has_value();
+    program_ = make_pose_program(make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, of_any(options), held), mesh.tets,
+                                 jiggle ? jiggle_zone : std::vector<bool>{}, options.front().order);
+}
+
+template <typename Scalar>
+std::vector<StepSummary> PosesAlgorithm1<Scalar>::advance(const std::vector<Positions>& lbs_positions,
+                                                          const std::vector<Positions>& bind_points, double dt_s)
+{
+    check_count("lbs_positions", lbs_positions.size(), particles_.size());
+    check_count("bind_points", bind_points.size(), particles_.size());
+    const Stopwatch stopwatch;
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+        particles_[i].check_input(of_pose(lbs_positions, i), of_pose(bind_points, i), dt_s);
+        particles_[i].predict(of_pose(lbs_positions, i), dt_s);  // (2)-(9)
+    }
+    const int blocks = (static_cast<int>(particles_.size()) + poses_a_block - 1) / poses_a_block;
+    parallel_for(blocks, options_.front().threads, [&](int block) { project_block(block, bind_points); });  // (10)-(14)
+    std::vector<StepSummary> summaries(particles_.size());
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+        particles_[i].update(dt_s);  // (15)-(18)
+        summaries[i].iterations = options_[i].iterations;
+        if (!particles_[i].positions().allFinite()) summaries[i].outcome = Outcome::not_finite;
+    }
+    for (StepSummary& summary : summaries) summary.seconds = stopwatch.seconds() / double(summaries.size());
+    return summaries;
+}
+
+// A pose leaves its block after its own number of iterations; the others go on.
+template <typename Scalar>
+void PosesAlgorithm1<Scalar>::project_block(int block, const std::vector<Positions>& bind_points)
+{
+    const std::size_t first = static_cast<std::size_t>(block) * poses_a_block, last = std::min(first + poses_a_block, particles_.size());
+    PoseBlock<Scalar> poses(program_, {options_.begin() + first, options_.begin() + last});
+    std::vector<Vec3> origin;
+    int most = 0;
+    for (std::size_t i = first; i < last; ++i) {
+        origin.push_back(local_origin<Scalar>(particles_[i].predicted()));
+        poses.load(static_cast<int>(i - first), particles_[i].predicted(), of_pose(bind_points, i), origin.back());
+        most = std::max(most, options_[i].iterations);
+    }
+    // (10)
+    for (int iteration = 1; iteration <= most; ++iteration) {
+        poses.project_bind_constraints();     // (11)
+        poses.project_stretch_constraints();  // (12)
+        poses.project_volume_constraints();   // (13)
+        for (std::size_t i = first; i < last; ++i)
+            if (options_[i].iterations == iteration) poses.store(static_cast<int>(i - first), origin[i - first], particles_[i].predicted());
+    }  // (14)
+}
+
+template class PosesAlgorithm1<float>;
+template class PosesAlgorithm1<double>;
+
+}  // namespace pbs

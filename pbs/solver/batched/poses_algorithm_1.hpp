@@ -1,0 +1,28 @@
+// Algorithm 1 for many poses of one mesh, in one precision. PosesSolver is the door to it.
+#pragma once
+
+#include "pbs/solver/batched/pose_projection.hpp"
+#include "pbs/solver/particles.hpp"
+#include "pbs/solver/step_summary.hpp"
+
+namespace pbs {
+
+template <typename Scalar>
+class PosesAlgorithm1 {
+public:
+    // See PosesSolver, which has checked the options.
+    PosesAlgorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
+                    const std::vector<PbsOptions>& options, const std::vector<bool>& held);
+    std::vector<StepSummary> advance(const std::vector<Positions>& lbs_positions, const std::vector<Positions>& bind_points, double dt_s);
+
+    const Positions& positions(int pose) const { return particles_[pose].positions(); }
+
+private:
+    void project_block(int block, const std::vector<Positions>& bind_points);
+
+    std::vector<PbsOptions> options_;   // of each pose
+    std::vector<Particles> particles_;  // of each pose
+    PoseProgram<Scalar> program_;
+};
+
+}  // namespace pbs

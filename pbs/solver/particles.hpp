@@ -1,0 +1,40 @@
+// The particles of Algorithm 1, before and after their projection. Particles outside the jiggling zone start every step at their LBS
+// position and have no velocity; those inside are integrated. All in double.
+#pragma once
+
+#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/solver/options.hpp"
+
+#include <vector>
+
+namespace pbs {
+
+class Particles {
+public:
+    // jiggle_zone: #V, or empty: nothing is integrated.
+    Particles(const Positions& rest, const std::vector<bool>& jiggle_zone, const PbsOptions& options);
+
+    // InputError where the arrays are not of #V rows, or particles are to be integrated and dt [s] is not positive.
+    void check_input(const Positions& lbs_positions, const Positions& bind_points, double dt_s) const;
+
+    void predict(const Positions& lbs_positions, double dt_s);  // lines (2)-(3) in the first step, (6)-(9)
+    void update(double dt_s);                                   // lines (15)-(18)
+
+    Positions& predicted() { return p_; }  // p_i [m], #V x 3
+    const Positions& predicted() const { return p_; }
+    const Positions& positions() const { return x_; }  // x_i [m], #V x 3
+
+private:
+    Vec3 gravity_m_s2_;
+    std::vector<int> jiggling_;  // vertices that are integrated
+
+    Positions x_, p_;
+    Positions v_;  // v_i [m/s] of the jiggling vertices, #jiggling x 3; none before the first step
+};
+
+// What float projections are relative to: the mean position, so that a character far from the world's origin loses no digits.
+// In double the world's origin.
+template <typename Scalar>
+Vec3 local_origin(const Positions& p);
+
+}  // namespace pbs

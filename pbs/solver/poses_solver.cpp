@@ -1,0 +1,60 @@
+#include "pbs/solver/poses_solver.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/solver/batched/poses_algorithm_1.hpp"
+
+#include <variant>
+
+namespace pbs {
+
+using AnyPosesAlgorithm1 = std::variant<PosesAlgorithm1<float>, PosesAlgorithm1<double>>;
+
+class PosesSolver::Implementation {
+public:
+    AnyPosesAlgorithm1 algorithm;
+};
+
+namespace {
+
+void check_poses(const std::vector<PbsOptions>& options)
+{
+    const auto refuse = [](const char* field, const std::string& rule) { throw InputError("pbs", 0, field, "", rule); };
+    if (options.empty()) refuse("poses", "expected one or more");
+    for (const PbsOptions& pose : options) {
+        if (pose.order == Order::plain) refuse("order", "expected ordered or grouped for many poses at once");
+        if (pose.order != options[0].order || pose.precision != options[0].precision || pose.masses != options[0].masses)
+            refuse("poses", "expected one order, precision and kind of masses for all");
+        if (pose.jiggle.has_value() != options[0].jiggle.has_value()) refuse("jiggle", "expected in all poses or none");
+        if (pose.volume_form != VolumeForm::derived) refuse("volume_form", "expected derived for many poses at once");
+        if (pose.stop_residual > 0.0 || pose.record_iterations || pose.sleep)
+            refuse("poses", "expected no stop_residual, record_iterations or sleep for many at once");
+    }
+}
+
+}  // namespace
+
+PosesSolver::PosesSolver(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
+                         const std::vector<PbsOptions>& options, const std::vector<bool>& held)
+{
+    check_poses(options);
+    const auto build = [&]() -> AnyPosesAlgorithm1 {
+        if (options[0].precision == Precision::f32) return PosesAlgorithm1<float>(mesh, bind_distance, jiggle_zone, options, held);
+        return PosesAlgorithm1<double>(mesh, bind_distance, jiggle_zone, options, held);
+    };
+    implementation_ = std::make_unique<Implementation>(Implementation{build()});
+}
+
+PosesSolver::~PosesSolver() = default;
+
+std::vector<StepSummary> PosesSolver::advance(const std::vector<Positions>& lbs_positions, const std::vector<Positions>& bind_points,
+                                              double dt_s)
+{
+    return std::visit([&](auto& algorithm) { return algorithm.advance(lbs_positions, bind_points, dt_s); }, implementation_->algorithm);
+}
+
+const Positions& PosesSolver::positions(int pose) const
+{
+    return std::visit([&](const auto& algorithm) -> const Positions& { return algorithm.positions(pose); }, implementation_->algorithm);
+}
+
+}  // namespace pbs
