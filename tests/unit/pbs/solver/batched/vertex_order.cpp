@@ -1,0 +1,141 @@
+// Truth: what threads lean on. A group of constraints reaches no farther than one vertex and all its neighbours, so slabs of one parity
+// share nothing where no such star reaches beyond the slab of its first vertex and the next.
+#include "pbs/solver/batched/vertex_order.hpp"
+
+#include "pbs/geometry/topology.hpp"
+#include "tests/support/structured_bar.hpp"
+#include "tests/support/tet_rings.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace test_support;
+using pbs::order_vertices;
+using pbs::Tets;
+using pbs::VertexOrder;
+
+void expect_permutation(const VertexOrder& order, int vertices)
+{
+    ASSERT_EQ(order.old_of_new.size(), std::size_t(vertices));
+    ASSERT_EQ(order.new_of_old.size(), std::size_t(vertices));
+    std::vector<int> sorted = order.old_of_new;
+    std::sort(sorted.begin(), sorted.end());
+    for (int i = 0; i < vertices; ++i) {
+        ASSERT_EQ(sorted[i], i);
+        ASSERT_EQ(order.new_of_old[order.old_of_new[i]], i);
+    }
+}
+
+void expect_slab_sizes(const VertexOrder& order, int vertices, int vertices_a_slab)
+{
+    ASSERT_GE(order.slabs(), 1);
+    EXPECT_EQ(order.slab_begin.front(), 0);
+    EXPECT_EQ(order.slab_begin.back(), vertices);
+    for (int slab = 0; order.slabs() > 1 && slab < order.slabs(); ++slab) {
+        const int size = order.slab_begin[slab + 1] - order.slab_begin[slab];
+        EXPECT_GE(size, slab + 1 < order.slabs() ? vertices_a_slab : vertices_a_slab / 2) << "slab " << slab;
+    }
+}
+
+// First and last slab among each vertex and its neighbours: the farthest a group round it reaches.
+void expect_stars_in_two_slabs(const VertexOrder& order, const Tets& tets)
+{
+    const std::vector<int> slab_of = order.slab_of_new();
+    std::vector<int> first(slab_of.size()), last;
+    for (std::size_t i = 0; i < first.size(); ++i) first[i] = slab_of[order.new_of_old[i]];
+    last = first;
+    for (const auto& edge : rows_of(pbs::edges_of(tets)))
+        for (const auto& [i, j] : {std::pair(edge[0], edge[1]), std::pair(edge[1], edge[0])}) {
+            first[i] = std::min(first[i], slab_of[order.new_of_old[j]]);
+            last[i] = std::max(last[i], slab_of[order.new_of_old[j]]);
+        }
+    for (std::size_t i = 0; i < first.size(); ++i) ASSERT_LE(last[i] - first[i], 1) << "vertex " << i;
+}
+
+VertexOrder expect_sound(const Tets& tets, int vertices, int vertices_a_slab)
+{
+    const VertexOrder order = order_vertices(tets, vertices, vertices_a_slab);
+    expect_permutation(order, vertices);
+    expect_slab_sizes(order, vertices, vertices_a_slab);
+    expect_stars_in_two_slabs(order, tets);
+    return order;
+}
+
+const pbs::TetMesh bar = structured_bar({0, 0, 0}, {40, 3, 3}, {40, 3, 3});
+const int bar_vertices = static_cast<int>(bar.rest.rows());
+
+TEST(VertexOrder, BarInSlabsOfManySizes)
+{
+    for (const int vertices_a_slab : {1, 2, 16, 17, 100, 1024})
+        for (const Tets& tets : {bar.tets, shuffled(bar.tets, bar_vertices, 7)}) expect_sound(tets, bar_vertices, vertices_a_slab);
+}
+
+TEST(VertexOrder, SlabsAreAsManyAsTheSizeAsksFor)
+{
+    EXPECT_GE(order_vertices(bar.tets, bar_vertices, 1).slabs(), 20);  // 40 or more levels, two a slab
+    EXPECT_EQ(order_vertices(bar.tets, bar_vertices, bar_vertices).slabs(), 1);
+    const int slabs = order_vertices(bar.tets, bar_vertices, bar_vertices / 8).slabs();
+    EXPECT_GE(slabs, 4);
+    EXPECT_LE(slabs, 8);
+}
+
+TEST(VertexOrder, NeighboursAreNearInMemoryHoweverTheMeshIsNumbered)
+{
+    const Tets tets = shuffled(bar.tets, bar_vertices, 8);
+    const VertexOrder order = order_vertices(tets, bar_vertices);
+    int bandwidth = 0;
+    for (const auto& edge : rows_of(pbs::edges_of(tets)))
+        bandwidth = std::max(bandwidth, std::abs(order.new_of_old[edge[0]] - order.new_of_old[edge[1]]));
+    EXPECT_LE(bandwidth, 4 * 16);  // two levels, of hardly more than the 16 vertices of a section each
+}
+
+TEST(VertexOrder, AllVerticesRoundOneAreOneOrTwoSlabs)
+{
+    const Tets ring = tet_ring(300, true);
+    EXPECT_LE(expect_sound(ring, 302, 16).slabs(), 2);
+}
+
+TEST(VertexOrder, EmptyMesh)
+{
+    const VertexOrder order = order_vertices(Tets(0, 4), 0);
+    EXPECT_EQ(order.slabs(), 1);
+    EXPECT_TRUE(order.old_of_new.empty());
+    EXPECT_TRUE(order.slab_of_new().empty());
+}
+
+TEST(VertexOrder, OneTet)
+{
+    expect_sound(tet_ring(1, false), 4, 1);
+    EXPECT_EQ(expect_sound(tet_ring(1, false), 4, 1024).slabs(), 1);
+}
+
+TEST(VertexOrder, UnusedVertices)
+{
+    expect_sound(Tets(0, 4), 5, 1);
+    const Tets after = (bar.tets.array() + 7).matrix();
+    for (const int vertices_a_slab : {1, 3, 100}) {
+        expect_sound(bar.tets, bar_vertices + 7, vertices_a_slab);
+        expect_sound(after, bar_vertices + 14, vertices_a_slab);
+    }
+}
+
+TEST(VertexOrder, SeveralComponents)
+{
+    const Tets two = beside(bar.tets, bar_vertices, shuffled(bar.tets, bar_vertices, 9));
+    const Tets three = beside(two, 2 * bar_vertices, tet_ring(5, true));
+    for (const int vertices_a_slab : {1, 2, 5, 100}) {
+        expect_sound(three, 2 * bar_vertices + 7, vertices_a_slab);
+        expect_sound(shuffled(three, 2 * bar_vertices + 7, 10), 2 * bar_vertices + 7, vertices_a_slab);
+    }
+}
+
+// Tets of their own, a level of one and one of three each: the end of one and the start of another share slabs.
+TEST(VertexOrder, ManySmallComponents)
+{
+    Tets tets(0, 4);
+    for (int t = 0; t < 20; ++t) tets = beside(tets, 4 * t, tet_ring(1, false));
+    for (const int vertices_a_slab : {1, 4, 7}) expect_sound(tets, 80, vertices_a_slab);
+}
+
+}  // namespace
