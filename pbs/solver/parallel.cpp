@@ -7,26 +7,41 @@
 
 namespace pbs {
 
-void parallel_for(int count, int threads, const std::function<void(int)>& task)
-{
 #ifdef PBS_WITH_THREADS
-    if (threads > 1 && count > 1) {
-        tbb::task_arena arena(threads);
-        arena.execute([&] { tbb::parallel_for(0, count, task, tbb::static_partitioner()); });
-        return;
-    }
-#endif
-    static_cast<void>(threads);
-    for (int i = 0; i < count; ++i) task(i);
-}
+class Parallel::Arena {
+public:
+    explicit Arena(int threads) : arena_(threads) {}
 
-bool built_with_threads()
-{
-#ifdef PBS_WITH_THREADS
-    return true;
+    void for_each(int count, const std::function<void(int)>& task)
+    {
+        arena_.execute([&] { tbb::parallel_for(0, count, task, tbb::static_partitioner()); });
+    }
+
+private:
+    tbb::task_arena arena_;
+};
 #else
-    return false;
+class Parallel::Arena {
+public:
+    explicit Arena(int) {}
+
+    void for_each(int count, const std::function<void(int)>& task)
+    {
+        for (int i = 0; i < count; ++i) task(i);
+    }
+};
 #endif
+
+Parallel::Parallel(int threads) : arena_(threads > 1 ? std::make_unique<Arena>(threads) : nullptr) {}
+
+Parallel::~Parallel() = default;
+Parallel::Parallel(Parallel&&) noexcept = default;
+Parallel& Parallel::operator=(Parallel&&) noexcept = default;
+
+void Parallel::for_each(int count, const std::function<void(int)>& task) const
+{
+    if (arena_ && count > 1) return arena_->for_each(count, task);
+    for (int i = 0; i < count; ++i) task(i);
 }
 
 }  // namespace pbs

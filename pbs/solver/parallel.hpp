@@ -1,13 +1,26 @@
-// Independent tasks on several threads (oneTBB), or one after the other where threads = 1 or the build has none.
+// Independent tasks on several threads (oneTBB), or one after the other where there is one thread or the build has none.
+//   const Parallel parallel(threads);
+//   parallel.for_each(slabs, [&](int slab) { ... });
 #pragma once
 
 #include <functional>
+#include <memory>
 
 namespace pbs {
 
-// task(0) .. task(count - 1), in any order, on at most so many threads.
-void parallel_for(int count, int threads, const std::function<void(int)>& task);
+class Parallel {
+public:
+    explicit Parallel(int threads);  // at most so many, the caller's among them
+    ~Parallel();
+    Parallel(Parallel&&) noexcept;
+    Parallel& operator=(Parallel&&) noexcept;
 
-bool built_with_threads();
+    // task(0) .. task(count - 1), in any order; returns when all are done.
+    void for_each(int count, const std::function<void(int)>& task) const;
+
+private:
+    class Arena;  // threads that stay near from one call to the next
+    std::unique_ptr<Arena> arena_;
+};
 
 }  // namespace pbs

@@ -11,6 +11,9 @@
 namespace pbs {
 namespace {
 
+// Fewer slabs than these are done before a second thread has come to help.
+constexpr int slabs_worth_threads = 4;
+
 int blocks_of(int vertices)
 {
     return (vertices + batch_size - 1) / batch_size;
@@ -21,7 +24,7 @@ int blocks_of(int vertices)
 template <typename Scalar>
 BatchedProjection<Scalar>::BatchedProjection(const ConstraintSet<Scalar>& constraints, const Tets& tets, const PbsOptions& options)
     : batched_(make_batched_constraints(constraints, tets, options.order)),
-      threads_(options.threads),
+      parallel_(batched_.order.slabs() >= slabs_worth_threads ? options.threads : 1),
       edges_(constraints.stretch.size()),
       tets_(constraints.volume.size())
 {
@@ -77,7 +80,7 @@ void BatchedProjection<Scalar>::project_bind_constraints()
 {
     constexpr int blocks_a_task = 64;
     const int blocks = static_cast<int>(bind_.size()), tasks = (blocks + blocks_a_task - 1) / blocks_a_task;
-    parallel_for(tasks, threads_, [&](int task) {
+    parallel_.for_each(tasks, [&](int task) {
         const int first = task * blocks_a_task;
         project_bind_batches(bind_.data() + first, std::min(blocks_a_task, blocks - first), vertices_[first].xyzw);
     });
@@ -99,7 +102,7 @@ template <typename Scalar>
 void BatchedProjection<Scalar>::project(const BatchProgram<Scalar>& program, const std::vector<std::vector<BatchRun>>& runs)
 {
     for (const int parity : {0, 1})
-        parallel_for((batched_.order.slabs() + 1 - parity) / 2, threads_, [&](int pair) {
+        parallel_.for_each((batched_.order.slabs() + 1 - parity) / 2, [&](int pair) {
             for (const BatchRun& run : runs[2 * pair + parity]) project_batches(run.kind, program.batches(run), run.count, vertices());
         });
 }
@@ -109,7 +112,7 @@ Residuals BatchedProjection<Scalar>::residuals() const
 {
     const auto sum = [&](const BatchProgram<Scalar>& program) {
         std::vector<double> of_slab(batched_.order.slabs(), 0.0);
-        parallel_for(batched_.order.slabs(), threads_, [&](int slab) {
+        parallel_.for_each(batched_.order.slabs(), [&](int slab) {
             for (const BatchRun& run : program.runs(slab))
                 of_slab[slab] += sum_squared_errors(run.kind, program.batches(run), run.count, vertices());
         });

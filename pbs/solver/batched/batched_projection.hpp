@@ -5,6 +5,7 @@
 #pragma once
 
 #include "pbs/solver/batched/batched_constraints.hpp"
+#include "pbs/solver/parallel.hpp"
 #include "pbs/solver/projection.hpp"
 
 #include <vector>
@@ -44,7 +45,7 @@ private:
     void keep_awake(const std::vector<char>& vertices);     // and all around them
 
     BatchedConstraints<Scalar> batched_;
-    int threads_;
+    Parallel parallel_;
     std::size_t edges_, tets_;             // constraints of each class
     std::vector<BindBatch<Scalar>> bind_;  // of all vertices in the new order; empty: no bind constraints
     std::vector<Block> vertices_;          // then dummies

@@ -64,7 +64,7 @@ std::vector<StepSummary> PosesAlgorithm1<Scalar>::advance(const std::vector<Posi
         particles_[i].predict(of_pose(lbs_positions, i), dt_s);  // (2)-(9)
     }
     const int blocks = (static_cast<int>(particles_.size()) + poses_a_block - 1) / poses_a_block;
-    parallel_for(blocks, options_.front().threads, [&](int block) { project_block(block, bind_points); });  // (10)-(14)
+    Parallel(options_.front().threads).for_each(blocks, [&](int block) { project_block(block, bind_points); });  // (10)-(14)
     std::vector<StepSummary> summaries(particles_.size());
     for (std::size_t i = 0; i < particles_.size(); ++i) {
         particles_[i].update(dt_s);  // (15)-(18)
