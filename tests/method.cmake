@@ -11,7 +11,7 @@ endforeach()
 foreach(name IN ITEMS constraint_set residuals project_plain algorithm_1 pbs_solver)
     pbs_test(unit pbs/solver/${name} pbs_method)
 endforeach()
-foreach(name IN ITEMS vertex_order constraint_groups grouped_edges grouped_tets batch_schedule)
+foreach(name IN ITEMS vertex_order constraint_groups grouped_edges grouped_tets batch_schedule batch_kernels)
     pbs_test(unit pbs/solver/batched/${name} pbs_method)
 endforeach()
 
