@@ -45,12 +45,20 @@ const std::vector<std::string> further_columns = {
 const std::vector<std::string> error_bar_columns = {"reference_error_l2_pct", "reference_error_joint_pct", "reference_error_linf_m",
                                                     "error_below_reference_error"};
 
+const std::vector<std::string> sleep_columns = {"sleeping_share", "wakings"};
+
+bool anything_sleeps(const Scene& scene)
+{
+    return std::any_of(scene.deformers.begin(), scene.deformers.end(), [](const DeformerSpec& spec) { return spec.pbs.sleep; });
+}
+
 std::vector<std::string> columns_of(const Scene& scene)
 {
     std::vector<std::string> columns = metric_columns;
     if (!scene.reference.empty()) columns.insert(columns.end(), error_columns.begin(), error_columns.end());
     columns.insert(columns.end(), further_columns.begin(), further_columns.end());
     if (scene.error_bar != ErrorBar::none) columns.insert(columns.end(), error_bar_columns.begin(), error_bar_columns.end());
+    if (anything_sleeps(scene)) columns.insert(columns.end(), sleep_columns.begin(), sleep_columns.end());
     return columns;
 }
 
@@ -147,6 +155,10 @@ void RunFolder::add_frame(const DeformerSpec& spec, int frame, double time_s, co
         cells.push_back(further);
     if (scene_.error_bar != ErrorBar::none)
         for (const Cell& bar : error_bar_cells(measured, spec.name == scene_.reference)) cells.push_back(bar);
+    if (anything_sleeps(scene_)) {
+        cells.push_back(step.sleeping_share);
+        cells.push_back(step.wakings);
+    }
     metrics_.add_row(cells);
     for (std::size_t k = 0; k < step.history.size(); ++k)
         iterations_.add_row({spec.label, frame, static_cast<int>(k) + 1, step.history[k].stretch_rms, step.history[k].volume_rms,

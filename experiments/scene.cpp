@@ -103,6 +103,7 @@ DeformerSpec pbs_spec(const SceneValues& values)
     options.precision = option_of<pbs::Precision>(values.text("pbs.precision"));
     options.masses = option_of<pbs::Masses>(values.text("pbs.masses"));
     options.sleep = values.boolean("pbs.sleep");
+    if (options.sleep && options.order == pbs::Order::plain) values.refuse("pbs.sleep", "expected false with order plain, which projects all");
     options.sleep_tolerance = values.number("pbs.sleep_tolerance");
     options.stop_residual = values.number("pbs.stop_residual");
     options.record_iterations = values.boolean("pbs.record_iterations");

@@ -9,6 +9,8 @@ namespace pbs {
 template <typename Scalar>
 std::unique_ptr<Projection<Scalar>> make_projection(ConstraintSet<Scalar> constraints, const Tets& tets, const PbsOptions& options)
 {
+    if (options.sleep && options.order == Order::plain)
+        throw InputError("pbs", 0, "sleep", "true", "expected false with order plain, which projects all");
     if (options.order == Order::plain) return std::make_unique<PlainProjection<Scalar>>(std::move(constraints), options.volume_form);
     if (options.volume_form != VolumeForm::derived)
         throw InputError("pbs", 0, "order", "ordered or grouped", "expected plain with a printed volume_form");

@@ -144,8 +144,11 @@ template <typename Scalar>
 void BatchedProjection<Scalar>::sleep(double tolerance)
 {
     if (neighbours_.first.empty()) return;
-    awake_.assign(vertices_.size() * batch_size, false);
-    keep_awake(unsatisfied(tolerance));
+    std::vector<char> needed = unsatisfied(tolerance);
+    for (std::size_t i = 0; i < moved_.size(); ++i) needed[i] = needed[i] || moved_[i];
+    loaded_ = vertices_;
+    awake_.assign(needed.size(), false);
+    keep_awake(needed);
 }
 
 template <typename Scalar>
@@ -155,8 +158,16 @@ int BatchedProjection<Scalar>::wake(double tolerance)
     std::vector<char> woken = unsatisfied(tolerance);
     for (std::size_t i = 0; i < woken.size(); ++i) woken[i] = woken[i] && !awake_[i];
     const auto count = std::count(woken.begin(), woken.end(), true);
-    if (count > 0) keep_awake(woken);
-    return static_cast<int>(count);
+    if (count > 0) {
+        keep_awake(woken);
+        return static_cast<int>(count);
+    }
+    moved_.assign(awake_.size(), false);
+    for (std::size_t i = 0; i < batched_.order.old_of_new.size(); ++i) {
+        const Scalar *now = this->vertices() + 4 * i, *before = loaded_.front().xyzw + 4 * i;
+        moved_[i] = !(std::hypot(now[0] - before[0], now[1] - before[1], now[2] - before[2]) <= tolerance * mean_edge_m_);
+    }
+    return 0;
 }
 
 template <typename Scalar>

@@ -52,6 +52,8 @@ private:
 
     std::vector<std::vector<BatchRun>> stretch_runs_, volume_runs_;  // what is projected, of each slab
     std::vector<char> awake_;                                        // vertices, dummies included; empty: all are
+    std::vector<char> moved_;                                        // in the last step, by more than the tolerance; they start awake
+    std::vector<Block> loaded_;                                      // vertices_ before the step, with sleep
     Adjacency neighbours_;                                           // in the new order; empty without sleep
     double mean_edge_m_ = 0.0;
 };

@@ -42,6 +42,8 @@ const WrongScene wrong_lines[] = {
     {"text_for_number", "time_step_s = \"ten\"\n", "scene.toml:11: pbs.time_step_s = ten: expected a number > 0"},
     {"zero_time_step", "time_step_s = 0.0\n", "pbs.time_step_s = 0.0: expected a number > 0"},
     {"infinite_time_step", "time_step_s = inf\n", "scene.toml:11: pbs.time_step_s"},
+    {"sleep_in_plain_order", "sleep = true\norder = \"plain\"\n", "expected false with order plain"},
+    {"ordered_in_print", "order = \"ordered\"\n[pbs.variant]\nvolume_form = \"sign\"\n", "expected plain with a printed volume_form"},
     {"nan_residual", "stop_residual = nan\n", "scene.toml:11: pbs.stop_residual"},
     {"unknown_order", "order = \"sideways\"\n", "scene.toml:11: pbs.order = sideways: expected one of plain"},
     {"unknown_precision", "precision = \"f16\"\n", "expected one of f32, f64"},
