@@ -1,0 +1,64 @@
+#include "experiments/bench/mesh_timings.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/solver/pbs_solver.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace experiments {
+namespace {
+
+void step_once(const BenchBody& body)
+{
+    pbs::PbsSolver solver(body.mesh(), body.character.binding.distance, {}, {}, body.held);
+    solver.advance(body.twisted, body.bind_points, 0.01);
+}
+
+void time_fem_or_say_why(const BenchBody& body, const Rounds& rounds, MeshTimings& timings)
+{
+    try {
+        timings.fem = time_fem(body, {.seconds = rounds.seconds, .fewest = std::min(rounds.fewest, 3), .most = std::min(rounds.most, 11)});
+    } catch (const pbs::InputError& error) {
+        timings.fem_left_out = error.what();
+    }
+}
+
+double plain_f64_step_ms(const MeshTimings& timings)
+{
+    for (const ProjectionTiming& timing : timings.projections)
+        if (timing.variant == "plain" && timing.precision == "f64") return timing.ms_step.median;
+    return 0.0;
+}
+
+}  // namespace
+
+MeshTimings time_mesh(const BenchBody& body, const MachineLimits& limits, const MeshTimingOptions& options)
+{
+    MeshTimings timings;
+    timings.name = body.character.name;
+    timings.vertices = static_cast<int>(body.mesh().rest.rows());
+    timings.edges = body.edges;
+    timings.tets = static_cast<int>(body.mesh().tets.rows());
+    timings.memory = peak_memory_of([&] { step_once(body); });
+    timings.projections = time_projections(body, options.threads, limits, options.rounds);
+    timings.skinning = time_skinning(body, limits, options.rounds);
+    if (options.fem) time_fem_or_say_why(body, options.rounds, timings);
+    return timings;
+}
+
+nlohmann::json json_of(const MeshTimings& timings)
+{
+    nlohmann::json json = {
+        {"mesh", {{"name", timings.name}, {"vertices", timings.vertices}, {"edges", timings.edges}, {"tets", timings.tets}}},
+        {"results", nlohmann::json::array()},
+        {"yardsticks", nlohmann::json::array()},
+        {"skinning", timings.skinning},
+        {"fem", nlohmann::json::array()},
+        {"memory", {{"peak_bytes", timings.memory.peak_bytes}, {"growth_bytes", timings.memory.growth_bytes()}}}};
+    for (const ProjectionTiming& timing : timings.projections) json[timing.is_yardstick() ? "yardsticks" : "results"].push_back(timing);
+    if (timings.fem) json["fem"].push_back(fem_json(*timings.fem, plain_f64_step_ms(timings)));
+    if (!timings.fem_left_out.empty()) json["fem_left_out"] = timings.fem_left_out;
+    return json;
+}
+
+}  // namespace experiments

@@ -1,0 +1,18 @@
+// Resident memory of this process, as Linux counts it.
+//   const PeakMemory memory = peak_memory_of([&] { solver.advance(...); });
+#pragma once
+
+#include <functional>
+
+namespace experiments {
+
+struct PeakMemory {
+    double before_bytes = 0.0;
+    double peak_bytes = 0.0;  // the most while the work ran; zero where the system does not tell
+
+    double growth_bytes() const { return peak_bytes - before_bytes; }
+};
+
+PeakMemory peak_memory_of(const std::function<void()>& work);
+
+}  // namespace experiments

@@ -1,0 +1,67 @@
+// pbskin bench [--mesh TETS] [--threads N] [--json]: how long a step takes, beside `plain` in the same run and beside the machine's limits.
+#include "analysis/atomic_file.hpp"
+#include "experiments/bench/bench.hpp"
+#include "experiments/command_line/verbs.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+
+namespace experiments {
+namespace {
+
+struct BenchArguments {
+    BenchOptions options;
+    std::vector<std::string> sizes;
+    std::string folder;
+    bool json = false;
+};
+
+void make_folder(const std::string& folder)
+{
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
+}
+
+int bench(BenchArguments arguments)
+{
+    for (const std::string& size : arguments.sizes) arguments.options.sizes.push_back(parse_size(size));
+    std::sort(arguments.options.sizes.begin(), arguments.options.sizes.end());  // the peak of memory is then each one's own
+    if (!arguments.folder.empty()) make_folder(arguments.folder);
+    const BenchRecord record = run_bench(arguments.options);
+    const std::string json = bench_json(record).dump(2) + "\n";
+    if (!arguments.folder.empty()) analysis::write_text_atomically((std::filesystem::path(arguments.folder) / "bench.json").string(), json);
+    fmt::print("{}", arguments.json ? json : bench_table(record));
+    return exit_finished;
+}
+
+}  // namespace
+
+void add_bench_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+{
+    CLI::App* verb =
+        add_verb(app, common, "bench", "projection, step, LBS/DQS and FEM timings, each with its ratio to `plain` in the same run");
+    auto arguments = std::make_shared<BenchArguments>();
+    auto* mesh = verb->add_option("--mesh", arguments->options.mesh, "a tet mesh; by default bars of about 2,200 and 19,500 vertices");
+    verb->add_option("--sizes", arguments->sizes, "bars of so many tets, e.g. 1K,10K,100K,1M, and how the cost grows")
+        ->delimiter(',')
+        ->excludes(mesh);
+    verb->add_flag("--json", arguments->json, "the record, for programs");
+    verb->add_option("-o,--output", arguments->folder, "folder that bench.json is written to");
+    verb->add_option("--seconds", arguments->options.seconds, "of rounds on each mesh, about")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    verb->add_flag("--quick", arguments->options.quick, "a few milliseconds: to see that it runs, its figures are worth nothing");
+    verb->callback([&action, &common, verb, arguments] {
+        const bool asked = verb->count("--threads") > 0;
+        arguments->options.threads = asked ? common.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+        action = [arguments] { return bench(*arguments); };
+    });
+}
+
+}  // namespace experiments
