@@ -88,13 +88,18 @@ void PosesAlgorithm1<Scalar>::project_block(int block, const std::vector<Positio
         poses.load(static_cast<int>(i - first), particles_[i].predicted(), of_pose(bind_points, i), origin.back());
         most = std::max(most, options_[i].iterations);
     }
+    const auto store_those_done = [&](int iterations) {
+        for (std::size_t i = first; i < last; ++i)
+            if (options_[i].iterations == iterations)
+                poses.store(static_cast<int>(i - first), origin[i - first], particles_[i].predicted());
+    };
+    store_those_done(0);
     // (10)
     for (int iteration = 1; iteration <= most; ++iteration) {
         poses.project_bind_constraints();     // (11)
         poses.project_stretch_constraints();  // (12)
         poses.project_volume_constraints();   // (13)
-        for (std::size_t i = first; i < last; ++i)
-            if (options_[i].iterations == iteration) poses.store(static_cast<int>(i - first), origin[i - first], particles_[i].predicted());
+        store_those_done(iteration);
     }  // (14)
 }
 
