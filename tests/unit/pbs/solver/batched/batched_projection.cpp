@@ -1,0 +1,180 @@
+// Truth: what went in comes out, the residuals of the plain form, and that what a scene does not ask for is not there.
+#include "pbs/solver/batched/batched_projection.hpp"
+
+#include "pbs/solver/residuals.hpp"
+#include "tests/support/random_points.hpp"
+#include "tests/support/two_bone_limb.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace test_support;
+using pbs::BatchedProjection;
+using pbs::Order;
+using pbs::PbsOptions;
+using pbs::Positions;
+using pbs::Vec3;
+
+template <typename Scalar>
+class BatchedProjections : public testing::Test {
+};
+using Scalars = testing::Types<float, double>;
+TYPED_TEST_SUITE(BatchedProjections, Scalars);
+
+const TwoBoneLimb limb = two_bone_limb({12, 3, 3}, Vec3::UnitZ(), 60.0);  // 208 vertices
+const Order orders[] = {Order::ordered, Order::grouped};
+
+PbsOptions options_of(Order order)
+{
+    PbsOptions options;
+    options.order = order;
+    options.masses = pbs::Masses::lumped;
+    return options;
+}
+
+template <typename Scalar>
+BatchedProjection<Scalar> projection_of(const PbsOptions& options, const std::vector<bool>& held = {})
+{
+    return {pbs::make_constraint_set<Scalar>(limb.mesh, limb.binding.distance, {}, options, held), limb.mesh.tets, options};
+}
+
+template <typename Scalar>
+Positions stored(const BatchedProjection<Scalar>& projection, const Vec3& origin)
+{
+    Positions p(limb.lbs.rows(), 3);
+    projection.store(origin, p);
+    return p;
+}
+
+template <typename Scalar>
+void iterate(BatchedProjection<Scalar>& projection)
+{
+    projection.project_bind_constraints();
+    projection.project_stretch_constraints();
+    projection.project_volume_constraints();
+}
+
+// To the bit in double; in float, half a spacing of numbers of the size of the body, and the double's own at the distance.
+TYPED_TEST(BatchedProjections, WhatIsLoadedIsStored)
+{
+    const Eigen::RowVector3d far(1e4, -1e4, 1e4);
+    for (const Order order : orders)
+        for (const Eigen::RowVector3d& shift : {Eigen::RowVector3d(0, 0, 0), far}) {
+            const Positions p = limb.lbs.rowwise() + shift, q = limb.bind_points.rowwise() + shift;
+            const bool is_double = std::is_same_v<TypeParam, double>;
+            const Vec3 origin = is_double ? Vec3(Vec3::Zero()) : Vec3(p.colwise().mean());
+            auto projection = projection_of<TypeParam>(options_of(order));
+            projection.load(p, q, origin);
+            const double tolerance = is_double ? 0.0 : 0.5 * std::numeric_limits<float>::epsilon() * 1.5 + 1e-11;
+            EXPECT_LE((stored(projection, origin) - p).cwiseAbs().maxCoeff(), tolerance);
+        }
+}
+
+// Two evaluations of each error in the same precision, some twenty roundings of terms of order one, root mean square of all.
+TYPED_TEST(BatchedProjections, ResidualsAreThoseOfThePlainForm)
+{
+    RandomPoints random(41);
+    const double tolerance = 20.0 * std::numeric_limits<TypeParam>::epsilon();
+    for (const Order order : orders)
+        for (const double noise : {0.0, 0.05}) {
+            Positions p = limb.lbs;
+            for (Eigen::Index i = 0; i < p.rows(); ++i) p.row(i) += random.point(noise).transpose();
+            auto projection = projection_of<TypeParam>(options_of(order));
+            projection.load(p, limb.bind_points, Vec3::Zero());
+            std::vector<pbs::Vector3<TypeParam>> plain_p, plain_q;
+            for (Eigen::Index i = 0; i < p.rows(); ++i) {
+                plain_p.push_back(p.row(i).transpose().template cast<TypeParam>());
+                plain_q.push_back(limb.bind_points.row(i).transpose().template cast<TypeParam>());
+            }
+            const auto constraints = pbs::make_constraint_set<TypeParam>(limb.mesh, limb.binding.distance, {}, options_of(order));
+            const pbs::Residuals expected = residuals_of(constraints, plain_p, plain_q), found = projection.residuals();
+            EXPECT_GT(expected.volume_rms, 0.01);
+            EXPECT_NEAR(found.stretch_rms, expected.stretch_rms, tolerance * (1.0 + expected.stretch_rms));
+            EXPECT_NEAR(found.volume_rms, expected.volume_rms, tolerance * (1.0 + expected.volume_rms));
+            EXPECT_NEAR(found.bind_rms_m, expected.bind_rms_m, tolerance * (1.0 + expected.bind_rms_m));
+        }
+}
+
+TYPED_TEST(BatchedProjections, ClassesOfStiffnessZeroAreNotThere)
+{
+    for (const Order order : orders) {
+        PbsOptions options = options_of(order);
+        const std::size_t all = projection_of<TypeParam>(options).bytes_an_iteration();
+        options.k_stretch = options.k_bind = 0.0;
+        const std::size_t volume_alone = projection_of<TypeParam>(options).bytes_an_iteration();
+        options.k_volume = 0.0;
+        auto nothing = projection_of<TypeParam>(options);
+        EXPECT_LT(volume_alone, all);
+        EXPECT_EQ(nothing.bytes_an_iteration(), 2u * 3 * 4 * sizeof(TypeParam) * limb.lbs.rows());  // positions in and out of each class
+        nothing.load(limb.lbs, limb.bind_points, Vec3::Zero());
+        const Positions before = stored(nothing, Vec3::Zero());
+        iterate(nothing);
+        EXPECT_EQ(stored(nothing, Vec3::Zero()), before);
+        EXPECT_EQ(largest(nothing.residuals()), 0.0);
+    }
+}
+
+TYPED_TEST(BatchedProjections, EachClassMovesAlone)
+{
+    for (const Order order : orders)
+        for (const int which : {0, 1, 2}) {
+            PbsOptions options = options_of(order);
+            (which == 0 ? options.k_bind : which == 1 ? options.k_stretch : options.k_volume) = 0.0;
+            auto projection = projection_of<TypeParam>(options);
+            projection.load(1.1 * limb.lbs, limb.bind_points, Vec3::Zero());
+            const Positions before = stored(projection, Vec3::Zero());
+            which == 0   ? projection.project_bind_constraints()
+            : which == 1 ? projection.project_stretch_constraints()
+                         : projection.project_volume_constraints();
+            EXPECT_EQ(stored(projection, Vec3::Zero()), before) << which;
+            iterate(projection);
+            EXPECT_NE(stored(projection, Vec3::Zero()), before) << which;
+        }
+}
+
+TYPED_TEST(BatchedProjections, HeldVerticesKeepTheirBits)
+{
+    std::vector<bool> held(limb.lbs.rows());
+    for (std::size_t i = 0; i < held.size(); ++i) held[i] = i % 3 == 0;
+    for (const Order order : orders) {
+        PbsOptions options = options_of(order);
+        options.k_stretch = 1.0;
+        auto projection = projection_of<TypeParam>(options, held);
+        projection.load(limb.lbs, limb.bind_points, Vec3::Zero());
+        const Positions before = stored(projection, Vec3::Zero());
+        for (int i = 0; i < 24; ++i) iterate(projection);
+        const Positions after = stored(projection, Vec3::Zero());
+        for (Eigen::Index i = 0; i < after.rows(); ++i) EXPECT_EQ(after.row(i) == before.row(i), bool(held[i])) << i;
+    }
+}
+
+TYPED_TEST(BatchedProjections, LoadingAgainForgetsWhatWas)
+{
+    for (const Order order : orders) {
+        auto used = projection_of<TypeParam>(options_of(order)), fresh = projection_of<TypeParam>(options_of(order));
+        used.load(2.0 * limb.lbs, limb.lbs, Vec3::Ones());
+        iterate(used);
+        for (auto* projection : {&used, &fresh}) {
+            projection->load(limb.lbs, limb.bind_points, Vec3::Zero());
+            iterate(*projection);
+        }
+        EXPECT_EQ(stored(used, Vec3::Zero()), stored(fresh, Vec3::Zero()));
+    }
+}
+
+TYPED_TEST(BatchedProjections, NotANumberShowsInTheResiduals)
+{
+    for (const Order order : orders) {
+        auto projection = projection_of<TypeParam>(options_of(order));
+        Positions p = limb.lbs;
+        p(17, 1) = std::numeric_limits<double>::quiet_NaN();
+        projection.load(p, limb.bind_points, Vec3::Zero());
+        EXPECT_TRUE(std::isnan(largest(projection.residuals())));
+        iterate(projection);
+        EXPECT_TRUE(std::isnan(stored(projection, Vec3::Zero())(17, 1)));
+        EXPECT_TRUE(std::isnan(largest(projection.residuals())));
+    }
+}
+
+}  // namespace
