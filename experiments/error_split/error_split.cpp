@@ -29,13 +29,14 @@ const std::vector<std::string> attachment_columns = {"scene",      "frame",     
                                                      "attachment", "core_radius", "difference_pct", "k_stretch",
                                                      "model_pct",  "finished",    "self_intersects"};
 
-DeformerSpec in_double(DeformerSpec spec, double k_stretch, int iterations)
+pbs::PbsOptions in_double(const DeformerSpec& spec, double k_stretch, int iterations)
 {
-    spec.pbs.precision = pbs::Precision::f64;
-    spec.pbs.k_stretch = k_stretch;
-    spec.pbs.iterations = iterations;
-    spec.pbs.jiggle.reset();
-    return spec;
+    pbs::PbsOptions options = spec.pbs;
+    options.precision = pbs::Precision::f64;
+    options.k_stretch = k_stretch;
+    options.iterations = iterations;
+    options.jiggle.reset();
+    return options;
 }
 
 Scene refined(Scene scene)
@@ -89,8 +90,10 @@ struct Converged {
 
 Converged converge(const ErrorSplitCase& of, double k_stretch, const PosedCharacter& base, const PosedCharacter& fine)
 {
-    const DeformerSpec pbs = in_double(of.pbs, k_stretch, of.converged_iterations);
-    return {base.shapes(pbs), base.shapes(in_double(pbs, k_stretch, of.converged_iterations / 2)), fine.shapes(pbs)};
+    const pbs::PbsOptions whole = in_double(of.pbs, k_stretch, of.converged_iterations),
+                          half = in_double(of.pbs, k_stretch, of.converged_iterations / 2);
+    std::vector<Shapes> shapes = base.shapes({whole, half});
+    return {std::move(shapes[0]), std::move(shapes[1]), fine.shapes({whole}).front()};
 }
 
 class Splitting {
@@ -110,21 +113,23 @@ public:
             if (!references_.truth[pose].finished) split_.breakdown += fmt::format("{} in frame {}. ", of_.truth.label, of_.frames[pose]);
         for (const double k_stretch : of_.k_stretch) {
             const Converged converged = converge(of_, k_stretch, base_, fine_);
-            for (const int iterations : of_.iterations) add_parts(k_stretch, iterations, converged);
+            std::vector<pbs::PbsOptions> options;
+            for (const int iterations : of_.iterations) options.push_back(in_double(of_.pbs, k_stretch, iterations));
+            const std::vector<Shapes> stopped = base_.shapes(options);
+            for (std::size_t n = 0; n < stopped.size(); ++n) add_parts(options[n], stopped[n], converged);
             add_attachments(k_stretch, converged);
         }
         return split_;
     }
 
 private:
-    void add_parts(double k_stretch, int iterations, const Converged& converged)
+    void add_parts(const pbs::PbsOptions& options, const Shapes& shapes, const Converged& converged)
     {
-        const Shapes shapes = base_.shapes(in_double(of_.pbs, k_stretch, iterations));
         for (std::size_t pose = 0; pose < shapes.size(); ++pose) {
             const Shape& truth = references_.truth[pose];
             const analysis::ErrorNorms total = base_.distance(shapes[pose], truth);
-            split_.parts.add_row({of_.scene.name, of_.frames[pose], base_.angle_deg(pose), k_stretch, iterations, total.joint_pct,
-                                  base_.distance(shapes[pose], converged.shapes[pose]).joint_pct,
+            split_.parts.add_row({of_.scene.name, of_.frames[pose], base_.angle_deg(pose), options.k_stretch, options.iterations,
+                                  total.joint_pct, base_.distance(shapes[pose], converged.shapes[pose]).joint_pct,
                                   base_.distance(converged.shapes[pose], truth).joint_pct, discretisation_pct(base_, references_, pose),
                                   pose >= references_.truth_refined.size() ? "twin" : "truth",
                                   base_.distance(converged.shapes[pose], converged.half_way[pose]).joint_pct,

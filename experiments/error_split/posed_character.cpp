@@ -6,6 +6,8 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
+#include "pbs/skinning/blend.hpp"
+#include "pbs/solver/poses_solver.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -39,6 +41,29 @@ Shapes PosedCharacter::shapes(const DeformerSpec& spec, std::optional<std::size_
             {deformer->positions(), finished, finished && pbs::self_intersects(deformer->positions(), boundary_), step.seconds});
     }
     return shapes;
+}
+
+std::vector<Shapes> PosedCharacter::shapes(const std::vector<pbs::PbsOptions>& options) const
+{
+    stop_if_interrupted();
+    std::vector<pbs::PbsOptions> of_lane;
+    std::vector<pbs::Positions> lbs, bind_points;
+    for (const pbs::PbsOptions& own : options)
+        for (const pbs::Pose& pose : poses_) {
+            of_lane.push_back(own);
+            pbs::linear_blend_skinning(character_.mesh.rest, character_.weights, pose, lbs.emplace_back());
+            bind_points.push_back(pbs::posed_bind_points(character_.binding, pose));
+        }
+    pbs::PosesSolver solver(character_.mesh, character_.binding.distance, {}, of_lane);
+    const std::vector<pbs::StepSummary> steps = solver.advance(lbs, bind_points, time_step_s_);
+    std::vector<Shapes> all(options.size());
+    for (std::size_t lane = 0; lane < steps.size(); ++lane) {
+        const bool finished = steps[lane].outcome == pbs::Outcome::finished;
+        const pbs::Positions& positions = solver.positions(static_cast<int>(lane));
+        all[lane / poses_.size()].push_back(
+            {positions, finished, finished && pbs::self_intersects(positions, boundary_), steps[lane].seconds});
+    }
+    return all;
 }
 
 analysis::ErrorNorms PosedCharacter::distance(const Shape& one, const Shape& other) const

@@ -29,6 +29,9 @@ public:
     // A deformer goes from pose to pose in their order, without the frames between; through the first `poses` of them, or all.
     Shapes shapes(const DeformerSpec& spec, std::optional<std::size_t> poses = {}) const;
 
+    // PBS with each of these options, the paper's LBS first, all of them and all poses side by side (pbs::PosesSolver).
+    std::vector<Shapes> shapes(const std::vector<pbs::PbsOptions>& options) const;
+
     // Between two shapes, on this character's vertices, which a refined one's begin with; by the ruler of every record. Not a number where
     // one of them did not finish.
     analysis::ErrorNorms distance(const Shape& one, const Shape& other) const;
