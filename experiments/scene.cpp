@@ -103,7 +103,8 @@ DeformerSpec pbs_spec(const SceneValues& values)
     options.precision = option_of<pbs::Precision>(values.text("pbs.precision"));
     options.masses = option_of<pbs::Masses>(values.text("pbs.masses"));
     options.sleep = values.boolean("pbs.sleep");
-    if (options.sleep && options.order == pbs::Order::plain) values.refuse("pbs.sleep", "expected false with order plain, which projects all");
+    if (options.sleep && options.order == pbs::Order::plain)
+        values.refuse("pbs.sleep", "expected false with order plain, which projects all");
     options.sleep_tolerance = values.number("pbs.sleep_tolerance");
     options.stop_residual = values.number("pbs.stop_residual");
     options.record_iterations = values.boolean("pbs.record_iterations");
@@ -112,9 +113,35 @@ DeformerSpec pbs_spec(const SceneValues& values)
         spec.variant = "jiggle";
     }
     if (values.has_table("pbs.variant")) {
+        options.stiffness_form = option_of<pbs::StiffnessForm>(values.text("pbs.variant.stiffness"));
+        if (options.stiffness_form != pbs::StiffnessForm::per_iteration) spec.variant = name_of(options.stiffness_form);
         options.volume_form = option_of<pbs::VolumeForm>(values.text("pbs.variant.volume_form"));
         if (options.volume_form != pbs::VolumeForm::derived) take_as_printed(values, spec);
     }
+    return spec;
+}
+
+// The same iterations, or as many substeps, as pbs; what jiggles there jiggles here.
+DeformerSpec xpbd_spec(const SceneValues& values, const std::string& kind)
+{
+    DeformerSpec spec{kind, kind, kind, "default", {}, {}};
+    const int iterations = values.integer("pbs.iterations");
+    const bool small_steps = kind == "xpbd_small_steps";
+    spec.xpbd = {.young_pa = values.number("xpbd.young_pa"),
+                 .poisson = values.number("xpbd.poisson"),
+                 .density_kg_m3 = values.number("xpbd.density_kg_m3"),
+                 .iterations = small_steps ? 1 : iterations,
+                 .substeps = small_steps ? std::max(iterations, 1) : 1,
+                 .gravity_m_s2 = vec3(values.numbers("pbs.gravity_m_s2")),
+                 .jiggle = values.has_table("pbs.jiggle")};
+    if (spec.xpbd.jiggle) spec.variant = "jiggle";
+    return spec;
+}
+
+DeformerSpec delta_mush_spec(const SceneValues& values)
+{
+    DeformerSpec spec{"delta_mush", "delta_mush", "delta_mush", "default", {}, {}};
+    spec.delta_mush = {.iterations = values.integer("delta_mush.iterations"), .step = values.number("delta_mush.step")};
     return spec;
 }
 
@@ -193,10 +220,14 @@ std::vector<DeformerSpec> read_deformers(const SceneValues& values)
             used.push_back({name, name, name, "default", {}, {}});
         else if (name == "pbs")
             used.push_back(pbs_spec(values));
+        else if (name == "xpbd" || name == "xpbd_small_steps")
+            used.push_back(xpbd_spec(values, name));
+        else if (name == "delta_mush")
+            used.push_back(delta_mush_spec(values));
         else if (reference != references.end())
             used.push_back(*reference);
         else
-            values.refuse("deformers.use", "expected lbs, dqs, pbs or the name of a [[fem]] table, not " + name);
+            values.refuse("deformers.use", "expected a deformer of `pbskin list deformers` or the name of a [[fem]] table, not " + name);
     }
     if (used.empty()) values.refuse("deformers.use", "expected at least one deformer");
     return used;

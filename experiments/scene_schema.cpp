@@ -74,18 +74,20 @@ std::vector<SceneKey> pbs_keys()
                0, 1),
         key("pbs", "gravity_m_s2", vec3, "", "m/s^2",
             "external acceleration on the integrated (jiggling) particles; the paper leaves it unstated"),
-        one_of(key("pbs", "order", text, "\"ordered\"", "",
-                   "order of projection within a class: plain is file order, as the paper reads; ordered takes sixteen constraints that share "
-                   "no vertex side by side; grouped the same with neighbouring constraints in groups, the quickest; printed volume_forms "
-                   "know plain alone"),
-               {"plain", "ordered", "grouped"}),
+        one_of(
+            key("pbs", "order", text, "\"ordered\"", "",
+                "order of projection within a class: plain is file order, as the paper reads; ordered takes sixteen constraints that share "
+                "no vertex side by side; grouped the same with neighbouring constraints in groups, the quickest; printed volume_forms "
+                "know plain alone"),
+            {"plain", "ordered", "grouped"}),
         one_of(key("pbs", "precision", text, "\"f32\"", "", "floating point of the projections"), {"f32", "f64"}),
         one_of(key("pbs", "masses", text, "\"unit\"", "",
                    "unit: m_i = 1 (the paper); lumped: a quarter of the rest volume of each tet around"),
                {"unit", "lumped"}),
         within(key("pbs", "stop_residual", number, "0.0", "", "stop when every residual is below; 0: all iterations"), 0, infinite),
         key("pbs", "sleep", boolean, "false", "",
-            "let constraints that LBS satisfies, and all around them, sleep for the frame; at its end they are looked at again and the frame "
+            "let constraints that LBS satisfies, and all around them, sleep for the frame; at its end they are looked at again and the "
+            "frame "
             "is redone with those that are not satisfied any more; orders ordered and grouped"),
         within(key("pbs", "sleep_tolerance", number, "1e-3", "",
                    "what a sleeping constraint may be off: |l / l0 - 1|, |V / V0 - 1|, bind in shares of the mean edge"),
@@ -94,10 +96,27 @@ std::vector<SceneKey> pbs_keys()
         within(key("pbs.jiggle", "k_stretch", number, "0.1", "",
                    "stiffness of edges with both ends in the jiggling zone; jiggle is off unless this table is there"),
                0, 1),
+        one_of(key("pbs.variant", "stiffness", text, "\"per_iteration\"", "",
+                   "per_iteration: the factor k in every iteration, as printed; exponent: 1 - (1 - k)^(1 / iterations) instead (Mueller "
+                   "2006), "
+                   "so that a lone constraint is left with 1 - k of its error whatever their number"),
+               {"per_iteration", "exponent"}),
         one_of(key("pbs.variant", "volume_form", text, "\"derived\"", "",
                    "the volume correction: derived from Eq. 11, or with errors of print (labels_relative, labels_absolute: Eq. 12-14 under "
                    "the printed particles; sign: Eq. 17-20; as_printed: all)"),
                {"derived", "labels_relative", "labels_absolute", "sign", "as_printed"}),
+    };
+}
+
+std::vector<SceneKey> further_deformer_keys()
+{
+    return {
+        within(key("xpbd", "young_pa", number, "1.0e5", "Pa", "Young's modulus of xpbd and xpbd_small_steps"), above_zero, infinite),
+        within(key("xpbd", "poisson", number, "0.45", "", "Poisson's ratio; springs alone have 1/4, volume constraints raise it"), 0.25,
+               0.499999),
+        within(key("xpbd", "density_kg_m3", number, "1000.0", "kg/m^3", "density, lumped"), above_zero, infinite),
+        within(key("delta_mush", "iterations", integer, "20", "", "iterations of Laplacian smoothing"), 0, 1e6),
+        within(key("delta_mush", "step", number, "0.5", "", "share of the way to the neighbours' mean in each"), 0, 1),
     };
 }
 
@@ -153,7 +172,7 @@ std::vector<SceneKey> output_keys()
                 "solutions, the order of convergence observed); bounds by the grid convergence index, see run.json"),
             {"none", "orders", "refined", "both"}),
         key("deformers", "use", texts, "[\"lbs\", \"pbs\"]", "",
-            "what moves the character: lbs, dqs, pbs and the names of the [[fem]] tables"),
+            "what moves the character: names of `pbskin list deformers` and of the [[fem]] tables"),
         within(key("output", "frames_every", integer, "1", "", "write every n-th frame as VTU; 0: none"), 0, 1e9),
         within(key("output", "frames", integers, "[]", "", "further frames to write, by number"), 0, 1e9),
         key("output", "frame_names", texts, "[]", "", "what `frames` show, in the same order: titles of stills"),
@@ -165,7 +184,8 @@ std::vector<SceneKey> output_keys()
 std::vector<SceneKey> all_keys()
 {
     std::vector<SceneKey> keys = character_and_motion_keys();
-    for (const auto& more : {pbs_keys(), fem_keys(), output_keys()}) keys.insert(keys.end(), more.begin(), more.end());
+    for (const auto& more : {pbs_keys(), further_deformer_keys(), fem_keys(), output_keys()})
+        keys.insert(keys.end(), more.begin(), more.end());
     return keys;
 }
 

@@ -16,6 +16,7 @@ nlohmann::json to_json(const pbs::PbsOptions& options)
                            {"precision", name_of(options.precision)},
                            {"masses", name_of(options.masses)},
                            {"volume_form", name_of(options.volume_form)},
+                           {"stiffness", name_of(options.stiffness_form)},
                            {"stop_residual", options.stop_residual}};
     if (options.sleep) json["sleep_tolerance"] = options.sleep_tolerance;
     if (options.jiggle) json["jiggle"] = {{"k_stretch", options.jiggle->k_stretch}};
@@ -39,6 +40,17 @@ nlohmann::json to_json(const FemOptions& options)
             {"solver", name_of(options.solver)}};
 }
 
+nlohmann::json to_json(const XpbdOptions& options)
+{
+    return {{"young_pa", options.young_pa},
+            {"poisson", options.poisson},
+            {"density_kg_m3", options.density_kg_m3},
+            {"iterations", options.iterations},
+            {"substeps", options.substeps},
+            {"gravity_m_s2", {options.gravity_m_s2.x(), options.gravity_m_s2.y(), options.gravity_m_s2.z()}},
+            {"jiggle", options.jiggle}};
+}
+
 }  // namespace
 
 nlohmann::json to_json(const DeformerSpec& spec)
@@ -46,6 +58,8 @@ nlohmann::json to_json(const DeformerSpec& spec)
     nlohmann::json json = {{"name", spec.name}, {"label", spec.label}, {"kind", spec.kind}, {"variant", spec.variant}};
     if (spec.kind == "pbs") json["options"] = to_json(spec.pbs);
     if (spec.kind == "fem") json["options"] = to_json(spec.fem);
+    if (spec.kind.starts_with("xpbd")) json["options"] = to_json(spec.xpbd);
+    if (spec.kind == "delta_mush") json["options"] = {{"iterations", spec.delta_mush.iterations}, {"step", spec.delta_mush.step}};
     return json;
 }
 

@@ -29,6 +29,11 @@ struct OptionNames<pbs::Masses> {
         {{pbs::Masses::unit, "unit"}, {pbs::Masses::lumped, "lumped"}}};
 };
 template <>
+struct OptionNames<pbs::StiffnessForm> {
+    static constexpr std::array<std::pair<pbs::StiffnessForm, const char*>, 2> table{
+        {{pbs::StiffnessForm::per_iteration, "per_iteration"}, {pbs::StiffnessForm::exponent, "exponent"}}};
+};
+template <>
 struct OptionNames<pbs::VolumeForm> {
     static constexpr std::array<std::pair<pbs::VolumeForm, const char*>, 5> table{{{pbs::VolumeForm::derived, "derived"},
                                                                                    {pbs::VolumeForm::labels_relative, "labels_relative"},

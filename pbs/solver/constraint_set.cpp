@@ -4,6 +4,8 @@
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/geometry/topology.hpp"
 
+#include <cmath>
+
 namespace pbs {
 namespace {
 
@@ -13,6 +15,12 @@ void check_stiffness(const char* field, double k)
 }
 
 }  // namespace
+
+double share_removed(double k, const PbsOptions& options)
+{
+    if (options.stiffness_form == StiffnessForm::per_iteration || options.iterations == 0) return k;
+    return 1.0 - std::pow(1.0 - k, 1.0 / options.iterations);
+}
 
 void check_options(const PbsOptions& options)
 {
@@ -68,7 +76,7 @@ std::vector<StretchConstraint<Scalar>> stretch_constraints(const TetMesh& mesh, 
         const bool jiggles = options.jiggle && !jiggle_zone.empty() && jiggle_zone[first] && jiggle_zone[second];
         const double k = jiggles ? options.jiggle->k_stretch : options.k_stretch;
         const double rest_length = value<double>(StretchConstraint<double>{}, mesh.rest.row(first), mesh.rest.row(second));  // Eq. 10
-        if (k > 0.0) constraints.push_back({{first, second}, Scalar(rest_length), Scalar(k)});
+        if (k > 0.0) constraints.push_back({{first, second}, Scalar(rest_length), Scalar(share_removed(k, options))});
     }
     return constraints;
 }
@@ -118,8 +126,9 @@ ConstraintSet<Scalar> make_constraint_set(const TetMesh& mesh, const Eigen::Vect
     check_options(options);
     check_mesh(mesh, bind_distance, jiggle_zone, held);
     check_held(held, jiggle_zone, options);
-    return {bind_constraints<Scalar>(bind_distance, options.k_bind), stretch_constraints<Scalar>(mesh, jiggle_zone, options),
-            volume_constraints<Scalar>(mesh, options.k_volume), inverse_masses<Scalar>(mesh, options.masses, held)};
+    return {bind_constraints<Scalar>(bind_distance, share_removed(options.k_bind, options)),
+            stretch_constraints<Scalar>(mesh, jiggle_zone, options),
+            volume_constraints<Scalar>(mesh, share_removed(options.k_volume, options)), inverse_masses<Scalar>(mesh, options.masses, held)};
 }
 
 template ConstraintSet<float> make_constraint_set(const TetMesh&, const Eigen::VectorXd&, const std::vector<bool>&, const PbsOptions&,

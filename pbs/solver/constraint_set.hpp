@@ -25,6 +25,9 @@ struct ConstraintSet {
 // InputError for stiffnesses outside [0, 1] and counts that make no sense.
 void check_options(const PbsOptions& options);
 
+// The share of its error that a projection of a constraint of stiffness k removes, by options.stiffness_form.
+double share_removed(double k, const PbsOptions& options);
+
 // bind_distance [m], #V; jiggle_zone: #V, or empty: nothing jiggles; held: #V, or empty: nothing is held. Wrong sizes, stiffnesses outside
 // [0, 1], tets without a positive rest volume, and vertices held although they jiggle or Eq. 12-20 are taken as printed (which know no
 // mass) are InputErrors.

@@ -20,6 +20,10 @@ enum class Masses { unit, lumped };  // m_i = 1 (the paper), or the lumped rest 
 // as_printed: labels, absolute positions and sign.
 enum class VolumeForm { derived, labels_relative, labels_absolute, sign, as_printed };
 
+// What k does. per_iteration: each projection removes the share k (the paper). exponent: 1 - (1 - k)^(1 / iterations) (M. Mueller et al.,
+// Position based dynamics, VRIPHYS 2006), so that a lone constraint is left with 1 - k of its error whatever the number of iterations.
+enum class StiffnessForm { per_iteration, exponent };
+
 struct Jiggle {
     double k_stretch = 0.1;  // of edges with both ends in the jiggling zone
 };
@@ -33,6 +37,7 @@ struct PbsOptions {
     Precision precision = Precision::f32;
     Masses masses = Masses::unit;
     VolumeForm volume_form = VolumeForm::derived;
+    StiffnessForm stiffness_form = StiffnessForm::per_iteration;
     // Constraints that LBS satisfies within the tolerance, and all around them, are left out of the frame; at its end they are looked at
     // again and the frame is redone with those that are not satisfied any more. Tolerance: ratios; bind in shares of the mean edge.
     bool sleep = false;

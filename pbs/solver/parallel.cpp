@@ -32,7 +32,9 @@ public:
 };
 #endif
 
-Parallel::Parallel(int threads) : arena_(threads > 1 ? std::make_unique<Arena>(threads) : nullptr) {}
+Parallel::Parallel(int threads) : arena_(threads > 1 ? std::make_unique<Arena>(threads) : nullptr)
+{
+}
 
 Parallel::~Parallel() = default;
 Parallel::Parallel(Parallel&&) noexcept = default;

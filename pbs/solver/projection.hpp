@@ -34,8 +34,8 @@ public:
     virtual double sleeping_share() const { return 0.0; }  // of stretch and volume constraints
 };
 
-// The order that options.order names. InputError where it does not know what is asked for: Eq. 12-20 as printed are written in `plain` alone,
-// which lets nothing sleep.
+// The order that options.order names. InputError where it does not know what is asked for: Eq. 12-20 as printed are written in `plain`
+// alone, which lets nothing sleep.
 template <typename Scalar>
 std::unique_ptr<Projection<Scalar>> make_projection(ConstraintSet<Scalar> constraints, const Tets& tets, const PbsOptions& options);
 

@@ -49,10 +49,9 @@ PoseBlock<Scalar>::PoseBlock(const PoseProgram<Scalar>& program, const std::vect
       stiffness_{}
 {
     for (std::size_t lane = 0; lane < poses.size(); ++lane) {
-        stiffness_[0].pose[lane] = Scalar(poses[lane].k_stretch);
-        stiffness_[1].pose[lane] = Scalar(poses[lane].jiggle ? poses[lane].jiggle->k_stretch : poses[lane].k_stretch);
-        stiffness_[2].pose[lane] = Scalar(poses[lane].k_volume);
-        stiffness_[3].pose[lane] = Scalar(poses[lane].k_bind);
+        const PbsOptions& pose = poses[lane];
+        const double k[] = {pose.k_stretch, pose.jiggle ? pose.jiggle->k_stretch : pose.k_stretch, pose.k_volume, pose.k_bind};
+        for (int which = 0; which < stiffness_classes + 1; ++which) stiffness_[which].pose[lane] = Scalar(share_removed(k[which], pose));
     }
 }
 

@@ -13,6 +13,7 @@ namespace {
 PbsOptions of_any(const std::vector<PbsOptions>& options)
 {
     PbsOptions any = options.front();
+    any.stiffness_form = StiffnessForm::per_iteration;
     any.k_stretch = any.k_volume = any.k_bind = 0.0;
     if (any.jiggle) any.jiggle->k_stretch = 0.0;
     for (const PbsOptions& pose : options) {

@@ -1,0 +1,58 @@
+// Extended position based dynamics (M. Macklin, M. Mueller, N. Chentanez, MIG 2016) with the paper's constraints, as a solver with a
+// material: the multiplier of each constraint is kept through all iterations of a step, so that the stiffness does not depend on their
+// number.
+//   XpbdSolver solver(mesh, bind_distance, jiggle_zone, options);
+//   solver.advance(lbs_positions, bind_points, dt);
+//
+// Compliances from the material, by the Cauchy solid: springs on edges of stiffness 15 mu V_e / l^2, V_e a sixth of the rest volume of
+// the tets around, are an isotropic solid of Lame's constants mu, mu (Poisson's ratio 1/4), as far as edges point everywhere alike; a
+// volume constraint of bulk modulus K - 5/3 mu a tet adds what is missing. Bind constraints are rigid. Particles outside the jiggling zone
+// start every step at their LBS position, as in PBS, without velocity: their mass holds them to where a substep began. With many substeps
+// of one iteration (M. Macklin et al., Small steps in physics simulation, SCA 2019) multipliers begin at zero in each.
+#pragma once
+
+#include "experiments/deformers/xpbd/xpbd_options.hpp"
+#include "pbs/constraints/bind.hpp"
+#include "pbs/constraints/stretch.hpp"
+#include "pbs/constraints/volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/solver/step_summary.hpp"
+
+#include <vector>
+
+namespace experiments {
+
+class XpbdSolver {
+public:
+    // bind_distance: d_i [m], #V; empty: no bind constraints. jiggle_zone: #V, or empty. held: #V, or empty: infinite mass.
+    XpbdSolver(const pbs::TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
+               const XpbdOptions& options, const std::vector<bool>& held = {});
+
+    pbs::StepSummary advance(const pbs::Positions& lbs_positions, const pbs::Positions& bind_points, double dt_s);
+    const pbs::Positions& positions() const { return positions_; }  // [m], #V x 3
+
+private:
+    using Point = pbs::Vector3<double>;
+    template <typename Constraint>
+    struct Compliant {
+        Constraint constraint;
+        double compliance = 0.0;  // alpha: of a length [m/N], of a volume [m^5/N]
+        double multiplier = 0.0;  // lambda of this substep
+    };
+
+    void predict(double dt_s);
+    void project(const pbs::Positions& bind_points, double dt_s);
+    void update_velocities(double dt_s);
+
+    XpbdOptions options_;
+    std::vector<double> w_;  // inverse masses [1/kg], #V
+    std::vector<bool> integrated_;
+    std::vector<Compliant<pbs::BindConstraint<double>>> bind_;
+    std::vector<Compliant<pbs::StretchConstraint<double>>> stretch_;
+    std::vector<Compliant<pbs::VolumeConstraint<double>>> volume_;
+    std::vector<Point> x_, before_, v_;  // [m], [m], [m/s]
+    pbs::Positions positions_;
+    bool started_ = false;
+};
+
+}  // namespace experiments
