@@ -12,7 +12,7 @@ foreach(name IN ITEMS constraint_set residuals project_plain algorithm_1 pbs_sol
     pbs_test(unit pbs/solver/${name} pbs_method)
 endforeach()
 foreach(name IN ITEMS vertex_order constraint_groups grouped_edges grouped_tets batch_schedule batch_program batch_kernels
-        batched_projection)
+        batched_constraints batched_projection)
     pbs_test(unit pbs/solver/batched/${name} pbs_method)
 endforeach()
 
@@ -22,6 +22,10 @@ pbs_test(properties pbs/constraints/invariance pbs_method)
 pbs_test(properties pbs/skinning/invariance pbs_method)
 pbs_test(properties pbs/skinning/blend_skinning pbs_method)
 pbs_test(properties pbs/solver/invariance pbs_method)
+pbs_test(properties pbs/solver/threads analysis)
+if(PBS_WITH_CGAL)
+    pbs_test(properties pbs/solver/orders pbs_meshing)
+endif()
 pbs_test(verification pbs/solver/hanging_particle pbs_method)
 
 pbs_test(claims printed_equations pbs_method)

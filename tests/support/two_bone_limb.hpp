@@ -17,18 +17,32 @@ struct TwoBoneLimb {
     pbs::Positions bind_points;  // q_i [m], #V x 3
 };
 
-inline TwoBoneLimb two_bone_limb(const std::array<int, 3>& cells, const pbs::Vec3& axis, double angle_deg,
-                                 const pbs::Vec3& joint = pbs::Vec3::Zero())
+inline void pose_limb(TwoBoneLimb& limb, const pbs::Pose& pose)
 {
-    const pbs::Vec3 half(1.0, 0.15, 0.15), along(1.0, 0.0, 0.0);
+    limb.pose = pose;
+    pbs::linear_blend_skinning(limb.mesh.rest, limb.weights, limb.pose, limb.lbs);
+    limb.bind_points = pbs::posed_bind_points(limb.binding, limb.pose);
+}
+
+// Any mesh round the x axis from joint - 1 m to joint + 1 m, at rest.
+inline TwoBoneLimb two_bones_in(pbs::TetMesh mesh, const pbs::Vec3& joint = pbs::Vec3::Zero())
+{
+    const pbs::Vec3 along(1.0, 0.0, 0.0);
     TwoBoneLimb limb;
-    limb.mesh = structured_bar(joint - half, joint + half, cells);
+    limb.mesh = std::move(mesh);
     limb.skeleton.bones = {{"upper", -1, joint - along, joint}, {"forearm", 0, joint, joint + along}};
     limb.binding = pbs::bind_to_nearest_bone(limb.mesh.rest, limb.skeleton);
     limb.weights = pbs::paper_weights(limb.binding, limb.skeleton);
-    limb.pose = pbs::joint_sweep(limb.skeleton, 1, axis, angle_deg, 2, 0.01).steps.back();
-    pbs::linear_blend_skinning(limb.mesh.rest, limb.weights, limb.pose, limb.lbs);
-    limb.bind_points = pbs::posed_bind_points(limb.binding, limb.pose);
+    pose_limb(limb, pbs::Pose(2, Eigen::Isometry3d::Identity()));
+    return limb;
+}
+
+inline TwoBoneLimb two_bone_limb(const std::array<int, 3>& cells, const pbs::Vec3& axis, double angle_deg,
+                                 const pbs::Vec3& joint = pbs::Vec3::Zero())
+{
+    const pbs::Vec3 half(1.0, 0.15, 0.15);
+    TwoBoneLimb limb = two_bones_in(structured_bar(joint - half, joint + half, cells), joint);
+    pose_limb(limb, pbs::joint_sweep(limb.skeleton, 1, axis, angle_deg, 2, 0.01).steps.back());
     return limb;
 }
 

@@ -18,7 +18,8 @@ std::vector<std::vector<int>> BatchScheduler::schedule(const std::vector<Constra
     std::vector<std::vector<int>> batches;
     while (!left.empty()) {
         const int now = static_cast<int>(batches.size());
-        if (now % batches_a_ranking == 0) rank_by_use(groups, left);
+        const bool last_quarter = 4 * left.size() < groups.size();
+        if (last_quarter && now % batches_a_ranking == 0) rank_by_use(groups, left);
         std::vector<int>& batch = batches.emplace_back();
         for (int since = now - 2; since < now && batch.empty(); ++since)
             std::erase_if(left, [&](int g) {

@@ -1,0 +1,108 @@
+// Truth: the same run on one thread. Threads share a mesh by slabs, which belong to the mesh, so that no number of threads and no order
+// of the slabs of one parity changes a bit; nor does a second run.
+#include "pbs/solver/batched/batch_kernels.hpp"
+#include "pbs/solver/batched/batched_constraints.hpp"
+#include "pbs/solver/pbs_solver.hpp"
+
+#include "analysis/state_hash.hpp"
+#include "tests/support/two_bone_limb.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace test_support;
+using pbs::Order;
+using pbs::PbsOptions;
+using pbs::Precision;
+using pbs::Vec3;
+
+const TwoBoneLimb limb = two_bone_limb({110, 6, 6}, Vec3::UnitZ(), 60.0);  // 5,439 vertices
+const Order batched_orders[] = {Order::ordered, Order::grouped};
+
+// Of three steps, with a jiggling half.
+std::string hash_of_run(Order order, Precision precision, int threads)
+{
+    PbsOptions options;
+    options.order = order;
+    options.precision = precision;
+    options.threads = threads;
+    options.iterations = 10;
+    options.jiggle = pbs::Jiggle{0.1};
+    std::vector<bool> jiggles(limb.lbs.rows());
+    for (Eigen::Index i = 0; i < limb.lbs.rows(); ++i) jiggles[i] = limb.mesh.rest(i, 0) > 0.0;
+    pbs::PbsSolver solver(limb.mesh, limb.binding.distance, jiggles, options);
+    analysis::StateHash hash;
+    for (int step = 0; step < 3; ++step) {
+        solver.advance(step == 0 ? limb.mesh.rest : limb.lbs, limb.bind_points, 0.01);
+        hash.add(solver.positions());
+    }
+    return hash.hex();
+}
+
+TEST(Threads, TheMeshHasSlabsForFourThreads)
+{
+    EXPECT_GE(pbs::order_vertices(limb.mesh.tets, static_cast<int>(limb.lbs.rows())).slabs(), 4);
+}
+
+TEST(Threads, OneTwoAndFourGiveTheSameBits)
+{
+    for (const Order order : batched_orders)
+        for (const Precision precision : {Precision::f32, Precision::f64}) {
+            const std::string alone = hash_of_run(order, precision, 1);
+            for (const int threads : {2, 4}) EXPECT_EQ(hash_of_run(order, precision, threads), alone) << threads << " threads";
+        }
+}
+
+TEST(Threads, RunsRepeatToTheBit)
+{
+    for (const Order order : {Order::plain, Order::ordered, Order::grouped})
+        for (const int threads : {1, 2})
+            EXPECT_EQ(hash_of_run(order, Precision::f32, threads), hash_of_run(order, Precision::f32, threads));
+}
+
+TEST(Threads, OrdersAndPrecisionsDiffer)
+{
+    EXPECT_NE(hash_of_run(Order::plain, Precision::f32, 1), hash_of_run(Order::ordered, Precision::f32, 1));
+    EXPECT_NE(hash_of_run(Order::ordered, Precision::f32, 1), hash_of_run(Order::grouped, Precision::f32, 1));
+    EXPECT_NE(hash_of_run(Order::ordered, Precision::f32, 1), hash_of_run(Order::ordered, Precision::f64, 1));
+}
+
+struct alignas(64) Block {
+    double xyzw[4 * pbs::batch_size];
+};
+
+// All volume constraints once, slabs of each parity from the first or from the last.
+std::vector<double> projected(const pbs::BatchedConstraints<double>& batched, bool from_the_last)
+{
+    const int slabs = batched.order.slabs(), dummies = slabs * pbs::BatchProgram<double>::dummies_a_slab;
+    std::vector<Block> blocks((batched.dummy_begin + dummies) / pbs::batch_size, Block{});
+    double* vertices = blocks.front().xyzw;
+    for (int i = 0; i < batched.vertices(); ++i) {
+        for (int axis = 0; axis < 3; ++axis) vertices[4 * i + axis] = limb.lbs(batched.order.old_of_new[i], axis);
+        vertices[4 * i + 3] = 1.0;
+    }
+    std::vector<int> order;
+    for (const int parity : {0, 1}) {
+        const auto begin = order.insert(order.end(), 0, 0);
+        const std::ptrdiff_t first = begin - order.begin();
+        for (int slab = parity; slab < slabs; slab += 2) order.push_back(slab);
+        if (from_the_last) std::reverse(order.begin() + first, order.end());
+    }
+    for (const int slab : order)
+        for (const pbs::BatchRun& run : batched.volume.runs(slab))
+            pbs::project_batches(run.kind, batched.volume.batches(run), run.count, vertices);
+    return {vertices, vertices + 4 * blocks.size() * pbs::batch_size};
+}
+
+// What makes threads safe, without any: a vertex that two slabs of one parity touch would be moved by one before the other.
+TEST(Threads, SlabsOfOneParityMayComeInAnyOrder)
+{
+    for (const Order order : batched_orders) {
+        const auto constraints = pbs::make_constraint_set<double>(limb.mesh, limb.binding.distance, {}, {});
+        const auto batched = pbs::make_batched_constraints(constraints, limb.mesh.tets, order);
+        EXPECT_EQ(projected(batched, true), projected(batched, false));
+    }
+}
+
+}  // namespace
