@@ -19,7 +19,7 @@ class Run:
     def __init__(self, folder):
         self.folder = folder
         self.name = folder.name
-        self.record = _read_json(folder / "run.json")
+        self.record = read_json(folder / "run.json")
         self.rows = table(folder / "metrics.csv", {"scene", "deformer", "variant", "iterations", "frame", "time_s"})
 
     def select(self, deformer, iterations=None, variant="default"):
@@ -74,10 +74,10 @@ def provenance(results):
     files = sorted(results.glob("**/run.json"))
     if not files:
         raise RecordsMissing(f"{results}: no run.json in it or below")
-    return _read_json(files[0]).get("provenance", {})
+    return read_json(files[0]).get("provenance", {})
 
 
-def _read_json(file):
+def read_json(file):
     try:
         return json.loads(file.read_text())
     except OSError:

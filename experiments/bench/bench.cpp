@@ -20,15 +20,15 @@ using BodyMaker = std::function<BenchBody()>;
 
 std::vector<BodyMaker> bodies_of(const BenchOptions& options)
 {
-    std::vector<BodyMaker> bodies;
     if (!options.mesh.empty())
         return {[path = options.mesh] {
             return make_bench_body(std::filesystem::path(path).filename().string(), pbs::read_tet_mesh(path).mesh);
         }};
+    if (options.quick && options.sizes.empty()) return {[] { return bench_bar(quick_bar); }};
+    std::vector<BodyMaker> bodies;
+    if (options.sizes.empty() || options.bars)
+        for (const int vertices : usual_bars) bodies.push_back([vertices] { return bench_bar(vertices); });
     for (const int tets : options.sizes) bodies.push_back([tets] { return bench_bar_of_tets(tets); });
-    if (!bodies.empty()) return bodies;
-    if (options.quick) return {[] { return bench_bar(quick_bar); }};
-    for (const int vertices : usual_bars) bodies.push_back([vertices] { return bench_bar(vertices); });
     return bodies;
 }
 
@@ -38,7 +38,7 @@ MeshTimingOptions timing_options(const BenchOptions& options)
     if (options.threads > 1) timing.threads.push_back(options.threads);
     timing.rounds.seconds = options.seconds;
     if (options.quick) timing.rounds = {.seconds = 0.0, .fewest = 2, .most = 2};
-    timing.fem = options.sizes.empty();
+    timing.fem = options.sizes.empty() || options.bars;
     return timing;
 }
 

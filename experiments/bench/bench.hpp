@@ -15,7 +15,8 @@ namespace experiments {
 
 struct BenchOptions {
     std::string mesh;        // a tet mesh file; empty: built-in bars
-    std::vector<int> sizes;  // tets of the bars, ascending; empty: bars of about 2,200 and 19,500 vertices, and the reference on them
+    bool bars = false;       // the two usual bars, of about 2,200 and 19,500 vertices, also where sizes are asked for
+    std::vector<int> sizes;  // bars of so many tets, ascending, and how the cost grows; empty: the two usual bars
     int threads = 1;         // timed beside one thread
     bool quick = false;      // a few milliseconds, to see that it runs: no figure of it is worth anything
     double seconds = 4.0;    // of rounds on each body, about

@@ -31,11 +31,12 @@ Axis longest_axis(const pbs::Positions& rest)
     return axis;
 }
 
-// 5.65 tets a vertex far from the skin, fewer at the skin, whose share falls with the size.
+// The bar's meshes have 6.0 V - 21.5 V^(2/3) tets, within some 5 % from 600 to 100,000: fewer at the skin, whose share falls with the size.
 int vertices_for_tets(int tets)
 {
-    const double inner = double(tets) / 5.65;
-    return std::max(smallest_bar, static_cast<int>(inner + 0.9 * std::pow(inner, 2.0 / 3.0)));
+    double vertices = tets / 6.0;
+    for (int i = 0; i < 30; ++i) vertices = (tets + 21.5 * std::cbrt(vertices * vertices)) / 6.0;
+    return std::max(smallest_bar, static_cast<int>(vertices));
 }
 
 pbs::Skeleton two_bones(const Axis& axis)

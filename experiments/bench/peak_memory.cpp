@@ -25,8 +25,13 @@ PeakMemory peak_memory_of(const std::function<void()>& work)
     std::ofstream("/proc/self/clear_refs") << 5;  // the peak begins anew (proc(5))
     PeakMemory memory{status_bytes("VmRSS"), 0.0};
     work();
-    memory.peak_bytes = status_bytes("VmHWM");
+    memory.peak_bytes = peak_memory_bytes();
     return memory;
+}
+
+double peak_memory_bytes()
+{
+    return status_bytes("VmHWM");
 }
 
 }  // namespace experiments

@@ -15,4 +15,6 @@ struct PeakMemory {
 
 PeakMemory peak_memory_of(const std::function<void()>& work);
 
+double peak_memory_bytes();  // of the process so far
+
 }  // namespace experiments

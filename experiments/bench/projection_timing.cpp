@@ -92,6 +92,12 @@ ClassTiming class_timing(const ProjectionTiming& timing, ConstraintClass of, con
     return result;
 }
 
+// How many times the poses of one thread this projects: of two steps that take as long, the one of more poses is the quicker.
+double pose_factor(const ProjectionVariant& variant)
+{
+    return variant.poses > 1 ? variant.threads : 1;
+}
+
 // The variant's rounds, or null.
 const Samples* samples_of(const std::vector<ProjectionVariant>& variants, const std::vector<Samples>& all, const std::string& name,
                           const std::string& precision, int threads)
@@ -143,7 +149,7 @@ std::vector<ProjectionTiming> time_projections(const BenchBody& body, const std:
         timing.ratio_to_plain_native = against("plain_native");
         timing.ratio_to_plain_spread = against("plain_spread");
         if (const Samples* alone = samples_of(variants, all, variant.variant, variant.precision, 1); alone && variant.threads > 1)
-            timing.speedup_by_threads = spread_of_ratios((*alone)[step_wall_s], all[i][step_wall_s]);
+            timing.speedup_by_threads = spread_of_ratios((*alone)[step_wall_s], all[i][step_wall_s], pose_factor(variant));
         timings.push_back(std::move(timing));
     }
     return timings;

@@ -11,7 +11,7 @@ namespace experiments {
 
 struct Rounds {
     double seconds = 3.0;  // so long at most, once the fewest are done [s]
-    int fewest = 5, most = 61;
+    int fewest = 3, most = 61;
 };
 
 struct Spread {

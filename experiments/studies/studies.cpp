@@ -22,6 +22,11 @@ const std::vector<Study>& studies()
          "bones' thickness",
          "none: what C03 and C12 converge towards", "some 3 minutes (--quick: to 90 degrees), an hour (--full: with the refined reference)",
          plan_error_split_study, false, conclude_error_split_study},
+        {"bench",
+         "how long a step takes: every order, precision and number of threads beside plain loops in the same run and beside the machine's "
+         "limits; LBS, DQS and the reference; how the cost grows with the mesh",
+         "none: read ratios, not times", "some 2 minutes (--quick), 5 (--full: to a million tets); keep the machine quiet",
+         plan_bench_study, false, conclude_bench_study},
     };
     return all;
 }

@@ -1,55 +1,50 @@
-// Cost of one step at 24 iterations beside the blends, on the built-in limb: what the real-time claim asks for. Read ratios from one run;
-// absolute times are the machine's of that moment.
-//   build/release/tests/benchmark_step
-#include "pbs/character/bodies.hpp"
-#include "pbs/skinning/blend.hpp"
+// One step of 24 iterations in each order and precision, on bars of about 2,200 and 19,500 vertices twisted by 90 degrees. Read ratios from
+// one run; absolute times are the machine's of that moment. `pbskin bench` compares more, by turns.
+//   build/release/tests/benchmark_step --benchmark_filter=ordered
+#include "experiments/bench/bench_body.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
 #include <benchmark/benchmark.h>
 
+#include <map>
+
 namespace {
 
-using namespace pbs;
+using experiments::BenchBody;
 
-struct BentLimb {
-    Character character = make_character({.body = "limb"});
-    Pose pose = joint_sweep(character.skeleton, 1, Vec3::UnitZ(), 60.0, 2, 0.01).steps[1];
-    Positions bind_points = posed_bind_points(character.binding, pose);
-};
-
-const BentLimb& bent_limb()
+const BenchBody& bar(int vertices)
 {
-    static const BentLimb limb;
-    return limb;
+    static std::map<int, BenchBody> bars;
+    const auto found = bars.find(vertices);
+    return found != bars.end() ? found->second : bars.emplace(vertices, experiments::bench_bar(vertices)).first->second;
 }
 
-void lbs(benchmark::State& state)
+void step(benchmark::State& state, pbs::Order order, pbs::Precision precision)
 {
-    Positions posed;
-    for (auto _ : state) linear_blend_skinning(bent_limb().character.mesh.rest, bent_limb().character.weights, bent_limb().pose, posed);
-}
-
-void dqs(benchmark::State& state)
-{
-    Positions posed;
-    for (auto _ : state) dual_quaternion_skinning(bent_limb().character.mesh.rest, bent_limb().character.weights, bent_limb().pose, posed);
-}
-
-void step(benchmark::State& state, Precision precision)
-{
-    const BentLimb& limb = bent_limb();
-    PbsOptions options;
+    const BenchBody& body = bar(static_cast<int>(state.range(0)));
+    pbs::PbsOptions options;
+    options.order = order;
     options.precision = precision;
-    PbsSolver solver(limb.character.mesh, limb.character.binding.distance, {}, options);
-    Positions posed;
-    linear_blend_skinning(limb.character.mesh.rest, limb.character.weights, limb.pose, posed);
-    for (auto _ : state) solver.advance(posed, limb.bind_points, 0.01);
+    pbs::PbsSolver solver(body.mesh(), body.character.binding.distance, {}, options, body.held);
+    for (auto _ : state) solver.advance(body.twisted, body.bind_points, 0.01);
+    const double constraints = double(body.mesh().rest.rows() + body.edges + body.mesh().tets.rows());
+    using benchmark::Counter;  // seconds a constraint, which the console prints as e.g. 0.9n
+    state.counters["s_per_constraint"] = Counter(constraints * options.iterations, Counter::kIsIterationInvariantRate | Counter::kInvert);
 }
 
-BENCHMARK(lbs)->Unit(benchmark::kMillisecond);
-BENCHMARK(dqs)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(step, plain_f32, Precision::f32)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(step, plain_f64, Precision::f64)->Unit(benchmark::kMillisecond);
+void on_both_bars(benchmark::internal::Benchmark* of)
+{
+    of->Arg(2200)->Arg(19500)->ArgName("vertices")->Unit(benchmark::kMillisecond);
+}
+
+using pbs::Order;
+using pbs::Precision;
+BENCHMARK_CAPTURE(step, plain_f32, Order::plain, Precision::f32)->Apply(on_both_bars);
+BENCHMARK_CAPTURE(step, ordered_f32, Order::ordered, Precision::f32)->Apply(on_both_bars);
+BENCHMARK_CAPTURE(step, grouped_f32, Order::grouped, Precision::f32)->Apply(on_both_bars);
+BENCHMARK_CAPTURE(step, plain_f64, Order::plain, Precision::f64)->Apply(on_both_bars);
+BENCHMARK_CAPTURE(step, ordered_f64, Order::ordered, Precision::f64)->Apply(on_both_bars);
+BENCHMARK_CAPTURE(step, grouped_f64, Order::grouped, Precision::f64)->Apply(on_both_bars);
 
 }  // namespace
 

@@ -1,0 +1,27 @@
+"""The timings of `pbskin bench` (DIR/bench/bench.json), for the figures that show them."""
+import records
+import style
+
+# What each order looks like, and each class of constraints.
+orders = {"plain": (style.vermillion, (0, (4, 1.5))), "plain_native": (style.orange, (0, (4, 1.5))), "plain_spread": (style.black, (0, (1, 1))),
+          "ordered": (style.blue, "-"), "grouped": (style.green, "-"), "poses": (style.purple, "-")}
+names = {"plain": "plain", "plain_native": "plain, native build", "plain_spread": "plain, native, spread", "ordered": "ordered",
+         "grouped": "grouped", "poses": "16 poses, each"}
+classes = {"stretch": "o", "volume": "s", "bind": "^"}
+
+
+def read(results):
+    record = records.read_json(results / "bench" / "bench.json")
+    for key in ("context", "meshes"):
+        if key not in record:
+            raise records.RecordsMissing(f"{results / 'bench' / 'bench.json'}: no {key}")
+    return record
+
+
+def timings(mesh):
+    """Orders and yardsticks alike."""
+    return mesh["results"] + mesh.get("yardsticks", [])
+
+
+def constraints(mesh):
+    return mesh["mesh"]["vertices"] + mesh["mesh"]["edges"] + mesh["mesh"]["tets"]

@@ -1,0 +1,70 @@
+"""How near each kernel comes to what the machine allows, one thread: useful operations a second over operations a byte, under the peak of
+multiply-adds and the copy bandwidth of each level of memory. The two usual bars: hollow 2,200 vertices, filled 19,500."""
+import numpy
+
+import bench_records
+import records
+import style
+
+levels = (("L1", 32e3), ("L2", 512e3), ("L3", 8e6), ("memory", 256e6))  # working sets of today's caches
+peaks = {"f32": "fma_gflops_f32", "f64": "fma_gflops_f64"}
+
+
+def bandwidth_gb_s(copy, size):
+    """Linear in the logarithm of the working set, as the bench takes it."""
+    return numpy.interp(numpy.log(size), [numpy.log(point["bytes"]) for point in copy], [point["gb_s"] for point in copy])
+
+
+def draw_roof(axes, limits, precision):
+    peak = limits[peaks[precision]]
+    intensity = numpy.geomspace(0.1, 100, 200)
+    for name, size in levels:
+        bandwidth = bandwidth_gb_s(limits["copy"], size)
+        axes.plot(intensity, numpy.minimum(peak, bandwidth * intensity), color="#808080", linewidth=0.7)
+        axes.annotate(f"{name} {bandwidth:.0f} GB/s", (0.108, bandwidth * 0.122), fontsize=5.5, color="#606060", rotation=32,
+                      rotation_mode="anchor")
+    axes.annotate(f"multiply-add {peak:.0f} GFLOP/s", (95, peak * 1.12), fontsize=5.5, color="#606060", ha="right")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlim(0.1, 100)
+    axes.set_ylim(peak / 500, peak * 2.5)
+    axes.set_xlabel("operations a byte")
+    axes.set_ylabel("useful GFLOP/s")
+    axes.set_title(f"{precision}, one thread")
+
+
+def draw_points(axes, mesh, precision, filled):
+    rows = []
+    for timing in bench_records.timings(mesh):
+        if timing["precision"] != precision or "roofline" not in timing:
+            continue
+        color, _ = bench_records.orders[timing["variant"]]
+        for name, marker in bench_records.classes.items():
+            point = timing["roofline"][name]
+            axes.plot(point["flops_per_byte"], point["gflops"], marker, color=color, markerfacecolor=color if filled else "none",
+                      markersize=4, markeredgewidth=0.8)
+            rows.append({"vertices": mesh["mesh"]["vertices"], "order": timing["variant"], "precision": precision, "constraints": name, **point})
+    return rows
+
+
+def add_legend(figure, axes):
+    for order, (color, _) in bench_records.orders.items():
+        axes.plot([], [], "s", color=color, label=bench_records.names[order], markersize=4)
+    for name, marker in bench_records.classes.items():
+        axes.plot([], [], marker, color="#404040", markerfacecolor="none", label=name, markersize=4)
+    style.legend_above(figure, columns=5)
+
+
+def draw(results, figures):
+    record = bench_records.read(results)
+    meshes = record["meshes"][:2]
+    figure, axes = style.panels(1, 2, height_in=2.9)
+    behind = []
+    for panel, precision in zip(axes[0], peaks):
+        draw_roof(panel, record["context"]["limits_of_one_core"], precision)
+        for mesh, filled in zip(meshes, (False, True)):
+            behind += draw_points(panel, mesh, precision, filled)
+    if not behind:
+        raise records.RecordsMissing(f"{results / 'bench' / 'bench.json'}: no timing of one thread")
+    add_legend(figure, axes[0][0])
+    style.save(figure, figures / "roofline", records.provenance(results), behind)
