@@ -1,0 +1,76 @@
+#include "experiments/deformers/delta_mush/delta_mush.hpp"
+
+#include "pbs/geometry/tet_volume.hpp"
+#include "tests/support/two_bone_limb.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using experiments::DeltaMush;
+using pbs::Positions;
+using pbs::Vec3;
+
+const test_support::TwoBoneLimb bent = test_support::two_bone_limb({16, 4, 4}, Vec3::UnitZ(), 60.0);
+
+Positions mushed(const Positions& blended, const experiments::DeltaMushOptions& options = {})
+{
+    Positions posed;
+    DeltaMush(bent.mesh, options).apply(blended, posed);
+    return posed;
+}
+
+// Twenty means of some 14 neighbours each and a polar decomposition, of coordinates of 1 m: 1e-14 is a hundred roundings.
+constexpr double rounding = 1e-14;
+
+TEST(DeltaMush, RestComesBack)
+{
+    EXPECT_LT((mushed(bent.mesh.rest) - bent.mesh.rest).cwiseAbs().maxCoeff(), rounding);
+}
+
+TEST(DeltaMush, TurnsWithARigidMotion)
+{
+    const Eigen::AngleAxisd turn(2.0, Vec3(1, 2, 3).normalized());
+    const Vec3 moved(0.3, -0.2, 0.1);
+    const auto place = [&](Positions positions) {
+        for (auto row : positions.rowwise()) row = (turn * Vec3(row) + moved).transpose();
+        return positions;
+    };
+    EXPECT_LT((mushed(place(bent.mesh.rest)) - place(bent.mesh.rest)).cwiseAbs().maxCoeff(), 10 * rounding);
+    EXPECT_LT((mushed(place(bent.lbs)) - place(mushed(bent.lbs))).cwiseAbs().maxCoeff(), 10 * rounding);
+}
+
+TEST(DeltaMush, WithoutSmoothingItIsTheBlend)
+{
+    EXPECT_EQ(mushed(bent.lbs, {.iterations = 0}), bent.lbs);
+    EXPECT_EQ(mushed(bent.lbs, {.iterations = 5, .step = 0.0}), bent.lbs);
+}
+
+// The bulge and the crease of a blend are its sharpest details: smoothing takes them, and what is put back is the rest shape's.
+TEST(DeltaMush, LosesLessOfEachTetThanTheBlend)
+{
+    const auto lost = [&](const Positions& positions) {
+        return (pbs::tet_volumes(positions, bent.mesh.tets) - pbs::tet_volumes(bent.mesh.rest, bent.mesh.tets)).cwiseAbs().sum();
+    };
+    EXPECT_LT(lost(mushed(bent.lbs)), lost(bent.lbs));
+}
+
+TEST(DeltaMush, AVertexThatNoTetUsesFollowsTheBlend)
+{
+    pbs::TetMesh mesh = bent.mesh;
+    mesh.rest.conservativeResize(mesh.rest.rows() + 1, 3);
+    mesh.rest.bottomRows(1) << 5.0, 6.0, 7.0;
+    Positions posed, blended = mesh.rest;
+    blended.bottomRows(1) << 1.0, 2.0, 3.0;
+    DeltaMush(mesh, {}).apply(blended, posed);
+    EXPECT_EQ(posed.bottomRows(1), blended.bottomRows(1));
+}
+
+TEST(DeltaMush, NotANumberIsNoRotation)
+{
+    Positions blended = bent.lbs;
+    blended(3, 0) = std::nan("");
+    EXPECT_FALSE(mushed(blended).allFinite());
+}
+
+}  // namespace

@@ -1,0 +1,73 @@
+// Truth: statics. A particle hangs from three held ones by the three edges of a tet; each edge is a spring of stiffness 1 / alpha, so at
+// rest
+//   sum over edges of n n^T / alpha u = m g,
+// whatever the iterations and substeps that solve a step: a multiplier that were forgotten between iterations would make it stiffer with
+// each. Poisson's ratio 1/4 leaves the volume constraints out. Displacements are 1e-4 of an edge: what is left out is of second order.
+#include "experiments/deformers/xpbd/xpbd_solver.hpp"
+#include "pbs/geometry/tet_volume.hpp"
+#include "tests/support/hanging_tet.hpp"
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+namespace {
+
+using experiments::XpbdOptions;
+using pbs::Vec3;
+
+const test_support::HangingTet tet = test_support::hanging_tet();
+constexpr double dt_s = 0.01;
+
+XpbdOptions hanging(int iterations, int substeps)
+{
+    return {.young_pa = 1e7,
+            .poisson = 0.25,
+            .density_kg_m3 = 1000.0,
+            .iterations = iterations,
+            .substeps = substeps,
+            .gravity_m_s2 = Vec3(1.0, 2.0, -9.0),
+            .jiggle = true};
+}
+
+Vec3 static_displacement(const XpbdOptions& options)
+{
+    const double volume = pbs::tet_volumes(tet.mesh.rest, tet.mesh.tets)(0);
+    const double mu = options.young_pa / (2.0 * (1.0 + options.poisson));
+    Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
+    for (int other = 0; other < 3; ++other) {
+        const Vec3 edge = tet.mesh.rest.row(3) - tet.mesh.rest.row(other);
+        stiffness += 15.0 * mu * (volume / 6.0) / edge.squaredNorm() * edge.normalized() * edge.normalized().transpose();
+    }
+    return stiffness.inverse() * (options.density_kg_m3 * volume / 4.0 * options.gravity_m_s2);
+}
+
+class XpbdAtRest : public testing::TestWithParam<std::pair<int, int>> {};
+
+TEST_P(XpbdAtRest, HangsAsSpringsDo)
+{
+    const XpbdOptions options = hanging(GetParam().first, GetParam().second);
+    experiments::XpbdSolver solver(tet.mesh, {}, tet.free, options, tet.held);
+    for (int step = 0; step < 4000; ++step) solver.advance(tet.mesh.rest, tet.mesh.rest, dt_s);
+    const Vec3 expected = static_displacement(options);
+    ASSERT_GT(expected.norm(), 1e-6);
+    ASSERT_LT(expected.norm(), 1e-3);
+    EXPECT_LT((solver.positions().row(3) - tet.mesh.rest.row(3) - expected.transpose()).norm(), 1e-3 * expected.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(IterationsAndSubsteps, XpbdAtRest, testing::Values(std::pair{10, 1}, std::pair{100, 1}, std::pair{10, 10}));
+
+// One iteration a substep does not solve the substep; the error falls with its length.
+TEST(XpbdAtRestWithSmallSteps, ConvergesWithTheSubsteps)
+{
+    const auto error = [](int substeps) {
+        experiments::XpbdSolver solver(tet.mesh, {}, tet.free, hanging(1, substeps), tet.held);
+        for (int step = 0; step < 4000; ++step) solver.advance(tet.mesh.rest, tet.mesh.rest, dt_s);
+        const Vec3 expected = static_displacement(hanging(1, substeps));
+        return (solver.positions().row(3) - tet.mesh.rest.row(3) - expected.transpose()).norm() / expected.norm();
+    };
+    const double ten = error(10), hundred = error(100);
+    EXPECT_LT(ten, 0.1);
+    EXPECT_LT(hundred, ten / 10.0);
+}
+
+}  // namespace
