@@ -1,0 +1,95 @@
+"""`pbskin bench` as its users meet it: the fields of the contract, finite positive numbers, bad input refused. Quick runs: no time is judged.
+Truth: the contract in README."""
+import json
+import math
+import os
+import unittest
+
+import foreign_arm
+import program
+
+RESULT = {"variant", "precision", "threads", "ns_stretch", "ns_volume", "ns_bind", "ms_step", "ratio_to_plain"}
+
+
+def numbers(value, path=""):
+    """Every number in the record, with its place."""
+    if isinstance(value, dict):
+        for key, part in value.items():
+            yield from numbers(part, f"{path}/{key}")
+    elif isinstance(value, list):
+        for index, part in enumerate(value):
+            yield from numbers(part, f"{path}/{index}")
+    elif isinstance(value, (int, float)) and not isinstance(value, bool):
+        yield path, value
+
+
+class Bench(program.ProgramTest):
+    def refuses(self, message, *arguments):
+        process = program.run("bench", "--quick", *arguments)
+        self.assertEqual(process.returncode, 2, process.stderr)
+        self.assertIn(message, process.stderr)
+
+    def record(self, *arguments):
+        return json.loads(self.succeeds("bench", "--quick", "--json", *arguments).stdout)
+
+    def arm(self):
+        foreign_arm.write_msh(self.path("arm.msh"), *foreign_arm.mesh((10, 2, 2)))
+        return self.path("arm.msh")
+
+    def test_help(self):
+        self.assertIn("--mesh", self.succeeds("bench", "--help").stdout)
+
+    def test_the_fields_of_the_contract(self):
+        record = self.record("--mesh", self.arm(), "--threads", "2")
+        self.assertLessEqual({"context", "mesh", "results", "skinning", "fem", "meshes"}, record.keys())
+        self.assertEqual(record["mesh"]["vertices"], 11 * 3 * 3)
+        self.assertLessEqual({"edges", "tets"}, record["mesh"].keys())
+        for result in record["results"]:
+            self.assertLessEqual(RESULT, result.keys())
+        kinds = [(result["variant"], result["precision"], result["threads"]) for result in record["results"]]
+        self.assertEqual(len(kinds), len(set(kinds)))
+        for precision in ("f32", "f64"):
+            self.assertIn(("plain", precision, 1), kinds)
+            for variant in ("ordered", "grouped", "poses"):
+                self.assertLessEqual({(variant, precision, 1), (variant, precision, 2)}, set(kinds))
+        blends = {(result["blend"], result["variant"], result["precision"]) for result in record["skinning"]}
+        self.assertLessEqual({("lbs", "plain", "f64"), ("lbs", "packed", "f32"), ("dqs", "packed", "f64")}, blends)
+
+    def test_every_number_is_finite_and_every_time_positive(self):
+        for path, value in numbers(self.record("--mesh", self.arm())):
+            self.assertTrue(math.isfinite(value), path)
+            if any(name in path for name in ("/ns_", "/ms_step", "/ratio_to_", "gflops", "gb_s", "share_of_limit")):
+                self.assertGreater(value, 0, path)
+
+    def test_ratios_are_to_plain_of_the_same_precision(self):
+        for result in self.record("--mesh", self.arm())["results"]:
+            if result["variant"] == "plain":
+                self.assertEqual(result["ratio_to_plain"], 1)
+
+    def test_the_record_goes_into_a_folder(self):
+        process = self.succeeds("bench", "--quick", "--mesh", self.arm(), "-o", self.path("out"))
+        with open(self.path("out", "bench.json"), encoding="utf-8") as file:
+            self.assertIn("results", json.load(file))
+        for word in ("ordered", "grouped", "poses", "x plain", "lbs", "GFLOP/s"):
+            self.assertIn(word, process.stdout)
+
+    def test_sizes_tell_how_the_cost_grows(self):
+        if "needs CGAL" in program.run("bench", "--quick", "--sizes", "1K").stderr:
+            self.skipTest("a build without a mesher")
+        record = self.record("--sizes", "2K,1K")
+        self.assertLess(record["meshes"][0]["mesh"]["tets"], record["meshes"][1]["mesh"]["tets"])
+        self.assertIn(("ordered", "f32"), [(fit["variant"], fit["precision"]) for fit in record["scaling"]])
+
+    def test_bad_input_is_refused(self):
+        self.refuses("none.msh", "--mesh", self.path("none.msh"))
+        self.write("bad.msh", "no mesh at all\n")
+        self.refuses("bad.msh", "--mesh", self.path("bad.msh"))
+        self.refuses("", "--threads", "0")
+        self.refuses("", "--threads", "many")
+        self.refuses("--sizes = 5G: expected numbers of tets", "--sizes", "5G")
+        self.refuses("", "--mesh", self.arm(), "--sizes", "1K")
+        self.refuses("cannot be made", "--mesh", self.arm(), "-o", os.path.join(self.arm(), "below"))
+
+
+if __name__ == "__main__":
+    unittest.main()
