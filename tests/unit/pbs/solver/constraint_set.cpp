@@ -72,6 +72,23 @@ TEST(ConstraintSet, SoftensEdgesWithBothEndsInTheJiggleZone)
     for (const auto& edge : constraints_of(options, zone).stretch) EXPECT_EQ(edge.stiffness, 0.2);
 }
 
+// n projections of the share s leave (1 - s)^n: with Mueller's exponent that is 1 - k, whatever n.
+TEST(ConstraintSet, MuellersExponentLeavesTheSameWhateverTheIterations)
+{
+    PbsOptions options;
+    options.stiffness_form = pbs::StiffnessForm::exponent;
+    for (const int iterations : {1, 24, 1000})
+        for (const double k : {0.0, 0.2, 0.9, 1.0}) {
+            options.iterations = iterations;
+            EXPECT_NEAR(std::pow(1.0 - pbs::share_removed(k, options), iterations), 1.0 - k, 1e-12) << iterations << ' ' << k;
+        }
+    options.iterations = 24;
+    options.k_stretch = 0.2;
+    const auto softer = pbs::make_constraint_set<double>(bar, distance, {}, options);
+    EXPECT_DOUBLE_EQ(softer.stretch.front().stiffness, 1.0 - std::pow(0.8, 1.0 / 24.0));
+    EXPECT_EQ(softer.volume.front().stiffness, 1.0);
+}
+
 TEST(ConstraintSet, LumpedMassesAreRelativeToTheirMean)
 {
     PbsOptions options;
