@@ -26,6 +26,7 @@ pbs_test(properties pbs/solver/threads analysis)
 if(PBS_WITH_CGAL)
     pbs_test(properties pbs/solver/orders pbs_meshing)
 endif()
+pbs_test(robustness pbs/solver/starts pbs_method)
 pbs_test(verification pbs/solver/hanging_particle pbs_method)
 
 pbs_test(claims printed_equations pbs_method)
