@@ -23,6 +23,8 @@ CaseRecord empty_record(const CsvTable& metrics, int row, const std::string& run
     record.scene = metrics.text_at(row, "scene");
     record.deformer = metrics.text_at(row, "deformer");
     record.variant = metrics.text_at(row, "variant");
+    record.order = metrics.text_at(row, "order");
+    record.precision = metrics.text_at(row, "precision");
     if (!metrics.text_at(row, "iterations").empty()) record.iterations = static_cast<int>(metrics.integer(row, "iterations"));
     record.run = run;
     return record;

@@ -11,6 +11,7 @@ namespace analysis {
 // One deformer on one scene: a row of metrics.csv a frame.
 struct CaseRecord {
     std::string scene, deformer, variant;
+    std::string order = "", precision = "";        // of projection; empty: the deformer has none
     int iterations = 0;                            // 0: the deformer has none
     std::vector<double> frame, time_s, angle_deg;  // angle_deg is empty for clips
     int frames_not_converged = 0;                  // left out of the series

@@ -108,6 +108,7 @@ Claim read_claim(const toml::table& table, const std::string& file)
     reader.optional("metrics", claim.metrics);
     reader.optional("deformer", claim.deformer);
     reader.optional("beside", claim.beside);
+    reader.optional("orders", claim.orders);
     reader.optional("iterations", claim.iterations);
     reader.optional("expected_pct", claim.expected);
     reader.optional("low_pct", claim.low);

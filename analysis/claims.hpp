@@ -17,6 +17,7 @@ struct Claim {
     std::vector<std::string> metrics;  // the claim's own first
     std::string deformer;
     std::vector<std::string> beside;               // other deformers, shown under the same measure; no part of the verdict
+    std::string orders;                            // the deformer in other orders and precisions; judged likewise, no part of the verdict
     int iterations = 0;                            // 0: any
     double expected = 0.0, low = 0.0, high = 0.0;  // of the metric, in its unit
     double share = 0.95;                           // of the frames that must hold

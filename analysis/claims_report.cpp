@@ -1,6 +1,7 @@
 #include "analysis/claims_report.hpp"
 
 #include "analysis/case_row.hpp"
+#include "analysis/order_verdicts.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -49,9 +50,23 @@ json to_json_of(const CaseJudgement& judged)
             {"text", measured_text(judged)}};
 }
 
+json to_json_of(const OrderVerdict& verdict)
+{
+    json cases = json::array();
+    for (const CaseJudgement& judged : verdict.cases) cases.push_back(to_json_of(judged));
+    return {{"order", verdict.order},
+            {"precision", verdict.precision},
+            {"verdict", label(verdict.kind)},
+            {"own_verdict", label(verdict.own_kind)},
+            {"same", verdict.same()},
+            {"differing", verdict.differing},
+            {"cases", cases}};
+}
+
 json to_json_of(const Verdict& verdict)
 {
-    json cases = json::array(), beside = json::array();
+    json cases = json::array(), beside = json::array(), orders = json::array();
+    for (const OrderVerdict& other : verdict.orders) orders.push_back(to_json_of(other));
     for (const CaseJudgement& judged : verdict.cases) cases.push_back(to_json_of(judged));
     for (const CaseJudgement& judged : verdict.beside) beside.push_back(to_json_of(judged));
     return {{"id", verdict.claim.id},
@@ -66,7 +81,8 @@ json to_json_of(const Verdict& verdict)
             {"interval_of", verdict.interval_of},
             {"runs", verdict.runs},
             {"cases", cases},
-            {"beside", beside}};
+            {"beside", beside},
+            {"orders", orders}};
 }
 
 // A cell of a Markdown table: one line, no column of its own.
@@ -101,7 +117,7 @@ struct TitledRow {
     std::string run;
 };
 
-// The claim's cases, one metric after the other, then the other deformers.
+// The claim's cases, one metric after the other, then the other deformers, then the claim in other orders of projection.
 std::vector<TitledRow> rows_of(const Verdict& verdict)
 {
     std::vector<TitledRow> rows;
@@ -110,6 +126,10 @@ std::vector<TitledRow> rows_of(const Verdict& verdict)
         rows.push_back({judged.metric + ", beside", case_row(verdict.claim, judged), judged.run});
         rows.back().row.name += ", " + judged.deformer;
     }
+    for (const OrderVerdict& other : verdict.orders)
+        rows.push_back({other.cases.front().metric + ", in another order of projection",
+                        {name_of(other), measured_in(other), "", text_of(other)},
+                        ""});
     return rows;
 }
 

@@ -9,7 +9,8 @@
 
 namespace analysis {
 
-// {"schema": 1, "claims": [{id, statement, place, study, expected, verdict, text, measured, interval, interval_of, runs, cases, beside}]};
+// {"schema": 1, "claims": [{id, statement, place, study, expected, verdict, text, measured, interval, interval_of, runs, cases, beside,
+// orders}]};
 // figures that are not known are null.
 nlohmann::json claims_json(const std::vector<Verdict>& verdicts);
 

@@ -43,6 +43,14 @@ SplitTet split(const pbs::Positions& positions, const pbs::Tets& tets, int t, co
     return parts;
 }
 
+// Most tets lie on one side: nothing of them is copied.
+bool is_cut(const pbs::Positions& positions, const pbs::Tets& tets, int t, const Plane& plane)
+{
+    int above = 0;
+    for (int corner = 0; corner < 4; ++corner) above += (Vec3(positions.row(tets(t, corner))) - plane.point).dot(plane.normal) > 0.0;
+    return above % 4 != 0;
+}
+
 // Half the cross product of the diagonals, or of two sides.
 double half_cross(const Vec3& a, const Vec3& b)
 {
@@ -71,7 +79,8 @@ void require_station(const SectionStation& station, std::size_t number, Eigen::I
 double cross_section_area(const pbs::Positions& positions, const pbs::Tets& tets, const std::vector<int>& chosen, const Plane& plane)
 {
     CompensatedSum area;
-    for (int t : chosen) area += cut_area(split(positions, tets, t, plane));
+    for (int t : chosen)
+        if (is_cut(positions, tets, t, plane)) area += cut_area(split(positions, tets, t, plane));
     return area.value();
 }
 

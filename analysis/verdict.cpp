@@ -1,5 +1,6 @@
 #include "analysis/verdict.hpp"
 
+#include "analysis/order_verdicts.hpp"
 #include "analysis/statistics.hpp"
 
 #include <fmt/format.h>
@@ -62,17 +63,6 @@ std::string list_of(const Verdict& verdict, const std::string& metric, bool hold
     return fmt::format("{}", fmt::join(entries, ", "));
 }
 
-VerdictKind kind_of(const Verdict& verdict)
-{
-    const auto is_whole_or_other = [&](const CaseJudgement& judged) {
-        return judged.extent == Extent::whole || judged.metric != verdict.claim.metrics.front();
-    };
-    const auto holds_somewhere = [](const CaseJudgement& judged) { return judged.extent != Extent::none; };
-    if (std::all_of(verdict.cases.begin(), verdict.cases.end(), is_whole_or_other)) return VerdictKind::reproduced;
-    if (std::any_of(verdict.cases.begin(), verdict.cases.end(), holds_somewhere)) return VerdictKind::reproduced_only_for;
-    return VerdictKind::not_reproduced;
-}
-
 // By the claim's own metric first: what holds, what does not.
 std::string text_of_own_metric(const Verdict& verdict)
 {
@@ -92,6 +82,7 @@ std::string text_of(const Verdict& verdict, const Records& records)
         const std::string holding = list_of(verdict, metric, true);
         text += fmt::format("; by {}: {}", metric, holding.empty() ? "nowhere" : holding);
     }
+    if (!verdict.orders.empty()) text += "; in other orders of projection " + text_of(verdict.orders);
     if (!records.left_out.empty()) text += "; left out: " + left_out_text(records.left_out);
     return text;
 }
@@ -141,7 +132,8 @@ Verdict judge_cases(const Claim& claim, const Records& records)
         for (const CaseRecord& record : records.cases)
             if (record.deformer == deformer && !record.frame.empty())
                 verdict.beside.push_back(judge_case(claim, record, claim.metrics.front()));
-    verdict.kind = kind_of(verdict);
+    verdict.kind = kind_of(claim, verdict.cases);
+    verdict.orders = judge_orders(claim, records);
     verdict.text = text_of(verdict, records);
     choose_interval(verdict);
     list_measured_and_runs(verdict);
@@ -163,6 +155,17 @@ Verdict judge_print(const Claim& claim, const std::vector<PrintedFigure>& figure
 }
 
 }  // namespace
+
+VerdictKind kind_of(const Claim& claim, const std::vector<CaseJudgement>& cases)
+{
+    const auto is_whole_or_other = [&](const CaseJudgement& judged) {
+        return judged.extent == Extent::whole || judged.metric != claim.metrics.front();
+    };
+    const auto holds_somewhere = [](const CaseJudgement& judged) { return judged.extent != Extent::none; };
+    if (std::all_of(cases.begin(), cases.end(), is_whole_or_other)) return VerdictKind::reproduced;
+    if (std::any_of(cases.begin(), cases.end(), holds_somewhere)) return VerdictKind::reproduced_only_for;
+    return VerdictKind::not_reproduced;
+}
 
 Verdict judge(const Claim& claim, const Records& records)
 {

@@ -15,6 +15,16 @@ enum class VerdictKind {
     not_computable,  // records are missing: a failure of the run, not a result
 };
 
+// The claim judged on the records of one other order and precision of projection, beside its own deformer on the same scenes.
+struct OrderVerdict {
+    std::string order, precision;
+    VerdictKind kind = VerdictKind::not_computable, own_kind = VerdictKind::not_computable;
+    std::vector<CaseJudgement> cases = {}, own_cases = {};  // of the same scenes and metrics, in the same order
+    std::vector<std::string> differing = {};                // scene and metric of cases that hold to another extent
+
+    bool same() const { return kind == own_kind && differing.empty(); }
+};
+
 struct Verdict {
     Claim claim;
     VerdictKind kind = VerdictKind::not_computable;
@@ -24,12 +34,16 @@ struct Verdict {
     std::string interval_of;
     std::vector<CaseJudgement> cases;   // each matching record under each metric, the claim's own metric first
     std::vector<CaseJudgement> beside;  // the claim's other deformers, by its own metric
+    std::vector<OrderVerdict> orders;   // the claim in other orders and precisions; no part of the verdict
     std::vector<std::string> runs;      // folders behind the verdict
 };
 
 // By the claim's own metric: every case whole is reproduced; some case whole or in part, by any of the metrics, is reproduced only for
 // those; none is not reproduced.
 Verdict judge(const Claim& claim, const Records& records);
+
+// Of cases that have been judged, by the same rule.
+VerdictKind kind_of(const Claim& claim, const std::vector<CaseJudgement>& cases);
 
 std::string label(VerdictKind kind);  // "reproduced", "reproduced only for", ...
 

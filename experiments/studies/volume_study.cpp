@@ -4,6 +4,9 @@
 //   limb_bend    0 - 150 deg    o=======o           the forearm turns about z, also with Eq. 12-20 as printed
 //   human_01_01  the whole clip                     MakeHuman's body, repeated jumps; LBS and PBS also at half and twice its vertices
 //
+// Beside the scene's own order of projection, PBS in each other order and precision: on the limb and on the human (the clip at five frames
+// a second, with --full the whole of it), so that the report can say whether the verdict hangs on it.
+//
 // Each of the three with LBS, DQS, PBS at 1 to 96 iterations, on the clip PBS with the jiggling zone on, and linear FEM of order 1 and 2 on
 // the same tets; the limb also with stable neo-Hookean flesh, the human with that of order 1 at
 // five frames a second.
@@ -23,6 +26,27 @@ DeformerSpec with_iterations(DeformerSpec spec, int iterations)
     spec.pbs.iterations = iterations;
     spec.label += "_" + std::to_string(iterations);
     return spec;
+}
+
+DeformerSpec pbs_of(const Scene& scene)
+{
+    return *std::find_if(scene.deformers.begin(), scene.deformers.end(), [](const auto& spec) { return spec.kind == "pbs"; });
+}
+
+StudyRun with_orders(StudyRun run)
+{
+    const DeformerSpec own = pbs_of(run.scene);
+    for (const auto order : {pbs::Order::plain, pbs::Order::ordered, pbs::Order::grouped})
+        for (const auto precision : {pbs::Precision::f32, pbs::Precision::f64}) {
+            if (order == own.pbs.order && precision == own.pbs.precision) continue;
+            DeformerSpec spec = own;
+            spec.name = "pbs_orders";
+            spec.pbs.order = order;
+            spec.pbs.precision = precision;
+            spec.label += "_" + name_of(order) + "_" + name_of(precision);
+            run.scene.deformers.push_back(spec);
+        }
+    return run;
 }
 
 DeformerSpec jiggling(DeformerSpec spec)
@@ -48,7 +72,7 @@ StudyRun volume_run(const std::string& scene, const std::vector<std::string>& ov
 {
     StudyRun run{scene, read_scene(scene, overrides), cost_s};
     std::vector<DeformerSpec>& deformers = run.scene.deformers;
-    const DeformerSpec pbs = *std::find_if(deformers.begin(), deformers.end(), [](const auto& spec) { return spec.kind == "pbs"; });
+    const DeformerSpec pbs = pbs_of(run.scene);
     for (const int iterations : iteration_ladder) deformers.push_back(with_iterations(pbs, iterations));
     if (!run.scene.motion.clip.empty()) deformers.push_back(jiggling(pbs));  // a sweep has no speed of its own
     return run;
@@ -56,11 +80,10 @@ StudyRun volume_run(const std::string& scene, const std::vector<std::string>& ov
 
 StudyRun with_printed_forms(StudyRun run)
 {
-    std::vector<DeformerSpec>& deformers = run.scene.deformers;
-    const DeformerSpec pbs = *std::find_if(deformers.begin(), deformers.end(), [](const auto& spec) { return spec.kind == "pbs"; });
+    const DeformerSpec pbs = pbs_of(run.scene);
     for (const auto form :
          {pbs::VolumeForm::labels_relative, pbs::VolumeForm::labels_absolute, pbs::VolumeForm::sign, pbs::VolumeForm::as_printed})
-        deformers.push_back(in_print(pbs, form));
+        run.scene.deformers.push_back(in_print(pbs, form));
     return run;
 }
 
@@ -94,11 +117,12 @@ StudyPlan plan_volume_study(bool full)
 {
     const std::vector<std::string> quarter = {"motion.rate_hz=25.0", "output.frames=[0,41,168,177]"};  // four steps a frame
     StudyPlan plan;
-    plan.runs.push_back(volume_run("limb_twist", {}, 80.0));
-    plan.runs.push_back(with_printed_forms(volume_run("limb_bend", {}, 40.0)));
+    plan.runs.push_back(with_orders(volume_run("limb_twist", {}, 80.0)));
+    plan.runs.push_back(with_orders(with_printed_forms(volume_run("limb_bend", {}, 40.0))));
     try {
-        plan.runs.push_back(volume_run("human_01_01", full ? std::vector<std::string>{} : quarter, full ? 720.0 : 180.0));
-        plan.runs.push_back(human_beside_truth(150.0));
+        StudyRun human = volume_run("human_01_01", full ? std::vector<std::string>{} : quarter, full ? 720.0 : 180.0);
+        plan.runs.push_back(full ? with_orders(human) : human);
+        plan.runs.push_back(with_orders(human_beside_truth(150.0)));
         plan.runs.push_back(human_at(1200, 10.0));
         plan.runs.push_back(human_at(4800, 30.0));
     } catch (const pbs::InputError& error) {

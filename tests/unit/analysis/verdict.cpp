@@ -2,6 +2,7 @@
 #include "analysis/verdict.hpp"
 
 #include "analysis/atomic_file.hpp"
+#include "analysis/order_verdicts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -273,6 +274,57 @@ TEST(Verdict, UntestableClaimsSayWhy)
     claim.reason = "no published figures";
     EXPECT_EQ(judge(claim, {}).kind, VerdictKind::cannot_be_tested_here);
     EXPECT_EQ(judge(claim, {}).text, "cannot be tested here: no published figures");
+}
+
+CaseRecord in_order(CaseRecord record, const std::string& order, const std::string& precision)
+{
+    record.deformer = "pbs_orders";
+    record.order = order;
+    record.precision = precision;
+    return record;
+}
+
+TEST(OtherOrders, AreJudgedByThemselvesAndAreNoPartOfTheVerdict)
+{
+    const auto walk = clip("walk", "pbs", 24, constant(100, -0.3));
+    const auto other = in_order(clip("walk", "pbs", 24, constant(100, -0.9)), "plain", "f64");
+    const Verdict verdict = judge(claim_of("C02"), {.cases = {walk, other}});
+    EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
+    EXPECT_EQ(verdict.cases.size(), 2u);  // one case under two metrics
+    ASSERT_EQ(verdict.orders.size(), 1u);
+    EXPECT_EQ(verdict.orders[0].kind, VerdictKind::not_reproduced);
+    EXPECT_EQ(text_of(verdict.orders[0]), "not reproduced instead of reproduced (walk by volume_change_pct)");
+    EXPECT_NE(verdict.text.find("in other orders of projection another in plain f64: not reproduced instead of"), std::string::npos);
+}
+
+TEST(OtherOrders, FlipWhenTheirRecordsAreAltered)
+{
+    const auto walk = clip("walk", "pbs", 24, constant(100, -0.3));
+    auto plain = in_order(walk, "plain", "f32");
+    const auto same = [&] { return judge(claim_of("C02"), {.cases = {walk, plain}}).orders.at(0).same(); };
+    EXPECT_TRUE(same());
+    for (int i = 20; i < 30; ++i) set_change(plain, i, -0.51);
+    EXPECT_FALSE(same());
+}
+
+TEST(OtherOrders, AreComparedOnTheScenesTheyWereRecordedOn)
+{
+    const auto walk = clip("walk", "pbs", 24, constant(100, -0.9));  // fails, and was recorded in one order alone
+    const auto twist = sweep("twist", "pbs", 24, constant(18, -0.3));
+    const Verdict verdict =
+        judge(claim_of("C02"), {.cases = {walk, twist, in_order(twist, "grouped", "f32"), in_order(twist, "grouped", "f64")}});
+    EXPECT_EQ(verdict.kind, VerdictKind::reproduced_only_for);
+    ASSERT_EQ(verdict.orders.size(), 2u);
+    EXPECT_EQ(verdict.orders[0].own_kind, VerdictKind::reproduced);
+    EXPECT_EQ(text_of(verdict.orders), "the same in grouped f32, grouped f64");
+}
+
+TEST(OtherOrders, OfOtherIterationsAreNotLookedAt)
+{
+    const auto walk = clip("walk", "pbs", 24, constant(100, -0.3));
+    auto other = in_order(walk, "plain", "f32");
+    other.iterations = 12;
+    EXPECT_TRUE(judge(claim_of("C02"), {.cases = {walk, other}}).orders.empty());
 }
 
 }  // namespace
