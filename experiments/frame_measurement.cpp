@@ -36,9 +36,12 @@ bool FrameMeasurement::error_below_reference_error() const
 }
 
 FrameMeasurer::FrameMeasurer(const pbs::Character& character, const OutputSpec& output, const std::vector<bool>& prescribed)
-    : character_(character), ruler_(character.mesh.rest, character.mesh.tets), boundary_(pbs::boundary_of(character.mesh.tets))
+    : character_(character), ruler_(character.mesh.rest, character.mesh.tets)
 {
-    if (output.errors) error_ruler_.emplace(error_domain(character, prescribed));
+    if (output.errors) {
+        error_ruler_.emplace(error_domain(character, prescribed));
+        boundary_ = pbs::boundary_of(character.mesh.tets);
+    }
     if (output.sections) stations_ = limb_stations(character);
     if (output.surface && character.surface)
         rest_surface_ = pbs::embedded_positions(*character.surface, character.mesh.rest, character.mesh.tets);

@@ -47,7 +47,7 @@ public:
     // In the norms of the errors, which the scene must have asked for.
     analysis::ErrorNorms difference(const pbs::Positions& a, const pbs::Positions& b) const { return error_ruler_.value().measure(a, b); }
     Eigen::VectorXd volume_ratios(const pbs::Positions& positions) const { return ruler_.volume_ratios(positions); }
-    bool self_intersects(const pbs::Positions& positions) const;
+    bool self_intersects(const pbs::Positions& positions) const;  // asked of the reference of errors alone
 
 private:
     double min_section_pct(const pbs::Positions& positions, const pbs::Pose& pose) const;
@@ -55,7 +55,7 @@ private:
     const pbs::Character& character_;
     analysis::Ruler ruler_;
     std::optional<analysis::ErrorRuler> error_ruler_;
-    pbs::Triangles boundary_;
+    pbs::Triangles boundary_;  // of the errors
     std::vector<LimbStation> stations_;
     std::optional<pbs::Positions> rest_surface_;
 };

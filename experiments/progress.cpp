@@ -20,6 +20,11 @@ void hide_progress()
     hidden = true;
 }
 
+void show_progress()
+{
+    hidden = false;
+}
+
 Progress::Progress(std::string label, int total)
     : label_(std::move(label)), total_(total), shown_(!hidden && isatty(STDERR_FILENO) && total > 0)
 {

@@ -22,5 +22,6 @@ private:
 };
 
 void hide_progress();  // --quiet, or a worker process
+void show_progress();  // again, where stderr is a terminal
 
 }  // namespace experiments

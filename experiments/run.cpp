@@ -26,12 +26,14 @@ struct Runner {
     int most_inverted = 0;
 };
 
-std::vector<Runner> make_runners(const Scene& scene, const pbs::Character& character)
+std::vector<Runner> make_runners(const Scene& scene, const pbs::Character& character, CostRecord& cost)
 {
     std::vector<Runner> runners;
     for (const DeformerSpec& spec : scene.deformers) {
-        runners.push_back({spec, make_deformer(spec), {}});
-        runners.back().deformer->reset(character);
+        cost.time("set_up", spec.label, [&] {
+            runners.push_back({spec, make_deformer(spec), {}});
+            runners.back().deformer->reset(character);
+        });
         stop_if_interrupted();
     }
     // The reference moves first, so that a frame's errors can be measured.
@@ -59,17 +61,27 @@ void refuse_frames_beyond(const pbs::Motion& motion, const Scene& scene)
                                   fmt::format("expected less than the motion's {} frames", motion.frames()));
 }
 
+// Without a reference there are no errors to be measured.
+OutputSpec measured_output(const Scene& scene)
+{
+    OutputSpec output = scene.output;
+    output.errors = output.errors && !scene.reference.empty();
+    return output;
+}
+
 class SceneRun {
 public:
     SceneRun(const Scene& scene, const std::string& folder)
         : scene_(scene),
-          character_(pbs::make_character(scene.character)),
-          motion_(make_motion(scene.motion, character_.skeleton, scene.file)),
-          runners_(make_runners(scene, character_)),
-          measurer_(character_, scene.output, prescribed_by_any(runners_)),
+          character_(cost_.time("character", [&] { return pbs::make_character(scene.character); })),
+          motion_(cost_.time("motion", [&] { return make_motion(scene.motion, character_.skeleton, scene.file); })),
+          runners_(make_runners(scene, character_, cost_)),
+          measurer_(
+              cost_.time("ruler_set_up", [&] { return FrameMeasurer(character_, measured_output(scene), prescribed_by_any(runners_)); })),
           folder_((refuse_frames_beyond(motion_, scene), scene), folder)
     {
-        if (scene.error_bar != ErrorBar::none) error_bar_.emplace(scene.error_bar, runners_.front().spec, character_);
+        if (scene.error_bar != ErrorBar::none)
+            cost_.time("error_bar_set_up", [&] { error_bar_.emplace(scene.error_bar, runners_.front().spec, character_); });
     }
 
     RunResult run()
@@ -92,9 +104,10 @@ private:
             const bool is_frame = step % motion_.steps_per_frame == 0;
             for (Runner& runner : runners_)
                 if (is_frame || runner.deformer->has_memory())
-                    runner.step = runner.deformer->advance(motion_.steps[step], motion_.time_step_s);
+                    runner.step = cost_.time("step", runner.spec.label,
+                                             [&] { return runner.deformer->advance(motion_.steps[step], motion_.time_step_s); });
             if (error_bar_ && (is_frame || runners_.front().deformer->has_memory()))
-                error_bar_->advance(motion_.steps[step], motion_.time_step_s);
+                cost_.time("error_bar", [&] { error_bar_->advance(motion_.steps[step], motion_.time_step_s); });
             if (is_frame) record_frame(static_cast<int>(step / motion_.steps_per_frame), step);
             progress.advance_to(static_cast<int>(step) + 1);
         }
@@ -109,9 +122,9 @@ private:
         const Runner& first = runners_.front();
         if (scene_.output.errors && first.spec.name == scene_.reference && first.step.outcome == pbs::Outcome::finished) {
             context.reference = &first.deformer->positions();
-            context.reference_self_intersects = measurer_.self_intersects(*context.reference);
+            cost_.time("ruler", [&] { context.reference_self_intersects = measurer_.self_intersects(*context.reference); });
             self_intersecting_frames_ += context.reference_self_intersects;
-            if (error_bar_) context.reference_error = error_bar_->bound(*context.reference, measurer_);
+            if (error_bar_) cost_.time("error_bar", [&] { context.reference_error = error_bar_->bound(*context.reference, measurer_); });
         }
         for (Runner& runner : runners_) record_deformer(runner, frame, time_s, context);
         ++frames_;
@@ -120,9 +133,11 @@ private:
     void record_deformer(Runner& runner, int frame, double time_s, const FrameContext& context)
     {
         const pbs::Positions& positions = runner.deformer->positions();
-        const FrameMeasurement measured = measurer_.measure(positions, context_for(runner, context));
-        folder_.add_frame(runner.spec, frame, time_s, measured, runner.step);
-        folder_.add_state(runner.spec, positions);
+        const FrameMeasurement measured = cost_.time("ruler", [&] { return measurer_.measure(positions, context_for(runner, context)); });
+        cost_.time("records", [&] {
+            folder_.add_frame(runner.spec, frame, time_s, measured, runner.step);
+            folder_.add_state(runner.spec, positions);
+        });
         runner.lowest_change_pct = std::min(runner.lowest_change_pct, measured.metrics.volume_change_pct);
         runner.highest_change_pct = std::max(runner.highest_change_pct, measured.metrics.volume_change_pct);
         runner.most_inverted = std::max(runner.most_inverted, measured.metrics.inverted_tets);
@@ -136,8 +151,10 @@ private:
             breakdowns_[runner.spec.label].push_back(frame);
         }
         if (scene_.output.writes(frame))
-            folder_.write_frame(runner.spec, frame, time_s, character_, positions, measurer_.volume_ratios(positions),
-                                runner.deformer->prescribed());
+            cost_.time("frames", [&] {
+                folder_.write_frame(runner.spec, frame, time_s, character_, positions, measurer_.volume_ratios(positions),
+                                    runner.deformer->prescribed());
+            });
     }
 
     // A reference that has not reached its pose stands in another one: it has no error.
@@ -155,7 +172,7 @@ private:
         nlohmann::json outcome = {{"finished", true}, {"frames", frames_}, {"breakdowns", breakdowns_}, {"not_converged", not_converged_}};
         if (!scene_.reference.empty()) outcome["self_intersecting_reference_frames"] = self_intersecting_frames_;
         if (error_bar_) outcome["frames_below_reference_error"] = frames_below_reference_error_;
-        folder_.finish(character_, records, outcome, error_bar_ ? error_bar_->method() : nlohmann::json());
+        folder_.finish(character_, records, outcome, cost_, error_bar_ ? error_bar_->method() : nlohmann::json());
 
         RunResult result{frames_, stopwatch_.seconds(), breakdown_, {}};
         for (const Runner& runner : runners_)
@@ -168,6 +185,7 @@ private:
     }
 
     const Scene& scene_;
+    CostRecord cost_;
     pbs::Stopwatch stopwatch_;
     pbs::Character character_;
     pbs::Motion motion_;

@@ -71,8 +71,13 @@ std::vector<Cell> spec_cells(const Scene& scene, const DeformerSpec& spec)
 {
     const nlohmann::json options = to_json(spec).value("options", nlohmann::json::object());
     const Cell iterations = spec.kind == "pbs" ? Cell(spec.pbs.iterations) : Cell(std::nullopt);
-    return {scene.name, spec.name, spec.variant, options.value("order", ""), options.value("precision", spec.kind == "pbs" ? "" : "f64"),
-            iterations, spec.kind == "pbs" ? spec.pbs.threads : 1};
+    return {scene.name,
+            spec.name,
+            spec.variant,
+            options.value("order", ""),
+            options.value("precision", spec.kind == "pbs" ? "" : "f64"),
+            iterations,
+            spec.kind == "pbs" ? spec.pbs.threads : 1};
 }
 
 std::vector<Cell> error_cells(const FrameMeasurement& measured)
@@ -112,6 +117,18 @@ nlohmann::json quality_record(const pbs::TetMesh& mesh)
             {"boundary_manifold", quality.topology.boundary_manifold},
             {"boundary_euler", quality.topology.boundary_euler},
             {"components", quality.topology.components}};
+}
+
+nlohmann::json character_record(const pbs::Character& character)
+{
+    nlohmann::json record = {{"name", character.name},
+                             {"vertices", character.mesh.rest.rows()},
+                             {"tets", character.mesh.tets.rows()},
+                             {"bones", character.skeleton.bones.size()},
+                             {"quality", quality_record(character.mesh)}};
+    if (character.refinements > 0) record["refinements"] = character.refinements;
+    if (character.surface) record["surface_outside_m"] = character.surface->largest_distance_outside_m;
+    return record;
 }
 
 // What RunFolder writes into frames/: LABEL_000123.vtu, LABEL_surface_000123.vtp, LABEL.pvd.
@@ -200,9 +217,9 @@ void RunFolder::write_tables() const
 }
 
 void RunFolder::finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
-                       const nlohmann::json& outcome, const nlohmann::json& reference_error_method)
+                       const nlohmann::json& outcome, CostRecord& cost, const nlohmann::json& reference_error_method)
 {
-    write_tables();
+    cost.time("records", [&] { write_tables(); });
     analysis::Provenance provenance = analysis::collect_provenance(1);
     for (const auto& [library, version] : library_versions()) provenance.libraries[library] = version;
     for (const auto& [input, hash] : character.inputs) provenance.input_hashes[input] = hash;
@@ -212,14 +229,9 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
     nlohmann::json run = {{"schema", 1}, {"scene", resolved_with_deformers(scene_)}, {"provenance", provenance}, {"outcome", outcome}};
     for (const auto& [name, hash] : hashes_) run["state_hash"][name] = hash.hex();
     for (const auto& [name, record] : deformer_records) run["deformers"][name] = record;
-    run["character"] = {{"name", character.name},
-                        {"vertices", character.mesh.rest.rows()},
-                        {"tets", character.mesh.tets.rows()},
-                        {"bones", character.skeleton.bones.size()},
-                        {"quality", quality_record(character.mesh)}};
-    if (character.refinements > 0) run["character"]["refinements"] = character.refinements;
+    run["character"] = cost.time("records", [&] { return character_record(character); });
     if (!reference_error_method.is_null()) run["reference_error_method"] = reference_error_method;
-    if (character.surface) run["character"]["surface_outside_m"] = character.surface->largest_distance_outside_m;
+    run["cost"] = cost.json();
     analysis::write_text_atomically((fs::path(folder_) / "run.json").string(), run.dump(2) + "\n");
 }
 

@@ -4,6 +4,7 @@
 
 #include "analysis/csv_table.hpp"
 #include "analysis/state_hash.hpp"
+#include "experiments/cost_record.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/frame_measurement.hpp"
 #include "experiments/scene.hpp"
@@ -24,9 +25,9 @@ public:
 
     void write_tables() const;  // metrics.csv, iterations.csv and the collections: of an interrupted run, all there is
 
-    // Writes the tables and, last, run.json; a null method of the reference's error bar is left out.
+    // Writes the tables and, last, run.json with what all of it cost; a null method of the reference's error bar is left out.
     void finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
-                const nlohmann::json& outcome, const nlohmann::json& reference_error_method = nullptr);
+                const nlohmann::json& outcome, CostRecord& cost, const nlohmann::json& reference_error_method = nullptr);
 
 private:
     const Scene& scene_;
