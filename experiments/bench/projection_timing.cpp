@@ -83,6 +83,12 @@ RooflinePoint roofline_point(const ProjectionTiming& timing, ConstraintClass of,
     return point;
 }
 
+double memory_floor_ms(const ProjectionTiming& timing, const Layout& layout, const BodySize& size, const MachineLimits& limits)
+{
+    const double bytes = iterations_a_step * bytes_an_iteration(layout, size) / timing.poses;
+    return 1e3 * bytes / (1e9 * bandwidth_at(limits, timing.working_set_bytes));
+}
+
 ClassTiming class_timing(const ProjectionTiming& timing, ConstraintClass of, const Rounds1& seconds, const BodySize& size,
                          const MachineLimits& limits)
 {
@@ -120,6 +126,7 @@ ProjectionTiming summed_up(const ProjectionVariant& variant, const Samples& own,
     timing.bind = class_timing(timing, ConstraintClass::bind, own[bind_s], size, limits);
     timing.ms_step = scaled(spread_of(own[step_s]), 1e3 / variant.poses);
     timing.ms_transfer = scaled(spread_of(own[transfer_s]), 1e3 / variant.poses).median;
+    if (variant.threads == 1) timing.ms_floor = memory_floor_ms(timing, {variant.scalar_bytes(), variant.poses}, size, limits);
     timing.stretch_fill = variant.stretch_fill;
     timing.volume_fill = variant.volume_fill;
     timing.residuals = variant.loops.residuals();

@@ -37,8 +37,9 @@ struct ProjectionTiming {
     std::string variant, precision;
     int threads = 1, poses = 1;
     ClassTiming stretch, volume, bind;
-    Spread ms_step;                                                       // a pose
-    double ms_transfer = 0.0;                                             // load and store, median
+    Spread ms_step;                  // a pose
+    std::optional<double> ms_floor;  // a pose, of one thread: what an iteration has to move over the bandwidth at its working set
+    double ms_transfer = 0.0;        // load and store, median
     Spread ratio_to_plain, ratio_to_plain_native, ratio_to_plain_spread;  // of times of the same round; same precision
     std::optional<Spread> speedup_by_threads;                             // of wall times over one thread's
     double working_set_bytes = 0.0;

@@ -1,11 +1,11 @@
 #include "experiments/bench/projection_work.hpp"
 
-#include <initializer_list>
-
 namespace experiments {
 namespace {
 
 constexpr double difference = 3, dot = 5, cross = 9, scaled_and_added = 6;  // of vectors in space
+
+constexpr ConstraintClass all_classes[] = {ConstraintClass::stretch, ConstraintClass::volume, ConstraintClass::bind};
 
 double position_bytes(const Layout& layout)
 {
@@ -53,11 +53,17 @@ double bytes_of(ConstraintClass of, const Layout& layout, const BodySize& size)
     return data_bytes_of(of, layout) / layout.poses + bind_point + 2.0 * position_bytes(layout) * size.vertices / size.constraints(of);
 }
 
+double bytes_an_iteration(const Layout& layout, const BodySize& size)
+{
+    double bytes = 0.0;
+    for (const ConstraintClass of : all_classes) bytes += layout.poses * size.constraints(of) * bytes_of(of, layout, size);
+    return bytes;
+}
+
 double working_set_bytes(const Layout& layout, const BodySize& size)
 {
     double bytes = layout.poses * size.vertices * (position_bytes(layout) + 3.0 * layout.scalar_bytes);
-    for (const ConstraintClass of : {ConstraintClass::stretch, ConstraintClass::volume, ConstraintClass::bind})
-        bytes += size.constraints(of) * data_bytes_of(of, layout);
+    for (const ConstraintClass of : all_classes) bytes += size.constraints(of) * data_bytes_of(of, layout);
     return bytes;
 }
 

@@ -31,6 +31,9 @@ struct BodySize {
 // Of one pass over a class [bytes a constraint and pose].
 double bytes_of(ConstraintClass of, const Layout& layout, const BodySize& size);
 
+// Of one iteration over all three, all poses together [bytes]: no step is quicker than these over the bandwidth.
+double bytes_an_iteration(const Layout& layout, const BodySize& size);
+
 // What one iteration over all three goes over [bytes].
 double working_set_bytes(const Layout& layout, const BodySize& size);
 

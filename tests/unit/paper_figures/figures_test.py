@@ -132,6 +132,29 @@ class Figures(unittest.TestCase):
                     self.assertEqual(make_all.main(results), 1)
             self.assertIn("valley.csv: not there", said.getvalue())
 
+    def test_the_bench_shows_cost_a_constraint_and_roofs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            results = pathlib.Path(folder)
+            synthetic_records.write_bench(results)
+            with contextlib.redirect_stdout(io.StringIO()):
+                self.assertEqual(make_all.main(results), 0)
+            for name in ("roofline", "scaling"):
+                self.assertIn(synthetic_records.revision.encode(), (results / "figures" / f"{name}.png").read_bytes())
+            with open(results / "figures" / "scaling.csv", newline="") as stream:
+                rows = list(csv.DictReader(stream))
+            cost = {(row["order"], row["precision"], row["tets"]): float(row["value"]) for row in rows if row["shown"] == "ns_per_constraint"}
+            self.assertEqual(len(cost), 8)
+            self.assertAlmostEqual(cost["plain", "f32", "400"], 1000.0)  # 24 us a constraint and step of 24 iterations
+            self.assertAlmostEqual(cost["ordered", "f64", "5000"], 250.0)
+            self.assertEqual({row["value"] for row in rows if row["shown"] == "speedup_by_threads"}, {"1.5"})
+            with open(results / "figures" / "roofline.csv", newline="") as stream:
+                self.assertEqual(len(list(csv.DictReader(stream))), 2 * 4 * 3)  # meshes, orders and precisions, classes
+            (results / "bench" / "bench.json").unlink()
+            with contextlib.redirect_stderr(io.StringIO()) as said:
+                with contextlib.redirect_stdout(io.StringIO()):
+                    self.assertEqual(make_all.main(results), 1)
+            self.assertIn("bench.json: not there", said.getvalue())
+
     def test_readme_is_changed_between_its_markers_alone(self):
         readme = self.results / "README.md"
         readme.write_text(f"before\n{readme_claims.begin}\nold\n{readme_claims.end}\nafter\n")

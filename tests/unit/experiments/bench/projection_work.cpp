@@ -103,6 +103,7 @@ TEST(ProjectionWork, BytesOfOnePose)
     EXPECT_DOUBLE_EQ(experiments::bytes_of(ConstraintClass::volume, {4, 1}, size), 24 + 2 * 16 * 10 / 30.0);
     EXPECT_DOUBLE_EQ(experiments::bytes_of(ConstraintClass::bind, {8, 1}, size), 40 + 2 * 32);
     EXPECT_DOUBLE_EQ(experiments::working_set_bytes({4, 1}, size), 50 * 16 + 30 * 24 + 10 * (20 + 16));
+    EXPECT_DOUBLE_EQ(experiments::bytes_an_iteration({4, 1}, size), 50 * 16 + 30 * 24 + 10 * 20 + 3 * 2 * 16 * 10);
 }
 
 // Sixteen poses share what a constraint knows; positions (x, y, z) and bind points are each one's own.
@@ -112,6 +113,7 @@ TEST(ProjectionWork, BytesOfManyPoses)
     EXPECT_DOUBLE_EQ(experiments::bytes_of(ConstraintClass::stretch, {4, 16}, size), 28 / 16.0 + 2 * 12 * 10 / 50.0);
     EXPECT_DOUBLE_EQ(experiments::bytes_of(ConstraintClass::volume, {4, 16}, size), 40 / 16.0 + 2 * 12 * 10 / 30.0);
     EXPECT_DOUBLE_EQ(experiments::bytes_of(ConstraintClass::bind, {8, 16}, size), 16 / 16.0 + 24 + 2 * 24);
+    EXPECT_DOUBLE_EQ(experiments::bytes_an_iteration({4, 16}, size), 50 * 28 + 30 * 40 + 10 * 8 + 16 * 10 * (12 + 3 * 2 * 12));
     EXPECT_DOUBLE_EQ(experiments::working_set_bytes({4, 16}, size), 50 * 28 + 30 * 40 + 10 * 8 + 16 * 10 * (12 + 12));
 }
 
