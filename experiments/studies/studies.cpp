@@ -27,6 +27,15 @@ const std::vector<Study>& studies()
          "limits; LBS, DQS and the reference; how the cost grows with the mesh",
          "none: read ratios, not times", "some 2 minutes (--quick), 5 (--full: to a million tets); keep the machine quiet",
          plan_bench_study, false, conclude_bench_study},
+        {"features",
+         "what each switch of a scene costs: time a frame and a step, time to start, peak memory with and without it, on the limb and the "
+         "human, and how far the answer moves",
+         "none: read ratios, not times", "some 2 minutes (--quick), 9 (--full: more rounds); run it with -j 1 on a quiet machine",
+         plan_features_study, false, conclude_features_study},
+        {"scale",
+         "the human from 2,000 tets to 100,000 (--full: 1,000,000), end to end: seconds of mesh, set-up, step, ruler and frames, peak "
+         "memory, and the exponents they grow with",
+         "none", "some 1 minute (--quick), 8 (--full)", plan_scale_study, false, conclude_scale_study},
     };
     return all;
 }

@@ -50,6 +50,10 @@ StudyPlan plan_error_split_study(bool full);
 StudyConclusion conclude_error_split_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_bench_study(bool full);
 StudyConclusion conclude_bench_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
+StudyPlan plan_features_study(bool full);
+StudyConclusion conclude_features_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
+StudyPlan plan_scale_study(bool full);
+StudyConclusion conclude_scale_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_verification_study(bool full);
 StudyConclusion conclude_verification_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 

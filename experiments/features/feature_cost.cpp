@@ -1,0 +1,88 @@
+#include "experiments/features/feature_cost.hpp"
+
+#include "analysis/atomic_file.hpp"
+#include "analysis/frame_metrics.hpp"
+#include "experiments/cases/motion_case.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/features/own_process.hpp"
+#include "experiments/progress.hpp"
+#include "experiments/run.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A terminal of its own for stderr, so that the bar is drawn and seen by nobody.
+void draw_progress_unseen()
+{
+    const int master = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+    if (master < 0 || grantpt(master) != 0 || unlockpt(master) != 0) throw std::runtime_error("no terminal to draw a bar on");
+    const int slave = open(ptsname(master), O_RDWR | O_NOCTTY | O_NONBLOCK);
+    if (slave < 0 || dup2(slave, STDERR_FILENO) < 0) throw std::runtime_error("no terminal to draw a bar on");
+    show_progress();
+}
+
+nlohmann::json run_and_tell(const Scene& scene, const Variant& variant, const std::string& folder)
+{
+    if (variant.progress) draw_progress_unseen();
+    run_scene(scene, folder);
+    const auto run = nlohmann::json::parse(analysis::read_text((fs::path(folder) / "run.json").string()));
+    nlohmann::json cost = run.at("cost");
+    cost["frames"] = run.at("outcome").at("frames");
+    return cost;
+}
+
+const DeformerSpec& pbs_of(const Scene& scene)
+{
+    const auto found = std::find_if(scene.deformers.begin(), scene.deformers.end(), [](const auto& spec) { return spec.kind == "pbs"; });
+    if (found == scene.deformers.end()) throw std::logic_error("a scene without PBS");
+    return *found;
+}
+
+}  // namespace
+
+RunCost cost_of(const Scene& scene, const Variant& variant, const std::string& scratch_folder)
+{
+    const nlohmann::json cost = in_own_process([&] { return run_and_tell(scene, variant, scratch_folder); });
+    const nlohmann::json& seconds = cost.at("seconds");
+    RunCost result;
+    for (const char* part : {"character", "motion", "set_up", "ruler_set_up", "error_bar_set_up"})
+        result.start_s += seconds.value(part, 0.0);
+    const double frames = cost.at("frames").get<double>();
+    result.frame_ms = 1e3 * (seconds.at("total").get<double>() - result.start_s) / frames;
+    result.step_ms = 1e3 * seconds.at("deformers").at(pbs_of(scene).label).at("step").get<double>() / frames;
+    result.peak_mb = cost.at("peak_memory_mb").get<double>();
+    result.shared_objects = cost.at("shared_objects").get<int>();
+    return result;
+}
+
+AnswerChange change_between(const Scene& without, const Scene& with)
+{
+    const pbs::Character character = pbs::make_character(without.character);
+    const pbs::Motion motion = make_motion(without.motion, character.skeleton, without.file);
+    const analysis::Ruler ruler(character.mesh.rest, character.mesh.tets);
+    const auto before = make_deformer(pbs_of(without)), after = make_deformer(pbs_of(with));
+    before->reset(character);
+    after->reset(character);
+    AnswerChange change;
+    for (const pbs::Pose& pose : motion.steps) {
+        before->advance(pose, motion.time_step_s);
+        after->advance(pose, motion.time_step_s);
+        const double distance = (before->positions() - after->positions()).rowwise().norm().maxCoeff();
+        const double volume = ruler.measure(before->positions()).volume_change_pct - ruler.measure(after->positions()).volume_change_pct;
+        change.distance_m = std::max(change.distance_m, distance);
+        change.volume_difference_pct = std::max(change.volume_difference_pct, std::abs(volume));
+    }
+    return change;
+}
+
+}  // namespace experiments
