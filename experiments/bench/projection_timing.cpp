@@ -98,19 +98,12 @@ ClassTiming class_timing(const ProjectionTiming& timing, ConstraintClass of, con
     return result;
 }
 
-// How many times the poses of one thread this projects: of two steps that take as long, the one of more poses is the quicker.
-double pose_factor(const ProjectionVariant& variant)
-{
-    return variant.poses > 1 ? variant.threads : 1;
-}
-
-// The variant's rounds, or null.
-const Samples* samples_of(const std::vector<ProjectionVariant>& variants, const std::vector<Samples>& all, const std::string& name,
-                          const std::string& precision, int threads)
+// Of the variant, or -1.
+int index_of(const std::vector<ProjectionVariant>& variants, const std::string& name, const std::string& precision, int threads)
 {
     for (std::size_t i = 0; i < variants.size(); ++i)
-        if (variants[i].variant == name && variants[i].precision == precision && variants[i].threads == threads) return &all[i];
-    return nullptr;
+        if (variants[i].variant == name && variants[i].precision == precision && variants[i].threads == threads) return static_cast<int>(i);
+    return -1;
 }
 
 ProjectionTiming summed_up(const ProjectionVariant& variant, const Samples& own, const BodySize& size, const MachineLimits& limits)
@@ -150,13 +143,14 @@ std::vector<ProjectionTiming> time_projections(const BenchBody& body, const std:
         ProjectionTiming timing = summed_up(variant, all[i], size, limits);
         const Sample clock = variant.threads == 1 ? step_s : step_wall_s;
         const auto against = [&](const std::string& name) {
-            return spread_of_ratios((*samples_of(variants, all, name, variant.precision, 1))[clock], all[i][clock], variant.poses);
+            return spread_of_ratios(all.at(index_of(variants, name, variant.precision, 1))[clock], all[i][clock], variant.poses);
         };
         timing.ratio_to_plain = against("plain");
         timing.ratio_to_plain_native = against("plain_native");
         timing.ratio_to_plain_spread = against("plain_spread");
-        if (const Samples* alone = samples_of(variants, all, variant.variant, variant.precision, 1); alone && variant.threads > 1)
-            timing.speedup_by_threads = spread_of_ratios((*alone)[step_wall_s], all[i][step_wall_s], pose_factor(variant));
+        if (const int alone = index_of(variants, variant.variant, variant.precision, 1); alone >= 0 && variant.threads > 1)
+            timing.speedup_by_threads =
+                spread_of_ratios(all[alone][step_wall_s], all[i][step_wall_s], double(variant.poses) / variants[alone].poses);
         timings.push_back(std::move(timing));
     }
     return timings;

@@ -6,6 +6,9 @@
 #include "pbs/solver/parallel.hpp"
 #include "pbs/solver/residuals.hpp"
 
+#include <algorithm>
+#include <thread>
+
 namespace experiments {
 namespace {
 
@@ -29,7 +32,12 @@ ProjectionVariant of_order(const BenchBody& body, const char* name, pbs::Order o
     return variant;
 }
 
-// A block of sixteen poses for each thread.
+// Sixteen poses are a block, one for each thread; of more threads than the machine has none, for blocks cost memory.
+int pose_blocks(int threads)
+{
+    return std::min(threads, std::max(2, static_cast<int>(std::thread::hardware_concurrency())));
+}
+
 template <typename Scalar>
 struct PoseBlocks {
     PoseBlocks(const BenchBody& body, int threads)
@@ -38,7 +46,7 @@ struct PoseBlocks {
           posed(body.twisted)
     {
         const std::vector<pbs::PbsOptions> poses(pbs::poses_a_block, bench_options(pbs::Order::ordered, 1));
-        for (int block = 0; block < threads; ++block) blocks.emplace_back(program, poses);
+        for (int block = 0; block < pose_blocks(threads); ++block) blocks.emplace_back(program, poses);
     }
     PoseBlocks(const PoseBlocks&) = delete;  // blocks point to the program
 
@@ -66,7 +74,7 @@ ProjectionVariant of_poses(const BenchBody& body, int threads)
         for (const Block& block : all->blocks)
             for (int lane = 0; lane < pbs::poses_a_block; ++lane) block.store(lane, pbs::Vec3::Zero(), all->posed);
     };
-    ProjectionVariant variant{"poses", precision_of<Scalar>, threads, threads * pbs::poses_a_block};
+    ProjectionVariant variant{"poses", precision_of<Scalar>, threads, pose_blocks(threads) * pbs::poses_a_block};
     variant.loops = {[all, load] { all->on_all(load); },
                      [all] { all->on_all([](Block& block) { block.project_bind_constraints(); }); },
                      [all] { all->on_all([](Block& block) { block.project_stretch_constraints(); }); },
