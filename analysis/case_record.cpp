@@ -75,6 +75,17 @@ std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string&
     return records;
 }
 
+std::vector<PrintedFigure> printed_figures(const std::string& csv)
+{
+    const CsvTable table = read_csv(csv);
+    std::vector<PrintedFigure> figures;
+    for (int row = 0; row < table.rows(); ++row)
+        figures.push_back({table.text_at(row, "claim"), table.text_at(row, "what"), table.number(row, "printed"),
+                           table.number(row, "least"),
+                           table.number_or_nothing(row, "most").value_or(std::numeric_limits<double>::infinity())});
+    return figures;
+}
+
 std::vector<double> metric_series(const CaseRecord& record, const std::string& metric)
 {
     require_whole(record);

@@ -28,6 +28,7 @@ struct LeftOut {
 
 // A figure in print and the bounds that other figures of the paper put on it.
 struct PrintedFigure {
+    std::string claim;  // its id
     std::string what;
     double printed = 0.0, least = 0.0, most = 0.0;
 };
@@ -43,6 +44,9 @@ struct Records {
 // appearance; empty iterations (a deformer that has none) are 0. A column angle_deg, filled in throughout a case, makes it a sweep.
 // Left out and counted: rows of a deformer without iterations, that is a reference, whose outcome is not_converged. They show another pose.
 std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string& run);
+
+// The figures of a printed.csv: claim, what, printed, least, most; an empty most is no bound.
+std::vector<PrintedFigure> printed_figures(const std::string& csv);
 
 // The series that a metric of a claim names, #frames; InputError for an unknown name or a record with series of different lengths.
 std::vector<double> metric_series(const CaseRecord& record, const std::string& metric);

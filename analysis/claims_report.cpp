@@ -184,6 +184,7 @@ std::string claims_table(const std::vector<Verdict>& verdicts, bool colours)
 
 std::string expected_text(const Claim& claim)
 {
+    if (claim.rule == ClaimRule::printed) return "each figure as the others ask for";
     if (claim.metrics.empty()) return "";
     return fmt::format("{:.4g} % ({:.4g} to {:.4g} %)", claim.expected, claim.low, claim.high);
 }

@@ -140,17 +140,33 @@ Verdict judge_cases(const Claim& claim, const Records& records)
     return verdict;
 }
 
+std::string bound_text(const PrintedFigure& figure)
+{
+    if (std::isinf(figure.most)) return fmt::format("{:.6g} or more", figure.least);
+    return fmt::format("{:.6g} to {:.6g}", figure.least, figure.most);
+}
+
 Verdict judge_print(const Claim& claim, const std::vector<PrintedFigure>& figures)
 {
-    if (figures.empty()) return verdict_of(claim, VerdictKind::not_computable, "no figures in print were given");
+    constexpr std::size_t named = 3;  // the others stand in the study's table
     std::vector<std::string> broken;
-    for (const PrintedFigure& figure : figures)
+    std::size_t count = 0;
+    for (const PrintedFigure& figure : figures) {
+        if (figure.claim != claim.id) continue;
+        ++count;
         if (!(figure.least <= figure.printed && figure.printed <= figure.most))
-            broken.push_back(fmt::format("{} is {:.6g}, but the rest asks for {:.6g} to {:.6g}", figure.what, figure.printed, figure.least,
-                                         figure.most));
+            broken.push_back(fmt::format("{} is {:.6g}, but the rest asks for {}", figure.what, figure.printed, bound_text(figure)));
+    }
+    if (count == 0) return verdict_of(claim, VerdictKind::not_computable, "no figures in print were given");
+    const std::string measured = fmt::format("{} of {} figures consistent", count - broken.size(), count);
+    if (broken.size() > named) {
+        const std::size_t more = broken.size() - named;
+        broken.resize(named);
+        broken.push_back(fmt::format("and {} more", more));
+    }
     Verdict verdict = verdict_of(claim, broken.empty() ? VerdictKind::reproduced : VerdictKind::inconsistent_in_print,
                                  fmt::format("{}", fmt::join(broken, "; ")));
-    verdict.measured = fmt::format("{} of {} figures consistent", figures.size() - broken.size(), figures.size());
+    verdict.measured = measured;
     return verdict;
 }
 

@@ -95,7 +95,7 @@ std::string frames_to_mark(const std::vector<std::string>& folders)
     return lines;
 }
 
-// What the claims of a study are judged from: the records of its scene runs.
+// What the claims of a study are judged from: the records of its scene runs, and figures in print.
 analysis::Records records_of(const StudyPlan& plan, const std::vector<std::string>& folders, const std::string& root)
 {
     analysis::Records records;
@@ -104,6 +104,8 @@ analysis::Records records_of(const StudyPlan& plan, const std::vector<std::strin
         if (!run.work) records.planned_scenes.push_back(run.scene.name);
     for (const auto& left_out : plan.left_out) records.planned_scenes.push_back(left_out.scene);
     for (const std::string& folder : folders) {
+        if (const fs::path printed = fs::path(folder) / "printed.csv"; fs::exists(printed))
+            for (auto& figure : analysis::printed_figures(printed.string())) records.printed.push_back(std::move(figure));
         if (!fs::exists(fs::path(folder) / "metrics.csv")) continue;
         const auto metrics = analysis::read_csv((fs::path(folder) / "metrics.csv").string());
         for (auto& record : analysis::case_records(metrics, fs::path(folder).lexically_relative(root).string()))

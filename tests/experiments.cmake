@@ -5,6 +5,8 @@ endif()
 
 pbs_test(unit experiments/scene experiments)
 pbs_test(unit experiments/limb_stations experiments)
+pbs_test(unit experiments/audit/table_1 experiments)
+pbs_test(unit experiments/audit/printed_equations experiments)
 pbs_test(unit experiments/deformers/xpbd/xpbd_solver experiments)
 pbs_test(unit experiments/deformers/delta_mush/delta_mush experiments)
 pbs_test(verification experiments/deformers/xpbd experiments)

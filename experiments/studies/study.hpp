@@ -44,6 +44,8 @@ struct Study {
 const std::vector<Study>& studies();
 
 StudyPlan plan_volume_study(bool full);
+StudyPlan plan_audit_study(bool full);
+StudyConclusion conclude_audit_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_fit_study(bool full);
 StudyConclusion conclude_fit_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_error_split_study(bool full);

@@ -135,6 +135,20 @@ Edges edges_of(const Tets& tets)
     return edges;
 }
 
+Adjacency adjacency_of(const Tets& tets, int vertices)
+{
+    const Edges edges = edges_of(tets);
+    Adjacency adjacency{std::vector<int>(vertices + 1, 0), std::vector<int>(2 * edges.rows())};
+    for (const int vertex : edges.reshaped()) ++adjacency.first[vertex + 1];
+    for (int i = 0; i < vertices; ++i) adjacency.first[i + 1] += adjacency.first[i];
+    std::vector<int> next(adjacency.first.begin(), adjacency.first.end() - 1);
+    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
+        adjacency.neighbour[next[edges(e, 0)]++] = edges(e, 1);
+        adjacency.neighbour[next[edges(e, 1)]++] = edges(e, 0);
+    }
+    return adjacency;
+}
+
 Triangles boundary_of(const Tets& tets)
 {
     const std::vector<Face> faces = sorted_faces(tets);

@@ -11,6 +11,12 @@ Edges edges_of(const Tets& tets);                                              /
 Triangles boundary_of(const Tets& tets);                                       // faces of one tet only, oriented outward, #F x 3
 std::vector<bool> boundary_vertices(const Tets& tets, Eigen::Index vertices);  // #V
 
+// Neighbours of vertex i by edges: first[i] .. first[i + 1] - 1 of `neighbour`.
+struct Adjacency {
+    std::vector<int> first, neighbour;
+};
+Adjacency adjacency_of(const Tets& tets, int vertices);
+
 struct Topology {
     // Every boundary edge in two triangles, every boundary vertex in one fan, every face in at most two tets.
     bool boundary_manifold = false;

@@ -7,8 +7,7 @@
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
-
-#include <vector>
+#include "pbs/geometry/topology.hpp"
 
 namespace experiments {
 
@@ -28,7 +27,7 @@ private:
     Eigen::Matrix3d rotation(const pbs::Positions& smoothed_posed, int vertex) const;
 
     DeltaMushOptions options_;
-    std::vector<int> first_, neighbour_;  // of vertex i: first_[i] .. first_[i + 1] - 1
+    pbs::Adjacency neighbours_;
     pbs::Positions smoothed_rest_;
     pbs::Positions delta_;  // what smoothing took [m], #V x 3
 };

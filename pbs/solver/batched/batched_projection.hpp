@@ -4,6 +4,7 @@
 // other, so the two settle on slightly different limits.
 #pragma once
 
+#include "pbs/geometry/topology.hpp"
 #include "pbs/solver/batched/batched_constraints.hpp"
 #include "pbs/solver/parallel.hpp"
 #include "pbs/solver/projection.hpp"

@@ -40,20 +40,6 @@ Levels levels_of_component(int anywhere, const Adjacency& adjacency, std::vector
 
 }  // namespace
 
-Adjacency adjacency_of(const Tets& tets, int vertices)
-{
-    const Edges edges = edges_of(tets);
-    Adjacency adjacency{std::vector<int>(vertices + 1, 0), std::vector<int>(2 * edges.rows())};
-    for (const int vertex : edges.reshaped()) ++adjacency.first[vertex + 1];
-    for (int i = 0; i < vertices; ++i) adjacency.first[i + 1] += adjacency.first[i];
-    std::vector<int> next(adjacency.first.begin(), adjacency.first.end() - 1);
-    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
-        adjacency.neighbour[next[edges(e, 0)]++] = edges(e, 1);
-        adjacency.neighbour[next[edges(e, 1)]++] = edges(e, 0);
-    }
-    return adjacency;
-}
-
 std::vector<int> VertexOrder::slab_of_new() const
 {
     std::vector<int> slab_of(old_of_new.size());

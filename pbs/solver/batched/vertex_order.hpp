@@ -19,12 +19,6 @@ struct VertexOrder {
     std::vector<int> slab_of_new() const;  // #V
 };
 
-// Neighbours of vertex i by edges: first[i] .. first[i + 1] - 1 of `neighbour`.
-struct Adjacency {
-    std::vector<int> first, neighbour;
-};
-Adjacency adjacency_of(const Tets& tets, int vertices);
-
 // A slab has at least `vertices_a_slab` vertices; a last one of less than half of that joins the one before.
 VertexOrder order_vertices(const Tets& tets, int vertices, int vertices_a_slab = 1024);
 

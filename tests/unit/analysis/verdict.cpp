@@ -257,10 +257,12 @@ TEST(Verdict, FiguresInPrintFlipWithTheirBounds)
     Claim claim = claim_of("C01");
     claim.rule = ClaimRule::printed;
     const double infinity = std::numeric_limits<double>::infinity();
-    Records records{.printed = {{"edges of Man", 6342, 6653, infinity}, {"edges of Lady", 9387, 7862, infinity}}};
+    Records records{.printed = {{claim.id, "edges of Man", 6342, 6653, infinity},
+                                {claim.id, "edges of Lady", 9387, 7862, infinity},
+                                {"C00", "another's", 1, 2, 3}}};
     const Verdict verdict = judge(claim, records);
     EXPECT_EQ(verdict.kind, VerdictKind::inconsistent_in_print);
-    EXPECT_EQ(verdict.text, "inconsistent in print: edges of Man is 6342, but the rest asks for 6653 to inf");
+    EXPECT_EQ(verdict.text, "inconsistent in print: edges of Man is 6342, but the rest asks for 6653 or more");
     EXPECT_EQ(verdict.measured, "1 of 2 figures consistent");
     records.printed[0].printed = 6653;
     EXPECT_EQ(judge(claim, records).kind, VerdictKind::reproduced);
