@@ -9,6 +9,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#ifdef PBS_WITH_THREADS
+#include <tbb/global_control.h>
+#endif
+
 namespace {
 
 using namespace test_support;
@@ -16,6 +22,11 @@ using pbs::Order;
 using pbs::PbsOptions;
 using pbs::Precision;
 using pbs::Vec3;
+
+#ifdef PBS_WITH_THREADS
+// oneTBB has no more threads than the machine has cores unless it is told so.
+const tbb::global_control four_threads(tbb::global_control::max_allowed_parallelism, 4);
+#endif
 
 const TwoBoneLimb limb = two_bone_limb({110, 6, 6}, Vec3::UnitZ(), 60.0);  // 5,439 vertices
 const Order batched_orders[] = {Order::ordered, Order::grouped};
