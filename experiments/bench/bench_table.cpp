@@ -10,6 +10,8 @@
 namespace experiments {
 namespace {
 
+constexpr double quiet_load = 0.5;
+
 std::string limits_text(const MachineLimits& limits)
 {
     std::string copy;
@@ -86,6 +88,9 @@ std::string bench_table(const BenchRecord& record)
     std::string text =
         fmt::format("{}, {} cores, load {:.1f}; kernels: {}, {} / {} lanes; {}\n", provenance.cpu_model, provenance.logical_cpus,
                     record.load_after, pbs::kernel_instructions(), pbs::kernel_lanes(4), pbs::kernel_lanes(8), provenance.compiler);
+    if (record.load_before > quiet_load)
+        text += fmt::format("other work ran beside this (load {:.1f} before): wall times, and so threads, are worth little\n",
+                            record.load_before);
     text += limits_text(record.limits);
     for (const MeshTimings& mesh : record.meshes) {
         text += fmt::format("\n{}: {} vertices, {} edges, {} tets; a step is {} iterations; memory of a solver {:.0f} MB\n", mesh.name,

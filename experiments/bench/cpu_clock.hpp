@@ -12,4 +12,12 @@ inline double thread_cpu_s()
     return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
+// The same of all threads of the process.
+inline double process_cpu_s()
+{
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
+
 }  // namespace experiments
