@@ -92,7 +92,8 @@ SectionExtremes section_extremes(const pbs::Positions& rest, const pbs::Position
     for (std::size_t i = 0; i < stations.size(); ++i) {
         const SectionStation& station = stations[i];
         require_station(station, i, tets.rows());
-        const double rest_area = cross_section_area(rest, tets, station.tets, station.rest);
+        const double rest_area =
+            station.rest_area_m2 > 0.0 ? station.rest_area_m2 : cross_section_area(rest, tets, station.tets, station.rest);
         if (!(rest_area > 0.0)) throw pbs::InputError("", 0, fmt::format("station {}", i), "", "its plane misses its tets at rest");
         result.area_m2.push_back(cross_section_area(positions, tets, station.tets, station.posed));
         result.ratio.push_back(result.area_m2.back() / rest_area);

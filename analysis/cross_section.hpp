@@ -23,6 +23,7 @@ double cross_section_area(const pbs::Positions& positions, const pbs::Tets& tets
 struct SectionStation {
     Plane rest, posed;
     std::vector<int> tets;
+    double rest_area_m2 = 0.0;  // of its tets in the plane at rest; 0: measured
 };
 
 struct SectionExtremes {

@@ -40,11 +40,8 @@ void require_closed(const pbs::Positions& points, const pbs::Triangles& triangle
     throw pbs::InputError("", 0, "edge", fmt::format("{}-{}", edge.first, edge.second), "expected a closed, oriented surface");
 }
 
-}  // namespace
-
-double enclosed_volume(const pbs::Positions& points, const pbs::Triangles& triangles)
+double volume_within(const pbs::Positions& points, const pbs::Triangles& triangles)
 {
-    require_closed(points, triangles);
     const pbs::Vec3 origin = points.row(triangles(0, 0));  // near by, so that a surface far from the origin loses no digits
     CompensatedSum volume;
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
@@ -52,13 +49,30 @@ double enclosed_volume(const pbs::Positions& points, const pbs::Triangles& trian
     return volume.value();
 }
 
+}  // namespace
+
+double enclosed_volume(const pbs::Positions& points, const pbs::Triangles& triangles)
+{
+    require_closed(points, triangles);
+    return volume_within(points, triangles);
+}
+
+SurfaceVolume::SurfaceVolume(const pbs::Positions& rest, const pbs::Triangles& triangles)
+    : triangles_(triangles), points_(rest.rows()), rest_volume_(enclosed_volume(rest, triangles))
+{
+    if (!(rest_volume_ > 0.0))
+        throw pbs::InputError("", 0, "enclosed rest volume", fmt::format("{} m^3", rest_volume_), "expected > 0: triangles face outward");
+}
+
+double SurfaceVolume::change_pct(const pbs::Positions& posed) const
+{
+    require_points(posed, points_, "the posed surface");
+    return 100.0 * (volume_within(posed, triangles_) - rest_volume_) / rest_volume_;
+}
+
 double surface_volume_change_pct(const pbs::Positions& rest, const pbs::Positions& posed, const pbs::Triangles& triangles)
 {
-    require_points(posed, rest.rows(), "the posed surface");
-    const double rest_volume = enclosed_volume(rest, triangles);
-    if (!(rest_volume > 0.0))
-        throw pbs::InputError("", 0, "enclosed rest volume", fmt::format("{} m^3", rest_volume), "expected > 0: triangles face outward");
-    return 100.0 * (enclosed_volume(posed, triangles) - rest_volume) / rest_volume;
+    return SurfaceVolume(rest, triangles).change_pct(posed);
 }
 
 }  // namespace analysis

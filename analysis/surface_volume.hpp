@@ -11,7 +11,19 @@ namespace analysis {
 // number.
 double enclosed_volume(const pbs::Positions& points, const pbs::Triangles& triangles);
 
-// 100 (V - V0) / V0. InputError where V0 is not positive.
+// The surface of many frames: what does not change is checked and measured once.
+class SurfaceVolume {
+public:
+    SurfaceVolume(const pbs::Positions& rest, const pbs::Triangles& triangles);  // InputError where V0 is not positive
+    double change_pct(const pbs::Positions& posed) const;                        // 100 (V - V0) / V0
+
+private:
+    pbs::Triangles triangles_;
+    Eigen::Index points_ = 0;
+    double rest_volume_ = 0.0;
+};
+
+// The same for one frame.
 double surface_volume_change_pct(const pbs::Positions& rest, const pbs::Positions& posed, const pbs::Triangles& triangles);
 
 }  // namespace analysis

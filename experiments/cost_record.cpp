@@ -28,10 +28,15 @@ double CostRecord::seconds(const std::string& part) const
 
 nlohmann::json CostRecord::json() const
 {
-    nlohmann::json seconds = seconds_;
+    nlohmann::json seconds = seconds_, cpu_seconds = cpu_seconds_;
     seconds["total"] = stopwatch_.seconds();
-    if (!deformers_.empty()) seconds["deformers"] = deformers_;
-    return {{"seconds", seconds}, {"peak_memory_mb", 1e-6 * peak_memory_bytes()}, {"shared_objects", loaded_shared_objects()}};
+    cpu_seconds["total"] = process_cpu_s() - cpu_start_s_;
+    seconds["deformers"] = deformers_;
+    cpu_seconds["deformers"] = cpu_deformers_;
+    return {{"seconds", seconds},
+            {"cpu_seconds", cpu_seconds},
+            {"peak_memory_mb", 1e-6 * peak_memory_bytes()},
+            {"shared_objects", loaded_shared_objects()}};
 }
 
 }  // namespace experiments

@@ -1,6 +1,5 @@
 #include "experiments/frame_measurement.hpp"
 
-#include "analysis/surface_volume.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
 
@@ -43,11 +42,17 @@ FrameMeasurer::FrameMeasurer(const pbs::Character& character, const OutputSpec& 
         boundary_ = pbs::boundary_of(character.mesh.tets);
     }
     if (output.sections) stations_ = limb_stations(character);
+    for (const LimbStation& station : stations_) {
+        const analysis::Plane rest{station.point, station.normal};
+        sections_.push_back(
+            {rest, rest, station.tets, analysis::cross_section_area(character.mesh.rest, character.mesh.tets, station.tets, rest)});
+    }
     if (output.surface && character.surface)
-        rest_surface_ = pbs::embedded_positions(*character.surface, character.mesh.rest, character.mesh.tets);
+        surface_volume_.emplace(pbs::embedded_positions(*character.surface, character.mesh.rest, character.mesh.tets),
+                                character.surface->triangles);
 }
 
-FrameMeasurement FrameMeasurer::measure(const pbs::Positions& positions, const FrameContext& context) const
+FrameMeasurement FrameMeasurer::measure(const pbs::Positions& positions, const FrameContext& context)
 {
     FrameMeasurement measured;
     measured.metrics = ruler_.measure(positions);
@@ -62,9 +67,9 @@ FrameMeasurement FrameMeasurer::measure(const pbs::Positions& positions, const F
     }
     if (!positions.allFinite()) return measured;
     if (!stations_.empty()) measured.min_section_pct = min_section_pct(positions, *context.pose);
-    if (rest_surface_)
-        measured.surface_volume_change_pct = analysis::surface_volume_change_pct(
-            *rest_surface_, pbs::embedded_positions(*character_.surface, positions, character_.mesh.tets), character_.surface->triangles);
+    if (surface_volume_)
+        measured.surface_volume_change_pct =
+            surface_volume_->change_pct(pbs::embedded_positions(*character_.surface, positions, character_.mesh.tets));
     return measured;
 }
 
@@ -73,12 +78,11 @@ bool FrameMeasurer::self_intersects(const pbs::Positions& positions) const
     return pbs::self_intersects(positions, boundary_);
 }
 
-double FrameMeasurer::min_section_pct(const pbs::Positions& positions, const pbs::Pose& pose) const
+double FrameMeasurer::min_section_pct(const pbs::Positions& positions, const pbs::Pose& pose)
 {
-    std::vector<analysis::SectionStation> stations;
-    for (const LimbStation& station : stations_)
-        stations.push_back({{station.point, station.normal}, {posed_point(station, pose), posed_normal(station, pose)}, station.tets});
-    return 100.0 * analysis::section_extremes(character_.mesh.rest, positions, character_.mesh.tets, stations).smallest_ratio;
+    for (std::size_t i = 0; i < stations_.size(); ++i)
+        sections_[i].posed = {posed_point(stations_[i], pose), posed_normal(stations_[i], pose)};
+    return 100.0 * analysis::section_extremes(character_.mesh.rest, positions, character_.mesh.tets, sections_).smallest_ratio;
 }
 
 }  // namespace experiments

@@ -5,6 +5,7 @@
 #include "analysis/cross_section.hpp"
 #include "analysis/error_norms.hpp"
 #include "analysis/frame_metrics.hpp"
+#include "analysis/surface_volume.hpp"
 #include "experiments/limb_stations.hpp"
 #include "experiments/scene.hpp"
 
@@ -43,21 +44,22 @@ class FrameMeasurer {
 public:
     // prescribed: vertices the reference is told where to be, #V or empty; the errors leave them out.
     FrameMeasurer(const pbs::Character& character, const OutputSpec& output, const std::vector<bool>& prescribed);
-    FrameMeasurement measure(const pbs::Positions& positions, const FrameContext& context) const;
+    FrameMeasurement measure(const pbs::Positions& positions, const FrameContext& context);
     // In the norms of the errors, which the scene must have asked for.
     analysis::ErrorNorms difference(const pbs::Positions& a, const pbs::Positions& b) const { return error_ruler_.value().measure(a, b); }
     Eigen::VectorXd volume_ratios(const pbs::Positions& positions) const { return ruler_.volume_ratios(positions); }
     bool self_intersects(const pbs::Positions& positions) const;  // asked of the reference of errors alone
 
 private:
-    double min_section_pct(const pbs::Positions& positions, const pbs::Pose& pose) const;
+    double min_section_pct(const pbs::Positions& positions, const pbs::Pose& pose);
 
     const pbs::Character& character_;
     analysis::Ruler ruler_;
     std::optional<analysis::ErrorRuler> error_ruler_;
     pbs::Triangles boundary_;  // of the errors
     std::vector<LimbStation> stations_;
-    std::optional<pbs::Positions> rest_surface_;
+    std::vector<analysis::SectionStation> sections_;  // one a station; of the pose being measured
+    std::optional<analysis::SurfaceVolume> surface_volume_;
 };
 
 }  // namespace experiments

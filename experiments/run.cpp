@@ -69,11 +69,19 @@ OutputSpec measured_output(const Scene& scene)
     return output;
 }
 
+// The rendered surface is carried along where it is measured or written.
+pbs::CharacterSource needed_character(const Scene& scene)
+{
+    pbs::CharacterSource source = scene.character;
+    source.surface = scene.output.surface || scene.output.frames_every > 0 || !scene.output.frames.empty();
+    return source;
+}
+
 class SceneRun {
 public:
     SceneRun(const Scene& scene, const std::string& folder)
         : scene_(scene),
-          character_(cost_.time("character", [&] { return pbs::make_character(scene.character); })),
+          character_(cost_.time("character", [&] { return pbs::make_character(needed_character(scene)); })),
           motion_(cost_.time("motion", [&] { return make_motion(scene.motion, character_.skeleton, scene.file); })),
           runners_(make_runners(scene, character_, cost_)),
           measurer_(

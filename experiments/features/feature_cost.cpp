@@ -48,18 +48,30 @@ const DeformerSpec& pbs_of(const Scene& scene)
     return *found;
 }
 
+// Seconds before the first frame.
+double start_of(const nlohmann::json& seconds)
+{
+    double sum = 0.0;
+    for (const char* part : {"character", "motion", "set_up", "ruler_set_up", "error_bar_set_up"}) sum += seconds.value(part, 0.0);
+    return sum;
+}
+
 }  // namespace
 
 RunCost cost_of(const Scene& scene, const Variant& variant, const std::string& scratch_folder)
 {
     const nlohmann::json cost = in_own_process([&] { return run_and_tell(scene, variant, scratch_folder); });
-    const nlohmann::json& seconds = cost.at("seconds");
+    const nlohmann::json &seconds = cost.at("seconds"), &cpu_seconds = cost.at("cpu_seconds");
+    const double ms_a_frame = 1e3 / cost.at("frames").get<double>();
+    const auto step_of = [&](const nlohmann::json& parts) {
+        return ms_a_frame * parts.at("deformers").at(pbs_of(scene).label).at("step").get<double>();
+    };
     RunCost result;
-    for (const char* part : {"character", "motion", "set_up", "ruler_set_up", "error_bar_set_up"})
-        result.start_s += seconds.value(part, 0.0);
-    const double frames = cost.at("frames").get<double>();
-    result.frame_ms = 1e3 * (seconds.at("total").get<double>() - result.start_s) / frames;
-    result.step_ms = 1e3 * seconds.at("deformers").at(pbs_of(scene).label).at("step").get<double>() / frames;
+    result.start_s = start_of(seconds);
+    result.frame_ms = ms_a_frame * (seconds.at("total").get<double>() - start_of(seconds));
+    result.frame_cpu_ms = ms_a_frame * (cpu_seconds.at("total").get<double>() - start_of(cpu_seconds));
+    result.step_ms = step_of(seconds);
+    result.step_cpu_ms = step_of(cpu_seconds);
     result.peak_mb = cost.at("peak_memory_mb").get<double>();
     result.shared_objects = cost.at("shared_objects").get<int>();
     return result;

@@ -10,10 +10,12 @@ namespace experiments {
 
 // One run of a scene.
 struct RunCost {
-    double frame_ms = 0.0;  // everything done a frame
-    double step_ms = 0.0;   // PBS's step alone
-    double start_s = 0.0;   // character, motion, deformers, ruler, modules loaded
-    double peak_mb = 0.0;   // 10^6 bytes
+    double frame_ms = 0.0;      // everything done a frame, wall time
+    double frame_cpu_ms = 0.0;  // the same in processor time of all threads: other work on the machine stretches it less
+    double step_ms = 0.0;       // PBS's step alone, wall time
+    double step_cpu_ms = 0.0;
+    double start_s = 0.0;  // character, motion, deformers, ruler, modules loaded; wall time
+    double peak_mb = 0.0;  // 10^6 bytes
     int shared_objects = 0;
 };
 

@@ -84,7 +84,7 @@ Character make_body(const CharacterSource& source)
     if (source.body.empty()) return make_from_files(source);
     if (source.body == "limb") return make_beam("limb", wanted(limb_vertices), mesh_limb);
     if (source.body == "bar") return make_beam("bar", wanted(bar_vertices), mesh_bar);
-    if (source.body == "human") return make_human(source.vertices);
+    if (source.body == "human") return make_human(source.vertices, source.surface);
     throw InputError("", 0, "character.body", source.body, "expected limb, bar or human");
 }
 

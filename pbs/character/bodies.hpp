@@ -12,6 +12,7 @@ struct CharacterSource {
     int vertices = 0;  // wanted size of a built-in body; 0: its default (limb 1,775, bar 1,800, human as in Table 1's neighbourhood)
     WeightKind weights = WeightKind::paper;
     std::string weights_file = {};  // CSV vertex,joint,weight; empty: `weights`
+    bool surface = true;            // carry the rendered surface along, where the body has one
     int refinements = 0;            // every tet into eight so many times; `vertices` and a weights file are of the unrefined mesh
 };
 

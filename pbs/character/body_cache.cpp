@@ -49,7 +49,7 @@ bool is_whole(const fs::path& file, const std::string& key)
 std::optional<TetMesh> read_cached(const std::string& key)
 {
     for (const fs::path& file : files_of_key(key)) try {
-            if (is_whole(file, key)) return read_tet_mesh(file.string()).mesh;
+            if (is_whole(file, key)) return read_tet_frame(file.string());  // checked before it was stored
             fs::remove(file);
         } catch (const std::exception&) {  // unreadable: made anew
         }

@@ -38,7 +38,7 @@ Skeleton human_skeleton()
     return parse_skeleton(pbs_data::human_skeleton_toml, "human.skeleton.toml");
 }
 
-Character make_human(int vertices)
+Character make_human(int vertices, bool with_surface)
 {
     if (!std::filesystem::exists(surface_file))
         throw InputError("", 0, "character.body", "human", "not installed: needs the package assimp-testmodels");
@@ -49,8 +49,12 @@ Character make_human(int vertices)
     human.skeleton = human_skeleton();
     const SurfaceMesh surface = read_surface(surface_file, geometry);
     const std::string surface_hash = hash_of_file(surface_file);
-    human.mesh = cached_mesh(key_of(surface_hash, vertices), [&] { return mesh_surface(surface, meshing_of(human.skeleton, vertices)); });
-    human.surface = embed(surface.points, surface.triangles, human.mesh);
+    human.mesh = cached_mesh(key_of(surface_hash, vertices),
+                             [&] { return mesh_surface(read_surface(surface_file, geometry), meshing_of(human.skeleton, vertices)); });
+    if (with_surface) {
+        const SurfaceMesh surface = read_surface(surface_file, geometry);
+        human.surface = embed(surface.points, surface.triangles, human.mesh);
+    }
     human.inputs = {{std::filesystem::path(surface_file).filename().string(), surface_hash},
                     {"human.skeleton.toml", content_hash(pbs_data::human_skeleton_toml)}};
     return human;

@@ -13,7 +13,7 @@ Skeleton human_skeleton()
     throw InputError("", 0, "character.body", "human", rule);
 }
 
-Character make_human(int)
+Character make_human(int, bool)
 {
     throw InputError("", 0, "character.body", "human", rule);
 }

@@ -66,8 +66,10 @@ Quality quality_of(const TetMesh& mesh)
     quality.topology = topology_of(mesh.tets, mesh.rest.rows());
     if (quality.tets == 0) return quality;
 
-    const std::vector<bool> on_boundary = boundary_vertices(mesh.tets, mesh.rest.rows());
-    quality.boundary_triangles = static_cast<int>(boundary_of(mesh.tets).rows());
+    const Triangles boundary = boundary_of(mesh.tets);
+    std::vector<bool> on_boundary(mesh.rest.rows(), false);
+    for (const int vertex : boundary.reshaped()) on_boundary[vertex] = true;
+    quality.boundary_triangles = static_cast<int>(boundary.rows());
     quality.boundary_vertices = static_cast<int>(std::count(on_boundary.begin(), on_boundary.end(), true));
     quality.volume_m3 = tet_volumes(mesh.rest, mesh.tets).sum();
     examine_dihedrals(mesh, quality);

@@ -37,7 +37,7 @@ void Particles::check_input(const Positions& lbs_positions, const Positions& bin
 
 void Particles::predict(const Positions& lbs_positions, double dt_s)
 {
-    if (v_.rows() == 0) {
+    if (v_.rows() == 0 && !jiggling_.empty()) {
         v_ = Positions::Zero(jiggling_.size(), 3);  // (2)
         x_ = lbs_positions;                         // (3)
     }

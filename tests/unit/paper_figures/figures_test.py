@@ -13,6 +13,7 @@ sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 import claims_table  # noqa: E402
 import make_all  # noqa: E402
 import readme_claims  # noqa: E402
+import readme_features  # noqa: E402
 import records  # noqa: E402
 import report  # noqa: E402
 import synthetic_records  # noqa: E402
@@ -162,6 +163,21 @@ class Figures(unittest.TestCase):
         text = readme.read_text()
         self.assertTrue(text.startswith("before\n") and text.endswith("\nafter\n"))
         self.assertIn("| C01 |", text)
+        self.assertNotIn("old", text)
+
+    def test_readme_of_features_is_changed_between_its_markers_alone(self):
+        folder = self.results / "features" / "human"
+        folder.mkdir(parents=True)
+        columns = {name + side: "1.5" for name in ("frame_cpu_ms", "start_s", "peak_mb") for side in ("_without", "_with")}
+        columns |= {"frame_cpu_ms_ratio" + part: "1.25" for part in ("", "_lower", "_upper")}
+        columns |= {"feature": "sleep", "largest_distance_m": "0.002"}
+        (folder / "features.csv").write_text(",".join(columns) + "\n" + ",".join(columns.values()) + "\n")
+        readme = self.results / "README.md"
+        readme.write_text(f"before\n{readme_features.begin}\nold\n{readme_features.end}\nafter\n")
+        readme_features.main(self.results, readme)
+        text = readme.read_text()
+        self.assertTrue(text.startswith("before\n") and text.endswith("\nafter\n"))
+        self.assertIn("| sleep | 1.50 | 1.50 | 1.25 [1.25, 1.25] | 1.50 | 1.50 | 2 | 2 | 2 mm |", text)
         self.assertNotIn("old", text)
 
 

@@ -11,7 +11,13 @@ using namespace experiments;
 
 RunCost cost(double frame_ms)
 {
-    return {.frame_ms = frame_ms, .step_ms = 0.5 * frame_ms, .start_s = 0.1, .peak_mb = 40.0 + frame_ms, .shared_objects = 60};
+    return {.frame_ms = frame_ms,
+            .frame_cpu_ms = frame_ms,
+            .step_ms = 0.5 * frame_ms,
+            .step_cpu_ms = 0.5 * frame_ms,
+            .start_s = 0.1,
+            .peak_mb = 40.0 + frame_ms,
+            .shared_objects = 60};
 }
 
 FeatureRow row(const std::vector<double>& without, const std::vector<double>& with)

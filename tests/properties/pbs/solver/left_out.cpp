@@ -1,0 +1,90 @@
+// Nothing is built that a scene does not need. Truth: the list in architecture.md ("leave out what a scene does not need"), asked of the
+// solver's own parts, over every combination of classes with and without stiffness.
+#include "pbs/solver/batched/batched_constraints.hpp"
+#include "pbs/solver/particles.hpp"
+#include "pbs/solver/pbs_solver.hpp"
+#include "tests/support/structured_bar.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace pbs;
+
+const TetMesh bar = test_support::structured_bar({0, 0, 0}, {3, 1, 1}, {6, 2, 2});
+const Eigen::VectorXd distance = Eigen::VectorXd::LinSpaced(bar.rest.rows(), 0.1, 0.5);
+
+// Bit 0: stretch, 1: volume, 2: bind.
+PbsOptions with_classes(int bits, Order order)
+{
+    PbsOptions options;
+    options.order = order;
+    if (!(bits & 1)) options.k_stretch = 0.0;
+    if (!(bits & 2)) options.k_volume = 0.0;
+    if (!(bits & 4)) options.k_bind = 0.0;
+    return options;
+}
+
+class LeftOut : public testing::TestWithParam<Order> {};
+
+TEST_P(LeftOut, AClassOfStiffnessZeroIsNeverBuilt)
+{
+    for (int bits = 0; bits < 8; ++bits) {
+        SCOPED_TRACE(bits);
+        const PbsOptions options = with_classes(bits, GetParam());
+        const ConstraintSet<float> set = make_constraint_set<float>(bar, distance, {}, options);
+        EXPECT_EQ(set.stretch.empty(), !(bits & 1));
+        EXPECT_EQ(set.volume.empty(), !(bits & 2));
+        EXPECT_EQ(set.bind.empty(), !(bits & 4));
+        if (GetParam() == Order::plain) continue;
+        const BatchedConstraints<float> batched = make_batched_constraints(set, bar.tets, GetParam());
+        EXPECT_EQ(batched.stretch.batches() == 0, !(bits & 1));
+        EXPECT_EQ(batched.volume.batches() == 0, !(bits & 2));
+        EXPECT_EQ(batched.stretch.bytes() == 0, !(bits & 1));
+        EXPECT_EQ(batched.volume.bytes() == 0, !(bits & 2));
+    }
+}
+
+TEST_P(LeftOut, WithoutAnyClassTheStepIsLbs)
+{
+    PbsSolver solver(bar, distance, {}, with_classes(0, GetParam()));
+    const Positions moved = bar.rest.rowwise() + Eigen::RowVector3d(0.25, 0.5, -1.0);  // exact in float
+    solver.advance(moved, moved, 0.01);
+    EXPECT_LT((solver.positions() - moved).cwiseAbs().maxCoeff(), 1e-6);  // rounding of float, relative to the mean position
+}
+
+INSTANTIATE_TEST_SUITE_P(Orders, LeftOut, testing::Values(Order::plain, Order::ordered, Order::grouped), [](const auto& order) {
+    return order.param == Order::plain ? "plain" : order.param == Order::ordered ? "ordered" : "grouped";
+});
+
+class WithoutJiggle : public testing::TestWithParam<bool> {};
+
+TEST_P(WithoutJiggle, NoVelocityExists)
+{
+    PbsOptions options;
+    options.gravity_m_s2 = Vec3(0.0, -9.81, 0.0);
+    std::vector<bool> zone;
+    if (GetParam()) zone.assign(bar.rest.rows(), true);  // a zone alone does not jiggle
+    Particles particles(bar.rest, zone, options);
+    for (int step = 0; step < 3; ++step) {
+        particles.predict(bar.rest, 0.01);
+        particles.update(0.01);
+        EXPECT_EQ(particles.velocities().rows(), 0);
+        EXPECT_EQ(particles.positions(), bar.rest);  // gravity acts on what is integrated
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Zones, WithoutJiggle, testing::Bool());
+
+TEST(WithJiggle, OnlyTheZoneHasVelocities)
+{
+    PbsOptions options;
+    options.jiggle = Jiggle{};
+    std::vector<bool> zone(bar.rest.rows(), false);
+    zone[3] = zone[7] = true;
+    Particles particles(bar.rest, zone, options);
+    particles.predict(bar.rest, 0.01);
+    EXPECT_EQ(particles.velocities().rows(), 2);
+}
+
+}  // namespace
