@@ -45,7 +45,7 @@ def draw_cost(axes, record, precision):
     axes.set_yscale("log")
     axes.set_xlabel("tets")
     axes.set_ylabel("ns a constraint and iteration")
-    axes.set_ylim(bottom=axes.get_ylim()[0] / 3)
+    axes.set_ylim(bottom=axes.get_ylim()[0] / 7)
     axes.set_title(f"{precision}, one thread")
     write_exponents(axes, record, precision)
     return rows

@@ -11,7 +11,7 @@
 namespace experiments {
 namespace {
 
-constexpr int most_meshed_tets = 300'000, smallest_bar = 150;  // 150 vertices
+constexpr int most_meshed_tets = 150'000, smallest_bar = 150;  // 150 vertices
 constexpr double held_share = 0.025, angle_deg = 90.0;
 
 struct Axis {

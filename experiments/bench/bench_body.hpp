@@ -21,7 +21,7 @@ struct BenchBody {
 
 BenchBody make_bench_body(const std::string& name, pbs::TetMesh mesh);
 
-// The built-in bar with about so many vertices, or tets; beyond 300,000 tets it is the bar of an eighth of them, each cut into eight.
+// The built-in bar with about so many vertices, or tets; beyond 150,000 tets it is the bar of an eighth of them, each cut into eight.
 BenchBody bench_bar(int vertices);
 BenchBody bench_bar_of_tets(int tets);
 
