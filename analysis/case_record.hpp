@@ -33,10 +33,21 @@ struct PrintedFigure {
     double printed = 0.0, least = 0.0, most = 0.0;
 };
 
+// A figure that a study measured for a claim: a row of measurements.csv.
+struct Measurement {
+    std::string claim;                          // its id
+    std::string quantity;                       // as the claim's `metrics` name it
+    std::string of;                             // the case: character, pose, setting
+    double value = 0.0, low = 0.0, high = 0.0;  // with its interval; where there is none, low and high are the value
+    std::string unit;                           // 1 where there is none
+    std::string run = {};                       // the folder it came from
+};
+
 struct Records {
     std::vector<CaseRecord> cases = {};
     std::vector<LeftOut> left_out = {};
     std::vector<PrintedFigure> printed = {};
+    std::vector<Measurement> measurements = {};
     std::vector<std::string> planned_scenes = {};  // each must have a record or be left out, or the verdict cannot be computed
 };
 

@@ -17,6 +17,7 @@ using pbs::InputError;
 
 const std::map<std::string, ClaimRule> rules = {{"share_within", ClaimRule::share_within},
                                                 {"mean_within", ClaimRule::mean_within},
+                                                {"measured", ClaimRule::measured},
                                                 {"printed", ClaimRule::printed},
                                                 {"untestable", ClaimRule::untestable}};
 
@@ -82,8 +83,11 @@ void require_judgeable(const Claim& claim, const ClaimReader& reader)
 {
     const bool by_records = claim.rule == ClaimRule::share_within || claim.rule == ClaimRule::mean_within;
     if (by_records && claim.metrics.empty()) reader.refuse("metrics", "expected at least one");
+    const bool measured = claim.rule == ClaimRule::measured;
+    if (measured && claim.metrics.empty()) reader.refuse("metrics", "expected at least one");
+    if (measured && !(claim.low < claim.high)) reader.refuse("low", "expected low < high");
     for (const auto& metric : claim.metrics)
-        if (!measurable.contains(metric))
+        if (!measured && !measurable.contains(metric))
             reader.refuse("metrics", fmt::format("{}: expected one of {}", metric, fmt::join(measurable, ", ")));
     if (by_records && claim.deformer.empty()) reader.refuse("deformer", "missing in this claim");
     if (by_records && !(claim.low < claim.high)) reader.refuse("low_pct", "expected low_pct < high_pct");
@@ -113,12 +117,14 @@ Claim read_claim(const toml::table& table, const std::string& file)
     reader.optional("expected_pct", claim.expected);
     reader.optional("low_pct", claim.low);
     reader.optional("high_pct", claim.high);
+    reader.optional("low", claim.low);
+    reader.optional("high", claim.high);
     reader.optional("share", claim.share);
     reader.optional("part", claim.part);
     reader.optional("level", claim.level);
     reader.optional("reason", claim.reason);
     reader.require_nothing_unknown();
-    if (!rules.contains(rule)) reader.refuse("rule", "expected share_within, mean_within, printed or untestable");
+    if (!rules.contains(rule)) reader.refuse("rule", "expected share_within, mean_within, measured, printed or untestable");
     claim.rule = rules.at(rule);
     require_judgeable(claim, reader);
     return claim;

@@ -8,7 +8,7 @@
 
 namespace analysis {
 
-enum class ClaimRule { share_within, mean_within, printed, untestable };
+enum class ClaimRule { share_within, mean_within, measured, printed, untestable };
 
 struct Claim {
     std::string id, statement, place, study;

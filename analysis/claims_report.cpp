@@ -1,6 +1,7 @@
 #include "analysis/claims_report.hpp"
 
 #include "analysis/case_row.hpp"
+#include "analysis/measurement.hpp"
 #include "analysis/order_verdicts.hpp"
 
 #include <fmt/format.h>
@@ -63,8 +64,16 @@ json to_json_of(const OrderVerdict& verdict)
             {"cases", cases}};
 }
 
+json to_json_of(const Measurement& measured)
+{
+    return {{"quantity", measured.quantity}, {"of", measured.of},     {"value", measured.value}, {"low", measured.low},
+            {"high", measured.high},         {"unit", measured.unit}, {"run", measured.run}};
+}
+
 json to_json_of(const Verdict& verdict)
 {
+    json measurements = json::array();
+    for (const Measurement& measured : verdict.measurements) measurements.push_back(to_json_of(measured));
     json cases = json::array(), beside = json::array(), orders = json::array();
     for (const OrderVerdict& other : verdict.orders) orders.push_back(to_json_of(other));
     for (const CaseJudgement& judged : verdict.cases) cases.push_back(to_json_of(judged));
@@ -82,7 +91,8 @@ json to_json_of(const Verdict& verdict)
             {"runs", verdict.runs},
             {"cases", cases},
             {"beside", beside},
-            {"orders", orders}};
+            {"orders", orders},
+            {"measurements", measurements}};
 }
 
 // A cell of a Markdown table: one line, no column of its own.
@@ -126,6 +136,12 @@ std::vector<TitledRow> rows_of(const Verdict& verdict)
         rows.push_back({judged.metric + ", beside", case_row(verdict.claim, judged), judged.run});
         rows.back().row.name += ", " + judged.deformer;
     }
+    const std::array<const char*, 3> holds = {"no", "within its interval alone", "yes"};
+    for (const Measurement& measured : verdict.measurements)
+        rows.push_back({measured.quantity,
+                        {measured.of, figure_text(measured), interval_text(measured),
+                         holds[static_cast<std::size_t>(extent_of(verdict.claim, measured))]},
+                        measured.run});
     for (const OrderVerdict& other : verdict.orders)
         rows.push_back({other.cases.front().metric + ", in another order of projection",
                         {name_of(other), measured_in(other), "", text_of(other)},
@@ -146,7 +162,7 @@ std::string claims_markdown(const std::vector<Verdict>& verdicts)
 {
     std::string text = "| id | statement | expected | measured | interval | verdict | runs |\n|---|---|---|---|---|---|---|\n";
     for (const Verdict& verdict : verdicts) {
-        const std::string reason = verdict.cases.empty() ? verdict.text : "**" + label(verdict.kind) + "**";
+        const std::string reason = verdict.cases.empty() && verdict.measurements.empty() ? verdict.text : "**" + label(verdict.kind) + "**";
         text += fmt::format("| {} | {} ({}) | {} | {} | | {} | |\n", markdown_cell(verdict.claim.id),
                             markdown_cell(verdict.claim.statement), verdict.claim.place, markdown_cell(expected_text(verdict.claim)),
                             verdict.cases.empty() ? markdown_cell(verdict.measured) : "", markdown_cell(reason));
@@ -186,6 +202,7 @@ std::string expected_text(const Claim& claim)
 {
     if (claim.rule == ClaimRule::printed) return "each figure as the others ask for";
     if (claim.metrics.empty()) return "";
+    if (claim.rule == ClaimRule::measured) return fmt::format("{:.4g} to {:.4g}", claim.low, claim.high);
     return fmt::format("{:.4g} % ({:.4g} to {:.4g} %)", claim.expected, claim.low, claim.high);
 }
 

@@ -1,5 +1,6 @@
 #include "analysis/verdict.hpp"
 
+#include "analysis/measurement.hpp"
 #include "analysis/order_verdicts.hpp"
 #include "analysis/statistics.hpp"
 
@@ -140,6 +141,47 @@ Verdict judge_cases(const Claim& claim, const Records& records)
     return verdict;
 }
 
+std::string list_of(const Verdict& verdict, bool holding)
+{
+    constexpr std::size_t named = 3;  // the others stand in the table
+    std::vector<std::string> entries;
+    for (const Measurement& measured : verdict.measurements)
+        if ((extent_of(verdict.claim, measured) == Extent::whole) == holding)
+            entries.push_back(holding ? measured.of : fmt::format("{} ({})", measured.of, figure_text(measured)));
+    const std::size_t count = entries.size();
+    entries.resize(std::min(count, named));
+    const std::string more = count > named ? fmt::format(" and {} more", count - named) : "";
+    return fmt::format("{}{}", fmt::join(entries, ", "), more);
+}
+
+// Every measurement of the claim's quantities whole is reproduced; some, reproduced only for those; none is not reproduced.
+Verdict judge_measurements(const Claim& claim, const Records& records)
+{
+    Verdict verdict = verdict_of(claim, VerdictKind::not_computable, "");
+    std::set<std::string> runs;
+    std::size_t holding = 0;
+    for (const std::string& quantity : claim.metrics)
+        for (const Measurement& measured : records.measurements) {
+            if (measured.claim != claim.id || measured.quantity != quantity) continue;
+            verdict.measurements.push_back(measured);
+            holding += extent_of(claim, measured) == Extent::whole;
+            if (!measured.run.empty()) runs.insert(measured.run);
+        }
+    if (verdict.measurements.empty() && !records.left_out.empty())
+        return verdict_of(claim, VerdictKind::cannot_be_tested_here, left_out_text(records.left_out));
+    if (verdict.measurements.empty()) return verdict_of(claim, VerdictKind::not_computable, "nothing was measured");
+    verdict.runs.assign(runs.begin(), runs.end());
+    verdict.measured = fmt::format("{} of {} figures within", holding, verdict.measurements.size());
+    verdict.kind = holding == verdict.measurements.size() ? VerdictKind::reproduced
+                   : holding > 0                          ? VerdictKind::reproduced_only_for
+                                                          : VerdictKind::not_reproduced;
+    verdict.text = label(verdict.kind);
+    if (verdict.kind == VerdictKind::reproduced_only_for)
+        verdict.text += fmt::format(" {}; not for {}", list_of(verdict, true), list_of(verdict, false));
+    if (verdict.kind == VerdictKind::not_reproduced) verdict.text += ": " + list_of(verdict, false);
+    return verdict;
+}
+
 std::string bound_text(const PrintedFigure& figure)
 {
     if (std::isinf(figure.most)) return fmt::format("{:.6g} or more", figure.least);
@@ -188,6 +230,8 @@ Verdict judge(const Claim& claim, const Records& records)
     switch (claim.rule) {
         case ClaimRule::printed:
             return judge_print(claim, records.printed);
+        case ClaimRule::measured:
+            return judge_measurements(claim, records);
         case ClaimRule::untestable:
             return verdict_of(claim, VerdictKind::cannot_be_tested_here, claim.reason);
         default:

@@ -2,6 +2,7 @@
 
 #include "analysis/atomic_file.hpp"
 #include "analysis/claims_report.hpp"
+#include "analysis/measurement.hpp"
 #include "experiments/claims_text.hpp"
 #include "experiments/exit_status.hpp"
 #include "experiments/studies/study.hpp"
@@ -106,6 +107,11 @@ analysis::Records records_of(const StudyPlan& plan, const std::vector<std::strin
     for (const std::string& folder : folders) {
         if (const fs::path printed = fs::path(folder) / "printed.csv"; fs::exists(printed))
             for (auto& figure : analysis::printed_figures(printed.string())) records.printed.push_back(std::move(figure));
+        if (const fs::path measured = fs::path(folder) / "measurements.csv"; fs::exists(measured))
+            for (auto& measurement : analysis::measurements(measured.string())) {
+                measurement.run = fs::path(folder).lexically_relative(root).string();
+                records.measurements.push_back(std::move(measurement));
+            }
         if (!fs::exists(fs::path(folder) / "metrics.csv")) continue;
         const auto metrics = analysis::read_csv((fs::path(folder) / "metrics.csv").string());
         for (auto& record : analysis::case_records(metrics, fs::path(folder).lexically_relative(root).string()))

@@ -10,6 +10,8 @@ const std::vector<Study>& studies()
          "C01, C02", "some 5 minutes (--quick: 25 frames a second of the clip), 20 (--full: 100)", plan_volume_study},
         {"audit", "the paper against itself: mesh sizes, Table 1, the equations of the volume constraint", "C13, C14, C15", "some seconds",
          plan_audit_study, true, conclude_audit_study},
+        {"momentum", "what one projection of each class does to linear and angular momentum, by order, precision and masses", "C07",
+         "some 10 seconds", plan_momentum_study},
         {"verification",
          "the FEM reference against theory, published benchmarks and other programs: patch tests, manufactured solutions, beams, sphere, "
          "plates, locking, time stepping, CalculiX; each row with reference, source, difference, order and bound",

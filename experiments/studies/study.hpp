@@ -48,6 +48,7 @@ StudyPlan plan_audit_study(bool full);
 StudyConclusion conclude_audit_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_fit_study(bool full);
 StudyConclusion conclude_fit_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
+StudyPlan plan_momentum_study(bool full);
 StudyPlan plan_error_split_study(bool full);
 StudyConclusion conclude_error_split_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_bench_study(bool full);

@@ -65,7 +65,7 @@ TEST(Claims, BrokenFilesAreNamedWithTheirLine)
     EXPECT_EQ(message_of(head + body + "level = 1.0\n"), "claims.toml:13: level: expected 0 < level < 1");
     EXPECT_EQ(message_of(head + body + "iterations = -1\n"), "claims.toml:13: iterations: expected >= 0");
     EXPECT_EQ(message_of(head), "claims.toml:2: rule: missing in this claim");
-    EXPECT_EQ(message_of(head + "rule = \"guess\"\n"), "claims.toml:8: rule: expected share_within, mean_within, printed or untestable");
+    EXPECT_EQ(message_of(head + "rule = \"guess\"\n"), "claims.toml:8: rule: expected share_within, mean_within, measured, printed or untestable");
     EXPECT_EQ(message_of(head + "rule = \"untestable\"\n"), "claims.toml:2: reason: missing in this claim");
     EXPECT_EQ(message_of(head + "rule = \"mean_within\"\n"), "claims.toml:2: metrics: expected at least one");
     EXPECT_EQ(message_of(head + "rule = \"mean_within\"\nmetrics = [\"beauty\"]\n").substr(0, 30), "claims.toml:9: metrics: beauty");

@@ -1,0 +1,22 @@
+// Figures that a study measured for a claim, with how sure they are; and what a claim's bound says of them.
+//   for (const Measurement& measured : measurements("measurements.csv")) ...
+#pragma once
+
+#include "analysis/case_judgement.hpp"
+#include "analysis/csv_table.hpp"
+
+#include <string>
+#include <vector>
+
+namespace analysis {
+
+std::vector<Measurement> measurements(const std::string& csv);
+CsvTable measurement_table(const std::vector<Measurement>& measurements);
+
+// whole: the interval lies in the claim's bound; part: the value does; none: it does not, or is not a number.
+Extent extent_of(const Claim& claim, const Measurement& measured);
+
+std::string figure_text(const Measurement& measured);    // 3.1e-06 (1)
+std::string interval_text(const Measurement& measured);  // [2e-06, 5e-06]; empty where there is none
+
+}  // namespace analysis

@@ -1,0 +1,74 @@
+#include "analysis/measurement.hpp"
+
+#include "analysis/verdict.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace {
+
+using analysis::Extent;
+using analysis::Measurement;
+using analysis::VerdictKind;
+
+analysis::Claim drift_claim()
+{
+    analysis::Claim claim;
+    claim.id = "C07";
+    claim.rule = analysis::ClaimRule::measured;
+    claim.metrics = {"linear drift", "angular drift"};
+    claim.low = 0.0;
+    claim.high = 1e-3;
+    return claim;
+}
+
+Measurement drift(const std::string& of, double value)
+{
+    return {"C07", "linear drift", of, value, value, value, "1"};
+}
+
+TEST(Measurement, ComesBackFromItsTable)
+{
+    const std::string path = (std::filesystem::temp_directory_path() / "pbs_measurements_test.csv").string();
+    const Measurement written{"C07", "linear, drift", "limb \"bent\"", 1.0 / 3.0, 0.25, 0.5, "m"};
+    analysis::measurement_table({written, drift("human", 1e-300)}).write(path);
+    const auto read = analysis::measurements(path);
+    std::filesystem::remove(path);
+    ASSERT_EQ(read.size(), 2u);
+    EXPECT_EQ(read[0].quantity, written.quantity);
+    EXPECT_EQ(read[0].of, written.of);
+    EXPECT_EQ(read[0].value, written.value);
+    EXPECT_EQ(read[0].high, written.high);
+    EXPECT_EQ(read[1].value, 1e-300);
+}
+
+TEST(Measurement, HoldsWholeInPartOrNot)
+{
+    Measurement measured = drift("limb", 5e-4);
+    EXPECT_EQ(analysis::extent_of(drift_claim(), measured), Extent::whole);
+    measured.high = 2e-3;
+    EXPECT_EQ(analysis::extent_of(drift_claim(), measured), Extent::part);
+    EXPECT_EQ(analysis::extent_of(drift_claim(), drift("limb", 2e-3)), Extent::none);
+    EXPECT_EQ(analysis::extent_of(drift_claim(), drift("limb", std::nan(""))), Extent::none);
+}
+
+TEST(Measurement, AlteredRecordsFlipTheVerdict)
+{
+    analysis::Records records;
+    records.measurements = {drift("limb", 1e-6), drift("human", 1e-5), {"C99", "linear drift", "another's", 9.0, 9.0, 9.0, "1"}};
+    EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::reproduced);
+    records.measurements[1].value = 0.5;
+    const analysis::Verdict in_part = judge(drift_claim(), records);
+    EXPECT_EQ(in_part.kind, VerdictKind::reproduced_only_for);
+    EXPECT_EQ(in_part.text, "reproduced only for limb; not for human (0.5)");
+    records.measurements[0].value = 0.5;
+    EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::not_reproduced);
+    records.measurements.clear();
+    EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::not_computable);
+    records.left_out = {{"human", "not installed"}};
+    EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::cannot_be_tested_here);
+}
+
+}  // namespace
