@@ -39,6 +39,7 @@ std::string projection_line(const ProjectionTiming& t)
     line += floor_text(t);
     for (const Spread& ratio : {t.ratio_to_plain, t.ratio_to_plain_native, t.ratio_to_plain_spread})
         line += fmt::format(" {:>8.2f}", ratio.median);
+    if (t.best_speedup_by_threads) line += fmt::format("   x {:.2f} one thread's best", *t.best_speedup_by_threads);
     return line + "\n";
 }
 

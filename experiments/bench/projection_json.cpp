@@ -38,6 +38,7 @@ void to_json(nlohmann::json& json, const ProjectionTiming& timing)
     put_spread(json, "ratio_to_plain_spread", timing.ratio_to_plain_spread);
     if (timing.speedup_by_threads) put_spread(json, "speedup_by_threads", *timing.speedup_by_threads);
     if (timing.ms_floor) json["ms_floor"] = *timing.ms_floor;
+    if (timing.best_speedup_by_threads) json["best_speedup_by_threads"] = *timing.best_speedup_by_threads;
     json["residuals"] = {{"stretch_rms", timing.residuals.stretch_rms},
                          {"volume_rms", timing.residuals.volume_rms},
                          {"bind_rms_m", timing.residuals.bind_rms_m}};

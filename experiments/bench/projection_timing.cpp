@@ -12,8 +12,8 @@ namespace {
 // What one timed step measures [s], in this order.
 enum Sample { stretch_s, volume_s, bind_s, step_s, step_wall_s, transfer_s, samples };
 
-using Rounds1 = std::vector<double>;
-using Samples = std::vector<Rounds1>;  // [Sample][round]
+using OfRounds = std::vector<double>;
+using Samples = std::vector<OfRounds>;  // [Sample][round]
 
 double wall_s()
 {
@@ -62,9 +62,9 @@ std::vector<double> time_step(const ProjectionVariant& variant)
     return seconds;
 }
 
-Spread spread_of_ratios(const Rounds1& numerator, const Rounds1& denominator, double factor = 1.0)
+Spread spread_of_ratios(const OfRounds& numerator, const OfRounds& denominator, double factor = 1.0)
 {
-    Rounds1 ratios;
+    OfRounds ratios;
     for (std::size_t i = 0; i < numerator.size(); ++i) ratios.push_back(factor * numerator[i] / denominator[i]);
     return spread_of(ratios);
 }
@@ -89,7 +89,7 @@ double memory_floor_ms(const ProjectionTiming& timing, const Layout& layout, con
     return 1e3 * bytes / (1e9 * bandwidth_at(limits, timing.working_set_bytes));
 }
 
-ClassTiming class_timing(const ProjectionTiming& timing, ConstraintClass of, const Rounds1& seconds, const BodySize& size,
+ClassTiming class_timing(const ProjectionTiming& timing, ConstraintClass of, const OfRounds& seconds, const BodySize& size,
                          const MachineLimits& limits)
 {
     ClassTiming result;
@@ -104,6 +104,13 @@ int index_of(const std::vector<ProjectionVariant>& variants, const std::string& 
     for (std::size_t i = 0; i < variants.size(); ++i)
         if (variants[i].variant == name && variants[i].precision == precision && variants[i].threads == threads) return static_cast<int>(i);
     return -1;
+}
+
+void compare_threads(const OfRounds& alone_s, const OfRounds& together_s, double times_the_poses, ProjectionTiming& timing)
+{
+    timing.speedup_by_threads = spread_of_ratios(alone_s, together_s, times_the_poses);
+    timing.best_speedup_by_threads =
+        times_the_poses * *std::min_element(alone_s.begin(), alone_s.end()) / *std::min_element(together_s.begin(), together_s.end());
 }
 
 ProjectionTiming summed_up(const ProjectionVariant& variant, const Samples& own, const BodySize& size, const MachineLimits& limits)
@@ -149,8 +156,7 @@ std::vector<ProjectionTiming> time_projections(const BenchBody& body, const std:
         timing.ratio_to_plain_native = against("plain_native");
         timing.ratio_to_plain_spread = against("plain_spread");
         if (const int alone = index_of(variants, variant.variant, variant.precision, 1); alone >= 0 && variant.threads > 1)
-            timing.speedup_by_threads =
-                spread_of_ratios(all[alone][step_wall_s], all[i][step_wall_s], double(variant.poses) / variants[alone].poses);
+            compare_threads(all[alone][step_wall_s], all[i][step_wall_s], double(variant.poses) / variants[alone].poses, timing);
         timings.push_back(std::move(timing));
     }
     return timings;

@@ -41,6 +41,7 @@ struct ProjectionTiming {
     std::optional<double> ms_floor;  // a pose, of one thread: what an iteration has to move over the bandwidth at its working set
     double ms_transfer = 0.0;        // load and store, median
     Spread ratio_to_plain, ratio_to_plain_native, ratio_to_plain_spread;  // of times of the same round; same precision
+    std::optional<double> best_speedup_by_threads;                        // of the quickest rounds, which other work disturbed least
     std::optional<Spread> speedup_by_threads;                             // of wall times over one thread's
     double working_set_bytes = 0.0;
     pbs::Residuals residuals;  // after the step
