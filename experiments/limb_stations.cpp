@@ -60,26 +60,29 @@ std::set<int> along_limb(const pbs::Skeleton& skeleton, const std::vector<int>& 
     return bones;
 }
 
+// Tets all of whose vertices are chosen.
+std::vector<int> tets_within(const pbs::Tets& tets, const std::vector<char>& chosen)
+{
+    std::vector<int> within;
+    for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+        const auto corners = tets.row(t);
+        if (std::all_of(corners.begin(), corners.end(), [&](int v) { return chosen[v]; })) within.push_back(static_cast<int>(t));
+    }
+    return within;
+}
+
 std::vector<int> tets_of(const pbs::Character& character, const std::set<int>& bones)
 {
-    std::vector<int> tets;
-    for (Eigen::Index t = 0; t < character.mesh.tets.rows(); ++t) {
-        const auto corners = character.mesh.tets.row(t);
-        if (std::all_of(corners.begin(), corners.end(), [&](int v) { return bones.count(character.binding.bone[v]) > 0; }))
-            tets.push_back(static_cast<int>(t));
-    }
-    return tets;
+    std::vector<char> chosen(character.binding.bone.size());
+    for (std::size_t v = 0; v < chosen.size(); ++v) chosen[v] = bones.count(character.binding.bone[v]) > 0;
+    return tets_within(character.mesh.tets, chosen);
 }
 
 std::vector<int> tets_near(const pbs::TetMesh& mesh, const pbs::Vec3& point, double radius)
 {
-    std::vector<int> tets;
-    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
-        const auto corners = mesh.tets.row(t);
-        if (std::all_of(corners.begin(), corners.end(), [&](int v) { return (mesh.rest.row(v).transpose() - point).norm() < radius; }))
-            tets.push_back(static_cast<int>(t));
-    }
-    return tets;
+    std::vector<char> chosen(mesh.rest.rows());
+    for (Eigen::Index v = 0; v < mesh.rest.rows(); ++v) chosen[v] = (mesh.rest.row(v).transpose() - point).norm() < radius;
+    return tets_within(mesh.tets, chosen);
 }
 
 bool has_its_own_flesh(const pbs::Character& character, const LimbStation& station, double mean_distance)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -57,20 +58,39 @@ void for_each_run(const std::vector<Entry>& entries, Key key, Body body)
         }
 }
 
+// Everything that each(add) adds, twice the same, sorted by `less`, which asks for vertex(entry) first: a bucket a vertex, then every
+// bucket, all of them short, by itself. Linear in the entries.
+template <typename Entry, typename Each, typename Vertex, typename Less>
+std::vector<Entry> sorted_by_vertex(const Each& each, const Vertex& vertex, const Less& less)
+{
+    std::vector<std::size_t> first(1, 0);  // of each vertex's bucket
+    each([&](const Entry& entry) {
+        const std::size_t bucket = vertex(entry);
+        if (first.size() < bucket + 2) first.resize(bucket + 2, 0);
+        ++first[bucket + 1];
+    });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<Entry> entries(first.back());
+    std::vector<std::size_t> next = first;
+    each([&](const Entry& entry) { entries[next[vertex(entry)]++] = entry; });
+    for (std::size_t v = 0; v + 1 < first.size(); ++v) std::sort(entries.begin() + first[v], entries.begin() + first[v + 1], less);
+    return entries;
+}
+
 std::vector<Face> sorted_faces(const Tets& tets)
 {
-    std::vector<Face> faces;
-    faces.reserve(4 * tets.rows());
-    for (int t = 0; t < tets.rows(); ++t)
-        for (int f = 0; f < 4; ++f) {
-            std::array<int, 3> sorted;
-            for (int corner = 0; corner < 3; ++corner) sorted[corner] = tets(t, outward_faces[f][corner]);
-            std::sort(sorted.begin(), sorted.end());
-            faces.push_back({sorted, t, f});
-        }
-    std::sort(faces.begin(), faces.end(),
-              [](const Face& a, const Face& b) { return std::tie(a.sorted, a.tet) < std::tie(b.sorted, b.tet); });
-    return faces;
+    const auto each = [&](const auto& add) {
+        for (int t = 0; t < tets.rows(); ++t)
+            for (int f = 0; f < 4; ++f) {
+                std::array<int, 3> sorted;
+                for (int corner = 0; corner < 3; ++corner) sorted[corner] = tets(t, outward_faces[f][corner]);
+                std::sort(sorted.begin(), sorted.end());
+                add(Face{sorted, t, f});
+            }
+    };
+    return sorted_by_vertex<Face>(
+        each, [](const Face& face) { return face.sorted[0]; },
+        [](const Face& a, const Face& b) { return std::tie(a.sorted, a.tet) < std::tie(b.sorted, b.tet); });
 }
 
 std::vector<BoundaryEdge> sorted_edges(const Triangles& triangles)
@@ -118,16 +138,42 @@ void examine_boundary(const Triangles& boundary, int boundary_vertex_count, Topo
     topology.boundary_euler = boundary_vertex_count - edge_count + static_cast<int>(boundary.rows());
 }
 
+Triangles boundary_in(const std::vector<Face>& faces, const Tets& tets)
+{
+    std::vector<std::pair<int, int>> boundary;  // tet, face: in the order of the tets
+    for_each_run(
+        faces, [](const Face& face) { return face.sorted; },
+        [&](std::size_t first, std::size_t last) {
+            if (last - first == 1) boundary.emplace_back(faces[first].tet, faces[first].face);
+        });
+    std::sort(boundary.begin(), boundary.end());
+
+    Triangles triangles(boundary.size(), 3);
+    for (std::size_t b = 0; b < boundary.size(); ++b)
+        for (int corner = 0; corner < 3; ++corner)
+            triangles(b, corner) = tets(boundary[b].first, outward_faces[boundary[b].second][corner]);
+    return triangles;
+}
+
+std::vector<bool> vertices_of(const Triangles& triangles, Eigen::Index vertices)
+{
+    std::vector<bool> used(vertices, false);
+    for (const int vertex : triangles.reshaped()) used[vertex] = true;
+    return used;
+}
+
 }  // namespace
 
 Edges edges_of(const Tets& tets)
 {
-    std::vector<std::array<int, 2>> pairs;
-    pairs.reserve(6 * tets.rows());
-    for (Eigen::Index t = 0; t < tets.rows(); ++t)
-        for (int a = 0; a < 4; ++a)
-            for (int b = a + 1; b < 4; ++b) pairs.push_back({std::min(tets(t, a), tets(t, b)), std::max(tets(t, a), tets(t, b))});
-    std::sort(pairs.begin(), pairs.end());
+    using Pair = std::array<int, 2>;
+    const auto each = [&](const auto& add) {
+        for (Eigen::Index t = 0; t < tets.rows(); ++t)
+            for (int a = 0; a < 4; ++a)
+                for (int b = a + 1; b < 4; ++b) add(Pair{std::min(tets(t, a), tets(t, b)), std::max(tets(t, a), tets(t, b))});
+    };
+    std::vector<Pair> pairs = sorted_by_vertex<Pair>(
+        each, [](const Pair& pair) { return pair[0]; }, std::less<Pair>());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 
     Edges edges(pairs.size(), 2);
@@ -151,37 +197,21 @@ Adjacency adjacency_of(const Tets& tets, int vertices)
 
 Triangles boundary_of(const Tets& tets)
 {
-    const std::vector<Face> faces = sorted_faces(tets);
-    std::vector<std::pair<int, int>> boundary;  // tet, face: in the order of the tets
-    for_each_run(
-        faces, [](const Face& face) { return face.sorted; },
-        [&](std::size_t first, std::size_t last) {
-            if (last - first == 1) boundary.emplace_back(faces[first].tet, faces[first].face);
-        });
-    std::sort(boundary.begin(), boundary.end());
-
-    Triangles triangles(boundary.size(), 3);
-    for (std::size_t b = 0; b < boundary.size(); ++b)
-        for (int corner = 0; corner < 3; ++corner)
-            triangles(b, corner) = tets(boundary[b].first, outward_faces[boundary[b].second][corner]);
-    return triangles;
+    return boundary_in(sorted_faces(tets), tets);
 }
 
 std::vector<bool> boundary_vertices(const Tets& tets, Eigen::Index vertices)
 {
-    std::vector<bool> on_boundary(vertices, false);
-    const Triangles boundary = boundary_of(tets);
-    for (Eigen::Index f = 0; f < boundary.rows(); ++f)
-        for (int corner = 0; corner < 3; ++corner) on_boundary[boundary(f, corner)] = true;
-    return on_boundary;
+    return vertices_of(boundary_of(tets), vertices);
 }
 
 Topology topology_of(const Tets& tets, Eigen::Index vertices)
 {
     Topology topology;
-    examine_boundary(boundary_of(tets), count_used(boundary_vertices(tets, vertices)), topology);
-
     const std::vector<Face> faces = sorted_faces(tets);
+    const Triangles boundary = boundary_in(faces, tets);
+    examine_boundary(boundary, count_used(vertices_of(boundary, vertices)), topology);
+
     Classes components(tets.rows());
     for_each_run(
         faces, [](const Face& face) { return face.sorted; },
