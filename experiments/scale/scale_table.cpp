@@ -1,7 +1,5 @@
 #include "experiments/scale/scale_table.hpp"
 
-#include "analysis/statistics.hpp"
-
 #include <fmt/format.h>
 
 namespace experiments {
@@ -27,18 +25,14 @@ std::string exponents_text(const analysis::CsvTable& table)
 ScaleRow scale_row(const nlohmann::json& run, const analysis::CsvTable& metrics)
 {
     ScaleRow row;
-    const nlohmann::json &character = run.at("character"), &seconds = run.at("cost").at("seconds");
+    const nlohmann::json &character = run.at("character"), &seconds = run.at("cost").at("cpu_seconds");
     row.vertices = character.at("vertices");
     row.edges = character.at("quality").at("edges");
     row.tets = character.at("tets");
     row.frames = run.at("outcome").at("frames");
-    std::vector<double> step_ms;
-    for (int i = 0; i < metrics.rows(); ++i) {
-        if (metrics.text_at(i, "deformer") != "pbs") continue;
-        step_ms.push_back(metrics.number(i, "step_ms"));
-        row.iterations = static_cast<int>(metrics.integer(i, "iterations"));
-    }
-    row.step_ms = analysis::median(step_ms);
+    for (int i = 0; i < metrics.rows(); ++i)
+        if (metrics.text_at(i, "deformer") == "pbs") row.iterations = static_cast<int>(metrics.integer(i, "iterations"));
+    row.step_ms = 1e3 * seconds.at("deformers").at("pbs").at("step").get<double>() / row.frames;
     row.character_s = seconds.at("character");
     row.set_up_s = seconds.at("set_up");
     row.ruler_set_up_s = seconds.at("ruler_set_up");

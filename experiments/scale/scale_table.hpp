@@ -1,5 +1,5 @@
-// How a character's cost grows with its mesh: seconds of each part of a run and its peak memory over the number of constraints, and the
-// exponents p of cost = c constraints^p.
+// How a character's cost grows with its mesh: processor seconds of each part of a run and its peak memory over the number of constraints,
+// and the exponents p of cost = c constraints^p.
 #pragma once
 
 #include "analysis/csv_table.hpp"
@@ -12,11 +12,11 @@
 
 namespace experiments {
 
-// One run of LBS and PBS, end to end.
+// One run of LBS and PBS, end to end; times are the processor's, which other work on the machine stretches less.
 struct ScaleRow {
     long long vertices = 0, edges = 0, tets = 0;
     int iterations = 0, frames = 0;
-    double step_ms = 0.0;  // of PBS, median over the frames
+    double step_ms = 0.0;  // of PBS, mean over the frames
     double character_s = 0.0, set_up_s = 0.0, ruler_set_up_s = 0.0, records_s = 0.0, total_s = 0.0;
     double ruler_ms = 0.0, write_ms = 0.0;  // a frame and deformer
     double peak_mb = 0.0;                   // 10^6 bytes
