@@ -19,8 +19,8 @@ double flops_of(ConstraintClass of)
     switch (of) {
         case ConstraintClass::stretch:  // p12; its length; C; k_s; both corrections with their inverse mass
             return difference + (dot + 1) + 1 + 2 + 2 * (1 + scaled_and_added);
-        case ConstraintClass::volume:  // three edges; 6 C; n2, n3, n4; n1; denominator; k_s; four corrections
-            return 3 * difference + (dot + 1) + 3 * cross + 2 * 3 + (4 * (dot + 1) + 3) + 2 + 4 * (1 + scaled_and_added);
+        case ConstraintClass::volume:  // three edges; 6 C; n2, n3, n4; n1; denominator; its rounding; k_s; four corrections
+            return 3 * difference + (dot + 1) + 3 * cross + 2 * 3 + (4 * (dot + 1) + 3) + (3 * dot + 6) + 2 + 4 * (1 + scaled_and_added);
         case ConstraintClass::bind:  // p - q; its length; C; k_s; the correction
             break;
     }

@@ -7,7 +7,9 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
+#include <limits>
 
 namespace pbs {
 
@@ -43,6 +45,15 @@ std::array<Vector3<Scalar>, 4> gradient(const VolumeConstraint<Scalar>&, const V
     return {-(g2 + g3 + g4), g2, g3, g4};  // the first by Eq. 15
 }
 
+// Sum of w |g|^2 below which gradients are the rounding of edges' cross products: the tet is a line or a point. longest2: its longest edge
+// at p1, squared. Each component of 6 g is off by some eps |a| |b|, the sum of three by less than 4 eps longest2.
+template <typename Scalar>
+Scalar rounding_of_gradients(Scalar longest2, Scalar sum_of_w)
+{
+    const Scalar rounding = sixth<Scalar> * 4 * std::numeric_limits<Scalar>::epsilon() * longest2;
+    return rounding * rounding * sum_of_w;
+}
+
 // Moves the four corners [m] by the share k of what removes the linearised C (what is left is of second order). w1 .. w4: inverse masses,
 // in any common unit; zero is pinned. Eq. 8-9 hold for m_i = 1; with unequal masses each gradient is weighted by w_i, so that Eq. 3-4 still
 // do. A tet collapsed to a line or point has no gradient and stays. Eq. 17-20 are printed with the opposite sign.
@@ -58,7 +69,8 @@ void project(const VolumeConstraint<Scalar>& constraint, Scalar w1, Scalar w2, S
     const Vector3<Scalar> g4 = sixth<Scalar> * p21_x_p31;
     const Vector3<Scalar> g1 = -(g2 + g3 + g4);  // Eq. 15
     const Scalar denominator = w1 * g1.squaredNorm() + w2 * g2.squaredNorm() + w3 * g3.squaredNorm() + w4 * g4.squaredNorm();
-    if (!(denominator > Scalar(0))) return;
+    const Scalar longest2 = std::max({p21.squaredNorm(), p31.squaredNorm(), p41.squaredNorm()});
+    if (!(denominator > rounding_of_gradients(longest2, w1 + w2 + w3 + w4))) return;
     const Scalar k_s = constraint.stiffness * C / denominator;  // s of Eq. 21
     p1 -= k_s * w1 * g1;                                        // Eq. 8
     p2 -= k_s * w2 * g2;

@@ -1,6 +1,7 @@
 #include "pbs/solver/parallel.hpp"
 
 #ifdef PBS_WITH_THREADS
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #endif
@@ -10,7 +11,9 @@ namespace pbs {
 #ifdef PBS_WITH_THREADS
 class Parallel::Arena {
 public:
-    explicit Arena(int threads) : arena_(threads) {}
+    explicit Arena(int threads) : allowed_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)), arena_(threads)
+    {
+    }
 
     void for_each(int count, const std::function<void(int)>& task)
     {
@@ -18,6 +21,7 @@ public:
     }
 
 private:
+    tbb::global_control allowed_;  // more than the machine has, where asked for
     tbb::task_arena arena_;
 };
 #else

@@ -10,7 +10,7 @@
 namespace pbs {
 namespace {
 
-constexpr std::size_t groups_a_cluster = 4096;
+constexpr std::size_t groups_a_cluster = 8192;
 constexpr GroupKind kinds_in_order[] = {GroupKind::edge_tet,  GroupKind::edge_triangle, GroupKind::edge_wedge, GroupKind::edge,
                                         GroupKind::tet_fan_3, GroupKind::tet_fan_2,     GroupKind::tet};
 

@@ -4,6 +4,8 @@
 
 #include "pbs/solver/batched/lanes.hpp"
 
+#include <limits>
+
 namespace pbs {
 
 template <typename Scalar>
@@ -43,12 +45,13 @@ template <typename Scalar>
     p.z += factor * g.z;
 }
 
-// Zero where the denominator is not positive.
+// Zero where the denominator is not above `least`.
 template <typename Scalar>
-[[gnu::always_inline]] inline Lanes<Scalar> quotient(const Lanes<Scalar>& numerator, const Lanes<Scalar>& denominator)
+[[gnu::always_inline]] inline Lanes<Scalar> quotient(const Lanes<Scalar>& numerator, const Lanes<Scalar>& denominator,
+                                                     const Lanes<Scalar>& least = Scalar(0))
 {
     Lanes<Scalar> result = numerator / denominator;
-    where(!(denominator > Scalar(0)), result) = Scalar(0);
+    where(!(denominator > least), result) = Scalar(0);
     return result;
 }
 
@@ -94,8 +97,11 @@ template <typename Scalar>
     const LaneVector<Scalar> n3 = cross(p41, p21);
     const LaneVector<Scalar> minus_n1 = n2 + n3 + n4;  // Eq. 15
     const Lanes<Scalar> denominator = p1.w * dot(minus_n1, minus_n1) + p2.w * dot(n2, n2) + p3.w * dot(n3, n3) + p4.w * dot(n4, n4);
-    const Lanes<Scalar> k_s = quotient(k * six_C, denominator);  // s of Eq. 21
-    add(k_s * p1.w, minus_n1, p1);                               // Eq. 8
+    const Lanes<Scalar> longest2 = max(dot(p21, p21), max(dot(p31, p31), dot(p41, p41)));
+    const Lanes<Scalar> rounding = Scalar(4) * std::numeric_limits<Scalar>::epsilon() * longest2;  // of n; see volume.hpp
+    const Lanes<Scalar> k_s =
+        quotient(k * six_C, denominator, Lanes<Scalar>(rounding * rounding * (p1.w + p2.w + p3.w + p4.w)));  // s of Eq. 21
+    add(k_s * p1.w, minus_n1, p1);                                                                           // Eq. 8
     add(-k_s * p2.w, n2, p2);
     add(-k_s * p3.w, n3, p3);
     add(-k_s * p4.w, n4, p4);

@@ -28,7 +28,7 @@ using pbs::Vec3;
 const tbb::global_control four_threads(tbb::global_control::max_allowed_parallelism, 4);
 #endif
 
-const TwoBoneLimb limb = two_bone_limb({110, 6, 6}, Vec3::UnitZ(), 60.0);  // 5,439 vertices
+const TwoBoneLimb limb = two_bone_limb({300, 6, 6}, Vec3::UnitZ(), 60.0);  // 14,749 vertices
 const Order batched_orders[] = {Order::ordered, Order::grouped};
 
 // Of three steps, with a jiggling half.
