@@ -1,5 +1,7 @@
 #include "pbs/solver/batched/batched_constraints.hpp"
 
+#include <algorithm>
+
 namespace pbs {
 namespace {
 
@@ -35,13 +37,22 @@ ConstraintValues<Scalar> volume_values(const ConstraintSet<Scalar>& constraints)
     return values;
 }
 
+// A multiple of four slabs, so that two threads share either half of them evenly, or one. Fewer slabs are nearer to `plain`.
+int vertices_a_slab(int vertices)
+{
+    constexpr int least = 3072;
+    const int slabs = vertices / (4 * least) * 4;
+    return slabs == 0 ? std::max(vertices, 1) : vertices / slabs;
+}
+
 }  // namespace
 
 template <typename Scalar>
 BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets, Order order)
 {
     const int vertices = static_cast<int>(constraints.inverse_mass.size());
-    BatchedConstraints<Scalar> batched{order_vertices(tets, vertices), (vertices + batch_size - 1) / batch_size * batch_size, {}, {}};
+    BatchedConstraints<Scalar> batched{
+        order_vertices(tets, vertices, vertices_a_slab(vertices)), (vertices + batch_size - 1) / batch_size * batch_size, {}, {}};
     const auto edges = vertices_of_class(constraints.stretch);
     const auto volumes = vertices_of_class(constraints.volume);
     const bool grouped = order == Order::grouped;

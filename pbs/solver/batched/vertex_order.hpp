@@ -20,6 +20,6 @@ struct VertexOrder {
 };
 
 // A slab has at least `vertices_a_slab` vertices; a last one of less than half of that joins the one before.
-VertexOrder order_vertices(const Tets& tets, int vertices, int vertices_a_slab = 3072);
+VertexOrder order_vertices(const Tets& tets, int vertices, int vertices_a_slab);
 
 }  // namespace pbs

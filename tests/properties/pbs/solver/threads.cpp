@@ -51,9 +51,10 @@ std::string hash_of_run(Order order, Precision precision, int threads)
     return hash.hex();
 }
 
-TEST(Threads, TheMeshHasSlabsForFourThreads)
+TEST(Threads, TheMeshHasSlabsForTwoThreadsAtOnce)
 {
-    EXPECT_GE(pbs::order_vertices(limb.mesh.tets, static_cast<int>(limb.lbs.rows())).slabs(), 4);
+    const auto constraints = pbs::make_constraint_set<float>(limb.mesh, limb.binding.distance, {}, {});
+    EXPECT_GE(pbs::make_batched_constraints(constraints, limb.mesh.tets, Order::ordered).order.slabs(), 4);
 }
 
 TEST(Threads, OneTwoAndFourGiveTheSameBits)

@@ -83,7 +83,7 @@ TEST(VertexOrder, SlabsAreAsManyAsTheSizeAsksFor)
 TEST(VertexOrder, NeighboursAreNearInMemoryHoweverTheMeshIsNumbered)
 {
     const Tets tets = shuffled(bar.tets, bar_vertices, 8);
-    const VertexOrder order = order_vertices(tets, bar_vertices);
+    const VertexOrder order = order_vertices(tets, bar_vertices, 1024);
     int bandwidth = 0;
     for (const auto& edge : rows_of(pbs::edges_of(tets)))
         bandwidth = std::max(bandwidth, std::abs(order.new_of_old[edge[0]] - order.new_of_old[edge[1]]));
@@ -98,7 +98,7 @@ TEST(VertexOrder, AllVerticesRoundOneAreOneOrTwoSlabs)
 
 TEST(VertexOrder, EmptyMesh)
 {
-    const VertexOrder order = order_vertices(Tets(0, 4), 0);
+    const VertexOrder order = order_vertices(Tets(0, 4), 0, 1);
     EXPECT_EQ(order.slabs(), 1);
     EXPECT_TRUE(order.old_of_new.empty());
     EXPECT_TRUE(order.slab_of_new().empty());
