@@ -14,6 +14,12 @@ namespace {
 // Fewer slabs than these are done before a second thread has come to help.
 constexpr int slabs_worth_threads = 4;
 
+template <typename Scalar>
+double length(Scalar x, Scalar y, Scalar z)
+{
+    return std::sqrt(double(x * x + y * y + z * z));
+}
+
 int blocks_of(int vertices)
 {
     return (vertices + batch_size - 1) / batch_size;
@@ -134,7 +140,7 @@ std::vector<char> BatchedProjection<Scalar>::unsatisfied(double tolerance) const
         const BindBatch<Scalar>& batch = bind_[i / batch_size];
         const int lane = i % batch_size;
         const Scalar* p = this->vertices() + 4 * i;
-        const double distance = std::hypot(p[0] - batch.x[lane], p[1] - batch.y[lane], p[2] - batch.z[lane]);
+        const double distance = length(p[0] - batch.x[lane], p[1] - batch.y[lane], p[2] - batch.z[lane]);
         if (!(std::abs(distance - batch.rest_distance[lane]) <= tolerance * mean_edge_m_)) vertices[i] = true;
     }
     return vertices;
@@ -155,17 +161,18 @@ template <typename Scalar>
 int BatchedProjection<Scalar>::wake(double tolerance)
 {
     if (awake_.empty()) return 0;
-    std::vector<char> woken = unsatisfied(tolerance);
-    for (std::size_t i = 0; i < woken.size(); ++i) woken[i] = woken[i] && !awake_[i];
-    const auto count = std::count(woken.begin(), woken.end(), true);
-    if (count > 0) {
-        keep_awake(woken);
-        return static_cast<int>(count);
+    if (sleeping_share() > 0.0) {
+        std::vector<char> woken = unsatisfied(tolerance);
+        for (std::size_t i = 0; i < woken.size(); ++i) woken[i] = woken[i] && !awake_[i];
+        if (const auto count = std::count(woken.begin(), woken.end(), true); count > 0) {
+            keep_awake(woken);
+            return static_cast<int>(count);
+        }
     }
     moved_.assign(awake_.size(), false);
     for (std::size_t i = 0; i < batched_.order.old_of_new.size(); ++i) {
         const Scalar *now = this->vertices() + 4 * i, *before = loaded_.front().xyzw + 4 * i;
-        moved_[i] = !(std::hypot(now[0] - before[0], now[1] - before[1], now[2] - before[2]) <= tolerance * mean_edge_m_);
+        moved_[i] = !(length(now[0] - before[0], now[1] - before[1], now[2] - before[2]) <= tolerance * mean_edge_m_);
     }
     return 0;
 }
