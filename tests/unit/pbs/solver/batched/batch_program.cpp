@@ -14,6 +14,7 @@ namespace {
 using namespace test_support;
 using pbs::BatchProgram;
 using pbs::ConstraintGroup;
+using pbs::GroupKind;
 using pbs::VertexOrder;
 
 template <typename Scalar>
@@ -138,6 +139,15 @@ void expect_sound(const pbs::Tets& tets, int vertices, int vertices_a_slab)
     expect_sound<Scalar>(pbs::grouped_tets(rows), rows, order);
 }
 
+// A cluster has a run of its own.
+template <typename Scalar>
+void expect_two_runs(const std::vector<ConstraintGroup>& groups, GroupKind kind, const VertexOrder& order)
+{
+    const BatchProgram<Scalar> program(groups, numbered<Scalar>(groups.size()), order, static_cast<int>(order.old_of_new.size()));
+    ASSERT_EQ(program.runs(0).size(), 2u);
+    for (const pbs::BatchRun& run : program.runs(0)) EXPECT_EQ(run.kind, kind);
+}
+
 const pbs::TetMesh bar = structured_bar({0, 0, 0}, {20, 3, 3}, {20, 3, 3});
 const int bar_vertices = static_cast<int>(bar.rest.rows());
 
@@ -151,8 +161,13 @@ TYPED_TEST(BatchPrograms, BarInSlabsOfManySizes)
 
 TYPED_TEST(BatchPrograms, SeveralClustersInASlab)
 {
-    const pbs::TetMesh large = structured_bar({0, 0, 0}, {18, 9, 9}, {18, 9, 9});  // 8748 tets: two clusters of 4096, the last one larger
-    expect_sound<TypeParam>(large.tets, static_cast<int>(large.rest.rows()), 100000);
+    const pbs::TetMesh large = structured_bar({0, 0, 0}, {25, 10, 10}, {25, 10, 10});  // 15,000 tets: clusters of 8192 and the rest
+    const int vertices = static_cast<int>(large.rest.rows());
+    expect_sound<TypeParam>(large.tets, vertices, 100000);
+    const VertexOrder order = pbs::order_vertices(large.tets, vertices, 100000);
+    ASSERT_EQ(order.slabs(), 1);
+    expect_two_runs<TypeParam>(pbs::single_tets(rows_of(large.tets)), GroupKind::tet, order);
+    expect_two_runs<TypeParam>(pbs::single_edges(rows_of(pbs::edges_of(large.tets))), GroupKind::edge, order);
 }
 
 TYPED_TEST(BatchPrograms, OneTetAndRings)
