@@ -1,4 +1,5 @@
 // Truth: the plain twins in pbs/constraints, constraint by constraint, within what rounding allows (projection_rounding.hpp).
+#include "tests/support/projection_cases.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/sixteen_groups.hpp"
 
@@ -16,12 +17,6 @@ class BatchKernels : public testing::Test {
 };
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(BatchKernels, Scalars);
-
-const double sizes_m[] = {1e-6, 1e-3, 1.0, 1e3, 1e6};
-const double stiffnesses[] = {0.0, 0.3, 1.0};
-
-// The corners of a tet and what may follow it round its first edge; each three neighbours in the ring make a well-shaped tet.
-const Vec3 ring[] = {Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(1, 0, 0.5), Vec3(0, 1, 0.5), Vec3(-1, 0.1, 0.5), Vec3(-0.3, -1, 0.5)};
 
 // Sixteen groups near rest, each of its own masses; bit v of a lane's `pinned` says whether vertex v is held.
 template <typename Scalar, GroupKind kind>
@@ -94,26 +89,10 @@ TYPED_TEST(BatchKernels, MirroredGroups)
     });
 }
 
-struct Shape {
-    std::string name;
-    std::array<Vec3, 4> corners;  // of dyadic coordinates where products must cancel exactly
-};
-const Shape degenerate[] = {
-    {"flat", {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0)}},
-    {"a corner on the opposite face", {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0.25, 0.25, 0)}},
-    {"two corners coincide", {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 1, 0)}},
-    {"three corners coincide", {Vec3(1, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0)}},
-    {"a line", {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0), Vec3(0.5, 0, 0)}},
-    {"a point", {Vec3(1, 2, 3), Vec3(1, 2, 3), Vec3(1, 2, 3), Vec3(1, 2, 3)}},
-    {"nearly flat", {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0.3, 0.3, 1e-3)}},
-    {"a sliver", {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 0.01, 0), Vec3(0.5, 0, 0.01)}},
-    {"a hundred times too large", {Vec3(0, 0, 0), Vec3(100, 0, 0), Vec3(0, 100, 0), Vec3(0, 0, 100)}},
-};
-
 TYPED_TEST(BatchKernels, DegenerateTets)
 {
     RandomPoints random(34);
-    for (const Shape& shape : degenerate)
+    for (const TetShape& shape : degenerate_tets)
         for (const double size_m : sizes_m)
             for (const double k : stiffnesses) {
                 SCOPED_TRACE(testing::Message() << shape.name << " size " << size_m << " k " << k);
@@ -177,6 +156,18 @@ TYPED_TEST(BatchKernels, DummiesStayZero)
     });
 }
 
+// l / l0 - 1 or V / V0 - 1 of constraint c, by its plain value.
+template <typename Scalar, GroupKind kind>
+double plain_error(SixteenGroups<Scalar, kind>& groups, int lane, int c)
+{
+    const auto p = [&](int i) { return groups.position(lane, pbs::GroupShape<kind>::joins[c][i]); };
+    const Scalar rest = groups.rest(lane, c);
+    if constexpr (pbs::of_edges<kind>)
+        return value(pbs::StretchConstraint<Scalar>{{}, rest, 1}, p(0), p(1)) / rest;
+    else
+        return value(pbs::VolumeConstraint<Scalar>{{}, rest, 1}, p(0), p(1), p(2), p(3)) / rest;
+}
+
 // (l / l0 - 1)^2 and (V / V0 - 1)^2, by the plain values in the same precision: some twenty roundings of sums of positive terms, and of C
 // itself, whose two parts may cancel.
 TYPED_TEST(BatchKernels, SumsOfSquaredErrors)
@@ -190,18 +181,53 @@ TYPED_TEST(BatchKernels, SumsOfSquaredErrors)
             double expected = 0.0, rounding = 0.0;
             for (int lane = 0; lane < pbs::batch_size; ++lane)
                 for (int c = 0; c < Groups::constraints; ++c) {
-                    const auto p = [&](int i) { return groups.position(lane, Groups::joins[c][i]); };
-                    const TypeParam rest = groups.rest(lane, c);
-                    double error;
-                    if constexpr (pbs::of_edges<kind()>)
-                        error = value(pbs::StretchConstraint<TypeParam>{{}, rest, 1}, p(0), p(1)) / rest;
-                    else
-                        error = value(pbs::VolumeConstraint<TypeParam>{{}, rest, 1}, p(0), p(1), p(2), p(3)) / rest;
+                    const double error = plain_error<TypeParam, kind()>(groups, lane, c);
                     expected += error * error;
                     rounding += 20 * eps * (std::abs(error) + 1) * (std::abs(error) + 1);
                 }
             EXPECT_NEAR(pbs::sum_squared_errors<TypeParam>(kind(), &groups.batch(), 1, groups.memory()), expected, rounding);
         }
+    });
+}
+
+// |l / l0 - 1| and |V / V0 - 1| of every group: the largest of its constraints' plain values, by the roundings of the sums above.
+TYPED_TEST(BatchKernels, LargestErrorOfEachGroup)
+{
+    constexpr double eps = std::numeric_limits<TypeParam>::epsilon();
+    for_each_kind([](auto kind) {
+        RandomPoints random(40);
+        auto groups = noisy_groups<TypeParam, kind()>(random, 1.0, 0.3, 0.2, -1);
+        TypeParam errors[pbs::batch_size];
+        pbs::largest_errors<TypeParam>(kind(), &groups.batch(), 1, groups.memory(), errors);
+        for (int lane = 0; lane < pbs::batch_size; ++lane) {
+            double expected = 0.0;
+            for (int c = 0; c < pbs::GroupShape<kind()>::constraints; ++c)
+                expected = std::max(expected, std::abs(plain_error<TypeParam, kind()>(groups, lane, c)));
+            EXPECT_NEAR(errors[lane], expected, 20 * eps * (expected + 1)) << "lane " << lane;
+        }
+    });
+}
+
+// Whichever vertex is sick, of the first constraint or of the last: no error is below a tolerance then. The other lanes are told alike.
+TYPED_TEST(BatchKernels, AGroupThatIsNotANumberIsNeverSatisfied)
+{
+    for_each_kind([](auto kind) {
+        for (const double sick : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+            for (int v = 0; v < pbs::GroupShape<kind()>::vertices; ++v) {
+                SCOPED_TRACE(testing::Message() << sick << " at vertex " << v);
+                RandomPoints random(41);
+                auto groups = noisy_groups<TypeParam, kind()>(random, 1.0, 0.3, 0.01, -1);
+                TypeParam clean[pbs::batch_size], errors[pbs::batch_size];
+                pbs::largest_errors<TypeParam>(kind(), &groups.batch(), 1, groups.memory(), clean);
+                groups.vertex(3, v)[0] = TypeParam(sick);
+                pbs::largest_errors<TypeParam>(kind(), &groups.batch(), 1, groups.memory(), errors);
+                for (int lane = 0; lane < pbs::batch_size; ++lane) {
+                    if (lane == 3)
+                        EXPECT_FALSE(errors[lane] <= TypeParam(1));
+                    else
+                        EXPECT_EQ(errors[lane], clean[lane]) << "lane " << lane;
+                }
+            }
     });
 }
 
