@@ -136,7 +136,7 @@ std::vector<TitledRow> rows_of(const Verdict& verdict)
         rows.push_back({judged.metric + ", beside", case_row(verdict.claim, judged), judged.run});
         rows.back().row.name += ", " + judged.deformer;
     }
-    const std::array<const char*, 3> holds = {"no", "within its interval alone", "yes"};
+    const std::array<const char*, 3> holds = {"no", "its value alone", "yes"};
     for (const Measurement& measured : verdict.measurements)
         rows.push_back({measured.quantity,
                         {measured.of, figure_text(measured), interval_text(measured),

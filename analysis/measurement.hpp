@@ -16,7 +16,7 @@ CsvTable measurement_table(const std::vector<Measurement>& measurements);
 // whole: the interval lies in the claim's bound; part: the value does; none: it does not, or is not a number.
 Extent extent_of(const Claim& claim, const Measurement& measured);
 
-std::string figure_text(const Measurement& measured);    // 3.1e-06 (1)
+std::string figure_text(const Measurement& measured);    // 3.1e-06, 12.4 mm
 std::string interval_text(const Measurement& measured);  // [2e-06, 5e-06]; empty where there is none
 
 }  // namespace analysis

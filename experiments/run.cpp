@@ -106,6 +106,7 @@ public:
 private:
     void play()
     {
+        tell_what_comes();
         Progress progress(scene_.name, static_cast<int>(motion_.steps.size()));
         for (std::size_t step = 0; step < motion_.steps.size(); ++step) {
             stop_if_interrupted();
@@ -119,6 +120,13 @@ private:
             if (is_frame) record_frame(static_cast<int>(step / motion_.steps_per_frame), step);
             progress.advance_to(static_cast<int>(step) + 1);
         }
+    }
+
+    void tell_what_comes()
+    {
+        std::vector<pbs::Pose> frames;
+        for (std::size_t step = 0; step < motion_.steps.size(); step += motion_.steps_per_frame) frames.push_back(motion_.steps[step]);
+        for (Runner& runner : runners_) runner.deformer->foresee(runner.deformer->has_memory() ? motion_.steps : frames);
     }
 
     void record_frame(int frame, std::size_t step)

@@ -47,6 +47,13 @@ const std::vector<std::string> error_bar_columns = {"reference_error_l2_pct", "r
 
 const std::vector<std::string> sleep_columns = {"sleeping_share", "wakings"};
 
+int most_threads(const Scene& scene)
+{
+    int threads = 1;
+    for (const DeformerSpec& spec : scene.deformers) threads = std::max(threads, spec.pbs.threads);
+    return threads;
+}
+
 bool anything_sleeps(const Scene& scene)
 {
     return std::any_of(scene.deformers.begin(), scene.deformers.end(), [](const DeformerSpec& spec) { return spec.pbs.sleep; });
@@ -70,7 +77,9 @@ Cell cell(const std::optional<double>& value)
 std::vector<Cell> spec_cells(const Scene& scene, const DeformerSpec& spec)
 {
     const nlohmann::json options = to_json(spec).value("options", nlohmann::json::object());
-    const Cell iterations = spec.kind == "pbs" ? Cell(spec.pbs.iterations) : Cell(std::nullopt);
+    const Cell iterations = spec.kind == "pbs"              ? Cell(spec.pbs.iterations)
+                            : spec.kind.starts_with("xpbd") ? Cell(spec.xpbd.iterations * spec.xpbd.substeps)
+                                                            : Cell(std::nullopt);
     return {scene.name,
             spec.name,
             spec.variant,
@@ -220,7 +229,7 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
                        const nlohmann::json& outcome, CostRecord& cost, const nlohmann::json& reference_error_method)
 {
     cost.time("records", [&] { write_tables(); });
-    analysis::Provenance provenance = analysis::collect_provenance(1);
+    analysis::Provenance provenance = analysis::collect_provenance(most_threads(scene_));
     for (const auto& [library, version] : library_versions()) provenance.libraries[library] = version;
     for (const auto& [input, hash] : character.inputs) provenance.input_hashes[input] = hash;
     if (!scene_.motion.clip.empty())

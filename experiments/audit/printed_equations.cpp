@@ -112,8 +112,9 @@ std::vector<analysis::PrintedFigure> equation_figures(int tets, unsigned seed)
         correction_figure("Eq. 17-20 with the derived gradients: |C| after over before", tets, seed, printed_projection<Printed::sign>()));
     figures.push_back(
         correction_figure("Eq. 12-20 as printed: |C| after over before", tets, seed, printed_projection<Printed::as_printed>()));
-    figures.push_back(correction_figure("Eq. 8 with the derived gradients: |C| after over before", tets, seed,
+    figures.push_back(correction_figure("Eq. 8 with the derived gradients (not in print): |C| after over before", tets, seed,
                                         [](const Tet& tet, Corners& p) { pbs::project(tet, 1.0, 1.0, 1.0, 1.0, p[0], p[1], p[2], p[3]); }));
+    figures.back().claim = "beside C15";
     return figures;
 }
 

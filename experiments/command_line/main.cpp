@@ -20,7 +20,9 @@ CLI::App* add_verb(CLI::App& app, CommonOptions& common, const std::string& name
     CLI::App* verb = app.add_subcommand(name, meaning);
     verb->add_flag("--quiet", common.quiet, "errors only");
     verb->add_flag("--verbose", common.verbose, "say more");
-    verb->add_option("--threads", common.threads, "threads of one deformer (pbs, in the orders ordered and grouped, on meshes that are worth it)")->check(CLI::Range(1, 1024));
+    verb->add_option("--threads", common.threads,
+                     "threads of one deformer (pbs, in the orders ordered and grouped, on meshes that are worth it)")
+        ->check(CLI::Range(1, 1024));
     return verb;
 }
 
@@ -41,8 +43,8 @@ int parse_and_act(int argc, char** argv)
     app.require_subcommand(1);
     CommonOptions common;
     VerbAction action;
-    for (const auto add : {add_list_verb, add_explain_verb, add_run_verb, add_reproduce_verb, add_measure_verb, add_mesh_verb,
-                           add_bench_verb})
+    for (const auto add :
+         {add_list_verb, add_explain_verb, add_run_verb, add_reproduce_verb, add_measure_verb, add_mesh_verb, add_bench_verb})
         add(app, common, action);
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
         return std::string("pbskin: ") + error.what() + "; `pbskin --help` tells the verbs, `pbskin VERB --help` their options\n";

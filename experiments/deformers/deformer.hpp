@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <vector>
+
 namespace experiments {
 
 class Deformer {
@@ -16,6 +18,9 @@ public:
     virtual void reset(const pbs::Character& character) = 0;  // set-up and initial state; the character outlives the deformer
     virtual pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) = 0;
     virtual const pbs::Positions& positions() const = 0;  // [m], #V x 3
+
+    // The poses of the calls of advance to come, in their order: a deformer without memory may work ahead, several frames at once.
+    virtual void foresee(const std::vector<pbs::Pose>& /*poses*/) {}
 
     // The next positions depend on the last: such a deformer sees every step, the others see frames only.
     virtual bool has_memory() const { return false; }

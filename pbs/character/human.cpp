@@ -47,7 +47,6 @@ Character make_human(int vertices, bool with_surface)
     Character human;
     human.name = "human";
     human.skeleton = human_skeleton();
-    const SurfaceMesh surface = read_surface(surface_file, geometry);
     const std::string surface_hash = hash_of_file(surface_file);
     human.mesh = cached_mesh(key_of(surface_hash, vertices),
                              [&] { return mesh_surface(read_surface(surface_file, geometry), meshing_of(human.skeleton, vertices)); });

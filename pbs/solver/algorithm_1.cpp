@@ -1,14 +1,30 @@
 #include "pbs/solver/algorithm_1.hpp"
 
 #include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/topology.hpp"
 #include "pbs/solver/residuals.hpp"
 
+#include <algorithm>
+
 namespace pbs {
+namespace {
+
+SleepTolerance sleep_tolerance(const TetMesh& mesh, const PbsOptions& options)
+{
+    if (!options.sleep) return {};
+    const Edges edges = edges_of(mesh.tets);
+    double sum_m = 0.0;
+    for (const auto edge : edges.rowwise()) sum_m += (mesh.rest.row(edge(0)) - mesh.rest.row(edge(1))).norm();
+    return {options.sleep_tolerance, options.sleep_tolerance * sum_m / double(std::max<Eigen::Index>(edges.rows(), 1))};
+}
+
+}  // namespace
 
 template <typename Scalar>
 Algorithm1<Scalar>::Algorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
                                const PbsOptions& options, const std::vector<bool>& held)
     : options_(options),
+      sleep_tolerance_(sleep_tolerance(mesh, options)),
       projection_(make_projection(make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, options, held), mesh.tets, options)),
       particles_(mesh.rest, jiggle_zone, options)
 {
@@ -27,7 +43,7 @@ StepSummary Algorithm1<Scalar>::advance(const Positions& lbs_positions, const Po
     do {
         converged = false;
         projection_->load(particles_.predicted(), bind_points, origin);
-        if (options_.sleep && summary.wakings == 0) projection_->sleep(options_.sleep_tolerance);
+        if (options_.sleep && summary.wakings == 0) projection_->sleep(sleep_tolerance_);
         // (10)
         for (summary.iterations = 0; summary.iterations < options_.iterations && !converged; ++summary.iterations) {
             projection_->project_bind_constraints();     // (11)
@@ -59,7 +75,7 @@ Vec3 Algorithm1<Scalar>::local_origin() const
 template <typename Scalar>
 bool Algorithm1<Scalar>::woken(StepSummary& summary)
 {
-    if (projection_->wake(options_.sleep_tolerance) == 0) return false;
+    if (projection_->wake(sleep_tolerance_) == 0) return false;
     ++summary.wakings;
     summary.history.clear();
     return true;

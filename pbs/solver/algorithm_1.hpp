@@ -25,6 +25,7 @@ private:
     bool examine_residuals(StepSummary& summary) const;
 
     PbsOptions options_;
+    SleepTolerance sleep_tolerance_;
     std::unique_ptr<Projection<Scalar>> projection_;
     Particles particles_;
 };

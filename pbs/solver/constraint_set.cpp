@@ -29,6 +29,8 @@ void check_options(const PbsOptions& options)
     check_stiffness("k_volume", options.k_volume);
     check_stiffness("k_bind", options.k_bind);
     if (options.jiggle) check_stiffness("jiggle.k_stretch", options.jiggle->k_stretch);
+    if (!(options.stop_residual >= 0.0))
+        throw InputError("pbs", 0, "stop_residual", std::to_string(options.stop_residual), "expected 0 or more");
     if (options.threads < 1) throw InputError("pbs", 0, "threads", std::to_string(options.threads), "expected 1 or more");
     if (!(options.sleep_tolerance >= 0.0))
         throw InputError("pbs", 0, "sleep_tolerance", std::to_string(options.sleep_tolerance), "expected 0 or more");
@@ -109,8 +111,9 @@ std::vector<Scalar> inverse_masses(const TetMesh& mesh, Masses masses, const std
     std::vector<Scalar> inverse_mass(mesh.rest.rows(), Scalar(1));
     if (masses == Masses::lumped) {
         const Eigen::VectorXd lumped = lumped_volumes(mesh.rest, mesh.tets);
+        const double mean = lumped.mean();
         for (Eigen::Index i = 0; i < lumped.size(); ++i)
-            if (lumped(i) > 0.0) inverse_mass[i] = Scalar(lumped.mean() / lumped(i));
+            if (lumped(i) > 0.0) inverse_mass[i] = Scalar(mean / lumped(i));
     }
     for (std::size_t i = 0; i < held.size(); ++i)
         if (held[i]) inverse_mass[i] = Scalar(0);

@@ -1,5 +1,7 @@
 #include "pbs/solver/parallel.hpp"
 
+#include <algorithm>
+
 #ifdef PBS_WITH_THREADS
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -11,9 +13,7 @@ namespace pbs {
 #ifdef PBS_WITH_THREADS
 class Parallel::Arena {
 public:
-    explicit Arena(int threads) : allowed_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)), arena_(threads)
-    {
-    }
+    explicit Arena(int threads) : arena_(std::min(threads, allowed())) {}
 
     void for_each(int count, const std::function<void(int)>& task)
     {
@@ -21,7 +21,8 @@ public:
     }
 
 private:
-    tbb::global_control allowed_;  // more than the machine has, where asked for
+    static int allowed() { return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)); }
+
     tbb::task_arena arena_;
 };
 #else

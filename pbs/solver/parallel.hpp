@@ -10,7 +10,7 @@ namespace pbs {
 
 class Parallel {
 public:
-    explicit Parallel(int threads);  // at most so many, the caller's among them
+    explicit Parallel(int threads);  // at most so many, the caller's among them, and no more than oneTBB allows in this process
     ~Parallel();
     Parallel(Parallel&&) noexcept;
     Parallel& operator=(Parallel&&) noexcept;

@@ -22,7 +22,7 @@ public:
 
     Positions& predicted() { return p_; }  // p_i [m], #V x 3
     const Positions& predicted() const { return p_; }
-    const Positions& positions() const { return x_; }  // x_i [m], #V x 3
+    const Positions& positions() const { return x_; }   // x_i [m], #V x 3
     const Positions& velocities() const { return v_; }  // v_i [m/s] of the jiggling vertices, #jiggling x 3; none before the first step
 
 private:

@@ -13,6 +13,10 @@
 
 namespace pbs {
 
+// Whether a mesh of so many vertices is large enough for its steps to be shared among threads. Smaller ones are worth threads over frames
+// or characters.
+bool shared_among_threads(int vertices);
+
 class PbsSolver {
 public:
     // bind_distance: d_i [m], #V. jiggle_zone: #V, or empty where nothing jiggles (then no velocity exists). held: #V, or empty; a held

@@ -1,5 +1,5 @@
 // Algorithm 1 for many poses of one mesh side by side: frames, parameter sets or characters that share their tets. Each of sixteen lanes is
-// a pose, so nothing is gathered and a pose costs a third of what it costs alone.
+// a pose, so nothing is gathered and a pose costs a third to a half of what it costs alone.
 //   PosesSolver solver(mesh, bind_distance, jiggle_zone, options);   // options: of every pose
 //   solver.advance(lbs_positions, bind_points, dt);                  // of every pose
 //   solver.positions(7);
@@ -16,6 +16,8 @@
 #include <vector>
 
 namespace pbs {
+
+inline constexpr int poses_at_once = 16;  // that share a block; a last block may have fewer
 
 class PosesSolver {
 public:

@@ -12,6 +12,12 @@
 
 namespace pbs {
 
+// What a sleeping constraint may be off.
+struct SleepTolerance {
+    double ratio = 0.0;     // |l / l0 - 1|, |V / V0 - 1|
+    double length_m = 0.0;  // of bind constraints, and what counts as moved
+};
+
 template <typename Scalar>
 class Projection {
 public:
@@ -26,11 +32,11 @@ public:
 
     virtual Residuals residuals() const = 0;
 
-    // Constraints far from any that the loaded positions leave unsatisfied sleep from now on; tolerance: |l / l0 - 1|, |V / V0 - 1|, bind
-    // in shares of the mean edge. Where options.sleep is not set, and in an order that knows no sleep, nothing sleeps.
-    virtual void sleep(double /*tolerance*/) {}
-    // Wakes what is unsatisfied now and those around it; how many vertices had been asleep there.
-    virtual int wake(double /*tolerance*/) { return 0; }
+    // Constraints far from any that the loaded positions leave unsatisfied, and from what moved in the last step, sleep from now on. Where
+    // options.sleep is not set, and in an order that knows no sleep, nothing sleeps.
+    virtual void sleep(const SleepTolerance&) {}
+    // Wakes what is unsatisfied now and those around it; how many vertices had been asleep there. None: remembers what moved.
+    virtual int wake(const SleepTolerance&) { return 0; }
     virtual double sleeping_share() const { return 0.0; }  // of stretch and volume constraints
 };
 

@@ -2,6 +2,8 @@
 
 #include "pbs/geometry/stopwatch.hpp"
 
+#include <algorithm>
+
 namespace experiments {
 
 void PbsDeformer::reset(const pbs::Character& character)
@@ -12,8 +14,46 @@ void PbsDeformer::reset(const pbs::Character& character)
     solver_ = std::make_unique<pbs::PbsSolver>(character.mesh, character.binding.distance, zone, options_);
 }
 
+bool PbsDeformer::works_ahead() const
+{
+    const bool each_its_own = options_.jiggle || options_.sleep || options_.stop_residual > 0.0 || options_.record_iterations;
+    return options_.threads > 1 && options_.order != pbs::Order::plain && !each_its_own &&
+           !pbs::shared_among_threads(static_cast<int>(character_->mesh.rest.rows()));
+}
+
+void PbsDeformer::foresee(const std::vector<pbs::Pose>& poses)
+{
+    foreseen_ = works_ahead() ? poses : std::vector<pbs::Pose>{};
+    next_ = 0;
+    ahead_.reset();
+}
+
+// The next frame of those that are done, or of a new lot.
+pbs::StepSummary PbsDeformer::advance_ahead(double dt_s)
+{
+    if (!ahead_ || done_ahead_ == static_cast<int>(steps_ahead_.size())) {
+        const pbs::Stopwatch stopwatch;
+        const std::size_t lot = std::min(static_cast<std::size_t>(options_.threads) * pbs::poses_at_once, foreseen_.size() - next_);
+        std::vector<pbs::Positions> lbs(lot), bind_points(lot);
+        for (std::size_t i = 0; i < lot; ++i) {
+            skinning_->linear(foreseen_[next_ + i], lbs[i]);
+            bind_points[i] = pbs::posed_bind_points(character_->binding, foreseen_[next_ + i]);
+        }
+        if (!ahead_ || lot != steps_ahead_.size())
+            ahead_ = std::make_unique<pbs::PosesSolver>(character_->mesh, character_->binding.distance, std::vector<bool>{},
+                                                        std::vector<pbs::PbsOptions>(lot, options_));
+        steps_ahead_ = ahead_->advance(lbs, bind_points, dt_s);
+        for (pbs::StepSummary& step : steps_ahead_) step.seconds = stopwatch.seconds() / double(lot);
+        done_ahead_ = 0;
+    }
+    ++next_;
+    return steps_ahead_[done_ahead_++];
+}
+
 pbs::StepSummary PbsDeformer::advance(const pbs::Pose& pose, double dt_s)
 {
+    if (next_ < foreseen_.size()) return advance_ahead(dt_s);
+    ahead_.reset();
     const pbs::Stopwatch stopwatch;
     skinning_->linear(pose, lbs_);
     pbs::StepSummary summary = solver_->advance(lbs_, pbs::posed_bind_points(character_->binding, pose), dt_s);

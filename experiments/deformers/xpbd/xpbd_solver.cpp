@@ -48,6 +48,7 @@ XpbdSolver::XpbdSolver(const pbs::TetMesh& mesh, const Eigen::VectorXd& bind_dis
 {
     if (!(options.poisson >= 0.25 && options.poisson < 0.5))
         throw pbs::InputError("xpbd", 0, "poisson", std::to_string(options.poisson), "expected 1/4 <= poisson < 1/2");
+    if (options.substeps < 1) throw pbs::InputError("xpbd", 0, "substeps", std::to_string(options.substeps), "expected 1 or more");
     const double mu = options.young_pa / (2.0 * (1.0 + options.poisson));
     const double missing_bulk = options.young_pa / (3.0 * (1.0 - 2.0 * options.poisson)) - 5.0 / 3.0 * mu;
     const Eigen::VectorXd volumes = pbs::tet_volumes(mesh.rest, mesh.tets), lumped = pbs::lumped_volumes(mesh.rest, mesh.tets);
@@ -70,6 +71,7 @@ XpbdSolver::XpbdSolver(const pbs::TetMesh& mesh, const Eigen::VectorXd& bind_dis
 
 pbs::StepSummary XpbdSolver::advance(const pbs::Positions& lbs_positions, const pbs::Positions& bind_points, double dt_s)
 {
+    if (!(dt_s > 0.0)) throw pbs::InputError("xpbd", 0, "dt", std::to_string(dt_s) + " s", "expected a positive time step");
     const pbs::Stopwatch stopwatch;
     for (std::size_t i = 0; i < x_.size(); ++i)
         if (!integrated_[i] || !started_) x_[i] = lbs_positions.row(i);

@@ -102,8 +102,11 @@ double sum_squared_errors(GroupKind kind, const void* batches, int count, const 
 {
     return with_kind(kind, [&](auto of_kind) {
         using Shape = GroupShape<of_kind()>;
+        constexpr int parts_in_scalar = 32;  // then on in double
+        const int parts = count * Part<Scalar, of_kind()>::a_batch;
         Lanes<Scalar> sum = Scalar(0);
-        for (int i = 0; i < count * Part<Scalar, of_kind()>::a_batch; ++i) {
+        double total = 0.0;
+        for (int i = 0; i < parts; ++i) {
             const auto of = part(static_cast<const Batch<Scalar, of_kind()>*>(batches), i);
             Vertices<Scalar> p[Shape::vertices];
             of.gather_from(vertices, p);
@@ -111,9 +114,10 @@ double sum_squared_errors(GroupKind kind, const void* batches, int count, const 
                 const Lanes<Scalar> error = relative_error(of, p, c);
                 sum += error * error;
             }
+            if (i % parts_in_scalar != parts_in_scalar - 1 && i + 1 != parts) continue;
+            for (int lane = 0; lane < lanes<Scalar>; ++lane) total += sum[lane];
+            sum = Scalar(0);
         }
-        double total = 0.0;
-        for (int lane = 0; lane < lanes<Scalar>; ++lane) total += sum[lane];
         return total;
     });
 }
@@ -130,7 +134,7 @@ void largest_errors(GroupKind kind, const void* batches, int count, const Scalar
             Lanes<Scalar> largest = Scalar(0);
             for (int c = 0; c < Shape::constraints; ++c) {
                 const Lanes<Scalar> error = abs(relative_error(of, p, c));
-                where(!(error <= largest), largest) = error;
+                where(largest == largest && !(error <= largest), largest) = error;  // not a number stays
             }
             largest.copy_to(errors + i * lanes<Scalar>, std::experimental::element_aligned);
         }
@@ -158,10 +162,12 @@ int kernel_lanes(int bytes_of_scalar)
 
 const char* kernel_instructions()
 {
-#if defined(__AVX512F__)
+#if defined(__AVX512DQ__)
     return "AVX-512";
 #elif defined(__AVX2__)
     return "AVX2";
+#elif defined(__AVX__)
+    return "AVX";
 #elif defined(__SSE2__)
     return "SSE2";
 #else

@@ -24,6 +24,6 @@ template <typename Scalar>
 double sum_squared_bind_errors(const BindBatch<Scalar>* batches, int count, const Scalar* vertices);
 
 int kernel_lanes(int bytes_of_scalar);  // numbers that these kernels work on at once
-const char* kernel_instructions();      // AVX-512, AVX2, SSE2, baseline
+const char* kernel_instructions();      // AVX-512, AVX2, AVX, SSE2, baseline
 
 }  // namespace pbs

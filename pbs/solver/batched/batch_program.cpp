@@ -58,6 +58,7 @@ BatchProgram<Scalar>::BatchProgram(const std::vector<ConstraintGroup>& groups, c
             }
             begin += size;
         }
+    lines_.shrink_to_fit();
 }
 
 template <typename Scalar>
@@ -71,7 +72,7 @@ void BatchProgram<Scalar>::append(const std::vector<ConstraintGroup>& groups, co
     runs_[slab].push_back({kind, static_cast<int>(batches.size()), lines_.size()});
     lines_.resize(lines_.size() + batches.size() * lines_a_batch);
     lanes_ += batches.size() * batch_size;
-    auto* to = reinterpret_cast<CacheLine*>(lines_.data() + runs_[slab].back().first_line);
+    auto* to = lines_.data() + runs_[slab].back().first_line;
     for (const std::vector<int>& members : batches) {
         auto& batch = *new (to) Batch<Scalar, kind>{};
         for (int lane = 0; lane < batch_size; ++lane) {

@@ -13,8 +13,8 @@ public:
     explicit BatchScheduler(int vertices) : uses_(vertices, 0), last_batch_(vertices, never) {}
 
     // groups: of one kind. Returns indices into `groups`, at most batch_size a batch, in the order given; of the last quarter the groups at
-    // the busiest vertices first. (To rank all of them fills a tenth more lanes and leaves two or three times plain's difference in volume.)
-    // Batches may be short, and empty where one must pass before a vertex may be touched again.
+    // the busiest vertices first. (To rank all of them fills a tenth more lanes and leaves two or three times plain's difference in
+    // volume.) Batches may be short, and empty where one must pass before a vertex may be touched again.
     std::vector<std::vector<int>> schedule(const std::vector<ConstraintGroup>& groups);
 
 private:

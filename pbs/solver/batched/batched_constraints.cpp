@@ -1,5 +1,7 @@
 #include "pbs/solver/batched/batched_constraints.hpp"
 
+#include "pbs/solver/pbs_solver.hpp"
+
 #include <algorithm>
 
 namespace pbs {
@@ -37,15 +39,22 @@ ConstraintValues<Scalar> volume_values(const ConstraintSet<Scalar>& constraints)
     return values;
 }
 
-// A multiple of four slabs, so that two threads share either half of them evenly, or one. Fewer slabs are nearer to `plain`.
+constexpr int least_vertices_a_slab = 3072;
+
+// So that there are about a multiple of four slabs, which two threads share evenly, or one: slabs end with whole levels. Fewer slabs are
+// nearer to `plain`.
 int vertices_a_slab(int vertices)
 {
-    constexpr int least = 3072;
-    const int slabs = vertices / (4 * least) * 4;
+    const int slabs = vertices / (4 * least_vertices_a_slab) * 4;
     return slabs == 0 ? std::max(vertices, 1) : vertices / slabs;
 }
 
 }  // namespace
+
+bool shared_among_threads(int vertices)
+{
+    return vertices >= 4 * least_vertices_a_slab;
+}
 
 template <typename Scalar>
 BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets, Order order)

@@ -12,7 +12,7 @@ namespace pbs {
 namespace {
 
 // Fewer slabs than these are done before a second thread has come to help.
-constexpr int slabs_worth_threads = 4;
+constexpr int slabs_worth_threads = 3;
 
 template <typename Scalar>
 double length(Scalar x, Scalar y, Scalar z)
@@ -44,7 +44,6 @@ BatchedProjection<Scalar>::BatchedProjection(const ConstraintSet<Scalar>& constr
     }
     if (!options.sleep) return;
     neighbours_ = adjacency_of(Tets(tets.unaryExpr([&](int old) { return batched_.order.new_of_old[old]; })), vertices);
-    for (const StretchConstraint<Scalar>& edge : constraints.stretch) mean_edge_m_ += edge.rest_length / double(edges_);
 }
 
 template <typename Scalar>
@@ -131,23 +130,23 @@ Residuals BatchedProjection<Scalar>::residuals() const
 }
 
 template <typename Scalar>
-std::vector<char> BatchedProjection<Scalar>::unsatisfied(double tolerance) const
+std::vector<char> BatchedProjection<Scalar>::unsatisfied(const SleepTolerance& tolerance) const
 {
     std::vector<char> vertices(vertices_.size() * batch_size, false);
-    batched_.stretch.mark_unsatisfied(this->vertices(), tolerance, vertices);
-    batched_.volume.mark_unsatisfied(this->vertices(), tolerance, vertices);
+    batched_.stretch.mark_unsatisfied(this->vertices(), tolerance.ratio, vertices);
+    batched_.volume.mark_unsatisfied(this->vertices(), tolerance.ratio, vertices);
     for (std::size_t i = 0; !bind_.empty() && i < batched_.order.old_of_new.size(); ++i) {
         const BindBatch<Scalar>& batch = bind_[i / batch_size];
         const int lane = i % batch_size;
         const Scalar* p = this->vertices() + 4 * i;
         const double distance = length(p[0] - batch.x[lane], p[1] - batch.y[lane], p[2] - batch.z[lane]);
-        if (!(std::abs(distance - batch.rest_distance[lane]) <= tolerance * mean_edge_m_)) vertices[i] = true;
+        if (!(std::abs(distance - batch.rest_distance[lane]) <= tolerance.length_m)) vertices[i] = true;
     }
     return vertices;
 }
 
 template <typename Scalar>
-void BatchedProjection<Scalar>::sleep(double tolerance)
+void BatchedProjection<Scalar>::sleep(const SleepTolerance& tolerance)
 {
     if (neighbours_.first.empty()) return;
     std::vector<char> needed = unsatisfied(tolerance);
@@ -158,7 +157,7 @@ void BatchedProjection<Scalar>::sleep(double tolerance)
 }
 
 template <typename Scalar>
-int BatchedProjection<Scalar>::wake(double tolerance)
+int BatchedProjection<Scalar>::wake(const SleepTolerance& tolerance)
 {
     if (awake_.empty()) return 0;
     if (sleeping_share() > 0.0) {
@@ -172,7 +171,7 @@ int BatchedProjection<Scalar>::wake(double tolerance)
     moved_.assign(awake_.size(), false);
     for (std::size_t i = 0; i < batched_.order.old_of_new.size(); ++i) {
         const Scalar *now = this->vertices() + 4 * i, *before = loaded_.front().xyzw + 4 * i;
-        moved_[i] = !(length(now[0] - before[0], now[1] - before[1], now[2] - before[2]) <= tolerance * mean_edge_m_);
+        moved_[i] = !(length(now[0] - before[0], now[1] - before[1], now[2] - before[2]) <= tolerance.length_m);
     }
     return 0;
 }

@@ -25,8 +25,8 @@ public:
     void store(const Vec3& origin, Positions& p) const override;
     Residuals residuals() const override;
 
-    void sleep(double tolerance) override;
-    int wake(double tolerance) override;
+    void sleep(const SleepTolerance& tolerance) override;
+    int wake(const SleepTolerance& tolerance) override;
     double sleeping_share() const override;
 
     std::size_t bytes_an_iteration() const;  // constraint data once, positions read and written in each class
@@ -42,8 +42,8 @@ private:
 
     void fill_bind(const ConstraintSet<Scalar>& constraints);
     void project(const BatchProgram<Scalar>& program, const std::vector<std::vector<BatchRun>>& runs);
-    std::vector<char> unsatisfied(double tolerance) const;  // vertices, dummies included
-    void keep_awake(const std::vector<char>& vertices);     // and all around them
+    std::vector<char> unsatisfied(const SleepTolerance& tolerance) const;  // vertices, dummies included
+    void keep_awake(const std::vector<char>& vertices);                    // and all around them
 
     BatchedConstraints<Scalar> batched_;
     Parallel parallel_;
@@ -56,7 +56,6 @@ private:
     std::vector<char> moved_;                                        // in the last step, by more than the tolerance; they start awake
     std::vector<Block> loaded_;                                      // vertices_ before the step, with sleep
     Adjacency neighbours_;                                           // in the new order; empty without sleep
-    double mean_edge_m_ = 0.0;
 };
 
 }  // namespace pbs

@@ -1,7 +1,7 @@
-// The one place of SIMD: as many numbers side by side as a register of this machine holds, and vertices going in and out of registers.
-// For the kernels' translation units alone, which are compiled for one machine: nothing of this may reach another.
-// A vertex is x, y, z, w in memory, one load of four numbers; Vertices<Scalar> is one vertex in every lane. Loads of four and a transpose
-// are some three times quicker than gather and scatter instructions.
+// Registers of the solver's kernels, in one place: as many numbers side by side as a register of this machine holds, and vertices going in
+// and out of registers. For the kernels' translation units alone, which are compiled for one machine: nothing of this may reach another. A
+// vertex is x, y, z, w in memory, one load of four numbers; Vertices<Scalar> is one vertex in every lane. Loads of four and a transpose are
+// some three times quicker than gather and scatter instructions.
 #pragma once
 
 #include <cstdint>
@@ -95,8 +95,13 @@ template <typename Scalar>
     } else
         return (Row<Scalar>)_mm512_insertf64x4(_mm512_castpd256_pd512((__m256d)vertex(0)), (__m256d)vertex(4), 1);
 #else
-    else
-        return __builtin_shufflevector(vertex(0), vertex(4), 0, 1, 2, 3, 4, 5, 6, 7);
+    else {
+        const auto pair = [&](int lane) { return __builtin_shufflevector(vertex(lane), vertex(lane + 4), 0, 1, 2, 3, 4, 5, 6, 7); };
+        if constexpr (lanes<Scalar> == 8)
+            return pair(0);
+        else
+            return __builtin_shufflevector(pair(0), pair(8), 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    }
 #endif
 }
 

@@ -2,7 +2,6 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
-#include "pbs/solver/parallel.hpp"
 
 #include <algorithm>
 
@@ -42,15 +41,20 @@ void check_count(const char* field, std::size_t count, std::size_t poses)
 template <typename Scalar>
 PosesAlgorithm1<Scalar>::PosesAlgorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
                                          const std::vector<PbsOptions>& options, const std::vector<bool>& held)
-    : options_(options)
+    : options_(options), parallel_(options.front().threads)
 {
     for (const PbsOptions& pose : options) {
         check_options(pose);
         particles_.emplace_back(mesh.rest, jiggle_zone, pose);
     }
     const bool jiggle = options.front().jiggle.has_value();
-    program_ = make_pose_program(make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, of_any(options), held), mesh.tets,
-                                 jiggle ? jiggle_zone : std::vector<bool>{}, options.front().order);
+    program_ = std::make_unique<const PoseProgram<Scalar>>(
+        make_pose_program(make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, of_any(options), held), mesh.tets,
+                          jiggle ? jiggle_zone : std::vector<bool>{}, options.front().order));
+    for (std::size_t first = 0; first < options.size(); first += poses_a_block) {
+        const std::size_t last = std::min(first + poses_a_block, options.size());
+        blocks_.emplace_back(*program_, std::vector<PbsOptions>(options.begin() + first, options.begin() + last));
+    }
 }
 
 template <typename Scalar>
@@ -64,8 +68,7 @@ std::vector<StepSummary> PosesAlgorithm1<Scalar>::advance(const std::vector<Posi
         particles_[i].check_input(of_pose(lbs_positions, i), of_pose(bind_points, i), dt_s);
         particles_[i].predict(of_pose(lbs_positions, i), dt_s);  // (2)-(9)
     }
-    const int blocks = (static_cast<int>(particles_.size()) + poses_a_block - 1) / poses_a_block;
-    Parallel(options_.front().threads).for_each(blocks, [&](int block) { project_block(block, bind_points); });  // (10)-(14)
+    parallel_.for_each(static_cast<int>(blocks_.size()), [&](int block) { project_block(block, bind_points); });  // (10)-(14)
     std::vector<StepSummary> summaries(particles_.size());
     for (std::size_t i = 0; i < particles_.size(); ++i) {
         particles_[i].update(dt_s);  // (15)-(18)
@@ -78,10 +81,10 @@ std::vector<StepSummary> PosesAlgorithm1<Scalar>::advance(const std::vector<Posi
 
 // A pose leaves its block after its own number of iterations; the others go on.
 template <typename Scalar>
-void PosesAlgorithm1<Scalar>::project_block(int block, const std::vector<Positions>& bind_points)
+void PosesAlgorithm1<Scalar>::project_block(std::size_t block, const std::vector<Positions>& bind_points)
 {
-    const std::size_t first = static_cast<std::size_t>(block) * poses_a_block, last = std::min(first + poses_a_block, particles_.size());
-    PoseBlock<Scalar> poses(program_, {options_.begin() + first, options_.begin() + last});
+    const std::size_t first = block * poses_a_block, last = std::min(first + poses_a_block, particles_.size());
+    PoseBlock<Scalar>& poses = blocks_[block];
     std::vector<Vec3> origin;
     int most = 0;
     for (std::size_t i = first; i < last; ++i) {

@@ -2,8 +2,11 @@
 #pragma once
 
 #include "pbs/solver/batched/pose_projection.hpp"
+#include "pbs/solver/parallel.hpp"
 #include "pbs/solver/particles.hpp"
 #include "pbs/solver/step_summary.hpp"
+
+#include <memory>
 
 namespace pbs {
 
@@ -18,11 +21,13 @@ public:
     const Positions& positions(int pose) const { return particles_[pose].positions(); }
 
 private:
-    void project_block(int block, const std::vector<Positions>& bind_points);
+    void project_block(std::size_t block, const std::vector<Positions>& bind_points);
 
     std::vector<PbsOptions> options_;   // of each pose
     std::vector<Particles> particles_;  // of each pose
-    PoseProgram<Scalar> program_;
+    std::unique_ptr<const PoseProgram<Scalar>> program_;
+    std::vector<PoseBlock<Scalar>> blocks_;  // sixteen poses each, the last maybe fewer
+    Parallel parallel_;
 };
 
 }  // namespace pbs

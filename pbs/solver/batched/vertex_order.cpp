@@ -7,7 +7,7 @@
 namespace pbs {
 namespace {
 
-// Vertices in breadth-first order from `start`, and where each level begins in it; -1 in `level` marks what is not visited yet.
+// Vertices in breadth-first order from `start`, and where each level begins in it.
 struct Levels {
     std::vector<int> order, begin;
 };

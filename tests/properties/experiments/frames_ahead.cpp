@@ -1,0 +1,67 @@
+// Truth: the same frames one by one. A deformer that works ahead, several frames side by side on several threads, changes no bit.
+#include "experiments/deformers/pbs/pbs_deformer.hpp"
+#include "tests/support/two_bone_limb.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+const test_support::TwoBoneLimb limb = test_support::two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 60.0);
+
+pbs::Character limb_character()
+{
+    pbs::Character character;
+    character.mesh = limb.mesh;
+    character.skeleton = limb.skeleton;
+    character.binding = limb.binding;
+    character.weights = limb.weights;
+    return character;
+}
+
+const pbs::Character character = limb_character();
+
+// More than two lots of two threads, the last not full.
+const std::vector<pbs::Pose> poses = pbs::joint_sweep(limb.skeleton, 1, pbs::Vec3::UnitZ(), 90.0, 71, 0.01).steps;
+
+std::vector<pbs::Positions> played(const pbs::PbsOptions& options, bool foreseen)
+{
+    experiments::PbsDeformer deformer(options);
+    deformer.reset(character);
+    if (foreseen) deformer.foresee(poses);
+    std::vector<pbs::Positions> frames;
+    for (const pbs::Pose& pose : poses) {
+        EXPECT_EQ(deformer.advance(pose, 0.01).outcome, pbs::Outcome::finished);
+        frames.push_back(deformer.positions());
+    }
+    return frames;
+}
+
+TEST(FramesAhead, AreThoseOfOneByOneToTheBit)
+{
+    for (const pbs::Order order : {pbs::Order::ordered, pbs::Order::grouped})
+        for (const pbs::Precision precision : {pbs::Precision::f32, pbs::Precision::f64}) {
+            pbs::PbsOptions options;
+            options.order = order;
+            options.precision = precision;
+            const auto one_by_one = played(options, true);
+            options.threads = 2;
+            EXPECT_EQ(played(options, true), one_by_one);
+            EXPECT_EQ(played(options, false), one_by_one);
+        }
+}
+
+// What depends on the frame before, or is asked frame by frame, is not worked ahead; nothing changes there either.
+TEST(FramesAhead, LeaveOthersAlone)
+{
+    pbs::PbsOptions plain, sleeping, stopping;
+    plain.order = pbs::Order::plain;
+    sleeping.sleep = true;
+    stopping.stop_residual = 0.2;
+    for (pbs::PbsOptions options : {plain, sleeping, stopping}) {
+        const auto one_by_one = played(options, false);
+        options.threads = 2;
+        EXPECT_EQ(played(options, true), one_by_one);
+    }
+}
+
+}  // namespace
