@@ -5,11 +5,13 @@
 #include "analysis/order_verdicts.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace analysis {
 namespace {
@@ -127,6 +129,21 @@ struct TitledRow {
     std::string run;
 };
 
+// All measurements of a quantity in one row; each of them stands in claims.json.
+std::optional<TitledRow> measured_row(const Verdict& verdict, const std::string& quantity)
+{
+    std::vector<const Measurement*> all;
+    for (const Measurement& measured : verdict.measurements)
+        if (measured.quantity == quantity) all.push_back(&measured);
+    if (all.empty()) return {};
+    const auto [least, most] = std::minmax_element(all.begin(), all.end(), [](auto a, auto b) { return a->value < b->value; });
+    const auto whole = std::count_if(all.begin(), all.end(), [&](auto m) { return extent_of(verdict.claim, *m) == Extent::whole; });
+    return TitledRow{quantity,
+                     {fmt::format("{} figures", all.size()), fmt::format("{} to {}", figure_text(**least), figure_text(**most)),
+                      interval_text(**most), fmt::format("in {} of them; most: {}", whole, (*most)->of)},
+                     fmt::format("{}", fmt::join(verdict.runs, ", "))};
+}
+
 // The claim's cases, one metric after the other, then the other deformers, then the claim in other orders of projection.
 std::vector<TitledRow> rows_of(const Verdict& verdict)
 {
@@ -136,12 +153,8 @@ std::vector<TitledRow> rows_of(const Verdict& verdict)
         rows.push_back({judged.metric + ", beside", case_row(verdict.claim, judged), judged.run});
         rows.back().row.name += ", " + judged.deformer;
     }
-    const std::array<const char*, 3> holds = {"no", "its value alone", "yes"};
-    for (const Measurement& measured : verdict.measurements)
-        rows.push_back({measured.quantity,
-                        {measured.of, figure_text(measured), interval_text(measured),
-                         holds[static_cast<std::size_t>(extent_of(verdict.claim, measured))]},
-                        measured.run});
+    for (const std::string& quantity : verdict.claim.metrics)
+        if (const auto row = measured_row(verdict, quantity)) rows.push_back(*row);
     for (const OrderVerdict& other : verdict.orders)
         rows.push_back({other.cases.front().metric + ", in another order of projection",
                         {name_of(other), measured_in(other), "", text_of(other)},

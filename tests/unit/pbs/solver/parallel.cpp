@@ -8,7 +8,16 @@
 #include <string>
 #include <vector>
 
+#ifdef PBS_WITH_THREADS
+#include <tbb/global_control.h>
+#endif
+
 namespace {
+
+#ifdef PBS_WITH_THREADS
+// oneTBB has no more threads than the machine has cores unless it is told so.
+const tbb::global_control four_threads(tbb::global_control::max_allowed_parallelism, 4);
+#endif
 
 class ParallelTasks : public testing::TestWithParam<int> {
 protected:
