@@ -151,7 +151,7 @@ std::string list_of(const Verdict& verdict, bool holding)
     const std::size_t count = entries.size();
     entries.resize(std::min(count, named));
     const std::string more = count > named ? fmt::format(" and {} more", count - named) : "";
-    return fmt::format("{}{}", fmt::join(entries, ", "), more);
+    return fmt::format("{}{}", fmt::join(entries, "; "), more);
 }
 
 // Every measurement of the claim's quantities whole is reproduced; some, reproduced only for those; none is not reproduced.
@@ -177,7 +177,7 @@ Verdict judge_measurements(const Claim& claim, const Records& records)
                                                           : VerdictKind::not_reproduced;
     verdict.text = label(verdict.kind);
     if (verdict.kind == VerdictKind::reproduced_only_for)
-        verdict.text += fmt::format(" {}; not for {}", list_of(verdict, true), list_of(verdict, false));
+        verdict.text += fmt::format(" {}. Not for {}", list_of(verdict, true), list_of(verdict, false));
     if (verdict.kind == VerdictKind::not_reproduced) verdict.text += ": " + list_of(verdict, false);
     return verdict;
 }

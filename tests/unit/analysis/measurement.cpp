@@ -62,7 +62,7 @@ TEST(Measurement, AlteredRecordsFlipTheVerdict)
     records.measurements[1].value = 0.5;
     const analysis::Verdict in_part = judge(drift_claim(), records);
     EXPECT_EQ(in_part.kind, VerdictKind::reproduced_only_for);
-    EXPECT_EQ(in_part.text, "reproduced only for limb; not for human (0.5)");
+    EXPECT_EQ(in_part.text, "reproduced only for limb. Not for human (0.5)");
     records.measurements[0].value = 0.5;
     EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::not_reproduced);
     records.measurements.clear();
