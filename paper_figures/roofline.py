@@ -30,7 +30,6 @@ def draw_roof(axes, limits, precision):
     axes.set_ylim(peak / 500, peak * 2.5)
     axes.set_xlabel("operations a byte")
     axes.set_ylabel("useful GFLOP/s")
-    axes.set_title(f"{precision}, one thread")
 
 
 def draw_points(axes, mesh, precision, filled):
@@ -62,6 +61,8 @@ def draw(results, figures):
     behind = []
     for panel, precision in zip(axes[0], peaks):
         draw_roof(panel, record["context"]["limits_of_one_core"], precision)
+        shown = [f"{fill} {mesh['mesh']['vertices']:,} vertices" for fill, mesh in zip(("hollow", "filled"), meshes)]
+        panel.set_title(f"{precision}, one thread; {', '.join(shown)}", fontsize=7)
         for mesh, filled in zip(meshes, (False, True)):
             behind += draw_points(panel, mesh, precision, filled)
     if not behind:
