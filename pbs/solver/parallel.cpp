@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #ifdef PBS_WITH_THREADS
+#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -17,7 +18,14 @@ public:
 
     void for_each(int count, const std::function<void(int)>& task)
     {
-        arena_.execute([&] { tbb::parallel_for(0, count, task, tbb::static_partitioner()); });
+        arena_.execute([&] {
+            tbb::parallel_for(
+                tbb::blocked_range<int>(0, count, 1),
+                [&](const auto& range) {
+                    for (int i = range.begin(); i < range.end(); ++i) task(i);
+                },
+                tbb::simple_partitioner());
+        });
     }
 
 private:

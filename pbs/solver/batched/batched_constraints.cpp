@@ -41,7 +41,7 @@ ConstraintValues<Scalar> volume_values(const ConstraintSet<Scalar>& constraints)
 
 constexpr int least_vertices_a_slab = 3072;
 
-// So that there are about a multiple of four slabs, which two threads share evenly, or one: slabs end with whole levels. Fewer slabs are
+// So that there are about four slabs and a half at either end, or eight ..., which two threads share evenly; or one. Fewer slabs are
 // nearer to `plain`.
 int vertices_a_slab(int vertices)
 {

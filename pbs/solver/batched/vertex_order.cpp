@@ -60,14 +60,16 @@ VertexOrder order_vertices(const Tets& tets, int vertices, int vertices_a_slab)
         const int before = static_cast<int>(order.old_of_new.size());
         order.old_of_new.insert(order.old_of_new.end(), levels.order.begin(), levels.order.end());
         for (const int begin : levels.begin) {
-            if (levels_in_slab >= 2 && before + begin - order.slab_begin.back() >= vertices_a_slab) {
+            const bool half = order.slab_begin.size() == 1 && vertices >= 2 * vertices_a_slab;
+            const int least = half ? vertices_a_slab / 2 : vertices_a_slab;
+            if (levels_in_slab >= 2 && before + begin - order.slab_begin.back() >= least) {
                 order.slab_begin.push_back(before + begin);
                 levels_in_slab = 0;
             }
             ++levels_in_slab;
         }
     }
-    if (order.slab_begin.size() > 1 && vertices - order.slab_begin.back() < vertices_a_slab / 2) order.slab_begin.pop_back();
+    if (order.slab_begin.size() > 1 && vertices - order.slab_begin.back() < vertices_a_slab / 3) order.slab_begin.pop_back();
     order.slab_begin.push_back(vertices);
     order.new_of_old.resize(vertices);
     for (int i = 0; i < vertices; ++i) order.new_of_old[order.old_of_new[i]] = i;
