@@ -1,5 +1,6 @@
 #include "experiments/second_opinion/calculix_run.hpp"
 
+#include "experiments/scratch_folder.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <algorithm>
@@ -25,29 +26,6 @@ namespace experiments {
 namespace {
 
 namespace fs = std::filesystem;
-
-class ScratchFolder {
-public:
-    ScratchFolder()
-    {
-        std::string name = (fs::temp_directory_path() / "pbskin_calculix_XXXXXX").string();
-        if (!mkdtemp(name.data())) throw std::runtime_error("no folder for CalculiX under " + name);
-        path_ = name;
-    }
-    ~ScratchFolder()
-    {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    std::string operator/(const char* name) const { return (path_ / name).string(); }
-    std::string path() const { return path_.string(); }
-
-private:
-    fs::path path_;
-};
 
 std::string text_of(const std::string& path)
 {

@@ -1,6 +1,7 @@
 // What solves systems that a factor does not fit in memory for, against CHOLMOD on the same cantilever: conjugate gradients with algebraic
 // multigrid in this process, and the program pbskin_distributed on one and two ranks. Without it beside this program, or without mpirun,
 // one row says so.
+#include "experiments/scratch_folder.hpp"
 #include "experiments/verification/problems/common.hpp"
 #include "experiments/verification/structured_mesh.hpp"
 
@@ -50,15 +51,12 @@ public:
     // ranks 0: without mpirun.
     std::optional<Answer> solve(int ranks, int element_order, const std::string& arguments) const
     {
-        std::string name = (fs::temp_directory_path() / "pbskin_distributed_XXXXXX").string();
-        if (!mkdtemp(name.data())) throw std::runtime_error("no folder under " + name);
+        const ScratchFolder folder;
         const std::string launch = ranks ? "mpirun --allow-run-as-root --oversubscribe -n " + std::to_string(ranks) + " " : "";
         const auto text = output_of(launch + "'" + path_.string() + "' --bar 3000 --gravity 0 0 -9.81 --order " +
-                                    std::to_string(element_order) + " --nodes -o " + name + " " + arguments + " 2>/dev/null");
-        std::optional<Answer> answer;
-        if (text) answer = Answer{nlohmann::json::parse(*text), displacement_in(name + "/nodes.csv")};
-        fs::remove_all(name);
-        return answer;
+                                    std::to_string(element_order) + " --nodes -o " + folder.path() + " " + arguments + " 2>/dev/null");
+        if (!text) return {};
+        return Answer{nlohmann::json::parse(*text), displacement_in(folder / "nodes.csv")};
     }
 
 private:

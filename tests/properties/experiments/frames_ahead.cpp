@@ -1,6 +1,6 @@
 // Truth: the same frames one by one. A deformer that works ahead, several frames side by side on several threads, changes no bit.
 #include "experiments/deformers/pbs/pbs_deformer.hpp"
-#include "tests/support/two_bone_limb.hpp"
+#include "tests/support/limb_character.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,17 +8,7 @@ namespace {
 
 const test_support::TwoBoneLimb limb = test_support::two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 60.0);
 
-pbs::Character limb_character()
-{
-    pbs::Character character;
-    character.mesh = limb.mesh;
-    character.skeleton = limb.skeleton;
-    character.binding = limb.binding;
-    character.weights = limb.weights;
-    return character;
-}
-
-const pbs::Character character = limb_character();
+const pbs::Character character = test_support::character_of(limb);
 
 // More than two lots of two threads, the last not full.
 const std::vector<pbs::Pose> poses = pbs::joint_sweep(limb.skeleton, 1, pbs::Vec3::UnitZ(), 90.0, 71, 0.01).steps;

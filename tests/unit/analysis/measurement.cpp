@@ -1,11 +1,11 @@
 #include "analysis/measurement.hpp"
 
 #include "analysis/verdict.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 namespace {
 
@@ -31,11 +31,11 @@ Measurement drift(const std::string& of, double value)
 
 TEST(Measurement, ComesBackFromItsTable)
 {
-    const std::string path = (std::filesystem::temp_directory_path() / "pbs_measurements_test.csv").string();
+    const test_support::ScratchFolder folder;
+    const std::string path = folder / "measurements.csv";
     const Measurement written{"C07", "linear, drift", "limb \"bent\"", 1.0 / 3.0, 0.25, 0.5, "m"};
     analysis::measurement_table({written, drift("human", 1e-300)}).write(path);
     const auto read = analysis::measurements(path);
-    std::filesystem::remove(path);
     ASSERT_EQ(read.size(), 2u);
     EXPECT_EQ(read[0].quantity, written.quantity);
     EXPECT_EQ(read[0].of, written.of);
