@@ -46,6 +46,8 @@ public:
         value = *found;
     }
 
+    bool has(const char* key) const { return table_.contains(key); }
+
     void optional(const char* key, std::vector<std::string>& values)
     {
         read_.insert(key);
@@ -55,6 +57,24 @@ public:
         for (const toml::node& entry : *node->as_array()) {
             if (!entry.is_string()) refuse(key, "expected texts");
             values.push_back(entry.value<std::string>().value());
+        }
+    }
+
+    void optional(const char* key, std::vector<QuantityBound>& bounds)
+    {
+        read_.insert(key);
+        const toml::node* node = table_.get(key);
+        if (!node) return;
+        if (!node->is_array()) refuse(key, "expected a list");
+        for (const toml::node& entry : *node->as_array()) {
+            if (!entry.is_table()) refuse(key, "expected { quantity, low, high }");
+            ClaimReader reader(*entry.as_table(), file_);
+            QuantityBound& bound = bounds.emplace_back();
+            reader.required("quantity", bound.quantity);
+            reader.optional("low", bound.low);
+            reader.optional("high", bound.high);
+            reader.require_nothing_unknown();
+            if (!(bound.low <= bound.high)) reader.refuse("low", "expected low <= high");
         }
     }
 
@@ -79,13 +99,26 @@ private:
     std::set<std::string> read_;
 };
 
+void require_bounds(const Claim& claim, const ClaimReader& reader)
+{
+    const auto bounded = [&](const std::string& quantity) {
+        return std::any_of(claim.bounds.begin(), claim.bounds.end(), [&](const auto& bound) { return bound.quantity == quantity; });
+    };
+    for (const QuantityBound& bound : claim.bounds)
+        if (!std::count(claim.metrics.begin(), claim.metrics.end(), bound.quantity))
+            reader.refuse("bounds", bound.quantity + ": expected one of this claim's metrics");
+    if (!reader.has("low") && !reader.has("high") && !std::all_of(claim.metrics.begin(), claim.metrics.end(), bounded))
+        reader.refuse("bounds", "expected a bound for each of the metrics, or low and high");
+}
+
 void require_judgeable(const Claim& claim, const ClaimReader& reader)
 {
     const bool by_records = claim.rule == ClaimRule::share_within || claim.rule == ClaimRule::mean_within;
     if (by_records && claim.metrics.empty()) reader.refuse("metrics", "expected at least one");
     const bool measured = claim.rule == ClaimRule::measured;
     if (measured && claim.metrics.empty()) reader.refuse("metrics", "expected at least one");
-    if (measured && !(claim.low < claim.high)) reader.refuse("low", "expected low < high");
+    if (measured && !(claim.low <= claim.high)) reader.refuse("low", "expected low <= high");
+    if (measured) require_bounds(claim, reader);
     for (const auto& metric : claim.metrics)
         if (!measured && !measurable.contains(metric))
             reader.refuse("metrics", fmt::format("{}: expected one of {}", metric, fmt::join(measurable, ", ")));
@@ -113,6 +146,7 @@ Claim read_claim(const toml::table& table, const std::string& file)
     reader.optional("deformer", claim.deformer);
     reader.optional("beside", claim.beside);
     reader.optional("orders", claim.orders);
+    reader.optional("bounds", claim.bounds);
     reader.optional("iterations", claim.iterations);
     reader.optional("expected_pct", claim.expected);
     reader.optional("low_pct", claim.low);

@@ -3,6 +3,7 @@
 // The fields are documented at the head of experiments/claims.toml.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -10,13 +11,20 @@ namespace analysis {
 
 enum class ClaimRule { share_within, mean_within, measured, printed, untestable };
 
+// Of the figures of one quantity that a study measures.
+struct QuantityBound {
+    std::string quantity;
+    double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+};
+
 struct Claim {
     std::string id, statement, place, study;
     double cost_minutes = 0.0;
     ClaimRule rule = ClaimRule::share_within;
     std::vector<std::string> metrics;  // the claim's own first
     std::string deformer;
-    std::vector<std::string> beside;               // other deformers, shown under the same measure; no part of the verdict
+    std::vector<std::string> beside;               // other deformers under the same measure, other quantities; no part of the verdict
+    std::vector<QuantityBound> bounds = {};        // of single quantities, in place of low and high
     std::string orders;                            // the deformer in other orders and precisions; judged likewise, no part of the verdict
     int iterations = 0;                            // 0: any
     double expected = 0.0, low = 0.0, high = 0.0;  // of the metric, in its unit

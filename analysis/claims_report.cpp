@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 
 namespace analysis {
 namespace {
@@ -76,6 +77,8 @@ json to_json_of(const Verdict& verdict)
 {
     json measurements = json::array();
     for (const Measurement& measured : verdict.measurements) measurements.push_back(to_json_of(measured));
+    json beside_measured = json::array();
+    for (const Measurement& measured : verdict.measured_beside) beside_measured.push_back(to_json_of(measured));
     json cases = json::array(), beside = json::array(), orders = json::array();
     for (const OrderVerdict& other : verdict.orders) orders.push_back(to_json_of(other));
     for (const CaseJudgement& judged : verdict.cases) cases.push_back(to_json_of(judged));
@@ -94,7 +97,18 @@ json to_json_of(const Verdict& verdict)
             {"cases", cases},
             {"beside", beside},
             {"orders", orders},
-            {"measurements", measurements}};
+            {"measurements", measurements},
+            {"measured_beside", beside_measured}};
+}
+
+// One bound where all quantities share it, else each quantity's.
+std::string measured_expectation(const Claim& claim)
+{
+    std::vector<std::string> texts;
+    for (const std::string& quantity : claim.metrics) texts.push_back(bound_text(bound_of(claim, quantity)));
+    if (std::set<std::string>(texts.begin(), texts.end()).size() == 1) return texts.front();
+    for (std::size_t i = 0; i < texts.size(); ++i) texts[i] = fmt::format("{}: {}", claim.metrics[i], texts[i]);
+    return fmt::format("{}", fmt::join(texts, "; "));
 }
 
 // A cell of a Markdown table: one line, no column of its own.
@@ -129,19 +143,32 @@ struct TitledRow {
     std::string run;
 };
 
+std::string runs_text(const std::vector<const Measurement*>& measurements)
+{
+    constexpr std::size_t named = 4;  // the others stand in claims.json
+    std::set<std::string> runs;
+    for (const Measurement* measured : measurements) runs.insert(measured->run);
+    std::vector<std::string> shown(runs.begin(), runs.end());
+    if (shown.size() <= named) return fmt::format("{}", fmt::join(shown, ", "));
+    shown.resize(named);
+    return fmt::format("{} and {} more", fmt::join(shown, ", "), runs.size() - named);
+}
+
 // All measurements of a quantity in one row; each of them stands in claims.json.
-std::optional<TitledRow> measured_row(const Verdict& verdict, const std::string& quantity)
+std::optional<TitledRow> measured_row(const Claim& claim, const std::vector<Measurement>& from, const std::string& quantity, bool judged)
 {
     std::vector<const Measurement*> all;
-    for (const Measurement& measured : verdict.measurements)
+    for (const Measurement& measured : from)
         if (measured.quantity == quantity) all.push_back(&measured);
     if (all.empty()) return {};
     const auto [least, most] = std::minmax_element(all.begin(), all.end(), [](auto a, auto b) { return a->value < b->value; });
-    const auto whole = std::count_if(all.begin(), all.end(), [&](auto m) { return extent_of(verdict.claim, *m) == Extent::whole; });
-    return TitledRow{quantity,
+    const auto whole = std::count_if(all.begin(), all.end(), [&](auto m) { return extent_of(claim, *m) == Extent::whole; });
+    const std::string holds = fmt::format("{} in {} of them; ", bound_text(bound_of(claim, quantity)), whole);
+    const std::string least_of = all.size() > 1 ? fmt::format("least: {}; ", (*least)->of) : "";
+    return TitledRow{quantity + (judged ? "" : ", beside"),
                      {fmt::format("{} figures", all.size()), fmt::format("{} to {}", figure_text(**least), figure_text(**most)),
-                      interval_text(**most), fmt::format("in {} of them; most: {}", whole, (*most)->of)},
-                     fmt::format("{}", fmt::join(verdict.runs, ", "))};
+                      interval_text(**most), fmt::format("{}{}most: {}", judged ? holds : "", least_of, (*most)->of)},
+                     runs_text(all)};
 }
 
 // The claim's cases, one metric after the other, then the other deformers, then the claim in other orders of projection.
@@ -154,7 +181,10 @@ std::vector<TitledRow> rows_of(const Verdict& verdict)
         rows.back().row.name += ", " + judged.deformer;
     }
     for (const std::string& quantity : verdict.claim.metrics)
-        if (const auto row = measured_row(verdict, quantity)) rows.push_back(*row);
+        if (const auto row = measured_row(verdict.claim, verdict.measurements, quantity, true)) rows.push_back(*row);
+    if (verdict.claim.rule == ClaimRule::measured)
+        for (const std::string& quantity : verdict.claim.beside)
+            if (const auto row = measured_row(verdict.claim, verdict.measured_beside, quantity, false)) rows.push_back(*row);
     for (const OrderVerdict& other : verdict.orders)
         rows.push_back({other.cases.front().metric + ", in another order of projection",
                         {name_of(other), measured_in(other), "", text_of(other)},
@@ -215,7 +245,7 @@ std::string expected_text(const Claim& claim)
 {
     if (claim.rule == ClaimRule::printed) return "each figure as the others ask for";
     if (claim.metrics.empty()) return "";
-    if (claim.rule == ClaimRule::measured) return fmt::format("{:.4g} to {:.4g}", claim.low, claim.high);
+    if (claim.rule == ClaimRule::measured) return measured_expectation(claim);
     return fmt::format("{:.4g} % ({:.4g} to {:.4g} %)", claim.expected, claim.low, claim.high);
 }
 

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace analysis {
 namespace {
 
-bool within(const Claim& claim, double value)
+bool within(const QuantityBound& bound, double value)
 {
-    return claim.low <= value && value <= claim.high;
+    return bound.low <= value && value <= bound.high;
 }
 
 }  // namespace
@@ -29,10 +32,27 @@ CsvTable measurement_table(const std::vector<Measurement>& measurements)
     return table;
 }
 
+QuantityBound bound_of(const Claim& claim, const std::string& quantity)
+{
+    const auto found =
+        std::find_if(claim.bounds.begin(), claim.bounds.end(), [&](const auto& bound) { return bound.quantity == quantity; });
+    return found == claim.bounds.end() ? QuantityBound{quantity, claim.low, claim.high} : *found;
+}
+
 Extent extent_of(const Claim& claim, const Measurement& measured)
 {
-    if (!within(claim, measured.value)) return Extent::none;
-    return within(claim, measured.low) && within(claim, measured.high) ? Extent::whole : Extent::part;
+    const QuantityBound bound = bound_of(claim, measured.quantity);
+    if (!within(bound, measured.value)) return Extent::none;
+    return within(bound, measured.low) && within(bound, measured.high) ? Extent::whole : Extent::part;
+}
+
+std::string bound_text(const QuantityBound& bound)
+{
+    constexpr double open_end = 1e9;  // what claims.toml writes where a bound has one side only
+    if (bound.low == bound.high) return fmt::format("{:.4g}", bound.low);
+    if (bound.high >= open_end) return fmt::format("{:.4g} or more", bound.low);
+    if (std::isinf(bound.low)) return fmt::format("{:.4g} or less", bound.high);
+    return fmt::format("{:.4g} to {:.4g}", bound.low, bound.high);
 }
 
 std::string figure_text(const Measurement& measured)

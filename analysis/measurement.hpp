@@ -13,10 +13,13 @@ namespace analysis {
 std::vector<Measurement> measurements(const std::string& csv);
 CsvTable measurement_table(const std::vector<Measurement>& measurements);
 
-// whole: the interval lies in the claim's bound; part: the value does; none: it does not, or is not a number.
+QuantityBound bound_of(const Claim& claim, const std::string& quantity);
+
+// whole: the interval lies in the claim's bound of the quantity; part: the value does; none: it does not, or is not a number.
 Extent extent_of(const Claim& claim, const Measurement& measured);
 
 std::string figure_text(const Measurement& measured);    // 3.1e-06, 12.4 mm
+std::string bound_text(const QuantityBound& bound);      // 0.9 to 1.1; 30 or more
 std::string interval_text(const Measurement& measured);  // [2e-06, 5e-06]; empty where there is none
 
 }  // namespace analysis

@@ -1,8 +1,9 @@
 #include "analysis/verdict.hpp"
 
-#include "analysis/measurement.hpp"
+#include "analysis/measured_verdict.hpp"
 #include "analysis/order_verdicts.hpp"
 #include "analysis/statistics.hpp"
+#include "analysis/verdict_texts.hpp"
 
 #include <fmt/format.h>
 
@@ -13,16 +14,6 @@
 
 namespace analysis {
 namespace {
-
-Verdict verdict_of(const Claim& claim, VerdictKind kind, const std::string& text)
-{
-    Verdict verdict;
-    verdict.claim = claim;
-    verdict.kind = kind;
-    verdict.text = text.empty() ? label(kind) : fmt::format("{}: {}", label(kind), text);
-    verdict.interval = {not_known, not_known, not_known, claim.level, 0, 0};
-    return verdict;
-}
 
 bool is_asked_for(const Claim& claim, const CaseRecord& record)
 {
@@ -46,13 +37,6 @@ std::vector<std::string> missing_scenes(const Claim& claim, const Records& recor
         if (!recorded && !left_out) missing.push_back(scene);
     }
     return missing;
-}
-
-std::string left_out_text(const std::vector<LeftOut>& left_out)
-{
-    std::vector<std::string> entries;
-    for (const LeftOut& entry : left_out) entries.push_back(fmt::format("{} ({})", entry.scene, entry.reason));
-    return fmt::format("{}", fmt::join(entries, ", "));
 }
 
 // The cases under one metric that hold at least in part, or that do not, in words; empty where there are none.
@@ -141,48 +125,7 @@ Verdict judge_cases(const Claim& claim, const Records& records)
     return verdict;
 }
 
-std::string list_of(const Verdict& verdict, bool holding)
-{
-    constexpr std::size_t named = 3;  // the others stand in the table
-    std::vector<std::string> entries;
-    for (const Measurement& measured : verdict.measurements)
-        if ((extent_of(verdict.claim, measured) == Extent::whole) == holding)
-            entries.push_back(holding ? measured.of : fmt::format("{} ({})", measured.of, figure_text(measured)));
-    const std::size_t count = entries.size();
-    entries.resize(std::min(count, named));
-    const std::string more = count > named ? fmt::format(" and {} more", count - named) : "";
-    return fmt::format("{}{}", fmt::join(entries, "; "), more);
-}
-
-// Every measurement of the claim's quantities whole is reproduced; some, reproduced only for those; none is not reproduced.
-Verdict judge_measurements(const Claim& claim, const Records& records)
-{
-    Verdict verdict = verdict_of(claim, VerdictKind::not_computable, "");
-    std::set<std::string> runs;
-    std::size_t holding = 0;
-    for (const std::string& quantity : claim.metrics)
-        for (const Measurement& measured : records.measurements) {
-            if (measured.claim != claim.id || measured.quantity != quantity) continue;
-            verdict.measurements.push_back(measured);
-            holding += extent_of(claim, measured) == Extent::whole;
-            if (!measured.run.empty()) runs.insert(measured.run);
-        }
-    if (verdict.measurements.empty() && !records.left_out.empty())
-        return verdict_of(claim, VerdictKind::cannot_be_tested_here, left_out_text(records.left_out));
-    if (verdict.measurements.empty()) return verdict_of(claim, VerdictKind::not_computable, "nothing was measured");
-    verdict.runs.assign(runs.begin(), runs.end());
-    verdict.measured = fmt::format("{} of {} figures within", holding, verdict.measurements.size());
-    verdict.kind = holding == verdict.measurements.size() ? VerdictKind::reproduced
-                   : holding > 0                          ? VerdictKind::reproduced_only_for
-                                                          : VerdictKind::not_reproduced;
-    verdict.text = label(verdict.kind);
-    if (verdict.kind == VerdictKind::reproduced_only_for)
-        verdict.text += fmt::format(" {}. Not for {}", list_of(verdict, true), list_of(verdict, false));
-    if (verdict.kind == VerdictKind::not_reproduced) verdict.text += ": " + list_of(verdict, false);
-    return verdict;
-}
-
-std::string bound_text(const PrintedFigure& figure)
+std::string bounds_in_print(const PrintedFigure& figure)
 {
     if (std::isinf(figure.most)) return fmt::format("{:.6g} or more", figure.least);
     return fmt::format("{:.6g} to {:.6g}", figure.least, figure.most);
@@ -197,7 +140,7 @@ Verdict judge_print(const Claim& claim, const std::vector<PrintedFigure>& figure
         if (figure.claim != claim.id) continue;
         ++count;
         if (!(figure.least <= figure.printed && figure.printed <= figure.most))
-            broken.push_back(fmt::format("{} is {:.6g}, but the rest asks for {}", figure.what, figure.printed, bound_text(figure)));
+            broken.push_back(fmt::format("{} is {:.6g}, but the rest asks for {}", figure.what, figure.printed, bounds_in_print(figure)));
     }
     if (count == 0) return verdict_of(claim, VerdictKind::not_computable, "no figures in print were given");
     const std::string measured = fmt::format("{} of {} figures consistent", count - broken.size(), count);
@@ -236,24 +179,6 @@ Verdict judge(const Claim& claim, const Records& records)
             return verdict_of(claim, VerdictKind::cannot_be_tested_here, claim.reason);
         default:
             return judge_cases(claim, records);
-    }
-}
-
-std::string label(VerdictKind kind)
-{
-    switch (kind) {
-        case VerdictKind::reproduced:
-            return "reproduced";
-        case VerdictKind::reproduced_only_for:
-            return "reproduced only for";
-        case VerdictKind::not_reproduced:
-            return "not reproduced";
-        case VerdictKind::inconsistent_in_print:
-            return "inconsistent in print";
-        case VerdictKind::cannot_be_tested_here:
-            return "cannot be tested here";
-        default:
-            return "not computable";
     }
 }
 

@@ -35,8 +35,9 @@ struct Verdict {
     std::vector<CaseJudgement> cases;            // each matching record under each metric, the claim's own metric first
     std::vector<CaseJudgement> beside;           // the claim's other deformers, by its own metric
     std::vector<Measurement> measurements = {};  // of a claim that is judged by them, its own quantity first
-    std::vector<OrderVerdict> orders;            // the claim in other orders and precisions; no part of the verdict
-    std::vector<std::string> runs;               // folders behind the verdict
+    std::vector<Measurement> measured_beside = {};
+    std::vector<OrderVerdict> orders;  // the claim in other orders and precisions; no part of the verdict
+    std::vector<std::string> runs;     // folders behind the verdict
 };
 
 // By the claim's own metric: every case whole is reproduced; some case whole or in part, by any of the metrics, is reproduced only for

@@ -65,7 +65,8 @@ TEST(Claims, BrokenFilesAreNamedWithTheirLine)
     EXPECT_EQ(message_of(head + body + "level = 1.0\n"), "claims.toml:13: level: expected 0 < level < 1");
     EXPECT_EQ(message_of(head + body + "iterations = -1\n"), "claims.toml:13: iterations: expected >= 0");
     EXPECT_EQ(message_of(head), "claims.toml:2: rule: missing in this claim");
-    EXPECT_EQ(message_of(head + "rule = \"guess\"\n"), "claims.toml:8: rule: expected share_within, mean_within, measured, printed or untestable");
+    EXPECT_EQ(message_of(head + "rule = \"guess\"\n"),
+              "claims.toml:8: rule: expected share_within, mean_within, measured, printed or untestable");
     EXPECT_EQ(message_of(head + "rule = \"untestable\"\n"), "claims.toml:2: reason: missing in this claim");
     EXPECT_EQ(message_of(head + "rule = \"mean_within\"\n"), "claims.toml:2: metrics: expected at least one");
     EXPECT_EQ(message_of(head + "rule = \"mean_within\"\nmetrics = [\"beauty\"]\n").substr(0, 30), "claims.toml:9: metrics: beauty");
@@ -76,6 +77,28 @@ TEST(Claims, BrokenFilesAreNamedWithTheirLine)
     EXPECT_EQ(message_of("schema = 2\n"), "claims.toml: schema: expected 1");
     EXPECT_EQ(message_of("schema = 1\n"), "claims.toml: claim: expected [[claim]] tables");
     EXPECT_EQ(message_of("schema = \n").substr(0, 14), "claims.toml:1:");
+}
+
+TEST(Claims, AMeasuredClaimBoundsEachOfItsQuantities)
+{
+    const std::string measured = head + "rule = \"measured\"\nmetrics = [\"radius\", \"area\"]\n";
+    const std::string radius = "{ quantity = \"radius\", low = 0.9 }", area = "{ quantity = \"area\", low = 0.8, high = 1.2 }";
+    const Claim claim = parse_claims(measured + "bounds = [" + radius + ", " + area + "]\n", "claims.toml").at(0);
+    EXPECT_EQ(claim.bounds.at(0).low, 0.9);
+    EXPECT_EQ(claim.bounds.at(0).high, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(claim.bounds.at(1).high, 1.2);
+    EXPECT_EQ(message_of(measured + "low = 0.0\nhigh = 0.0\n"), "accepted");
+    EXPECT_EQ(message_of(measured + "bounds = [" + radius + ", " + area + "]\n"), "accepted");
+    EXPECT_EQ(message_of(measured + "bounds = [" + radius + "]\n"),
+              "claims.toml:10: bounds: expected a bound for each of the metrics, or low and high");
+    EXPECT_EQ(message_of(measured + "low = 1.0\nhigh = 0.0\n"), "claims.toml:10: low: expected low <= high");
+    EXPECT_EQ(message_of(measured + "bounds = [{ quantity = \"radius\", low = 2.0, high = 1.0 }]\n"),
+              "claims.toml:10: low: expected low <= high");
+    EXPECT_EQ(message_of(measured + "bounds = [{ quantity = \"beauty\" }]\n"),
+              "claims.toml:10: bounds: beauty: expected one of this claim's metrics");
+    EXPECT_EQ(message_of(measured + "bounds = [{ low = 1.0 }]\n"), "claims.toml:10: quantity: missing in this claim");
+    EXPECT_EQ(message_of(measured + "bounds = [3]\n"), "claims.toml:10: bounds: expected { quantity, low, high }");
+    EXPECT_EQ(message_of(measured + "bounds = 3\n"), "claims.toml:10: bounds: expected a list");
 }
 
 TEST(Claims, EachOnlyOnce)

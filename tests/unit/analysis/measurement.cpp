@@ -62,13 +62,46 @@ TEST(Measurement, AlteredRecordsFlipTheVerdict)
     records.measurements[1].value = 0.5;
     const analysis::Verdict in_part = judge(drift_claim(), records);
     EXPECT_EQ(in_part.kind, VerdictKind::reproduced_only_for);
-    EXPECT_EQ(in_part.text, "reproduced only for limb. Not for human (0.5)");
+    EXPECT_EQ(in_part.text, "reproduced only for limb; not for human; farthest: linear drift of human is 0.5");
     records.measurements[0].value = 0.5;
     EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::not_reproduced);
     records.measurements.clear();
     EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::not_computable);
     records.left_out = {{"human", "not installed"}};
     EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::cannot_be_tested_here);
+}
+
+TEST(Measurement, AQuantityMayHaveABoundOfItsOwn)
+{
+    analysis::Claim claim = drift_claim();
+    claim.bounds = {{"angular drift", 0.5, 2.0}};
+    EXPECT_EQ(analysis::bound_of(claim, "linear drift").high, 1e-3);
+    EXPECT_EQ(analysis::extent_of(claim, {"C07", "angular drift", "limb", 1.0, 0.5, 2.0, "1"}), Extent::whole);
+    EXPECT_EQ(analysis::extent_of(claim, {"C07", "angular drift", "limb", 1e-4, 1e-4, 1e-4, "1"}), Extent::none);
+    EXPECT_EQ(analysis::bound_text({"", 0.0, 0.0}), "0");
+    EXPECT_EQ(analysis::bound_text({"", 30.0, 1e9}), "30 or more");
+    EXPECT_EQ(analysis::bound_text({"", 0.9, 1.1}), "0.9 to 1.1");
+}
+
+TEST(Measurement, WhatStandsBesideIsNoPartOfTheVerdict)
+{
+    analysis::Claim claim = drift_claim();
+    claim.beside = {"energy"};
+    analysis::Records records;
+    records.measurements = {drift("limb", 1e-6), {"C07", "energy", "limb", 9.0, 9.0, 9.0, "J"}};
+    const analysis::Verdict verdict = judge(claim, records);
+    EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
+    ASSERT_EQ(verdict.measured_beside.size(), 1u);
+    EXPECT_EQ(verdict.measured_beside[0].quantity, "energy");
+}
+
+TEST(Measurement, AVerdictCountsFiguresBySubject)
+{
+    analysis::Records records;
+    records.measurements = {drift("limb, bent", 1e-6), drift("limb, straight", 0.25), drift("human, crouch", 1e-5),
+                            drift("bar", std::nan(""))};
+    EXPECT_EQ(judge(drift_claim(), records).text,
+              "reproduced only for human, limb (1 of 2 figures); not for bar; farthest: linear drift of bar is nan");
 }
 
 }  // namespace
