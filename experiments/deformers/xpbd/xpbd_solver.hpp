@@ -31,14 +31,20 @@ public:
     pbs::StepSummary advance(const pbs::Positions& lbs_positions, const pbs::Positions& bind_points, double dt_s);
     const pbs::Positions& positions() const { return positions_; }  // [m], #V x 3
 
-private:
-    using Point = pbs::Vector3<double>;
     template <typename Constraint>
     struct Compliant {
         Constraint constraint;
         double compliance = 0.0;  // alpha: of a length [m/N], of a volume [m^5/N]
         double multiplier = 0.0;  // lambda of this substep
     };
+    // In the order they are projected in.
+    const std::vector<Compliant<pbs::BindConstraint<double>>>& bind() const { return bind_; }
+    const std::vector<Compliant<pbs::StretchConstraint<double>>>& stretch() const { return stretch_; }
+    const std::vector<Compliant<pbs::VolumeConstraint<double>>>& volume() const { return volume_; }
+    const std::vector<double>& inverse_masses_1_kg() const { return w_; }  // #V
+
+private:
+    using Point = pbs::Vector3<double>;
 
     void predict(double dt_s);
     void project(const pbs::Positions& bind_points, double dt_s);

@@ -1,0 +1,178 @@
+#include "experiments/stiffness/step_near_rest.hpp"
+
+#include "experiments/linearised/matrix_free.hpp"
+#include "pbs/solver/constraint_set.hpp"
+
+#include <unsupported/Eigen/IterativeSolvers>
+
+#include <algorithm>
+#include <random>
+
+namespace experiments {
+namespace {
+
+using pbs::Positions;
+using pbs::Vec3;
+
+constexpr double tolerance = 1e-8;
+constexpr int krylov_vectors = 400, most_iterations = 800;
+
+template <typename Constraint>
+void shuffle_if(unsigned long seed, std::vector<Constraint>& constraints)
+{
+    std::mt19937_64 random(seed);
+    if (seed != 0) std::shuffle(constraints.begin(), constraints.end(), random);
+}
+
+std::array<Vec3, 1> rest_gradients(const LoadedFlesh& flesh, const pbs::BindConstraint<double>& bind)
+{
+    return {gradient<double>(bind, flesh.mesh.rest.row(bind.vertex), flesh.bind_point.row(bind.vertex))};
+}
+
+std::array<Vec3, 2> rest_gradients(const LoadedFlesh& flesh, const pbs::StretchConstraint<double>& edge)
+{
+    return gradient<double>(edge, flesh.mesh.rest.row(edge.vertex[0]), flesh.mesh.rest.row(edge.vertex[1]));
+}
+
+std::array<Vec3, 4> rest_gradients(const LoadedFlesh& flesh, const pbs::VolumeConstraint<double>& tet)
+{
+    const auto rest = [&](int corner) -> Vec3 { return flesh.mesh.rest.row(tet.vertex[corner]); };
+    return gradient<double>(tet, rest(0), rest(1), rest(2), rest(3));
+}
+
+int vertex_of(const pbs::BindConstraint<double>& bind, std::size_t)
+{
+    return bind.vertex;
+}
+
+template <typename Constraint>
+int vertex_of(const Constraint& constraint, std::size_t corner)
+{
+    return constraint.vertex[corner];
+}
+
+// The zone's rows, stacked, and back: everything else starts a step at rest.
+class ZoneRows {
+public:
+    explicit ZoneRows(const std::vector<bool>& zone) : vertices_(static_cast<Eigen::Index>(zone.size()))
+    {
+        for (std::size_t v = 0; v < zone.size(); ++v)
+            if (zone[v]) zone_.push_back(static_cast<int>(v));
+    }
+
+    Eigen::Index size() const { return 3 * static_cast<Eigen::Index>(zone_.size()); }
+    Eigen::VectorXd stacked(const Positions& displacement) const
+    {
+        Eigen::VectorXd stack(size());
+        for (std::size_t i = 0; i < zone_.size(); ++i) stack.segment<3>(3 * i) = displacement.row(zone_[i]).transpose();
+        return stack;
+    }
+    Positions at_vertices(const Eigen::VectorXd& stack) const
+    {
+        Positions displacement = Positions::Zero(vertices_, 3);
+        for (std::size_t i = 0; i < zone_.size(); ++i) displacement.row(zone_[i]) = stack.segment<3>(3 * i).transpose();
+        return displacement;
+    }
+
+private:
+    Eigen::Index vertices_;
+    std::vector<int> zone_;
+};
+
+}  // namespace
+
+StepNearRest::StepNearRest(const LoadedFlesh& flesh, const StiffnessSetting& setting)
+    : iterations_(setting.method == Method::xpbd_small_steps ? 1 : setting.iterations),
+      step_s_(setting.method == Method::xpbd_small_steps ? setting.time_step_s / setting.iterations : setting.time_step_s)
+{
+    if (is_xpbd(setting.method))
+        add_xpbd(flesh, setting);
+    else
+        add_pbs(flesh, setting);
+}
+
+void StepNearRest::add_pbs(const LoadedFlesh& flesh, const StiffnessSetting& setting)
+{
+    auto set = pbs::make_constraint_set<double>(flesh.mesh, bind_distance_of(flesh), flesh.zone, pbs_options(flesh, setting), flesh.held);
+    const auto add_class = [&](auto& constraints) {
+        shuffle_if(setting.order_seed, constraints);
+        for (const auto& constraint : constraints)
+            add(constraint, rest_gradients(flesh, constraint), constraint.stiffness, 0.0, set.inverse_mass);
+    };
+    add_class(set.bind), add_class(set.stretch), add_class(set.volume);
+}
+
+void StepNearRest::add_xpbd(const LoadedFlesh& flesh, const StiffnessSetting& setting)
+{
+    const XpbdSolver solver(flesh.mesh, flesh.bind_distance, flesh.zone, xpbd_options(flesh, setting), flesh.held);
+    const auto add_class = [&](auto constraints) {
+        shuffle_if(setting.order_seed, constraints);
+        for (const auto& compliant : constraints)
+            add(compliant.constraint, rest_gradients(flesh, compliant.constraint), 1.0, compliant.compliance, solver.inverse_masses_1_kg());
+    };
+    add_class(solver.bind()), add_class(solver.stretch()), add_class(solver.volume());
+}
+
+template <typename Constraint, std::size_t count>
+void StepNearRest::add(const Constraint& constraint, const std::array<Vec3, count>& gradients, double share, double compliance,
+                       const std::vector<double>& inverse_mass)
+{
+    Projection projection;
+    projection.vertices = static_cast<int>(count);
+    projection.share = share;
+    projection.compliance_per_dt2 = compliance / (step_s_ * step_s_);
+    projection.denominator = projection.compliance_per_dt2;
+    double w_gradient2 = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        projection.vertex[i] = vertex_of(constraint, i);
+        const double w = inverse_mass[projection.vertex[i]];
+        projection.gradient[i] = gradients[i];
+        projection.moved[i] = w * gradients[i];
+        w_gradient2 += w * gradients[i].squaredNorm();
+    }
+    projection.denominator += w_gradient2;
+    if (w_gradient2 > 0.0) projections_.push_back(projection);
+}
+
+void StepNearRest::apply(Positions& displacement)
+{
+    for (Projection& projection : projections_) projection.multiplier = 0.0;
+    for (int iteration = 0; iteration < iterations_; ++iteration)
+        for (Projection& projection : projections_) {
+            double C = 0.0;
+            for (int i = 0; i < projection.vertices; ++i) C += displacement.row(projection.vertex[i]).dot(projection.gradient[i]);
+            const double change = -projection.share * (C + projection.compliance_per_dt2 * projection.multiplier) / projection.denominator;
+            projection.multiplier += change;
+            for (int i = 0; i < projection.vertices; ++i)
+                displacement.row(projection.vertex[i]) += change * projection.moved[i].transpose();
+        }
+}
+
+RestingFlesh rest_near_rest(const LoadedFlesh& flesh, const StiffnessSetting& setting)
+{
+    StepNearRest step(flesh, setting);
+    const ZoneRows zone(flesh.zone);
+    RestingFlesh rest;
+    const auto of_step = [&](const Eigen::VectorXd& x) {
+        ++rest.steps;
+        Positions displacement = zone.at_vertices(x);
+        step.apply(displacement);
+        return displacement;
+    };
+    const auto S = [&](const Eigen::VectorXd& x) { return zone.stacked(of_step(x)); };
+    const MatrixFree identity_minus_S(zone.size(), [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return x - S(x); });
+    Eigen::GMRES<MatrixFree, Eigen::IdentityPreconditioner> gmres;
+    gmres.set_restart(krylov_vectors);
+    gmres.setMaxIterations(most_iterations);
+    gmres.setTolerance(tolerance);
+    gmres.compute(identity_minus_S);
+    const Eigen::VectorXd moved = step.step_s() * step.step_s() * flesh.direction.replicate(zone.size() / 3, 1);  // under 1 m/s^2
+    const Eigen::VectorXd right_hand_side = S(moved);
+    const Eigen::VectorXd x = gmres.solve(right_hand_side);
+    rest.residual = (x - S(x) - right_hand_side).norm() / right_hand_side.norm();
+    rest.converged = rest.residual <= 10.0 * tolerance;
+    rest.displacement = of_step(x + moved);
+    return rest;
+}
+
+}  // namespace experiments
