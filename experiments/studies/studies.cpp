@@ -12,6 +12,21 @@ const std::vector<Study>& studies()
          plan_audit_study, true, conclude_audit_study},
         {"momentum", "what one projection of each class does to linear and angular momentum, by order, precision and masses", "C07",
          "some 10 seconds", plan_momentum_study},
+        {"convergence",
+         "residuals, volume and the error to the reference over 1 to 1,000 iterations from LBS, the previous frame, the rest pose and the "
+         "rigid bind; on the limb, a ladder of its sizes and every installed body; three orders, two precisions; rates, iterations to "
+         "tolerance, and towards what",
+         "C03, C12", "some 1.5 minutes (--quick), 15 (--full: to 100,000 vertices)", plan_convergence_study, true,
+         conclude_convergence_study},
+        {"stability",
+         "outcome of some hundreds of disturbed bodies: stiffness, time step, iterations, angle, masses, thin tets, gravity, teleports and "
+         "broken starts to their extremes; PBS without and with jiggle, XPBD, the reference in equilibrium and in time, by the same bounds",
+         "C08", "some 1.5 minutes (--quick), 15 (--full)", plan_stability_study, true, conclude_stability_study},
+        {"artefacts",
+         "cross-sections of twisted and bent limbs (candy wrapper, bulge), smoothness with the weights of Eq. 2 and rigid ones, and pairs of "
+         "triangles that intersect, for every deformer on the limb and on real bodies",
+         "C04, C05, C06", "some 1 minute (--quick), 8 (--full: all bodies, finer meshes)", plan_artefacts_study, true,
+         conclude_artefacts_study},
         {"verification",
          "the FEM reference against theory, published benchmarks and other programs: patch tests, manufactured solutions, beams, sphere, "
          "plates, locking, time stepping, CalculiX; each row with reference, source, difference, order and bound",
@@ -21,6 +36,11 @@ const std::vector<Study>& studies()
          "the elastic body that PBS is: Young's modulus by sag and by first frequency against k_stretch, iterations, time step and mesh; "
          "Poisson's ratio from twist and bend",
          "C11, in figures; no verdict", "some 4 minutes (--quick), 40 (--full)", plan_fit_study, false, conclude_fit_study},
+        {"work_precision",
+         "error against run time: LBS, DQS, delta mush, PBS, XPBD and the FEM at many settings and on several meshes, beside the stable "
+         "neo-Hookean reference and its own error bar; Pareto fronts, who is nearest from which time on, and whether the physics is needed",
+         "none: read ratios, not times", "some 1.5 minutes (--quick), 15 (--full: quadratic reference on the human, more poses)",
+         plan_work_precision_study, true, conclude_work_precision_study, true},
         {"error_split",
          "the error of PBS against the reference, split into solver, model and discretisation; the share of the attachment and of the "
          "bones' thickness",
@@ -30,16 +50,16 @@ const std::vector<Study>& studies()
          "how long a step takes: every order, precision and number of threads beside plain loops in the same run and beside the machine's "
          "limits; LBS, DQS and the reference; how the cost grows with the mesh",
          "none: read ratios, not times", "some 2 minutes (--quick), 5 (--full: to a million tets); keep the machine quiet",
-         plan_bench_study, false, conclude_bench_study},
+         plan_bench_study, false, conclude_bench_study, true},
         {"features",
          "what each switch of a scene costs: time a frame and a step, time to start, peak memory with and without it, on the limb and the "
          "human, and how far the answer moves",
          "none: read ratios, not times", "some 2 minutes (--quick), 9 (--full: more rounds); run it with -j 1 on a quiet machine",
-         plan_features_study, false, conclude_features_study},
+         plan_features_study, false, conclude_features_study, true},
         {"scale",
          "the human from 2,000 tets to 100,000 (--full: 1,000,000), end to end: seconds of mesh, set-up, step, ruler and frames, peak "
          "memory, and the exponents they grow with",
-         "none", "some 1 minute (--quick), 8 (--full)", plan_scale_study, false, conclude_scale_study},
+         "none", "some 1 minute (--quick), 8 (--full)", plan_scale_study, false, conclude_scale_study, true},
     };
     return all;
 }

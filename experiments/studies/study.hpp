@@ -40,6 +40,7 @@ struct Study {
     bool by_default = true;  // part of `pbskin reproduce` without names
     // Of the study's folder and the folders of the runs that ended; writes the records that sum them up.
     StudyConclusion (*conclude)(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished) = nullptr;
+    bool alone = false;  // it times: one run at once, whatever -j says
 };
 const std::vector<Study>& studies();
 
@@ -48,7 +49,15 @@ StudyPlan plan_audit_study(bool full);
 StudyConclusion conclude_audit_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_fit_study(bool full);
 StudyConclusion conclude_fit_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
+StudyPlan plan_artefacts_study(bool full);
+StudyConclusion conclude_artefacts_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_momentum_study(bool full);
+StudyPlan plan_convergence_study(bool full);
+StudyConclusion conclude_convergence_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
+StudyPlan plan_work_precision_study(bool full);
+StudyConclusion conclude_work_precision_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
+StudyPlan plan_stability_study(bool full);
+StudyConclusion conclude_stability_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_error_split_study(bool full);
 StudyConclusion conclude_error_split_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_bench_study(bool full);

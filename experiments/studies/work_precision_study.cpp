@@ -1,0 +1,136 @@
+// Error against run time: which deformer is nearest to the stable neo-Hookean reference for the time a frame may take.
+//
+//   limb twist  90 deg (--full: and 150)     o=======o~~~~~~~o)
+//   limb bend   60 deg (--full: and 90)      o=======o
+//   human       crouch, in the air (--full: eight frames of 01_01: standing, crouch, in the air, landing, and those at 1/5 to 4/5 of the
+//               clip)
+//
+// Writes DIR/work_precision/CASE/points.csv and, over all cases, points.csv, fronts.csv, crossings.csv, equal_cost.csv, work_precision.md.
+#include "analysis/atomic_file.hpp"
+#include "experiments/cases/motion_case.hpp"
+#include "experiments/studies/study.hpp"
+#include "experiments/work_precision/diagram_tables.hpp"
+#include "experiments/work_precision/findings.hpp"
+#include "experiments/work_precision/measured_points.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string measure_and_record(const WorkPrecisionCase& of, const std::string& folder)
+{
+    const MeasuredPoints points = measure_points(of);
+    points.table.write((fs::path(folder) / "points.csv").string());
+    return points.breakdown;
+}
+
+StudyRun case_run(const std::string& name, const WorkPrecisionCase& of, double cost_s)
+{
+    return {.name = name,
+            .cost_s = cost_s,
+            .work = [of](const std::string& folder) { return measure_and_record(of, folder); },
+            .settings = {{"scene", resolved_with_deformers(of.scene)},
+                         {"frame", of.frame},
+                         {"quadratic_newton", of.range.quadratic_newton},
+                         {"other_vertices", of.range.other_vertices},
+                         {"seconds", {of.rounds.seconds, of.newton_rounds.seconds}}}};
+}
+
+// 5 degrees a frame: the step that a frame is timed on.
+StudyRun limb_run(const std::string& motion, int angle_deg, bool full, double cost_s)
+{
+    const std::string scene = "limb_" + motion;
+    WorkPrecisionCase of;
+    of.body = "limb " + motion;
+    of.pose = fmt::format("{} deg", angle_deg);
+    of.scene = read_scene(scene, {fmt::format("motion.angle_deg={}", angle_deg), fmt::format("motion.frames={}", angle_deg / 5 + 1)});
+    of.frame = angle_deg / 5;
+    of.range.other_vertices = full ? std::vector<int>{600, 5000} : std::vector<int>{600};
+    of.rounds = {.seconds = full ? 10.0 : 3.0, .fewest = 3, .most = 31};
+    of.newton_rounds = {.seconds = full ? 10.0 : 0.0, .fewest = full ? 3 : 1, .most = 9};
+    return case_run(fmt::format("{}_{}", scene, angle_deg), of, cost_s);
+}
+
+struct HumanPose {
+    std::string name;
+    int frame = 0;  // of 01_01 at 100 Hz
+};
+// Four by name, and four that nobody chose: at 1/5, 2/5, 3/5 and 4/5 of the clip.
+std::vector<HumanPose> human_poses(bool full)
+{
+    if (!full) return {{"crouch", 164}, {"in the air", 672}};
+    std::vector<HumanPose> poses = {{"standing", 0}, {"crouch", 164}, {"in the air", 672}, {"landing", 708}};
+    const Scene scene = read_scene("human_01_01", {});
+    const pbs::Motion motion = make_motion(scene.motion, pbs::make_character(scene.character).skeleton, scene.file);
+    const int last = static_cast<int>(motion.steps.size()) / motion.steps_per_frame - 1;
+    for (const int fifths : {1, 2, 3, 4}) poses.push_back({fmt::format("{}/5 of the clip", fifths), last * fifths / 5});
+    return poses;
+}
+
+StudyRun human_run(const HumanPose& pose, bool full, double cost_s)
+{
+    WorkPrecisionCase of;
+    of.body = "human";
+    of.pose = pose.name;
+    of.scene = read_scene("human_01_01", {});
+    of.frame = pose.frame;
+    of.range.quadratic_newton = full;
+    of.range.other_vertices = {1200};
+    of.rounds = {.seconds = full ? 10.0 : 3.0, .fewest = 3, .most = 31};
+    of.newton_rounds = {.seconds = full ? 10.0 : 0.0, .fewest = 1, .most = 9};
+    std::string name = "human_" + pose.name;
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == ' ' || c == '/'; }, '_');
+    return case_run(name, of, cost_s);
+}
+
+}  // namespace
+
+StudyPlan plan_work_precision_study(bool full)
+{
+    StudyPlan plan;
+    plan.runs.push_back(limb_run("twist", 90, full, 20.0));
+    plan.runs.push_back(limb_run("bend", 60, full, 20.0));
+    if (full) {
+        plan.runs.push_back(limb_run("twist", 150, full, 60.0));
+        plan.runs.push_back(limb_run("bend", 90, full, 60.0));
+    }
+    try {
+        for (const HumanPose& pose : human_poses(full)) plan.runs.push_back(human_run(pose, full, 20.0));
+    } catch (const pbs::InputError& error) {
+        plan.left_out.push_back({"human", error.what()});
+    }
+    return plan;
+}
+
+StudyConclusion conclude_work_precision_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+{
+    std::vector<analysis::CsvTable> points;
+    for (const std::string& run : finished) points.push_back(analysis::read_csv((fs::path(run) / "points.csv").string()));
+    const std::vector<Diagram> diagrams = diagrams_of(points);
+    fronts_table(diagrams).write((fs::path(folder) / "fronts.csv").string());
+    crossings_table(diagrams).write((fs::path(folder) / "crossings.csv").string());
+    equal_cost_table(diagrams).write((fs::path(folder) / "equal_cost.csv").string());
+    std::string text = "     off: from the reference at the joints, % of the mean bone distance; *: below the reference's own error\n",
+                page;
+    for (const Diagram& diagram : diagrams) {
+        text += front_text(diagram);
+        page += fmt::format("## {}\n\n", diagram.name);
+        for (const std::string& line : findings(diagram)) {
+            text += "       " + line + "\n";
+            page += "- " + line + "\n";
+        }
+        page += "\n";
+    }
+    analysis::write_text_atomically((fs::path(folder) / "work_precision.md").string(), page);
+    return {text, !finished.empty()};
+}
+
+}  // namespace experiments

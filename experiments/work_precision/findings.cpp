@@ -1,0 +1,123 @@
+#include "experiments/work_precision/findings.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+namespace experiments {
+namespace {
+
+std::vector<const DiagramPoint*> front_of(const Diagram& diagram)
+{
+    std::vector<analysis::WorkPrecision> all;
+    for (const DiagramPoint& point : diagram.points) all.push_back({point.ms, point.error_pct});
+    std::vector<const DiagramPoint*> front;
+    for (const std::size_t on_front : analysis::pareto_front(all)) front.push_back(&diagram.points[on_front]);
+    return front;
+}
+
+// Who alone is so quick: the groups that are there before any third one.
+std::string who_is_quickest(const Diagram& diagram)
+{
+    std::vector<std::pair<double, std::string>> first;  // the least time of each group
+    for (const DeformerGroup& group : deformer_groups()) {
+        double least = std::numeric_limits<double>::infinity();
+        std::vector<std::size_t> indices;
+        for (const auto& point : diagram.of(group.deformers, indices)) least = std::min(least, point.cost);
+        if (!indices.empty()) first.emplace_back(least, group.words);
+    }
+    std::sort(first.begin(), first.end());
+    if (first.size() < 3) return "";
+    return fmt::format("below {:.2g} ms a frame only {} and {} are there; {} is the next", first[2].first, first[0].second, first[1].second,
+                       first[2].second);
+}
+
+// Stretches of the front that belong to one group.
+std::vector<std::string> who_is_nearest(const Diagram& diagram)
+{
+    const std::vector<const DiagramPoint*> front = front_of(diagram);
+    std::vector<std::string> lines;
+    for (std::size_t begin = 0; begin < front.size();) {
+        const std::string& group = group_of(front[begin]->deformer).words;
+        std::size_t end = begin;
+        while (end < front.size() && group_of(front[end]->deformer).words == group) ++end;
+        const DiagramPoint &from = *front[begin], &to = *front[end - 1];
+        std::string error = fmt::format("{:.1f} %", from.error_pct);
+        if (end > begin + 1) error += fmt::format(" to {:.1f} % at {:.2g} ms", to.error_pct, to.ms);
+        lines.push_back(fmt::format("from {:.2g} ms {} is nearest: {} off ({})", from.ms, group, error, to.words()));
+        begin = end;
+    }
+    return lines;
+}
+
+std::string who_passes(const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other)
+{
+    std::vector<std::size_t> of_one, of_other;
+    const auto ones = diagram.of(one.deformers, of_one), others = diagram.of(other.deformers, of_other);
+    if (ones.empty() || others.empty()) return "";
+    const auto crossing = analysis::nearer_from(ones, others);
+    if (!crossing) return fmt::format("{} does not stay nearer than {} however long it takes", one.words, other.words);
+    const DiagramPoint& point = diagram.points[of_one[crossing->one]];
+    const std::string when = crossing->from_the_start ? "from the first" : fmt::format("from {:.2g} ms on", crossing->from);
+    return fmt::format("{} is nearer than {} {} ({}: {:.1f} %)", one.words, other.words, when, point.setting, point.error_pct);
+}
+
+const DeformerGroup& group_named(const std::string& words)
+{
+    return *std::find_if(deformer_groups().begin(), deformer_groups().end(), [&](const auto& group) { return group.words == words; });
+}
+
+// Delta mush, which is geometry alone, against PBS and XPBD within one time.
+std::string is_physics_worth_it(const Diagram& diagram, const DiagramPoint& budget)
+{
+    const DiagramPoint *mush = best_of(diagram, group_named("delta mush"), budget.ms),
+                       *pbs = best_of(diagram, group_named("PBS"), budget.ms), *xpbd = best_of(diagram, group_named("XPBD"), budget.ms);
+    if (!pbs || !mush) return "";
+    std::string text = fmt::format("within the {:.2g} ms of PBS, {}: delta mush {:.1f} % off, PBS {:.1f} %", budget.ms, budget.setting,
+                                   mush->error_pct, pbs->error_pct);
+    text += xpbd ? fmt::format(", XPBD {:.1f} %", xpbd->error_pct) : ", XPBD is not so quick";
+    const double physics_pct = xpbd ? std::min(pbs->error_pct, xpbd->error_pct) : pbs->error_pct;
+    const double gain_pct = 100.0 * (1.0 - physics_pct / mush->error_pct);
+    return text + fmt::format("; the physics {} {:.0f} % {} the error of geometry alone", gain_pct > 0.0 ? "takes" : "adds",
+                              std::abs(gain_pct), gain_pct > 0.0 ? "off" : "to");
+}
+
+std::string what_is_undecided(const Diagram& diagram)
+{
+    if (!diagram.reference_error_pct) return fmt::format("the reference {} has no error bar here", diagram.reference);
+    const auto below =
+        std::count_if(diagram.points.begin(), diagram.points.end(), [](const auto& point) { return point.below_reference_error; });
+    const std::string ms = diagram.reference_ms ? fmt::format(" takes {:.3g} ms and", *diagram.reference_ms) : "";
+    return fmt::format("the reference {}{} may itself be {:.1f} % off: {} of {} points lie below that", diagram.reference, ms,
+                       *diagram.reference_error_pct, below, diagram.points.size());
+}
+
+}  // namespace
+
+std::vector<std::string> findings(const Diagram& diagram)
+{
+    if (diagram.points.empty()) return {"no reference was reached: there is no error to show"};
+    std::vector<std::string> lines = {who_is_quickest(diagram)};
+    for (const std::string& line : who_is_nearest(diagram)) lines.push_back(line);
+    for (const auto& [one, other] : {std::pair{"PBS", "delta mush"}, {"PBS", "XPBD"}, {"linear FEM", "PBS"}, {"nonlinear FEM", "PBS"}})
+        lines.push_back(who_passes(diagram, group_named(one), group_named(other)));
+    for (const DiagramPoint& budget : budgets_of(diagram)) lines.push_back(is_physics_worth_it(diagram, budget));
+    lines.push_back(what_is_undecided(diagram));
+    std::erase(lines, "");
+    return lines;
+}
+
+std::string front_text(const Diagram& diagram)
+{
+    std::string text =
+        fmt::format("     {}\n     {:>10} {:>21} {:>9}  {}\n", diagram.name, "ms a frame", "quartiles", "off [%]", "deformer");
+    for (const DiagramPoint* point : front_of(diagram))
+        text += fmt::format("     {:>10.4g} {:>10.4g} {:>10.4g} {:>8.2f}{} {}\n", point->ms, point->ms_q1, point->ms_q3, point->error_pct,
+                            point->below_reference_error ? "*" : " ", point->words());
+    return text;
+}
+
+}  // namespace experiments

@@ -1,0 +1,15 @@
+// A work-precision diagram in words, each from its figures: who alone is so quick, who is nearest from which time on, whether the physics
+// is worth its time, and what the reference's own error leaves undecided.
+#pragma once
+
+#include "experiments/work_precision/diagram.hpp"
+
+namespace experiments {
+
+// One line a finding, without line ends.
+std::vector<std::string> findings(const Diagram& diagram);
+
+// The front of all points, aligned: ms a frame with quartiles, error, who.
+std::string front_text(const Diagram& diagram);
+
+}  // namespace experiments

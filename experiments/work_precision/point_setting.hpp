@@ -1,0 +1,39 @@
+// What the points of a work-precision diagram are: each deformer at many settings.
+//   for (const PointSetting& setting : point_settings(scene, {.full = true})) ...
+// LBS and DQS have nothing to set. Delta mush: iterations of smoothing. PBS: iterations, k_stretch, order and precision, Mueller's
+// exponent, substeps (outside a jiggling zone each begins at LBS anew, so that only the last one counts). XPBD with the reference's
+// material: iterations, and small steps at equal cost. Finite elements: laws and element orders. Some of them on coarser and finer meshes
+// of the body as well.
+#pragma once
+
+#include "experiments/scene.hpp"
+
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+struct PointSetting {
+    std::string deformer;  // whose front it counts for: lbs, dqs, delta_mush, pbs, pbs_exponent, xpbd, xpbd_small_steps, fem_linear, ...
+    std::string words;     // what tells it apart from the others of its deformer: "24 iterations, k_stretch 0.2"
+    DeformerSpec spec;
+    int substeps = 1;  // how often the pose is advanced to in a frame
+    int vertices = 0;  // wanted size of another mesh of the body; 0: the case's own
+
+    bool is_newton() const { return spec.kind == "fem" && spec.fem.model != reference_fem::Model::linear; }
+};
+
+struct SettingRange {
+    bool quadratic_newton = true;     // nonlinear laws on quadratic elements too
+    std::vector<int> other_vertices;  // sizes of other meshes of the body
+};
+// The scene gives the options that are not varied: its pbs, and the material and attachment of its first [[fem]].
+std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange& range);
+
+// "24 iterations, k_stretch 0.2, ordered f32"
+std::string words_of(const pbs::PbsOptions& options);
+
+// Finite elements of the scene's own material, by law and element order; quadratic elements of the stable law with mean dilatation.
+DeformerSpec fem_spec(const Scene& scene, reference_fem::Model model, int element_order);
+
+}  // namespace experiments

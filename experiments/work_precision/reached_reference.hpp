@@ -1,0 +1,29 @@
+// Which of a case's shapes is the truth, and how far it may be from the limit on ever finer tets.
+#pragma once
+
+#include "analysis/error_norms.hpp"
+#include "experiments/error_split/posed_character.hpp"
+#include "experiments/work_precision/body_mesh.hpp"
+#include "experiments/work_precision/point_setting.hpp"
+
+namespace experiments {
+
+// A setting's shape in the case's pose.
+struct ReachedPoint {
+    const PointSetting* setting = nullptr;
+    const BodyMesh* mesh = nullptr;
+    Shape shape;             // on its own mesh
+    pbs::Positions on_base;  // on the case's own vertices
+};
+
+struct ReachedReference {
+    const ReachedPoint* point = nullptr;      // null: none was reached
+    const ReachedPoint* beside = nullptr;     // the second solution; null: none, and no bar
+    std::optional<analysis::ErrorNorms> bar;  // bound of its distance from the limit
+};
+
+// Stable neo-Hookean: quadratic on the case's own mesh, or else linear there; order 1 is presumed for the bar (reference_error_bar.hpp says
+// why).
+ReachedReference choose_reference(const std::vector<ReachedPoint>& points, const analysis::ErrorRuler& ruler);
+
+}  // namespace experiments
