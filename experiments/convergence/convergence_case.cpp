@@ -1,0 +1,101 @@
+#include "experiments/convergence/convergence_case.hpp"
+
+#include "experiments/cases/motion_case.hpp"
+#include "experiments/error_split/posed_character.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace experiments {
+namespace {
+
+std::vector<int> frame_numbers(const std::vector<NamedFrame>& frames)
+{
+    std::vector<int> numbers;
+    for (const NamedFrame& frame : frames) numbers.push_back(frame.frame);
+    return numbers;
+}
+
+Scene at_size(Scene scene, int vertices)
+{
+    scene.character.vertices = vertices;
+    return scene;
+}
+
+// One mesh of the body.
+class Mesh {
+public:
+    Mesh(const ConvergenceCase& of, const Scene& scene, bool own)
+        : of_(of),
+          own_(own),
+          posed_(scene, frame_numbers(of.frames)),
+          motion_(make_motion(scene.motion, posed_.character().skeleton, scene.file))
+    {
+        if (own && !of.truth.empty()) truth_ = posed_.shapes(spec_of(scene, of.truth));
+    }
+
+    void add_to(ConvergenceResult& result) const
+    {
+        for (std::size_t frame = 0; frame < truth_.size(); ++frame)
+            if (!truth_[frame].finished) result.breakdown += fmt::format("{} at {}. ", of_.truth, of_.frames[frame].name);
+        for (const double k_stretch : of_.k_stretch) {
+            pbs::PbsOptions options = spec_of(of_.scene, "pbs").pbs;
+            options.k_stretch = k_stretch;
+            const std::vector<FrameStarts> starts = starts_of(posed_.character(), motion_, frame_numbers(of_.frames), options);
+            for (std::size_t setting = 0; setting < (own_ ? of_.settings.size() : 1); ++setting)
+                for (std::size_t frame = 0; frame < starts.size(); ++frame)
+                    result.all.push_back(follow(starts[frame], frame, of_.settings[setting], options));
+        }
+    }
+
+private:
+    ConvergencePaths follow(const FrameStarts& starts, std::size_t frame, const ProjectionSetting& setting, pbs::PbsOptions options) const
+    {
+        options.order = setting.order;
+        options.precision = setting.precision;
+        const pbs::Character& character = posed_.character();
+        const bool has_truth = frame < truth_.size() && truth_[frame].finished;
+        const auto error = [&](const pbs::Positions& shape) { return joint_pct(shape, truth_[frame]); };
+        const IterationRuler ruler(character, starts.bind_points, has_truth ? error : IterationRuler::ErrorPct{});
+        ConvergencePaths paths{of_.scene.character.body,
+                               of_.frames[frame].name,
+                               int(character.mesh.rest.rows()),
+                               int(character.mesh.tets.rows()),
+                               own_,
+                               options.k_stretch,
+                               setting,
+                               has_truth && truth_[frame].self_intersects,
+                               {},
+                               {}};
+        paths.paths =
+            iterate(character, options, starts.bind_points,
+                    {starts.shapes.begin(), of_.lbs_alone ? starts.shapes.begin() + 1 : starts.shapes.end()}, of_.most_iterations, ruler);
+        for (const IterationPath& path : paths.paths)
+            paths.limit_from_lbs_pct.push_back(joint_pct(path.last, {paths.paths.front().last, paths.paths.front().finite}));
+        return paths;
+    }
+
+    double joint_pct(const pbs::Positions& shape, const Shape& other) const
+    {
+        return posed_.distance({shape, shape.allFinite()}, other).joint_pct;
+    }
+
+    const ConvergenceCase& of_;
+    bool own_;
+    PosedCharacter posed_;
+    pbs::Motion motion_;
+    Shapes truth_;  // one a frame; none
+};
+
+}  // namespace
+
+ConvergenceResult measure_convergence(const ConvergenceCase& of)
+{
+    ConvergenceResult result;
+    Mesh(of, of.scene, true).add_to(result);
+    for (const int vertices : of.other_vertices) Mesh(of, at_size(of.scene, vertices), false).add_to(result);
+    return result;
+}
+
+}  // namespace experiments

@@ -1,0 +1,13 @@
+// The figures that C03 and C12 are judged by, from the paths of a case; the default setting on the scene's own mesh gives the value, the
+// other orders, precisions and meshes of about that size its interval. Where a tolerance is never reached, the number of iterations that
+// were tried stands for it and `of` says so: a ratio is then a bound. Where neither start reaches it there is no figure.
+#pragma once
+
+#include "analysis/case_record.hpp"
+#include "experiments/convergence/convergence_case.hpp"
+
+namespace experiments {
+
+std::vector<analysis::Measurement> convergence_figures(const ConvergenceResult& result, bool ladder);
+
+}  // namespace experiments

@@ -1,0 +1,35 @@
+// What the solver may be given to start a frame from (claim C03). The bind points are those of the frame whatever the start: it is
+// particles alone that are elsewhere when lines 10-14 of Algorithm 1 begin. Nothing jiggles, so the first argument of PbsSolver::advance is
+// that start.
+//   lbs             linear blend skinning, as in the paper
+//   previous_frame  where the solver left the frame before, itself started from the one before it, and so on from the motion's beginning
+//   rest_pose       the rest positions, wherever the character has gone meanwhile
+//   rigid_bind      every vertex carried by its nearest bone alone
+// For frames 164 and 708 of a motion:
+//   for (const FrameStarts& frame : starts_of(character, motion, {164, 708}, options)) frame.shapes[int(Start::rest_pose)];
+#pragma once
+
+#include "pbs/character/character.hpp"
+#include "pbs/solver/options.hpp"
+
+#include <array>
+#include <vector>
+
+namespace experiments {
+
+enum class Start { lbs, previous_frame, rest_pose, rigid_bind };
+inline constexpr std::array<Start, 4> all_starts = {Start::lbs, Start::previous_frame, Start::rest_pose, Start::rigid_bind};
+
+const char* name_of(Start start);    // lbs, previous_frame, ...: in records
+const char* words_for(Start start);  // "LBS", "the previous frame", ...: in the claims' quantities
+
+struct FrameStarts {
+    pbs::Positions bind_points;            // posed q_i [m], #V x 3
+    std::array<pbs::Positions, 4> shapes;  // by Start [m], #V x 3
+};
+
+// frames: of the motion, increasing. options: of the steps that lead to previous_frame. A motion's first frame has none before it: LBS.
+std::vector<FrameStarts> starts_of(const pbs::Character& character, const pbs::Motion& motion, const std::vector<int>& frames,
+                                   const pbs::PbsOptions& options);
+
+}  // namespace experiments
