@@ -2,12 +2,13 @@
 
 #include "analysis/atomic_file.hpp"
 #include "analysis/claims_report.hpp"
-#include "analysis/measurement.hpp"
 #include "experiments/claims_text.hpp"
 #include "experiments/exit_status.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/study_run.hpp"
 #include "experiments/studies/worker_pool.hpp"
+#include "experiments/study_costs.hpp"
+#include "experiments/study_records.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
@@ -47,32 +48,55 @@ void refuse_unknown(const std::vector<std::string>& names)
 }
 
 struct StudyOutcome {
-    std::vector<std::string> folders;  // of runs that ended; a failed one is said and left out, so that its verdict cannot be computed
+    std::vector<std::string> folders = {};  // of runs that ended; a failed one is said and left out, so that its verdict cannot be computed
     bool broke_down = false;
+    StudyCosts costs;
 };
 
-StudyOutcome run_study(const std::vector<StudyRun>& runs, const std::string& study_folder, const ReproduceArguments& arguments)
+struct PlannedStudy {
+    const Study* study;
+    StudyPlan plan;
+    std::string folder;
+};
+
+std::vector<PlannedStudy> plan_studies(const ReproduceArguments& arguments)
 {
+    std::vector<PlannedStudy> planned;
+    for (const Study& study : studies())
+        if (asked_for(study, arguments.names))
+            planned.push_back({&study, study.plan(arguments.full), (fs::path(arguments.folder) / study.name).string()});
+    return planned;
+}
+
+// What is not there yet, or all of it.
+std::vector<StudyRun> runs_to_do(const PlannedStudy& planned, bool resume)
+{
+    std::vector<StudyRun> to_do = planned.plan.runs;
+    if (resume) std::erase_if(to_do, [&](const StudyRun& run) { return is_finished(run, (fs::path(planned.folder) / run.name).string()); });
+    return to_do;
+}
+
+// then_s: expected of the studies after this one, wall time.
+StudyOutcome run_study(const PlannedStudy& planned, const std::vector<StudyRun>& runs, int jobs, double then_s)
+{
+    fs::create_directories(planned.folder);
+    for (const StudyRun& run : runs) fs::remove(fs::path(planned.folder) / run.name / "run.json");  // an earlier run's
+    write_study_plan(planned.folder, planned.plan);
     std::vector<PooledWork> work;
-    StudyOutcome outcome;
-    for (const StudyRun& run : runs) {
-        const std::string folder = (fs::path(study_folder) / run.name).string();
-        if (arguments.resume && is_finished(run, folder))
-            outcome.folders.push_back(folder);
-        else
-            work.push_back({run.name, run.cost_s, [&run, folder] { return carry_out(run, folder); }});
-    }
-    const double cost_s =
-        std::accumulate(work.begin(), work.end(), 0.0, [](double sum, const PooledWork& item) { return sum + item.cost_s; });
-    spdlog::info("{} runs, {} kept from before; some {:.0f} s of one core", work.size(), outcome.folders.size(), cost_s);
-    for (const PooledResult& result : run_in_pool(work, arguments.jobs)) {
-        if (result.finished)
-            outcome.folders.push_back((fs::path(study_folder) / result.name).string());
-        else
-            spdlog::error("pbskin: {}: {}", result.name, result.failure);
+    for (const StudyRun& run : runs)
+        work.push_back(
+            {run.name, run.cost_s, [&run, folder = (fs::path(planned.folder) / run.name).string()] { return carry_out(run, folder); }});
+    spdlog::info("{} runs, {} kept from before", work.size(), planned.plan.runs.size() - work.size());
+    StudyOutcome outcome{.costs = StudyCosts(planned.folder)};
+    for (const PooledResult& result : run_in_pool(work, planned.study->alone ? 1 : jobs, then_s)) {
+        if (!result.finished) spdlog::error("pbskin: {}: {}", result.name, result.failure);
         if (!result.breakdown.empty()) spdlog::error("pbskin: {}: numerical breakdown: {}", result.name, result.breakdown);
         outcome.broke_down |= !result.breakdown.empty();
+        const auto run = std::find_if(runs.begin(), runs.end(), [&](const StudyRun& of) { return of.name == result.name; });
+        if (result.finished) outcome.costs.add(result.name, run->cost_s, result.cpu_s);
     }
+    outcome.costs.write();
+    outcome.folders = finished_runs(planned.folder);
     return outcome;
 }
 
@@ -96,28 +120,13 @@ std::string frames_to_mark(const std::vector<std::string>& folders)
     return lines;
 }
 
-// What the claims of a study are judged from: the records of its scene runs, and figures in print.
-analysis::Records records_of(const StudyPlan& plan, const std::vector<std::string>& folders, const std::string& root)
+std::vector<analysis::Verdict> verdicts_of(const Study& study, const std::string& folder, const std::string& root)
 {
-    analysis::Records records;
-    records.left_out = plan.left_out;
-    for (const StudyRun& run : plan.runs)
-        if (!run.work) records.planned_scenes.push_back(run.scene.name);
-    for (const auto& left_out : plan.left_out) records.planned_scenes.push_back(left_out.scene);
-    for (const std::string& folder : folders) {
-        if (const fs::path printed = fs::path(folder) / "printed.csv"; fs::exists(printed))
-            for (auto& figure : analysis::printed_figures(printed.string())) records.printed.push_back(std::move(figure));
-        if (const fs::path measured = fs::path(folder) / "measurements.csv"; fs::exists(measured))
-            for (auto& measurement : analysis::measurements(measured.string())) {
-                measurement.run = fs::path(folder).lexically_relative(root).string();
-                records.measurements.push_back(std::move(measurement));
-            }
-        if (!fs::exists(fs::path(folder) / "metrics.csv")) continue;
-        const auto metrics = analysis::read_csv((fs::path(folder) / "metrics.csv").string());
-        for (auto& record : analysis::case_records(metrics, fs::path(folder).lexically_relative(root).string()))
-            records.cases.push_back(std::move(record));
-    }
-    return records;
+    std::vector<analysis::Verdict> verdicts;
+    const analysis::Records records = read_study_records(folder, root);
+    for (const auto& claim : claims())
+        if (claim.study == study.name) verdicts.push_back(analysis::judge(claim, records));
+    return verdicts;
 }
 
 // The verdicts of all studies, into DIR/claims.json, DIR/claims.md and the terminal; whether each could be computed.
@@ -135,30 +144,55 @@ bool tell_verdicts(const std::vector<analysis::Verdict>& verdicts, const std::st
 int reproduce(const ReproduceArguments& arguments)
 {
     refuse_unknown(arguments.names);
+    const std::vector<PlannedStudy> planned = plan_studies(arguments);
+    std::vector<std::vector<StudyRun>> to_do;
+    std::vector<ExpectedCost> expected;
+    for (const PlannedStudy& of : planned) {
+        to_do.push_back(runs_to_do(of, arguments.resume));
+        expected.push_back(expected_cost(*of.study, to_do.back(), arguments.jobs));
+    }
+    if (planned.size() > 1) spdlog::info("what this will take:\n{}", expected_cost_table(expected));
+
     std::vector<analysis::Verdict> verdicts;
+    std::vector<std::pair<std::string, StudyCosts>> costs;
     std::string beside;  // what stands below the table of claims
     bool broke_down = false, all_hold = true;
-    for (const Study& study : studies()) {
-        if (!asked_for(study, arguments.names)) continue;
-        spdlog::info("study {}: {}", study.name, study.meaning);
-        const StudyPlan plan = study.plan(arguments.full);
+    for (std::size_t i = 0; i < planned.size(); ++i) {
+        const auto& [study, plan, folder] = planned[i];
+        spdlog::info("study {}: {}", study->name, study->meaning);
         for (const auto& left_out : plan.left_out) spdlog::warn("left out: {}: {}", left_out.scene, left_out.reason);
-        const std::string folder = (fs::path(arguments.folder) / study.name).string();
-        const StudyOutcome outcome = run_study(plan.runs, folder, arguments);
+        const double then_s = std::accumulate(expected.begin() + static_cast<std::ptrdiff_t>(i) + 1, expected.end(), 0.0,
+                                              [](double sum, const ExpectedCost& cost) { return sum + cost.wall_s; });
+        const StudyOutcome outcome = run_study(planned[i], to_do[i], arguments.jobs, then_s);
+        costs.emplace_back(study->name, outcome.costs);
         broke_down |= outcome.broke_down;
         beside += frames_to_mark(outcome.folders);
-        const analysis::Records records = records_of(plan, outcome.folders, arguments.folder);
-        for (const auto& claim : claims())
-            if (claim.study == study.name) verdicts.push_back(analysis::judge(claim, records));
-        if (!study.conclude) continue;
-        const StudyConclusion conclusion = study.conclude(folder, plan, outcome.folders);
+        for (auto& verdict : verdicts_of(*study, folder, arguments.folder)) verdicts.push_back(std::move(verdict));
+        if (!study->conclude) continue;
+        const StudyConclusion conclusion = study->conclude(folder, plan, outcome.folders);
         beside += conclusion.text;
         all_hold &= conclusion.holds;
     }
     const bool all_computed = verdicts.empty() || tell_verdicts(verdicts, arguments.folder);
     fmt::print("{}", beside);
+    spdlog::info("what it took:\n{}", cost_table(costs));
     if (broke_down) return exit_breakdown;
     return all_computed && all_hold ? exit_finished : exit_bound;
+}
+
+int judge_again(const ReproduceArguments& arguments)
+{
+    refuse_unknown(arguments.names);
+    std::vector<analysis::Verdict> verdicts;
+    for (const Study& study : studies()) {
+        const std::string folder = (fs::path(arguments.folder) / study.name).string();
+        if (!has_study_plan(folder) || !(arguments.names.empty() || asked_for(study, arguments.names))) continue;
+        for (auto& verdict : verdicts_of(study, folder, arguments.folder)) verdicts.push_back(std::move(verdict));
+    }
+    if (verdicts.empty())
+        throw pbs::InputError(arguments.folder, 0, "reproduce --judge", "",
+                              "no records of a study here: expected a folder that reproduce wrote");
+    return tell_verdicts(verdicts, arguments.folder) ? exit_finished : exit_bound;
 }
 
 }  // namespace experiments

@@ -17,4 +17,7 @@ struct ReproduceArguments {
 // conclude. The exit status: 1 where a verdict could not be computed or a study's own bounds do not hold.
 int reproduce(const ReproduceArguments& arguments);
 
+// Runs nothing: judges the records that lie in the folder already, and writes claims.json and claims.md anew.
+int judge_again(const ReproduceArguments& arguments);
+
 }  // namespace experiments

@@ -15,11 +15,13 @@ void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action
     auto quick = std::make_shared<bool>(false);
     verb->add_flag("--quick", *quick, "a part of it that decides the same claims in minutes (default)")->excludes(full);
     verb->add_option("-j,--jobs", arguments->jobs, "runs side by side")->check(CLI::Range(1, 256))->capture_default_str();
-    verb->add_flag("--resume", arguments->resume, "keep the runs that are finished already");
-    verb->callback([&action, &common, arguments] {
-        action = [&common, arguments] {
+    auto* resume = verb->add_flag("--resume", arguments->resume, "keep the runs that are finished already");
+    auto judge = std::make_shared<bool>(false);
+    verb->add_flag("--judge", *judge, "run nothing, judge the records that lie in the folder")->excludes(full)->excludes(resume);
+    verb->callback([&action, &common, arguments, judge] {
+        action = [&common, arguments, judge] {
             if (common.quiet) hide_progress();
-            return reproduce(*arguments);
+            return *judge ? judge_again(*arguments) : reproduce(*arguments);
         };
     });
 }

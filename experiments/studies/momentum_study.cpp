@@ -84,9 +84,9 @@ StudyRun momentum_run(const MomentumCase& of, double cost_s)
 StudyPlan plan_momentum_study(bool)
 {
     StudyPlan plan;
-    plan.runs.push_back(momentum_run({"limb", read_scene("limb_bend", {"motion.angle_deg=90", "motion.frames=2"}), 1}, 3.0));
+    plan.runs.push_back(momentum_run({"limb", read_scene("limb_bend", {"motion.angle_deg=90", "motion.frames=2"}), 1}, 1.0));
     try {
-        plan.runs.push_back(momentum_run({"human", read_scene("human_01_01", {}), 164}, 10.0));
+        plan.runs.push_back(momentum_run({"human", read_scene("human_01_01", {}), 164}, 1.0));
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({"human", error.what()});
     }

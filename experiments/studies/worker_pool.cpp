@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -63,6 +64,11 @@ Worker start(const PooledWork& work, std::size_t index, pid_t& process)
     return {index, ends[0]};
 }
 
+double seconds_of(const timeval& time)
+{
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
 std::string read_all(int pipe_end)
 {
     std::string text;
@@ -84,12 +90,12 @@ PooledResult outcome_of(const PooledWork& work, const Worker& worker, int status
 }
 
 // The process that ended; an interruption is passed on to all of them.
-pid_t wait_for_any(const std::map<pid_t, Worker>& workers, int& status)
+pid_t wait_for_any(const std::map<pid_t, Worker>& workers, int& status, rusage& usage)
 {
     for (;;) {
         if (interrupted())
             for (const auto& [process, worker] : workers) kill(process, SIGTERM);
-        const pid_t process = waitpid(-1, &status, 0);
+        const pid_t process = wait4(-1, &status, 0, &usage);
         if (process > 0) return process;
         if (errno != EINTR) throw std::runtime_error("the workers are gone");
     }
@@ -97,7 +103,7 @@ pid_t wait_for_any(const std::map<pid_t, Worker>& workers, int& status)
 
 }  // namespace
 
-std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int jobs)
+std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int jobs, double then_s)
 {
     std::vector<std::size_t> queue(work.size());
     std::iota(queue.begin(), queue.end(), 0);
@@ -119,16 +125,20 @@ std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int j
         }
         if (workers.empty()) break;
         int status = 0;
-        const pid_t process = wait_for_any(workers, status);
+        rusage usage{};
+        const pid_t process = wait_for_any(workers, status, usage);
         const auto found = workers.find(process);
         if (found == workers.end()) continue;
         const std::size_t index = found->second.work;
         results[index] = outcome_of(work[index], found->second, status);
+        results[index].cpu_s = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
         workers.erase(found);
         done_s += work[index].cost_s;
         const double left_s = done_s > 0.0 ? stopwatch.seconds() * (total_s - done_s) / done_s : 0.0;
-        spdlog::info("[{}/{}] {} {} after {:.0f} s, some {:.0f} s left", ++ended, work.size(), work[index].name,
-                     results[index].finished ? "finished" : "failed: " + results[index].failure, stopwatch.seconds(), left_s);
+        const double pace = done_s > 0.0 ? jobs * stopwatch.seconds() / done_s : 1.0;  // beside what was expected
+        const std::string then = then_s > 0.0 ? fmt::format(", {:.0f} min in all", (left_s + std::min(pace, 4.0) * then_s) / 60.0) : "";
+        spdlog::info("[{}/{}] {} {} after {:.0f} s, some {:.0f} s left{}", ++ended, work.size(), work[index].name,
+                     results[index].finished ? "finished" : "failed: " + results[index].failure, stopwatch.seconds(), left_s, then);
     }
     stop_if_interrupted();
     return results;

@@ -18,10 +18,11 @@ struct PooledResult {
     bool finished = false;
     std::string breakdown;  // numerical, of a run that is finished and recorded all the same
     std::string failure;    // what the worker said, or how it died
+    double cpu_s = 0.0;     // that it took, of one core
 };
 
 // At most `jobs` at once, the costliest first; results in the order of `work`. Reports each that ends, with the time left by their expected
-// costs.
-std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int jobs);
+// costs; then_s: what is expected of the work after this, wall time [s].
+std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int jobs, double then_s = 0.0);
 
 }  // namespace experiments

@@ -1,0 +1,65 @@
+// Truth: what the plan says and what is put on disk; a verdict rests on runs that ended, and on no others.
+#include "experiments/study_records.hpp"
+
+#include "analysis/atomic_file.hpp"
+#include "analysis/measurement.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace {
+
+using namespace experiments;
+using test_support::ScratchFolder;
+
+StudyPlan plan_of(const std::vector<std::string>& names)
+{
+    StudyPlan plan;
+    for (const std::string& name : names) plan.runs.push_back({.name = name, .work = [](const std::string&) { return std::string(); }});
+    return plan;
+}
+
+void finish(const std::string& study, const std::string& run, double value)
+{
+    const std::filesystem::path folder = std::filesystem::path(study) / run;
+    std::filesystem::create_directories(folder);
+    analysis::measurement_table({{"C07", "linear drift", run, value, value, value, "1"}}).write((folder / "measurements.csv").string());
+    analysis::write_text_atomically((folder / "run.json").string(), "{}\n");
+}
+
+TEST(StudyRecords, ComeFromRunsThatEnded)
+{
+    const ScratchFolder root;
+    const std::string study = root / "momentum";
+    write_study_plan(study, plan_of({"limb", "human", "man"}));
+    finish(study, "limb", 1.0);
+    finish(study, "man", 3.0);
+    finish(study, "an_earlier_plan", 4.0);
+    std::filesystem::create_directories(std::filesystem::path(study) / "human");  // killed before its run.json
+    const analysis::Records records = read_study_records(study, root.path().string());
+    ASSERT_EQ(records.measurements.size(), 2u);
+    EXPECT_EQ(records.measurements[0].run, "momentum/limb");
+    EXPECT_EQ(records.measurements[1].value, 3.0);
+    EXPECT_TRUE(records.planned_scenes.empty());  // work, no scenes
+}
+
+TEST(StudyRecords, KnowWhatWasPlannedAndLeftOut)
+{
+    const ScratchFolder root;
+    StudyPlan plan = plan_of({"limb"});
+    Scene scene;
+    scene.name = "walk";
+    plan.runs.push_back({.name = "a walk", .scene = scene});
+    plan.left_out = {{"man_01_01", "not installed"}};
+    EXPECT_FALSE(has_study_plan(root / "volume"));
+    write_study_plan(root / "volume", plan);
+    EXPECT_TRUE(has_study_plan(root / "volume"));
+    const analysis::Records records = read_study_records(root / "volume", root.path().string());
+    EXPECT_EQ(records.planned_scenes, (std::vector<std::string>{"walk", "man_01_01"}));
+    ASSERT_EQ(records.left_out.size(), 1u);
+    EXPECT_EQ(records.left_out[0].reason, "not installed");
+}
+
+}  // namespace
