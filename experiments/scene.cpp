@@ -310,6 +310,11 @@ const std::vector<BuiltInScene>& built_in_scenes()
         {"limb_twist", scenes::limb_twist_toml, "the capsule limb, its forearm twisted by 0 to 180 degrees"},
         {"limb_bend", scenes::limb_bend_toml, "the capsule limb, its forearm bent by 0 to 150 degrees"},
         {"human_01_01", scenes::human_01_01_toml, "MakeHuman's body through CMU's clip 01_01 (repeated jumps)"},
+        {"man_01_01", scenes::man_01_01_toml, "Man, as large as Table 1's, through the same clip (`pbskin fetch man`)"},
+        {"lady_01_01", scenes::lady_01_01_toml, "Lady, as large as Table 1's, through the same clip (`pbskin fetch lady`)"},
+        {"frankie_01_01", scenes::frankie_01_01_toml,
+         "Frankie, as large as Table 1's bunny, through the same clip (`pbskin fetch frankie`)"},
+        {"lady_walk", scenes::lady_walk_toml, "Lady through eight seconds of level walking in CMU's clip 01_03 (`pbskin fetch lady`)"},
     };
     return built_in;
 }

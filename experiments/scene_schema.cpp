@@ -33,14 +33,15 @@ std::vector<SceneKey> character_and_motion_keys()
     return {
         within(key("", "schema", integer, "", "", "version of this format"), 1, 1),
         one_of(key("character", "body", text, "\"\"", "",
-                   "built-in limb or bar, or human (MakeHuman's body from Debian's assimp-testmodels); empty: from files"),
-               {"", "limb", "bar", "human"}),
+                   "built-in limb, bar or ring (with a handle), human (MakeHuman's body from Debian's assimp-testmodels), or man, lady, "
+                   "frankie (`pbskin fetch`); empty: from files"),
+               {"", "limb", "bar", "ring", "human", "man", "lady", "frankie"}),
         key("character", "mesh", text, "\"\"", "", "tet mesh file, relative to the scene: .msh .vtu .vtk .mesh .ele"),
         key("character", "skeleton", text, "\"\"", "",
             "skeleton file, relative to the scene: .toml with [[joint]] tables, or a clip's zero pose (.bvh .gltf .glb .fbx)"),
         within(key("character", "skeleton_scale", number, "1.0", "m", "metres a unit of the skeleton file; CMU's clips: 0.0254 / 0.45"),
                above_zero, 1e6),
-        within(key("character", "vertices", integer, "0", "", "wanted number of vertices of a built-in body; 0: its own default"), 0, 1e7),
+        within(key("character", "vertices", integer, "0", "", "wanted number of vertices of a named body; 0: its own default"), 0, 1e7),
         within(key("character", "refine", integer, "0", "",
                    "how often every tet is cut into eight (8 and 64 times the tets); bones' sizes stay, the other metrics are of the finer "
                    "mesh"),

@@ -8,9 +8,9 @@ namespace experiments {
 std::vector<std::string> installed_bodies(std::vector<analysis::LeftOut>& left_out)
 {
     std::vector<std::string> installed;
-    for (const char* body : {"human"}) {
+    for (const char* body : {"human", "man", "lady", "frankie"}) {
         try {
-            pbs::make_character({.body = body});
+            pbs::require_body(body);
             installed.push_back(body);
         } catch (const pbs::InputError& error) {
             left_out.push_back({body, error.what()});

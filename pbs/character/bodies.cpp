@@ -1,8 +1,11 @@
 #include "pbs/character/bodies.hpp"
 
 #include "pbs/character/body_cache.hpp"
+#include "pbs/character/frankie.hpp"
 #include "pbs/character/human.hpp"
+#include "pbs/character/makehuman.hpp"
 #include "pbs/character/refined_character.hpp"
+#include "pbs/character/ring.hpp"
 #include "pbs/character/skeleton_file.hpp"
 #include "pbs/character/skeleton_from_clip.hpp"
 #include "pbs/character/weights_file.hpp"
@@ -85,7 +88,10 @@ Character make_body(const CharacterSource& source)
     if (source.body == "limb") return make_beam("limb", wanted(limb_vertices), mesh_limb);
     if (source.body == "bar") return make_beam("bar", wanted(bar_vertices), mesh_bar);
     if (source.body == "human") return make_human(source.vertices, source.surface);
-    throw InputError("", 0, "character.body", source.body, "expected limb, bar or human");
+    if (source.body == "man" || source.body == "lady") return make_makehuman(source.body, source.vertices, source.surface);
+    if (source.body == "frankie") return make_frankie(source.vertices);
+    if (source.body == "ring") return make_ring(source.vertices);
+    throw InputError("", 0, "character.body", source.body, "expected limb, bar, ring, human, man, lady or frankie");
 }
 
 Weights weights_of(const Character& character, const CharacterSource& source, const Weights& paper)
@@ -96,6 +102,23 @@ Weights weights_of(const Character& character, const CharacterSource& source, co
 }
 
 }  // namespace
+
+void require_body(const std::string& body)
+{
+    if (body == "human") require_human();
+    if (body == "man" || body == "lady") require_makehuman(body);
+    if (body == "frankie") require_frankie();
+}
+
+bool body_is_installed(const std::string& body)
+{
+    try {
+        require_body(body);
+    } catch (const InputError&) {
+        return false;
+    }
+    return true;
+}
 
 Character make_character(const CharacterSource& source)
 {

@@ -7,6 +7,8 @@ namespace pbs {
 
 Skeleton human_skeleton();
 
+void require_human();  // an InputError where it is not installed
+
 // Mesh, skeleton, surface (where asked for) and inputs; `vertices` 0: about 2,400, between Table 1's Man (1,654) and ManHQ (2,645).
 // An InputError names the package where it is not installed.
 Character make_human(int vertices, bool with_surface = true);

@@ -13,6 +13,11 @@ Skeleton human_skeleton()
     throw InputError("", 0, "character.body", "human", rule);
 }
 
+void require_human()
+{
+    throw InputError("", 0, "character.body", "human", rule);
+}
+
 Character make_human(int, bool)
 {
     throw InputError("", 0, "character.body", "human", rule);

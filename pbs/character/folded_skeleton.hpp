@@ -1,0 +1,23 @@
+// A rig of many joints folded to fewer bones: each end of a bone is the mean of named points of the rig.
+//   Skeleton skeleton = fold_skeleton({{"thigh.*", "pelvis", {"hip.*"}, {"knee.*"}}, ...}, "rig.json", point_named);
+#pragma once
+
+#include "pbs/skinning/skeleton.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace pbs {
+
+// A star in a name stands for L and R: such a bone is two. parent "": the root.
+struct FoldedBone {
+    std::string name, parent;
+    std::vector<std::string> head, tail;
+};
+
+// Bones in the middle first, then those of the left, then those of the right. `file` stands for the rig in errors.
+Skeleton fold_skeleton(const std::vector<FoldedBone>& bones, const std::string& file,
+                       const std::function<Vec3(const std::string& point)>& point_named);
+
+}  // namespace pbs

@@ -1,0 +1,54 @@
+// A JSON file of somebody else's making, read with an InputError for everything that is not as expected.
+//   const JsonFile model("human_full_size.json");
+//   const auto vertices = model.numbers<double>("vertices");
+#pragma once
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace pbs {
+
+class JsonFile {
+public:
+    explicit JsonFile(const std::string& path);
+
+    const std::string& path() const { return path_; }
+    const std::string& hash() const { return hash_; }  // of its bytes
+
+    // The entry of a key of the whole, or of one of its parts.
+    const nlohmann::json& at(const std::string& key) const { return at(json_, key); }
+    const nlohmann::json& at(const nlohmann::json& part, const std::string& key) const;
+
+    // An array of numbers; whole ones where Number is an integer.
+    template <typename Number>
+    std::vector<Number> numbers(const std::string& key) const
+    {
+        return numbers<Number>(at(key), key);
+    }
+    template <typename Number>
+    std::vector<Number> numbers(const nlohmann::json& array, const std::string& field) const
+    {
+        if (!array.is_array()) refuse(field, "expected an array of numbers");
+        std::vector<Number> values;
+        values.reserve(array.size());
+        for (const auto& value : array) {
+            if (!(std::is_integral_v<Number> ? value.is_number_integer() : value.is_number()))
+                refuse(field + "[" + std::to_string(values.size()) + "]",
+                       std::is_integral_v<Number> ? "expected a whole number" : "expected a number");
+            values.push_back(value.template get<Number>());
+        }
+        return values;
+    }
+
+    [[noreturn]] void refuse(const std::string& field, const std::string& rule) const;
+
+private:
+    std::string path_, hash_;
+    nlohmann::json json_;
+};
+
+}  // namespace pbs
