@@ -27,6 +27,10 @@ const std::vector<Study>& studies()
          "triangles that intersect, for every deformer on the limb and on real bodies",
          "C04, C05, C06", "some 1 minute (--quick), 8 (--full: all bodies, finer meshes)", plan_artefacts_study, true,
          conclude_artefacts_study},
+        {"stability",
+         "outcome of some hundreds of disturbed bodies: stiffness, time step, iterations, angle, masses, thin tets, gravity, teleports and "
+         "broken starts to their extremes; PBS without and with jiggle, XPBD, the reference in equilibrium and in time, by the same bounds",
+         "C08", "some 1.5 minutes (--quick), 15 (--full)", plan_stability_study, true, conclude_stability_study},
         {"verification",
          "the FEM reference against theory, published benchmarks and other programs: patch tests, manufactured solutions, beams, sphere, "
          "plates, locking, time stepping, CalculiX; each row with reference, source, difference, order and bound",

@@ -1,0 +1,54 @@
+// What became of a body after a disturbance: one of five outcomes, by bounds that are the same for every method.
+//   steps.push_back(stability_step(before, after, places, mesh.tets, diagonal_m, undisturbed));   // every step
+//   const StabilityResult result = outcome_of(steps, disturbed_steps);
+// `bounded` says that nothing worse happened, not that the shape is right. Lengths are in diagonals of the rest bounding box.
+#pragma once
+
+#include "pbs/geometry/types.hpp"
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace analysis {
+
+enum class StabilityOutcome { converged, bounded, inverted, diverged, not_finite };
+std::string name_of(StabilityOutcome outcome);
+
+struct StabilityBounds {
+    double farthest = 10.0;          // of a vertex from its place [diagonals]
+    double growth = 1.5;             // of the motion, from each third of the last third to the next
+    double rest_motion = 1e-5;       // of any vertex in a step [diagonals]
+    double near_undisturbed = 1e-3;  // of any vertex from the undisturbed result [diagonals]
+    int still_steps = 10;            // that a body is at rest before it counts as converged
+};
+std::string criteria_text(const StabilityBounds& bounds = {});  // the definitions in words, Markdown
+
+// One step in figures.
+struct StabilityStep {
+    bool finite = true;                                                  // every position
+    bool solved = true;                                                  // the method reached what the step asked for
+    double motion = 0.0;                                                 // of the vertex that moved most in the step [diagonals]
+    double reach = 0.0;                                                  // of the vertex farthest from its place [diagonals]
+    double from_undisturbed = std::numeric_limits<double>::quiet_NaN();  // of the farthest vertex [diagonals]; not a number: no such state
+    int inverted_tets = 0;
+};
+
+// Where each vertex belongs: on a sphere about a point [m] of the bone it hangs on.
+struct Places {
+    const pbs::Positions& centres;    // [m], #V x 3
+    const Eigen::VectorXd& distance;  // [m], #V
+};
+// undisturbed: #V x 3, or null where there is no such state.
+StabilityStep stability_step(const pbs::Positions& before, const pbs::Positions& after, const Places& places, const pbs::Tets& tets,
+                             double diagonal_m, const pbs::Positions* undisturbed = nullptr);
+
+struct StabilityResult {
+    StabilityOutcome outcome = StabilityOutcome::not_finite;
+    std::optional<int> recovery_steps;  // of a body that converged: still steps before it was at rest for good
+};
+// disturbed: so many of the first steps; the others are still. No steps: not_finite.
+StabilityResult outcome_of(const std::vector<StabilityStep>& steps, int disturbed, const StabilityBounds& bounds = {});
+
+}  // namespace analysis

@@ -1,0 +1,19 @@
+// Runs a cell twice, disturbed and undisturbed, and says what became of it.
+//   const CellResult result = run_cell(cell);
+#pragma once
+
+#include "analysis/stability_outcome.hpp"
+#include "experiments/stability/stability_cell.hpp"
+
+namespace experiments {
+
+struct CellResult {
+    analysis::StabilityResult stability;
+    std::vector<analysis::StabilityStep> steps;
+    bool has_undisturbed = false;  // the same body, set out on the last pose, comes to rest
+    int steps_not_reached = 0;
+    double seconds = 0.0;
+};
+CellResult run_cell(const StabilityCell& cell);
+
+}  // namespace experiments

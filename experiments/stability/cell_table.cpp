@@ -1,0 +1,177 @@
+#include "experiments/stability/cell_table.hpp"
+
+#include "analysis/measurement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace experiments {
+namespace {
+
+using analysis::CsvTable;
+using analysis::StabilityOutcome;
+
+constexpr StabilityOutcome outcomes[] = {StabilityOutcome::converged, StabilityOutcome::bounded, StabilityOutcome::inverted,
+                                         StabilityOutcome::diverged, StabilityOutcome::not_finite};
+
+// Columns of cells.csv.
+const std::vector<std::string> columns = {"body",
+                                          "model",
+                                          "factor",
+                                          "value",
+                                          "unit",
+                                          "named",
+                                          "second_factor",
+                                          "second_value",
+                                          "second_unit",
+                                          "precision",
+                                          "time_step_s",
+                                          "steps",
+                                          "outcome",
+                                          "recovery_steps",
+                                          "recovery_s",
+                                          "undisturbed_at_rest",
+                                          "largest_reach_diagonals",
+                                          "last_reach_diagonals",
+                                          "last_motion_diagonals",
+                                          "last_from_undisturbed_diagonals",
+                                          "most_inverted_tets",
+                                          "last_inverted_tets",
+                                          "steps_not_reached",
+                                          "as_published",
+                                          "seconds"};
+
+using Keyed = std::vector<std::pair<std::string, std::vector<const MeasuredCell*>>>;
+
+// Sweeps in order of first appearance.
+Keyed by_sweep(const std::vector<MeasuredCell>& cells)
+{
+    Keyed sweeps;
+    for (const MeasuredCell& measured : cells) {
+        const StabilityCell& cell = measured.cell;
+        if (!cell.as_published) continue;
+        const std::string factor = cell.second_factor.empty() ? cell.factor : cell.factor + " x " + cell.second_factor;
+        const std::string key =
+            fmt::format("{}, {}, {}, {}", cell.body, cell.spec.pbs.jiggle ? "jiggling" : "no jiggle", factor, precision_of(cell));
+        auto found = std::find_if(sweeps.begin(), sweeps.end(), [&](const auto& sweep) { return sweep.first == key; });
+        if (found == sweeps.end()) found = sweeps.insert(sweeps.end(), {key, {}});
+        found->second.push_back(&measured);
+    }
+    return sweeps;
+}
+
+double share(const std::vector<const MeasuredCell*>& cells, std::initializer_list<StabilityOutcome> of)
+{
+    const auto counted = std::count_if(cells.begin(), cells.end(), [&](const MeasuredCell* measured) {
+        return std::find(of.begin(), of.end(), measured->result.stability.outcome) != of.end();
+    });
+    return static_cast<double>(counted) / static_cast<double>(cells.size());
+}
+
+std::vector<CsvTable::Cell> row_of(const MeasuredCell& measured)
+{
+    using Cell = CsvTable::Cell;
+    const auto& [cell, result] = measured;
+    const auto& last = result.steps.back();
+    double largest_reach = 0.0;
+    int most_inverted = 0;
+    for (const auto& step : result.steps) {
+        largest_reach = std::max(largest_reach, step.reach);
+        most_inverted = std::max(most_inverted, step.inverted_tets);
+    }
+    const auto recovery = result.stability.recovery_steps;
+    const bool is_map = !cell.second_factor.empty();
+    const auto when_finite = [&](Cell value) { return last.finite ? value : Cell(std::nullopt); };
+    return {cell.body,
+            cell.model,
+            cell.factor,
+            cell.value,
+            cell.unit,
+            cell.named,
+            cell.second_factor,
+            is_map ? Cell(cell.second_value) : Cell(std::nullopt),
+            cell.second_unit,
+            precision_of(cell),
+            cell.time_step_s,
+            static_cast<int>(result.steps.size()),
+            name_of(result.stability.outcome),
+            recovery ? Cell(*recovery) : Cell(std::nullopt),
+            recovery ? Cell(*recovery * cell.time_step_s) : Cell(std::nullopt),
+            result.has_undisturbed ? "yes" : "no",
+            largest_reach,
+            when_finite(last.reach),
+            when_finite(last.motion),
+            result.has_undisturbed ? when_finite(last.from_undisturbed) : Cell(std::nullopt),
+            most_inverted,
+            when_finite(last.inverted_tets),
+            result.steps_not_reached,
+            cell.as_published ? "yes" : "no",
+            result.seconds};
+}
+
+}  // namespace
+
+CsvTable cells_csv(const std::vector<MeasuredCell>& cells)
+{
+    CsvTable table(columns);
+    for (const MeasuredCell& measured : cells) table.add_row(row_of(measured));
+    return table;
+}
+
+CsvTable stability_measurements(const std::vector<MeasuredCell>& cells)
+{
+    std::vector<analysis::Measurement> rows;
+    for (const auto& [sweep, of] : by_sweep(cells)) {
+        const std::string name = fmt::format("{}, n = {}", sweep, of.size());
+        const auto add = [&](const std::string& quantity, double value) {
+            rows.push_back({"C08", quantity, name, value, value, value, "1"});
+        };
+        add("share of cells diverged or not finite", share(of, {StabilityOutcome::diverged, StabilityOutcome::not_finite}));
+        add("share of cells inverted", share(of, {StabilityOutcome::inverted}));
+        add("share of cells converged", share(of, {StabilityOutcome::converged}));
+    }
+    return analysis::measurement_table(rows);
+}
+
+std::string outcome_table(const std::vector<CsvTable>& tables)
+{
+    std::vector<std::string> order;
+    std::map<std::string, std::map<std::string, int>> counts;
+    for (const CsvTable& cells : tables)
+        for (int row = 0; row < cells.rows(); ++row) {
+            const std::string second = cells.text_at(row, "second_factor");
+            const std::string key = fmt::format("{:<6} {:<35} {:<24}", cells.text_at(row, "body"), cells.text_at(row, "model"),
+                                                cells.text_at(row, "factor") + (second.empty() ? "" : " x " + second));
+            if (!counts.count(key)) order.push_back(key);
+            ++counts[key][cells.text_at(row, "outcome")];
+        }
+    std::string text = fmt::format("{:<6} {:<35} {:<24}", "body", "model", "factor");
+    for (const StabilityOutcome outcome : outcomes) text += fmt::format(" {:>10}", name_of(outcome));
+    for (const std::string& key : order) {
+        text += "\n" + key;
+        for (const StabilityOutcome outcome : outcomes) text += fmt::format(" {:>10}", counts[key][name_of(outcome)]);
+    }
+    return text + "\n";
+}
+
+CsvTable map_csv(const std::vector<CsvTable>& tables, const std::string& factor, const std::string& second_factor)
+{
+    CsvTable map({"factor", "value", "unit", "second_factor", "second_value", "second_unit", "precision", "outcome", "last_inverted_tets",
+                  "recovery_steps"});
+    const auto or_nothing = [](const std::optional<double>& value) {
+        return value ? CsvTable::Cell(*value) : CsvTable::Cell(std::nullopt);
+    };
+    for (const CsvTable& cells : tables)
+        for (int row = 0; row < cells.rows(); ++row) {
+            if (cells.text_at(row, "factor") != factor || cells.text_at(row, "second_factor") != second_factor) continue;
+            map.add_row({factor, cells.number(row, "value"), cells.text_at(row, "unit"), second_factor, cells.number(row, "second_value"),
+                         cells.text_at(row, "second_unit"), cells.text_at(row, "precision"), cells.text_at(row, "outcome"),
+                         or_nothing(cells.number_or_nothing(row, "last_inverted_tets")),
+                         or_nothing(cells.number_or_nothing(row, "recovery_steps"))});
+        }
+    return map;
+}
+
+}  // namespace experiments

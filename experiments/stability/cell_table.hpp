@@ -1,0 +1,28 @@
+// What the cells of a run came to, as records: cells.csv, the shares that C08 is judged by, and tables for people.
+#pragma once
+
+#include "analysis/csv_table.hpp"
+#include "experiments/stability/cell_run.hpp"
+
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+struct MeasuredCell {
+    StabilityCell cell;
+    CellResult result;
+};
+
+analysis::CsvTable cells_csv(const std::vector<MeasuredCell>& cells);
+
+// Of the cells as published: shares by body, jiggle, factor and precision, each with the number of its cells. One row a quantity.
+analysis::CsvTable stability_measurements(const std::vector<MeasuredCell>& cells);
+
+// Counts of each outcome by model and factor, aligned; of one or more cells.csv.
+std::string outcome_table(const std::vector<analysis::CsvTable>& cells);
+
+// The cells of a map, a row each: both values and the outcome.
+analysis::CsvTable map_csv(const std::vector<analysis::CsvTable>& cells, const std::string& factor, const std::string& second_factor);
+
+}  // namespace experiments

@@ -1,0 +1,54 @@
+// One cell of the map of stability: a body, a method with its settings, what disturbs it, and which factor the cell stands for.
+#pragma once
+
+#include "experiments/deformers/deformer_spec.hpp"
+#include "pbs/geometry/types.hpp"
+
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+// What the first step finds instead of the blended shape; `none`: that.
+enum class Start { none, flattened, mirrored, random, point };
+
+// The body begins at rest on the first pose of the way and stays on the last. A limb's forearm turns about `axis` (rest world axes) to
+// angle_deg in even steps; a human follows its clip. Then the whole body may be moved in one step.
+struct Disturbance {
+    pbs::Vec3 axis = pbs::Vec3::UnitZ();
+    double angle_deg = 90.0;
+    int turning_steps = 10;
+    double teleport_m = 0.0;  // along (1, 1, 1)
+    Start start = Start::none;
+    bool stays = false;  // on the last pose from the beginning
+};
+
+// Tets spoilt before anything is bound: a seeded share of the vertices is moved until a tet at each is so thin.
+enum class Defect { none, slivers, needles };
+
+struct StabilityCell {
+    std::string body = "limb";  // limb, human
+    std::string model, factor;  // e.g. pbs_jiggle, time step
+    double value = 0.0;
+    std::string unit;
+    std::string second_factor = {};  // of a map
+    double second_value = 0.0;
+    std::string second_unit = {};
+    std::string named = {};  // of a factor without numbers: flattened
+
+    DeformerSpec spec;
+    Disturbance disturbance;
+    double time_step_s = 0.01;
+    int still_steps = 100;
+    Defect defect = Defect::none;
+    double thinness = 1.0;    // what the moved vertices keep of their height or edge
+    double mass_ratio = 1.0;  // heaviest over lightest particle of a PBS body, seeded
+    bool held_end = false;    // a tenth of the limb has infinite mass
+
+    bool as_published = false;  // the method of the paper with settings it allows: what C08 is judged by
+};
+
+std::string precision_of(const StabilityCell& cell);  // f32, f64
+nlohmann::json to_json(const StabilityCell& cell);
+
+}  // namespace experiments

@@ -1,0 +1,98 @@
+// C08: is the method unconditionally stable, large time steps included? Each cell of the map disturbs a body, then holds it still, and has
+// one of five outcomes by the same bounds for every method (analysis/stability_outcome.hpp).
+//
+//   pbs, pbs_jiggle   a limb of 400 vertices, bent by 90 degrees in ten steps; one factor at a time to its extremes, in f32 and f64
+//   pbs_maps          time step x k_stretch; iterations x twist
+//   pbs_human         MakeHuman's body landing from a jump
+//   controls          Eq. 12-20 as printed: what instability looks like
+//   xpbd              the same limb with a material, also in small steps
+//   fem_static        linear, corotational and stable neo-Hookean in equilibrium
+//   fem_in_time       the last two by generalised-alpha
+//
+// Writes DIR/stability/RUN/cells.csv and measurements.csv, and cells.csv, the maps, outcomes.md and criteria.md.
+#include "analysis/atomic_file.hpp"
+#include "experiments/stability/cell_table.hpp"
+#include "experiments/stability/stability_cells.hpp"
+#include "experiments/studies/study.hpp"
+#include "pbs/character/bodies.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Cells = std::vector<StabilityCell>;
+
+std::string run_and_record(const Cells& cells, const std::string& folder)
+{
+    std::vector<MeasuredCell> measured;
+    for (const StabilityCell& cell : cells) measured.push_back({cell, run_cell(cell)});
+    cells_csv(measured).write((fs::path(folder) / "cells.csv").string());
+    const analysis::CsvTable shares = stability_measurements(measured);
+    if (shares.rows() > 0) shares.write((fs::path(folder) / "measurements.csv").string());
+    return {};
+}
+
+StudyRun stability_run(const std::string& name, const Cells& cells, double cost_s)
+{
+    nlohmann::json settings = nlohmann::json::array();
+    for (const StabilityCell& cell : cells) settings.push_back(to_json(cell));
+    return {.name = name,
+            .cost_s = cost_s,
+            .work = [cells](const std::string& folder) { return run_and_record(cells, folder); },
+            .settings = {{"cells", settings}, {"criteria", analysis::criteria_text()}}};
+}
+
+void add_human(StudyPlan& plan, bool full)
+{
+    try {
+        pbs::make_character({.body = "human"});
+        plan.runs.push_back(stability_run("pbs_human", pbs_human_cells(full), full ? 60.0 : 20.0));
+    } catch (const pbs::InputError& error) {
+        plan.left_out.push_back({"human", error.what()});
+    }
+}
+
+}  // namespace
+
+StudyPlan plan_stability_study(bool full)
+{
+    StudyPlan plan;
+    plan.runs.push_back(stability_run("pbs", pbs_cells(false, full), full ? 60.0 : 10.0));
+    plan.runs.push_back(stability_run("pbs_jiggle", pbs_cells(true, full), full ? 60.0 : 10.0));
+    plan.runs.push_back(stability_run("pbs_maps", pbs_map_cells(full), full ? 60.0 : 10.0));
+    add_human(plan, full);
+    plan.runs.push_back(stability_run("controls", negative_controls(full), 3.0));
+    plan.runs.push_back(stability_run("xpbd", xpbd_cells(full), full ? 60.0 : 10.0));
+    plan.runs.push_back(stability_run("fem_static", fem_static_cells(full), full ? 60.0 : 10.0));
+    plan.runs.push_back(stability_run("fem_in_time", fem_dynamic_cells(full), full ? 60.0 : 10.0));
+    std::string counts;
+    std::size_t all = 0;
+    for (const StudyRun& run : plan.runs) {
+        const std::size_t count = run.settings.at("cells").size();
+        counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", run.name, count);
+        all += count;
+    }
+    spdlog::info("{} cells: {}", all, counts);
+    return plan;
+}
+
+StudyConclusion conclude_stability_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+{
+    std::vector<analysis::CsvTable> tables;
+    for (const std::string& run : finished) tables.push_back(analysis::read_csv((fs::path(run) / "cells.csv").string()));
+    map_csv(tables, "time step", "k_stretch").write((fs::path(folder) / "map_time_step_k_stretch.csv").string());
+    map_csv(tables, "iterations", "twist").write((fs::path(folder) / "map_iterations_twist.csv").string());
+    const std::string table = outcome_table(tables);
+    analysis::write_text_atomically((fs::path(folder) / "outcomes.md").string(), "```\n" + table + "```\n");
+    analysis::write_text_atomically((fs::path(folder) / "criteria.md").string(), analysis::criteria_text());
+    return {table, !finished.empty()};
+}
+
+}  // namespace experiments
