@@ -69,8 +69,7 @@ private:
                                {},
                                {}};
         paths.paths =
-            iterate(character, options, starts.bind_points,
-                    {starts.shapes.begin(), of_.lbs_alone ? starts.shapes.begin() + 1 : starts.shapes.end()}, of_.most_iterations, ruler);
+            iterate(character, options, starts.bind_points, {starts.shapes.begin(), starts.shapes.end()}, of_.most_iterations, ruler);
         for (const IterationPath& path : paths.paths)
             paths.limit_from_lbs_pct.push_back(joint_pct(path.last, {paths.paths.front().last, paths.paths.front().finite}));
         return paths;
@@ -93,6 +92,7 @@ private:
 ConvergenceResult measure_convergence(const ConvergenceCase& of)
 {
     ConvergenceResult result;
+    result.ladder = of.ladder;
     Mesh(of, of.scene, true).add_to(result);
     for (const int vertices : of.other_vertices) Mesh(of, at_size(of.scene, vertices), false).add_to(result);
     return result;

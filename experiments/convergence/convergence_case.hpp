@@ -29,7 +29,6 @@ struct ConvergenceCase {
     std::vector<int> other_vertices;          // further meshes by their wanted size
     bool ladder =
         false;  // other_vertices are a ladder of sizes, each figure its own; else of about one size: their spread is the uncertainty
-    bool lbs_alone = false;  // no other starts
     int most_iterations = 1000;
     std::string truth;  // deformer of the scene, on its own mesh; empty: none
 };
@@ -41,12 +40,13 @@ struct ConvergencePaths {
     double k_stretch = 0.0;
     ProjectionSetting setting;
     bool reference_self_intersects = false;
-    std::vector<IterationPath> paths;        // by Start; LBS alone where no others were asked for
+    std::vector<IterationPath> paths;        // by Start
     std::vector<double> limit_from_lbs_pct;  // from the last shape of each path to that of LBS, at the joints
 };
 
 struct ConvergenceResult {
     std::vector<ConvergencePaths> all;
+    bool ladder = false;    // as asked for
     std::string breakdown;  // of the reference
 };
 

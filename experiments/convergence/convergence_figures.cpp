@@ -21,13 +21,13 @@ struct Figure {
 using FigureOf = std::function<std::optional<Figure>(const ConvergencePaths&)>;
 using Group = std::vector<const ConvergencePaths*>;  // the default setting first
 
-std::vector<Group> groups_of(const ConvergenceResult& result, bool ladder)
+std::vector<Group> groups_of(const ConvergenceResult& result)
 {
     std::vector<Group> groups;
     for (const ConvergencePaths& paths : result.all) {
         const auto same = [&](const Group& group) {
             const ConvergencePaths& first = *group.front();
-            return first.pose == paths.pose && first.k_stretch == paths.k_stretch && (!ladder || first.vertices == paths.vertices);
+            return first.pose == paths.pose && first.k_stretch == paths.k_stretch && (!result.ladder || first.vertices == paths.vertices);
         };
         if (const auto found = std::find_if(groups.begin(), groups.end(), same); found != groups.end())
             found->push_back(&paths);
@@ -145,17 +145,17 @@ void add_exponents(std::vector<analysis::Measurement>& to, const std::vector<Gro
 
 }  // namespace
 
-std::vector<analysis::Measurement> convergence_figures(const ConvergenceResult& result, bool ladder)
+std::vector<analysis::Measurement> convergence_figures(const ConvergenceResult& result)
 {
     std::vector<analysis::Measurement> figures;
-    const std::vector<Group> groups = groups_of(result, ladder);
+    const std::vector<Group> groups = groups_of(result);
     for (const Group& group : groups) {
         for (const Tolerance& tolerance : tolerances)
             add(figures, "C12", "iterations to tolerance", tolerance.remark, group, iterations_to(tolerance));
         add_beside(figures, group);
         add_starts(figures, group);
     }
-    if (ladder) add_exponents(figures, groups);
+    if (result.ladder) add_exponents(figures, groups);
     return figures;
 }
 

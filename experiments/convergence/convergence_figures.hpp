@@ -8,6 +8,6 @@
 
 namespace experiments {
 
-std::vector<analysis::Measurement> convergence_figures(const ConvergenceResult& result, bool ladder);
+std::vector<analysis::Measurement> convergence_figures(const ConvergenceResult& result);
 
 }  // namespace experiments

@@ -2,6 +2,7 @@
 
 #include "experiments/deformers/option_names.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace experiments {
@@ -30,7 +31,7 @@ std::vector<T> joined(std::vector<T> first, const std::vector<T>& more)
     return first;
 }
 
-// Those that are looked at in a record: 0 to 10 and then the first one past each tenth of a decade, and the last.
+// Those that are looked at in a record: the first one past each fifth of a decade, and the last.
 std::vector<Look> thinned(const IterationPath& path)
 {
     std::vector<Look> kept;
@@ -38,7 +39,7 @@ std::vector<Look> thinned(const IterationPath& path)
     for (const Look& look : path.looks) {
         if (look.iteration < next && &look != &path.looks.back()) continue;
         kept.push_back(look);
-        next = look.iteration < 10 ? look.iteration + 1 : look.iteration * std::pow(10.0, 0.1);
+        next = std::max(look.iteration + 1.0, std::floor(look.iteration * std::pow(10.0, 0.2)));
     }
     return kept;
 }
@@ -47,10 +48,12 @@ template <typename Cells_of>
 analysis::CsvTable table_by_look(const ConvergenceResult& result, const std::vector<std::string>& columns, Cells_of cells_of)
 {
     analysis::CsvTable table(joined(case_columns, columns));
-    for (const ConvergencePaths& paths : result.all)
+    for (const ConvergencePaths& paths : result.all) {
+        if (!paths.own_mesh && !result.ladder) continue;  // other tessellations of one size are told of by their rates alone
         for (std::size_t start = 0; start < paths.paths.size(); ++start)
             for (const Look& look : thinned(paths.paths[start]))
                 if (const Cells cells = cells_of(look); !cells.empty()) table.add_row(joined(case_cells(paths, start), cells));
+    }
     return table;
 }
 
@@ -58,7 +61,8 @@ Cells rate_cells(const ConvergencePaths& of, std::size_t start, double floor)
 {
     const IterationPath& path = of.paths[start];
     const Reached residual = reached_residual(path, floor), volume = reached_volume(path);
-    const Rate rate = rate_of(path);
+    const Rate rate = rate_of(path, floor);
+    const analysis::CsvTable::Cell nothing = std::nullopt;
     const Look &last = path.looks.back(), &half = look_at(path, last.iteration / 2), &paper = look_at(path, 24),
                &nearest = nearest_to_reference(path);
     return {last.iteration,
@@ -68,10 +72,11 @@ Cells rate_cells(const ConvergencePaths& of, std::size_t start, double floor)
             paper.combined,
             last.combined,
             100.0 * (last.combined / half.combined - 1.0),
-            rate.stalls_at,
+            rate.stalls_at ? analysis::CsvTable::Cell(*rate.stalls_at) : nothing,
             rate.rate.estimate,
             rate.rate.low,
             rate.rate.high,
+            rate.log_rms_off,
             residual.iterations,
             int(residual.within),
             volume.iterations,
@@ -116,6 +121,7 @@ analysis::CsvTable rate_table(const ConvergenceResult& result)
                                                    "rate_per_iteration",
                                                    "rate_low",
                                                    "rate_high",
+                                                   "rate_log_rms_off",
                                                    "iterations_to_residual",
                                                    "residual_reached",
                                                    "iterations_to_volume",

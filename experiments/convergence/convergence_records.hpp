@@ -6,7 +6,7 @@
 
 namespace experiments {
 
-// Residuals and volume by iteration, thinned to some ten looks a decade.
+// Residuals and volume by iteration, thinned to five looks a decade.
 analysis::CsvTable residual_table(const ConvergenceResult& result);
 // One row a path: when it is there by both tolerances, rate, where it stalls, how far from the limit that LBS leads to.
 analysis::CsvTable rate_table(const ConvergenceResult& result);

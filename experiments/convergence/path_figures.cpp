@@ -28,7 +28,7 @@ double floor_of(const std::vector<IterationPath>& paths)
 
 Reached reached_residual(const IterationPath& path, double floor)
 {
-    return reached(path, &Look::combined, (1.0 + residual_tolerance) * floor);
+    return reached(path, &Look::combined, std::max((1.0 + residual_tolerance) * floor, satisfied_residual));
 }
 
 Reached reached_volume(const IterationPath& path)
@@ -36,24 +36,27 @@ Reached reached_volume(const IterationPath& path)
     return reached(path, &Look::volume_abs_change_pct, volume_tolerance_pct);
 }
 
-Rate rate_of(const IterationPath& path)
+Rate rate_of(const IterationPath& path, double floor)
 {
-    const double floor = path.looks.back().combined;
+    constexpr double unchanged = 0.01;
+    const Look &last = path.looks.back(), &half = look_at(path, last.iteration / 2);
     Rate rate;
-    rate.stalls_at = reached_residual(path, floor).iterations;
+    if (std::abs(last.combined / half.combined - 1.0) < unchanged) {
+        floor = last.combined;
+        rate.stalls_at = reached_residual(path, floor).iterations;
+    }
     std::vector<double> iterations, excess;
     for (const Look& look : path.looks)
-        if (look.iteration > 0 && look.iteration <= rate.stalls_at && look.combined > floor) {
+        if (look.iteration > 0 && look.iteration <= rate.stalls_at.value_or(last.iteration) && look.combined > floor) {
             iterations.push_back(look.iteration);
             excess.push_back(std::log(look.combined - floor));
         }
-    const analysis::Interval slope = iterations.size() < 3
-                                         ? analysis::Interval{analysis::not_known, analysis::not_known, analysis::not_known}
-                                         : analysis::fit_line(iterations, excess).slope;
-    rate.rate = slope;
-    rate.rate.estimate = std::exp(slope.estimate);
-    rate.rate.low = std::exp(slope.low);
-    rate.rate.high = std::exp(slope.high);
+    rate.rate.estimate = rate.rate.low = rate.rate.high = rate.log_rms_off = analysis::not_known;
+    if (iterations.size() < 3) return rate;
+    const analysis::LineFit fit = analysis::fit_line(iterations, excess);
+    rate.log_rms_off = fit.residual_rms;
+    rate.rate = fit.slope;
+    for (double* bound : {&rate.rate.estimate, &rate.rate.low, &rate.rate.high}) *bound = std::exp(*bound);
     return rate;
 }
 
