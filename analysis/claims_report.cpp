@@ -192,6 +192,29 @@ std::vector<TitledRow> rows_of(const Verdict& verdict)
     return rows;
 }
 
+// Every case by the claim's own metric, or every quantity with its range.
+std::string figures_in_short(const Verdict& verdict)
+{
+    std::vector<std::string> figures;
+    for (const CaseJudgement& judged : verdict.cases)
+        if (judged.metric == verdict.claim.metrics.front()) {
+            const CaseRow row = case_row(verdict.claim, judged);
+            figures.push_back(row.name + ": " + row.measured);
+        }
+    for (const std::string& quantity : verdict.claim.metrics)
+        if (const auto row = measured_row(verdict.claim, verdict.measurements, quantity, true))
+            figures.push_back(fmt::format("{}: {}", quantity, row->row.measured));
+    return figures.empty() ? verdict.measured : fmt::format("{}", fmt::join(figures, "; "));
+}
+
+std::string deciding_interval(const Verdict& verdict)
+{
+    if (verdict.interval.n == 0) return "";
+    const bool share = verdict.claim.rule == ClaimRule::share_within;
+    const double scale = share ? 100.0 : 1.0;
+    return fmt::format("{}: [{:.3g}, {:.3g}] %", verdict.interval_of, scale * verdict.interval.low, scale * verdict.interval.high);
+}
+
 }  // namespace
 
 json claims_json(const std::vector<Verdict>& verdicts)
@@ -203,16 +226,18 @@ json claims_json(const std::vector<Verdict>& verdicts)
 
 std::string claims_markdown(const std::vector<Verdict>& verdicts)
 {
-    std::string text = "| id | statement | expected | measured | interval | verdict | runs |\n|---|---|---|---|---|---|---|\n";
-    for (const Verdict& verdict : verdicts) {
-        const std::string reason = verdict.cases.empty() && verdict.measurements.empty() ? verdict.text : "**" + label(verdict.kind) + "**";
-        text += fmt::format("| {} | {} ({}) | {} | {} | | {} | |\n", markdown_cell(verdict.claim.id),
+    const std::string head = "| id | statement | expected | measured | interval | verdict | runs |\n|---|---|---|---|---|---|---|\n";
+    std::string text = head;
+    for (const Verdict& verdict : verdicts)
+        text += fmt::format("| {} | {} ({}) | {} | {} | {} | {} | {} |\n", markdown_cell(verdict.claim.id),
                             markdown_cell(verdict.claim.statement), verdict.claim.place, markdown_cell(expected_text(verdict.claim)),
-                            verdict.cases.empty() ? markdown_cell(verdict.measured) : "", markdown_cell(reason));
+                            markdown_cell(figures_in_short(verdict)), deciding_interval(verdict), markdown_cell(verdict.summary),
+                            verdict.claim.study);
+    text += "\n## The figures behind them\n\n" + head;
+    for (const Verdict& verdict : verdicts)
         for (const auto& [title, row, run] : rows_of(verdict))
-            text += fmt::format("| | {} | {} | {} | {} | {} | {} |\n", markdown_cell(row.name), title, row.measured, row.interval,
-                                markdown_cell(row.holds), markdown_cell(run));
-    }
+            text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", markdown_cell(verdict.claim.id), markdown_cell(row.name),
+                                markdown_cell(title), row.measured, row.interval, markdown_cell(row.holds), markdown_cell(run));
     return text;
 }
 

@@ -94,7 +94,7 @@ Verdict judge_measurements(const Claim& claim, const Records& records)
     verdict.kind = holding == verdict.measurements.size() ? VerdictKind::reproduced
                    : holding > 0                          ? VerdictKind::reproduced_only_for
                                                           : VerdictKind::not_reproduced;
-    verdict.text = text_of(verdict);
+    verdict.text = verdict.summary = text_of(verdict);
     if (!records.left_out.empty()) verdict.text += "; left out: " + left_out_text(records.left_out);
     return verdict;
 }

@@ -119,6 +119,7 @@ Verdict judge_cases(const Claim& claim, const Records& records)
                 verdict.beside.push_back(judge_case(claim, record, claim.metrics.front()));
     verdict.kind = kind_of(claim, verdict.cases);
     verdict.orders = judge_orders(claim, records);
+    verdict.summary = text_of_own_metric(verdict);
     verdict.text = text_of(verdict, records);
     choose_interval(verdict);
     list_measured_and_runs(verdict);

@@ -29,6 +29,7 @@ struct Verdict {
     Claim claim;
     VerdictKind kind = VerdictKind::not_computable;
     std::string text;      // the verdict in words
+    std::string summary;   // the same by the claim's own metric alone
     std::string measured;  // by the claim's own metric, case by case
     Interval interval;     // of the deciding case: the clip whose share (share_within) or mean (mean_within) is farthest from the bound
     std::string interval_of;

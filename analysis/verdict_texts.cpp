@@ -12,7 +12,7 @@ Verdict verdict_of(const Claim& claim, VerdictKind kind, const std::string& text
     Verdict verdict;
     verdict.claim = claim;
     verdict.kind = kind;
-    verdict.text = text.empty() ? label(kind) : fmt::format("{}: {}", label(kind), text);
+    verdict.text = verdict.summary = text.empty() ? label(kind) : fmt::format("{}: {}", label(kind), text);
     verdict.interval = {not_known, not_known, not_known, claim.level, 0, 0};
     return verdict;
 }

@@ -28,8 +28,8 @@ struct Setting {
     pbs::Masses known, counted;  // to the projection; to the momentum
 };
 const Setting settings[] = {{"equal masses", pbs::Masses::unit, pbs::Masses::unit},
-                            {"unequal masses, weighted", pbs::Masses::lumped, pbs::Masses::lumped},
-                            {"unequal masses, Eq. 8-9 for m = 1", pbs::Masses::unit, pbs::Masses::lumped}};
+                            {"unequal masses (weighted)", pbs::Masses::lumped, pbs::Masses::lumped},
+                            {"unequal masses (Eq. 8-9 for m = 1)", pbs::Masses::unit, pbs::Masses::lumped}};
 
 const std::pair<ProjectedClass, const char*> classes[] = {
     {ProjectedClass::stretch, "stretch"}, {ProjectedClass::volume, "volume"}, {ProjectedClass::bind, "bind"}};
@@ -59,7 +59,7 @@ std::string measure_drift(const MomentumCase& of, const std::string& folder)
             for (const auto& [projected, class_name] : classes) {
                 options.precision = precision;
                 options.masses = setting.known;
-                const std::string name = fmt::format("{}, {}, {}, {}", of.name, class_name, precision_name, setting.name);
+                const std::string name = fmt::format("{}, {}, {}, {}", setting.name, of.name, class_name, precision_name);
                 table.add(projected, "", name, drift_of_projections(character, pose, options, projected, setting.counted));
                 for (const auto& [order, order_name] : OptionNames<pbs::Order>::table) {
                     options.order = order;
