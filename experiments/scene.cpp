@@ -314,7 +314,7 @@ const std::vector<BuiltInScene>& built_in_scenes()
         {"lady_01_01", scenes::lady_01_01_toml, "Lady, as large as Table 1's, through the same clip (`pbskin fetch lady`)"},
         {"frankie_01_01", scenes::frankie_01_01_toml,
          "Frankie, as large as Table 1's bunny, through the same clip (`pbskin fetch frankie`)"},
-        {"lady_walk", scenes::lady_walk_toml, "Lady through eight seconds of level walking in CMU's clip 01_03 (`pbskin fetch lady`)"},
+        {"lady_walk", scenes::lady_walk_toml, "Lady walking: the first two and a half seconds of CMU's clip 01_03 (`pbskin fetch lady`)"},
     };
     return built_in;
 }
