@@ -37,6 +37,8 @@ public:
     analysis::ErrorNorms distance(const Shape& one, const Shape& other) const;
 
     const pbs::Character& character() const { return character_; }
+    const pbs::Pose& pose(std::size_t pose) const { return poses_[pose]; }
+    const pbs::Triangles& boundary() const { return boundary_; }  // of its tets
     double angle_deg(std::size_t pose) const { return angles_deg_[pose]; }  // of a sweep; of a clip not a number
 
 private:

@@ -32,6 +32,14 @@ TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options);
 bool self_intersects(const Positions& positions, const Triangles& boundary);
 int count_self_intersections(const Positions& positions, const Triangles& boundary);  // pairs of triangles
 
+// The closed lines in which each plane cuts a surface, points [m], #P x 3 a line, the first not repeated at its end. A surface that
+// intersects itself is cut all the same, triangle by triangle.
+struct CuttingPlane {
+    Vec3 point, normal;  // [m]; of any length but zero
+};
+std::vector<std::vector<Positions>> section_outlines(const Positions& positions, const Triangles& boundary,
+                                                     const std::vector<CuttingPlane>& planes);
+
 // Which points lie inside or on a closed manifold boundary.
 std::vector<bool> points_inside(const Positions& positions, const Triangles& boundary, const std::vector<Vec3>& points);
 

@@ -33,6 +33,10 @@ int count_self_intersections(const Positions&, const Triangles&)
 {
     refuse("self-intersection");
 }
+std::vector<std::vector<Positions>> section_outlines(const Positions&, const Triangles&, const std::vector<CuttingPlane>&)
+{
+    refuse("cross-sections");
+}
 std::vector<bool> points_inside(const Positions&, const Triangles&, const std::vector<Vec3>&)
 {
     refuse("points inside");

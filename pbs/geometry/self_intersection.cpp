@@ -7,6 +7,7 @@
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Polygon_mesh_slicer.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/helpers.h>
@@ -48,6 +49,13 @@ Surface surface_of(const Positions& positions, const Triangles& triangles)
     return surface;
 }
 
+Positions closed_line(const std::vector<Point>& points)
+{
+    Positions line(static_cast<Eigen::Index>(points.size()) - 1, 3);
+    for (Eigen::Index i = 0; i < line.rows(); ++i) line.row(i) << points[i].x(), points[i].y(), points[i].z();
+    return line;
+}
+
 }  // namespace
 
 int count_self_intersections(const Positions& positions, const Triangles& triangles)
@@ -60,6 +68,24 @@ int count_self_intersections(const Positions& positions, const Triangles& triang
 bool self_intersects(const Positions& positions, const Triangles& boundary)
 {
     return pmp::does_self_intersect(surface_of(positions, boundary));
+}
+
+std::vector<std::vector<Positions>> section_outlines(const Positions& positions, const Triangles& boundary,
+                                                     const std::vector<CuttingPlane>& planes)
+{
+    const Surface surface = surface_of(positions, boundary);
+    CGAL::Polygon_mesh_slicer<Surface, Kernel> cut(surface);
+    std::vector<std::vector<Positions>> sections;
+    for (const CuttingPlane& plane : planes) {
+        if (!(plane.normal.norm() > 0.0)) throw InputError("", 0, "plane", "", "expected a normal that is not zero");
+        std::vector<std::vector<Point>> lines;
+        const Kernel::Vector_3 normal(plane.normal.x(), plane.normal.y(), plane.normal.z());
+        cut(Kernel::Plane_3(Point(plane.point.x(), plane.point.y(), plane.point.z()), normal), std::back_inserter(lines));
+        sections.emplace_back();
+        for (const auto& line : lines)
+            if (line.size() > 3 && line.front() == line.back()) sections.back().push_back(closed_line(line));
+    }
+    return sections;
 }
 
 std::vector<bool> points_inside(const Positions& positions, const Triangles& boundary, const std::vector<Vec3>& points)

@@ -1,0 +1,27 @@
+// How thick a limb is in a plane: area and radii of the outline that the plane cuts out of its skin.
+//   const pbs::Positions* outline = enclosing_outline(outlines, {axis_point, axis_direction});
+//   const OutlineSize size = outline_size(*outline);   // size.smallest_radius_m near zero: a candy wrapper
+// Outlines are closed lines in a plane, points [m], #P x 3, the first not repeated at its end.
+#pragma once
+
+#include "analysis/cross_section.hpp"
+
+#include <vector>
+
+namespace analysis {
+
+// Radii are distances from the outline's own centroid (of its length), so that flesh that moved aside as a whole has not grown thinner.
+struct OutlineSize {
+    double area_m2 = 0.0;  // enclosed; where the outline crosses itself, what it goes round clockwise is taken off
+    double smallest_radius_m = 0.0, largest_radius_m = 0.0;
+};
+OutlineSize outline_size(const pbs::Positions& outline);
+
+// How often the outline goes round the plane's point; 0: the point lies outside.
+int winding_number(const pbs::Positions& outline, const Plane& plane);
+
+// The outline of the limb whose axis meets the plane in the plane's point: it encloses that point, the tightest of several; where none
+// does (a collapsed limb), the nearest one. Null without outlines.
+const pbs::Positions* enclosing_outline(const std::vector<pbs::Positions>& outlines, const Plane& plane);
+
+}  // namespace analysis

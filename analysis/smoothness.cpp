@@ -1,0 +1,123 @@
+#include "analysis/smoothness.hpp"
+
+#include "analysis/rest_mesh_checks.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace analysis {
+namespace {
+
+using pbs::Positions;
+using pbs::Vec3;
+
+Vec3 point_of(const Positions& positions, int vertex)
+{
+    return positions.row(vertex);
+}
+
+double triangle_area(const Positions& positions, const std::array<int, 3>& face)
+{
+    const Vec3 a = point_of(positions, face[0]);
+    return 0.5 * (point_of(positions, face[1]) - a).cross(point_of(positions, face[2]) - a).norm();
+}
+
+Eigen::Matrix3d edges_from_first(const Positions& positions, const pbs::Tets& tets, int tet)
+{
+    Eigen::Matrix3d edges;
+    for (int corner = 1; corner < 4; ++corner)
+        edges.col(corner - 1) = point_of(positions, tets(tet, corner)) - point_of(positions, tets(tet, 0));
+    return edges;
+}
+
+// Between the normals of the triangles (first, second, left) and (second, first, right), signed; zero where the skin is flat.
+double dihedral_angle(const Positions& positions, int first, int second, int left, int right)
+{
+    const Vec3 a = point_of(positions, first), edge = point_of(positions, second) - a;
+    const Vec3 normal = edge.cross(point_of(positions, left) - a), other = (point_of(positions, right) - a).cross(edge);
+    if (!(edge.norm() > 0.0)) return 0.0;
+    return std::atan2(normal.cross(other).dot(edge.normalized()), normal.dot(other));
+}
+
+template <std::size_t n>
+bool all_near(const std::array<int, n>& vertices, const std::vector<bool>& near)
+{
+    return std::all_of(vertices.begin(), vertices.end(), [&](int v) { return near[v]; });
+}
+
+double rms(double weighted_squares, double weights)
+{
+    return weights > 0.0 ? std::sqrt(weighted_squares / weights) : 0.0;
+}
+
+}  // namespace
+
+SmoothnessRuler::SmoothnessRuler(const Positions& rest, const pbs::Tets& tets, const std::vector<bool>& near) : rest_(rest), tets_(tets)
+{
+    checked_rest_volumes(rest, tets);
+    if (static_cast<Eigen::Index>(near.size()) != rest.rows()) throw pbs::InputError("", 0, "near", "", "expected one entry a vertex");
+    find_inner_faces(near);
+    find_skin_edges(near);
+}
+
+void SmoothnessRuler::find_inner_faces(const std::vector<bool>& near)
+{
+    std::map<std::array<int, 3>, int> open;  // faces seen once, and whose
+    for (int t = 0; t < static_cast<int>(tets_.rows()); ++t)
+        for (int opposite = 0; opposite < 4; ++opposite) {
+            std::array<int, 3> face;
+            for (int corner = 0, i = 0; corner < 4; ++corner)
+                if (corner != opposite) face[i++] = tets_(t, corner);
+            if (!all_near(face, near)) continue;
+            std::sort(face.begin(), face.end());
+            const auto [seen, first_time] = open.try_emplace(face, t);
+            if (!first_time) faces_.push_back({seen->second, t, triangle_area(rest_, face)});
+        }
+}
+
+void SmoothnessRuler::find_skin_edges(const std::vector<bool>& near)
+{
+    std::map<std::array<int, 2>, int> left_of;  // directed edges of the outward triangles, and the vertex opposite
+    const pbs::Triangles skin = pbs::boundary_of(tets_);
+    for (const auto triangle : skin.rowwise())
+        for (int i = 0; i < 3; ++i) left_of[{triangle(i), triangle((i + 1) % 3)}] = triangle((i + 2) % 3);
+    for (const auto& [edge, left] : left_of) {
+        const auto other = left_of.find({edge[1], edge[0]});
+        if (edge[0] > edge[1] || other == left_of.end() || !all_near(edge, near)) continue;
+        const double length_m = (point_of(rest_, edge[1]) - point_of(rest_, edge[0])).norm();
+        const double angle_rad = dihedral_angle(rest_, edge[0], edge[1], left, other->second);
+        edges_.push_back({edge[0], edge[1], left, other->second, length_m, angle_rad});
+    }
+}
+
+Eigen::Matrix3d SmoothnessRuler::green_strain(const Positions& positions, int tet) const
+{
+    const Eigen::Matrix3d f = edges_from_first(positions, tets_, tet) * edges_from_first(rest_, tets_, tet).inverse();
+    return 0.5 * (f.transpose() * f - Eigen::Matrix3d::Identity());
+}
+
+Smoothness SmoothnessRuler::measure(const Positions& positions) const
+{
+    require_points(positions, rest_.rows(), "the frame");
+    double jumps = 0.0, area = 0.0, bends = 0.0, length = 0.0;
+    for (const InnerFace& face : faces_) {
+        jumps += face.area_m2 * (green_strain(positions, face.tet) - green_strain(positions, face.other)).squaredNorm();
+        area += face.area_m2;
+    }
+    for (const SkinEdge& edge : edges_) {
+        const double change = dihedral_angle(positions, edge.first, edge.second, edge.left, edge.right) - edge.angle_rad;
+        bends += edge.length_m * std::pow(std::remainder(change, 2.0 * std::numbers::pi), 2);
+        length += edge.length_m;
+    }
+    return {rms(jumps, area), rms(bends, length)};
+}
+
+}  // namespace analysis

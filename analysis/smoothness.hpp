@@ -1,0 +1,45 @@
+// How smooth a deformed body is in a region: jumps of strain between neighbouring tets, and bending of the skin between neighbouring faces.
+//   const SmoothnessRuler ruler(mesh.rest, mesh.tets, near_the_joint);
+//   ruler.measure(positions).strain_jump_rms;
+// Strains do not know of rotation: a region that turns as a whole is as smooth as at rest.
+#pragma once
+
+#include "pbs/geometry/types.hpp"
+
+#include <vector>
+
+namespace analysis {
+
+struct Smoothness {
+    // rms over inner faces, weighted by rest area, of |E - E'|, E = (F^T F - 1) / 2 of the tets on both sides (Green), Frobenius norm.
+    double strain_jump_rms = 0.0;
+    double bending_rms_rad = 0.0;  // rms over the skin's edges, weighted by rest length, of the dihedral angle's change
+};
+
+class SmoothnessRuler {
+public:
+    // near: vertices of the region, #V; faces and edges all of whose corners are in it are measured. A region without any measures 0.
+    SmoothnessRuler(const pbs::Positions& rest, const pbs::Tets& tets, const std::vector<bool>& near);
+    Smoothness measure(const pbs::Positions& positions) const;
+
+private:
+    struct InnerFace {
+        int tet, other;
+        double area_m2;
+    };
+    struct SkinEdge {
+        int first, second;  // its ends
+        int left, right;    // the vertices opposite it
+        double length_m, angle_rad;
+    };
+    void find_inner_faces(const std::vector<bool>& near);
+    void find_skin_edges(const std::vector<bool>& near);
+    Eigen::Matrix3d green_strain(const pbs::Positions& positions, int tet) const;
+
+    pbs::Positions rest_;
+    pbs::Tets tets_;
+    std::vector<InnerFace> faces_;
+    std::vector<SkinEdge> edges_;
+};
+
+}  // namespace analysis

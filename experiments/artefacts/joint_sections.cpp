@@ -1,0 +1,100 @@
+#include "experiments/artefacts/joint_sections.hpp"
+
+#include "pbs/geometry/topology.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace experiments {
+namespace {
+
+constexpr double reach_radii = 2.0;
+constexpr int stations_a_radius = 5;
+
+pbs::Vec3 direction(const pbs::Skeleton& skeleton, int bone, const pbs::Pose& pose)
+{
+    return pose[bone].linear() * (skeleton.bones[bone].tail - skeleton.bones[bone].head).normalized();
+}
+
+std::vector<double> offsets_of(const LimbJoint& joint)
+{
+    const double spacing_m = joint.radius_m / stations_a_radius;
+    const int before = static_cast<int>(std::min(reach_radii * joint.radius_m, joint.half_parent_m) / spacing_m);
+    const int after = static_cast<int>(std::min(reach_radii * joint.radius_m, joint.half_child_m) / spacing_m);
+    std::vector<double> offsets_m;
+    for (int i = -before; i <= after; ++i) offsets_m.push_back(i * spacing_m);
+    return offsets_m;
+}
+
+double share(double now, double rest)
+{
+    return rest > 0.0 ? now / rest : 1.0;
+}
+
+}  // namespace
+
+SectionExtremesOverRest extremes_of(const JointProfile& profile)
+{
+    SectionExtremesOverRest extremes;
+    if (profile.empty()) return extremes;
+    const auto range = [&](double JointSection::*size) {
+        const auto [least, most] =
+            std::minmax_element(profile.begin(), profile.end(), [&](const auto& a, const auto& b) { return a.*size < b.*size; });
+        return std::pair{(*least).*size, (*most).*size};
+    };
+    extremes.smallest_radius = range(&JointSection::smallest_radius).first;
+    extremes.largest_radius = range(&JointSection::largest_radius).second;
+    std::tie(extremes.smallest_area, extremes.largest_area) = range(&JointSection::area);
+    return extremes;
+}
+
+JointSections::JointSections(const pbs::Character& character, const LimbJoint& joint)
+    : skeleton_(character.skeleton), joint_(joint), skin_(pbs::boundary_of(character.mesh.tets)), offsets_m_(offsets_of(joint))
+{
+    const pbs::Pose still(skeleton_.bones.size(), Eigen::Isometry3d::Identity());
+    rest_ = sizes(character.mesh.rest, still, nullptr);
+}
+
+std::vector<pbs::CuttingPlane> JointSections::planes(const pbs::Pose& pose) const
+{
+    const pbs::Pose still(pose.size(), Eigen::Isometry3d::Identity());
+    const pbs::Vec3 before = direction(skeleton_, joint_.parent, pose), after = direction(skeleton_, joint_.child, pose);
+    std::vector<pbs::CuttingPlane> planes;
+    for (const double offset_m : offsets_m_) {
+        const int bone = offset_m < 0.0 ? joint_.parent : joint_.child;
+        const double turned = std::clamp(0.5 + 0.5 * offset_m / (reach_radii * joint_.radius_m), 0.0, 1.0);
+        const pbs::Vec3 at_rest = joint_.point + offset_m * direction(skeleton_, bone, still);
+        const pbs::Vec3 normal = (1.0 - turned) * before + turned * after;
+        planes.push_back({pose[bone] * at_rest, normal.norm() > 0.0 ? normal : after});
+    }
+    return planes;
+}
+
+std::vector<analysis::OutlineSize> JointSections::sizes(const pbs::Positions& positions, const pbs::Pose& pose,
+                                                        std::vector<int>* outlines) const
+{
+    const std::vector<pbs::CuttingPlane> cuts = planes(pose);
+    const auto sections = pbs::section_outlines(positions, skin_, cuts);
+    std::vector<analysis::OutlineSize> sizes;
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+        const pbs::Positions* own = analysis::enclosing_outline(sections[i], {cuts[i].point, cuts[i].normal});
+        sizes.push_back(own ? analysis::outline_size(*own) : analysis::OutlineSize{});
+        if (outlines) outlines->push_back(static_cast<int>(sections[i].size()));
+    }
+    return sizes;
+}
+
+JointProfile JointSections::measure(const pbs::Positions& positions, const pbs::Pose& pose) const
+{
+    std::vector<int> outlines;
+    const std::vector<analysis::OutlineSize> now = sizes(positions, pose, &outlines);
+    JointProfile profile;
+    for (std::size_t i = 0; i < now.size(); ++i)
+        profile.push_back({offsets_m_[i], share(now[i].area_m2, rest_[i].area_m2),
+                           share(now[i].smallest_radius_m, rest_[i].smallest_radius_m),
+                           share(now[i].largest_radius_m, rest_[i].largest_radius_m), outlines[i]});
+    return profile;
+}
+
+}  // namespace experiments

@@ -1,0 +1,20 @@
+// C06: the same poses with the weights of Eq. 2 and with every vertex on its nearest bone alone.
+//   for (const analysis::Measurement& figure : compare_weights(of).figures) ...
+// At each joint: the jump of strain between neighbouring tets and the bending of the skin (analysis/smoothness.hpp); of the whole body the
+// absolute volume change; and the iterations after which PBS stays within a tenth of its residual after 400. Each is given as Eq. 2 over
+// rigid, with the spread over orders, precisions and meshes.
+#pragma once
+
+#include "analysis/measurement.hpp"
+#include "experiments/artefacts/artefact_case.hpp"
+
+namespace experiments {
+
+struct WeightsComparison {
+    std::vector<analysis::Measurement> figures;
+    analysis::CsvTable smoothness;  // what the ratios are of
+};
+
+WeightsComparison compare_weights(const ArtefactCase& of);
+
+}  // namespace experiments
