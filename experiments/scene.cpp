@@ -115,6 +115,12 @@ DeformerSpec pbs_spec(const SceneValues& values)
     if (values.has_table("pbs.variant")) {
         options.stiffness_form = option_of<pbs::StiffnessForm>(values.text("pbs.variant.stiffness"));
         if (options.stiffness_form != pbs::StiffnessForm::per_iteration) spec.variant = name_of(options.stiffness_form);
+        options.class_order = option_of<pbs::ClassOrder>(values.text("pbs.variant.class_order"));
+        options.lbs_entry = option_of<pbs::LbsEntry>(values.text("pbs.variant.lbs_entry"));
+        options.bind_on_bone = option_of<pbs::BindOnBone>(values.text("pbs.variant.bind_on_bone"));
+        if (options.class_order != pbs::ClassOrder::bind_stretch_volume) spec.variant = name_of(options.class_order);
+        if (options.lbs_entry != pbs::LbsEntry::start) spec.variant = name_of(options.lbs_entry);
+        if (options.bind_on_bone != pbs::BindOnBone::pinned) spec.variant = name_of(options.bind_on_bone);
         options.volume_form = option_of<pbs::VolumeForm>(values.text("pbs.variant.volume_form"));
         if (options.volume_form != pbs::VolumeForm::derived) take_as_printed(values, spec);
     }

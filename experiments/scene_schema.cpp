@@ -102,6 +102,17 @@ std::vector<SceneKey> pbs_keys()
                    "2006), "
                    "so that a lone constraint is left with 1 - k of its error whatever their number"),
                {"per_iteration", "exponent"}),
+        one_of(key("pbs.variant", "class_order", text, "\"bind_stretch_volume\"", "",
+                   "in which order an iteration takes the classes; bind_stretch_volume is Algorithm 1's, lines 11-13"),
+               {"bind_stretch_volume", "bind_volume_stretch", "stretch_bind_volume", "stretch_volume_bind", "volume_bind_stretch",
+                "volume_stretch_bind"}),
+        one_of(key("pbs.variant", "lbs_entry", text, "\"start\"", "",
+                   "where LBS enters Algorithm 1: start: what does not jiggle starts every step at its LBS position; increment: all is "
+                   "integrated, and moved by what LBS has moved since the last step"),
+               {"start", "increment"}),
+        one_of(key("pbs.variant", "bind_on_bone", text, "\"pinned\"", "",
+                   "a vertex on its bone: pinned to it, or unbound: without a bind constraint"),
+               {"pinned", "unbound"}),
         one_of(key("pbs.variant", "volume_form", text, "\"derived\"", "",
                    "the volume correction: derived from Eq. 11, or with errors of print (labels_relative, labels_absolute: Eq. 12-14 under "
                    "the printed particles; sign: Eq. 17-20; as_printed: all)"),

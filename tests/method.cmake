@@ -8,7 +8,7 @@ endforeach()
 foreach(name IN ITEMS stretch volume bind volume_printed)
     pbs_test(unit pbs/constraints/${name} pbs_method)
 endforeach()
-foreach(name IN ITEMS constraint_set residuals project_plain algorithm_1 parallel pbs_solver poses_solver)
+foreach(name IN ITEMS constraint_set particles reordered_projection residuals project_plain algorithm_1 parallel pbs_solver poses_solver)
     pbs_test(unit pbs/solver/${name} pbs_method)
 endforeach()
 foreach(name IN ITEMS vertex_order constraint_groups grouped_edges grouped_tets batch_schedule batch_program batch_kernels pose_kernels

@@ -40,7 +40,7 @@ struct ConvergencePaths {
     double k_stretch = 0.0;
     ProjectionSetting setting;
     bool reference_self_intersects = false;
-    std::vector<IterationPath> paths;        // by Start
+    std::vector<IterationPath> paths;        // by SolverStart
     std::vector<double> limit_from_lbs_pct;  // from the last shape of each path to that of LBS, at the joints
 };
 

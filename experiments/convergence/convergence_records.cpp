@@ -2,6 +2,8 @@
 
 #include "experiments/deformers/option_names.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +12,7 @@ namespace {
 
 using Cells = std::vector<analysis::CsvTable::Cell>;
 
-const std::vector<std::string> case_columns = {"body", "pose", "vertices", "tets", "order", "precision", "k_stretch", "start"};
+const std::vector<std::string> case_columns = {"body", "pose", "vertices", "tets", "own_mesh", "order", "precision", "k_stretch", "start"};
 
 Cells case_cells(const ConvergencePaths& of, std::size_t start)
 {
@@ -18,6 +20,7 @@ Cells case_cells(const ConvergencePaths& of, std::size_t start)
             of.pose,
             of.vertices,
             of.tets,
+            int(of.own_mesh),
             name_of(of.setting.order),
             name_of(of.setting.precision),
             of.k_stretch,
@@ -29,6 +32,12 @@ std::vector<T> joined(std::vector<T> first, const std::vector<T>& more)
 {
     first.insert(first.end(), more.begin(), more.end());
     return first;
+}
+
+// Enough of a figure that is drawn; whole numbers would double the record.
+double six_digits(double value)
+{
+    return std::stod(fmt::format("{:.6g}", value));
 }
 
 // Those that are looked at in a record: the first one past each fifth of a decade, and the last.
@@ -103,8 +112,14 @@ analysis::CsvTable residual_table(const ConvergenceResult& result)
         result,
         {"iteration", "stretch_rms", "volume_rms", "bind_rms_m", "combined", "volume_change_pct", "volume_abs_change_pct", "inverted_tets"},
         [](const Look& look) {
-            return Cells{look.iteration,         look.stretch_rms,           look.volume_rms,   look.bind_rms_m, look.combined,
-                         look.volume_change_pct, look.volume_abs_change_pct, look.inverted_tets};
+            return Cells{look.iteration,
+                         six_digits(look.stretch_rms),
+                         six_digits(look.volume_rms),
+                         six_digits(look.bind_rms_m),
+                         six_digits(look.combined),
+                         six_digits(look.volume_change_pct),
+                         six_digits(look.volume_abs_change_pct),
+                         look.inverted_tets};
         });
 }
 
@@ -149,7 +164,7 @@ analysis::CsvTable rate_table(const ConvergenceResult& result)
 analysis::CsvTable towards_table(const ConvergenceResult& result)
 {
     return table_by_look(result, {"iteration", "error_joint_pct"}, [](const Look& look) {
-        return std::isnan(look.error_joint_pct) ? Cells{} : Cells{look.iteration, look.error_joint_pct};
+        return std::isnan(look.error_joint_pct) ? Cells{} : Cells{look.iteration, six_digits(look.error_joint_pct)};
     });
 }
 

@@ -41,7 +41,8 @@ Rate rate_of(const IterationPath& path, double floor)
     constexpr double unchanged = 0.01;
     const Look &last = path.looks.back(), &half = look_at(path, last.iteration / 2);
     Rate rate;
-    if (std::abs(last.combined / half.combined - 1.0) < unchanged) {
+    const bool is_rounding = last.combined < satisfied_residual;
+    if (is_rounding || std::abs(last.combined / half.combined - 1.0) < unchanged) {
         floor = last.combined;
         rate.stalls_at = reached_residual(path, floor).iterations;
     }
@@ -52,7 +53,7 @@ Rate rate_of(const IterationPath& path, double floor)
             excess.push_back(std::log(look.combined - floor));
         }
     rate.rate.estimate = rate.rate.low = rate.rate.high = rate.log_rms_off = analysis::not_known;
-    if (iterations.size() < 3) return rate;
+    if (is_rounding || iterations.size() < 3) return rate;
     const analysis::LineFit fit = analysis::fit_line(iterations, excess);
     rate.log_rms_off = fit.residual_rms;
     rate.rate = fit.slope;

@@ -29,7 +29,8 @@ Reached reached_residual(const IterationPath& path, double floor);
 Reached reached_volume(const IterationPath& path);
 
 // residual_n = floor + c rate^n up to where it stalls for good, within 5 % of its own last residual. A residual that the second half of the
-// iterations changes by more than 1 % has not stalled: then floor is that of all starts, and the fit goes to the end.
+// iterations changes by more than 1 % has not stalled: then floor is that of all starts, and the fit goes to the end. No rate where the
+// last residual is rounding.
 struct Rate {
     std::optional<int> stalls_at;
     analysis::Interval rate;   // least squares of log(residual_n - floor); its points are no independent sample, so it is too narrow

@@ -45,13 +45,13 @@ private:
 
 }  // namespace
 
-const char* name_of(Start start)
+const char* name_of(SolverStart start)
 {
     static constexpr const char* names[] = {"lbs", "previous_frame", "rest_pose", "rigid_bind"};
     return names[static_cast<int>(start)];
 }
 
-const char* words_for(Start start)
+const char* words_for(SolverStart start)
 {
     static constexpr const char* words[] = {"LBS", "the previous frame", "the rest pose", "the rigid bind"};
     return words[static_cast<int>(start)];

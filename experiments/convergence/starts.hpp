@@ -6,7 +6,7 @@
 //   rest_pose       the rest positions, wherever the character has gone meanwhile
 //   rigid_bind      every vertex carried by its nearest bone alone
 // For frames 164 and 708 of a motion:
-//   for (const FrameStarts& frame : starts_of(character, motion, {164, 708}, options)) frame.shapes[int(Start::rest_pose)];
+//   for (const FrameStarts& frame : starts_of(character, motion, {164, 708}, options)) frame.shapes[int(SolverStart::rest_pose)];
 #pragma once
 
 #include "pbs/character/character.hpp"
@@ -17,15 +17,16 @@
 
 namespace experiments {
 
-enum class Start { lbs, previous_frame, rest_pose, rigid_bind };
-inline constexpr std::array<Start, 4> all_starts = {Start::lbs, Start::previous_frame, Start::rest_pose, Start::rigid_bind};
+enum class SolverStart { lbs, previous_frame, rest_pose, rigid_bind };
+inline constexpr std::array<SolverStart, 4> all_starts = {SolverStart::lbs, SolverStart::previous_frame, SolverStart::rest_pose,
+                                                          SolverStart::rigid_bind};
 
-const char* name_of(Start start);    // lbs, previous_frame, ...: in records
-const char* words_for(Start start);  // "LBS", "the previous frame", ...: in the claims' quantities
+const char* name_of(SolverStart start);    // lbs, previous_frame, ...: in records
+const char* words_for(SolverStart start);  // "LBS", "the previous frame", ...: in the claims' quantities
 
 struct FrameStarts {
     pbs::Positions bind_points;            // posed q_i [m], #V x 3
-    std::array<pbs::Positions, 4> shapes;  // by Start [m], #V x 3
+    std::array<pbs::Positions, 4> shapes;  // by SolverStart [m], #V x 3
 };
 
 // frames: of the motion, increasing. options: of the steps that lead to previous_frame. A motion's first frame has none before it: LBS.

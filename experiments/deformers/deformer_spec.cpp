@@ -20,6 +20,10 @@ nlohmann::json to_json(const pbs::PbsOptions& options)
                            {"stop_residual", options.stop_residual}};
     if (options.sleep) json["sleep_tolerance"] = options.sleep_tolerance;
     if (options.jiggle) json["jiggle"] = {{"k_stretch", options.jiggle->k_stretch}};
+    if (options.jiggle && options.jiggle->k_bind) json["jiggle"]["k_bind"] = *options.jiggle->k_bind;
+    if (options.class_order != pbs::ClassOrder::bind_stretch_volume) json["class_order"] = name_of(options.class_order);
+    if (options.lbs_entry != pbs::LbsEntry::start) json["lbs_entry"] = name_of(options.lbs_entry);
+    if (options.bind_on_bone != pbs::BindOnBone::pinned) json["bind_on_bone"] = name_of(options.bind_on_bone);
     return json;
 }
 

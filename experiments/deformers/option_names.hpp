@@ -34,6 +34,26 @@ struct OptionNames<pbs::StiffnessForm> {
         {{pbs::StiffnessForm::per_iteration, "per_iteration"}, {pbs::StiffnessForm::exponent, "exponent"}}};
 };
 template <>
+struct OptionNames<pbs::ClassOrder> {
+    static constexpr std::array<std::pair<pbs::ClassOrder, const char*>, 6> table{
+        {{pbs::ClassOrder::bind_stretch_volume, "bind_stretch_volume"},
+         {pbs::ClassOrder::bind_volume_stretch, "bind_volume_stretch"},
+         {pbs::ClassOrder::stretch_bind_volume, "stretch_bind_volume"},
+         {pbs::ClassOrder::stretch_volume_bind, "stretch_volume_bind"},
+         {pbs::ClassOrder::volume_bind_stretch, "volume_bind_stretch"},
+         {pbs::ClassOrder::volume_stretch_bind, "volume_stretch_bind"}}};
+};
+template <>
+struct OptionNames<pbs::LbsEntry> {
+    static constexpr std::array<std::pair<pbs::LbsEntry, const char*>, 2> table{
+        {{pbs::LbsEntry::start, "start"}, {pbs::LbsEntry::increment, "increment"}}};
+};
+template <>
+struct OptionNames<pbs::BindOnBone> {
+    static constexpr std::array<std::pair<pbs::BindOnBone, const char*>, 2> table{
+        {{pbs::BindOnBone::pinned, "pinned"}, {pbs::BindOnBone::unbound, "unbound"}}};
+};
+template <>
 struct OptionNames<pbs::VolumeForm> {
     static constexpr std::array<std::pair<pbs::VolumeForm, const char*>, 5> table{{{pbs::VolumeForm::derived, "derived"},
                                                                                    {pbs::VolumeForm::labels_relative, "labels_relative"},

@@ -45,6 +45,7 @@ struct Study {
 const std::vector<Study>& studies();
 
 StudyPlan plan_volume_study(bool full);
+StudyConclusion conclude_volume_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_audit_study(bool full);
 StudyConclusion conclude_audit_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_fit_study(bool full);
@@ -52,14 +53,20 @@ StudyConclusion conclude_fit_study(const std::string& folder, const StudyPlan& p
 StudyPlan plan_artefacts_study(bool full);
 StudyConclusion conclude_artefacts_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_momentum_study(bool full);
+StudyPlan plan_ambiguity_study(bool full);
+StudyConclusion conclude_ambiguity_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_convergence_study(bool full);
 StudyConclusion conclude_convergence_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_work_precision_study(bool full);
 StudyConclusion conclude_work_precision_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_stability_study(bool full);
 StudyConclusion conclude_stability_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
+StudyPlan plan_stiffness_study(bool full);
+StudyConclusion conclude_stiffness_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_error_split_study(bool full);
 StudyConclusion conclude_error_split_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
+StudyPlan plan_setup_study(bool full);
+StudyConclusion conclude_setup_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_bench_study(bool full);
 StudyConclusion conclude_bench_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_features_study(bool full);

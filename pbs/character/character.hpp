@@ -33,4 +33,7 @@ struct Character {
 // Vertices farther from their nearest bone than the mean over all (Sec. 4), #V.
 std::vector<bool> jiggle_zone(const BoneBinding& binding);
 
+// Another reading of it: farther than the mean over the vertices of their own bone, #V.
+std::vector<bool> jiggle_zone_by_bone(const BoneBinding& binding);
+
 }  // namespace pbs

@@ -56,4 +56,15 @@ Positions posed_bind_points(const BoneBinding& binding, const Pose& pose)
     return points;
 }
 
+Positions reprojected_bind_points(const BoneBinding& binding, const Skeleton& skeleton, const Pose& pose, const Positions& positions)
+{
+    Positions points(positions.rows(), 3);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+        const int j = binding.bone[i];
+        const Bone posed{"", -1, pose[j] * skeleton.bones[j].head, pose[j] * skeleton.bones[j].tail};
+        points.row(i) = project_on_bone(positions.row(i), posed).point;
+    }
+    return points;
+}
+
 }  // namespace pbs

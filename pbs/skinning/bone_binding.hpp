@@ -17,4 +17,8 @@ BoneBinding bind_to_nearest_bone(const Positions& rest, const Skeleton& skeleton
 // The projection points q_i carried by their posed bones [m], #V x 3.
 Positions posed_bind_points(const BoneBinding& binding, const Pose& pose);
 
+// The other reading of "its projection on the nearest bone" (Sec. 3.6): positions [m], #V x 3, projected anew on their posed bones'
+// segments.
+Positions reprojected_bind_points(const BoneBinding& binding, const Skeleton& skeleton, const Pose& pose, const Positions& positions);
+
 }  // namespace pbs

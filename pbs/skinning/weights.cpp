@@ -1,5 +1,7 @@
 #include "pbs/skinning/weights.hpp"
 
+#include <algorithm>
+
 namespace pbs {
 namespace {
 
@@ -32,6 +34,21 @@ Weights paper_weights(const BoneBinding& binding, const Skeleton& skeleton)
             append_vertex(weights, {bone});
         else
             append_vertex(weights, at_tail[bone]);
+    }
+    return weights;
+}
+
+Weights either_end_weights(const BoneBinding& binding, const Skeleton& skeleton)
+{
+    Weights weights{{0}, {}, {}};
+    for (std::size_t i = 0; i < binding.bone.size(); ++i) {
+        std::vector<int> bones = {binding.bone[i]};
+        const double t = binding.parameter(i);
+        if (t < 1.0 / 6.0 || t > 5.0 / 6.0)
+            for (const BoneEnd end : {BoneEnd::head, BoneEnd::tail})
+                for (const int other : bones_meeting(skeleton, binding.bone[i], end))
+                    if (std::find(bones.begin(), bones.end(), other) == bones.end()) bones.push_back(other);
+        append_vertex(weights, bones);
     }
     return weights;
 }

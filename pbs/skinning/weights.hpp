@@ -18,4 +18,7 @@ struct Weights {
 Weights paper_weights(const BoneBinding& binding, const Skeleton& skeleton);  // Eq. 2
 Weights rigid_weights(const BoneBinding& binding);                            // nearest bone only
 
+// The other reading of Eq. 2's n_joints: near either end, 1 / n over all bones that touch the bone at either end.
+Weights either_end_weights(const BoneBinding& binding, const Skeleton& skeleton);
+
 }  // namespace pbs

@@ -29,6 +29,7 @@ void check_options(const PbsOptions& options)
     check_stiffness("k_volume", options.k_volume);
     check_stiffness("k_bind", options.k_bind);
     if (options.jiggle) check_stiffness("jiggle.k_stretch", options.jiggle->k_stretch);
+    if (options.jiggle && options.jiggle->k_bind) check_stiffness("jiggle.k_bind", *options.jiggle->k_bind);
     if (!(options.stop_residual >= 0.0))
         throw InputError("pbs", 0, "stop_residual", std::to_string(options.stop_residual), "expected 0 or more");
     if (options.threads < 1) throw InputError("pbs", 0, "threads", std::to_string(options.threads), "expected 1 or more");
@@ -61,6 +62,8 @@ void check_held(const std::vector<bool>& held, const std::vector<bool>& jiggle_z
         if (!held[i]) continue;
         if (options.jiggle && !jiggle_zone.empty() && jiggle_zone[i])
             throw InputError("pbs", 0, "held", "vertex " + std::to_string(i), "expected a vertex outside the jiggling zone");
+        if (options.lbs_entry == LbsEntry::increment)
+            throw InputError("pbs", 0, "held", "vertex " + std::to_string(i), "expected none with lbs_entry increment: all are integrated");
         if (options.volume_form != VolumeForm::derived)
             throw InputError("pbs", 0, "held", "vertex " + std::to_string(i),
                              "expected none with a printed volume_form: all masses are one");
@@ -98,10 +101,16 @@ std::vector<VolumeConstraint<Scalar>> volume_constraints(const TetMesh& mesh, do
 }
 
 template <typename Scalar>
-std::vector<BindConstraint<Scalar>> bind_constraints(const Eigen::VectorXd& distance, double k)
+std::vector<BindConstraint<Scalar>> bind_constraints(const Eigen::VectorXd& distance, const std::vector<bool>& jiggle_zone,
+                                                     const PbsOptions& options)
 {
     std::vector<BindConstraint<Scalar>> constraints;
-    for (int i = 0; i < distance.size() && k > 0.0; ++i) constraints.push_back({i, Scalar(distance(i)), Scalar(k)});
+    for (int i = 0; i < distance.size(); ++i) {
+        const bool jiggles = options.jiggle && !jiggle_zone.empty() && jiggle_zone[i];
+        const double k = jiggles ? options.jiggle->k_bind.value_or(options.k_bind) : options.k_bind;
+        const bool unbound = distance(i) == 0.0 && options.bind_on_bone == BindOnBone::unbound;
+        if (k > 0.0 && !unbound) constraints.push_back({i, Scalar(distance(i)), Scalar(share_removed(k, options))});
+    }
     return constraints;
 }
 
@@ -129,8 +138,7 @@ ConstraintSet<Scalar> make_constraint_set(const TetMesh& mesh, const Eigen::Vect
     check_options(options);
     check_mesh(mesh, bind_distance, jiggle_zone, held);
     check_held(held, jiggle_zone, options);
-    return {bind_constraints<Scalar>(bind_distance, share_removed(options.k_bind, options)),
-            stretch_constraints<Scalar>(mesh, jiggle_zone, options),
+    return {bind_constraints<Scalar>(bind_distance, jiggle_zone, options), stretch_constraints<Scalar>(mesh, jiggle_zone, options),
             volume_constraints<Scalar>(mesh, share_removed(options.k_volume, options)), inverse_masses<Scalar>(mesh, options.masses, held)};
 }
 

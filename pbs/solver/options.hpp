@@ -24,8 +24,27 @@ enum class VolumeForm { derived, labels_relative, labels_absolute, sign, as_prin
 // Position based dynamics, VRIPHYS 2006), so that a lone constraint is left with 1 - k of its error whatever the number of iterations.
 enum class StiffnessForm { per_iteration, exponent };
 
+// In which order an iteration takes the classes; bind_stretch_volume is Algorithm 1's (lines 11-13).
+enum class ClassOrder {
+    bind_stretch_volume,
+    bind_volume_stretch,
+    stretch_bind_volume,
+    stretch_volume_bind,
+    volume_bind_stretch,
+    volume_stretch_bind
+};
+
+// Where LBS enters Algorithm 1, which does not say. start: particles outside the jiggling zone start every step at their LBS position,
+// those inside are integrated. increment: every particle is integrated, and LBS moves it beforehand by what its LBS position has moved
+// since the last step; velocities are relative to that.
+enum class LbsEntry { start, increment };
+
+// Of a vertex on its bone (d_i = 0): pinned to its material point, or without a bind constraint.
+enum class BindOnBone { pinned, unbound };
+
 struct Jiggle {
-    double k_stretch = 0.1;  // of edges with both ends in the jiggling zone
+    double k_stretch = 0.1;             // of edges with both ends in the jiggling zone
+    std::optional<double> k_bind = {};  // of the zone's vertices; nothing: as elsewhere
 };
 
 struct PbsOptions {
@@ -38,6 +57,9 @@ struct PbsOptions {
     Masses masses = Masses::unit;
     VolumeForm volume_form = VolumeForm::derived;
     StiffnessForm stiffness_form = StiffnessForm::per_iteration;
+    ClassOrder class_order = ClassOrder::bind_stretch_volume;
+    LbsEntry lbs_entry = LbsEntry::start;
+    BindOnBone bind_on_bone = BindOnBone::pinned;
     // Constraints that LBS satisfies within the tolerance, and all around them, are left out of the frame; at its end they are looked at
     // again and the frame is redone with those that are not satisfied any more. Tolerance: ratios; bind in shares of the mean edge.
     bool sleep = false;

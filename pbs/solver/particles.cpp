@@ -2,14 +2,20 @@
 
 #include "pbs/geometry/input_error.hpp"
 
+#include <numeric>
 #include <type_traits>
 
 namespace pbs {
 namespace {
 
-std::vector<int> jiggling_vertices(const std::vector<bool>& jiggle_zone, const PbsOptions& options)
+std::vector<int> integrated_vertices(const Positions& rest, const std::vector<bool>& jiggle_zone, const PbsOptions& options)
 {
     std::vector<int> vertices;
+    if (options.lbs_entry == LbsEntry::increment) {
+        vertices.resize(rest.rows());
+        std::iota(vertices.begin(), vertices.end(), 0);
+        return vertices;
+    }
     for (std::size_t i = 0; options.jiggle && i < jiggle_zone.size(); ++i)
         if (jiggle_zone[i]) vertices.push_back(static_cast<int>(i));
     return vertices;
@@ -24,7 +30,10 @@ void check_rows(const char* field, const Positions& points, Eigen::Index vertice
 }  // namespace
 
 Particles::Particles(const Positions& rest, const std::vector<bool>& jiggle_zone, const PbsOptions& options)
-    : gravity_m_s2_(options.gravity_m_s2), jiggling_(jiggling_vertices(jiggle_zone, options)), x_(rest)
+    : gravity_m_s2_(options.gravity_m_s2),
+      by_increment_(options.lbs_entry == LbsEntry::increment),
+      jiggling_(integrated_vertices(rest, jiggle_zone, options)),
+      x_(rest)
 {
 }
 
@@ -41,6 +50,7 @@ void Particles::predict(const Positions& lbs_positions, double dt_s)
         v_ = Positions::Zero(jiggling_.size(), 3);  // (2)
         x_ = lbs_positions;                         // (3)
     }
+    if (by_increment_) move_by_lbs_increment(lbs_positions);
     p_ = lbs_positions;
     // (6)
     for (std::size_t j = 0; j < jiggling_.size(); ++j) {
@@ -48,6 +58,12 @@ void Particles::predict(const Positions& lbs_positions, double dt_s)
         v_.row(j) += gravity_m_s2_.transpose() * dt_s;  // (7)
         p_.row(i) = x_.row(i) + v_.row(j) * dt_s;       // (8)
     }                                                   // (9)
+}
+
+void Particles::move_by_lbs_increment(const Positions& lbs_positions)
+{
+    if (lbs_before_.rows() > 0) x_ += lbs_positions - lbs_before_;
+    lbs_before_ = lbs_positions;
 }
 
 void Particles::update(double dt_s)

@@ -1,5 +1,5 @@
 // The particles of Algorithm 1, before and after their projection. Particles outside the jiggling zone start every step at their LBS
-// position and have no velocity; those inside are integrated. All in double.
+// position and have no velocity; those inside are integrated; with LbsEntry::increment all are, as if all were inside. All in double.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -26,11 +26,15 @@ public:
     const Positions& velocities() const { return v_; }  // v_i [m/s] of the jiggling vertices, #jiggling x 3; none before the first step
 
 private:
+    void move_by_lbs_increment(const Positions& lbs_positions);
+
     Vec3 gravity_m_s2_;
+    bool by_increment_;
     std::vector<int> jiggling_;  // vertices that are integrated
 
     Positions x_, p_;
-    Positions v_;  // v_i [m/s] of the jiggling vertices, #jiggling x 3; none before the first step
+    Positions v_;           // v_i [m/s] of the jiggling vertices, #jiggling x 3; none before the first step
+    Positions lbs_before_;  // LBS positions of the last step [m], by_increment_ alone
 };
 
 // What float projections are relative to: the mean position, so that a character far from the world's origin loses no digits.

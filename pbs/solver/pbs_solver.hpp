@@ -26,7 +26,8 @@ public:
     ~PbsSolver();
 
     // One time step of dt [s]: particles outside the jiggling zone start at their LBS position [m] (#V x 3), those in it are integrated;
-    // bind_points are the posed q_i [m], #V x 3. The first step puts the jiggling particles at their LBS position, at rest.
+    // bind_points are the posed q_i [m], #V x 3. Where nothing jiggles, another start may be given in place of the LBS positions. The first
+    // step puts the jiggling particles at their LBS position, at rest.
     StepSummary advance(const Positions& lbs_positions, const Positions& bind_points, double dt_s);
 
     const Positions& positions() const;  // [m], #V x 3

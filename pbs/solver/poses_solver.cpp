@@ -26,6 +26,9 @@ void check_poses(const std::vector<PbsOptions>& options)
             refuse("poses", "expected one order, precision and kind of masses for all");
         if (pose.jiggle.has_value() != options[0].jiggle.has_value()) refuse("jiggle", "expected in all poses or none");
         if (pose.volume_form != VolumeForm::derived) refuse("volume_form", "expected derived for many poses at once");
+        if (pose.class_order != ClassOrder::bind_stretch_volume || pose.lbs_entry != LbsEntry::start ||
+            pose.bind_on_bone != BindOnBone::pinned || (pose.jiggle && pose.jiggle->k_bind))
+            refuse("poses", "expected Algorithm 1's own reading (class_order, lbs_entry, bind_on_bone, jiggle.k_bind) for many at once");
         if (pose.stop_residual > 0.0 || pose.record_iterations || pose.sleep)
             refuse("poses", "expected no stop_residual, record_iterations or sleep for many at once");
     }

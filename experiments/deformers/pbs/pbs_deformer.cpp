@@ -16,7 +16,10 @@ void PbsDeformer::reset(const pbs::Character& character)
 
 bool PbsDeformer::works_ahead() const
 {
-    const bool each_its_own = options_.jiggle || options_.sleep || options_.stop_residual > 0.0 || options_.record_iterations;
+    const bool another_reading = options_.class_order != pbs::ClassOrder::bind_stretch_volume ||
+                                 options_.lbs_entry != pbs::LbsEntry::start || options_.bind_on_bone != pbs::BindOnBone::pinned;
+    const bool each_its_own =
+        another_reading || options_.jiggle || options_.sleep || options_.stop_residual > 0.0 || options_.record_iterations;
     return options_.threads > 1 && options_.order != pbs::Order::plain && !each_its_own &&
            !pbs::shared_among_threads(static_cast<int>(character_->mesh.rest.rows()));
 }

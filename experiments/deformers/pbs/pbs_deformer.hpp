@@ -20,7 +20,7 @@ public:
     // get the bits that they would get one by one.
     void foresee(const std::vector<pbs::Pose>& poses) override;
     const pbs::Positions& positions() const override { return ahead_ ? ahead_->positions(done_ahead_ - 1) : solver_->positions(); }
-    bool has_memory() const override { return options_.jiggle.has_value(); }
+    bool has_memory() const override { return options_.jiggle || options_.lbs_entry == pbs::LbsEntry::increment; }
 
 private:
     bool works_ahead() const;

@@ -34,4 +34,15 @@ TEST(JiggleZone, NoVerticesNoZone)
     EXPECT_TRUE(zone_of({}).empty());
 }
 
+// Bone 0 has the mean 2, bone 1 the mean 15: of all it would be 8.5.
+TEST(JiggleZoneByBone, IsFartherThanTheMeanOfItsOwnBone)
+{
+    BoneBinding binding;
+    binding.bone = {0, 1, 0, 1};
+    binding.distance = Eigen::Vector4d(1.0, 10.0, 3.0, 20.0);
+    EXPECT_EQ(jiggle_zone_by_bone(binding), (std::vector<bool>{false, false, true, true}));
+    EXPECT_EQ(jiggle_zone(binding), (std::vector<bool>{false, true, false, true}));
+    EXPECT_TRUE(jiggle_zone_by_bone({}).empty());
+}
+
 }  // namespace

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace {
 
 // Two spheres side by side along x, `distance` between their middles.
@@ -45,6 +47,30 @@ TEST(SelfIntersection, ABarBentThroughItselfIsFound)
         bar.rest.row(i) << r * std::sin(angle), r * std::cos(angle), bar.rest(i, 2);
     }
     EXPECT_TRUE(pbs::self_intersects(bar.rest, boundary));
+}
+
+// A torus round z, cut through its axis: two circles of the tube's radius; across its axis: two round each other; beside it: none.
+TEST(SectionOutlines, OfATorus)
+{
+    const pbs::SurfaceMesh torus = test_support::torus(1.0, 0.4, 40, 20);
+    const auto sections = pbs::section_outlines(torus.points, torus.triangles,
+                                                {{{0, 0.01, 0}, {0, 2, 0}}, {{0, 0, 0.01}, {0, 0, 1}}, {{0, 0, 0.5}, {0, 0, 1}}});
+    ASSERT_EQ(sections.size(), 3u);
+    ASSERT_EQ(sections[0].size(), 2u);
+    for (const pbs::Positions& circle : sections[0])
+        for (Eigen::Index i = 0; i < circle.rows(); ++i) {
+            EXPECT_NEAR(circle(i, 1), 0.01, 1e-12);
+            EXPECT_NEAR(std::hypot(std::abs(circle(i, 0)) - 1.0, circle(i, 2)), 0.4, 0.02);
+        }
+    EXPECT_EQ(sections[1].size(), 2u);
+    EXPECT_TRUE(sections[2].empty());
+}
+
+TEST(SectionOutlines, ASurfaceThroughItselfIsCutAndANormalOfZeroIsRefused)
+{
+    const pbs::SurfaceMesh through = two_spheres(1.0);
+    EXPECT_EQ(pbs::section_outlines(through.points, through.triangles, {{{0.5, 0, 0.01}, {0, 0, 1}}})[0].size(), 2u);
+    EXPECT_THROW(pbs::section_outlines(through.points, through.triangles, {{{0, 0, 0}, {0, 0, 0}}}), pbs::InputError);
 }
 
 TEST(PointsInside, AreToldFromThoseOutside)

@@ -73,4 +73,29 @@ TEST(PosedBindPoints, AreCarriedByTheirBones)
     EXPECT_NEAR((Vec3(points.row(1)) - Vec3(0, 0.5, 0)).norm(), 0.0, 1e-15);
 }
 
+// The forearm turned by 90 degrees about z stands along y; (0.1, 0.4, 0) is 0.4 along it, (0.3, 2, 0) beyond its tail.
+TEST(ReprojectedBindPoints, AreOnThePosedSegment)
+{
+    pbs::Positions rest(2, 3);
+    rest << 0.5, 0.1, 0, 0.9, 0.1, 0;
+    const pbs::BoneBinding binding = pbs::bind_to_nearest_bone(rest, limb);
+    const pbs::Pose bent = pbs::joint_sweep(limb, 1, Vec3::UnitZ(), 90.0, 2, 0.01).steps.back();
+    pbs::Positions moved(2, 3);
+    moved << 0.1, 0.4, 0, 0.3, 2.0, 0;
+    const pbs::Positions points = pbs::reprojected_bind_points(binding, limb, bent, moved);
+    EXPECT_NEAR((Vec3(points.row(0)) - Vec3(0, 0.4, 0)).norm(), 0.0, 1e-15);
+    EXPECT_NEAR((Vec3(points.row(1)) - Vec3(0, 1, 0)).norm(), 0.0, 1e-15);
+}
+
+TEST(ReprojectedBindPoints, OfARigidlyMovedBodyAreTheCarriedOnes)
+{
+    pbs::Positions rest(2, 3);
+    rest << -0.5, 0.1, 0.2, 0.9, 0.1, 0;
+    const pbs::BoneBinding binding = pbs::bind_to_nearest_bone(rest, limb);
+    const pbs::Pose turned(2, Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(0.7, Vec3(1, 2, 2) / 3.0)));
+    pbs::Positions moved(2, 3);
+    for (int i = 0; i < 2; ++i) moved.row(i) = turned[0] * Vec3(rest.row(i));
+    EXPECT_LT((pbs::reprojected_bind_points(binding, limb, turned, moved) - pbs::posed_bind_points(binding, turned)).norm(), 1e-14);
+}
+
 }  // namespace

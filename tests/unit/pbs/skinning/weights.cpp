@@ -90,4 +90,16 @@ TEST(RigidWeights, AreTheNearestBoneAlone)
     EXPECT_EQ(weights.weight, (std::vector{1.0, 1.0}));
 }
 
+// Bones a, b, c in a row: b touches a and c; near a's far end, a touches b alone.
+TEST(EitherEndWeights, AreOfAllBonesThatTouchTheBone)
+{
+    const pbs::Skeleton row = {{{"a", -1, {-3, 0, 0}, {0, 0, 0}}, {"b", 0, {0, 0, 0}, {3, 0, 0}}, {"c", 1, {3, 0, 0}, {6, 0, 0}}}};
+    pbs::Positions rest(3, 3);
+    rest << 2.9, 0.1, 0, 1.5, 0.1, 0, -2.9, 0.1, 0;
+    const pbs::Weights weights = pbs::either_end_weights(pbs::bind_to_nearest_bone(rest, row), row);
+    EXPECT_EQ(weights.first, (std::vector{0, 3, 4, 6}));
+    EXPECT_EQ(weights.bone, (std::vector{1, 0, 2, 1, 0, 1}));
+    EXPECT_EQ(weights.weight, (std::vector{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 1.0, 0.5, 0.5}));
+}
+
 }  // namespace

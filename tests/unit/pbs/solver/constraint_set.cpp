@@ -161,4 +161,31 @@ TEST(ConstraintSet, RefusesBadTets)
     EXPECT_THROW(pbs::make_constraint_set<double>(bad, distance, {}, {}), pbs::InputError);
 }
 
+TEST(ConstraintSet, AVertexOnItsBoneIsPinnedOrUnbound)
+{
+    ASSERT_EQ(distance(0), 0.0);  // alone
+    PbsOptions options;
+    EXPECT_EQ(constraints_of(options).bind.size(), 12u);
+    options.bind_on_bone = pbs::BindOnBone::unbound;
+    const auto unbound = constraints_of(options).bind;
+    ASSERT_EQ(unbound.size(), 11u);
+    for (const auto& bind : unbound) EXPECT_NE(bind.vertex, 0);
+}
+
+TEST(ConstraintSet, BindInTheJigglingZoneMayHaveAStiffnessOfItsOwn)
+{
+    std::vector<bool> zone(12, false);
+    zone[3] = true;
+    PbsOptions options;
+    options.k_bind = 0.8;
+    options.jiggle = pbs::Jiggle{.k_stretch = 0.1, .k_bind = 0.25};
+    for (const auto& bind : constraints_of(options, zone).bind) EXPECT_EQ(bind.stiffness, bind.vertex == 3 ? 0.25 : 0.8);
+    options.jiggle->k_bind = 0.0;
+    EXPECT_EQ(constraints_of(options, zone).bind.size(), 11u);
+    options.jiggle->k_bind.reset();
+    for (const auto& bind : constraints_of(options, zone).bind) EXPECT_EQ(bind.stiffness, 0.8);
+    options.jiggle->k_bind = 1.5;
+    EXPECT_THROW(constraints_of(options, zone), pbs::InputError);
+}
+
 }  // namespace

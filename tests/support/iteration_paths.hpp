@@ -1,0 +1,43 @@
+// Paths of iterations made up from formulas, as a convergence study would measure them.
+#pragma once
+
+#include "experiments/convergence/convergence_case.hpp"
+
+#include <cmath>
+#include <functional>
+
+namespace test_support {
+
+// Looks at every iteration; figure(n) is the combined residual, the absolute volume change [%] and the error [%] alike.
+inline experiments::IterationPath path_by(int most, const std::function<double(int)>& figure)
+{
+    experiments::IterationPath path;
+    for (int n = 0; n <= most; ++n) {
+        experiments::Look look;
+        look.iteration = n;
+        look.combined = look.volume_abs_change_pct = look.error_joint_pct = figure(n);
+        path.looks.push_back(look);
+    }
+    return path;
+}
+
+// From `above` its floor on, a share `rate` of what is left each iteration.
+inline experiments::IterationPath path_to_floor(int most, double floor, double above, double rate)
+{
+    return path_by(most, [=](int n) { return floor + above * std::pow(rate, n); });
+}
+
+// A body whose starts go to the floor 1 at the given rates; LBS first.
+inline experiments::ConvergencePaths starts_at_rates(int vertices, const std::vector<double>& rates, int most = 1000)
+{
+    experiments::ConvergencePaths paths;
+    paths.body = "limb";
+    paths.pose = "bend 90";
+    paths.vertices = vertices;
+    paths.k_stretch = 0.2;
+    for (const double rate : rates) paths.paths.push_back(path_to_floor(most, 1.0, 1.0, rate));
+    paths.limit_from_lbs_pct.assign(rates.size(), 0.0);
+    return paths;
+}
+
+}  // namespace test_support

@@ -1,0 +1,71 @@
+// Truth: the classes projected by hand in the order that a class order names.
+#include "pbs/solver/reordered_projection.hpp"
+
+#include "tests/support/two_bone_limb.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using pbs::ClassOrder;
+using Plain = pbs::Projection<double>;
+using Project = void (Plain::*)();
+
+const test_support::TwoBoneLimb limb = test_support::two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 60.0);
+constexpr Project bind = &Plain::project_bind_constraints, stretch = &Plain::project_stretch_constraints,
+                  volume = &Plain::project_volume_constraints;
+
+std::unique_ptr<Plain> projection(ClassOrder class_order)
+{
+    pbs::PbsOptions options;
+    options.order = pbs::Order::plain;
+    options.class_order = class_order;
+    auto made =
+        pbs::make_projection(pbs::make_constraint_set<double>(limb.mesh, limb.binding.distance, {}, options), limb.mesh.tets, options);
+    made->load(limb.lbs, limb.bind_points, pbs::Vec3::Zero());
+    return made;
+}
+
+pbs::Positions after(Plain& projection, const std::array<Project, 3>& classes)
+{
+    for (int iteration = 0; iteration < 3; ++iteration)
+        for (const Project project : classes) (projection.*project)();
+    pbs::Positions positions = limb.lbs;
+    projection.store(pbs::Vec3::Zero(), positions);
+    return positions;
+}
+
+struct NamedOrder {
+    ClassOrder order;
+    std::array<Project, 3> classes;
+};
+const NamedOrder orders[] = {
+    {ClassOrder::bind_stretch_volume, {bind, stretch, volume}}, {ClassOrder::bind_volume_stretch, {bind, volume, stretch}},
+    {ClassOrder::stretch_bind_volume, {stretch, bind, volume}}, {ClassOrder::stretch_volume_bind, {stretch, volume, bind}},
+    {ClassOrder::volume_bind_stretch, {volume, bind, stretch}}, {ClassOrder::volume_stretch_bind, {volume, stretch, bind}}};
+
+TEST(ReorderedProjection, TakesTheClassesInTheOrderOfItsName)
+{
+    const auto by_hand = projection(ClassOrder::bind_stretch_volume);
+    for (const NamedOrder& named : orders) {
+        by_hand->load(limb.lbs, limb.bind_points, pbs::Vec3::Zero());
+        const auto reordered = projection(named.order);
+        EXPECT_EQ(after(*reordered, {bind, stretch, volume}), after(*by_hand, named.classes)) << int(named.order);
+    }
+}
+
+TEST(ReorderedProjection, OrdersDiffer)
+{
+    const auto first = projection(ClassOrder::bind_stretch_volume);
+    const pbs::Positions own = after(*first, {bind, stretch, volume});
+    for (const NamedOrder& named : orders)
+        if (named.order != ClassOrder::bind_stretch_volume)
+            EXPECT_NE(after(*projection(named.order), {bind, stretch, volume}), own) << int(named.order);
+}
+
+TEST(ReorderedProjection, IsNotThereInAlgorithm1sOwnOrder)
+{
+    EXPECT_EQ(dynamic_cast<pbs::ReorderedProjection<double>*>(projection(ClassOrder::bind_stretch_volume).get()), nullptr);
+}
+
+}  // namespace
