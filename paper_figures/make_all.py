@@ -12,7 +12,7 @@ import records
 
 # Which study's records a figure shows.
 figures = {"volume_over_angle": "volume", "volume_over_clip": "volume", "volume_over_iterations": "volume", "frames": "volume",
-           "verification": "verification", "error_split": "error_split", "fit": "fit",
+           "verification": "verification", "error_split": "error_split", "fit": "fit", "work_precision": "work_precision",
            "roofline": "bench", "scaling": "bench"}
 
 

@@ -12,9 +12,14 @@ namespace experiments {
 
 class BodyMesh {
 public:
-    explicit BodyMesh(std::shared_ptr<const pbs::Character> base) : character_(std::move(base)) {}
+    explicit BodyMesh(std::shared_ptr<const pbs::Character> base)
+        : character_(std::move(base)), base_vertices_(character_->mesh.rest.rows())
+    {
+    }
     // Another mesh of about so many vertices; where it ends a little before the base's surface, its tets are extended.
     BodyMesh(pbs::CharacterSource source, int vertices, const pbs::Character& base);
+    // Every tet of the base cut into eight; its first vertices are the base's.
+    static BodyMesh refined(const pbs::Character& base);
 
     const pbs::Character& character() const { return *character_; }
     // From positions of its own vertices [m], #V x 3, where the base's vertices are, #V_base x 3.
@@ -24,7 +29,8 @@ public:
 
 private:
     std::shared_ptr<const pbs::Character> character_;
-    std::optional<pbs::EmbeddedSurface> points_;  // the base's vertices; nothing: its own mesh
+    std::optional<pbs::EmbeddedSurface> points_;  // the base's vertices; nothing: they are the first ones
+    Eigen::Index base_vertices_ = 0;
 };
 
 }  // namespace experiments

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <stdexcept>
 
 namespace experiments {
@@ -24,10 +23,11 @@ Diagram diagram_of(const analysis::CsvTable& table)
             diagram.reference = table.text_at(row, "reference");
             diagram.reference_ms = ms;
             diagram.reference_error_pct = table.number_or_nothing(row, "reference_error_joint_pct");
+            diagram.reference_difference_pct = table.number_or_nothing(row, "error_joint_beside_pct");
         }
         if (!ms || !error_pct) continue;
         diagram.points.push_back({table.text_at(row, "deformer"), table.text_at(row, "setting"), *ms, table.number(row, "ms_q1"),
-                                  table.number(row, "ms_q3"), *error_pct,
+                                  table.number(row, "ms_q3"), *error_pct, table.number_or_nothing(row, "error_joint_beside_pct"),
                                   table.number_or_nothing(row, "below_reference_error").value_or(0.0) != 0.0});
     }
     return diagram;
@@ -43,29 +43,38 @@ std::optional<double> mean_of(const std::vector<Diagram>& poses, std::optional<d
     return sum / double(poses.size());
 }
 
+// The same setting in every pose; nothing where it has no error in one of them.
+std::optional<DiagramPoint> mean_of(const std::vector<Diagram>& poses, const DiagramPoint& setting)
+{
+    DiagramPoint mean{setting.deformer, setting.setting};
+    mean.beside_pct = 0.0;
+    const double share = 1.0 / double(poses.size());
+    for (const Diagram& pose : poses) {
+        const auto same = [&](const DiagramPoint& point) { return point.words() == setting.words(); };
+        const auto found = std::find_if(pose.points.begin(), pose.points.end(), same);
+        if (found == pose.points.end()) return std::nullopt;
+        for (double DiagramPoint::*figure : {&DiagramPoint::ms, &DiagramPoint::ms_q1, &DiagramPoint::ms_q3, &DiagramPoint::error_pct})
+            mean.*figure += share * (*found).*figure;
+        mean.beside_pct =
+            mean.beside_pct && found->beside_pct ? std::optional(*mean.beside_pct + share * *found->beside_pct) : std::nullopt;
+    }
+    return mean;
+}
+
 Diagram mean_diagram(const std::string& body, const std::vector<Diagram>& poses)
 {
+    Diagram mean;
+    mean.name = fmt::format("{}, mean of {} poses", body, poses.size());
     const bool same = std::all_of(poses.begin(), poses.end(), [&](const Diagram& pose) { return pose.reference == poses[0].reference; });
-    Diagram mean{fmt::format("{}, mean of {} poses", body, poses.size()),
-                 {},
-                 same ? poses[0].reference : "by pose",
-                 mean_of(poses, &Diagram::reference_ms),
-                 mean_of(poses, &Diagram::reference_error_pct)};
-    for (const DiagramPoint& first : poses[0].points) {
-        DiagramPoint sum{first.deformer, first.setting};
-        std::size_t found = 0;
-        for (const Diagram& pose : poses)
-            for (const DiagramPoint& point : pose.points)
-                if (point.words() == first.words()) {
-                    ++found;
-                    sum.ms += point.ms / double(poses.size());
-                    sum.ms_q1 += point.ms_q1 / double(poses.size());
-                    sum.ms_q3 += point.ms_q3 / double(poses.size());
-                    sum.error_pct += point.error_pct / double(poses.size());
-                }
-        sum.below_reference_error = mean.reference_error_pct && sum.error_pct <= *mean.reference_error_pct;
-        if (found == poses.size()) mean.points.push_back(sum);
-    }
+    mean.reference = same ? poses[0].reference : "of each pose";
+    mean.reference_ms = mean_of(poses, &Diagram::reference_ms);
+    mean.reference_error_pct = mean_of(poses, &Diagram::reference_error_pct);
+    mean.reference_difference_pct = mean_of(poses, &Diagram::reference_difference_pct);
+    for (const DiagramPoint& first : poses[0].points)
+        if (auto point = mean_of(poses, first)) {
+            point->below_reference_error = mean.reference_error_pct && point->error_pct <= *mean.reference_error_pct;
+            mean.points.push_back(*point);
+        }
     return mean;
 }
 
@@ -87,13 +96,16 @@ std::vector<Diagram> diagrams_of(const std::vector<analysis::CsvTable>& points)
 {
     std::vector<Diagram> diagrams;
     std::vector<std::pair<std::string, std::vector<Diagram>>> bodies;  // in the order of the records
+    const auto poses_of = [&](const std::string& body) -> std::vector<Diagram>& {
+        const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const auto& entry) { return entry.first == body; });
+        return found == bodies.end() ? bodies.emplace_back(body, std::vector<Diagram>{}).second : found->second;
+    };
     for (const analysis::CsvTable& table : points) {
         if (table.rows() == 0) continue;
         diagrams.push_back(diagram_of(table));
-        const std::string& body = table.text_at(0, "body");
-        const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const auto& entry) { return entry.first == body; });
-        auto& poses = found == bodies.end() ? bodies.emplace_back(body, std::vector<Diagram>{}).second : found->second;
-        if (!diagrams.back().reference.empty()) poses.push_back(diagrams.back());
+        if (diagrams.back().reference.empty()) continue;
+        poses_of(table.text_at(0, "body")).push_back(diagrams.back());
+        poses_of("all bodies").push_back(diagrams.back());
     }
     for (const auto& [body, poses] : bodies)
         if (poses.size() >= fewest_for_a_mean) diagrams.push_back(mean_diagram(body, poses));

@@ -1,4 +1,5 @@
-// Work-precision diagrams from the points on record: one a pose, and for a body in three poses or more one of their mean.
+// Work-precision diagrams from the points on record: one a pose, and of three poses or more of a body, and of all bodies, one of their
+// mean: what a setting is worth that is not chosen anew for each pose.
 //   for (const Diagram& diagram : diagrams_of({read_csv("a/points.csv"), read_csv("b/points.csv")})) ...
 // On record as a point's error: error_joint_pct, the root mean square over the blended vertices, over their mean distance to the bone.
 #pragma once
@@ -16,6 +17,7 @@ struct DiagramPoint {
     std::string deformer, setting;
     double ms = 0.0, ms_q1 = 0.0, ms_q3 = 0.0;
     double error_pct = 0.0;
+    std::optional<double> beside_pct = {};  // against the second solution beside the reference
     bool below_reference_error = false;
 
     std::string words() const { return setting.empty() ? deformer : deformer + ", " + setting; }
@@ -27,6 +29,7 @@ struct Diagram {
     std::string reference;             // its deformer's name; empty: none was reached
     std::optional<double> reference_ms;
     std::optional<double> reference_error_pct;
+    std::optional<double> reference_difference_pct;  // of the second solution from it
 
     // The points of these deformers, by cost and error; indices[k] is the k-th's place in `points`.
     std::vector<analysis::WorkPrecision> of(const std::vector<std::string>& deformers, std::vector<std::size_t>& indices) const;

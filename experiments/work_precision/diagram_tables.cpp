@@ -36,22 +36,33 @@ void add_front(analysis::CsvTable& table, const Diagram& diagram, const std::str
     }
 }
 
+// Of the two points that are compared where one passes the other: is it the nearer to the second solution too?
+Cell holds_beside(const DiagramPoint& one, const DiagramPoint* other)
+{
+    if (!other || !one.beside_pct || !other->beside_pct) return std::nullopt;
+    return int(*one.beside_pct < *other->beside_pct);
+}
+
 void add_crossing(analysis::CsvTable& table, const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other)
 {
     std::vector<std::size_t> of_one, of_other;
     const auto ones = diagram.of(one.deformers, of_one), others = diagram.of(other.deformers, of_other);
     if (ones.empty() || others.empty()) return;
     const auto crossing = analysis::nearer_from(ones, others);
-    if (!crossing) {
-        table.add_row({diagram.name, one.words, other.words, "never", std::nullopt, std::nullopt, std::nullopt, "", std::nullopt,
-                       std::nullopt, known(diagram.reference_error_pct), std::nullopt});
-        return;
+    std::vector<Cell> row = {diagram.name, one.words, other.words};
+    const auto add = [&](const std::vector<Cell>& cells) { row.insert(row.end(), cells.begin(), cells.end()); };
+    if (crossing) {
+        const DiagramPoint& point = diagram.points[of_one[crossing->one]];
+        const double gap_pct = crossing->other_error - point.error_pct;
+        add({crossing->from_the_start ? "always" : "from", crossing->from, point.ms_q1, point.ms_q3, point.setting, point.error_pct,
+             known(crossing->other_error), known(diagram.reference_error_pct),
+             diagram.reference_error_pct ? Cell(int(gap_pct > *diagram.reference_error_pct)) : Cell(std::nullopt),
+             holds_beside(point, best_of(diagram, other, crossing->from))});
+    } else {
+        add({"never", std::nullopt, std::nullopt, std::nullopt, "", std::nullopt, std::nullopt, known(diagram.reference_error_pct),
+             std::nullopt, std::nullopt});
     }
-    const DiagramPoint& point = diagram.points[of_one[crossing->one]];
-    const double gap_pct = crossing->other_error - point.error_pct;
-    table.add_row({diagram.name, one.words, other.words, crossing->from_the_start ? "always" : "from", crossing->from, point.ms_q1,
-                   point.ms_q3, point.setting, point.error_pct, known(crossing->other_error), known(diagram.reference_error_pct),
-                   diagram.reference_error_pct ? Cell(int(gap_pct > *diagram.reference_error_pct)) : Cell(std::nullopt)});
+    table.add_row(row);
 }
 
 }  // namespace
@@ -70,7 +81,7 @@ analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams)
 analysis::CsvTable crossings_table(const std::vector<Diagram>& diagrams)
 {
     analysis::CsvTable table({"case", "deformer", "other", "outcome", "from_ms", "from_ms_q1", "from_ms_q3", "setting", "error_joint_pct",
-                              "other_error_joint_pct", "reference_error_joint_pct", "told_apart"});
+                              "other_error_joint_pct", "reference_error_joint_pct", "told_apart", "holds_beside"});
     for (const Diagram& diagram : diagrams)
         for (const DeformerGroup& one : deformer_groups())
             for (const DeformerGroup& other : deformer_groups())

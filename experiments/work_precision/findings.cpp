@@ -10,6 +10,11 @@
 namespace experiments {
 namespace {
 
+std::string ms_text(double ms)
+{
+    return ms < 100.0 ? fmt::format("{:.2g} ms", ms) : fmt::format("{:.0f} ms", ms);
+}
+
 std::vector<const DiagramPoint*> front_of(const Diagram& diagram)
 {
     std::vector<analysis::WorkPrecision> all;
@@ -31,8 +36,8 @@ std::string who_is_quickest(const Diagram& diagram)
     }
     std::sort(first.begin(), first.end());
     if (first.size() < 3) return "";
-    return fmt::format("below {:.2g} ms a frame only {} and {} are there; {} is the next", first[2].first, first[0].second, first[1].second,
-                       first[2].second);
+    return fmt::format("below {} a frame only {} and {} are there; {} is the next", ms_text(first[2].first), first[0].second,
+                       first[1].second, first[2].second);
 }
 
 // Stretches of the front that belong to one group.
@@ -46,8 +51,8 @@ std::vector<std::string> who_is_nearest(const Diagram& diagram)
         while (end < front.size() && group_of(front[end]->deformer).words == group) ++end;
         const DiagramPoint &from = *front[begin], &to = *front[end - 1];
         std::string error = fmt::format("{:.1f} %", from.error_pct);
-        if (end > begin + 1) error += fmt::format(" to {:.1f} % at {:.2g} ms", to.error_pct, to.ms);
-        lines.push_back(fmt::format("from {:.2g} ms {} is nearest: {} off ({})", from.ms, group, error, to.words()));
+        if (end > begin + 1) error += fmt::format(" to {:.1f} % at {}", to.error_pct, ms_text(to.ms));
+        lines.push_back(fmt::format("from {} {} is nearest: {} off ({})", ms_text(from.ms), group, error, to.words()));
         begin = end;
     }
     return lines;
@@ -61,7 +66,7 @@ std::string who_passes(const Diagram& diagram, const DeformerGroup& one, const D
     const auto crossing = analysis::nearer_from(ones, others);
     if (!crossing) return fmt::format("{} does not stay nearer than {} however long it takes", one.words, other.words);
     const DiagramPoint& point = diagram.points[of_one[crossing->one]];
-    const std::string when = crossing->from_the_start ? "from the first" : fmt::format("from {:.2g} ms on", crossing->from);
+    const std::string when = crossing->from_the_start ? "from the first" : fmt::format("from {} on", ms_text(crossing->from));
     return fmt::format("{} is nearer than {} {} ({}: {:.1f} %)", one.words, other.words, when, point.setting, point.error_pct);
 }
 
@@ -76,13 +81,15 @@ std::string is_physics_worth_it(const Diagram& diagram, const DiagramPoint& budg
     const DiagramPoint *mush = best_of(diagram, group_named("delta mush"), budget.ms),
                        *pbs = best_of(diagram, group_named("PBS"), budget.ms), *xpbd = best_of(diagram, group_named("XPBD"), budget.ms);
     if (!pbs || !mush) return "";
-    std::string text = fmt::format("within the {:.2g} ms of PBS, {}: delta mush {:.1f} % off, PBS {:.1f} %", budget.ms, budget.setting,
+    std::string text = fmt::format("within the {} of PBS, {}: delta mush {:.1f} % off, PBS {:.1f} %", ms_text(budget.ms), budget.setting,
                                    mush->error_pct, pbs->error_pct);
     text += xpbd ? fmt::format(", XPBD {:.1f} %", xpbd->error_pct) : ", XPBD is not so quick";
     const double physics_pct = xpbd ? std::min(pbs->error_pct, xpbd->error_pct) : pbs->error_pct;
     const double gain_pct = 100.0 * (1.0 - physics_pct / mush->error_pct);
-    return text + fmt::format("; the physics {} {:.0f} % {} the error of geometry alone", gain_pct > 0.0 ? "takes" : "adds",
-                              std::abs(gain_pct), gain_pct > 0.0 ? "off" : "to");
+    text += fmt::format("; the physics {} {:.0f} % {} the error of geometry alone", gain_pct > 0.0 ? "takes" : "adds", std::abs(gain_pct),
+                        gain_pct > 0.0 ? "off" : "to");
+    if (!mush->beside_pct || !pbs->beside_pct) return text;
+    return text + fmt::format(" (from the second solution: {:.1f} and {:.1f} %)", *mush->beside_pct, *pbs->beside_pct);
 }
 
 std::string what_is_undecided(const Diagram& diagram)
@@ -90,9 +97,11 @@ std::string what_is_undecided(const Diagram& diagram)
     if (!diagram.reference_error_pct) return fmt::format("the reference {} has no error bar here", diagram.reference);
     const auto below =
         std::count_if(diagram.points.begin(), diagram.points.end(), [](const auto& point) { return point.below_reference_error; });
-    const std::string ms = diagram.reference_ms ? fmt::format(" takes {:.3g} ms and", *diagram.reference_ms) : "";
-    return fmt::format("the reference {}{} may itself be {:.1f} % off: {} of {} points lie below that", diagram.reference, ms,
-                       *diagram.reference_error_pct, below, diagram.points.size());
+    const std::string ms = diagram.reference_ms ? fmt::format(" takes {} and", ms_text(*diagram.reference_ms)) : "";
+    const std::string difference =
+        diagram.reference_difference_pct ? fmt::format(" ({:.1f} % from the solution beside it)", *diagram.reference_difference_pct) : "";
+    return fmt::format("the reference {}{} may itself be up to {:.1f} % off{}: {} of {} points lie below that", diagram.reference, ms,
+                       *diagram.reference_error_pct, difference, below, diagram.points.size());
 }
 
 }  // namespace

@@ -82,11 +82,16 @@ public:
             for (const int element_order : {1, 2}) {
                 const DeformerSpec spec = fem_spec(scene_, model, element_order);
                 const PointSetting setting{"fem_" + name_of(model), fmt::format("P{}", element_order), spec};
-                if (element_order == 1 || !setting.is_newton() || range.quadratic_newton) add(setting);
+                const bool quadratic = model == Model::corotational ? range.quadratic_corotational : range.quadratic;
+                if (element_order == 1 || model == Model::linear || quadratic) add(setting);
             }
+        if (!range.refined) return;
+        PointSetting setting{"fem_stable_neo_hookean", "P1, tets cut into eight", fem_spec(scene_, Model::stable_neo_hookean, 1)};
+        setting.refined = true;
+        add(setting);
     }
 
-    void add_other_mesh(int vertices)
+    void add_other_mesh(int vertices, bool quadratic)
     {
         const auto elsewhere = [&](PointSetting setting) {
             setting.vertices = vertices;
@@ -102,6 +107,7 @@ public:
         using reference_fem::Model;
         elsewhere({"fem_linear", "P1", fem_spec(scene_, Model::linear, 1)});
         elsewhere({"fem_stable_neo_hookean", "P1", fem_spec(scene_, Model::stable_neo_hookean, 1)});
+        if (quadratic) elsewhere({"fem_stable_neo_hookean", "P2", fem_spec(scene_, Model::stable_neo_hookean, 2)});
     }
 
     std::vector<PointSetting> settings;
@@ -159,7 +165,7 @@ std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange&
     list.add_pbs_with_exponent();
     list.add_xpbd();
     list.add_fem(range);
-    for (const int vertices : range.other_vertices) list.add_other_mesh(vertices);
+    for (const int vertices : range.other_vertices) list.add_other_mesh(vertices, range.quadratic);
     return list.settings;
 }
 

@@ -17,15 +17,20 @@ struct PointSetting {
     std::string deformer;  // whose front it counts for: lbs, dqs, delta_mush, pbs, pbs_exponent, xpbd, xpbd_small_steps, fem_linear, ...
     std::string words;     // what tells it apart from the others of its deformer: "24 iterations, k_stretch 0.2"
     DeformerSpec spec;
-    int substeps = 1;  // how often the pose is advanced to in a frame
-    int vertices = 0;  // wanted size of another mesh of the body; 0: the case's own
+    int substeps = 1;      // how often the pose is advanced to in a frame
+    int vertices = 0;      // wanted size of another mesh of the body; 0: the case's own
+    bool refined = false;  // on the case's own tets, each cut into eight
+
+    bool on_own_mesh() const { return vertices == 0 && !refined; }
 
     bool is_newton() const { return spec.kind == "fem" && spec.fem.model != reference_fem::Model::linear; }
 };
 
 struct SettingRange {
-    bool quadratic_newton = true;     // nonlinear laws on quadratic elements too
-    std::vector<int> other_vertices;  // sizes of other meshes of the body
+    bool quadratic = true;               // stable neo-Hookean flesh on quadratic elements too: the reference
+    bool quadratic_corotational = true;  // corotational too
+    std::vector<int> other_vertices;     // sizes of other meshes of the body
+    bool refined = false;                // stable neo-Hookean flesh on the case's own tets, each cut into eight
 };
 // The scene gives the options that are not varied: its pbs, and the material and attachment of its first [[fem]].
 std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange& range);

@@ -22,8 +22,9 @@ struct ReachedReference {
     std::optional<analysis::ErrorNorms> bar;  // bound of its distance from the limit
 };
 
-// Stable neo-Hookean: quadratic on the case's own mesh, or else linear there; order 1 is presumed for the bar (reference_error_bar.hpp says
-// why).
-ReachedReference choose_reference(const std::vector<ReachedPoint>& points, const analysis::ErrorRuler& ruler);
+// Stable neo-Hookean: quadratic on the case's own tets, or else linear there. Beside it, for the bar: of a quadratic one the quadratic one
+// on the finest coarser mesh, or else the linear one; of a linear one that on tets cut into eight, or else on the finest coarser mesh.
+// Order 1 is presumed, whatever the elements (reference_error_bar.hpp says why).
+ReachedReference choose_reference(const std::vector<ReachedPoint>& points, Eigen::Index base_vertices, const analysis::ErrorRuler& ruler);
 
 }  // namespace experiments

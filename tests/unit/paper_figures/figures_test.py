@@ -133,6 +133,23 @@ class Figures(unittest.TestCase):
                     self.assertEqual(make_all.main(results), 1)
             self.assertIn("valley.csv: not there", said.getvalue())
 
+    def test_work_precision_shows_every_point_with_a_time_and_an_error(self):
+        with tempfile.TemporaryDirectory() as folder:
+            results = pathlib.Path(folder)
+            synthetic_records.write_work_precision(results)
+            with contextlib.redirect_stdout(io.StringIO()):
+                self.assertEqual(make_all.main(results), 0)
+            self.assertIn(synthetic_records.revision.encode(), (results / "figures" / "work_precision.png").read_bytes())
+            with open(results / "figures" / "work_precision.csv", newline="") as stream:
+                rows = list(csv.DictReader(stream))
+            self.assertEqual([(row["deformer"], float(row["ms_median"]), float(row["error_joint_pct"])) for row in rows],
+                             [("lbs", 0.1, 50.0), ("pbs", 1.0, 40.0), ("pbs", 2.0, 20.0), ("pbs", 4.0, 10.0)])  # not the reference
+            (results / "work_precision" / "fronts.csv").unlink()
+            with contextlib.redirect_stderr(io.StringIO()) as said:
+                with contextlib.redirect_stdout(io.StringIO()):
+                    self.assertEqual(make_all.main(results), 1)
+            self.assertIn("fronts.csv: not there", said.getvalue())
+
     def test_the_bench_shows_cost_a_constraint_and_roofs(self):
         with tempfile.TemporaryDirectory() as folder:
             results = pathlib.Path(folder)

@@ -76,6 +76,29 @@ def write_fit(results):
                                  "k_stretch": 0.2, "poisson": poisson, "misfit_pct": 20 + abs(poisson - 0.3)})
 
 
+def write_work_precision(results):
+    """PBS: an error of 40 % / n after n iterations of a millisecond each; the reference's own is 15 % at most, the second solution 3 % away."""
+    folder = results / "work_precision"
+    (folder / "limb").mkdir(parents=True)
+    (folder / "limb" / "run.json").write_text(json.dumps({"provenance": {"version": "0.1.0", "git_revision": revision, "git_dirty": False}}))
+    of_point = ["deformer", "setting", "ms_median", "error_joint_pct"]
+    points = [("lbs", "", 0.1, 50.0), *(("pbs", f"{n} iterations", float(n), 40.0 / n) for n in (1, 2, 4))]
+    with open(folder / "limb" / "points.csv", "w", newline="") as stream:
+        writer = csv.DictWriter(stream, ["body", "pose", *of_point, "outcome", "reference_error_joint_pct", "error_joint_beside_pct"])
+        writer.writeheader()
+        for point in points:
+            writer.writerow({"body": "limb", "pose": "90 deg", **dict(zip(of_point, point)), "outcome": "finished",
+                             "reference_error_joint_pct": 15.0, "error_joint_beside_pct": point[3]})
+        writer.writerow({"body": "limb", "pose": "90 deg", "deformer": "snh", "setting": "P2", "ms_median": 900.0, "outcome": "reference",
+                         "reference_error_joint_pct": 15.0, "error_joint_beside_pct": 3.0})
+    with open(folder / "fronts.csv", "w", newline="") as stream:
+        writer = csv.DictWriter(stream, ["case", "front", *of_point])
+        writer.writeheader()
+        for point in points:
+            for front in ("all", point[0]):
+                writer.writerow({"case": "limb, 90 deg", "front": front, **dict(zip(of_point, point))})
+
+
 def write_bench(results):
     """A step of c microseconds a constraint, c = 24 for plain, 3 for ordered in f32, twice that in f64; two threads bring 1.5."""
     folder = results / "bench"

@@ -1,0 +1,28 @@
+// One row of points.csv: a setting, its time, its error, its volume, the reference it is measured by.
+#pragma once
+
+#include "analysis/csv_table.hpp"
+#include "experiments/bench/timed_rounds.hpp"
+#include "experiments/work_precision/reached_reference.hpp"
+
+namespace experiments {
+
+// PBS's error at the joints in three parts [%]; the third is the reference's own.
+struct PbsParts {
+    double solver_pct = 0.0, model_pct = 0.0;
+    double not_converged_pct = 0.0;  // between the converged shape and that after half of its iterations
+};
+
+struct PointFigures {
+    std::string body, pose;
+    std::optional<Spread> time;                 // of a frame [ms]; nothing where the pose was not reached
+    std::optional<analysis::ErrorNorms> error;  // nothing for the reference, and where there is none
+    std::optional<double> beside_pct;           // error at the joints against the second solution
+    std::optional<PbsParts> parts;
+    bool reference_self_intersects = false;
+};
+
+const std::vector<std::string>& point_columns();
+std::vector<analysis::CsvTable::Cell> point_row(const ReachedPoint& point, const ReachedReference& reference, const PointFigures& figures);
+
+}  // namespace experiments

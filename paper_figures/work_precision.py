@@ -1,0 +1,69 @@
+"""Error against run time, a panel a pose: every setting of every deformer, the front of each and the front of them all, and the bound of
+the reference's own error, below which nothing can be told apart; dotted: how far the solution beside the reference is from it."""
+import records
+import style
+
+looks = {"lbs": ("LBS", style.vermillion, "v"), "dqs": ("DQS", style.orange, "s"), "delta_mush": ("delta mush", style.green, "^"),
+         "pbs": ("PBS", style.blue, "o"), "pbs_exponent": ("PBS, exponent", style.sky, "o"), "xpbd": ("XPBD", style.purple, "D"),
+         "xpbd_small_steps": ("XPBD, small steps", style.purple, "d"), "fem_linear": ("linear FEM", "#999999", "x"),
+         "fem_corotational": ("corotational FEM", style.black, "+"), "fem_stable_neo_hookean": ("neo-Hookean FEM", style.black, "P")}
+point_columns = {"body", "pose", "deformer", "setting", "outcome", "ms_median", "error_joint_pct", "reference_error_joint_pct",
+                 "error_joint_beside_pct"}
+front_columns = {"case", "front", "deformer", "setting", "ms_median", "error_joint_pct"}
+most_panels = 6
+
+
+def measured(rows):
+    return [row for row in rows if row["ms_median"] and row["error_joint_pct"]]
+
+
+def draw_case(axes, rows, fronts):
+    case = f"{rows[0]['body']}, {rows[0]['pose']}"
+    for deformer, (label, color, marker) in looks.items():
+        chosen = [row for row in measured(rows) if row["deformer"] == deformer]
+        if not chosen:
+            continue
+        axes.plot(records.numbers(chosen, "ms_median"), records.numbers(chosen, "error_joint_pct"), linestyle="none", marker=marker,
+                  color=color, markersize=2.6, alpha=0.45, markeredgewidth=0.6)
+        front = [row for row in fronts if row["case"] == case and row["front"] == deformer]
+        axes.plot(records.numbers(front, "ms_median"), records.numbers(front, "error_joint_pct"), color=color, marker=marker, label=label,
+                  linewidth=1.0)
+    front = [row for row in fronts if row["case"] == case and row["front"] == "all"]
+    if front:
+        axes.step(records.numbers(front, "ms_median"), records.numbers(front, "error_joint_pct"), where="post", color=style.yellow,
+                  linewidth=4.0, alpha=0.6, zorder=0, label="front of all")
+    bound = rows[0]["reference_error_joint_pct"]
+    beside = [row["error_joint_beside_pct"] for row in rows if row["outcome"] == "reference"]
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    low, high = axes.get_ylim()
+    if bound:
+        axes.axhspan(low, min(float(bound), high), color="#EFEFEF", linewidth=0, zorder=-1, label="below the reference's own error (bound)")
+    if beside and beside[0]:
+        axes.axhline(float(beside[0]), color=style.vermillion, linewidth=0.8, linestyle=(0, (1, 1)), label="second solution")
+        low, high = min(low, 0.8 * float(beside[0])), max(high, 1.2 * float(beside[0]))
+    axes.set_ylim(low, high)
+    axes.set_title(f"{case}; bound {float(bound):.3g} %" if bound else case)
+    axes.set_xlabel("processor time a frame [ms]")
+    axes.set_ylabel("error at the joints [%]")
+
+
+def draw(results, figures):
+    folder = results / "work_precision"
+    cases = [records.table(file, point_columns) for file in sorted(folder.glob("*/points.csv"))]
+    cases = [rows for rows in cases if measured(rows)]
+    if not cases:
+        raise records.RecordsMissing(f"{folder}: no case with a reference")
+    cases.sort(key=lambda rows: not rows[0]["body"].startswith("limb"))  # the limb's first
+    fronts = records.table(folder / "fronts.csv", front_columns)
+    shown = cases[:most_panels]
+    columns = 2
+    figure, axes = style.panels(-(-len(shown) // columns), columns, height_in=2.4)
+    for panel, rows in zip(axes.flat, shown):
+        draw_case(panel, rows, fronts)
+    for panel in axes.flat[len(shown):]:
+        panel.set_visible(False)
+    style.legend_above(figure, columns=4)
+    behind = [{name: row[name] for name in ("body", "pose", "deformer", "setting", "ms_median", "error_joint_pct")}
+              for rows in shown for row in measured(rows)]
+    style.save(figure, figures / "work_precision", records.provenance(results), behind)
