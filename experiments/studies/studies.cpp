@@ -45,6 +45,11 @@ const std::vector<Study>& studies()
          "of the limb and the human, and whether C01 or C02 would be judged otherwise",
          "none: how far C01 and C02 hang on a reading", "some 1 minute (--quick), 5 (--full: the whole clip)", plan_ambiguity_study, true,
          conclude_ambiguity_study},
+        {"timing",
+         "milliseconds of a frame on one core, of LBS, bind, stretch, volume and the whole, on meshes made to Table 1's counts, beside its "
+         "figures; plain in f64 and f32, ordered in f32, by turns; and the size at which 30 frames a second end",
+         "C10, C16", "some 1 minute (--quick), 2.5 (--full: to 100,000 vertices); keep the machine quiet", plan_timing_study, true,
+         conclude_timing_study, true},
         {"verification",
          "the FEM reference against theory, published benchmarks and other programs: patch tests, manufactured solutions, beams, sphere, "
          "plates, locking, time stepping, CalculiX; each row with reference, source, difference, order and bound",

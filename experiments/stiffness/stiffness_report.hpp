@@ -1,0 +1,21 @@
+// What the stiffness study tells: a page with every exponent and every figure of the claim, and a short table for the terminal.
+#pragma once
+
+#include "experiments/stiffness/stiffness_ratios.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace experiments {
+
+using SweptRows = std::pair<Varied, std::vector<StiffnessRow>>;
+
+// Columns: varied, case, first, last, points, left_out, exponent, exponent_low, exponent_high.
+analysis::CsvTable exponents_table(const std::vector<SweptRows>& sweeps);
+std::string stiffness_markdown(const std::vector<SweptRows>& sweeps);
+
+// A line a body and load; for one doubling of each thing, PBS at k_stretch 0.2, with the exponent, XPBD at 30 kPa.
+std::string stiffness_text(const std::vector<SweptRows>& sweeps);
+
+}  // namespace experiments

@@ -1,0 +1,171 @@
+// C11: what the stiffness k in [0, 1] comes to: force over displacement of flesh that hangs under gravity, against iterations, time step
+// and resolution; of PBS, of PBS with Mueller's exponent, and of XPBD, whose stiffness is a material's, so that the study can be seen to
+// see it.
+//
+//   bar   cantilever             limb, human, ...   the jiggling zone, on what the solver moves, and on the rest of the body held
+//
+// Writes DIR/stiffness/{iterations,time_step,resolution}_BODY/stiffness.csv and measurements.csv; DIR/stiffness/stiffness.csv,
+// exponents.csv and stiffness.md.
+#include "analysis/atomic_file.hpp"
+#include "analysis/measurement.hpp"
+#include "experiments/cases/real_bodies.hpp"
+#include "experiments/stiffness/stiffness_report.hpp"
+#include "experiments/studies/study.hpp"
+#include "pbs/character/bodies.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double softer_pa = 3.0e4, stiffer_pa = 3.0e5;  // as stiff as few and as many iterations of PBS on the limb
+
+const std::pair<Varied, const char*> sweeps[] = {
+    {Varied::iterations, "iterations"}, {Varied::time_step, "time_step"}, {Varied::resolution, "resolution"}};
+
+std::vector<LoadedFlesh> flesh_of(const std::string& body, int vertices)
+{
+    if (body == "bar") return {hanging_bar(vertices > 0 ? vertices : 1000)};
+    const pbs::Character character = pbs::make_character({.body = body, .vertices = vertices, .surface = false});
+    return {jiggling_flesh(character, RestOfBody::projected), jiggling_flesh(character, RestOfBody::held)};
+}
+
+// Small steps only where nothing but the loaded flesh moves: the rest would be put back once a step, not once a substep.
+bool suits(const LoadedFlesh& flesh, const StiffnessSetting& setting)
+{
+    return setting.method != Method::xpbd_small_steps || flesh.load != "zone";
+}
+
+std::vector<StiffnessSetting> materials(bool full)
+{
+    std::vector<StiffnessSetting> all;
+    for (const double k : full ? std::vector<double>{0.05, 0.2, 0.6, 0.9} : std::vector<double>{0.2, 0.9})
+        all.push_back({.method = Method::pbs, .k_stretch = k});
+    for (const double k : full ? std::vector<double>{0.2, 0.9} : std::vector<double>{0.2})
+        all.push_back({.method = Method::exponent, .k_stretch = k});
+    all.push_back({.method = Method::xpbd, .young_pa = softer_pa});
+    if (full) all.push_back({.method = Method::xpbd, .young_pa = stiffer_pa});
+    all.push_back({.method = Method::xpbd_small_steps, .young_pa = softer_pa});
+    return all;
+}
+
+struct Sweep {
+    std::string body;
+    bool full = false;
+    std::vector<int> vertices = {0};  // 0: the body's own size
+};
+
+std::vector<StiffnessRow> over_iterations(const Sweep& sweep)
+{
+    std::vector<StiffnessRow> rows;
+    for (const LoadedFlesh& flesh : flesh_of(sweep.body, sweep.vertices.front()))
+        for (StiffnessSetting setting : materials(sweep.full))
+            for (const int iterations : sweep.full ? std::vector<int>{3, 6, 12, 24, 48, 96, 192, 384} : std::vector<int>{6, 12, 24, 48}) {
+                setting.iterations = iterations;
+                const bool beside_the_paper = iterations >= 12 && iterations <= 48;
+                for (setting.order_seed = 0; setting.order_seed <= (beside_the_paper && sweep.full ? 2u : 0u); ++setting.order_seed)
+                    if (suits(flesh, setting)) rows.push_back(linear_stiffness(flesh, setting));
+            }
+    return rows;
+}
+
+std::vector<StiffnessRow> over_time_steps(const Sweep& sweep)
+{
+    std::vector<StiffnessRow> rows;
+    for (const LoadedFlesh& flesh : flesh_of(sweep.body, sweep.vertices.front()))
+        for (StiffnessSetting setting : materials(false))
+            for (const double time_step_ms : {1.25, 2.5, 5.0, 10.0, 20.0, 40.0}) {
+                setting.time_step_s = 1e-3 * time_step_ms;
+                if (!suits(flesh, setting)) continue;
+                rows.push_back(linear_stiffness(flesh, setting));
+                const bool beside_the_paper = time_step_ms >= 5.0 && time_step_ms <= 20.0;
+                const bool quick_to_settle = flesh.load != "cantilever" && setting.method != Method::xpbd_small_steps;
+                const bool asked = sweep.full || (setting.method == Method::pbs && setting.k_stretch == 0.2);
+                if (beside_the_paper && quick_to_settle && asked) rows.push_back(stepped_stiffness(flesh, setting));
+            }
+    return rows;
+}
+
+std::vector<StiffnessRow> over_resolutions(const Sweep& sweep)
+{
+    std::vector<StiffnessRow> rows;
+    for (const int vertices : sweep.vertices)
+        for (const bool finer : {false, true}) {
+            if (finer && !sweep.full) continue;
+            for (const LoadedFlesh& flesh : flesh_of(sweep.body, finer ? vertices * 11 / 10 : vertices))
+                for (const StiffnessSetting& setting : materials(false)) {
+                    if (!suits(flesh, setting)) continue;
+                    rows.push_back(linear_stiffness(flesh, setting));
+                    if (finer) rows.back().mesh = "wanted, a tenth finer";
+                }
+        }
+    return rows;
+}
+
+std::string measure_and_record(Varied varied, const Sweep& sweep, const std::string& folder)
+{
+    const std::vector<StiffnessRow> rows = varied == Varied::iterations  ? over_iterations(sweep)
+                                           : varied == Varied::time_step ? over_time_steps(sweep)
+                                                                         : over_resolutions(sweep);
+    stiffness_table(rows).write((fs::path(folder) / "stiffness.csv").string());
+    analysis::measurement_table(stiffness_ratios(rows, varied)).write((fs::path(folder) / "measurements.csv").string());
+    return "";
+}
+
+StudyRun sweep_run(Varied varied, const Sweep& sweep, double cost_s)
+{
+    const std::string name = fmt::format("{}_{}", sweeps[static_cast<int>(varied)].second, sweep.body);
+    return {.name = name,
+            .cost_s = cost_s,
+            .work = [varied, sweep](const std::string& folder) { return measure_and_record(varied, sweep, folder); },
+            .settings = {{"body", sweep.body}, {"full", sweep.full}, {"vertices", sweep.vertices}}};
+}
+
+void plan_body(StudyPlan& plan, const std::string& body, const std::vector<int>& ladder, bool full)
+{
+    plan.runs.push_back(sweep_run(Varied::iterations, {body, full}, full ? 40.0 : 4.0));
+    plan.runs.push_back(sweep_run(Varied::time_step, {body, full}, full ? 30.0 : 5.0));
+    if (!ladder.empty()) plan.runs.push_back(sweep_run(Varied::resolution, {body, full, ladder}, full ? 60.0 : 4.0));
+}
+
+}  // namespace
+
+StudyPlan plan_stiffness_study(bool full)
+{
+    StudyPlan plan;
+    plan_body(plan, "bar", full ? std::vector<int>{300, 600, 1200, 2400, 4800} : std::vector<int>{300, 600, 1200}, full);
+    plan_body(plan, "limb", full ? std::vector<int>{300, 600, 1200, 2400, 4800, 9600, 20000} : std::vector<int>{300, 600, 1200, 2400},
+              full);
+    for (const std::string& body : installed_bodies(plan.left_out)) {
+        std::vector<int> ladder;
+        if (body == "human") ladder = full ? std::vector<int>{1200, 2400, 4800, 9600} : std::vector<int>{1200, 2400};
+        plan_body(plan, body, ladder, full);
+    }
+    return plan;
+}
+
+StudyConclusion conclude_stiffness_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+{
+    std::vector<SweptRows> swept;
+    std::vector<StiffnessRow> all;
+    for (const auto& [varied, name] : sweeps) {
+        std::vector<StiffnessRow> rows;
+        for (const std::string& run : finished) {
+            if (!fs::path(run).filename().string().starts_with(name)) continue;
+            const auto of_run = stiffness_rows(analysis::read_csv((fs::path(run) / "stiffness.csv").string()));
+            rows.insert(rows.end(), of_run.begin(), of_run.end());
+        }
+        all.insert(all.end(), rows.begin(), rows.end());
+        swept.emplace_back(varied, std::move(rows));
+    }
+    stiffness_table(all).write((fs::path(folder) / "stiffness.csv").string());
+    exponents_table(swept).write((fs::path(folder) / "exponents.csv").string());
+    analysis::write_text_atomically((fs::path(folder) / "stiffness.md").string(), stiffness_markdown(swept));
+    return {stiffness_text(swept), !finished.empty()};
+}
+
+}  // namespace experiments

@@ -1,0 +1,119 @@
+// C10: milliseconds of a frame on one core, LBS, bind, stretch, volume and the whole, on meshes made to Table 1's numbers of vertices, 10
+// ms steps, 24 iterations, CMU's clip 01_01; the size at which real time ends. Orders by turns, medians and quartiles.
+//
+//   man, frankie, lady   at 1654, 2645, 2108, 3190, 1829 vertices, in place of the paper's Man, ManHQ, bunny, bunnyHQ, Lady
+//   human                at some of the same sizes, and a ladder of sizes, the largest by cutting every tet into eight
+//
+// One run at once. Writes DIR/timing/BODY_VERTICES/timing.csv and measurements.csv; DIR/timing/timing.csv and timing.md.
+#include "analysis/atomic_file.hpp"
+#include "analysis/measurement.hpp"
+#include "experiments/cases/motion_case.hpp"
+#include "experiments/cases/real_bodies.hpp"
+#include "experiments/studies/study.hpp"
+#include "experiments/timing/timing_table.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct TimedCase {
+    std::string body, model = {};
+    int vertices = 0, refinements = 0;
+    double k_jiggle = 0.9, seconds = 2.0;
+    bool stands_in = false;
+
+    std::string name() const
+    {
+        return refinements ? fmt::format("{}_{}_refined_{}", body, vertices, refinements) : fmt::format("{}_{}", body, vertices);
+    }
+};
+
+Scene scene_of(const TimedCase& timed)
+{
+    Scene scene = read_scene("human_01_01", {fmt::format(R"(character.body="{}")", timed.body),
+                                             fmt::format("character.vertices={}", timed.vertices), "motion.duration_s=4.0"});
+    scene.character.refinements = timed.refinements;
+    return scene;
+}
+
+std::string time_and_record(const TimedCase& timed, const std::string& folder)
+{
+    const Scene scene = scene_of(timed);
+    const pbs::Character character = pbs::make_character(scene.character);
+    const pbs::Motion motion = make_motion(scene.motion, character.skeleton, scene.file);
+    TimedMesh mesh{.name = timed.name(), .body = timed.body, .model = timed.model, .stands_in = timed.stands_in};
+    mesh.vertices = static_cast<int>(character.mesh.rest.rows());
+    mesh.edges = static_cast<int>(pbs::edges_of(character.mesh.tets).rows());
+    mesh.tets = static_cast<int>(character.mesh.tets.rows());
+    mesh.surface_vertices = character.surface ? static_cast<int>(character.surface->tet.size()) : 0;
+    mesh.timings = time_frames(character, motion, {.k_jiggle = timed.k_jiggle}, {.seconds = timed.seconds, .fewest = 3, .most = 61});
+    timing_table(mesh).write((fs::path(folder) / "timing.csv").string());
+    const auto measured = timing_measurements(mesh);
+    if (!measured.empty()) analysis::measurement_table(measured).write((fs::path(folder) / "measurements.csv").string());
+    return "";
+}
+
+StudyRun timed_run(const TimedCase& timed, double set_up_s)
+{
+    return {.name = timed.name(),
+            .cost_s = timed.seconds + set_up_s,
+            .work = [timed](const std::string& folder) { return time_and_record(timed, folder); },
+            .settings = {{"body", timed.body},
+                         {"model", timed.model},
+                         {"vertices", timed.vertices},
+                         {"refinements", timed.refinements},
+                         {"k_jiggle", timed.k_jiggle},
+                         {"seconds", timed.seconds}}};
+}
+
+std::string body_of(const std::string& model)
+{
+    return model.starts_with("Man") ? "man" : model.starts_with("bunny") ? "frankie" : "lady";
+}
+
+}  // namespace
+
+StudyPlan plan_timing_study(bool full)
+{
+    StudyPlan plan;
+    const std::vector<std::string> installed = installed_bodies(plan.left_out);
+    const auto is_installed = [&](const std::string& body) { return std::count(installed.begin(), installed.end(), body) > 0; };
+    const double seconds = full ? 4.0 : 1.5;
+    for (const TableOneRow& row : table_1()) {
+        TimedCase timed{
+            .body = body_of(row.model), .model = row.model, .vertices = row.vertices, .k_jiggle = row.jiggling, .seconds = seconds};
+        if (is_installed(timed.body)) plan.runs.push_back(timed_run(timed, 3.0));
+        const bool stands_in = full || row.model == "Man" || row.model == "bunnyHQ";
+        timed.body = "human";
+        timed.stands_in = true;
+        if (is_installed(timed.body) && stands_in) plan.runs.push_back(timed_run(timed, 3.0));
+    }
+    if (!is_installed("human")) return plan;
+    for (const int vertices : full ? std::vector<int>{1200, 2400, 4800, 9600, 20000} : std::vector<int>{1200, 4800, 20000})
+        plan.runs.push_back(timed_run({.body = "human", .vertices = vertices, .seconds = seconds}, 2.0 + vertices / 2000.0));
+    if (full) plan.runs.push_back(timed_run({.body = "human", .vertices = 2400, .refinements = 2, .seconds = seconds}, 20.0));
+    return plan;
+}
+
+StudyConclusion conclude_timing_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+{
+    if (finished.empty()) return {"timing: nothing was timed\n", false};
+    std::string text;
+    for (const std::string& run : finished) {
+        const std::string of_run = analysis::read_text((fs::path(run) / "timing.csv").string());
+        text += text.empty() ? of_run : of_run.substr(of_run.find('\n') + 1);
+    }
+    analysis::write_text_atomically((fs::path(folder) / "timing.csv").string(), text);
+    const analysis::CsvTable table = analysis::read_csv((fs::path(folder) / "timing.csv").string());
+    analysis::write_text_atomically((fs::path(folder) / "timing.md").string(), timing_markdown(table));
+    return {timing_text(table), true};
+}
+
+}  // namespace experiments
