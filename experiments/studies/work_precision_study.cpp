@@ -8,6 +8,7 @@
 // Writes DIR/work_precision/CASE/points.csv and, over all cases, points.csv, fronts.csv, crossings.csv, equal_cost.csv, work_precision.md.
 #include "analysis/atomic_file.hpp"
 #include "experiments/cases/motion_case.hpp"
+#include "experiments/cases/real_bodies.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/work_precision/diagram_tables.hpp"
 #include "experiments/work_precision/findings.hpp"
@@ -41,7 +42,8 @@ StudyRun case_run(const std::string& name, const WorkPrecisionCase& of, double c
                          {"quadratic", of.range.quadratic},
                          {"quadratic_corotational", of.range.quadratic_corotational},
                          {"refined", of.range.refined},
-                         {"other_vertices", of.range.other_vertices},
+                         {"coarser_vertices", of.range.coarser_vertices},
+                         {"finer_vertices", of.range.finer_vertices},
                          {"seconds", {of.rounds.seconds, of.newton_rounds.seconds}}}};
 }
 
@@ -55,21 +57,22 @@ StudyRun limb_run(const std::string& motion, int angle_deg, bool full, double co
     of.scene = read_scene(scene, {fmt::format("motion.angle_deg={}", angle_deg), fmt::format("motion.frames={}", angle_deg / 5 + 1)});
     of.frame = angle_deg / 5;
     of.range.quadratic_corotational = full;
-    of.range.other_vertices = full ? std::vector<int>{600, 5000} : std::vector<int>{600};
+    of.range.coarser_vertices = {600};
+    if (full) of.range.finer_vertices = {5000};
     of.rounds = {.seconds = full ? 10.0 : 3.0, .fewest = 5, .most = 31};
     of.newton_rounds = {.seconds = full ? 10.0 : 0.0, .fewest = full ? 3 : 1, .most = 9};
     return case_run(fmt::format("{}_{}", scene, angle_deg), of, cost_s);
 }
 
-struct HumanPose {
+struct BodyPose {
     std::string name;
     int frame = 0;  // of 01_01 at 100 Hz
 };
 // Four by name, and four that nobody chose: at 1/5, 2/5, 3/5 and 4/5 of the clip.
-std::vector<HumanPose> human_poses(bool full)
+std::vector<BodyPose> human_poses(bool full)
 {
     if (!full) return {{"crouch", 164}, {"in the air", 672}};
-    std::vector<HumanPose> poses = {{"standing", 0}, {"crouch", 164}, {"in the air", 672}, {"landing", 708}};
+    std::vector<BodyPose> poses = {{"standing", 0}, {"crouch", 164}, {"in the air", 672}, {"landing", 708}};
     const Scene scene = read_scene("human_01_01", {});
     const pbs::Motion motion = make_motion(scene.motion, pbs::make_character(scene.character).skeleton, scene.file);
     const int last = static_cast<int>(motion.steps.size()) / motion.steps_per_frame - 1;
@@ -77,21 +80,34 @@ std::vector<HumanPose> human_poses(bool full)
     return poses;
 }
 
-StudyRun human_run(const HumanPose& pose, bool full, double cost_s)
+StudyRun body_run(const std::string& body, const BodyPose& pose, bool full, double cost_s)
 {
     WorkPrecisionCase of;
-    of.body = "human";
+    of.body = body;
     of.pose = pose.name;
-    of.scene = read_scene("human_01_01", {});
+    of.scene = read_scene("human_01_01", {"character.body=" + body});
     of.frame = pose.frame;
     of.range.quadratic = of.range.quadratic_corotational = false;  // a crouch takes minutes and is not reached
-    of.range.other_vertices = {1200};
+    of.range.coarser_vertices = {1200};
+    if (full) of.range.finer_vertices = {4650};
     of.rounds = {.seconds = full ? 10.0 : 3.0, .fewest = 5, .most = 31};
     of.newton_rounds = {.seconds = full ? 10.0 : 0.0, .fewest = 1, .most = 9};
-    std::string name = "human_" + pose.name;
+    std::string name = body + "_" + pose.name;
     std::replace_if(
         name.begin(), name.end(), [](char c) { return c == ' ' || c == '/'; }, '_');
     return case_run(name, of, cost_s);
+}
+
+analysis::CsvTable together(const std::vector<analysis::CsvTable>& tables)
+{
+    analysis::CsvTable all(tables.front().columns());
+    for (const analysis::CsvTable& table : tables)
+        for (int row = 0; row < table.rows(); ++row) {
+            std::vector<analysis::CsvTable::Cell> cells;
+            for (const std::string& column : table.columns()) cells.push_back(table.text_at(row, column));
+            all.add_row(cells);
+        }
+    return all;
 }
 
 }  // namespace
@@ -106,10 +122,16 @@ StudyPlan plan_work_precision_study(bool full)
         plan.runs.push_back(limb_run("bend", 90, full, 60.0));
     }
     try {
-        for (const HumanPose& pose : human_poses(full)) plan.runs.push_back(human_run(pose, full, 20.0));
+        for (const BodyPose& pose : human_poses(full)) plan.runs.push_back(body_run("human", pose, full, full ? 30.0 : 14.0));
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({"human", error.what()});
     }
+    if (!full) return plan;
+    std::vector<analysis::LeftOut> left_out;
+    for (const std::string& body : installed_bodies(left_out))
+        if (body != "human") plan.runs.push_back(body_run(body, {"crouch", 164}, full, 30.0));
+    for (const auto& other : left_out)
+        if (other.scene != "human") plan.left_out.push_back(other);
     return plan;
 }
 
@@ -117,19 +139,19 @@ StudyConclusion conclude_work_precision_study(const std::string& folder, const S
 {
     std::vector<analysis::CsvTable> points;
     for (const std::string& run : finished) points.push_back(analysis::read_csv((fs::path(run) / "points.csv").string()));
+    if (points.empty()) return {"", false};
+    together(points).write((fs::path(folder) / "points.csv").string());
     const std::vector<Diagram> diagrams = diagrams_of(points);
     fronts_table(diagrams).write((fs::path(folder) / "fronts.csv").string());
     crossings_table(diagrams).write((fs::path(folder) / "crossings.csv").string());
     equal_cost_table(diagrams).write((fs::path(folder) / "equal_cost.csv").string());
-    std::string text = "     off: from the reference at the joints, % of the mean bone distance; *: below the reference's own error\n",
-                page;
+    std::string text = best_text(diagrams) +
+                       "     off: from the reference at the joints, % of the mean bone distance; *: below the reference's own error\n";
+    std::string page;
     for (const Diagram& diagram : diagrams) {
-        text += front_text(diagram);
-        page += fmt::format("## {}\n\n", diagram.name);
-        for (const std::string& line : findings(diagram)) {
-            text += "       " + line + "\n";
-            page += "- " + line + "\n";
-        }
+        text += fmt::format("     {}: {}\n", diagram.name, physics_text(diagram));
+        page += fmt::format("## {}\n\n```\n{}```\n\n", diagram.name, front_text(diagram));
+        for (const std::string& line : findings(diagram)) page += "- " + line + "\n";
         page += "\n";
     }
     analysis::write_text_atomically((fs::path(folder) / "work_precision.md").string(), page);

@@ -1,11 +1,11 @@
 #include "experiments/work_precision/findings.hpp"
 
+#include "experiments/work_precision/point_setting.hpp"
+
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
-#include <set>
 
 namespace experiments {
 namespace {
@@ -127,6 +127,34 @@ std::string front_text(const Diagram& diagram)
         text += fmt::format("     {:>10.4g} {:>10.4g} {:>10.4g} {:>8.2f}{} {}\n", point->ms, point->ms_q1, point->ms_q3, point->error_pct,
                             point->below_reference_error ? "*" : " ", point->words());
     return text;
+}
+
+std::string best_text(const std::vector<Diagram>& diagrams)
+{
+    std::size_t width = 25;
+    for (const Diagram& diagram : diagrams) width = std::max(width, diagram.name.size());
+    std::string text = fmt::format("     {:<{}}", "off [%] at best, after ms", width);
+    for (const DeformerGroup& group : deformer_groups()) text += fmt::format(" {:>17}", group.words);
+    text += fmt::format(" {:>14}\n", "reference off");
+    for (const Diagram& diagram : diagrams) {
+        text += fmt::format("     {:<{}}", diagram.name, width);
+        for (const DeformerGroup& group : deformer_groups()) {
+            const DiagramPoint* best = best_of(diagram, group, std::numeric_limits<double>::infinity());
+            text += fmt::format(
+                " {:>17}",
+                best ? fmt::format("{:.1f}{} {}", best->error_pct, best->below_reference_error ? "*" : "", ms_text(best->ms)) : "");
+        }
+        const auto& bar_pct = diagram.reference_error_pct;
+        text += fmt::format(" {:>14}\n", bar_pct ? fmt::format("up to {:.1f}", *bar_pct) : "not known");
+    }
+    return text;
+}
+
+std::string physics_text(const Diagram& diagram)
+{
+    for (const DiagramPoint& budget : budgets_of(diagram))
+        if (budget.setting == words_of(pbs::PbsOptions{})) return is_physics_worth_it(diagram, budget);
+    return "";
 }
 
 }  // namespace experiments

@@ -12,4 +12,10 @@ std::vector<std::string> findings(const Diagram& diagram);
 // The front of all points, aligned: ms a frame with quartiles, error, who.
 std::string front_text(const Diagram& diagram);
 
+// All diagrams on one screen, a line each: how near each group of deformers comes at its best, and after how many ms.
+std::string best_text(const std::vector<Diagram>& diagrams);
+
+// Whether the physics is worth its time: delta mush against PBS and XPBD within the time of PBS's 24 iterations.
+std::string physics_text(const Diagram& diagram);
+
 }  // namespace experiments

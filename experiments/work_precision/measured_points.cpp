@@ -34,7 +34,8 @@ public:
     {
         meshes_.emplace(0, BodyMesh(base_));
         if (of.range.refined) meshes_.emplace(refined, BodyMesh::refined(*base_));
-        for (const int vertices : of.range.other_vertices) meshes_.emplace(vertices, BodyMesh(of.scene.character, vertices, *base_));
+        for (const auto* sizes : {&of.range.coarser_vertices, &of.range.finer_vertices})
+            for (const int vertices : *sizes) meshes_.emplace(vertices, BodyMesh(of.scene.character, vertices, *base_));
     }
 
     MeasuredPoints measure()

@@ -165,7 +165,8 @@ std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange&
     list.add_pbs_with_exponent();
     list.add_xpbd();
     list.add_fem(range);
-    for (const int vertices : range.other_vertices) list.add_other_mesh(vertices, range.quadratic);
+    for (const int vertices : range.coarser_vertices) list.add_other_mesh(vertices, range.quadratic);
+    for (const int vertices : range.finer_vertices) list.add_other_mesh(vertices, false);
     return list.settings;
 }
 

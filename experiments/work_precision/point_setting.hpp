@@ -29,8 +29,10 @@ struct PointSetting {
 struct SettingRange {
     bool quadratic = true;               // stable neo-Hookean flesh on quadratic elements too: the reference
     bool quadratic_corotational = true;  // corotational too
-    std::vector<int> other_vertices;     // sizes of other meshes of the body
-    bool refined = false;                // stable neo-Hookean flesh on the case's own tets, each cut into eight
+    std::vector<int>
+        coarser_vertices;             // sizes of other meshes of the body; the reference's law with quadratic elements too, if `quadratic`
+    std::vector<int> finer_vertices;  // the same with linear elements alone
+    bool refined = false;             // stable neo-Hookean flesh on the case's own tets, each cut into eight
 };
 // The scene gives the options that are not varied: its pbs, and the material and attachment of its first [[fem]].
 std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange& range);

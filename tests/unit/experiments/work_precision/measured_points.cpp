@@ -132,7 +132,10 @@ TEST_F(Choice, WithoutASolutionThereIsNone)
 
 TEST(PointSettings, AreEachOnceInWordsAndEightOrMoreOfEachDeformerWithSomethingToSet)
 {
-    const std::vector<PointSetting> settings = point_settings(read_scene("limb_twist", {}), {.other_vertices = {600}, .refined = true});
+    SettingRange range;
+    range.coarser_vertices = {600};
+    range.refined = true;
+    const std::vector<PointSetting> settings = point_settings(read_scene("limb_twist", {}), range);
     std::set<std::string> words;
     std::map<std::string, int> of_kind;
     for (const PointSetting& setting : settings) {
