@@ -42,6 +42,14 @@ double standard_error(const std::vector<double>& values)
     return standard_deviation(values) / std::sqrt(static_cast<double>(values.size()));
 }
 
+double rank_correlation(const std::vector<double>& x, const std::vector<double>& y)
+{
+    const std::size_t n = std::min(x.size(), y.size());
+    if (n < 2 || has_nan(x) || has_nan(y)) return not_known;
+    std::vector<double> work(2 * n);
+    return gsl_stats_spearman(x.data(), 1, y.data(), 1, n, work.data());
+}
+
 double integrated_autocorrelation_time(const std::vector<double>& series)
 {
     const std::size_t n = series.size();

@@ -14,6 +14,9 @@ double quantile(std::vector<double> values, double share);     // linear between
 double standard_deviation(const std::vector<double>& values);  // n - 1 in the denominator
 double standard_error(const std::vector<double>& values);      // of the mean of independent values
 
+// Spearman's, of pairs: 1 where y rises with x throughout. NaN for fewer than two pairs.
+double rank_correlation(const std::vector<double>& x, const std::vector<double>& y);
+
 // Integrated autocorrelation time in samples, 1 + 2 sum rho_k over the first window W >= 5 tau (Sokal): the mean of n samples is worth that
 // of n / tau independent ones. At least 1; 1 for a series without spread.
 double integrated_autocorrelation_time(const std::vector<double>& series);

@@ -12,6 +12,7 @@ endforeach()
 pbs_test(properties analysis/frame_metrics analysis)
 pbs_test(verification analysis/bootstrap analysis GSL::gsl)
 pbs_test(verification analysis/line_fit analysis GSL::gsl)
+pbs_test(verification analysis/damped_oscillation analysis)
 pbs_test(verification analysis/grid_convergence analysis)
 pbs_test(unit analysis/minimise analysis GSL::gsl)
 

@@ -9,7 +9,7 @@
 namespace experiments {
 namespace {
 
-constexpr double reach_radii = 2.0;
+constexpr double reach_radii = 2.0, fan_radii = 3.0;
 constexpr int stations_a_radius = 5;
 
 pbs::Vec3 direction(const pbs::Skeleton& skeleton, int bone, const pbs::Pose& pose)
@@ -63,7 +63,7 @@ std::vector<pbs::CuttingPlane> JointSections::planes(const pbs::Pose& pose) cons
     std::vector<pbs::CuttingPlane> planes;
     for (const double offset_m : offsets_m_) {
         const int bone = offset_m < 0.0 ? joint_.parent : joint_.child;
-        const double turned = std::clamp(0.5 + 0.5 * offset_m / (reach_radii * joint_.radius_m), 0.0, 1.0);
+        const double turned = std::clamp(0.5 + 0.5 * offset_m / (fan_radii * joint_.radius_m), 0.0, 1.0);
         const pbs::Vec3 at_rest = joint_.point + offset_m * direction(skeleton_, bone, still);
         const pbs::Vec3 normal = (1.0 - turned) * before + turned * after;
         planes.push_back({pose[bone] * at_rest, normal.norm() > 0.0 ? normal : after});

@@ -1,6 +1,7 @@
 #include "experiments/artefacts/limb_joints.hpp"
 
 #include "experiments/limb_stations.hpp"
+#include "pbs/geometry/topology.hpp"
 
 #include <cmath>
 
@@ -23,10 +24,11 @@ bool passes_through(const pbs::Bone& parent, const pbs::Bone& child)
 
 double limb_radius(const pbs::Character& character, int parent, int child)
 {
+    const std::vector<bool> skin = pbs::boundary_vertices(character.mesh.tets, character.mesh.rest.rows());
     double sum_m = 0.0;
     int count = 0;
     for (std::size_t v = 0; v < character.binding.bone.size(); ++v) {
-        if (character.binding.bone[v] != parent && character.binding.bone[v] != child) continue;
+        if (!skin[v] || (character.binding.bone[v] != parent && character.binding.bone[v] != child)) continue;
         sum_m += character.binding.distance(v);
         ++count;
     }

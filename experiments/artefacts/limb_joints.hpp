@@ -13,7 +13,7 @@ struct LimbJoint {
     std::string name;                    // "thigh.L|shin.L"
     int parent, child;                   // bones
     pbs::Vec3 point;                     // rest [m]
-    double radius_m;                     // of the limb there: mean rest distance of the vertices that hang on the two bones
+    double radius_m;                     // of the limb there: mean rest distance of the skin's vertices that hang on the two bones
     double half_parent_m, half_child_m;  // half of each bone's length
 };
 

@@ -31,6 +31,10 @@ const std::vector<Study>& studies()
          "triangles that intersect, for every deformer on the limb and on real bodies",
          "C04, C05, C06", "some 1 minute (--quick), 8 (--full: all bodies, finer meshes)", plan_artefacts_study, true,
          conclude_artefacts_study},
+        {"jiggle",
+         "the flesh's answer to a jolt: frequency, damping and amplitude against k_stretch, time step, iterations and masses, finite "
+         "elements in time beside it; how far it lags in a walk; what the paper's jiggling zone is on each body",
+         "C09", "some 1 minute (--quick), 5 (--full: all bodies)", plan_jiggle_study, true, conclude_jiggle_study},
         {"stiffness",
          "force over displacement of flesh under gravity, on a bar, the limb and every installed body, against iterations, time step and "
          "vertices: PBS, PBS with Mueller's exponent, XPBD; ratios for one doubling, and exponents",

@@ -52,6 +52,8 @@ StudyPlan plan_fit_study(bool full);
 StudyConclusion conclude_fit_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_artefacts_study(bool full);
 StudyConclusion conclude_artefacts_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
+StudyPlan plan_jiggle_study(bool full);
+StudyConclusion conclude_jiggle_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_momentum_study(bool full);
 StudyPlan plan_ambiguity_study(bool full);
 StudyConclusion conclude_ambiguity_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);

@@ -1,0 +1,24 @@
+// The same flesh as an elastic body in time: finite elements whose Young's modulus is chosen so that they swing as fast as PBS does at one
+// setting; how far they then agree in damping and amplitude.
+//   const JiggleReference reference = match_reference(character, fem, probe, jolt, pbs_frequency_hz);
+#pragma once
+
+#include "experiments/jiggle/jolt_response.hpp"
+
+#include <optional>
+
+namespace experiments {
+
+struct JiggleReference {
+    double young_pa = 0.0;  // f goes with sqrt(E): from the first modulus' frequency, then solved again
+    JoltResponse response;  // at it
+};
+
+// fem: dynamic, of any Young's modulus to begin with. 24 steps a period, 3 periods. Nothing where the first modulus does not swing.
+std::optional<JiggleReference> match_reference(const pbs::Character& character, DeformerSpec fem, const std::vector<int>& probe, Jolt jolt,
+                                               double frequency_hz);
+
+// Stable neo-Hookean, linear elements, generalised alpha.
+DeformerSpec dynamic_reference(double young_pa);
+
+}  // namespace experiments

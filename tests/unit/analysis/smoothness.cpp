@@ -1,0 +1,111 @@
+// Truth: strains and angles of boxes in closed form. Tolerance 1e-12 on figures of order 1.
+#include "analysis/smoothness.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "tests/support/structured_bar.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using analysis::SmoothnessRuler;
+using pbs::Positions;
+using pbs::Vec3;
+
+pbs::TetMesh bar()
+{
+    return test_support::structured_bar({-1.0, -0.5, -0.5}, {1.0, 0.5, 0.5}, {2, 1, 1});
+}
+
+SmoothnessRuler ruler_of(const pbs::TetMesh& mesh)
+{
+    return {mesh.rest, mesh.tets, std::vector<bool>(mesh.rest.rows(), true)};
+}
+
+TEST(Smoothness, RestRigidMotionAndUniformStretchAreSmooth)
+{
+    const pbs::TetMesh mesh = bar();
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.2, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    const Positions turned = (mesh.rest * turn.transpose()).rowwise() + Vec3(4, 5, 6).transpose();
+    const Positions stretched = mesh.rest * Vec3(1.5, 1.5, 1.5).asDiagonal();
+    for (const Positions& positions : {mesh.rest, turned, stretched}) {
+        const auto smoothness = ruler_of(mesh).measure(positions);
+        EXPECT_NEAR(smoothness.strain_jump_rms, 0.0, 1e-12);
+        EXPECT_NEAR(smoothness.bending_rms_rad, 0.0, 1e-12);
+    }
+}
+
+// The right half is stretched along x by s: E_xx = (s^2 - 1) / 2 there, 0 on the left. Only the faces in the plane x = 0 jump, so that the
+// rms is below it; and it is linear in E.
+TEST(Smoothness, JumpOfStrainAcrossAPlane)
+{
+    const pbs::TetMesh mesh = bar();
+    Positions positions = mesh.rest;
+    const double s = 1.6, strain = 0.5 * (s * s - 1.0);
+    for (Eigen::Index v = 0; v < positions.rows(); ++v)
+        if (positions(v, 0) > 0.0) positions(v, 0) *= s;
+    const double jump = ruler_of(mesh).measure(positions).strain_jump_rms;
+    Positions twice = positions;
+    for (Eigen::Index v = 0; v < twice.rows(); ++v)
+        if (mesh.rest(v, 0) > 0.0) twice(v, 0) = mesh.rest(v, 0) * std::sqrt(1.0 + 4.0 * strain);
+    EXPECT_GT(jump, 0.0);
+    EXPECT_LT(jump, strain);
+    EXPECT_NEAR(ruler_of(mesh).measure(twice).strain_jump_rms, 2.0 * jump, 1e-12);
+}
+
+// Two tets on one triangle of area 1/2; the second one's apex is raised: its E_zz is known, the other's is 0.
+TEST(Smoothness, JumpBetweenTwoTets)
+{
+    pbs::TetMesh mesh;
+    mesh.rest.resize(5, 3);
+    mesh.rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1;
+    mesh.tets.resize(2, 4);
+    mesh.tets << 0, 1, 2, 3, 0, 2, 1, 4;
+    Positions positions = mesh.rest;
+    positions(3, 2) = 2.0;
+    EXPECT_NEAR(ruler_of(mesh).measure(positions).strain_jump_rms, 1.5, 1e-12);
+}
+
+// The right end is sheared off: what is measured on the left alone knows less of it, and nothing where no vertex is near.
+TEST(Smoothness, OnlyTheRegionIsMeasured)
+{
+    const pbs::TetMesh mesh = bar();
+    Positions positions = mesh.rest;
+    std::vector<bool> left(mesh.rest.rows());
+    for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+        left[v] = mesh.rest(v, 0) < 0.5;
+        if (!left[v]) positions(v, 1) += 0.7;
+    }
+    EXPECT_GT(ruler_of(mesh).measure(positions).strain_jump_rms, 0.1);
+    EXPECT_GT(ruler_of(mesh).measure(positions).bending_rms_rad, 0.1);
+    const SmoothnessRuler of_left(mesh.rest, mesh.tets, left);
+    EXPECT_LT(of_left.measure(positions).strain_jump_rms, ruler_of(mesh).measure(positions).strain_jump_rms);
+    EXPECT_EQ(SmoothnessRuler(mesh.rest, mesh.tets, std::vector<bool>(mesh.rest.rows(), false)).measure(positions).strain_jump_rms, 0.0);
+}
+
+// One tet whose apex over the base's edge is turned about that edge by 0.3: both dihedral angles there and nowhere else are known.
+TEST(Smoothness, BendingOfASkinThatIsTurnedAboutOneEdge)
+{
+    pbs::TetMesh mesh;
+    mesh.rest.resize(4, 3);
+    mesh.rest << 0, 0, 0, 1, 0, 0, 0.5, 1, 0, 0.5, 0, 1;
+    mesh.tets.resize(1, 4);
+    mesh.tets << 0, 1, 2, 3;
+    std::vector<bool> edge = {true, true, false, false};
+    Positions positions = mesh.rest;
+    positions.row(3) << 0.5, std::sin(0.3), std::cos(0.3);
+    EXPECT_NEAR(SmoothnessRuler(mesh.rest, mesh.tets, edge).measure(positions).bending_rms_rad, 0.3, 1e-12);
+}
+
+TEST(Smoothness, RegionOfAnotherSizeIsRefused)
+{
+    const pbs::TetMesh mesh = bar();
+    EXPECT_THROW(SmoothnessRuler(mesh.rest, mesh.tets, {true}), pbs::InputError);
+}
+
+}  // namespace
