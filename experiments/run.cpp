@@ -86,7 +86,7 @@ public:
           runners_(make_runners(scene, character_, cost_)),
           measurer_(
               cost_.time("ruler_set_up", [&] { return FrameMeasurer(character_, measured_output(scene), prescribed_by_any(runners_)); })),
-          folder_((refuse_frames_beyond(motion_, scene), scene), folder)
+          folder_((refuse_frames_beyond(motion_, scene), scene), character_, folder)
     {
         if (scene.error_bar != ErrorBar::none)
             cost_.time("error_bar_set_up", [&] { error_bar_.emplace(scene.error_bar, runners_.front().spec, character_); });
@@ -153,6 +153,7 @@ private:
         cost_.time("records", [&] {
             folder_.add_frame(runner.spec, frame, time_s, measured, runner.step);
             folder_.add_state(runner.spec, positions);
+            folder_.add_regions(runner.spec.label, positions);
         });
         runner.lowest_change_pct = std::min(runner.lowest_change_pct, measured.metrics.volume_change_pct);
         runner.highest_change_pct = std::max(runner.highest_change_pct, measured.metrics.volume_change_pct);

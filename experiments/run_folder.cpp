@@ -149,16 +149,17 @@ bool is_own_frame(const fs::path& file)
 
 }  // namespace
 
-RunFolder::RunFolder(const Scene& scene, const std::string& folder)
+RunFolder::RunFolder(const Scene& scene, const pbs::Character& character, const std::string& folder)
     : scene_(scene),
       folder_(folder),
       metrics_(columns_of(scene)),
-      iterations_({"deformer", "frame", "iteration", "stretch_rms", "volume_rms", "bind_rms_m"})
+      iterations_({"deformer", "frame", "iteration", "stretch_rms", "volume_rms", "bind_rms_m"}),
+      regions_(character)
 {
     std::error_code error;
     fs::create_directories(fs::path(folder) / "frames", error);
     if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
-    for (const char* old : {"run.json", "metrics.csv", "iterations.csv"}) fs::remove(fs::path(folder) / old);
+    for (const char* old : {"run.json", "metrics.csv", "iterations.csv", "regions.csv"}) fs::remove(fs::path(folder) / old);
     for (const auto& entry : fs::directory_iterator(fs::path(folder) / "frames"))
         if (is_own_frame(entry.path())) fs::remove(entry.path());
 }
@@ -222,6 +223,7 @@ void RunFolder::write_tables() const
     const fs::path folder(folder_);
     metrics_.write((folder / "metrics.csv").string());
     if (iterations_.rows() > 0) iterations_.write((folder / "iterations.csv").string());
+    regions_.table().write((folder / "regions.csv").string());
     for (const auto& [name, frames] : collections_) pbs::write_pvd((folder / "frames" / (name + ".pvd")).string(), frames);
 }
 

@@ -1,5 +1,5 @@
-// A run's directory: metrics.csv, iterations.csv, frames/, run.json. Each file is written beside and renamed; run.json comes last, so that
-// a folder with run.json is a finished run.
+// A run's directory: metrics.csv, iterations.csv, regions.csv, frames/, run.json. Each file is written beside and renamed; run.json comes
+// last, so that a folder with run.json is a finished run.
 #pragma once
 
 #include "analysis/csv_table.hpp"
@@ -8,6 +8,7 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/frame_measurement.hpp"
 #include "experiments/scene.hpp"
+#include "experiments/volume/region_record.hpp"
 
 #include <map>
 #include <string>
@@ -16,14 +17,17 @@ namespace experiments {
 
 class RunFolder {
 public:
-    RunFolder(const Scene& scene, const std::string& folder);  // clears an earlier run's records
+    // Clears an earlier run's records.
+    RunFolder(const Scene& scene, const pbs::Character& character, const std::string& folder);
 
     void add_frame(const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured, const pbs::StepSummary& step);
     void write_frame(const DeformerSpec& spec, int frame, double time_s, const pbs::Character& character, const pbs::Positions& positions,
                      const Eigen::VectorXd& volume_ratios, const std::vector<bool>& prescribed);
     void add_state(const DeformerSpec& spec, const pbs::Positions& positions);  // into the deformer's state hash
 
-    void write_tables() const;  // metrics.csv, iterations.csv and the collections: of an interrupted run, all there is
+    void add_regions(const std::string& label, const pbs::Positions& positions) { regions_.add(label, positions); }
+
+    void write_tables() const;  // metrics.csv, iterations.csv, regions.csv and the collections: of an interrupted run, all there is
 
     // Writes the tables and, last, run.json with what all of it cost; a null method of the reference's error bar is left out.
     void finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
@@ -33,6 +37,7 @@ private:
     const Scene& scene_;
     std::string folder_;
     analysis::CsvTable metrics_, iterations_;
+    RegionRecord regions_;
     std::map<std::string, analysis::StateHash> hashes_;
     std::map<std::string, std::vector<std::pair<double, std::string>>> collections_;  // .pvd: time, file
 };

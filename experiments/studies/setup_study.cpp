@@ -1,0 +1,74 @@
+// C17: are characters of other resolutions and topologies accommodated without set-up? The text of one scene over every body and a ladder
+// of sizes, the character's table alone changed; each meshed anew.
+//
+//   human at 1,200, 2,400 and 4,800 vertices; man, lady, frankie where installed; ring, a body with a handle
+//
+// Writes DIR/setup/BODY/measurements.csv, changed_keys.csv and run/ (a run's directory), and setup.csv.
+#include "analysis/measurement.hpp"
+#include "experiments/cases/real_bodies.hpp"
+#include "experiments/setup/body_setup.hpp"
+#include "experiments/studies/study.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+StudyRun setup_run(const BodySetup& setup, double rate_hz, double cost_s)
+{
+    const std::string name = setup.vertices > 0 ? fmt::format("{}_{}", setup.body, setup.vertices) : setup.body;
+    return {.name = name,
+            .cost_s = cost_s,
+            .work = [setup, rate_hz](const std::string& folder) { return set_up_and_record(setup, rate_hz, folder); },
+            .settings = {{"scene", resolved_with_deformers(scene_of(setup, rate_hz))}}};
+}
+
+// Of one run, by quantity.
+std::map<std::string, analysis::Measurement> figures_of(const std::string& run)
+{
+    std::map<std::string, analysis::Measurement> figures;
+    for (const auto& measured : analysis::measurements((fs::path(run) / "measurements.csv").string()))
+        figures[measured.quantity] = measured;
+    return figures;
+}
+
+}  // namespace
+
+StudyPlan plan_setup_study(bool full)
+{
+    const double rate_hz = full ? 100.0 : 5.0;
+    StudyPlan plan;
+    for (const std::string& body : installed_bodies(plan.left_out))
+        if (body == "human")
+            for (const int vertices : {1200, 2400, 4800}) plan.runs.push_back(setup_run({body, vertices}, rate_hz, full ? 20.0 : 8.0));
+        else
+            plan.runs.push_back(setup_run({body}, rate_hz, full ? 20.0 : 8.0));
+    plan.runs.push_back(setup_run({"ring"}, rate_hz, full ? 20.0 : 8.0));
+    return plan;
+}
+
+StudyConclusion conclude_setup_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+{
+    std::string text = fmt::format("{:<36} {:>5} {:>26} {:>24} {:>10} {:>9}\n", "body", "keys", "good frames [%]", "mean volume [%]",
+                                   "worst [%]", "set-up [s]");
+    std::vector<analysis::Measurement> all;
+    for (const std::string& run : finished) {
+        const auto figures = figures_of(run);
+        const auto& keys = figures.at("keys changed besides the body");
+        const auto& share = figures.at("share of frames finite and without inverted tets");
+        const auto& mean = figures.at("mean volume change");
+        text += fmt::format("{:<36} {:>5.0f} {:>9.1f} [{:>5.1f}, {:>5.1f}] {:>8.2f} [{:>5.2f}, {:>5.2f}] {:>10.2f} {:>9.1f}\n", keys.of,
+                            keys.value, 100.0 * share.value, 100.0 * share.low, 100.0 * share.high, mean.value, mean.low, mean.high,
+                            figures.at("largest volume change").value, figures.at("seconds to set up").value);
+        for (const auto& [quantity, measured] : figures) all.push_back(measured);
+    }
+    analysis::measurement_table(all).write((fs::path(folder) / "setup.csv").string());
+    return {text, !finished.empty()};
+}
+
+}  // namespace experiments
