@@ -57,6 +57,7 @@ provide_packages() {
     local missing=() name group purpose
     while read -r name group purpose; do
         package_is_installed "$name" && continue
+        [[ $group == full ]] && command -v "$name" >/dev/null && continue  # npm comes from elsewhere as often
         ((${#missing[@]})) || say "missing packages:"
         printf '  %-24s (%s) %s\n' "$name" "$group" "$purpose"
         missing+=("$name")

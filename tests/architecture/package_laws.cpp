@@ -40,7 +40,7 @@ std::string looked_for(const std::string& line)
 
 Violations package_list_form(const SourceTree& tree)
 {
-    static const std::regex entry(R"([a-z0-9][a-z0-9+.-]+ +[0-9][\w.+:~-]* +(run|check|long) +(\[[\w.+, -]+\] )?\w.*)");
+    static const std::regex entry(R"([a-z0-9][a-z0-9+.-]+ +[0-9][\w.+:~-]* +(run|full|check|long) +(\[[\w.+, -]+\] )?\w.*)");
     Violations violations;
     std::set<std::string> packages;
     int number = 0;
