@@ -6,49 +6,48 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace analysis {
 namespace {
 
 using Steps = std::vector<StabilityStep>;
 
-// The part from numerator / denominator of the steps on.
-std::size_t part(const Steps& steps, int numerator, int denominator)
+// What a body ended up doing: the last third of the still steps, at least the last step.
+struct Ending {
+    Steps::const_iterator begin, end;
+
+    Ending(const Steps& steps, int disturbed) : end(steps.end())
+    {
+        const int still = std::max(0, static_cast<int>(steps.size()) - disturbed);
+        begin = end - std::max(1, still / 3);
+    }
+};
+
+double mean_motion(Steps::const_iterator begin, Steps::const_iterator end)
 {
-    return steps.size() * numerator / denominator;
+    return std::accumulate(begin, end, 0.0, [](double sum, const auto& step) { return sum + step.motion; }) / double(end - begin);
 }
 
-double mean_motion(const Steps& steps, std::size_t begin, std::size_t end)
+bool went_far(const Ending& ending, const StabilityBounds& bounds)
 {
-    double sum = 0.0;
-    for (std::size_t i = begin; i < end; ++i) sum += steps[i].motion;
-    return end > begin ? sum / static_cast<double>(end - begin) : 0.0;
+    return std::any_of(ending.begin, ending.end, [&](const auto& step) { return !(step.reach <= bounds.farthest); });
 }
 
-bool went_far(const Steps& steps, const StabilityBounds& bounds)
+bool motion_grows(const Ending& ending, double put_in, const StabilityBounds& bounds)
 {
-    return std::any_of(steps.begin() + part(steps, 2, 3), steps.end(), [&](const auto& step) { return step.reach > bounds.farthest; });
-}
-
-bool motion_grows(const Steps& steps, const StabilityBounds& bounds)
-{
-    const double first = mean_motion(steps, part(steps, 6, 9), part(steps, 7, 9));
-    const double second = mean_motion(steps, part(steps, 7, 9), part(steps, 8, 9));
-    const double third = mean_motion(steps, part(steps, 8, 9), steps.size());
-    return third > bounds.rest_motion && second > bounds.growth * first && third > bounds.growth * second;
+    const auto third = (ending.end - ending.begin) / 3;
+    if (third == 0) return false;
+    const double first = mean_motion(ending.begin, ending.begin + third);
+    const double second = mean_motion(ending.begin + third, ending.begin + 2 * third);
+    const double last = mean_motion(ending.begin + 2 * third, ending.end);
+    return last > put_in && last > bounds.rest_motion && second > bounds.growth * first && last > bounds.growth * second;
 }
 
 bool settled(const StabilityStep& step, const StabilityBounds& bounds)
 {
     const bool near = std::isnan(step.from_undisturbed) || step.from_undisturbed < bounds.near_undisturbed;
     return step.solved && step.motion < bounds.rest_motion && step.inverted_tets == 0 && near;
-}
-
-// Steps at the end that are all settled.
-int settled_at_the_end(const Steps& steps, const StabilityBounds& bounds)
-{
-    const auto last_unsettled = std::find_if(steps.rbegin(), steps.rend(), [&](const auto& step) { return !settled(step, bounds); });
-    return static_cast<int>(last_unsettled - steps.rbegin());
 }
 
 }  // namespace
@@ -77,9 +76,10 @@ std::string criteria_text(const StabilityBounds& bounds)
         "bind point through its rest distance. The first that applies:\n\n"
         "| outcome | when |\n|---|---|\n"
         "| not_finite | a position is not finite in any step |\n"
-        "| diverged | in the last third of the steps a vertex is farther than {:g} D from its place; or the largest motion a step, "
-        "averaged "
-        "over each third of them, is above {:g} D at last and grew twice by more than {:g} times |\n"
+        "| diverged | in the last third of the still steps a vertex is farther than {:g} D from its place; or its motion a step, the "
+        "largest "
+        "of any vertex, averaged over each third of them, grew twice by more than {:g} times, to above {:g} D and to more than in any step "
+        "of the disturbance |\n"
         "| inverted | a tet is inverted in the last step |\n"
         "| converged | in each of the last {} steps no vertex moved by {:g} D or more, no tet was inverted, the method reached what the "
         "step "
@@ -87,7 +87,7 @@ std::string criteria_text(const StabilityBounds& bounds)
         "| bounded | none of these: still moving, at rest elsewhere, or held up on the way (a Newton step that was not reached). It says "
         "that nothing worse happened, not that the shape is right |\n\n"
         "Recovery: still steps before the first from which on all are as `converged` asks.\n",
-        bounds.farthest, bounds.rest_motion, bounds.growth, bounds.still_steps, bounds.rest_motion, bounds.near_undisturbed);
+        bounds.farthest, bounds.growth, bounds.rest_motion, bounds.still_steps, bounds.rest_motion, bounds.near_undisturbed);
 }
 
 StabilityStep stability_step(const pbs::Positions& before, const pbs::Positions& after, const Places& places, const pbs::Tets& tets,
@@ -103,15 +103,24 @@ StabilityStep stability_step(const pbs::Positions& before, const pbs::Positions&
     return step;
 }
 
+int settled_steps(const std::vector<StabilityStep>& steps, const StabilityBounds& bounds)
+{
+    const auto last_unsettled = std::find_if(steps.rbegin(), steps.rend(), [&](const auto& step) { return !settled(step, bounds); });
+    return static_cast<int>(last_unsettled - steps.rbegin());
+}
+
 StabilityResult outcome_of(const std::vector<StabilityStep>& steps, int disturbed, const StabilityBounds& bounds)
 {
     const bool finite = std::all_of(steps.begin(), steps.end(), [](const auto& step) { return step.finite; });
     if (steps.empty() || !finite) return {StabilityOutcome::not_finite, {}};
-    if (went_far(steps, bounds) || motion_grows(steps, bounds)) return {StabilityOutcome::diverged, {}};
+    const Ending ending(steps, disturbed);
+    double put_in = 0.0;
+    for (int i = 0; i < std::min(disturbed, static_cast<int>(steps.size())); ++i) put_in = std::max(put_in, steps[i].motion);
+    if (went_far(ending, bounds) || motion_grows(ending, put_in, bounds)) return {StabilityOutcome::diverged, {}};
     if (steps.back().inverted_tets > 0) return {StabilityOutcome::inverted, {}};
-    const int settled_steps = settled_at_the_end(steps, bounds);
-    if (settled_steps < bounds.still_steps) return {StabilityOutcome::bounded, {}};
-    return {StabilityOutcome::converged, std::max(0, static_cast<int>(steps.size()) - settled_steps - disturbed)};
+    const int settled = settled_steps(steps, bounds);
+    if (settled < bounds.still_steps) return {StabilityOutcome::bounded, {}};
+    return {StabilityOutcome::converged, std::max(0, static_cast<int>(steps.size()) - settled - disturbed)};
 }
 
 }  // namespace analysis

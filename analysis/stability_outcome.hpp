@@ -17,8 +17,8 @@ enum class StabilityOutcome { converged, bounded, inverted, diverged, not_finite
 std::string name_of(StabilityOutcome outcome);
 
 struct StabilityBounds {
-    double farthest = 10.0;          // of a vertex from its place [diagonals]
-    double growth = 1.5;             // of the motion, from each third of the last third to the next
+    double farthest = 1.0;           // of a vertex from its place [diagonals]
+    double growth = 1.5;             // of the mean motion, from a ninth of the still steps to the next
     double rest_motion = 1e-5;       // of any vertex in a step [diagonals]
     double near_undisturbed = 1e-3;  // of any vertex from the undisturbed result [diagonals]
     int still_steps = 10;            // that a body is at rest before it counts as converged
@@ -48,7 +48,11 @@ struct StabilityResult {
     StabilityOutcome outcome = StabilityOutcome::not_finite;
     std::optional<int> recovery_steps;  // of a body that converged: still steps before it was at rest for good
 };
-// disturbed: so many of the first steps; the others are still. No steps: not_finite.
+// disturbed: so many of the first steps; the others are still, and their last third tells what the body ended up doing. No steps:
+// not_finite.
 StabilityResult outcome_of(const std::vector<StabilityStep>& steps, int disturbed, const StabilityBounds& bounds = {});
+
+// Steps at the end of which each is as `converged` asks.
+int settled_steps(const std::vector<StabilityStep>& steps, const StabilityBounds& bounds = {});
 
 }  // namespace analysis

@@ -1,7 +1,7 @@
 # Tests of the ruler.
 find_package(GSL REQUIRED)
 foreach(name IN ITEMS frame_metrics error_norms cross_section surface_volume statistics bootstrap grid_convergence
-        state_hash atomic_file csv_table provenance
+        stability_outcome state_hash atomic_file csv_table provenance
         claims case_record case_row verdict claims_report measurement)
     pbs_test(unit analysis/${name} analysis)
 endforeach()

@@ -1,18 +1,31 @@
 #include "experiments/stability/cell_run.hpp"
 
+#include "experiments/bench/cpu_clock.hpp"
 #include "experiments/stability/driven_body.hpp"
-#include "pbs/geometry/stopwatch.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace experiments {
 namespace {
+
+constexpr int settled_for_good = 50;  // still steps after which a run ends early
+constexpr int given_up_after = 3;     // steps in a row that were not reached
 
 struct Course {
     std::vector<analysis::StabilityStep> steps;
     pbs::Positions last;  // [m], #V x 3
     int disturbed_steps = 0;
 };
+
+bool is_over(const Course& course)
+{
+    const auto& steps = course.steps;
+    const auto reached = std::find_if(steps.rbegin(), steps.rend(), [](const auto& step) { return step.solved; });
+    if (!steps.back().finite || reached - steps.rbegin() >= given_up_after) return true;
+    return static_cast<int>(steps.size()) >= course.disturbed_steps + settled_for_good &&
+           analysis::settled_steps(steps) >= settled_for_good;
+}
 
 Course follow(const StabilityCell& cell, const pbs::Positions* undisturbed)
 {
@@ -27,7 +40,7 @@ Course follow(const StabilityCell& cell, const pbs::Positions* undisturbed)
                                                         character.mesh.tets, body.diagonal_m(), undisturbed));
         course.steps.back().solved = solved;
         course.last = driven->positions();
-        if (!course.steps.back().finite) break;
+        if (is_over(course)) break;
     }
     return course;
 }
@@ -43,12 +56,21 @@ std::optional<pbs::Positions> undisturbed_state(StabilityCell cell)
     return course.last;
 }
 
+// Cells that differ in their disturbance alone share it.
+const std::optional<pbs::Positions>& undisturbed_of(const StabilityCell& cell)
+{
+    static std::map<std::string, std::optional<pbs::Positions>> kept;
+    const std::string key = setting_of(cell);
+    const auto found = kept.find(key);
+    return found != kept.end() ? found->second : kept.emplace(key, undisturbed_state(cell)).first->second;
+}
+
 }  // namespace
 
 CellResult run_cell(const StabilityCell& cell)
 {
-    const pbs::Stopwatch stopwatch;
-    const std::optional<pbs::Positions> undisturbed = undisturbed_state(cell);
+    const double start_s = process_cpu_s();
+    const std::optional<pbs::Positions>& undisturbed = undisturbed_of(cell);
     CellResult result;
     Course course = follow(cell, undisturbed ? &*undisturbed : nullptr);
     result.stability = analysis::outcome_of(course.steps, course.disturbed_steps);
@@ -56,7 +78,7 @@ CellResult run_cell(const StabilityCell& cell)
         static_cast<int>(std::count_if(course.steps.begin(), course.steps.end(), [](const auto& s) { return !s.solved; }));
     result.steps = std::move(course.steps);
     result.has_undisturbed = undisturbed.has_value();
-    result.seconds = stopwatch.seconds();
+    result.cpu_s = process_cpu_s() - start_s;
     return result;
 }
 

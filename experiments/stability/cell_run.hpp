@@ -7,12 +7,14 @@
 
 namespace experiments {
 
+// A run ends early where it is not finite, where the body has been at rest for 50 still steps, or where three steps in a row were not
+// reached (each of them would be tried again at length).
 struct CellResult {
     analysis::StabilityResult stability;
     std::vector<analysis::StabilityStep> steps;
     bool has_undisturbed = false;  // the same body, set out on the last pose, comes to rest
     int steps_not_reached = 0;
-    double seconds = 0.0;
+    double cpu_s = 0.0;
 };
 CellResult run_cell(const StabilityCell& cell);
 

@@ -7,7 +7,14 @@
 namespace experiments {
 namespace {
 
-constexpr double degrees_a_step = 15.0;
+constexpr double degrees_a_step = 15.0, turning_s = 0.1;
+
+// The turn takes a tenth of a second or a single step, whatever the time step.
+void set_time_step(StabilityCell& cell, double time_step_s)
+{
+    cell.time_step_s = time_step_s;
+    cell.disturbance.turning_steps = std::max(1, static_cast<int>(std::lround(turning_s / time_step_s)));
+}
 
 void twist(StabilityCell& cell, double angle_deg)
 {
@@ -46,8 +53,7 @@ std::vector<double> values_of(const Sweep& sweep, bool full)
 
 }  // namespace
 
-const Sweep time_steps{
-    "time step", "s", {1e-4, 0.01, 0.1, 1.0}, {1e-3, 3e-3, 0.03, 0.3}, [](StabilityCell& cell, double value) { cell.time_step_s = value; }};
+const Sweep time_steps{"time step", "s", {1e-4, 0.01, 0.1, 1.0}, {1e-3, 3e-3, 0.03, 0.3}, set_time_step};
 const Sweep twists{"twist", "deg", {0.0, 90.0, 180.0, 360.0, 720.0}, {45.0, 135.0, 270.0, 540.0}, twist};
 const Sweep jumps{"bend in one step", "deg", {90.0, 180.0}, {45.0, 135.0}, jump};
 const Sweep teleports{

@@ -41,7 +41,7 @@ const std::vector<std::string> columns = {"body",
                                           "last_inverted_tets",
                                           "steps_not_reached",
                                           "as_published",
-                                          "seconds"};
+                                          "cpu_s"};
 
 using Keyed = std::vector<std::pair<std::string, std::vector<const MeasuredCell*>>>;
 
@@ -108,7 +108,7 @@ std::vector<CsvTable::Cell> row_of(const MeasuredCell& measured)
             when_finite(last.inverted_tets),
             result.steps_not_reached,
             cell.as_published ? "yes" : "no",
-            result.seconds};
+            result.cpu_s};
 }
 
 }  // namespace

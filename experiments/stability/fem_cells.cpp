@@ -30,7 +30,7 @@ StabilityCell base(Model model, Dynamics dynamics)
     cell.spec.fem.element_order = 1;
     cell.spec.fem.dynamics = dynamics;
     cell.spec.fem.gravity_m_s2 = pbs::Vec3(0.0, -g_m_s2, 0.0);
-    if (in_time) cell.spec.fem.rayleigh_stiffness_s = 0.02;
+    if (in_time) cell.spec.fem.rayleigh_stiffness_s = 0.05;
     cell.still_steps = 12;
     return cell;
 }
@@ -51,7 +51,7 @@ std::vector<StabilityCell> fem_dynamic_cells(bool full)
     std::vector<StabilityCell> cells;
     for (const Model model : {Model::corotational, Model::stable_neo_hookean}) {
         StabilityCell from = base(model, Dynamics::generalized_alpha);
-        from.still_steps = full ? 120 : 60;
+        from.still_steps = full ? 300 : 100;
         for (const Sweep* sweep : {&time_steps, &youngs, &teleports}) append(cells, cells_of(*sweep, from, full));
     }
     return cells;

@@ -1,5 +1,8 @@
+#include "experiments/deformers/option_names.hpp"
 #include "experiments/stability/cell_sweep.hpp"
 #include "experiments/stability/stability_cells.hpp"
+
+#include <cmath>
 
 namespace experiments {
 namespace {
@@ -25,6 +28,9 @@ const Sweep k_binds{"k_bind", "1", {0.0, 0.5, 1.0}, {0.1, 0.25, 0.75}, [](Stabil
 const Sweep iterations{"iterations", "1", {1.0, 24.0, 1000.0}, {2.0, 4.0, 8.0, 96.0, 384.0}, [](StabilityCell& cell, double count) {
                            cell.spec.pbs.iterations = static_cast<int>(count);
                        }};
+const Sweep iterations_of_maps{"iterations", "1", {1.0, 4.0, 24.0, 96.0}, {2.0, 8.0, 384.0, 1000.0}, iterations.set};
+const Sweep clip_time_steps{
+    "time step", "s", {1e-4, 0.1, 1.0}, {1e-3, 0.01}, [](StabilityCell& cell, double value) { cell.time_step_s = value; }};
 const Sweep gravities{"gravity", "g", {1.0, 100.0, 1e4}, {10.0, 1e3}, [](StabilityCell& cell, double count) {
                           cell.spec.pbs.gravity_m_s2.y() = -g_m_s2 * count;
                       }};
@@ -34,6 +40,15 @@ const Sweep orders{"order", "", {1.0, 2.0}, {}, [](StabilityCell& cell, double v
                        cell.spec.pbs.order = value == 1.0 ? pbs::Order::plain : pbs::Order::grouped;
                        cell.named = value == 1.0 ? "plain" : "grouped";
                    }};
+
+void set_form(StabilityCell& cell, double value)
+{
+    cell.spec.pbs.volume_form = static_cast<pbs::VolumeForm>(std::lround(value));
+    cell.named = name_of(cell.spec.pbs.volume_form);
+}
+
+const Sweep printed_forms{"printed form", "", {1.0, 2.0, 3.0, 4.0}, {}, set_form, false};
+const Sweep runs_away{"sign, no bind, iterations", "1", {24.0, 1000.0}, {}, iterations.set, false};
 
 StabilityCell base(const std::string& body, bool jiggle, pbs::Precision precision, bool full)
 {
@@ -45,7 +60,7 @@ StabilityCell base(const std::string& body, bool jiggle, pbs::Precision precisio
     cell.spec.pbs.precision = precision;
     cell.spec.pbs.gravity_m_s2 = pbs::Vec3(0.0, -g_m_s2, 0.0);
     if (jiggle) cell.spec.pbs.jiggle = pbs::Jiggle{cell.spec.pbs.k_stretch};
-    cell.still_steps = full ? 200 : 100;
+    cell.still_steps = full ? 1000 : 600;
     cell.as_published = true;
     return cell;
 }
@@ -64,55 +79,54 @@ std::vector<StabilityCell> pbs_cells(bool jiggle, bool full)
     std::vector<StabilityCell> cells;
     for (const pbs::Precision precision : both_precisions) {
         const StabilityCell start = base("limb", jiggle, precision, full), from = jiggle ? start : without_memory(start);
-        for (const Sweep* sweep : {&k_stretches, &k_volumes, &k_binds, &time_steps, &iterations, &twists, &jumps, &teleports, &starts,
-                                   &slivers, &needles, &mass_ratios, &held_ends, &orders})
+        for (const Sweep* sweep : {&time_steps, &teleports, &starts}) append(cells, cells_of(*sweep, from, full));
+        if (precision == pbs::Precision::f64 && !full) continue;
+        for (const Sweep* sweep :
+             {&k_stretches, &k_volumes, &k_binds, &iterations, &twists, &jumps, &slivers, &needles, &mass_ratios, &held_ends, &orders})
             append(cells, cells_of(*sweep, from, full));
         if (jiggle) append(cells, cells_of(gravities, from, full));
     }
     return cells;
 }
 
-std::vector<StabilityCell> pbs_human_cells(bool full)
+std::vector<StabilityCell> pbs_character_cells(const std::string& body, bool full)
 {
     std::vector<StabilityCell> cells;
     for (const bool jiggle : {false, true}) {
-        const StabilityCell start = base("human", jiggle, pbs::Precision::f32, full), from = jiggle ? start : without_memory(start);
-        for (const Sweep* sweep : {&k_stretches, &iterations, &teleports, &starts}) append(cells, cells_of(*sweep, from, full));
+        StabilityCell start = base(body, jiggle, pbs::Precision::f32, full);
+        if (!full) start.still_steps = 200;
+        const StabilityCell from = jiggle ? start : without_memory(start);
+        for (const Sweep* sweep : {&k_stretches, &teleports, &starts}) append(cells, cells_of(*sweep, from, full));
         if (!jiggle) continue;
-        append(cells, cells_of(time_steps, from, full));
+        append(cells, cells_of(clip_time_steps, from, full));
         append(cells, cells_of(gravities, from, full));
-        append(cells, cells_of(k_volumes, base("human", true, pbs::Precision::f64, full), full));
+        append(cells, cells_of(iterations_of_maps, from, full));
     }
     return cells;
 }
 
 std::vector<StabilityCell> pbs_map_cells(bool full)
 {
-    const StabilityCell from = base("limb", true, pbs::Precision::f32, full);
+    StabilityCell from = base("limb", true, pbs::Precision::f32, full);
+    if (!full) from.still_steps = 300;
     std::vector<StabilityCell> cells = cells_of_map(time_steps, k_stretches, from, full);
-    append(cells, cells_of_map(iterations, twists, from, full));
+    append(cells, cells_of_map(iterations_of_maps, twists, from, full));
     return cells;
 }
 
-std::vector<StabilityCell> negative_controls(bool full)
+std::vector<StabilityCell> negative_controls(bool)
 {
-    static const Sweep printed{
-        "printed form",
-        "",
-        {1.0, 2.0, 3.0, 4.0},
-        {},
-        [](StabilityCell& cell, double value) {
-            static const char* const names[] = {"derived", "labels_relative", "labels_absolute", "sign", "as_printed"};
-            cell.spec.pbs.volume_form = static_cast<pbs::VolumeForm>(static_cast<int>(value));
-            cell.named = names[static_cast<int>(value)];
-        },
-        false};
     std::vector<StabilityCell> cells;
     for (const bool jiggle : {false, true})
         for (const pbs::Precision precision : both_precisions) {
-            StabilityCell from = base("limb", jiggle, precision, full);
+            StabilityCell from = base("limb", jiggle, precision, false);
+            from.still_steps = 100;
             from.spec.pbs.order = pbs::Order::plain;
-            append(cells, cells_of(printed, jiggle ? from : without_memory(from), full));
+            if (!jiggle) from = without_memory(from);
+            append(cells, cells_of(printed_forms, from, false));
+            from.spec.pbs.volume_form = pbs::VolumeForm::sign;
+            from.spec.pbs.k_bind = 0.0;
+            append(cells, cells_of(runs_away, from, false));
         }
     return cells;
 }

@@ -17,7 +17,7 @@ constexpr unsigned seed = 20140528;
 Scene scene_of(const StabilityCell& cell)
 {
     if (cell.body == "limb") return read_scene("limb_bend", {"character.vertices=" + std::to_string(limb_vertices)});
-    return read_scene("human_01_01", {"motion.start_s=6.72", "motion.duration_s=0.36"});  // from the air to the landing
+    return read_scene("human_01_01", {"character.body=" + cell.body, "motion.start_s=6.72", "motion.duration_s=0.36"});
 }
 
 pbs::Character spoilt(pbs::Character character, Defect defect, double thinness)

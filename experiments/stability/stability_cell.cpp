@@ -27,9 +27,19 @@ nlohmann::json to_json(const StabilityCell& cell)
             {"stays", disturbance.stays},
             {"time_step_s", cell.time_step_s},
             {"still_steps", cell.still_steps},
+            {"start", static_cast<int>(disturbance.start)},
+            {"defect", static_cast<int>(cell.defect)},
             {"thinness", cell.thinness},
             {"mass_ratio", cell.mass_ratio},
             {"held_end", cell.held_end}};
+}
+
+std::string setting_of(const StabilityCell& cell)
+{
+    nlohmann::json setting = to_json(cell);
+    for (const char* of_the_way : {"model", "factor", "value", "second_value", "named", "turning_steps", "start", "stays"})
+        setting.erase(of_the_way);
+    return setting.dump();
 }
 
 }  // namespace experiments

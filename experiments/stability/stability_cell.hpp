@@ -13,7 +13,7 @@ namespace experiments {
 enum class Start { none, flattened, mirrored, random, point };
 
 // The body begins at rest on the first pose of the way and stays on the last. A limb's forearm turns about `axis` (rest world axes) to
-// angle_deg in even steps; a human follows its clip. Then the whole body may be moved in one step.
+// angle_deg in even steps; a character lands from a jump, 36 steps of its clip. Or the whole body is moved in one step, or starts broken.
 struct Disturbance {
     pbs::Vec3 axis = pbs::Vec3::UnitZ();
     double angle_deg = 90.0;
@@ -27,7 +27,7 @@ struct Disturbance {
 enum class Defect { none, slivers, needles };
 
 struct StabilityCell {
-    std::string body = "limb";  // limb, human
+    std::string body = "limb";  // or a character
     std::string model, factor;  // e.g. pbs_jiggle, time step
     double value = 0.0;
     std::string unit;
@@ -50,5 +50,6 @@ struct StabilityCell {
 
 std::string precision_of(const StabilityCell& cell);  // f32, f64
 nlohmann::json to_json(const StabilityCell& cell);
+std::string setting_of(const StabilityCell& cell);  // body, method, place and pose to stay in: all but the way there
 
 }  // namespace experiments

@@ -3,7 +3,7 @@
 //
 //   pbs, pbs_jiggle   a limb of 400 vertices, bent by 90 degrees in ten steps; one factor at a time to its extremes, in f32 and f64
 //   pbs_maps          time step x k_stretch; iterations x twist
-//   pbs_human         MakeHuman's body landing from a jump
+//   pbs_human, ...    characters landing from a jump
 //   controls          Eq. 12-20 as printed: what instability looks like
 //   xpbd              the same limb with a material, also in small steps
 //   fem_static        linear, corotational and stable neo-Hookean in equilibrium
@@ -11,11 +11,10 @@
 //
 // Writes DIR/stability/RUN/cells.csv and measurements.csv, and cells.csv, the maps, outcomes.md and criteria.md.
 #include "analysis/atomic_file.hpp"
+#include "experiments/cases/real_bodies.hpp"
 #include "experiments/stability/cell_table.hpp"
 #include "experiments/stability/stability_cells.hpp"
 #include "experiments/studies/study.hpp"
-#include "pbs/character/bodies.hpp"
-#include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -49,14 +48,14 @@ StudyRun stability_run(const std::string& name, const Cells& cells, double cost_
             .settings = {{"cells", settings}, {"criteria", analysis::criteria_text()}}};
 }
 
-void add_human(StudyPlan& plan, bool full)
+// --quick: the default character alone.
+void add_characters(StudyPlan& plan, bool full)
 {
-    try {
-        pbs::make_character({.body = "human"});
-        plan.runs.push_back(stability_run("pbs_human", pbs_human_cells(full), full ? 60.0 : 20.0));
-    } catch (const pbs::InputError& error) {
-        plan.left_out.push_back({"human", error.what()});
-    }
+    std::vector<analysis::LeftOut> left_out;
+    for (const std::string& body : installed_bodies(left_out))
+        if (full || body == "human") plan.runs.push_back(stability_run("pbs_" + body, pbs_character_cells(body, full), full ? 90.0 : 20.0));
+    for (const analysis::LeftOut& body : left_out)
+        if (full || body.scene == "human") plan.left_out.push_back(body);
 }
 
 }  // namespace
@@ -67,7 +66,7 @@ StudyPlan plan_stability_study(bool full)
     plan.runs.push_back(stability_run("pbs", pbs_cells(false, full), full ? 60.0 : 10.0));
     plan.runs.push_back(stability_run("pbs_jiggle", pbs_cells(true, full), full ? 60.0 : 10.0));
     plan.runs.push_back(stability_run("pbs_maps", pbs_map_cells(full), full ? 60.0 : 10.0));
-    add_human(plan, full);
+    add_characters(plan, full);
     plan.runs.push_back(stability_run("controls", negative_controls(full), 3.0));
     plan.runs.push_back(stability_run("xpbd", xpbd_cells(full), full ? 60.0 : 10.0));
     plan.runs.push_back(stability_run("fem_static", fem_static_cells(full), full ? 60.0 : 10.0));
