@@ -21,11 +21,11 @@ struct TimedFrames {
 };
 
 struct FrameTiming {
-    std::string variant, precision;  // plain, ordered; f32, f64
-    Spread lbs_ms, bind_ms, stretch_ms, volume_ms;
-    Spread rest_ms;  // of total: bind points, prediction, copying in and out, velocities
-    Spread total_ms, total_wall_ms;
-    Spread surface_ms;  // of the embedded surface, not in total; no rounds where there is none
+    std::string variant = {}, precision = {};  // plain, ordered; f32, f64
+    Spread lbs_ms = {}, bind_ms = {}, stretch_ms = {}, volume_ms = {};
+    Spread rest_ms = {};  // of total: bind points, prediction, copying in and out, velocities
+    Spread total_ms = {}, total_wall_ms = {};
+    Spread surface_ms = {};  // of the embedded surface, not in total; no rounds where there is none
 
     double frames_per_s() const { return 1e3 / total_ms.median; }
 };

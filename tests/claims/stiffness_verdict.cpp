@@ -1,0 +1,79 @@
+// C11 is judged from what the study of stiffness measures: alter its figures and the verdict turns round. Truth: the project's own
+// claims.toml; the stiffnesses are made up, the figures are the study's own of them.
+#include "analysis/verdict.hpp"
+
+#include "analysis/atomic_file.hpp"
+#include "experiments/stiffness/stiffness_ratios.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using analysis::VerdictKind;
+using namespace experiments;
+
+// K = iterations^p, dt^-q, vertices^r, once a method.
+std::vector<analysis::Measurement> measured(Method method, double p, double q, double r)
+{
+    std::vector<StiffnessRow> iterations, time_steps, resolutions;
+    StiffnessRow row;
+    row.body = "limb";
+    row.load = "zone";
+    row.vertices = 600;
+    row.setting.method = method;
+    row.converged = true;
+    for (const double factor : {0.5, 1.0, 2.0}) {
+        StiffnessRow other = row;
+        other.setting.iterations = static_cast<int>(24 * factor);
+        other.stiffness_n_m = std::pow(factor, p);
+        iterations.push_back(other);
+        other = row;
+        other.setting.time_step_s = 0.01 / factor;
+        other.stiffness_n_m = std::pow(factor, q);
+        time_steps.push_back(other);
+        other = row;
+        other.vertices = static_cast<int>(600 * factor);
+        other.stiffness_n_m = std::pow(factor, r);
+        resolutions.push_back(other);
+    }
+    std::vector<analysis::Measurement> all = stiffness_ratios(iterations, Varied::iterations);
+    for (const auto& more : {stiffness_ratios(time_steps, Varied::time_step), stiffness_ratios(resolutions, Varied::resolution)})
+        all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+analysis::Verdict verdict(const std::vector<analysis::Measurement>& measurements)
+{
+    const auto claims = analysis::parse_claims(analysis::read_text(PBS_CLAIMS_FILE), PBS_CLAIMS_FILE);
+    const auto claim = std::find_if(claims.begin(), claims.end(), [](const analysis::Claim& of) { return of.id == "C11"; });
+    analysis::Records records;
+    records.measurements = measurements;
+    return judge(*claim, records);
+}
+
+TEST(StiffnessVerdict, TurnsWithTheFigures)
+{
+    EXPECT_EQ(verdict(measured(Method::pbs, 0.0, 0.0, 0.0)).kind, VerdictKind::reproduced);
+    EXPECT_EQ(verdict(measured(Method::pbs, 1.0, 2.0, -0.7)).kind, VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict(measured(Method::pbs, 0.0, 2.0, 0.0)).kind, VerdictKind::reproduced_only_for);
+}
+
+TEST(StiffnessVerdict, IsOfThePaperAlone)
+{
+    auto both = measured(Method::pbs, 1.0, 2.0, -0.7);
+    for (const auto& control : measured(Method::xpbd, 0.0, 0.0, 0.0)) both.push_back(control);
+    const analysis::Verdict judged = verdict(both);
+    EXPECT_EQ(judged.kind, VerdictKind::not_reproduced);
+    EXPECT_EQ(judged.measurements.size(), 3u);
+    EXPECT_EQ(judged.measured_beside.size(), 3u);
+}
+
+TEST(StiffnessVerdict, NeedsFigures)
+{
+    EXPECT_EQ(verdict(measured(Method::xpbd, 0.0, 0.0, 0.0)).kind, VerdictKind::not_computable);
+}
+
+}  // namespace

@@ -1,0 +1,53 @@
+// C10 is judged from what the study of timing measures: alter its times and the verdict turns round. Truth: the project's own claims.toml;
+// the times are made up.
+#include "analysis/verdict.hpp"
+
+#include "analysis/atomic_file.hpp"
+#include "experiments/timing/timing_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace {
+
+using analysis::VerdictKind;
+using namespace experiments;
+
+TimedMesh timed(const std::string& body, const std::string& model, double median_ms, double upper_ms)
+{
+    TimedMesh mesh{.name = body, .body = body, .model = model};
+    FrameTiming timing{.variant = "plain", .precision = "f64"};
+    timing.total_ms = {median_ms, 0.9 * median_ms, upper_ms, 9};
+    mesh.timings = {timing};
+    return mesh;
+}
+
+VerdictKind verdict(const std::vector<TimedMesh>& meshes)
+{
+    const auto claims = analysis::parse_claims(analysis::read_text(PBS_CLAIMS_FILE), PBS_CLAIMS_FILE);
+    const auto claim = std::find_if(claims.begin(), claims.end(), [](const analysis::Claim& of) { return of.id == "C10"; });
+    analysis::Records records;
+    for (const TimedMesh& mesh : meshes)
+        for (const auto& measurement : timing_measurements(mesh)) records.measurements.push_back(measurement);
+    return judge(*claim, records).kind;
+}
+
+TEST(TimingVerdict, TurnsWithTheTimes)
+{
+    EXPECT_EQ(verdict({timed("man", "Man", 5.0, 6.0), timed("lady", "Lady", 6.0, 7.0)}), VerdictKind::reproduced);
+    EXPECT_EQ(verdict({timed("man", "Man", 5.0, 6.0), timed("lady", "Lady", 60.0, 70.0)}), VerdictKind::reproduced_only_for);
+    EXPECT_EQ(verdict({timed("man", "Man", 50.0, 60.0), timed("lady", "Lady", 60.0, 70.0)}), VerdictKind::not_reproduced);
+}
+
+TEST(TimingVerdict, ALateQuartileIsNoWholeSuccess)
+{
+    EXPECT_EQ(verdict({timed("man", "Man", 30.0, 40.0)}), VerdictKind::reproduced_only_for);
+}
+
+TEST(TimingVerdict, IsOfTableOnesSizesAlone)
+{
+    EXPECT_EQ(verdict({timed("human", "", 5.0, 6.0)}), VerdictKind::not_computable);
+}
+
+}  // namespace
