@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""Keeps what the verdicts rest on: from the records of `pbskin reproduce --full -o DIR` the figures that claims are judged by, studies' own
+tables and the provenance, below 5 MB, in experiments/records/full. `pbskin reproduce --judge -o experiments/records/full` judges them again.
+
+    python3 experiments/records/keep.py results/full
+"""
+import csv
+import json
+import pathlib
+import shutil
+import sys
+
+JUDGED = ["scene", "deformer", "variant", "order", "precision", "iterations", "threads", "frame", "time_s", "angle_deg", "outcome",
+          "volume_change_pct", "volume_abs_change_pct", "inverted_tets"]
+PROVENANCE = ["version", "git_revision", "git_dirty", "compiler", "flags", "build_type", "cpu_model", "logical_cpus"]
+MOST_BYTES = 5_000_000
+TABLE_BYTES = 60_000  # of a study's further tables; longer ones are made again by the run
+
+
+def rounded(text):
+    """Seven digits are enough for every bound; texts stay."""
+    try:
+        return text if text == "" or text.lstrip("-").isdigit() else f"{float(text):.7g}"
+    except ValueError:
+        return text
+
+
+def keep_metrics(source, target):
+    """The columns of metrics.csv that claims are judged by."""
+    with source.open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    columns = [column for column in JUDGED if rows and column in rows[0]]
+    with target.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows([rounded(row[column]) for column in columns] for row in rows)
+
+
+def keep_run(source, target):
+    record = json.loads((source / "run.json").read_text(encoding="utf-8"))
+    provenance = {key: value for key, value in record.get("provenance", {}).items() if key in PROVENANCE}
+    target.mkdir(parents=True)
+    (target / "run.json").write_text(json.dumps({"schema": 1, "provenance": provenance}, indent=1) + "\n", encoding="utf-8")
+    for table in sorted(source.glob("*.csv")):
+        if table.name == "metrics.csv":
+            keep_metrics(table, target / table.name)
+        elif table.name in ("measurements.csv", "printed.csv") or table.stat().st_size <= TABLE_BYTES:
+            shutil.copyfile(table, target / table.name)
+
+
+def keep_study(source, target):
+    target.mkdir(parents=True)
+    for file in sorted(source.iterdir()):
+        if file.suffix in (".csv", ".md", ".json") and (file.name == "plan.json" or file.stat().st_size <= 4 * TABLE_BYTES):
+            shutil.copyfile(file, target / file.name)
+    for run in json.loads((source / "plan.json").read_text(encoding="utf-8"))["runs"]:
+        if (source / run["name"] / "run.json").exists():
+            keep_run(source / run["name"], target / run["name"])
+
+
+def keep(results, target):
+    plans = sorted(results.glob("*/plan.json"))
+    if not plans:
+        sys.exit(f"keep: {results}: no records of a study")
+    shutil.rmtree(target, ignore_errors=True)
+    for plan in plans:
+        keep_study(plan.parent, target / plan.parent.name)
+    for name in ("claims.json", "claims.md"):
+        shutil.copyfile(results / name, target / name)
+    size = sum(file.stat().st_size for file in target.rglob("*") if file.is_file())
+    print(f"{size / 1e6:.2f} MB in {target}")
+    if size > MOST_BYTES:
+        sys.exit(f"keep: more than {MOST_BYTES / 1e6:g} MB")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    keep(pathlib.Path(sys.argv[1]), pathlib.Path(__file__).resolve().parent / "full")

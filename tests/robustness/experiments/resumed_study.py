@@ -1,0 +1,44 @@
+"""A study that is killed goes on where it was: runs that ended are kept as they are, the others are done, and the records are those of a study
+that nobody killed. Truth: files' own times, and the records of an undisturbed run."""
+import os
+import pathlib
+import signal
+import subprocess
+import time
+import unittest
+
+import program
+
+RUNS = ["limb", "human"]
+
+
+class ResumedStudy(program.ProgramTest):
+    def command(self, results, *more):
+        return [program.PBSKIN, "reproduce", "momentum", "-o", str(results), "-j", "1", *more]
+
+    def kill_after_first_run(self, results):
+        process = subprocess.Popen(self.command(results), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+        deadline = time.monotonic() + 120
+        while not (results / "momentum" / RUNS[0] / "run.json").exists() and time.monotonic() < deadline:
+            time.sleep(0.002)
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+
+    def test_killed_and_resumed(self):
+        whole, killed = pathlib.Path(self.path("whole")), pathlib.Path(self.path("killed"))
+        subprocess.run(self.command(whole), check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.kill_after_first_run(killed)
+        first = killed / "momentum" / RUNS[0] / "run.json"
+        ended = first.stat()
+        self.assertFalse((killed / "claims.json").exists())
+        said = subprocess.run(self.command(killed, "--resume"), check=True, capture_output=True, text=True).stderr
+        self.assertIn("kept from before", said)
+        self.assertEqual((first.stat().st_mtime_ns, first.stat().st_ino), (ended.st_mtime_ns, ended.st_ino))
+        for run in RUNS:
+            path = pathlib.Path("momentum") / run / "measurements.csv"
+            self.assertEqual((killed / path).read_text(), (whole / path).read_text())
+        self.assertEqual((killed / "claims.json").read_text(), (whole / "claims.json").read_text())
+
+
+if __name__ == "__main__":
+    unittest.main()
