@@ -6,6 +6,7 @@ foreach(name IN ITEMS frame_metrics error_norms cross_section surface_volume sta
     pbs_test(unit analysis/${name} analysis)
 endforeach()
 pbs_test(unit analysis/pareto_front analysis)
+pbs_test(unit analysis/region_volume analysis)
 foreach(name IN ITEMS section_outline smoothness)
     pbs_test(unit analysis/${name} analysis)
 endforeach()

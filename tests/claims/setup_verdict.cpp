@@ -1,0 +1,51 @@
+// C17 is judged from what the setup study measures: alter its figures and the verdict turns round. Truth: the project's own claims.toml;
+// the frames are made up, the figures are computed from them as the study does.
+#include "analysis/atomic_file.hpp"
+#include "analysis/claims.hpp"
+#include "analysis/verdict.hpp"
+#include "experiments/setup/body_setup.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace {
+
+using analysis::VerdictKind;
+
+// A body's 100 frames, every n-th with an inverted tet; n = 0: none.
+std::vector<analysis::Measurement> body(const std::string& name, int every, const std::vector<std::string>& changed = {})
+{
+    analysis::CsvTable metrics({"volume_change_pct", "inverted_tets"});
+    for (int frame = 0; frame < 100; ++frame) metrics.add_row({-0.1 * (frame % 7), every && frame % every == 0 ? 1 : 0});
+    const nlohmann::json run = {{"cost", {{"cpu_seconds", {{"character", 3.0}, {"motion", 0.25}, {"set_up", 0.5}}}}}};
+    return experiments::setup_measurements(name, metrics, run, changed);
+}
+
+VerdictKind verdict(const std::vector<std::vector<analysis::Measurement>>& bodies)
+{
+    const auto claims = analysis::parse_claims(analysis::read_text(PBS_CLAIMS_FILE), PBS_CLAIMS_FILE);
+    const auto claim = std::find_if(claims.begin(), claims.end(), [](const auto& one) { return one.id == "C17"; });
+    analysis::Records records;
+    for (const auto& measured : bodies) records.measurements.insert(records.measurements.end(), measured.begin(), measured.end());
+    return judge(*claim, records).kind;
+}
+
+TEST(SetupVerdict, ABodyThatTurnsInsideOutIsNotAccommodated)
+{
+    EXPECT_EQ(verdict({body("human", 0), body("ring", 0)}), VerdictKind::reproduced);
+    EXPECT_EQ(verdict({body("human", 0), body("frankie", 2)}), VerdictKind::reproduced_only_for);
+}
+
+TEST(SetupVerdict, AChangedKeyIsSetUp)
+{
+    EXPECT_EQ(verdict({body("human", 0, {"pbs.k_stretch"})}), VerdictKind::reproduced_only_for);
+    EXPECT_EQ(verdict({body("human", 2, {"pbs.k_stretch"})}), VerdictKind::not_reproduced);
+}
+
+TEST(SetupVerdict, NothingMeasuredIsNoVerdict)
+{
+    EXPECT_EQ(verdict({}), VerdictKind::not_computable);
+}
+
+}  // namespace

@@ -1,0 +1,72 @@
+// Truth: volumes of stretched unit cubes by hand; regions that cover all tets add up to the whole.
+#include "analysis/region_volume.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/tet_volume.hpp"
+#include "tests/support/structured_bar.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace analysis;
+
+const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
+
+// 0 left of x = 1, 1 right of it.
+std::vector<int> halves()
+{
+    std::vector<int> region;
+    for (Eigen::Index t = 0; t < bar.tets.rows(); ++t) {
+        double x = 0.0;
+        for (const int vertex : bar.tets.row(t)) x += bar.rest(vertex, 0) / 4.0;
+        region.push_back(x < 1.0 ? 0 : 1);
+    }
+    return region;
+}
+
+TEST(RegionVolume, OnlyTheStretchedHalfGrows)
+{
+    pbs::Positions stretched = bar.rest;
+    for (Eigen::Index i = 0; i < stretched.rows(); ++i) stretched(i, 0) += 0.5 * std::max(0.0, bar.rest(i, 0) - 1.0);
+    const auto changes = RegionRuler(bar.rest, bar.tets, halves()).measure(stretched);
+    ASSERT_EQ(changes.size(), 2u);
+    EXPECT_NEAR(changes[0].change_m3, 0.0, 1e-14);
+    EXPECT_NEAR(changes[1].change_m3, 0.5, 1e-14);
+    EXPECT_NEAR(changes[1].abs_change_m3, 0.5, 1e-14);
+    EXPECT_NEAR(changes[1].rest_m3, 1.0, 1e-14);
+}
+
+TEST(RegionVolume, InsideOutIsTwiceTheVolumeAndSignsDoNotCancelInTheAbsolute)
+{
+    pbs::Positions mirrored = bar.rest;
+    mirrored.col(1) *= -1.0;
+    const auto changes = RegionRuler(bar.rest, bar.tets, halves()).measure(mirrored);
+    EXPECT_NEAR(changes[0].change_m3, -2.0, 1e-14);
+    EXPECT_NEAR(changes[0].abs_change_m3, 2.0, 1e-14);
+    pbs::Positions moved = bar.rest;
+    for (Eigen::Index i = 0; i < moved.rows(); ++i)
+        if (bar.rest(i, 0) == 1.0) moved(i, 0) = 1.25;
+    const auto both = RegionRuler(bar.rest, bar.tets, std::vector<int>(bar.tets.rows(), 0)).measure(moved);
+    EXPECT_NEAR(both[0].change_m3, 0.0, 1e-14);
+    EXPECT_NEAR(both[0].abs_change_m3, 0.5, 1e-14);
+}
+
+TEST(RegionVolume, RegionsAddUpToTheWholeAndNoneIsLeftOut)
+{
+    pbs::Positions bent = bar.rest;
+    for (Eigen::Index i = 0; i < bent.rows(); ++i) bent(i, 2) += 0.3 * bar.rest(i, 0) * bar.rest(i, 1);
+    const auto changes = RegionRuler(bar.rest, bar.tets, halves()).measure(bent);
+    const double whole = pbs::tet_volumes(bent, bar.tets).sum() - pbs::tet_volumes(bar.rest, bar.tets).sum();
+    EXPECT_NEAR(changes[0].change_m3 + changes[1].change_m3, whole, 1e-14);
+    const std::vector<int> none(bar.tets.rows(), -1);
+    EXPECT_TRUE(RegionRuler(bar.rest, bar.tets, none).measure(bent).empty());
+    EXPECT_NEAR(RegionRuler(bar.rest, bar.tets, none).rest_volume_m3(), 2.0, 1e-14);
+}
+
+TEST(RegionVolume, RefusesRegionsOfAnotherMesh)
+{
+    EXPECT_THROW(RegionRuler(bar.rest, bar.tets, {0, 1}), pbs::InputError);
+}
+
+}  // namespace
