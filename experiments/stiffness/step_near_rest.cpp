@@ -96,8 +96,7 @@ void StepNearRest::add_pbs(const LoadedFlesh& flesh, const StiffnessSetting& set
     auto set = pbs::make_constraint_set<double>(flesh.mesh, bind_distance_of(flesh), flesh.zone, pbs_options(flesh, setting), flesh.held);
     const auto add_class = [&](auto& constraints) {
         shuffle_if(setting.order_seed, constraints);
-        for (const auto& constraint : constraints)
-            add(constraint, rest_gradients(flesh, constraint), constraint.stiffness, 0.0, set.inverse_mass);
+        for (const auto& constraint : constraints) add_near_rest(flesh, constraint, constraint.stiffness, 0.0, set.inverse_mass);
     };
     add_class(set.bind), add_class(set.stretch), add_class(set.volume);
 }
@@ -107,10 +106,21 @@ void StepNearRest::add_xpbd(const LoadedFlesh& flesh, const StiffnessSetting& se
     const XpbdSolver solver(flesh.mesh, flesh.bind_distance, flesh.zone, xpbd_options(flesh, setting), flesh.held);
     const auto add_class = [&](auto constraints) {
         shuffle_if(setting.order_seed, constraints);
-        for (const auto& compliant : constraints)
-            add(compliant.constraint, rest_gradients(flesh, compliant.constraint), 1.0, compliant.compliance, solver.inverse_masses_1_kg());
+        for (const auto& [constraint, compliance, multiplier] : constraints)
+            add_near_rest(flesh, constraint, 1.0, compliance, solver.inverse_masses_1_kg());
     };
     add_class(solver.bind()), add_class(solver.stretch()), add_class(solver.volume());
+}
+
+// A vertex on its bone, d = 0, is drawn to its material point whichever way it moves.
+template <typename Constraint>
+void StepNearRest::add_near_rest(const LoadedFlesh& flesh, const Constraint& constraint, double share, double compliance,
+                                 const std::vector<double>& inverse_mass)
+{
+    const auto gradients = rest_gradients(flesh, constraint);
+    const bool is_bind = gradients.size() == 1;
+    if (!is_bind || gradients[0].squaredNorm() > 0.0) return add(constraint, gradients, share, compliance, inverse_mass);
+    for (int axis = 0; axis < 3; ++axis) add(constraint, std::array<Vec3, 1>{Vec3::Unit(axis)}, share, compliance, inverse_mass);
 }
 
 template <typename Constraint, std::size_t count>
@@ -123,6 +133,8 @@ void StepNearRest::add(const Constraint& constraint, const std::array<Vec3, coun
     projection.compliance_per_dt2 = compliance / (step_s_ * step_s_);
     projection.denominator = projection.compliance_per_dt2;
     double w_gradient2 = 0.0;
+    std::fill(std::begin(projection.gradient), std::end(projection.gradient), Vec3::Zero());
+    std::fill(std::begin(projection.moved), std::end(projection.moved), Vec3::Zero());
     for (std::size_t i = 0; i < count; ++i) {
         projection.vertex[i] = vertex_of(constraint, i);
         const double w = inverse_mass[projection.vertex[i]];

@@ -30,6 +30,9 @@ private:
         pbs::Vec3 gradient[4], moved[4];  // of the constraint at rest; w times it
         double multiplier = 0.0;
     };
+    template <typename Constraint>
+    void add_near_rest(const LoadedFlesh& flesh, const Constraint& constraint, double share, double compliance,
+                       const std::vector<double>& inverse_mass);
     template <typename Constraint, std::size_t count>
     void add(const Constraint& constraint, const std::array<pbs::Vec3, count>& gradients, double share, double compliance,
              const std::vector<double>& inverse_mass);

@@ -1,7 +1,7 @@
-// Truth: the solvers themselves, stepped until the flesh hangs still under a load so small that a displacement is 1e-5 of an edge. What is
-// second order is then 1e-5, and stopping at 1e-6 a step leaves 1e-6 over one minus the slowest rate, below 1e-3: stiffnesses within 2e-3.
-// And theory: of the position based solver a step does not know dt, so stiffness goes with 1 / dt^2; of XPBD, iterated to the end, it is
-// the material's.
+// Truth: the solvers themselves, stepped until the flesh hangs still under a load so small that a displacement is 1e-5 of an edge, which
+// leaves 1e-5 to the second order; stopped at 1e-6 a step, over one minus the slowest rate, above 1/40 here: stiffnesses within 1e-4. The
+// limb has vertices on its bones, d = 0. And theory: of the position based solver a step does not know dt, so stiffness goes with 1 / dt^2;
+// of XPBD, iterated to the end, it is the material's.
 #include "experiments/stiffness/step_near_rest.hpp"
 
 #include "experiments/stiffness/stepped_flesh.hpp"
@@ -34,7 +34,7 @@ void expect_as_stepped(const LoadedFlesh& flesh, const StiffnessSetting& setting
     const SteppedFlesh still = step_until_still(flesh, setting, gravity_m_s2);
     ASSERT_TRUE(still.converged);
     const double linear = effective_stiffness_n_m(flesh, rest.displacement, 1.0);
-    EXPECT_NEAR(effective_stiffness_n_m(flesh, still.displacement, gravity_m_s2), linear, 2e-3 * linear);
+    EXPECT_NEAR(effective_stiffness_n_m(flesh, still.displacement, gravity_m_s2), linear, 1e-4 * linear);
 }
 
 TEST(StepNearRest, HangsWhereThePositionBasedSolverHangs)
