@@ -54,10 +54,6 @@ const std::vector<Study>& studies()
          "figures; plain in f64 and f32, ordered in f32, by turns; and the size at which 30 frames a second end",
          "C10, C16", "some 1 minute (--quick), 2.5 (--full: to 100,000 vertices); keep the machine quiet", plan_timing_study, true,
          conclude_timing_study, true},
-        {"stability",
-         "outcome of some hundreds of disturbed bodies: stiffness, time step, iterations, angle, masses, thin tets, gravity, teleports and "
-         "broken starts to their extremes; PBS without and with jiggle, XPBD, the reference in equilibrium and in time, by the same bounds",
-         "C08", "some 1.5 minutes (--quick), 15 (--full)", plan_stability_study, true, conclude_stability_study},
         {"verification",
          "the FEM reference against theory, published benchmarks and other programs: patch tests, manufactured solutions, beams, sphere, "
          "plates, locking, time stepping, CalculiX; each row with reference, source, difference, order and bound",

@@ -67,8 +67,6 @@ StudyPlan plan_stiffness_study(bool full);
 StudyConclusion conclude_stiffness_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_timing_study(bool full);
 StudyConclusion conclude_timing_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
-StudyPlan plan_stability_study(bool full);
-StudyConclusion conclude_stability_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_error_split_study(bool full);
 StudyConclusion conclude_error_split_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_setup_study(bool full);
