@@ -85,18 +85,20 @@ void AmbiguityTable::add(const Scene& scene, const Reading& reading, const ReadM
 std::string ambiguity_markdown(const std::vector<analysis::CsvTable>& tables)
 {
     std::string text =
-        "| scene | place | B | signed A -> B [%] | absolute A -> B [%] | within 0.5 % A -> B | B off A [mm] | verdict changed |\n"
-        "|---|---|---|---|---|---|---|---|\n";
+        "| scene | place | B | signed A -> B [%] | absolute A -> B [%] | within 0.5 % A -> B | B off A [mm] | jiggle A -> B [mm] | verdict "
+        "changed |\n"
+        "|---|---|---|---|---|---|---|---|---|\n";
     for (const analysis::CsvTable& table : tables)
         for (int row = 0; row < table.rows(); ++row) {
             if (table.text_at(row, "figure") != "mean volume change [%]") continue;
             int off = row;
             while (!table.text_at(off, "figure").starts_with("distance")) ++off;
-            text += fmt::format("| {} | {} | {} | {:.2f} -> {:.2f} | {:.2f} -> {:.2f} | {:.2f} -> {:.2f} | {:.3f} | {} |\n",
-                                table.text_at(row, "scene"), table.text_at(row, "place"), table.text_at(row, "reading_b"),
-                                table.number(row, "a"), table.number(row, "b"), table.number(row + 1, "a"), table.number(row + 1, "b"),
-                                table.number(row + 3, "a"), table.number(row + 3, "b"), 1000.0 * table.number(off, "b"),
-                                table.text_at(row, "verdict_changed"));
+            text += fmt::format(
+                "| {} | {} | {} | {:.2f} -> {:.2f} | {:.2f} -> {:.2f} | {:.2f} -> {:.2f} | {:.3f} | {:.2f} -> {:.2f} | {} |\n",
+                table.text_at(row, "scene"), table.text_at(row, "place"), table.text_at(row, "reading_b"), table.number(row, "a"),
+                table.number(row, "b"), table.number(row + 1, "a"), table.number(row + 1, "b"), table.number(row + 3, "a"),
+                table.number(row + 3, "b"), 1000.0 * table.number(off, "b"), 1000.0 * table.number(off + 1, "a"),
+                1000.0 * table.number(off + 1, "b"), table.text_at(row, "verdict_changed"));
         }
     return text;
 }

@@ -2,7 +2,7 @@
 //
 //   limb_twist, limb_bend   the scenes' sweeps, each step by itself
 //   human                   the clip 01_01, five frames a second, each step by itself
-//   human_moving            what remembers the last step: every step of three seconds of the clip (--full: of all of it)
+//   human_moving            what remembers the last step: every step of six seconds of the clip (--full: of all of it)
 //
 // Writes DIR/ambiguity/RUN/ambiguity.csv, and ambiguity.csv and ambiguity.md of all of them.
 #include "analysis/atomic_file.hpp"
@@ -57,14 +57,14 @@ StudyRun ambiguity_run(const std::string& name, Scene scene, bool moving, double
 StudyPlan plan_ambiguity_study(bool full)
 {
     StudyPlan plan;
-    plan.runs.push_back(ambiguity_run("limb_twist", read_scene("limb_twist", {}), false, 4.0));
-    plan.runs.push_back(ambiguity_run("limb_bend", read_scene("limb_bend", {}), false, 4.0));
+    plan.runs.push_back(ambiguity_run("limb_twist", read_scene("limb_twist", {}), false, 1.0));
+    plan.runs.push_back(ambiguity_run("limb_bend", read_scene("limb_bend", {}), false, 1.0));
     try {
         const std::vector<std::string> five_a_second = {"motion.rate_hz=5.0", "output.frames=[]", "output.frame_names=[]"};
         std::vector<std::string> moving = five_a_second;
-        if (!full) moving.insert(moving.end(), {"motion.start_s=1.0", "motion.duration_s=3.0"});
-        plan.runs.push_back(ambiguity_run("human", read_scene("human_01_01", five_a_second), false, 15.0));
-        plan.runs.push_back(ambiguity_run("human_moving", read_scene("human_01_01", moving), true, full ? 200.0 : 20.0));
+        if (!full) moving.insert(moving.end(), {"motion.start_s=1.0", "motion.duration_s=6.0"});
+        plan.runs.push_back(ambiguity_run("human", read_scene("human_01_01", five_a_second), false, 3.5));
+        plan.runs.push_back(ambiguity_run("human_moving", read_scene("human_01_01", moving), true, full ? 45.0 : 10.0));
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({"human", error.what()});
     }

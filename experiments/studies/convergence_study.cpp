@@ -114,11 +114,11 @@ StudyRun body_run(const std::string& body, bool full, double cost_s)
 StudyPlan plan_convergence_study(bool full)
 {
     StudyPlan plan;
-    plan.runs.push_back(limb_run("limb_twist", twists, full, full ? 120.0 : 20.0));
-    plan.runs.push_back(limb_run("limb_bend", bends, full, full ? 60.0 : 10.0));
-    plan.runs.push_back(ladder_run("ladder_twist", "limb_twist", {twists.front()}, full, full ? 120.0 : 5.0));
-    plan.runs.push_back(ladder_run("ladder_bend", "limb_bend", bends, full, full ? 120.0 : 5.0));
-    for (const std::string& body : installed_bodies(plan.left_out)) plan.runs.push_back(body_run(body, full, full ? 120.0 : 15.0));
+    plan.runs.push_back(limb_run("limb_twist", twists, full, full ? 60.0 : 10.0));
+    plan.runs.push_back(limb_run("limb_bend", bends, full, full ? 35.0 : 7.0));
+    plan.runs.push_back(ladder_run("ladder_twist", "limb_twist", {twists.front()}, full, full ? 90.0 : 3.5));
+    plan.runs.push_back(ladder_run("ladder_bend", "limb_bend", bends, full, full ? 90.0 : 2.5));
+    for (const std::string& body : installed_bodies(plan.left_out)) plan.runs.push_back(body_run(body, full, full ? 70.0 : 5.0));
     return plan;
 }
 
@@ -132,10 +132,11 @@ StudyConclusion conclude_convergence_study(const std::string& folder, const Stud
     };
     for (const std::string& run : finished) {
         const analysis::CsvTable rates = analysis::read_csv((fs::path(run) / "rates.csv").string());
+        const bool is_ladder = fs::path(run).filename().string().starts_with("ladder");
         for (int row = 0; row < rates.rows(); ++row) {
-            const bool of_lbs = rates.text_at(row, "start") == name_of(SolverStart::lbs);  // alone on other meshes: the ladder
             if (rates.text_at(row, "order") != "ordered" || rates.text_at(row, "precision") != "f32") continue;
-            if (!rates.integer(row, "own_mesh") && !(of_lbs && fs::path(run).filename().string().starts_with("ladder"))) continue;
+            const bool of_lbs = rates.text_at(row, "start") == name_of(SolverStart::lbs);
+            if (is_ladder ? !of_lbs : !rates.integer(row, "own_mesh")) continue;
             text += fmt::format("{:8} {:16} {:8} {:9} {:15} {:9.4f} {:>12} {:>12} {:9.1f} {:9} {:9.1f}\n", rates.text_at(row, "body"),
                                 rates.text_at(row, "pose"), rates.integer(row, "vertices"), rates.number(row, "k_stretch"),
                                 rates.text_at(row, "start"), rates.number(row, "rate_per_iteration"),
