@@ -10,7 +10,7 @@ namespace experiments {
 namespace {
 
 constexpr int settled_for_good = 50;  // still steps after which a run ends early
-constexpr int given_up_after = 3;     // steps in a row that were not reached
+constexpr int given_up_after = 2;     // steps in a row that were not reached
 
 struct Course {
     std::vector<analysis::StabilityStep> steps;

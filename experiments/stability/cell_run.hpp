@@ -7,7 +7,7 @@
 
 namespace experiments {
 
-// A run ends early where it is not finite, where the body has been at rest for 50 still steps, or where three steps in a row were not
+// A run ends early where it is not finite, where the body has been at rest for 50 still steps, or where two steps in a row were not
 // reached (each of them would be tried again at length).
 struct CellResult {
     analysis::StabilityResult stability;

@@ -12,7 +12,8 @@ struct XpbdOptions {
     int iterations = 24;  // in a substep
     int substeps = 1;     // in a time step
     pbs::Vec3 gravity_m_s2 = pbs::Vec3::Zero();
-    bool jiggle = false;  // the jiggling zone is integrated in time
+    bool jiggle = false;           // the jiggling zone is integrated in time
+    bool keep_multipliers = true;  // false: forgotten in every iteration, a common mistake; a negative control
 };
 
 }  // namespace experiments

@@ -29,12 +29,6 @@ double multiplier_step(double C, double compliance_per_dt2, double lambda, doubl
     return w_gradient2 > 0.0 ? (-C - compliance_per_dt2 * lambda) / denominator : 0.0;
 }
 
-template <typename Compliants>
-void forget_multipliers(Compliants& constraints)
-{
-    for (auto& compliant : constraints) compliant.multiplier = 0.0;
-}
-
 }  // namespace
 
 XpbdSolver::XpbdSolver(const pbs::TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
@@ -79,10 +73,10 @@ pbs::StepSummary XpbdSolver::advance(const pbs::Positions& lbs_positions, const 
     const double substep_s = dt_s / options_.substeps;
     for (int substep = 0; substep < options_.substeps; ++substep) {
         predict(substep_s);
-        forget_multipliers(bind_);
-        forget_multipliers(stretch_);
-        forget_multipliers(volume_);
-        for (int iteration = 0; iteration < options_.iterations; ++iteration) project(bind_points, substep_s);
+        for (int iteration = 0; iteration < options_.iterations; ++iteration) {
+            if (iteration == 0 || !options_.keep_multipliers) forget_multipliers();
+            project(bind_points, substep_s);
+        }
         update_velocities(substep_s);
     }
     for (std::size_t i = 0; i < x_.size(); ++i) positions_.row(i) = x_[i];
@@ -102,6 +96,13 @@ void XpbdSolver::predict(double dt_s)
         v_[i] += options_.gravity_m_s2 * dt_s;
         x_[i] += v_[i] * dt_s;
     }
+}
+
+void XpbdSolver::forget_multipliers()
+{
+    for (auto& compliant : bind_) compliant.multiplier = 0.0;
+    for (auto& compliant : stretch_) compliant.multiplier = 0.0;
+    for (auto& compliant : volume_) compliant.multiplier = 0.0;
 }
 
 void XpbdSolver::project(const pbs::Positions& bind_points, double dt_s)

@@ -47,6 +47,7 @@ private:
     using Point = pbs::Vector3<double>;
 
     void predict(double dt_s);
+    void forget_multipliers();
     void project(const pbs::Positions& bind_points, double dt_s);
     void update_velocities(double dt_s);
 
