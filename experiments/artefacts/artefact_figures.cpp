@@ -7,6 +7,8 @@
 namespace experiments {
 namespace {
 
+constexpr double deepest_bend_deg = 110.0;
+
 using Extreme = double SectionExtremesOverRest::*;
 
 // The sizes of one group in one pose at one joint: its own first.
@@ -72,6 +74,7 @@ std::vector<analysis::Measurement> bulge_figures(const ArtefactCase& of, const A
 {
     std::vector<analysis::Measurement> figures;
     for_each_pose_and_joint(of, body, [&](std::size_t pose, std::size_t joint) {
+        if (body.sections[joint].bend_deg(body.posed.pose(pose)) > deepest_bend_deg) return;
         for (const auto& [quantity, extreme] :
              {std::pair{"largest section radius over the reference's", &SectionExtremesOverRest::largest_radius},
               {"largest section area over the reference's", &SectionExtremesOverRest::largest_area}}) {

@@ -3,6 +3,8 @@
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -54,6 +56,12 @@ JointSections::JointSections(const pbs::Character& character, const LimbJoint& j
 {
     const pbs::Pose still(skeleton_.bones.size(), Eigen::Isometry3d::Identity());
     rest_ = sizes(character.mesh.rest, still, nullptr);
+}
+
+double JointSections::bend_deg(const pbs::Pose& pose) const
+{
+    const pbs::Vec3 before = direction(skeleton_, joint_.parent, pose), after = direction(skeleton_, joint_.child, pose);
+    return std::atan2(before.cross(after).norm(), before.dot(after)) * 180.0 / std::numbers::pi;
 }
 
 std::vector<pbs::CuttingPlane> JointSections::planes(const pbs::Pose& pose) const

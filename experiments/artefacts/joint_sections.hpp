@@ -31,6 +31,8 @@ class JointSections {
 public:
     JointSections(const pbs::Character& character, const LimbJoint& joint);
 
+    double bend_deg(const pbs::Pose& pose) const;  // between the directions of the two bones; 0: straight
+
     // A station that the skin does not meet any more has size 0.
     JointProfile measure(const pbs::Positions& positions, const pbs::Pose& pose) const;
 

@@ -5,7 +5,7 @@
 namespace experiments {
 namespace {
 
-constexpr int steps_a_period = 24, periods = 3;
+constexpr int steps_a_period = 24, periods = 4;
 
 JoltResponse at_frequency(const pbs::Character& character, const DeformerSpec& fem, const std::vector<int>& probe, Jolt jolt,
                           double frequency_hz)

@@ -14,7 +14,7 @@ struct JiggleReference {
     JoltResponse response;  // at it
 };
 
-// fem: dynamic, of any Young's modulus to begin with. 24 steps a period, 3 periods. Nothing where the first modulus does not swing.
+// fem: dynamic, of any Young's modulus to begin with. 24 steps a period, 4 periods. Nothing where the first modulus does not swing.
 std::optional<JiggleReference> match_reference(const pbs::Character& character, DeformerSpec fem, const std::vector<int>& probe, Jolt jolt,
                                                double frequency_hz);
 

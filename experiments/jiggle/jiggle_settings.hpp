@@ -15,15 +15,16 @@ struct JiggleSetting {
     double k_stretch = 0.1;  // in the zone; 1 elsewhere
     double time_step_s = 0.01;
     int iterations = 24;
+    double k_bind = 1.0;  // in the zone; 1 elsewhere
     pbs::Masses masses = pbs::Masses::unit;
     bool operator==(const JiggleSetting&) const = default;
 };
 
-// One at a time from the first: k_stretch 0.05 to 1, steps of 2.5 to 40 ms, 6 to 96 iterations, both masses.
+// One at a time from the first: k_stretch 0.05 to 1, steps of 2.5 to 40 ms, 6 to 96 iterations, both masses, the zone not bound.
 std::vector<JiggleSetting> jiggle_settings();
 
 DeformerSpec jiggling(DeformerSpec pbs, const JiggleSetting& setting);
-std::string text_of(const JiggleSetting& setting);  // "k_stretch 0.1, 10 ms, 24 iterations, unit masses"
+std::string text_of(const JiggleSetting& setting);  // "k_stretch 0.1, 10 ms, 24 iterations, unit masses"; a k_bind below 1 behind it
 
 struct MeasuredJiggle {
     JiggleSetting setting;

@@ -35,6 +35,7 @@ void sum_up(JoltResponse& response, const Jolt& jolt)
     const auto tenth = static_cast<std::ptrdiff_t>(excursion.size() / 10);
     const double peak = largest(excursion.begin(), excursion.end());
     response.peak_over_jolt = peak / jolt.length_m;
+    response.overshoot_over_jolt = std::max(*std::max_element(excursion.begin(), excursion.end()), 0.0) / jolt.length_m;
     response.left_over_peak = ratio(largest(excursion.end() - tenth, excursion.end()), peak);
     response.speed_growth = ratio(largest(speed.begin() + tenth, speed.end()), largest(speed.begin(), speed.begin() + tenth));
     response.swing = analysis::fit_damped_oscillation(excursion, jolt.time_step_s);

@@ -22,7 +22,8 @@ struct JoltResponse {
     std::vector<double> excursion_m;    // of the probe, one a step from the jolt's own on
     std::vector<double> speed_rms_m_s;  // of all the body's vertices
     analysis::DampedOscillation swing;  // fitted to the excursion
-    double peak_over_jolt = 0.0;        // largest excursion against the jolt's direction and after it
+    double peak_over_jolt = 0.0;        // largest excursion, either way; 1 where flesh stays behind at first
+    double overshoot_over_jolt = 0.0;   // largest excursion beyond where the skeleton has it
     double left_over_peak = 0.0;        // largest excursion of the last tenth
     double speed_growth = 0.0;          // largest speed after the first tenth over that within it: above 1, energy has grown
     bool finished = true;               // every step

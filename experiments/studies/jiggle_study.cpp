@@ -9,6 +9,7 @@
 // Writes DIR/jiggle/RUN/{responses,series,zone,measurements}.csv or walk.csv, and jiggle.md.
 #include "analysis/atomic_file.hpp"
 #include "analysis/csv_table.hpp"
+#include "analysis/statistics.hpp"
 #include "experiments/cases/motion_case.hpp"
 #include "experiments/cases/real_bodies.hpp"
 #include "experiments/deformers/option_names.hpp"
@@ -22,6 +23,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 
 namespace experiments {
@@ -30,7 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 using analysis::CsvTable;
 
-constexpr double first_young_pa = 1e4;
+constexpr double first_young_pa = 1e5;
 constexpr int still_steps = 100;
 
 std::string path_in(const std::string& folder, const char* name)
@@ -40,20 +42,37 @@ std::string path_in(const std::string& folder, const char* name)
 
 CsvTable response_table()
 {
-    return CsvTable({"deformer", "k_stretch", "time_step_ms", "iterations", "masses", "young_pa", "outcome", "frequency_hz",
-                     "frequency_low_hz", "frequency_high_hz", "damping_ratio", "damping_low", "damping_high", "explained", "peak_over_jolt",
-                     "left_over_peak", "speed_growth", "finished"});
+    return CsvTable(
+        {"deformer",  "k_stretch",      "time_step_ms",        "iterations",        "masses",        "k_bind",      "young_pa",
+         "outcome",   "frequency_hz",   "frequency_low_hz",    "frequency_high_hz", "damping_ratio", "damping_low", "damping_high",
+         "explained", "peak_over_jolt", "overshoot_over_jolt", "left_over_peak",    "speed_growth",  "finished"});
 }
 
-void add_response(CsvTable& table, const JiggleSetting& setting, std::optional<double> young_pa, double time_step_s,
-                  const JoltResponse& response)
+// young_pa: of the reference; not a number for pbs.
+void add_response(CsvTable& table, const JiggleSetting& setting, double young_pa, double time_step_s, const JoltResponse& response)
 {
     const auto& swing = response.swing;
-    const CsvTable::Cell young = young_pa ? CsvTable::Cell(*young_pa) : CsvTable::Cell(std::nullopt);
-    table.add_row({young_pa ? "snh_p1" : "pbs", setting.k_stretch, 1e3 * time_step_s, setting.iterations, name_of(setting.masses), young,
-                   name_of(swing.outcome), swing.frequency_hz.estimate, swing.frequency_hz.low, swing.frequency_hz.high,
-                   swing.damping_ratio.estimate, swing.damping_ratio.low, swing.damping_ratio.high, swing.explained,
-                   response.peak_over_jolt, response.left_over_peak, response.speed_growth, static_cast<int>(response.finished)});
+    const auto &hz = swing.frequency_hz, &damping = swing.damping_ratio;
+    table.add_row({std::isnan(young_pa) ? "pbs" : "snh_p1",
+                   setting.k_stretch,
+                   1e3 * time_step_s,
+                   setting.iterations,
+                   name_of(setting.masses),
+                   setting.k_bind,
+                   young_pa,
+                   name_of(swing.outcome),
+                   hz.estimate,
+                   hz.low,
+                   hz.high,
+                   damping.estimate,
+                   damping.low,
+                   damping.high,
+                   swing.explained,
+                   response.peak_over_jolt,
+                   response.overshoot_over_jolt,
+                   response.left_over_peak,
+                   response.speed_growth,
+                   static_cast<int>(response.finished)});
 }
 
 void add_series(CsvTable& table, const std::string& name, double time_step_s, const JoltResponse& response)
@@ -97,7 +116,7 @@ void add_reference(const JoltCase& of, const pbs::Character& character, const st
     add_response(responses, measured.setting, reference->young_pa, time_step_s, reference->response);
     add_series(series, "snh_p1 beside " + text_of(measured.setting), time_step_s, reference->response);
     const std::string at = fmt::format("{}, {}, {:.3g} Pa", character.name, text_of(measured.setting), reference->young_pa);
-    const double pace = hz / swing.frequency_hz.estimate, reach = own.peak_over_jolt / reference->response.peak_over_jolt;
+    const double pace = hz / swing.frequency_hz.estimate, reach = own.overshoot_over_jolt / reference->response.overshoot_over_jolt;
     figures.push_back({"C09", "frequency over the reference's", at, pace, own.swing.frequency_hz.low / swing.frequency_hz.high,
                        own.swing.frequency_hz.high / swing.frequency_hz.low, "1"});
     figures.push_back({"C09", "amplitude over the reference's", at, reach, reach, reach, "1"});
@@ -117,7 +136,7 @@ std::string jolt_and_record(const JoltCase& of, const std::string& folder)
         measured.push_back({setting, jolt_response(character, jiggling(pbs, setting), zone.pieces.front(), jolt_of(of, setting))});
         const JoltResponse& response = measured.back().response;
         if (!response.finished) breakdown += text_of(setting) + ". ";
-        add_response(responses, setting, {}, setting.time_step_s, response);
+        add_response(responses, setting, analysis::not_known, setting.time_step_s, response);
         add_series(series, text_of(setting), setting.time_step_s, response);
     }
     std::vector<analysis::Measurement> figures = jiggle_figures(character.name, measured);
@@ -177,9 +196,9 @@ void plan_body(const std::string& body, bool full, StudyPlan& plan)
     const std::vector<std::string> overrides = {"character.body=" + body, "motion.clip=01_03.bvh", "motion.duration_s=2.5",
                                                 "deformers.use=[\"lbs\",\"pbs\"]", "reference.name=\"\""};
     const Scene scene = read_scene("human_01_01", overrides);
-    plan.runs.push_back(jolt_run(body + "_jolt", {scene, pbs::Vec3::UnitY(), false, jiggle_settings()}, 10.0));
+    plan.runs.push_back(jolt_run(body + "_jolt", {scene, pbs::Vec3::UnitY(), false, jiggle_settings()}, 3.0));
     const std::vector<double> k = full ? std::vector<double>{0.05, 0.1, 0.2, 0.5, 0.7, 0.9} : std::vector<double>{0.1, 0.7};
-    plan.runs.push_back(walk_run(body + "_walk", scene, k, full ? 12.0 : 4.0));
+    plan.runs.push_back(walk_run(body + "_walk", scene, k, full ? 4.0 : 1.5));
 }
 
 // What the zone is, and a line a setting.
@@ -192,15 +211,17 @@ std::string jolt_text(const std::string& run)
     for (int row = 0; row < std::min(zone.rows(), 5); ++row)
         text += fmt::format(" {} {:.0f} %", zone.text_at(row, "bone"), 100.0 * zone.number(row, "share_of_zone"));
     text +=
-        "\n\n| deformer | k_stretch | step [ms] | iterations | masses | outcome | frequency [Hz] | damping ratio | peak / jolt | left / "
+        "\n\n| deformer | k_stretch | step [ms] | iterations | masses | k_bind | outcome | frequency [Hz] | damping ratio | overshoot / "
+        "jolt | left / "
         "peak |\n"
-        "|---|---|---|---|---|---|---|---|---|---|\n";
+        "|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (int row = 0; row < responses.rows(); ++row)
-        text += fmt::format("| {} | {} | {:.3g} | {} | {} | {} | {:.2f} | {:.3f} | {:.2f} | {:.3f} |\n", responses.text_at(row, "deformer"),
-                            responses.number(row, "k_stretch"), responses.number(row, "time_step_ms"), responses.integer(row, "iterations"),
-                            responses.text_at(row, "masses"), responses.text_at(row, "outcome"), responses.number(row, "frequency_hz"),
-                            responses.number(row, "damping_ratio"), responses.number(row, "peak_over_jolt"),
-                            responses.number(row, "left_over_peak"));
+        text +=
+            fmt::format("| {} | {} | {:.3g} | {} | {} | {} | {} | {:.2f} | {:.3f} | {:.2f} | {:.3f} |\n",
+                        responses.text_at(row, "deformer"), responses.number(row, "k_stretch"), responses.number(row, "time_step_ms"),
+                        responses.integer(row, "iterations"), responses.text_at(row, "masses"), responses.number(row, "k_bind"),
+                        responses.text_at(row, "outcome"), responses.number(row, "frequency_hz"), responses.number(row, "damping_ratio"),
+                        responses.number(row, "overshoot_over_jolt"), responses.number(row, "left_over_peak"));
     return text + "\n";
 }
 
@@ -221,14 +242,13 @@ StudyPlan plan_jiggle_study(bool full)
 {
     StudyPlan plan;
     const auto limb = [](const std::vector<std::string>& overrides) { return read_scene("limb_twist", overrides); };
-    plan.runs.push_back(jolt_run("limb_jolt", {limb({}), pbs::Vec3::UnitX(), false, jiggle_settings()}, 8.0));
+    plan.runs.push_back(jolt_run("limb_jolt", {limb({}), pbs::Vec3::UnitX(), false, jiggle_settings()}, 2.5));
     const std::vector<JiggleSetting> beside =
         full ? std::vector<JiggleSetting>{{.k_stretch = 0.05}, {}, {.k_stretch = 0.2}, {.iterations = 6}} : std::vector<JiggleSetting>{{}};
     plan.runs.push_back(jolt_run("limb_reference",
                                  {limb({fmt::format("character.vertices={}", full ? 800 : 400)}), pbs::Vec3::UnitX(), true, beside},
-                                 full ? 120.0 : 20.0));
+                                 full ? 24.0 : 4.0));
     for (const std::string& body : installed_bodies(plan.left_out)) {
-        if (!full && body != "human") continue;
         try {
             plan_body(body, full, plan);
         } catch (const pbs::InputError& error) {

@@ -70,6 +70,14 @@ TEST_F(JointSectionsOfLimb, MoveWithTheWholeBody)
     for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(after[i].area, before[i].area, 1e-9) << i;
 }
 
+TEST_F(JointSectionsOfLimb, BendIsTheAngleBetweenTheBonesAndTwistIsNone)
+{
+    lbs(pbs::Vec3::UnitZ(), 70.0);
+    EXPECT_NEAR(sections.bend_deg(pose), 70.0, 1e-9);
+    lbs(pbs::Vec3::UnitX(), 70.0);
+    EXPECT_NEAR(sections.bend_deg(pose), 0.0, 1e-9);
+}
+
 TEST_F(JointSectionsOfLimb, SkinThatIsGoneHasNoSize)
 {
     const pbs::Positions away = limb.mesh.rest.rowwise() + Eigen::RowVector3d(10.0, 0.0, 0.0);
