@@ -61,4 +61,14 @@ TEST(AutocorrelationTime, OfTooFewSamplesIsOne)
     EXPECT_EQ(integrated_autocorrelation_time({3.0}), 1.0);
 }
 
+// Spearman 1904: 1 - 6 sum d^2 / (n (n^2 - 1)) without ties; n = 5, d = 0, 0, 1, 1, 0.
+TEST(Statistics, RankCorrelationIsOfRanksAlone)
+{
+    EXPECT_DOUBLE_EQ(analysis::rank_correlation({1, 2, 3, 4, 5}, {1, 10, 1000, 100, 1e6}), 1.0 - 6.0 * 2.0 / 120.0);
+    EXPECT_DOUBLE_EQ(analysis::rank_correlation({1, 2, 3}, {5, 7, 90}), 1.0);
+    EXPECT_DOUBLE_EQ(analysis::rank_correlation({1, 2, 3}, {9, 2, 1}), -1.0);
+    EXPECT_TRUE(std::isnan(analysis::rank_correlation({1}, {1})));
+    EXPECT_TRUE(std::isnan(analysis::rank_correlation({1, 2}, {1, std::nan("")})));
+}
+
 }  // namespace
