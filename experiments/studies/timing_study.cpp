@@ -43,6 +43,14 @@ Scene scene_of(const TimedCase& timed)
     return scene;
 }
 
+// So many that they take some `seconds` of one core, whatever else the machine does: a round is two frames of three variants, timed twice.
+Rounds rounds_of(int vertices, double seconds)
+{
+    constexpr double round_s_a_vertex = 24e-6;
+    const int rounds = std::clamp(static_cast<int>(seconds / (round_s_a_vertex * vertices)), 5, 61);
+    return {.seconds = 0.0, .fewest = rounds, .most = rounds};
+}
+
 std::string time_and_record(const TimedCase& timed, const std::string& folder)
 {
     const Scene scene = scene_of(timed);
@@ -53,7 +61,7 @@ std::string time_and_record(const TimedCase& timed, const std::string& folder)
     mesh.edges = static_cast<int>(pbs::edges_of(character.mesh.tets).rows());
     mesh.tets = static_cast<int>(character.mesh.tets.rows());
     mesh.surface_vertices = character.surface ? static_cast<int>(character.surface->tet.size()) : 0;
-    mesh.timings = time_frames(character, motion, {.k_jiggle = timed.k_jiggle}, {.seconds = timed.seconds, .fewest = 3, .most = 61});
+    mesh.timings = time_frames(character, motion, {.k_jiggle = timed.k_jiggle}, rounds_of(mesh.vertices, timed.seconds));
     timing_table(mesh).write((fs::path(folder) / "timing.csv").string());
     const auto measured = timing_measurements(mesh);
     if (!measured.empty()) analysis::measurement_table(measured).write((fs::path(folder) / "measurements.csv").string());
