@@ -3,7 +3,7 @@
 //   limb twist  90 deg (--full: and 150)     o=======o~~~~~~~o)
 //   limb bend   60 deg (--full: and 90)      o=======o
 //   human       crouch, in the air (--full: eight frames of 01_01: standing, crouch, in the air, landing, and those at 1/5 to 4/5 of the
-//               clip)
+//               clip; and the crouch of every other installed body)
 //
 // Writes DIR/work_precision/CASE/points.csv and, over all cases, points.csv, fronts.csv, crossings.csv, equal_cost.csv, work_precision.md.
 #include "analysis/atomic_file.hpp"
@@ -87,7 +87,7 @@ StudyRun body_run(const std::string& body, const BodyPose& pose, bool full, doub
     of.pose = pose.name;
     of.scene = read_scene("human_01_01", {"character.body=" + body});
     of.frame = pose.frame;
-    of.range.quadratic = of.range.quadratic_corotational = false;  // a crouch takes minutes and is not reached
+    of.range.quadratic = of.range.quadratic_corotational = false;  // 5 minutes a pose, and a crouch is not reached
     of.range.coarser_vertices = {1200};
     if (full) of.range.finer_vertices = {4650};
     of.rounds = {.seconds = full ? 10.0 : 3.0, .fewest = 5, .most = 31};
@@ -115,11 +115,11 @@ analysis::CsvTable together(const std::vector<analysis::CsvTable>& tables)
 StudyPlan plan_work_precision_study(bool full)
 {
     StudyPlan plan;
-    plan.runs.push_back(limb_run("twist", 90, full, 20.0));
-    plan.runs.push_back(limb_run("bend", 60, full, 20.0));
+    plan.runs.push_back(limb_run("twist", 90, full, full ? 60.0 : 24.0));
+    plan.runs.push_back(limb_run("bend", 60, full, full ? 75.0 : 27.0));
     if (full) {
-        plan.runs.push_back(limb_run("twist", 150, full, 60.0));
-        plan.runs.push_back(limb_run("bend", 90, full, 60.0));
+        plan.runs.push_back(limb_run("twist", 150, full, 75.0));
+        plan.runs.push_back(limb_run("bend", 90, full, 130.0));
     }
     try {
         for (const BodyPose& pose : human_poses(full)) plan.runs.push_back(body_run("human", pose, full, full ? 30.0 : 14.0));
