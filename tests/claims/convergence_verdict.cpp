@@ -62,6 +62,11 @@ TEST(TwentyFourIterationsSuffice, FlipsWhereThePathIsLonger)
     EXPECT_EQ(kind_for("C12", {by_residual({0.89, 0.9, 0.9, 0.9})}), VerdictKind::reproduced_only_for);  // 26; by volume 1
 }
 
+TEST(TwentyFourIterationsSuffice, FlipsWithAnotherOrderOfTheSamePose)
+{
+    EXPECT_EQ(kind_for("C12", {by_residual({0.88, 0.9, 0.9, 0.9}), by_residual({0.89, 0.9, 0.9, 0.9})}), VerdictKind::reproduced_only_for);
+}
+
 TEST(TwentyFourIterationsSuffice, NotReproducedWhereNeitherToleranceIsReached)
 {
     ConvergencePaths paths = by_residual({0.999, 0.5, 0.5, 0.5});

@@ -140,6 +140,9 @@ TEST(PosesSolver, RefusesWhatPosesCannotDifferIn)
     EXPECT_THROW(build([](PbsOptions& o) { o.jiggle = pbs::Jiggle{}; }), pbs::InputError);
     EXPECT_THROW(build([](PbsOptions& o) { o.stop_residual = 1e-3; }), pbs::InputError);
     EXPECT_THROW(build([](PbsOptions& o) { o.sleep = true; }), pbs::InputError);
+    EXPECT_THROW(build([](PbsOptions& o) { o.class_order = pbs::ClassOrder::volume_stretch_bind; }), pbs::InputError);
+    EXPECT_THROW(build([](PbsOptions& o) { o.lbs_entry = pbs::LbsEntry::increment; }), pbs::InputError);
+    EXPECT_THROW(build([](PbsOptions& o) { o.bind_on_bone = pbs::BindOnBone::unbound; }), pbs::InputError);
     EXPECT_THROW(build([](PbsOptions& o) { o.k_volume = 2.0; }), pbs::InputError);
     EXPECT_THROW(PosesSolver(limb.mesh, limb.binding.distance, {}, {}), pbs::InputError);
 }
