@@ -94,21 +94,27 @@ TEST(StiffnessRatios, OfMeshesThatAreNotQuiteTwiceEachOther)
     EXPECT_NEAR(ratio.high, 0.5, rounding);
 }
 
+// All four at the same settings: none is taken for another.
 TEST(StiffnessRatios, TellTheMethodsApart)
 {
-    std::vector<StiffnessRow> rows = squares();
-    for (StiffnessRow of_xpbd : squares()) {
-        of_xpbd.setting.method = Method::xpbd;
-        of_xpbd.stiffness_n_m = 5.0;
-        rows.push_back(of_xpbd);
-    }
+    std::vector<StiffnessRow> rows;
+    const std::pair<Method, double> constant[] = {
+        {Method::pbs, 0.0}, {Method::exponent, 1.0}, {Method::xpbd, 2.0}, {Method::xpbd_small_steps, 3.0}};
+    for (const auto& [method, power] : constant)
+        for (StiffnessRow of_method : squares()) {
+            of_method.setting.method = method;
+            of_method.stiffness_n_m = std::pow(of_method.setting.iterations, power);
+            rows.push_back(of_method);
+        }
     const auto ratios = stiffness_ratios(rows, Varied::iterations);
-    ASSERT_EQ(ratios.size(), 2u);
-    EXPECT_EQ(ratios[0].quantity, "effective stiffness at twice the iterations over at the once, xpbd");
-    EXPECT_NEAR(ratios[0].value, 1.0, rounding);
+    ASSERT_EQ(ratios.size(), 4u);
+    for (const auto& ratio : ratios) {
+        EXPECT_NEAR(ratio.low, ratio.high, 1e-10);
+        const bool beside = ratio.quantity != "effective stiffness at twice the iterations over at the once";
+        EXPECT_EQ(beside, ratio.value > 1.5) << ratio.quantity;
+    }
     const std::string text = stiffness_text({{Varied::iterations, rows}});
-    EXPECT_NE(text.find("4 [4, 4]"), std::string::npos);
-    EXPECT_NE(text.find("1 [1, 1]"), std::string::npos);
+    for (const char* ratio : {"1 [1, 1]", "2 [2, 2]", "4 [4, 4]"}) EXPECT_NE(text.find(ratio), std::string::npos) << ratio;
 }
 
 TEST(StiffnessRow, ReadsBackWhatWasWritten)
