@@ -3,6 +3,8 @@
 #include "experiments/bench/cpu_clock.hpp"
 #include "experiments/stability/driven_body.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
@@ -66,6 +68,14 @@ const std::optional<pbs::Positions>& undisturbed_of(const StabilityCell& cell)
 }
 
 }  // namespace
+
+std::string endings_text()
+{
+    return fmt::format(
+        "\nA run ends early where it is not finite, where the last {} still steps are all as `converged` asks, or where {} steps in a row "
+        "were\nnot reached (each would be tried again at length).\n",
+        settled_for_good, given_up_after);
+}
 
 CellResult run_cell(const StabilityCell& cell)
 {

@@ -7,8 +7,6 @@
 
 namespace experiments {
 
-// A run ends early where it is not finite, where the body has been at rest for 50 still steps, or where two steps in a row were not
-// reached (each of them would be tried again at length).
 struct CellResult {
     analysis::StabilityResult stability;
     std::vector<analysis::StabilityStep> steps;
@@ -17,5 +15,6 @@ struct CellResult {
     double cpu_s = 0.0;
 };
 CellResult run_cell(const StabilityCell& cell);
+std::string endings_text();  // when a run ends, Markdown
 
 }  // namespace experiments

@@ -135,25 +135,43 @@ CsvTable stability_measurements(const std::vector<MeasuredCell>& cells)
     return analysis::measurement_table(rows);
 }
 
-std::string outcome_table(const std::vector<CsvTable>& tables)
+std::string outcome_table(const std::vector<CsvTable>& tables, bool by_factor)
 {
     std::vector<std::string> order;
     std::map<std::string, std::map<std::string, int>> counts;
     for (const CsvTable& cells : tables)
         for (int row = 0; row < cells.rows(); ++row) {
-            const std::string second = cells.text_at(row, "second_factor");
-            const std::string key = fmt::format("{:<6} {:<35} {:<24}", cells.text_at(row, "body"), cells.text_at(row, "model"),
-                                                cells.text_at(row, "factor") + (second.empty() ? "" : " x " + second));
+            std::string key = fmt::format("{:<7} {:<31}", cells.text_at(row, "body"), cells.text_at(row, "model"));
+            if (const std::string second = cells.text_at(row, "second_factor"); by_factor)
+                key += fmt::format(" {:<24}", cells.text_at(row, "factor") + (second.empty() ? "" : " x " + second));
             if (!counts.count(key)) order.push_back(key);
             ++counts[key][cells.text_at(row, "outcome")];
         }
-    std::string text = fmt::format("{:<6} {:<35} {:<24}", "body", "model", "factor");
+    std::string text = fmt::format("{:<7} {:<31}{}", "body", "model", by_factor ? fmt::format(" {:<24}", "factor") : "");
     for (const StabilityOutcome outcome : outcomes) text += fmt::format(" {:>10}", name_of(outcome));
     for (const std::string& key : order) {
         text += "\n" + key;
         for (const StabilityOutcome outcome : outcomes) text += fmt::format(" {:>10}", counts[key][name_of(outcome)]);
     }
     return text + "\n";
+}
+
+std::string blind_spots(const std::vector<CsvTable>& tables)
+{
+    std::map<std::string, int> counts;
+    std::string missing;
+    for (const CsvTable& cells : tables)
+        for (int row = 0; row < cells.rows(); ++row) {
+            const std::string& outcome = cells.text_at(row, "outcome");
+            ++counts[outcome];
+            const bool control = cells.text_at(row, "named") == "sign" || cells.text_at(row, "factor").starts_with("sign,");
+            if (control && outcome != "diverged" && outcome != "not_finite")
+                missing += fmt::format("the sign as printed does not run away: {}, {}\n", cells.text_at(row, "model"),
+                                       cells.text_at(row, "precision"));
+        }
+    for (const StabilityOutcome outcome : outcomes)
+        if (counts[name_of(outcome)] == 0) missing += fmt::format("no cell is {}\n", name_of(outcome));
+    return missing;
 }
 
 CsvTable map_csv(const std::vector<CsvTable>& tables, const std::string& factor, const std::string& second_factor)

@@ -19,8 +19,11 @@ analysis::CsvTable cells_csv(const std::vector<MeasuredCell>& cells);
 // Of the cells as published: shares by body, jiggle, factor and precision, each with the number of its cells. One row a quantity.
 analysis::CsvTable stability_measurements(const std::vector<MeasuredCell>& cells);
 
-// Counts of each outcome by model and factor, aligned; of one or more cells.csv.
-std::string outcome_table(const std::vector<analysis::CsvTable>& cells);
+// Counts of each outcome by body and model, or by factor too, aligned; of one or more cells.csv.
+std::string outcome_table(const std::vector<analysis::CsvTable>& cells, bool by_factor);
+
+// What makes the map worth reading: each outcome occurs in it, and the sign as printed runs away in every cell. Empty, or what is missing.
+std::string blind_spots(const std::vector<analysis::CsvTable>& cells);
 
 // The cells of a map, a row each: both values and the outcome.
 analysis::CsvTable map_csv(const std::vector<analysis::CsvTable>& cells, const std::string& factor, const std::string& second_factor);

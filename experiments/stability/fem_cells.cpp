@@ -11,12 +11,12 @@ using reference_fem::Model;
 constexpr double g_m_s2 = 9.81;
 
 const Sweep youngs{
-    "Young's modulus", "Pa", {1e3, 1e5, 1e12}, {1.0, 1e7, 1e9}, [](StabilityCell& cell, double pa) { cell.spec.fem.young_pa = pa; }};
-const Sweep poissons{"Poisson's ratio", "1", {0.3, 0.499999}, {0.0, 0.45, 0.49, 0.499, 0.4999}, [](StabilityCell& cell, double nu) {
+    "Young's modulus", "Pa", {1e5, 1e12}, {1.0, 1e3, 1e7, 1e9}, [](StabilityCell& cell, double pa) { cell.spec.fem.young_pa = pa; }};
+const Sweep poissons{"Poisson's ratio", "1", {0.3, 0.4999}, {0.0, 0.45, 0.49, 0.499, 0.499999}, [](StabilityCell& cell, double nu) {
                          cell.spec.fem.poisson = nu;
                      }};
 const Sweep gravities{
-    "gravity", "g", {100.0}, {10.0, 1e3, 1e4}, [](StabilityCell& cell, double count) { cell.spec.fem.gravity_m_s2.y() = -g_m_s2 * count; }};
+    "gravity", "g", {10.0}, {100.0, 1e3, 1e4}, [](StabilityCell& cell, double count) { cell.spec.fem.gravity_m_s2.y() = -g_m_s2 * count; }};
 
 // The smallest are a thousand steps and more.
 const Sweep timed{"time step", "s", {0.01, 0.1, 1.0}, {1e-4, 1e-3}, [](StabilityCell& cell, double s) { time_steps.set(cell, s); }};
@@ -53,6 +53,7 @@ std::vector<StabilityCell> fem_dynamic_cells(bool full)
 {
     std::vector<StabilityCell> cells;
     for (const Model model : {Model::corotational, Model::stable_neo_hookean}) {
+        if (model == Model::corotational && !full) continue;
         StabilityCell from = base(model, Dynamics::generalized_alpha);
         from.still_steps = full ? 300 : 100;
         for (const Sweep* sweep : {&timed, &youngs, &teleports}) append(cells, cells_of(*sweep, from, full));

@@ -28,7 +28,7 @@ const Sweep k_binds{"k_bind", "1", {0.0, 0.5, 1.0}, {0.1, 0.25, 0.75}, [](Stabil
 const Sweep iterations{"iterations", "1", {1.0, 24.0, 1000.0}, {2.0, 4.0, 8.0, 96.0, 384.0}, [](StabilityCell& cell, double count) {
                            cell.spec.pbs.iterations = static_cast<int>(count);
                        }};
-const Sweep iterations_of_maps{"iterations", "1", {1.0, 4.0, 24.0, 96.0}, {2.0, 8.0, 384.0, 1000.0}, iterations.set};
+const Sweep iterations_of_maps{"iterations", "1", {1.0, 4.0, 24.0, 96.0}, {2.0, 8.0, 384.0}, iterations.set};
 const Sweep clip_time_steps{
     "time step", "s", {1e-4, 0.1, 1.0}, {1e-3, 0.01}, [](StabilityCell& cell, double value) { cell.time_step_s = value; }};
 const Sweep gravities{"gravity", "g", {1.0, 100.0, 1e4}, {10.0, 1e3}, [](StabilityCell& cell, double count) {
@@ -67,7 +67,7 @@ StabilityCell base(const std::string& body, bool jiggle, pbs::Precision precisio
     cell.spec.pbs.precision = precision;
     cell.spec.pbs.gravity_m_s2 = pbs::Vec3(0.0, -g_m_s2, 0.0);
     if (jiggle) cell.spec.pbs.jiggle = pbs::Jiggle{cell.spec.pbs.k_stretch};
-    cell.still_steps = full ? 1000 : 600;
+    cell.still_steps = full ? 800 : 600;
     cell.as_published = true;
     return cell;
 }
@@ -101,7 +101,7 @@ std::vector<StabilityCell> pbs_character_cells(const std::string& body, bool ful
     std::vector<StabilityCell> cells;
     for (const bool jiggle : {false, true}) {
         StabilityCell start = base(body, jiggle, pbs::Precision::f32, full);
-        if (!full) start.still_steps = 200;
+        start.still_steps = full ? 500 : 200;
         const StabilityCell from = jiggle ? start : without_memory(start);
         for (const Sweep* sweep : {&k_stretches, &teleports, &starts}) append(cells, cells_of(*sweep, from, full));
         if (!jiggle) continue;
@@ -115,7 +115,7 @@ std::vector<StabilityCell> pbs_character_cells(const std::string& body, bool ful
 std::vector<StabilityCell> pbs_map_cells(bool full)
 {
     StabilityCell from = base("limb", true, pbs::Precision::f32, full);
-    if (!full) from.still_steps = 300;
+    from.still_steps = full ? 600 : 300;
     std::vector<StabilityCell> cells = cells_of_map(time_steps, k_stretches, from, full);
     append(cells, cells_of_map(iterations_of_maps, twists, from, full));
     return cells;
@@ -127,7 +127,7 @@ std::vector<StabilityCell> negative_controls(bool)
     for (const bool jiggle : {false, true})
         for (const pbs::Precision precision : both_precisions) {
             StabilityCell from = base("limb", jiggle, precision, false);
-            from.still_steps = 100;
+            from.still_steps = 60;
             from.spec.pbs.order = pbs::Order::plain;
             if (!jiggle) from = without_memory(from);
             append(cells, cells_of(printed_forms, from, false));

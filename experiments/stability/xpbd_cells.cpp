@@ -25,7 +25,7 @@ StabilityCell base(bool small_steps, bool full)
     cell.spec.xpbd.jiggle = true;
     cell.spec.xpbd.gravity_m_s2 = pbs::Vec3(0.0, -g_m_s2, 0.0);
     if (small_steps) std::swap(cell.spec.xpbd.iterations, cell.spec.xpbd.substeps);
-    cell.still_steps = full ? 300 : 150;
+    cell.still_steps = full ? 300 : 100;
     return cell;
 }
 

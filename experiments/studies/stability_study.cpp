@@ -8,8 +8,10 @@
 //   xpbd              the same limb with a material, also in small steps
 //   fem_static        linear, corotational and stable neo-Hookean in equilibrium
 //   fem_in_time       the last two by generalised-alpha
+// The finite elements set out at rest: broken starts are not asked of them.
 //
-// Writes DIR/stability/RUN/cells.csv and measurements.csv, and cells.csv, the maps, outcomes.md and criteria.md.
+// Writes DIR/stability/RUN/cells.csv and measurements.csv, and the maps, outcomes.md and criteria.md. It fails where an outcome occurs in
+// no cell, or where the sign as printed does not run away: then the map could not tell stable from unstable.
 #include "analysis/atomic_file.hpp"
 #include "experiments/cases/real_bodies.hpp"
 #include "experiments/stability/cell_table.hpp"
@@ -45,7 +47,7 @@ StudyRun stability_run(const std::string& name, const Cells& cells, double cost_
     return {.name = name,
             .cost_s = cost_s,
             .work = [cells](const std::string& folder) { return run_and_record(cells, folder); },
-            .settings = {{"cells", settings}, {"criteria", analysis::criteria_text()}}};
+            .settings = {{"cells", settings}, {"criteria", analysis::criteria_text() + endings_text()}}};
 }
 
 // --quick: the default character alone.
@@ -53,7 +55,7 @@ void add_characters(StudyPlan& plan, bool full)
 {
     std::vector<analysis::LeftOut> left_out;
     for (const std::string& body : installed_bodies(left_out))
-        if (full || body == "human") plan.runs.push_back(stability_run("pbs_" + body, pbs_character_cells(body, full), full ? 90.0 : 20.0));
+        if (full || body == "human") plan.runs.push_back(stability_run("pbs_" + body, pbs_character_cells(body, full), full ? 50.0 : 9.0));
     for (const analysis::LeftOut& body : left_out)
         if (full || body.scene == "human") plan.left_out.push_back(body);
 }
@@ -63,14 +65,14 @@ void add_characters(StudyPlan& plan, bool full)
 StudyPlan plan_stability_study(bool full)
 {
     StudyPlan plan;
-    plan.runs.push_back(stability_run("pbs", pbs_cells(false, full), full ? 60.0 : 10.0));
-    plan.runs.push_back(stability_run("pbs_jiggle", pbs_cells(true, full), full ? 60.0 : 10.0));
-    plan.runs.push_back(stability_run("pbs_maps", pbs_map_cells(full), full ? 60.0 : 10.0));
+    plan.runs.push_back(stability_run("pbs", pbs_cells(false, full), full ? 8.0 : 2.0));
+    plan.runs.push_back(stability_run("pbs_jiggle", pbs_cells(true, full), full ? 160.0 : 21.0));
+    plan.runs.push_back(stability_run("pbs_maps", pbs_map_cells(full), full ? 80.0 : 9.0));
     add_characters(plan, full);
-    plan.runs.push_back(stability_run("controls", negative_controls(full), 3.0));
-    plan.runs.push_back(stability_run("xpbd", xpbd_cells(full), full ? 60.0 : 10.0));
-    plan.runs.push_back(stability_run("fem_static", fem_static_cells(full), full ? 60.0 : 10.0));
-    plan.runs.push_back(stability_run("fem_in_time", fem_dynamic_cells(full), full ? 60.0 : 10.0));
+    plan.runs.push_back(stability_run("controls", negative_controls(full), 6.0));
+    plan.runs.push_back(stability_run("xpbd", xpbd_cells(full), full ? 80.0 : 14.0));
+    plan.runs.push_back(stability_run("fem_static", fem_static_cells(full), full ? 150.0 : 32.0));
+    plan.runs.push_back(stability_run("fem_in_time", fem_dynamic_cells(full), full ? 150.0 : 9.0));
     std::string counts;
     std::size_t all = 0;
     for (const StudyRun& run : plan.runs) {
@@ -88,10 +90,10 @@ StudyConclusion conclude_stability_study(const std::string& folder, const StudyP
     for (const std::string& run : finished) tables.push_back(analysis::read_csv((fs::path(run) / "cells.csv").string()));
     map_csv(tables, "time step", "k_stretch").write((fs::path(folder) / "map_time_step_k_stretch.csv").string());
     map_csv(tables, "iterations", "twist").write((fs::path(folder) / "map_iterations_twist.csv").string());
-    const std::string table = outcome_table(tables);
-    analysis::write_text_atomically((fs::path(folder) / "outcomes.md").string(), "```\n" + table + "```\n");
-    analysis::write_text_atomically((fs::path(folder) / "criteria.md").string(), analysis::criteria_text());
-    return {table, !finished.empty()};
+    analysis::write_text_atomically((fs::path(folder) / "outcomes.md").string(), "```\n" + outcome_table(tables, true) + "```\n");
+    analysis::write_text_atomically((fs::path(folder) / "criteria.md").string(), analysis::criteria_text() + endings_text());
+    const std::string missing = blind_spots(tables);
+    return {outcome_table(tables, false) + missing, missing.empty()};
 }
 
 }  // namespace experiments

@@ -75,6 +75,23 @@ TEST(StabilityVerdict, CellsThatThePaperDoesNotClaimDoNotCount)
     EXPECT_EQ(verdict_on(cells), VerdictKind::reproduced);
 }
 
+// A map in which the sign as printed looks stable, or that never shows an outcome, says nothing: the study fails.
+TEST(StabilityVerdict, AMapThatCannotTellIsRefused)
+{
+    std::vector<MeasuredCell> cells;
+    for (const StabilityOutcome outcome : {StabilityOutcome::converged, StabilityOutcome::bounded, StabilityOutcome::inverted,
+                                           StabilityOutcome::diverged, StabilityOutcome::not_finite})
+        cells.push_back(cell_of("time step", outcome));
+    cells.push_back(cell_of("printed form", StabilityOutcome::diverged, false));
+    cells.back().cell.named = "sign";
+    EXPECT_EQ(blind_spots({cells_csv(cells)}), "");
+    cells.back().result.stability.outcome = StabilityOutcome::converged;
+    EXPECT_NE(blind_spots({cells_csv(cells)}), "");
+    cells.back().result.stability.outcome = StabilityOutcome::not_finite;
+    cells.erase(cells.begin() + 1);
+    EXPECT_EQ(blind_spots({cells_csv(cells)}), "no cell is bounded\n");
+}
+
 TEST(StabilityVerdict, SharesAreOfTheCellsOfTheirSweep)
 {
     const analysis::CsvTable shares = stability_measurements(altered(0, StabilityOutcome::diverged));
