@@ -131,7 +131,7 @@ void plan_body(StudyPlan& plan, const std::string& body, const std::vector<int>&
 {
     plan.runs.push_back(sweep_run(Varied::iterations, {body, full}, full ? 40.0 : 4.0));
     plan.runs.push_back(sweep_run(Varied::time_step, {body, full}, full ? 30.0 : 6.0));
-    if (!ladder.empty()) plan.runs.push_back(sweep_run(Varied::resolution, {body, full, ladder}, full ? 60.0 : 4.0));
+    if (!ladder.empty()) plan.runs.push_back(sweep_run(Varied::resolution, {body, full, ladder}, full ? 60.0 : 5.0));
 }
 
 }  // namespace
@@ -144,7 +144,7 @@ StudyPlan plan_stiffness_study(bool full)
               full);
     for (const std::string& body : installed_bodies(plan.left_out)) {
         std::vector<int> ladder;
-        if (body == "human") ladder = full ? std::vector<int>{1200, 2400, 4800, 9600} : std::vector<int>{1200, 2400};
+        if (body == "human") ladder = full ? std::vector<int>{1200, 2400, 4800, 9600} : std::vector<int>{1200, 2400, 4800};
         plan_body(plan, body, ladder, full);
     }
     return plan;
