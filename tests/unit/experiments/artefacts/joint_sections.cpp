@@ -1,5 +1,6 @@
 // Truth: theory of the blends on the built-in limb, whose vertices near the joint are blended half and half by Eq. 2. Twisted by t, LBS
-// brings them nearer to the axis by cos(t/2), so that the area of the section falls by cos^2(t/2): exactly, on any mesh.
+// brings them nearer to the axis by cos(t/2), so that the area of the section falls by cos^2(t/2): exactly, where the plane cuts only
+// triangles of such vertices.
 #include "experiments/artefacts/joint_sections.hpp"
 
 #include "pbs/character/bodies.hpp"
@@ -24,7 +25,7 @@ protected:
         return posed;
     }
 
-    pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 600});
+    pbs::Character limb = pbs::make_character({.body = "limb"});
     JointSections sections{limb, experiments::limb_joints(limb)[0]};
     pbs::Pose pose;
 };
