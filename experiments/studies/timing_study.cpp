@@ -97,11 +97,11 @@ StudyPlan plan_timing_study(bool full)
     for (const TableOneRow& row : table_1()) {
         TimedCase timed{
             .body = body_of(row.model), .model = row.model, .vertices = row.vertices, .k_jiggle = row.jiggling, .seconds = seconds};
-        if (is_installed(timed.body)) plan.runs.push_back(timed_run(timed, 3.0));
+        if (is_installed(timed.body)) plan.runs.push_back(timed_run(timed, 2.0));
         const bool stands_in = full || row.model == "Man" || row.model == "bunnyHQ";
         timed.body = "human";
         timed.stands_in = true;
-        if (is_installed(timed.body) && stands_in) plan.runs.push_back(timed_run(timed, 3.0));
+        if (is_installed(timed.body) && stands_in) plan.runs.push_back(timed_run(timed, 2.0));
     }
     if (!is_installed("human")) return plan;
     for (const int vertices : full ? std::vector<int>{1200, 2400, 4800, 9600, 20000} : std::vector<int>{1200, 4800, 20000})
