@@ -10,8 +10,8 @@
 //   fem_in_time       the last two by generalised-alpha
 // The finite elements set out at rest: broken starts are not asked of them.
 //
-// Writes DIR/stability/RUN/cells.csv and measurements.csv, and the maps, outcomes.md and criteria.md. It fails where an outcome occurs in
-// no cell, or where the sign as printed does not run away: then the map could not tell stable from unstable.
+// Writes DIR/stability/RUN/cells.csv and measurements.csv, and cells.csv, the maps, outcomes.md, criteria.md. It fails where an outcome
+// occurs in no cell, or where the sign as printed does not run away: then the map could not tell stable from unstable.
 #include "analysis/atomic_file.hpp"
 #include "experiments/cases/real_bodies.hpp"
 #include "experiments/stability/cell_table.hpp"
@@ -38,6 +38,17 @@ std::string run_and_record(const Cells& cells, const std::string& folder)
     const analysis::CsvTable shares = stability_measurements(measured);
     if (shares.rows() > 0) shares.write((fs::path(folder) / "measurements.csv").string());
     return {};
+}
+
+// The cells of all runs under one head.
+std::string all_cells(const std::vector<analysis::CsvTable>& tables)
+{
+    std::string text;
+    for (const analysis::CsvTable& cells : tables) {
+        const std::string own = cells.text();
+        text += text.empty() ? own : own.substr(own.find('\n') + 1);
+    }
+    return text;
 }
 
 StudyRun stability_run(const std::string& name, const Cells& cells, double cost_s)
@@ -88,6 +99,7 @@ StudyConclusion conclude_stability_study(const std::string& folder, const StudyP
 {
     std::vector<analysis::CsvTable> tables;
     for (const std::string& run : finished) tables.push_back(analysis::read_csv((fs::path(run) / "cells.csv").string()));
+    analysis::write_text_atomically((fs::path(folder) / "cells.csv").string(), all_cells(tables));
     map_csv(tables, "time step", "k_stretch").write((fs::path(folder) / "map_time_step_k_stretch.csv").string());
     map_csv(tables, "iterations", "twist").write((fs::path(folder) / "map_iterations_twist.csv").string());
     analysis::write_text_atomically((fs::path(folder) / "outcomes.md").string(), "```\n" + outcome_table(tables, true) + "```\n");
