@@ -45,10 +45,10 @@ StudyPlan plan_setup_study(bool full)
     StudyPlan plan;
     for (const std::string& body : installed_bodies(plan.left_out))
         if (body == "human")
-            for (const int vertices : {1200, 2400, 4800}) plan.runs.push_back(setup_run({body, vertices}, rate_hz, full ? 20.0 : 8.0));
+            for (const int vertices : {1200, 2400, 4800}) plan.runs.push_back(setup_run({body, vertices}, rate_hz, full ? 16.0 : 5.5));
         else
-            plan.runs.push_back(setup_run({body}, rate_hz, full ? 20.0 : 8.0));
-    plan.runs.push_back(setup_run({"ring"}, rate_hz, full ? 20.0 : 8.0));
+            plan.runs.push_back(setup_run({body}, rate_hz, full ? 16.0 : 5.5));
+    plan.runs.push_back(setup_run({"ring"}, rate_hz, full ? 16.0 : 5.5));
     return plan;
 }
 

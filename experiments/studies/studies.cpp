@@ -9,7 +9,7 @@ const std::vector<Study>& studies()
          "volume change of LBS, DQS, PBS (1 to 384 iterations, jiggling, as printed) and the FEM by pose, on the limb and on every "
          "installed "
          "body, and which bones and joints it comes from",
-         "C01, C02", "some 4 minutes (--quick: 5 frames a second of the clips), 25 (--full: 25)", plan_volume_study, true,
+         "C01, C02", "some 3 minutes (--quick: 5 frames a second of the clips), 7 (--full: 25)", plan_volume_study, true,
          conclude_volume_study},
         {"audit", "the paper against itself: mesh sizes, Table 1, the equations of the volume constraint", "C13, C14, C15", "some seconds",
          plan_audit_study, true, conclude_audit_study},

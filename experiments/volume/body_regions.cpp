@@ -8,17 +8,20 @@
 namespace experiments {
 namespace {
 
+constexpr double nearest_bonus = 1e-6;  // a corner's nearest bone goes first where weights are equal
+
 // Weight of each bone over a tet's four corners, #bones; and whether one of them is blended.
 struct TetWeights {
     std::vector<double> of_bone;
     bool blended = false;
 };
 
-TetWeights weights_of_tet(const pbs::Weights& weights, const pbs::Tets& tets, Eigen::Index tet, std::size_t bones)
+TetWeights weights_of_tet(const pbs::Character& character, const pbs::Weights& weights, Eigen::Index tet)
 {
-    TetWeights sum{std::vector<double>(bones, 0.0)};
-    for (const int vertex : tets.row(tet)) {
+    TetWeights sum{std::vector<double>(character.skeleton.bones.size(), 0.0)};
+    for (const int vertex : character.mesh.tets.row(tet)) {
         sum.blended = sum.blended || weights.blended(vertex);
+        sum.of_bone[character.binding.bone[vertex]] += nearest_bonus;
         for (int entry = weights.first[vertex]; entry < weights.first[vertex + 1]; ++entry)
             sum.of_bone[weights.bone[entry]] += weights.weight[entry];
     }
@@ -34,12 +37,11 @@ int heaviest(const std::vector<double>& weights)
 
 BodyRegions regions_by_bone(const pbs::Character& character)
 {
-    const auto& bones = character.skeleton.bones;
     const pbs::Weights weights = pbs::paper_weights(character.binding, character.skeleton);
     BodyRegions regions{"bone", {}, {}};
-    for (const auto& bone : bones) regions.names.push_back(bone.name);
+    for (const auto& bone : character.skeleton.bones) regions.names.push_back(bone.name);
     for (Eigen::Index tet = 0; tet < character.mesh.tets.rows(); ++tet)
-        regions.of_tet.push_back(heaviest(weights_of_tet(weights, character.mesh.tets, tet, bones.size()).of_bone));
+        regions.of_tet.push_back(heaviest(weights_of_tet(character, weights, tet).of_bone));
     return regions;
 }
 
@@ -50,7 +52,7 @@ BodyRegions regions_by_joint(const pbs::Character& character)
     BodyRegions regions{"joint", {}, {}};
     std::map<std::string, int> index_of;
     for (Eigen::Index tet = 0; tet < character.mesh.tets.rows(); ++tet) {
-        TetWeights sum = weights_of_tet(weights, character.mesh.tets, tet, bones.size());
+        TetWeights sum = weights_of_tet(character, weights, tet);
         regions.of_tet.push_back(-1);
         if (!sum.blended) continue;
         const int first = heaviest(sum.of_bone);

@@ -15,7 +15,7 @@ struct BodyRegions {
     std::vector<int> of_tet;  // index of `names`, -1: none, #T
 };
 
-// Every tet: the bone with most weight over its four corners, the first of equals.
+// Every tet: the bone with most weight over its four corners; of equals, the one that more of them are nearest to.
 BodyRegions regions_by_bone(const pbs::Character& character);
 
 // Tets with a blended corner: the two bones with most weight, "thigh.L - shin.L"; joints without tets are left out.
