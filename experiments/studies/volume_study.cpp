@@ -148,11 +148,14 @@ StudyPlan plan_volume_study(bool full)
     StudyPlan plan;
     plan.runs.push_back(with_orders(volume_run("limb_twist", {}, 72.0)));
     plan.runs.push_back(with_orders(with_printed_forms(volume_run("limb_bend", {}, 32.0))));
-    for (const std::string& body : installed_bodies(plan.left_out))
-        if (body == "human")
-            add_human(plan, full);
-        else
-            add_fetched(plan, body, full);
+    for (const std::string& body : installed_bodies(plan.left_out)) try {
+            if (body == "human")
+                add_human(plan, full);
+            else
+                add_fetched(plan, body, full);
+        } catch (const pbs::InputError& error) {  // the clip is not there
+            plan.left_out.push_back({body, error.what()});
+        }
     return plan;
 }
 
