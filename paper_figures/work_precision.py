@@ -37,11 +37,11 @@ def draw_case(axes, rows, fronts):
     axes.set_xscale("log")
     axes.set_yscale("log")
     low, high = axes.get_ylim()
-    if bound:
-        axes.axhspan(low, min(float(bound), high), color="#EFEFEF", linewidth=0, zorder=-1, label="below the reference's own error (bound)")
     if beside and beside[0]:
         axes.axhline(float(beside[0]), color=style.vermillion, linewidth=0.8, linestyle=(0, (1, 1)), label="second solution")
         low, high = min(low, 0.8 * float(beside[0])), max(high, 1.2 * float(beside[0]))
+    if bound:
+        axes.axhspan(low, min(float(bound), high), color="#EFEFEF", linewidth=0, zorder=-1, label="below the reference's own error (bound)")
     axes.set_ylim(low, high)
     axes.set_title(f"{case}; bound {float(bound):.3g} %" if bound else case)
     axes.set_xlabel("processor time a frame [ms]")

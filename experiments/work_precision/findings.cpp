@@ -1,10 +1,9 @@
 #include "experiments/work_precision/findings.hpp"
 
-#include "experiments/work_precision/point_setting.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace experiments {
@@ -75,21 +74,22 @@ const DeformerGroup& group_named(const std::string& words)
     return *std::find_if(deformer_groups().begin(), deformer_groups().end(), [&](const auto& group) { return group.words == words; });
 }
 
-// Delta mush, which is geometry alone, against PBS and XPBD within one time.
-std::string is_physics_worth_it(const Diagram& diagram, const DiagramPoint& budget)
+// Delta mush, which is geometry alone, against PBS and XPBD within the time of `whose`.
+std::string is_physics_worth_it(const Diagram& diagram, double budget_ms, const std::string& whose)
 {
-    const DiagramPoint *mush = best_of(diagram, group_named("delta mush"), budget.ms),
-                       *pbs = best_of(diagram, group_named("PBS"), budget.ms), *xpbd = best_of(diagram, group_named("XPBD"), budget.ms);
-    if (!pbs || !mush) return "";
-    std::string text = fmt::format("within the {} of PBS, {}: delta mush {:.1f} % off, PBS {:.1f} %", ms_text(budget.ms), budget.setting,
-                                   mush->error_pct, pbs->error_pct);
-    text += xpbd ? fmt::format(", XPBD {:.1f} %", xpbd->error_pct) : ", XPBD is not so quick";
-    const double physics_pct = xpbd ? std::min(pbs->error_pct, xpbd->error_pct) : pbs->error_pct;
+    const DiagramPoint *mush = best_of(diagram, group_named("delta mush"), budget_ms),
+                       *pbs = best_of(diagram, group_named("PBS"), budget_ms), *xpbd = best_of(diagram, group_named("XPBD"), budget_ms);
+    const auto told = [](const DiagramPoint* point) { return point ? fmt::format("{:.1f} % off", point->error_pct) : "not so quick"; };
+    std::string text =
+        fmt::format("within the {} of {}: delta mush {}, PBS {}, XPBD {}", ms_text(budget_ms), whose, told(mush), told(pbs), told(xpbd));
+    if (!mush || (!pbs && !xpbd)) return text;
+    const double none = std::numeric_limits<double>::infinity();
+    const double physics_pct = std::min(pbs ? pbs->error_pct : none, xpbd ? xpbd->error_pct : none);
     const double gain_pct = 100.0 * (1.0 - physics_pct / mush->error_pct);
     text += fmt::format("; the physics {} {:.0f} % {} the error of geometry alone", gain_pct > 0.0 ? "takes" : "adds", std::abs(gain_pct),
                         gain_pct > 0.0 ? "off" : "to");
-    if (!mush->beside_pct || !pbs->beside_pct) return text;
-    return text + fmt::format(" (from the second solution: {:.1f} and {:.1f} %)", *mush->beside_pct, *pbs->beside_pct);
+    if (!mush->beside_pct || !pbs || !pbs->beside_pct) return text;
+    return text + fmt::format(" (from the second solution: delta mush {:.1f}, PBS {:.1f} %)", *mush->beside_pct, *pbs->beside_pct);
 }
 
 std::string what_is_undecided(const Diagram& diagram)
@@ -113,7 +113,9 @@ std::vector<std::string> findings(const Diagram& diagram)
     for (const std::string& line : who_is_nearest(diagram)) lines.push_back(line);
     for (const auto& [one, other] : {std::pair{"PBS", "delta mush"}, {"PBS", "XPBD"}, {"linear FEM", "PBS"}, {"nonlinear FEM", "PBS"}})
         lines.push_back(who_passes(diagram, group_named(one), group_named(other)));
-    for (const DiagramPoint& budget : budgets_of(diagram)) lines.push_back(is_physics_worth_it(diagram, budget));
+    for (const DiagramPoint& budget : budgets_of(diagram))
+        lines.push_back(is_physics_worth_it(diagram, budget.ms, "PBS, " + budget.setting));
+    lines.push_back(physics_text(diagram));
     lines.push_back(what_is_undecided(diagram));
     std::erase(lines, "");
     return lines;
@@ -152,9 +154,8 @@ std::string best_text(const std::vector<Diagram>& diagrams)
 
 std::string physics_text(const Diagram& diagram)
 {
-    for (const DiagramPoint& budget : budgets_of(diagram))
-        if (budget.setting == words_of(pbs::PbsOptions{})) return is_physics_worth_it(diagram, budget);
-    return "";
+    const DiagramPoint* mush = best_of(diagram, group_named("delta mush"), std::numeric_limits<double>::infinity());
+    return mush ? is_physics_worth_it(diagram, mush->ms, "delta mush at its best, " + mush->setting) : "";
 }
 
 }  // namespace experiments

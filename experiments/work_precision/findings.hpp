@@ -15,7 +15,8 @@ std::string front_text(const Diagram& diagram);
 // All diagrams on one screen, a line each: how near each group of deformers comes at its best, and after how many ms.
 std::string best_text(const std::vector<Diagram>& diagrams);
 
-// Whether the physics is worth its time: delta mush against PBS and XPBD within the time of PBS's 24 iterations.
+// Whether the physics is worth its time: delta mush against PBS and XPBD within the time of delta mush at its best, which is
+// chosen with hindsight.
 std::string physics_text(const Diagram& diagram);
 
 }  // namespace experiments
