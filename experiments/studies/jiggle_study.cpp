@@ -245,9 +245,8 @@ StudyPlan plan_jiggle_study(bool full)
     plan.runs.push_back(jolt_run("limb_jolt", {limb({}), pbs::Vec3::UnitX(), false, jiggle_settings()}, 2.5));
     const std::vector<JiggleSetting> beside =
         full ? std::vector<JiggleSetting>{{.k_stretch = 0.05}, {}, {.k_stretch = 0.2}, {.iterations = 6}} : std::vector<JiggleSetting>{{}};
-    plan.runs.push_back(jolt_run("limb_reference",
-                                 {limb({fmt::format("character.vertices={}", full ? 800 : 400)}), pbs::Vec3::UnitX(), true, beside},
-                                 full ? 24.0 : 4.0));
+    plan.runs.push_back(
+        jolt_run("limb_reference", {limb({"character.vertices=400"}), pbs::Vec3::UnitX(), true, beside}, full ? 10.0 : 4.0));
     for (const std::string& body : installed_bodies(plan.left_out)) {
         try {
             plan_body(body, full, plan);
