@@ -31,7 +31,7 @@ double mean_motion(Steps::const_iterator begin, Steps::const_iterator end)
 
 bool went_far(const Ending& ending, const StabilityBounds& bounds)
 {
-    return std::any_of(ending.begin, ending.end, [&](const auto& step) { return !(step.reach <= bounds.farthest); });
+    return std::any_of(ending.begin, ending.end, [&](const auto& step) { return step.solved && !(step.reach <= bounds.farthest); });
 }
 
 bool motion_grows(const Ending& ending, double put_in, const StabilityBounds& bounds)
@@ -76,7 +76,8 @@ std::string criteria_text(const StabilityBounds& bounds)
         "bind point through its rest distance. The first that applies:\n\n"
         "| outcome | when |\n|---|---|\n"
         "| not_finite | a position is not finite in any step |\n"
-        "| diverged | in the last third of the still steps a vertex is farther than {:g} D from its place; or its motion a step, the "
+        "| diverged | in the last third of the still steps a vertex is farther than {:g} D from its place, by a step that was reached; or "
+        "its motion a step, the "
         "largest "
         "of any vertex, averaged over each third of them, grew twice by more than {:g} times, to above {:g} D and to more than in any step "
         "of the disturbance |\n"

@@ -77,6 +77,17 @@ TEST(StabilityOutcome, FarAwayBeforeTheLastThirdIsForgiven)
     EXPECT_EQ(outcome(steps), StabilityOutcome::converged);
 }
 
+// The bones have gone and the step was taken back: the body is held up, it has not flown off.
+TEST(StabilityOutcome, LeftBehindByAStepThatWasNotReachedIsBounded)
+{
+    Steps steps = calm();
+    for (auto& step : steps) {
+        step.reach = 2.0 * bounds.farthest;
+        step.solved = false;
+    }
+    EXPECT_EQ(outcome(steps), StabilityOutcome::bounded);
+}
+
 TEST(StabilityOutcome, AReachBeyondAllNumbersIsDiverged)
 {
     for (const double reach : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
