@@ -116,8 +116,8 @@ StudyPlan plan_convergence_study(bool full)
     StudyPlan plan;
     plan.runs.push_back(limb_run("limb_twist", twists, full, full ? 100.0 : 10.0));
     plan.runs.push_back(limb_run("limb_bend", bends, full, full ? 55.0 : 7.0));
-    plan.runs.push_back(ladder_run("ladder_twist", "limb_twist", {twists.front()}, full, full ? 90.0 : 3.5));
-    plan.runs.push_back(ladder_run("ladder_bend", "limb_bend", bends, full, full ? 90.0 : 2.5));
+    plan.runs.push_back(ladder_run("ladder_twist", "limb_twist", {twists.front()}, full, full ? 140.0 : 3.5));
+    plan.runs.push_back(ladder_run("ladder_bend", "limb_bend", bends, full, full ? 140.0 : 2.5));
     for (const std::string& body : installed_bodies(plan.left_out)) plan.runs.push_back(body_run(body, full, full ? 70.0 : 5.0));
     return plan;
 }

@@ -19,7 +19,7 @@ const std::vector<Study>& studies()
          "residuals, volume and the error to the reference over 1 to 1,000 iterations from LBS, the previous frame, the rest pose and the "
          "rigid bind; on the limb, a ladder of its sizes and every installed body; three orders, two precisions; rates, iterations to "
          "tolerance, and towards what",
-         "C03, C12", "some 1 minute (--quick), 10 (--full: to 100,000 vertices)", plan_convergence_study, true,
+         "C03, C12", "some 1 minute (--quick), 12 (--full: to 100,000 vertices)", plan_convergence_study, true,
          conclude_convergence_study},
         {"stability",
          "outcome of some hundreds of disturbed bodies: stiffness, time step, iterations, angle, masses, thin tets, gravity, teleports and "
