@@ -47,7 +47,7 @@ Scene scene_of(const TimedCase& timed)
 Rounds rounds_of(int vertices, double seconds)
 {
     constexpr double round_s_a_vertex = 24e-6;
-    const int rounds = std::clamp(static_cast<int>(seconds / (round_s_a_vertex * vertices)), 5, 61);
+    const int rounds = std::clamp(static_cast<int>(seconds / (round_s_a_vertex * vertices)), 3, 61);
     return {.seconds = 0.0, .fewest = rounds, .most = rounds};
 }
 
@@ -106,7 +106,7 @@ StudyPlan plan_timing_study(bool full)
     if (!is_installed("human")) return plan;
     for (const int vertices : full ? std::vector<int>{1200, 2400, 4800, 9600, 20000} : std::vector<int>{1200, 4800, 20000})
         plan.runs.push_back(timed_run({.body = "human", .vertices = vertices, .seconds = seconds}, 2.0 + vertices / 2000.0));
-    if (full) plan.runs.push_back(timed_run({.body = "human", .vertices = 2400, .refinements = 2, .seconds = seconds}, 20.0));
+    if (full) plan.runs.push_back(timed_run({.body = "human", .vertices = 2400, .refinements = 2, .seconds = seconds}, 16.0));
     return plan;
 }
 
