@@ -122,7 +122,7 @@ void add_human(StudyPlan& plan, bool full)
 {
     std::vector<std::string> overrides = {"motion.rate_hz=25.0", "output.frames=[0,41,168,177]"};  // four steps a frame
     if (!full) overrides = {"motion.rate_hz=5.0", "output.frames=[0,8,34,35]"};
-    const StudyRun human = volume_run("human_01_01", overrides, full ? 55.0 : 15.0);
+    const StudyRun human = volume_run("human_01_01", overrides, full ? 65.0 : 15.0);
     plan.runs.push_back(full ? with_orders(human) : human);
     plan.runs.push_back(with_orders(human_beside_truth(45.0)));
     plan.runs.push_back(human_at(1200, 0.5));

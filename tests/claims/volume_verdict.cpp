@@ -43,7 +43,7 @@ TEST(VolumeVerdict, FourteenPerCentIsAMeanLoss)
 {
     EXPECT_EQ(verdict("C01", {clip("man_01_01", "lbs", -14.0), clip("lady_01_01", "lbs", -13.0)}), VerdictKind::reproduced);
     EXPECT_EQ(verdict("C01", {clip("man_01_01", "lbs", -14.0), clip("frankie_01_01", "lbs", -8.0)}), VerdictKind::reproduced_only_for);
-    EXPECT_EQ(verdict("C01", {clip("man_01_01", "lbs", -6.0), clip("lady_01_01", "lbs", 14.0)}), VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict("C01", {clip("man_01_01", "lbs", -6.0), clip("lady_01_01", "lbs", 6.0)}), VerdictKind::not_reproduced);
 }
 
 TEST(VolumeVerdict, HalfAPerCentIsHeldByEveryBodyOrNotByAll)
