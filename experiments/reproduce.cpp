@@ -151,6 +151,7 @@ int reproduce(const ReproduceArguments& arguments)
         to_do.push_back(runs_to_do(of, arguments.resume));
         expected.push_back(expected_cost(*of.study, to_do.back(), arguments.jobs));
     }
+    if (arguments.cost_only) return fmt::print("{}", expected_cost_table(expected)), exit_finished;
     if (planned.size() > 1) spdlog::info("what this will take:\n{}", expected_cost_table(expected));
 
     std::vector<analysis::Verdict> verdicts;

@@ -10,6 +10,7 @@ struct ReproduceArguments {
     std::vector<std::string> names;  // claims or studies; empty: the studies that run by default
     std::string folder = "results/reproduce";
     bool full = false, resume = false;
+    bool cost_only = false;  // say what it would take, run nothing
     int jobs = 2;
 };
 

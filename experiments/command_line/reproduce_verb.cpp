@@ -16,6 +16,7 @@ void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action
     verb->add_flag("--quick", *quick, "a part of it that decides the same claims in minutes (default)")->excludes(full);
     verb->add_option("-j,--jobs", arguments->jobs, "runs side by side")->check(CLI::Range(1, 256))->capture_default_str();
     auto* resume = verb->add_flag("--resume", arguments->resume, "keep the runs that are finished already");
+    verb->add_flag("--cost", arguments->cost_only, "run nothing, say what it would take");
     auto judge = std::make_shared<bool>(false);
     verb->add_flag("--judge", *judge, "run nothing, judge the records that lie in the folder")->excludes(full)->excludes(resume);
     verb->callback([&action, &common, arguments, judge] {
