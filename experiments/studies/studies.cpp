@@ -19,8 +19,7 @@ const std::vector<Study>& studies()
          "residuals, volume and the error to the reference over 1 to 1,000 iterations from LBS, the previous frame, the rest pose and the "
          "rigid bind; on the limb, a ladder of its sizes and every installed body; three orders, two precisions; rates, iterations to "
          "tolerance, and towards what",
-         "C03, C12", "some 1 minute (--quick), 12 (--full: to 100,000 vertices)", plan_convergence_study, true,
-         conclude_convergence_study},
+         "C03, C12", "some 1 minute (--quick), 12 (--full: to 100,000 vertices)", plan_convergence_study, true, conclude_convergence_study},
         {"stability",
          "outcome of some hundreds of disturbed bodies: stiffness, time step, iterations, angle, masses, thin tets, gravity, teleports and "
          "broken starts to their extremes; PBS without and with jiggle, XPBD, the reference in equilibrium and in time, by the same bounds",
@@ -47,8 +46,8 @@ const std::vector<Study>& studies()
         {"ambiguity",
          "where the paper can be read in two ways, and what it leaves unstated: how much each reading changes the volume and the jiggling "
          "of the limb and the human, and whether C01 or C02 would be judged otherwise",
-         "none: how far C01 and C02 hang on a reading", "some 20 seconds (--quick), 1 minute (--full: the whole clip)", plan_ambiguity_study, true,
-         conclude_ambiguity_study},
+         "none: how far C01 and C02 hang on a reading", "some 20 seconds (--quick), 1 minute (--full: the whole clip)",
+         plan_ambiguity_study, true, conclude_ambiguity_study},
         {"timing",
          "milliseconds of a frame on one core, of LBS, bind, stretch, volume and the whole, on meshes made to Table 1's counts, beside its "
          "figures; plain in f64 and f32, ordered in f32, by turns; and the size at which 30 frames a second end",

@@ -39,7 +39,7 @@ TEST(Scene, EveryBuiltInSceneReads)
         const Scene read = read_scene(scene.name, {});
         EXPECT_EQ(read.name, scene.name);
         EXPECT_FALSE(read.reference.empty());
-        EXPECT_GE(read.deformers.size(), 5u);
+        EXPECT_GE(read.deformers.size(), 4u);
     }
 }
 
