@@ -169,6 +169,8 @@ void check_fem_keys(const SceneValues& values, const std::string& at, const FemO
                 "expected taylor_hood only with model linear, dynamics quasi_static, element_order 2, poisson > 0 and a direct solver");
     if (quasi_static && (options.rayleigh_mass_1_s > 0.0 || options.rayleigh_stiffness_s > 0.0))
         values.refuse(at + "rayleigh", "expected [0, 0] with dynamics quasi_static: nothing moves there that could be damped");
+    if (options.nested_start && (linear || !quasi_static || options.element_order != 2))
+        values.refuse(at + "nested_start", "expected false unless element_order is 2, the model nonlinear and dynamics quasi_static");
     if (!quasi_static && !(options.density_kg_m3 > 0.0)) values.refuse(at + "density_kg_m3", "expected a density > 0 with dynamics");
 }
 
@@ -192,6 +194,7 @@ FemOptions fem_options(const SceneValues& values, const std::string& at)
     options.core_radius = values.number(at + "core_radius");
     options.spring_factor = values.number(at + "spring_factor");
     options.solver = option_of<reference_fem::LinearSolver>(values.text(at + "solver"));
+    options.nested_start = values.boolean(at + "nested_start");
     check_fem_keys(values, at, options);
     return options;
 }

@@ -170,6 +170,9 @@ std::vector<SceneKey> fem_keys()
                    "cholmod; umfpack is the second opinion on the linear model; cg_ml: conjugate gradients with algebraic "
                    "multigrid, linear model, for what a factor does not fit in memory for"),
                {"cholmod", "umfpack", "cg_ml"}),
+        key("fem", "nested_start", boolean, "false", "",
+            "order 2 of a nonlinear model: to a pose in which a bone is turned by more than 15 degrees from the last, Newton's iterations "
+            "start from the solution with order 1: a shorter way to the same solution"),
     };
 }
 

@@ -37,6 +37,7 @@ nlohmann::json to_json(const FemOptions& options)
             {"density_kg_m3", options.density_kg_m3},
             {"gravity_m_s2", {options.gravity_m_s2.x(), options.gravity_m_s2.y(), options.gravity_m_s2.z()}},
             {"dynamics", name_of(options.dynamics)},
+            {"nested_start", options.nested_start},
             {"rayleigh", {options.rayleigh_mass_1_s, options.rayleigh_stiffness_s}},
             {"attachment", name_of(options.attachment)},
             {"core_radius", options.core_radius},

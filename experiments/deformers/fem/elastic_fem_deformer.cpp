@@ -12,6 +12,7 @@ namespace experiments {
 namespace {
 
 constexpr double largest_turn_deg = 45.0;  // of a bone in one solve
+constexpr double far_turn_deg = 15.0;      // from where on the solution with order 1 is nearer than the last frame's
 
 reference_fem::ElasticOptions solver_options(const FemOptions& options)
 {
@@ -42,6 +43,15 @@ pbs::Pose turned_from(const pbs::Pose& from, pbs::Pose to)
     return to;
 }
 
+FemOptions with_order_1(FemOptions options)
+{
+    options.element_order = 1;
+    options.nested_start = false;
+    if (options.formulation == reference_fem::Formulation::mean_dilatation)  // the same on order 1
+        options.formulation = reference_fem::Formulation::displacement;
+    return options;
+}
+
 pbs::Pose rest_pose(const pbs::Skeleton& skeleton)
 {
     return pbs::Pose(skeleton.bones.size(), Eigen::Isometry3d::Identity());
@@ -59,6 +69,10 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
         guide_weights_ = harmonic_weights(character.mesh, gripping_bones(bones_, character.mesh.tets, body_->setup().spring_tet),
                                           static_cast<int>(character.skeleton.bones.size()));
     reached_pose_ = rest_pose(character.skeleton);
+    if (options_.nested_start) {
+        order_1_ = std::make_unique<ElasticFemDeformer>(with_order_1(options_));
+        order_1_->reset(character);
+    }
     unspent_s_ = 0.0;
     is_started_ = false;
     failures_in_a_row_ = 0;
@@ -73,7 +87,7 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
     const RootFrame frame(character_->skeleton, pose);
     FrameSolve solve;
     if (!has_memory()) {
-        solve = settle(frame);
+        if (!settle_from_order_1(pose, frame, solve)) solve = settle(frame);
         positions_ = frame.to_world(body_->positions());
     } else {
         solve = is_started_ ? move(pose, dt_s) : start_at(frame);
@@ -109,6 +123,26 @@ void ElasticFemDeformer::follow(const PosePath& way, const Eigen::Isometry3d& pl
         if (!solve.stages.back().converged()) break;
     }
     reached_pose_ = placed(way.at(solve.reached), place);
+}
+
+// Where it does not arrive the body is back where it was, mid-edge nodes halfway.
+bool ElasticFemDeformer::settle_from_order_1(const pbs::Pose& pose, const RootFrame& frame, FrameSolve& solve)
+{
+    const bool far = PosePath(character_->skeleton, reached_pose_, frame.pose()).largest_turn_deg() > far_turn_deg;
+    if (!order_1_ || !far || order_1_->advance(pose, 0.0).outcome != pbs::Outcome::finished) return false;
+    const pbs::Positions before = body_->positions();
+    const pbs::Pose pose_before = reached_pose_;
+    body_->start_from(order_1_->body_->positions());
+    const PosePath no_way(character_->skeleton, frame.pose(), frame.pose());
+    follow(no_way, Eigen::Isometry3d::Identity(), frame.from_world(options_.gravity_m_s2), solve);
+    if (solve.converged()) {
+        failures_in_a_row_ = 0;
+        return true;
+    }
+    body_->start_from(before);
+    reached_pose_ = pose_before;
+    solve = {};
+    return false;
 }
 
 FrameSolve ElasticFemDeformer::settle(const RootFrame& frame)

@@ -3,7 +3,9 @@
 //
 // Quasi-static: the way from the last solved pose to the frame's is followed in stages in which no bone turns by more than 45 degrees, each
 // halved as often as it takes. Of a frame that is not reached the positions are those of the last equilibrium on the way, the outcome is
-// not_converged and the next frame sets out from there; the second in a row is tried again from rest, once.
+// not_converged and the next frame sets out from there; the second in a row is tried again from rest, once. With nested_start the body
+// with order 1 goes the way to a pose far from the last, and the one with order 2 sets out from where it arrived; only where that fails it
+// goes the way itself.
 // In time: the first pose is where the body rests in equilibrium; then every step is a time step. One that does not converge is taken
 // back, and the next one covers its time too.
 #pragma once
@@ -34,7 +36,8 @@ public:
 
 private:
     reference_fem::Targets targets_of(const pbs::Pose& pose) const { return targets(bones_, character_->mesh.rest, pose); }
-    FrameSolve settle(const RootFrame& frame);            // in the root's frame
+    FrameSolve settle(const RootFrame& frame);  // in the root's frame
+    bool settle_from_order_1(const pbs::Pose& pose, const RootFrame& frame, FrameSolve& solve);
     FrameSolve start_at(const RootFrame& frame);          // in the world, at rest
     FrameSolve move(const pbs::Pose& pose, double dt_s);  // in the world
     void follow(const PosePath& way, const Eigen::Isometry3d& place, const pbs::Vec3& gravity_m_s2, FrameSolve& solve);
@@ -49,6 +52,7 @@ private:
     double unspent_s_ = 0.0;   // time of steps that were taken back
     bool is_started_ = false;  // in time: the first pose is there
     int failures_in_a_row_ = 0;
+    std::unique_ptr<ElasticFemDeformer> order_1_;  // nested_start
     FemRecord record_;
     NewtonRecord newton_record_;
     pbs::Positions positions_;  // [m], #V x 3

@@ -69,6 +69,8 @@ const WrongScene wrong_lines[] = {
      "scene.toml:13: fem.0.solver = cg_ml: expected cholmod with a nonlinear model"},
     {"umfpack_of_a_nonlinear_model", "[[fem]]\nmodel = \"corotational\"\nsolver = \"umfpack\"\n",
      "scene.toml:13: fem.0.solver = umfpack: expected cholmod with a nonlinear model"},
+    {"nested_start_of_order_1", "[[fem]]\nmodel = \"corotational\"\nelement_order = 1\nnested_start = true\n",
+     "scene.toml:14: fem.0.nested_start = true: expected false unless element_order is 2"},
     {"negative_rayleigh", "[[fem]]\nrayleigh = [-1.0, 0.0]\n", "scene.toml:12: fem.0.rayleigh = [-1.0,0.0]: expected a list of numbers"},
     {"rayleigh_without_dynamics", "[[fem]]\nrayleigh = [0.0, 0.1]\n",
      "scene.toml:12: fem.0.rayleigh = [0.0,0.1]: expected [0, 0] with dynamics quasi_static"},

@@ -65,6 +65,35 @@ TEST(ElasticFemDeformer, RecordsModelGripAndNewton)
     EXPECT_GT(record["attachment"]["bones"][0]["grip_error_rms_m"].get<double>(), 0.0);
 }
 
+// Truth: an equilibrium does not know the way to it.
+TEST(ElasticFemDeformer, ANestedStartLeadsToTheSameSolutionInFewerSteps)
+{
+    FemOptions options{.model = Model::stable_neo_hookean, .element_order = 2, .formulation = reference_fem::Formulation::mean_dilatation};
+    ElasticFemDeformer along_the_way(options);
+    options.nested_start = true;
+    ElasticFemDeformer nested(options);
+    for (ElasticFemDeformer* fem : {&along_the_way, &nested}) {
+        fem->reset(bar());
+        ASSERT_EQ(fem->advance(bent(75.0), 0.01).outcome, pbs::Outcome::finished);
+    }
+    EXPECT_LT(largest_distance(along_the_way.positions(), nested.positions()), 1e-6);  // Newton's own tolerance, of a bar of 2 m
+    const auto steps = [](const ElasticFemDeformer& fem) { return fem.record()["newton"]["newton_steps"]["most"].get<int>(); };
+    EXPECT_LT(steps(nested), steps(along_the_way));
+}
+
+TEST(ElasticFemDeformer, WhereOrder1DoesNotArriveANestedStartGoesTheWayItself)
+{
+    FemOptions options{.model = Model::neo_hookean, .element_order = 2};
+    ElasticFemDeformer along_the_way(options);
+    options.nested_start = true;
+    ElasticFemDeformer nested(options);
+    for (ElasticFemDeformer* fem : {&along_the_way, &nested}) {
+        fem->reset(bar());
+        EXPECT_EQ(fem->advance(crushed(), 0.01).outcome, pbs::Outcome::not_converged);
+    }
+    EXPECT_EQ(along_the_way.positions(), nested.positions());
+}
+
 TEST(ElasticFemDeformer, AFrameThatIsNotReachedIsReportedAndTheNextSetsOutFromThere)
 {
     ElasticFemDeformer fem({.model = Model::neo_hookean, .element_order = 1});
