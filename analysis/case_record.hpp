@@ -16,7 +16,8 @@ struct CaseRecord {
     std::vector<double> frame, time_s, angle_deg;  // angle_deg is empty for clips
     int frames_not_converged = 0;                  // left out of the series
     std::vector<double> volume_change_pct, volume_abs_change_pct, inverted_tets;
-    std::string run;  // the folder it came from, as to be named in reports
+    std::string run;      // the folder it came from, as to be named in reports
+    bool beside = false;  // the same body and motion once more (another mesh, another reference): shown, no part of a verdict
 
     bool is_sweep() const { return !angle_deg.empty(); }
 };
@@ -48,6 +49,7 @@ struct Records {
     std::vector<LeftOut> left_out = {};
     std::vector<PrintedFigure> printed = {};
     std::vector<Measurement> measurements = {};
+    std::vector<std::string> missing_runs = {};    // planned, and not ended: what is measured cannot be judged without them
     std::vector<std::string> planned_scenes = {};  // each must have a record or be left out, or the verdict cannot be computed
 };
 

@@ -67,6 +67,16 @@ void CsvTable::add_row(const std::vector<Cell>& cells)
     lines_.push_back(rows() + 1);
 }
 
+void CsvTable::append(const CsvTable& other)
+{
+    if (columns_.empty()) columns_ = other.columns_;
+    if (columns_ != other.columns_)
+        throw pbs::InputError(other.file_, 1, "columns", fmt::format("{}", fmt::join(other.columns_, ",")),
+                              fmt::format("expected those of the tables before: {}", fmt::join(columns_, ",")));
+    rows_.insert(rows_.end(), other.rows_.begin(), other.rows_.end());
+    while (lines_.size() < rows_.size()) lines_.push_back(static_cast<int>(lines_.size()) + 2);
+}
+
 std::string CsvTable::text() const
 {
     std::string text = line_of(columns_);

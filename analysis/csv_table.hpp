@@ -20,6 +20,9 @@ public:
     explicit CsvTable(std::vector<std::string> columns);
 
     void add_row(const std::vector<Cell>& cells);  // std::logic_error unless there is one cell a column
+    // All rows of another table of the same columns, under one head; a table without columns takes on the other's. InputError for others.
+    //   CsvTable all{{}};  for (const CsvTable& table : of_runs) all.append(table);
+    void append(const CsvTable& other);
     std::string text() const;
     void write(const std::string& path) const;  // atomic
 

@@ -5,8 +5,9 @@
 
 namespace analysis {
 
-// Every figure of the claim's quantities whole is reproduced; some, reproduced only for those; none is not reproduced. In words by subject:
-// what stands before the first comma of a figure's `of`, that is the character.
+// By subject: what stands before the first comma of a figure's `of`, the character. A subject holds where all its figures are whole,
+// in part where of each of its quantities some are: a claim of several quantities asks for all of them. All subjects hold: reproduced; some
+// hold or do in part: reproduced only for those; none: not reproduced. A planned run without record: not computable.
 Verdict judge_measurements(const Claim& claim, const Records& records);
 
 }  // namespace analysis

@@ -109,10 +109,12 @@ Verdict judge_cases(const Claim& claim, const Records& records)
     Verdict verdict = verdict_of(claim, VerdictKind::not_computable, "");
     for (const std::string& metric : claim.metrics)
         for (const CaseRecord& record : records.cases)
-            if (is_asked_for(claim, record)) verdict.cases.push_back(judge_case(claim, record, metric));
+            if (is_asked_for(claim, record) && !record.beside) verdict.cases.push_back(judge_case(claim, record, metric));
     if (verdict.cases.empty() && !records.left_out.empty())
         return verdict_of(claim, VerdictKind::cannot_be_tested_here, left_out_text(records.left_out));
     if (verdict.cases.empty()) return verdict_of(claim, VerdictKind::not_computable, "no record of " + what_is_asked_for(claim));
+    for (const CaseRecord& record : records.cases)
+        if (is_asked_for(claim, record) && record.beside) verdict.beside.push_back(judge_case(claim, record, claim.metrics.front()));
     for (const std::string& deformer : claim.beside)
         for (const CaseRecord& record : records.cases)
             if (record.deformer == deformer && !record.frame.empty())

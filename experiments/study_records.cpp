@@ -20,7 +20,7 @@ nlohmann::json read_plan(const std::string& folder)
     return nlohmann::json::parse(analysis::read_text(plan_file(folder)));
 }
 
-void add_run(analysis::Records& records, const fs::path& folder, const std::string& name)
+void add_run(analysis::Records& records, const fs::path& folder, const std::string& name, bool beside)
 {
     if (const fs::path printed = folder / "printed.csv"; fs::exists(printed))
         for (auto& figure : analysis::printed_figures(printed.string())) records.printed.push_back(std::move(figure));
@@ -30,7 +30,10 @@ void add_run(analysis::Records& records, const fs::path& folder, const std::stri
             records.measurements.push_back(std::move(measurement));
         }
     if (const fs::path metrics = folder / "metrics.csv"; fs::exists(metrics))
-        for (auto& record : analysis::case_records(analysis::read_csv(metrics.string()), name)) records.cases.push_back(std::move(record));
+        for (auto& record : analysis::case_records(analysis::read_csv(metrics.string()), name)) {
+            record.beside = beside;
+            records.cases.push_back(std::move(record));
+        }
 }
 
 }  // namespace
@@ -41,6 +44,7 @@ void write_study_plan(const std::string& folder, const StudyPlan& plan)
     for (const StudyRun& run : plan.runs) {
         nlohmann::json entry = {{"name", run.name}, {"cost_s", run.cost_s}};
         if (!run.work) entry["scene"] = run.scene.name;
+        if (run.beside) entry["beside"] = true;
         runs.push_back(entry);
     }
     for (const analysis::LeftOut& out : plan.left_out) left_out.push_back({{"scene", out.scene}, {"reason", out.reason}});
@@ -73,7 +77,13 @@ analysis::Records read_study_records(const std::string& folder, const std::strin
     for (const auto& run : plan.at("runs"))
         if (run.contains("scene")) records.planned_scenes.push_back(run.at("scene"));
     for (const auto& out : records.left_out) records.planned_scenes.push_back(out.scene);
-    for (const std::string& run : finished_runs(folder)) add_run(records, run, fs::path(run).lexically_relative(root).string());
+    for (const auto& run : plan.at("runs")) {
+        const fs::path of_run = fs::path(folder) / run.at("name").get<std::string>();
+        if (fs::exists(of_run / "run.json"))
+            add_run(records, of_run, of_run.lexically_relative(root).string(), run.value("beside", false));
+        else
+            records.missing_runs.push_back(run.at("name"));
+    }
     return records;
 }
 

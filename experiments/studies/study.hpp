@@ -20,6 +20,7 @@ struct StudyRun {
     Scene scene = {};
     double cost_s = 0.0;  // expected, on one core
     StudyWork work = {};
+    bool beside = false;           // of a body and motion that another run is judged by
     nlohmann::json settings = {};  // what the work is the result of: on record, and what --resume compares
 };
 

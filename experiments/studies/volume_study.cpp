@@ -101,6 +101,13 @@ StudyRun clip_run(const std::string& name, const std::string& scene, std::vector
     return run;
 }
 
+// Of a body and clip that another run is judged by: another reference, another mesh.
+StudyRun beside(StudyRun run)
+{
+    run.beside = true;
+    return run;
+}
+
 const std::string blends_and_pbs = R"(deformers.use=["lbs", "dqs", "pbs"])", no_reference = R"(reference.name="")";
 
 // Beside flesh that large rotations do not deceive.
@@ -124,9 +131,9 @@ void add_human(StudyPlan& plan, bool full)
     if (!full) overrides = {"motion.rate_hz=5.0", "output.frames=[0,8,34,35]"};
     const StudyRun human = volume_run("human_01_01", overrides, full ? 65.0 : 15.0);
     plan.runs.push_back(full ? with_orders(human) : human);
-    plan.runs.push_back(with_orders(human_beside_truth(45.0)));
-    plan.runs.push_back(human_at(1200, 0.5));
-    plan.runs.push_back(human_at(4800, 1.0));
+    plan.runs.push_back(beside(with_orders(human_beside_truth(45.0))));
+    plan.runs.push_back(beside(human_at(1200, 0.5)));
+    plan.runs.push_back(beside(human_at(4800, 1.0)));
 }
 
 // Man, Lady or Frankie.
@@ -135,7 +142,7 @@ void add_fetched(StudyPlan& plan, const std::string& body, bool full)
     const std::string rate = full ? "motion.rate_hz=25.0" : "motion.rate_hz=5.0", scene = body + "_01_01";
     StudyRun own = clip_run(scene, scene, {rate, blends_and_pbs, no_reference}, full ? 9.0 : 2.3);
     plan.runs.push_back(with_orders(own));
-    if (full) plan.runs.push_back(clip_run(scene + "_truth", scene, {}, body == "frankie" ? 95.0 : 20.0));
+    if (full) plan.runs.push_back(beside(clip_run(scene + "_truth", scene, {}, body == "frankie" ? 95.0 : 20.0)));
     if (body == "lady")
         plan.runs.push_back(with_orders(
             clip_run("lady_01_03", "lady_walk", {"motion.duration_s=0.0", rate, blends_and_pbs, no_reference}, full ? 16.0 : 4.0)));

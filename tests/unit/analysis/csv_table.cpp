@@ -151,6 +151,25 @@ TEST(CsvTable, RowsOfAnotherLengthAreAMistakeOfTheCaller)
     EXPECT_THROW(table.add_row({1}), std::logic_error);
 }
 
+TEST(CsvTable, AppendsTheRowsOfOthersUnderOneHead)
+{
+    CsvTable all{{}};
+    all.append(parse_csv("a,b\n1,\"x,y\"\n", "first.csv"));
+    all.append(parse_csv("a,b\n", "none.csv"));
+    all.append(parse_csv("a,b\n2,\n3,z\n", "second.csv"));
+    EXPECT_EQ(all.text(), "a,b\n1,\"x,y\"\n2,\n3,z\n");
+    EXPECT_FALSE(all.number_or_nothing(1, "b"));
+    EXPECT_THROW(all.number(2, "b"), pbs::InputError);  // its line is known as well
+}
+
+TEST(CsvTable, AppendsNoTableOfOtherColumns)
+{
+    CsvTable all = parse_csv("a,b\n1,2\n", "first.csv");
+    EXPECT_THROW(all.append(parse_csv("b,a\n1,2\n", "other.csv")), pbs::InputError);
+    EXPECT_THROW(all.append(parse_csv("a\n1\n", "other.csv")), pbs::InputError);
+    EXPECT_EQ(all.text(), "a,b\n1,2\n");
+}
+
 TEST(CsvTable, GoesThroughAFile)
 {
     const test_support::ScratchFolder folder;

@@ -104,4 +104,37 @@ TEST(Measurement, AVerdictCountsFiguresBySubject)
               "reproduced only for human, limb (1 of 2 figures); not for bar; farthest: linear drift of bar is nan");
 }
 
+TEST(Measurement, AClaimOfSeveralQuantitiesAsksForAllOfThem)
+{
+    const auto angular = [](const std::string& of, double value) {
+        return Measurement{"C07", "angular drift", of, value, value, value, "1"};
+    };
+    analysis::Records records;
+    records.measurements = {drift("limb, bent", 1e-6), drift("limb, straight", 1e-6), angular("limb, bent", 0.5),
+                            angular("limb, straight", 0.5)};
+    EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::not_reproduced);
+    records.measurements[3].value = records.measurements[3].low = records.measurements[3].high = 1e-6;
+    EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::reproduced_only_for);
+}
+
+TEST(Measurement, WithoutAPlannedRunNothingIsJudged)
+{
+    analysis::Records records;
+    records.measurements = {drift("limb", 1e-6)};
+    records.missing_runs = {"human"};
+    const analysis::Verdict verdict = judge(drift_claim(), records);
+    EXPECT_EQ(verdict.kind, VerdictKind::not_computable);
+    EXPECT_EQ(verdict.text, "not computable: no record of human");
+}
+
+TEST(Measurement, WhatHoldsIsToldWithWhatStandsBesideIt)
+{
+    analysis::Claim claim = drift_claim();
+    claim.beside = {"energy"};
+    analysis::Records records;
+    records.measurements = {
+        drift("limb", 1e-6), {"C07", "energy", "limb", 9.0, 9.0, 9.0, "J"}, {"C07", "energy", "limb", 2.0, 2.0, 2.0, "J"}};
+    EXPECT_EQ(judge(claim, records).text, "reproduced: limb; beside it: energy 2 J to 9 J");
+}
+
 }  // namespace

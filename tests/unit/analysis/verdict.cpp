@@ -329,4 +329,18 @@ TEST(OtherOrders, OfOtherIterationsAreNotLookedAt)
     EXPECT_TRUE(judge(claim_of("C02"), {.cases = {walk, other}}).orders.empty());
 }
 
+TEST(VolumeIsPreserved, TheSameBodyOnAnotherMeshIsShownAndNotJudged)
+{
+    const auto walk = clip("walk", "pbs", 24, constant(100, -0.3));
+    auto finer = clip("walk_4800", "pbs", 24, constant(100, -3.0));
+    finer.beside = true;
+    const Verdict verdict = judge(claim_of("C02"), {.cases = {walk, finer}});
+    EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
+    EXPECT_EQ(verdict.cases.size(), 2u);  // one case under two metrics
+    ASSERT_EQ(verdict.beside.size(), 1u);
+    EXPECT_EQ(verdict.beside[0].scene, "walk_4800");
+    finer.beside = false;
+    EXPECT_EQ(judge(claim_of("C02"), {.cases = {walk, finer}}).kind, VerdictKind::reproduced_only_for);
+}
+
 }  // namespace

@@ -42,6 +42,7 @@ TEST(StudyRecords, ComeFromRunsThatEnded)
     ASSERT_EQ(records.measurements.size(), 2u);
     EXPECT_EQ(records.measurements[0].run, "momentum/limb");
     EXPECT_EQ(records.measurements[1].value, 3.0);
+    EXPECT_EQ(records.missing_runs, std::vector<std::string>{"human"});
     EXPECT_TRUE(records.planned_scenes.empty());  // work, no scenes
 }
 

@@ -1,0 +1,34 @@
+// C07 is judged from the momentum study's own figures: alter them and the verdict turns round. Truth: Newton's third law; projections that
+// know the masses they are counted with conserve momentum, Eq. 8-9 for m = 1 on unequal masses do not.
+#include "tests/support/study_claims.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using analysis::VerdictKind;
+using test_support::claim;
+
+const analysis::Records& limb()
+{
+    static const analysis::Records records = test_support::records_of(experiments::plan_momentum_study(false));
+    return records;
+}
+
+TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndNotByEquationsForOneMass)
+{
+    const analysis::Verdict verdict = judge(claim("C07"), limb());
+    EXPECT_EQ(verdict.kind, VerdictKind::reproduced_only_for);
+    EXPECT_NE(verdict.text.find("not for unequal masses (Eq. 8-9 for m = 1)"), std::string::npos) << verdict.text;
+}
+
+TEST(MomentumVerdict, TurnsWithItsFigures)
+{
+    analysis::Records records = limb();
+    for (auto& measured : records.measurements) measured.value = measured.low = measured.high = 1e-9;
+    EXPECT_EQ(judge(claim("C07"), records).kind, VerdictKind::reproduced);
+    for (auto& measured : records.measurements) measured.value = measured.low = measured.high = 0.1;
+    EXPECT_EQ(judge(claim("C07"), records).kind, VerdictKind::not_reproduced);
+}
+
+}  // namespace

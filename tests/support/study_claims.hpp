@@ -1,0 +1,33 @@
+// The project's own claims, and what a study's own runs measure for them.
+//   const analysis::Records records = test_support::records_of(experiments::plan_audit_study(false));
+//   judge(test_support::claim("C13"), records)
+#pragma once
+
+#include "analysis/atomic_file.hpp"
+#include "analysis/claims.hpp"
+#include "analysis/verdict.hpp"
+#include "experiments/studies/study_run.hpp"
+#include "experiments/study_records.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <algorithm>
+
+namespace test_support {
+
+inline analysis::Claim claim(const std::string& id)
+{
+    const auto claims = analysis::parse_claims(analysis::read_text(PBS_CLAIMS_FILE), PBS_CLAIMS_FILE);
+    return *std::find_if(claims.begin(), claims.end(), [&](const auto& one) { return one.id == id; });
+}
+
+// Carries out the plan's first `runs` of them, as `pbskin reproduce` does.
+inline analysis::Records records_of(experiments::StudyPlan plan, std::size_t runs = 1)
+{
+    const ScratchFolder folder;
+    plan.runs.resize(std::min(runs, plan.runs.size()));
+    experiments::write_study_plan(folder / "study", plan);
+    for (const experiments::StudyRun& run : plan.runs) experiments::carry_out(run, folder / ("study/" + run.name));
+    return experiments::read_study_records(folder / "study", folder.path().string());
+}
+
+}  // namespace test_support
