@@ -2,7 +2,7 @@
 """Keeps what the verdicts rest on: from the records of `pbskin reproduce --full -o DIR` the figures that claims are judged by, studies' own
 tables and the provenance, below 5 MB, in experiments/records/full. `pbskin reproduce --judge -o experiments/records/full` judges them again.
 
-    python3 experiments/records/keep.py results/full
+    python3 experiments/records/keep.py results/full [FOLDER]
 """
 import csv
 import json
@@ -59,21 +59,25 @@ def keep_study(source, target):
 
 
 def keep(results, target):
+    """Into a folder beside, which takes the old one's place when it is whole and small enough."""
     plans = sorted(results.glob("*/plan.json"))
     if not plans:
         sys.exit(f"keep: {results}: no records of a study")
-    shutil.rmtree(target, ignore_errors=True)
+    beside = target.with_name(target.name + ".new")
+    shutil.rmtree(beside, ignore_errors=True)
     for plan in plans:
-        keep_study(plan.parent, target / plan.parent.name)
+        keep_study(plan.parent, beside / plan.parent.name)
     for name in ("claims.json", "claims.md"):
-        shutil.copyfile(results / name, target / name)
-    size = sum(file.stat().st_size for file in target.rglob("*") if file.is_file())
-    print(f"{size / 1e6:.2f} MB in {target}")
+        shutil.copyfile(results / name, beside / name)
+    size = sum(file.stat().st_size for file in beside.rglob("*") if file.is_file())
     if size > MOST_BYTES:
-        sys.exit(f"keep: more than {MOST_BYTES / 1e6:g} MB")
+        sys.exit(f"keep: {size / 1e6:.2f} MB in {beside}, more than {MOST_BYTES / 1e6:g}")
+    shutil.rmtree(target, ignore_errors=True)
+    beside.rename(target)
+    print(f"{size / 1e6:.2f} MB in {target}")
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
+    if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
-    keep(pathlib.Path(sys.argv[1]), pathlib.Path(__file__).resolve().parent / "full")
+    keep(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]) if len(sys.argv) == 3 else pathlib.Path(__file__).resolve().parent / "full")
