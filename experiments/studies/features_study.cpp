@@ -107,13 +107,13 @@ StudyPlan plan_features_study(bool full)
 
 StudyConclusion conclude_features_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
 {
-    std::string text;
-    for (const std::string& run : finished) {
-        const std::string table = features_markdown(analysis::read_csv((fs::path(run) / "features.csv").string()));
-        text += text.empty() ? table : table.substr(table.find('\n', table.find('\n') + 1) + 1);  // one head for all
-    }
+    if (finished.empty()) return {"", false};
+    analysis::CsvTable all{{}};
+    for (const std::string& run : finished) all.append(analysis::read_csv((fs::path(run) / "features.csv").string()));
+    all.write((fs::path(folder) / "features.csv").string());
+    const std::string text = features_markdown(all);
     analysis::write_text_atomically((fs::path(folder) / "features.md").string(), text);
-    return {text, !finished.empty()};
+    return {text, true};
 }
 
 }  // namespace experiments

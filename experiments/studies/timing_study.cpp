@@ -113,13 +113,9 @@ StudyPlan plan_timing_study(bool full)
 StudyConclusion conclude_timing_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
 {
     if (finished.empty()) return {"timing: nothing was timed\n", false};
-    std::string text;
-    for (const std::string& run : finished) {
-        const std::string of_run = analysis::read_text((fs::path(run) / "timing.csv").string());
-        text += text.empty() ? of_run : of_run.substr(of_run.find('\n') + 1);
-    }
-    analysis::write_text_atomically((fs::path(folder) / "timing.csv").string(), text);
-    const analysis::CsvTable table = analysis::read_csv((fs::path(folder) / "timing.csv").string());
+    analysis::CsvTable table{{}};
+    for (const std::string& run : finished) table.append(analysis::read_csv((fs::path(run) / "timing.csv").string()));
+    table.write((fs::path(folder) / "timing.csv").string());
     analysis::write_text_atomically((fs::path(folder) / "timing.md").string(), timing_markdown(table));
     return {timing_text(table), true};
 }
