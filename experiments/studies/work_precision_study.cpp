@@ -98,18 +98,6 @@ StudyRun body_run(const std::string& body, const BodyPose& pose, bool full, doub
     return case_run(name, of, cost_s);
 }
 
-analysis::CsvTable together(const std::vector<analysis::CsvTable>& tables)
-{
-    analysis::CsvTable all(tables.front().columns());
-    for (const analysis::CsvTable& table : tables)
-        for (int row = 0; row < table.rows(); ++row) {
-            std::vector<analysis::CsvTable::Cell> cells;
-            for (const std::string& column : table.columns()) cells.push_back(table.text_at(row, column));
-            all.add_row(cells);
-        }
-    return all;
-}
-
 }  // namespace
 
 StudyPlan plan_work_precision_study(bool full)
@@ -128,8 +116,11 @@ StudyPlan plan_work_precision_study(bool full)
     }
     if (!full) return plan;
     std::vector<analysis::LeftOut> left_out;
-    for (const std::string& body : installed_bodies(left_out))
-        if (body != "human") plan.runs.push_back(body_run(body, {"crouch", 164}, full, 30.0));
+    for (const std::string& body : installed_bodies(left_out)) try {
+            if (body != "human") plan.runs.push_back(body_run(body, {"crouch", 164}, full, 30.0));
+        } catch (const pbs::InputError& error) {  // the clip is not there
+            left_out.push_back({body, error.what()});
+        }
     for (const auto& other : left_out)
         if (other.scene != "human") plan.left_out.push_back(other);
     return plan;
@@ -140,7 +131,9 @@ StudyConclusion conclude_work_precision_study(const std::string& folder, const S
     std::vector<analysis::CsvTable> points;
     for (const std::string& run : finished) points.push_back(analysis::read_csv((fs::path(run) / "points.csv").string()));
     if (points.empty()) return {"", false};
-    together(points).write((fs::path(folder) / "points.csv").string());
+    analysis::CsvTable all{{}};
+    for (const analysis::CsvTable& table : points) all.append(table);
+    all.write((fs::path(folder) / "points.csv").string());
     const std::vector<Diagram> diagrams = diagrams_of(points);
     fronts_table(diagrams).write((fs::path(folder) / "fronts.csv").string());
     crossings_table(diagrams).write((fs::path(folder) / "crossings.csv").string());
