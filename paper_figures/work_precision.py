@@ -9,7 +9,7 @@ looks = {"lbs": ("LBS", style.vermillion, "v"), "dqs": ("DQS", style.orange, "s"
          "fem_corotational": ("corotational FEM", style.black, "+"), "fem_stable_neo_hookean": ("neo-Hookean FEM", style.black, "P")}
 point_columns = {"body", "pose", "deformer", "setting", "outcome", "ms_median", "error_joint_pct", "reference_error_joint_pct",
                  "error_joint_beside_pct"}
-front_columns = {"case", "front", "deformer", "setting", "ms_median", "error_joint_pct"}
+front_columns = {"case", "measure", "front", "deformer", "setting", "ms_median", "error_joint_pct"}
 most_panels = 6
 
 
@@ -55,7 +55,7 @@ def draw(results, figures):
     if not cases:
         raise records.RecordsMissing(f"{folder}: no case with a reference")
     cases.sort(key=lambda rows: not rows[0]["body"].startswith("limb"))  # the limb's first
-    fronts = records.table(folder / "fronts.csv", front_columns)
+    fronts = [row for row in records.table(folder / "fronts.csv", front_columns) if row["measure"] == "error_joint_pct"]
     shown = cases[:most_panels]
     columns = 2
     figure, axes = style.panels(-(-len(shown) // columns), columns, height_in=2.4)

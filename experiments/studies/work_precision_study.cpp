@@ -32,19 +32,30 @@ std::string measure_and_record(const WorkPrecisionCase& of, const std::string& f
     return points.breakdown;
 }
 
+nlohmann::json to_json(const Rounds& rounds)
+{
+    return {{"seconds", rounds.seconds}, {"fewest", rounds.fewest}, {"most", rounds.most}};
+}
+
 StudyRun case_run(const std::string& name, const WorkPrecisionCase& of, double cost_s)
 {
     return {.name = name,
             .cost_s = cost_s,
             .work = [of](const std::string& folder) { return measure_and_record(of, folder); },
             .settings = {{"scene", resolved_with_deformers(of.scene)},
+                         {"body", of.body},
+                         {"pose", of.pose},
                          {"frame", of.frame},
                          {"quadratic", of.range.quadratic},
                          {"quadratic_corotational", of.range.quadratic_corotational},
                          {"refined", of.range.refined},
                          {"coarser_vertices", of.range.coarser_vertices},
                          {"finer_vertices", of.range.finer_vertices},
-                         {"seconds", {of.rounds.seconds, of.newton_rounds.seconds}}}};
+                         {"quadratic_up_to", of.range.quadratic_up_to},
+                         {"points", digest_of(point_settings(of.scene, of.range))},
+                         {"rounds", to_json(of.rounds)},
+                         {"newton_rounds", to_json(of.newton_rounds)},
+                         {"converged_iterations", of.converged_iterations}}};
 }
 
 // 5 degrees a frame: the step that a frame is timed on.
@@ -57,7 +68,7 @@ StudyRun limb_run(const std::string& motion, int angle_deg, bool full, double co
     of.scene = read_scene(scene, {fmt::format("motion.angle_deg={}", angle_deg), fmt::format("motion.frames={}", angle_deg / 5 + 1)});
     of.frame = angle_deg / 5;
     of.range.quadratic_corotational = full;
-    of.range.coarser_vertices = {600};
+    of.range.coarser_vertices = {300, 400, 500, 600};
     if (full) of.range.finer_vertices = {5000};
     of.rounds = {.seconds = full ? 10.0 : 3.0, .fewest = 5, .most = 31};
     of.newton_rounds = {.seconds = full ? 10.0 : 0.0, .fewest = full ? 3 : 1, .most = 9};
@@ -88,7 +99,7 @@ StudyRun body_run(const std::string& body, const BodyPose& pose, bool full, doub
     of.scene = read_scene("human_01_01", {"character.body=" + body});
     of.frame = pose.frame;
     of.range.quadratic = of.range.quadratic_corotational = false;  // 5 minutes a pose, and a crouch is not reached
-    of.range.coarser_vertices = {1200};
+    of.range.coarser_vertices = {600, 800, 1000, 1200};
     if (full) of.range.finer_vertices = {4650};
     of.rounds = {.seconds = full ? 10.0 : 3.0, .fewest = 5, .most = 31};
     of.newton_rounds = {.seconds = full ? 10.0 : 0.0, .fewest = 1, .most = 9};
@@ -139,7 +150,8 @@ StudyConclusion conclude_work_precision_study(const std::string& folder, const S
     crossings_table(diagrams).write((fs::path(folder) / "crossings.csv").string());
     equal_cost_table(diagrams).write((fs::path(folder) / "equal_cost.csv").string());
     std::string text = best_text(diagrams) +
-                       "     off: from the reference at the joints, % of the mean bone distance; *: below the reference's own error\n";
+                       "     off: from the reference at the joints, % of the mean bone distance; *: below the reference's own error "
+                       "(bound); #: it intersects itself\n";
     std::string page;
     for (const Diagram& diagram : diagrams) {
         text += fmt::format("     {}: {}\n", diagram.name, physics_text(diagram));

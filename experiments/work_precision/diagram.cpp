@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace experiments {
@@ -16,7 +17,9 @@ constexpr std::size_t fewest_for_a_mean = 3;
 Diagram diagram_of(const analysis::CsvTable& table)
 {
     Diagram diagram;
-    diagram.name = table.text_at(0, "body") + ", " + table.text_at(0, "pose");
+    diagram.body = table.text_at(0, "body");
+    diagram.pose = table.text_at(0, "pose");
+    diagram.name = diagram.body + ", " + diagram.pose;
     for (int row = 0; row < table.rows(); ++row) {
         const auto ms = table.number_or_nothing(row, "ms_median"), error_pct = table.number_or_nothing(row, "error_joint_pct");
         if (table.text_at(row, "outcome") == "reference") {
@@ -24,11 +27,13 @@ Diagram diagram_of(const analysis::CsvTable& table)
             diagram.reference_ms = ms;
             diagram.reference_error_pct = table.number_or_nothing(row, "reference_error_joint_pct");
             diagram.reference_difference_pct = table.number_or_nothing(row, "error_joint_beside_pct");
+            diagram.self_intersecting = table.number_or_nothing(row, "reference_self_intersects").value_or(0.0) != 0.0;
         }
         if (!ms || !error_pct) continue;
-        diagram.points.push_back({table.text_at(row, "deformer"), table.text_at(row, "setting"), *ms, table.number(row, "ms_q1"),
-                                  table.number(row, "ms_q3"), *error_pct, table.number_or_nothing(row, "error_joint_beside_pct"),
-                                  table.number_or_nothing(row, "below_reference_error").value_or(0.0) != 0.0});
+        const auto number = [&](const char* column) { return table.number_or_nothing(row, column); };
+        diagram.points.push_back({table.text_at(row, "deformer"), table.text_at(row, "setting"), *ms, number("ms_q1"), number("ms_q3"),
+                                  *error_pct, number("error_l2_pct"), number("error_linf_m"), number("volume_abs_change_pct"),
+                                  number("error_joint_beside_pct"), number("below_reference_error").value_or(0.0) != 0.0});
     }
     return diagram;
 }
@@ -46,25 +51,32 @@ std::optional<double> mean_of(const std::vector<Diagram>& poses, std::optional<d
 // The same setting in every pose; nothing where it has no error in one of them.
 std::optional<DiagramPoint> mean_of(const std::vector<Diagram>& poses, const DiagramPoint& setting)
 {
+    constexpr std::optional<double> DiagramPoint::*known_or_not[] = {&DiagramPoint::ms_q1,      &DiagramPoint::ms_q3,
+                                                                     &DiagramPoint::l2_pct,     &DiagramPoint::linf_m,
+                                                                     &DiagramPoint::beside_pct, &DiagramPoint::volume_abs_change_pct};
     DiagramPoint mean{setting.deformer, setting.setting};
-    mean.beside_pct = 0.0;
+    for (const auto figure : known_or_not) mean.*figure = 0.0;
     const double share = 1.0 / double(poses.size());
     for (const Diagram& pose : poses) {
         const auto same = [&](const DiagramPoint& point) { return point.words() == setting.words(); };
         const auto found = std::find_if(pose.points.begin(), pose.points.end(), same);
         if (found == pose.points.end()) return std::nullopt;
-        for (double DiagramPoint::*figure : {&DiagramPoint::ms, &DiagramPoint::ms_q1, &DiagramPoint::ms_q3, &DiagramPoint::error_pct})
-            mean.*figure += share * (*found).*figure;
-        mean.beside_pct =
-            mean.beside_pct && found->beside_pct ? std::optional(*mean.beside_pct + share * *found->beside_pct) : std::nullopt;
+        for (const auto figure : {&DiagramPoint::ms, &DiagramPoint::error_pct}) mean.*figure += share * (*found).*figure;
+        for (const auto figure : known_or_not) {
+            std::optional<double>& sum = mean.*figure;
+            const std::optional<double>& more = (*found).*figure;
+            sum = sum && more ? std::optional(*sum + share * *more) : std::nullopt;
+        }
     }
     return mean;
 }
 
-Diagram mean_diagram(const std::string& body, const std::vector<Diagram>& poses)
+Diagram mean_diagram(const std::string& what, const std::string& over, const std::vector<Diagram>& poses)
 {
     Diagram mean;
-    mean.name = fmt::format("{}, mean of {} poses", body, poses.size());
+    mean.name = fmt::format("{}, mean of {} {}", what, poses.size(), over);
+    mean.poses = static_cast<int>(poses.size());
+    for (const Diagram& pose : poses) mean.self_intersecting += pose.self_intersecting;
     const bool same = std::all_of(poses.begin(), poses.end(), [&](const Diagram& pose) { return pose.reference == poses[0].reference; });
     mean.reference = same ? poses[0].reference : "of each pose";
     mean.reference_ms = mean_of(poses, &Diagram::reference_ms);
@@ -78,15 +90,46 @@ Diagram mean_diagram(const std::string& body, const std::vector<Diagram>& poses)
     return mean;
 }
 
+// "limb" of "limb twist"
+std::string family_of(const std::string& body)
+{
+    return body.substr(0, body.find(' '));
+}
+
+using Family = std::pair<std::string, std::vector<Diagram>>;
+
+void add_to(std::vector<Family>& families, const std::string& name, const Diagram& diagram)
+{
+    const auto found = std::find_if(families.begin(), families.end(), [&](const Family& family) { return family.first == name; });
+    (found == families.end() ? families.emplace_back(name, std::vector<Diagram>{}) : *found).second.push_back(diagram);
+}
+
 }  // namespace
 
-std::vector<analysis::WorkPrecision> Diagram::of(const std::vector<std::string>& deformers, std::vector<std::size_t>& indices) const
+const std::vector<std::string>& measures()
+{
+    static const std::vector<std::string> names = {"error_joint_pct", "error_l2_pct", "error_linf_m", "volume_abs_change_pct"};
+    return names;
+}
+
+double value_of(const DiagramPoint& point, const std::string& measure)
+{
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    if (measure == "error_joint_pct") return point.error_pct;
+    if (measure == "error_l2_pct") return point.l2_pct.value_or(none);
+    if (measure == "error_linf_m") return point.linf_m.value_or(none);
+    if (measure == "volume_abs_change_pct") return point.volume_abs_change_pct.value_or(none);
+    throw std::logic_error("no such measure: " + measure);
+}
+
+std::vector<analysis::WorkPrecision> Diagram::of(const std::vector<std::string>& deformers, std::vector<std::size_t>& indices,
+                                                 const std::string& measure) const
 {
     std::vector<analysis::WorkPrecision> chosen;
     indices.clear();
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (std::find(deformers.begin(), deformers.end(), points[i].deformer) == deformers.end()) continue;
-        chosen.push_back({points[i].ms, points[i].error_pct});
+        chosen.push_back({points[i].ms, value_of(points[i], measure)});
         indices.push_back(i);
     }
     return chosen;
@@ -95,20 +138,17 @@ std::vector<analysis::WorkPrecision> Diagram::of(const std::vector<std::string>&
 std::vector<Diagram> diagrams_of(const std::vector<analysis::CsvTable>& points)
 {
     std::vector<Diagram> diagrams;
-    std::vector<std::pair<std::string, std::vector<Diagram>>> bodies;  // in the order of the records
-    const auto poses_of = [&](const std::string& body) -> std::vector<Diagram>& {
-        const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const auto& entry) { return entry.first == body; });
-        return found == bodies.end() ? bodies.emplace_back(body, std::vector<Diagram>{}).second : found->second;
-    };
+    std::vector<Family> bodies, poses;  // in the order of the records
     for (const analysis::CsvTable& table : points) {
         if (table.rows() == 0) continue;
         diagrams.push_back(diagram_of(table));
         if (diagrams.back().reference.empty()) continue;
-        poses_of(table.text_at(0, "body")).push_back(diagrams.back());
-        poses_of("all bodies").push_back(diagrams.back());
+        add_to(bodies, family_of(diagrams.back().body), diagrams.back());
+        add_to(poses, diagrams.back().pose, diagrams.back());
     }
-    for (const auto& [body, poses] : bodies)
-        if (poses.size() >= fewest_for_a_mean) diagrams.push_back(mean_diagram(body, poses));
+    for (const auto& [over, families] : {std::pair{"poses", bodies}, {"bodies", poses}})
+        for (const auto& [name, of] : families)
+            if (of.size() >= fewest_for_a_mean) diagrams.push_back(mean_diagram(name, over, of));
     return diagrams;
 }
 

@@ -1,5 +1,7 @@
 #include "experiments/work_precision/diagram_tables.hpp"
 
+#include "experiments/work_precision/certainty.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -26,21 +28,15 @@ std::vector<std::string> all_deformers()
     return all;
 }
 
-void add_front(analysis::CsvTable& table, const Diagram& diagram, const std::string& name, const std::vector<std::string>& deformers)
+void add_front(analysis::CsvTable& table, const Diagram& diagram, const std::string& measure, const std::string& name,
+               const std::vector<std::string>& deformers)
 {
     std::vector<std::size_t> indices;
-    for (const std::size_t on_front : analysis::pareto_front(diagram.of(deformers, indices))) {
+    for (const std::size_t on_front : analysis::pareto_front(diagram.of(deformers, indices, measure))) {
         const DiagramPoint& point = diagram.points[indices[on_front]];
-        table.add_row({diagram.name, name, point.deformer, point.setting, point.ms, point.ms_q1, point.ms_q3, point.error_pct,
-                       int(point.below_reference_error), known(diagram.reference_error_pct)});
+        table.add_row({diagram.name, measure, name, point.deformer, point.setting, point.ms, known(point.ms_q1), known(point.ms_q3),
+                       value_of(point, measure), point.error_pct, int(point.below_reference_error), known(diagram.reference_error_pct)});
     }
-}
-
-// Of the two points that are compared where one passes the other: is it the nearer to the second solution too?
-Cell holds_beside(const DiagramPoint& one, const DiagramPoint* other)
-{
-    if (!other || !one.beside_pct || !other->beside_pct) return std::nullopt;
-    return int(*one.beside_pct < *other->beside_pct);
 }
 
 void add_crossing(analysis::CsvTable& table, const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other)
@@ -53,11 +49,13 @@ void add_crossing(analysis::CsvTable& table, const Diagram& diagram, const Defor
     const auto add = [&](const std::vector<Cell>& cells) { row.insert(row.end(), cells.begin(), cells.end()); };
     if (crossing) {
         const DiagramPoint& point = diagram.points[of_one[crossing->one]];
-        const double gap_pct = crossing->other_error - point.error_pct;
-        add({crossing->from_the_start ? "always" : "from", crossing->from, point.ms_q1, point.ms_q3, point.setting, point.error_pct,
-             known(crossing->other_error), known(diagram.reference_error_pct),
-             diagram.reference_error_pct ? Cell(int(gap_pct > *diagram.reference_error_pct)) : Cell(std::nullopt),
-             holds_beside(point, best_of(diagram, other, crossing->from))});
+        const std::optional<Certainty> certainty = certainty_from(diagram, one, other, crossing->from);
+        const auto is = [&](Certainty least) {
+            return certainty && *certainty != Certainty::no_second_solution ? Cell(int(*certainty >= least)) : Cell(std::nullopt);
+        };
+        add({crossing->from_the_start ? "always" : "from", crossing->from, known(point.ms_q1), known(point.ms_q3), point.setting,
+             point.error_pct, known(crossing->other_error), known(diagram.reference_error_pct), is(Certainty::told_apart),
+             is(Certainty::both_solutions)});
     } else {
         add({"never", std::nullopt, std::nullopt, std::nullopt, "", std::nullopt, std::nullopt, known(diagram.reference_error_pct),
              std::nullopt, std::nullopt});
@@ -69,12 +67,13 @@ void add_crossing(analysis::CsvTable& table, const Diagram& diagram, const Defor
 
 analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams)
 {
-    analysis::CsvTable table({"case", "front", "deformer", "setting", "ms_median", "ms_q1", "ms_q3", "error_joint_pct",
+    analysis::CsvTable table({"case", "measure", "front", "deformer", "setting", "ms_median", "ms_q1", "ms_q3", "value", "error_joint_pct",
                               "below_reference_error", "reference_error_joint_pct"});
-    for (const Diagram& diagram : diagrams) {
-        add_front(table, diagram, "all", all_deformers());
-        for (const std::string& deformer : all_deformers()) add_front(table, diagram, deformer, {deformer});
-    }
+    for (const Diagram& diagram : diagrams)
+        for (const std::string& measure : measures()) {
+            add_front(table, diagram, measure, "all", all_deformers());
+            for (const std::string& deformer : all_deformers()) add_front(table, diagram, measure, deformer, {deformer});
+        }
     return table;
 }
 

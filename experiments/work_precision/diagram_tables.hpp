@@ -5,12 +5,13 @@
 
 namespace experiments {
 
-// The Pareto front of all points of each diagram (front "all") and of each deformer's own.
+// The Pareto front of all points of each diagram (front "all") and of each deformer's own, by each measure: `value` is the measure's.
+// The reference is no candidate.
 analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams);
 
 // Each group of deformers against each other one: the time a frame [ms] from which on its best is nearer to the reference, with the
-// quartiles of the point that does it; outcome always, from, never. told_apart: the two errors differ by more than the reference's own;
-// holds_beside: it is nearer to the second solution too.
+// quartiles of the point that does it; outcome always, from, never. From there on, at every time at which both are there: told_apart, the
+// two errors differ by more than twice the reference's own; holds_beside, it is nearer to the second solution too (certainty.hpp).
 analysis::CsvTable crossings_table(const std::vector<Diagram>& diagrams);
 
 // The best of each group within the time of PBS with 1, 4, 24 and 96 iterations at the scene's k_stretch.

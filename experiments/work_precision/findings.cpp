@@ -1,5 +1,7 @@
 #include "experiments/work_precision/findings.hpp"
 
+#include "experiments/work_precision/certainty.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,7 +41,7 @@ std::string who_is_quickest(const Diagram& diagram)
                        first[1].second, first[2].second);
 }
 
-// Stretches of the front that belong to one group.
+// Stretches of the front that belong to one group, each against the nearest that is quicker.
 std::vector<std::string> who_is_nearest(const Diagram& diagram)
 {
     const std::vector<const DiagramPoint*> front = front_of(diagram);
@@ -51,10 +53,20 @@ std::vector<std::string> who_is_nearest(const Diagram& diagram)
         const DiagramPoint &from = *front[begin], &to = *front[end - 1];
         std::string error = fmt::format("{:.1f} %", from.error_pct);
         if (end > begin + 1) error += fmt::format(" to {:.1f} % at {}", to.error_pct, ms_text(to.ms));
-        lines.push_back(fmt::format("from {} {} is nearest: {} off ({})", ms_text(from.ms), group, error, to.words()));
+        const std::string mark = begin > 0 ? words_of(certainty_of(diagram, from, *front[begin - 1]), diagram) : "";
+        lines.push_back(fmt::format("from {} {} is nearest: {} off ({}){}", ms_text(from.ms), group, error, to.words(), mark));
         begin = end;
     }
     return lines;
+}
+
+// At their best, whatever it takes.
+std::string who_stays_behind(const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other)
+{
+    const double any_ms = std::numeric_limits<double>::infinity();
+    const DiagramPoint *behind = best_of(diagram, one, any_ms), *nearer = best_of(diagram, other, any_ms);
+    return fmt::format("{} does not stay nearer than {} however long it takes ({:.1f} and {:.1f} % at best){}", one.words, other.words,
+                       behind->error_pct, nearer->error_pct, words_of(certainty_of(diagram, *nearer, *behind), diagram));
 }
 
 std::string who_passes(const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other)
@@ -63,10 +75,12 @@ std::string who_passes(const Diagram& diagram, const DeformerGroup& one, const D
     const auto ones = diagram.of(one.deformers, of_one), others = diagram.of(other.deformers, of_other);
     if (ones.empty() || others.empty()) return "";
     const auto crossing = analysis::nearer_from(ones, others);
-    if (!crossing) return fmt::format("{} does not stay nearer than {} however long it takes", one.words, other.words);
+    if (!crossing) return who_stays_behind(diagram, one, other);
     const DiagramPoint& point = diagram.points[of_one[crossing->one]];
     const std::string when = crossing->from_the_start ? "from the first" : fmt::format("from {} on", ms_text(crossing->from));
-    return fmt::format("{} is nearer than {} {} ({}: {:.1f} %)", one.words, other.words, when, point.setting, point.error_pct);
+    const std::optional<Certainty> certainty = certainty_from(diagram, one, other, crossing->from);
+    return fmt::format("{} is nearer than {} {} ({}: {:.1f} %){}", one.words, other.words, when, point.setting, point.error_pct,
+                       certainty ? words_of(*certainty, diagram) : "");
 }
 
 const DeformerGroup& group_named(const std::string& words)
@@ -83,25 +97,38 @@ std::string is_physics_worth_it(const Diagram& diagram, double budget_ms, const 
     std::string text =
         fmt::format("within the {} of {}: delta mush {}, PBS {}, XPBD {}", ms_text(budget_ms), whose, told(mush), told(pbs), told(xpbd));
     if (!mush || (!pbs && !xpbd)) return text;
-    const double none = std::numeric_limits<double>::infinity();
-    const double physics_pct = std::min(pbs ? pbs->error_pct : none, xpbd ? xpbd->error_pct : none);
-    const double gain_pct = 100.0 * (1.0 - physics_pct / mush->error_pct);
+    const DiagramPoint& physics = !xpbd || (pbs && pbs->error_pct <= xpbd->error_pct) ? *pbs : *xpbd;
+    const double gain_pct = 100.0 * (1.0 - physics.error_pct / mush->error_pct);
     text += fmt::format("; the physics {} {:.0f} % {} the error of geometry alone", gain_pct > 0.0 ? "takes" : "adds", std::abs(gain_pct),
                         gain_pct > 0.0 ? "off" : "to");
-    if (!mush->beside_pct || !pbs || !pbs->beside_pct) return text;
-    return text + fmt::format(" (from the second solution: delta mush {:.1f}, PBS {:.1f} %)", *mush->beside_pct, *pbs->beside_pct);
+    if (mush->beside_pct && pbs && pbs->beside_pct)
+        text += fmt::format(" (from the second solution: delta mush {:.1f}, PBS {:.1f} %)", *mush->beside_pct, *pbs->beside_pct);
+    const auto certainty = gain_pct > 0.0 ? certainty_of(diagram, physics, *mush) : certainty_of(diagram, *mush, physics);
+    return text + words_of(certainty, diagram);
 }
 
 std::string what_is_undecided(const Diagram& diagram)
 {
-    if (!diagram.reference_error_pct) return fmt::format("the reference {} has no error bar here", diagram.reference);
-    const auto below =
-        std::count_if(diagram.points.begin(), diagram.points.end(), [](const auto& point) { return point.below_reference_error; });
-    const std::string ms = diagram.reference_ms ? fmt::format(" takes {} and", ms_text(*diagram.reference_ms)) : "";
-    const std::string difference =
-        diagram.reference_difference_pct ? fmt::format(" ({:.1f} % from the solution beside it)", *diagram.reference_difference_pct) : "";
-    return fmt::format("the reference {}{} may itself be up to {:.1f} % off{}: {} of {} points lie below that", diagram.reference, ms,
-                       *diagram.reference_error_pct, difference, below, diagram.points.size());
+    const std::string ms = diagram.reference_ms ? fmt::format(", which takes {},", ms_text(*diagram.reference_ms)) : "";
+    if (!diagram.reference_error_pct || !diagram.reference_difference_pct)
+        return fmt::format("the reference {}{} has no second solution beside it, and no error bar", diagram.reference, ms);
+    const auto below = [&](double bar_pct) {
+        return std::count_if(diagram.points.begin(), diagram.points.end(), [&](const auto& point) { return point.error_pct <= bar_pct; });
+    };
+    return fmt::format(
+        "the reference {}{} and the second solution differ by {:.1f} %: {} of {} points lie below that; were it to converge with "
+        "order 1, which is presumed and not observed, it would be up to {:.1f} % off: {} lie below that",
+        diagram.reference, ms, *diagram.reference_difference_pct, below(*diagram.reference_difference_pct), diagram.points.size(),
+        *diagram.reference_error_pct, below(*diagram.reference_error_pct));
+}
+
+std::string whose_reference_intersects(const Diagram& diagram)
+{
+    if (diagram.self_intersecting == 0) return "";
+    const std::string whose = diagram.poses == 1 ? fmt::format("the reference {} intersects itself", diagram.reference)
+                                                 : fmt::format("the references of {} of the {} poses intersect themselves",
+                                                               diagram.self_intersecting, diagram.poses);
+    return whose + ": no contact is modelled, and where the flesh overlaps nobody's distance from it says who is right";
 }
 
 }  // namespace
@@ -117,17 +144,19 @@ std::vector<std::string> findings(const Diagram& diagram)
         lines.push_back(is_physics_worth_it(diagram, budget.ms, "PBS, " + budget.setting));
     lines.push_back(physics_text(diagram));
     lines.push_back(what_is_undecided(diagram));
+    lines.push_back(whose_reference_intersects(diagram));
     std::erase(lines, "");
     return lines;
 }
 
 std::string front_text(const Diagram& diagram)
 {
+    const auto known = [](const std::optional<double>& ms) { return ms ? fmt::format("{:.4g}", *ms) : ""; };
     std::string text =
         fmt::format("     {}\n     {:>10} {:>21} {:>9}  {}\n", diagram.name, "ms a frame", "quartiles", "off [%]", "deformer");
     for (const DiagramPoint* point : front_of(diagram))
-        text += fmt::format("     {:>10.4g} {:>10.4g} {:>10.4g} {:>8.2f}{} {}\n", point->ms, point->ms_q1, point->ms_q3, point->error_pct,
-                            point->below_reference_error ? "*" : " ", point->words());
+        text += fmt::format("     {:>10.4g} {:>10} {:>10} {:>8.2f}{} {}\n", point->ms, known(point->ms_q1), known(point->ms_q3),
+                            point->error_pct, point->below_reference_error ? "*" : " ", point->words());
     return text;
 }
 
@@ -137,7 +166,7 @@ std::string best_text(const std::vector<Diagram>& diagrams)
     for (const Diagram& diagram : diagrams) width = std::max(width, diagram.name.size());
     std::string text = fmt::format("     {:<{}}", "off [%] at best, after ms", width);
     for (const DeformerGroup& group : deformer_groups()) text += fmt::format(" {:>17}", group.words);
-    text += fmt::format(" {:>14}\n", "reference off");
+    text += fmt::format(" {:>17} {:>14}\n", "solutions differ", "reference off");
     for (const Diagram& diagram : diagrams) {
         text += fmt::format("     {:<{}}", diagram.name, width);
         for (const DeformerGroup& group : deformer_groups()) {
@@ -146,8 +175,9 @@ std::string best_text(const std::vector<Diagram>& diagrams)
                 " {:>17}",
                 best ? fmt::format("{:.1f}{} {}", best->error_pct, best->below_reference_error ? "*" : "", ms_text(best->ms)) : "");
         }
-        const auto& bar_pct = diagram.reference_error_pct;
-        text += fmt::format(" {:>14}\n", bar_pct ? fmt::format("up to {:.1f}", *bar_pct) : "not known");
+        const auto &bar_pct = diagram.reference_error_pct, &difference_pct = diagram.reference_difference_pct;
+        text += fmt::format(" {:>17} {:>13}{}\n", difference_pct ? fmt::format("{:.1f}", *difference_pct) : "",
+                            bar_pct ? fmt::format("up to {:.1f}", *bar_pct) : "not known", diagram.self_intersecting > 0 ? "#" : "");
     }
     return text;
 }

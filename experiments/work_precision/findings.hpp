@@ -1,5 +1,5 @@
 // A work-precision diagram in words, each from its figures: who alone is so quick, who is nearest from which time on, whether the physics
-// is worth its time, and what the reference's own error leaves undecided.
+// is worth its time, and what the reference's own error leaves undecided: each comparison that lies within it says so (certainty.hpp).
 #pragma once
 
 #include "experiments/work_precision/diagram.hpp"

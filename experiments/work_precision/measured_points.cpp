@@ -44,7 +44,7 @@ public:
         reference_ = choose_reference(points_, base_->mesh.rest.rows(), ruler_);
         reference_self_intersects_ =
             reference_.point && pbs::self_intersects(reference_.point->on_base, pbs::boundary_of(base_->mesh.tets));
-        const std::vector<std::optional<Spread>> times = time_all();
+        const std::vector<FrameTime> times = time_all();
         for (std::size_t i = 0; i < points_.size(); ++i) measured_.table.add_row(row_of(points_[i], times[i]));
         return measured_;
     }
@@ -62,9 +62,9 @@ private:
     }
 
     // Of those that reached the pose; the nonlinear laws by turns among themselves, the others among themselves.
-    std::vector<std::optional<Spread>> time_all()
+    std::vector<FrameTime> time_all()
     {
-        std::vector<std::optional<Spread>> times(points_.size());
+        std::vector<FrameTime> times(points_.size());
         for (const bool newton : {false, true}) {
             std::vector<std::size_t> which;
             std::vector<TimedVariant> turns;
@@ -77,12 +77,12 @@ private:
                 });
             }
             const auto samples = take_turns(turns, newton ? of_.newton_rounds : of_.rounds);
-            for (std::size_t k = 0; k < which.size(); ++k) times[which[k]] = spread_of(samples[k][0]);
+            for (std::size_t k = 0; k < which.size(); ++k) times[which[k]] = frame_time(samples[k][0]);
         }
         return times;
     }
 
-    std::vector<analysis::CsvTable::Cell> row_of(const ReachedPoint& point, const std::optional<Spread>& time)
+    std::vector<analysis::CsvTable::Cell> row_of(const ReachedPoint& point, const FrameTime& time)
     {
         PointFigures figures{of_.body, of_.pose, time, {}, {}, {}, reference_self_intersects_};
         const auto error_to = [&](const ReachedPoint& other) { return ruler_.measure(point.on_base, other.on_base); };

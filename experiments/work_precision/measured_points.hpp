@@ -17,7 +17,7 @@ struct WorkPrecisionCase {
     Scene scene;             // its character and motion
     int frame = 0;           // of its motion; the one before it is what a frame starts from
     SettingRange range;
-    Rounds rounds, newton_rounds;  // of the nonlinear laws, which take seconds a frame
+    Rounds rounds, newton_rounds;  // of the nonlinear laws, which take seconds a frame; a round that does not arrive is dropped
     int converged_iterations = 8000;
 };
 

@@ -3,6 +3,8 @@
 #include "analysis/frame_metrics.hpp"
 #include "experiments/deformers/option_names.hpp"
 
+#include <cmath>
+
 namespace experiments {
 namespace {
 
@@ -35,10 +37,12 @@ std::string outcome_of(const ReachedPoint& point, const ReachedReference& refere
     return point.shape.positions.allFinite() ? "not_converged" : "not_finite";
 }
 
-Cells time_cells(const std::optional<Spread>& time)
+Cells time_cells(const FrameTime& time)
 {
-    if (!time) return Cells(4, std::nullopt);
-    return {time->rounds, time->median, time->lower, time->upper};
+    if (!time.ms) return {0, time.failed_rounds, std::nullopt, std::nullopt, std::nullopt};
+    Cells cells = {time.ms->rounds, time.failed_rounds, time.ms->median, std::nullopt, std::nullopt};
+    if (time.ms->rounds >= fewest_for_quartiles) cells[3] = time.ms->lower, cells[4] = time.ms->upper;
+    return cells;
 }
 
 Cells error_cells(const std::optional<analysis::ErrorNorms>& error)
@@ -89,6 +93,7 @@ const std::vector<std::string>& point_columns()
                                                      "outcome",
                                                      "reach_ms",
                                                      "rounds",
+                                                     "failed_rounds",
                                                      "ms_median",
                                                      "ms_q1",
                                                      "ms_q3",
@@ -110,6 +115,14 @@ const std::vector<std::string>& point_columns()
                                                      "discretisation_pct",
                                                      "not_converged_pct"};
     return columns;
+}
+
+FrameTime frame_time(std::vector<double> samples)
+{
+    FrameTime time;
+    time.failed_rounds = static_cast<int>(std::erase_if(samples, [](double ms) { return std::isnan(ms); }));
+    if (!samples.empty()) time.ms = spread_of(samples);
+    return time;
 }
 
 Cells point_row(const ReachedPoint& point, const ReachedReference& reference, const PointFigures& figures)

@@ -13,9 +13,18 @@ struct PbsParts {
     double not_converged_pct = 0.0;  // between the converged shape and that after half of its iterations
 };
 
+struct FrameTime {
+    std::optional<Spread> ms;  // nothing where no round arrived
+    int failed_rounds = 0;     // that did not arrive, or set out from where the one before did not
+};
+// Of samples [ms], not a number where a round failed.
+FrameTime frame_time(std::vector<double> samples);
+
+constexpr int fewest_for_quartiles = 3;  // rounds
+
 struct PointFigures {
     std::string body, pose;
-    std::optional<Spread> time;                 // of a frame [ms]; nothing where the pose was not reached
+    FrameTime time;
     std::optional<analysis::ErrorNorms> error;  // nothing for the reference, and where there is none
     std::optional<double> beside_pct;           // error at the joints against the second solution
     std::optional<PbsParts> parts;

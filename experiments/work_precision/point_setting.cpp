@@ -2,6 +2,7 @@
 
 #include "experiments/deformers/option_names.hpp"
 #include "experiments/error_split/posed_character.hpp"
+#include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
@@ -63,7 +64,7 @@ public:
 
     void add_xpbd()
     {
-        for (const int count : {1, 2, 4, 8, 24, 96, 384}) {
+        for (const int count : {1, 2, 4, 8, 16, 24, 48, 96, 384}) {
             PointSetting setting{"xpbd", fmt::format("{} iterations", count), named("xpbd")};
             setting.spec.xpbd = {.young_pa = first_fem(scene_).fem.young_pa, .poisson = first_fem(scene_).fem.poisson, .iterations = count};
             add(setting);
@@ -91,7 +92,7 @@ public:
         add(setting);
     }
 
-    void add_other_mesh(int vertices, bool quadratic)
+    void add_other_mesh(int vertices, int quadratic_up_to)
     {
         const auto elsewhere = [&](PointSetting setting) {
             setting.vertices = vertices;
@@ -105,9 +106,10 @@ public:
             elsewhere({"pbs", words_of(spec.pbs), spec});
         }
         using reference_fem::Model;
-        elsewhere({"fem_linear", "P1", fem_spec(scene_, Model::linear, 1)});
-        elsewhere({"fem_stable_neo_hookean", "P1", fem_spec(scene_, Model::stable_neo_hookean, 1)});
-        if (quadratic) elsewhere({"fem_stable_neo_hookean", "P2", fem_spec(scene_, Model::stable_neo_hookean, 2)});
+        for (const Model model : {Model::linear, Model::corotational, Model::stable_neo_hookean})
+            for (const int element_order : {1, 2})
+                if (element_order == 1 || model == Model::linear || vertices <= quadratic_up_to)
+                    elsewhere({"fem_" + name_of(model), fmt::format("P{}", element_order), fem_spec(scene_, model, element_order)});
     }
 
     std::vector<PointSetting> settings;
@@ -140,6 +142,14 @@ private:
 
 }  // namespace
 
+std::string digest_of(const std::vector<PointSetting>& settings)
+{
+    nlohmann::json all = nlohmann::json::array();
+    for (const PointSetting& setting : settings)
+        all.push_back({setting.deformer, setting.words, to_json(setting.spec), setting.substeps, setting.vertices, setting.refined});
+    return pbs::content_hash(all.dump());
+}
+
 std::string words_of(const pbs::PbsOptions& options)
 {
     return fmt::format("{} iterations, k_stretch {}, {} {}", options.iterations, options.k_stretch, name_of(options.order),
@@ -166,8 +176,8 @@ std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange&
     list.add_pbs_with_exponent();
     list.add_xpbd();
     list.add_fem(range);
-    for (const int vertices : range.coarser_vertices) list.add_other_mesh(vertices, range.quadratic);
-    for (const int vertices : range.finer_vertices) list.add_other_mesh(vertices, false);
+    for (const int vertices : range.coarser_vertices) list.add_other_mesh(vertices, range.quadratic_up_to);
+    for (const int vertices : range.finer_vertices) list.add_other_mesh(vertices, range.quadratic_up_to);
     return list.settings;
 }
 

@@ -1,9 +1,9 @@
 // What the points of a work-precision diagram are: each deformer at many settings.
-//   for (const PointSetting& setting : point_settings(scene, {.full = true})) ...
+//   for (const PointSetting& setting : point_settings(scene, {.coarser_vertices = {600}})) ...
 // LBS and DQS have nothing to set. Delta mush: iterations of smoothing. PBS: iterations, k_stretch, order and precision, Mueller's
 // exponent, substeps (outside a jiggling zone each begins at LBS anew, so that only the last one counts). XPBD with the reference's
-// material: iterations, and small steps at equal cost. Finite elements: laws and element orders. Some of them on coarser and finer meshes
-// of the body as well.
+// material: iterations, and small steps at equal cost. Finite elements: laws, element orders and sizes of mesh. LBS and PBS on coarser and
+// finer meshes of the body as well.
 #pragma once
 
 #include "experiments/scene.hpp"
@@ -27,15 +27,18 @@ struct PointSetting {
 };
 
 struct SettingRange {
-    bool quadratic = true;               // stable neo-Hookean flesh on quadratic elements too: the reference
-    bool quadratic_corotational = true;  // corotational too
-    std::vector<int>
-        coarser_vertices;             // sizes of other meshes of the body; the reference's law with quadratic elements too, if `quadratic`
-    std::vector<int> finer_vertices;  // the same with linear elements alone
-    bool refined = false;             // stable neo-Hookean flesh on the case's own tets, each cut into eight
+    bool quadratic = true;                   // stable neo-Hookean flesh on quadratic elements too: the reference
+    bool quadratic_corotational = true;      // corotational too
+    std::vector<int> coarser_vertices = {};  // sizes of other meshes of the body
+    std::vector<int> finer_vertices = {};
+    int quadratic_up_to = 1000;  // sizes of other meshes on which the nonlinear laws have quadratic elements too
+    bool refined = false;        // stable neo-Hookean flesh on the case's own tets, each cut into eight
 };
 // The scene gives the options that are not varied: its pbs, and the material and attachment of its first [[fem]].
 std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange& range);
+
+// All that the points hang on, in 32 hexadecimal digits: their words, options, substeps and meshes.
+std::string digest_of(const std::vector<PointSetting>& settings);
 
 // "24 iterations, k_stretch 0.2, ordered f32"
 std::string words_of(const pbs::PbsOptions& options);

@@ -24,7 +24,8 @@ public:
     PosedDeformer(const PointSetting& setting, const pbs::Character& character, const PosePair& poses);
 
     Shape reach();
-    std::vector<double> turn();  // one number: processor time of the next frame [ms]
+    // One number: processor time of the next frame [ms]; not a number where it did not arrive, or set out from where the last did not.
+    std::vector<double> turn();
 
 private:
     pbs::StepSummary advance(const pbs::Pose& pose);
@@ -33,6 +34,7 @@ private:
     const PosePair& poses_;
     std::unique_ptr<Deformer> deformer_;
     bool is_there_ = false;  // in the pose
+    bool has_arrived_ = true;
 };
 
 }  // namespace experiments

@@ -92,11 +92,11 @@ def write_work_precision(results):
         writer.writerow({"body": "limb", "pose": "90 deg", "deformer": "snh", "setting": "P2", "ms_median": 900.0, "outcome": "reference",
                          "reference_error_joint_pct": 15.0, "error_joint_beside_pct": 3.0})
     with open(folder / "fronts.csv", "w", newline="") as stream:
-        writer = csv.DictWriter(stream, ["case", "front", *of_point])
+        writer = csv.DictWriter(stream, ["case", "measure", "front", *of_point])
         writer.writeheader()
         for point in points:
             for front in ("all", point[0]):
-                writer.writerow({"case": "limb, 90 deg", "front": front, **dict(zip(of_point, point))})
+                writer.writerow({"case": "limb, 90 deg", "measure": "error_joint_pct", "front": front, **dict(zip(of_point, point))})
 
 
 def write_bench(results):

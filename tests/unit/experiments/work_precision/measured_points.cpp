@@ -4,6 +4,8 @@
 
 #include "experiments/frame_measurement.hpp"
 #include "experiments/work_precision/measured_points.hpp"
+#include "experiments/work_precision/point_row.hpp"
+#include "experiments/work_precision/posed_deformer.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <gtest/gtest.h>
@@ -133,18 +135,71 @@ TEST_F(Choice, WithoutASolutionThereIsNone)
 TEST(PointSettings, AreEachOnceInWordsAndEightOrMoreOfEachDeformerWithSomethingToSet)
 {
     SettingRange range;
-    range.coarser_vertices = {600};
-    range.refined = true;
+    range.coarser_vertices = {300, 400, 500, 600};
+    range.quadratic = range.quadratic_corotational = false;
+    range.quadratic_up_to = 500;
     const std::vector<PointSetting> settings = point_settings(read_scene("limb_twist", {}), range);
     std::set<std::string> words;
-    std::map<std::string, int> of_kind;
+    std::map<std::string, int> of_deformer;
     for (const PointSetting& setting : settings) {
         EXPECT_TRUE(words.insert(setting.deformer + ": " + setting.words).second) << setting.deformer << ": " << setting.words;
-        ++of_kind[setting.spec.kind];
+        ++of_deformer[setting.deformer];
     }
-    for (const char* kind : {"delta_mush", "pbs", "fem"}) EXPECT_GE(of_kind[kind], 8) << kind;
-    EXPECT_GE(of_kind["xpbd"], 8);
-    EXPECT_EQ(of_kind["lbs"], 2);  // and on the other mesh
+    for (const auto& [deformer, count] : of_deformer) EXPECT_GE(count, deformer == "lbs" || deformer == "dqs" ? 1 : 8) << deformer;
+    EXPECT_EQ(of_deformer["lbs"], 5);  // and on the other meshes
+    EXPECT_EQ(of_deformer.size(), 10u);
+}
+
+TEST(PointSettings, HaveADigestOfAllTheyHangOn)
+{
+    std::vector<PointSetting> settings = point_settings(read_scene("limb_twist", {}), {});
+    const std::string digest = digest_of(settings);
+    EXPECT_EQ(digest_of(point_settings(read_scene("limb_twist", {}), {})), digest);
+    settings.back().spec.fem.nested_start = !settings.back().spec.fem.nested_start;
+    EXPECT_NE(digest_of(settings), digest);
+}
+
+TEST(FrameTimes, DropAndCountTheRoundsThatFailed)
+{
+    const double failed = std::nan("");
+    const FrameTime time = frame_time({failed, 1.0, 5.0, failed, 2.0});
+    EXPECT_EQ(time.failed_rounds, 2);
+    ASSERT_TRUE(time.ms);
+    EXPECT_EQ(time.ms->rounds, 3);
+    EXPECT_EQ(time.ms->median, 2.0);
+    EXPECT_FALSE(frame_time({failed, failed}).ms);
+}
+
+TEST_F(Choice, QuartilesAreOfThreeRoundsOrMore)
+{
+    add(1, own_, 0, false, 0.0);
+    points_[0].shape.positions = base_->mesh.rest;
+    for (const std::vector<double>& samples : {std::vector{1.0, 2.0}, {1.0, 2.0, 4.0}}) {
+        analysis::CsvTable table(point_columns());
+        PointFigures figures;
+        figures.time = frame_time(samples);
+        table.add_row(point_row(points_[0], {}, figures));
+        const analysis::CsvTable read = analysis::parse_csv(table.text(), "points.csv");
+        EXPECT_EQ(read.number_or_nothing(0, "ms_q1").has_value(), samples.size() == 3u);
+        EXPECT_EQ(read.number_or_nothing(0, "ms_q3").has_value(), samples.size() == 3u);
+        EXPECT_EQ(read.integer(0, "rounds"), static_cast<long long>(samples.size()));
+    }
+}
+
+TEST(PosedDeformers, TellARoundThatDoesNotArriveAndTheOneThatSetsOutFromThere)
+{
+    const auto body = limb(300);
+    const PointSetting setting{"pbs", "", {.name = "pbs", .kind = "pbs", .label = "pbs", .pbs = {}, .fem = {}}, 2};
+    pbs::Pose rest(body->skeleton.bones.size(), Eigen::Isometry3d::Identity()), nowhere = rest;
+    for (Eigen::Isometry3d& bone : nowhere) bone.translation().setConstant(std::nan(""));
+    const PosePair there_and_back{rest, rest}, there_and_nowhere{rest, nowhere}, nowhere_and_back{nowhere, rest};
+    PosedDeformer good(setting, *body, there_and_back), lost(setting, *body, there_and_nowhere);
+    EXPECT_TRUE(good.reach().finished);
+    EXPECT_GT(good.turn().at(0), 0.0);
+    EXPECT_TRUE(lost.reach().finished);
+    EXPECT_TRUE(std::isnan(lost.turn().at(0)));
+    EXPECT_TRUE(std::isnan(lost.turn().at(0)));  // back, but not from the other pose
+    EXPECT_FALSE(PosedDeformer(setting, *body, nowhere_and_back).reach().finished);
 }
 
 }  // namespace
