@@ -29,6 +29,7 @@ public:
     Mesh(const ConvergenceCase& of, const Scene& scene, bool own)
         : of_(of),
           own_(own),
+          settings_(own || scene.character.vertices <= of.every_setting_to ? of.settings.size() : 1),
           posed_(scene, frame_numbers(of.frames)),
           motion_(make_motion(scene.motion, posed_.character().skeleton, scene.file))
     {
@@ -43,7 +44,7 @@ public:
             pbs::PbsOptions options = spec_of(of_.scene, "pbs").pbs;
             options.k_stretch = k_stretch;
             const std::vector<FrameStarts> starts = starts_of(posed_.character(), motion_, frame_numbers(of_.frames), options);
-            for (std::size_t setting = 0; setting < (own_ ? of_.settings.size() : 1); ++setting)
+            for (std::size_t setting = 0; setting < settings_; ++setting)
                 for (std::size_t frame = 0; frame < starts.size(); ++frame)
                     result.all.push_back(follow(starts[frame], frame, of_.settings[setting], options));
         }
@@ -65,6 +66,8 @@ private:
                                own_,
                                options.k_stretch,
                                setting,
+                               !of_.scene.motion.clip.empty(),
+                               of_.frames[frame].twist,
                                has_truth && truth_[frame].self_intersects,
                                {},
                                {}};
@@ -82,6 +85,7 @@ private:
 
     const ConvergenceCase& of_;
     bool own_;
+    std::size_t settings_;  // so many of the case's
     PosedCharacter posed_;
     pbs::Motion motion_;
     Shapes truth_;  // one a frame; none

@@ -13,7 +13,8 @@ namespace experiments {
 
 struct NamedFrame {
     int frame = 0;
-    std::string name;  // "twist 90", "01_01 crouch"
+    std::string name;    // "twist 90", "01_01 crouch"
+    bool twist = false;  // about a bone's own axis, which no constraint feels
 };
 
 struct ProjectionSetting {
@@ -27,6 +28,7 @@ struct ConvergenceCase {
     std::vector<double> k_stretch;            // the first one is the scene's
     std::vector<ProjectionSetting> settings;  // of the scene's own mesh; the first one alone on the others
     std::vector<int> other_vertices;          // further meshes by their wanted size
+    int every_setting_to = 0;                 // further meshes up to this wanted size take all settings
     bool ladder =
         false;  // other_vertices are a ladder of sizes, each figure its own; else of about one size: their spread is the uncertainty
     int most_iterations = 1000;
@@ -39,6 +41,7 @@ struct ConvergencePaths {
     bool own_mesh = true;  // the scene's
     double k_stretch = 0.0;
     ProjectionSetting setting;
+    bool character = false, twist = false;  // of a clip, that is no limb; see NamedFrame
     bool reference_self_intersects = false;
     std::vector<IterationPath> paths;        // by SolverStart
     std::vector<double> limit_from_lbs_pct;  // from the last shape of each path to that of LBS, at the joints

@@ -4,11 +4,14 @@
 #include "experiments/deformers/option_names.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
+#include <set>
 
 namespace experiments {
 namespace {
@@ -50,11 +53,18 @@ void add(std::vector<analysis::Measurement>& to, const std::string& claim, const
     if (!own || !std::isfinite(own->value)) return;
     analysis::Measurement measured{claim, quantity, words_for(*group.front()) + remark, own->value, own->value, own->value, unit};
     if (!own->bound.empty()) measured.of += fmt::format("; {} so much", own->bound);
+    int without = 0;
     for (const ConvergencePaths* other : group) {
         const std::optional<Figure> figure = figure_of(*other);
+        without += !figure;
         if (!figure || !std::isfinite(figure->value)) continue;
         measured.low = std::min(measured.low, figure->value);
         measured.high = std::max(measured.high, figure->value);
+    }
+    if (without > 0) {
+        measured.of += fmt::format("; neither start arrives in {} of {} settings", without, group.size());
+        measured.low = 0.0;
+        measured.high = std::numeric_limits<double>::infinity();
     }
     to.push_back(measured);
 }
@@ -104,10 +114,11 @@ void add_beside(std::vector<analysis::Measurement>& to, const Group& group)
 
 void add_starts(std::vector<analysis::Measurement>& to, const Group& group)
 {
+    const char* in_a_twist = group.front()->twist ? " in a twist" : "";
     for (std::size_t start = 1; start < group.front()->paths.size(); ++start) {
         const char* words = words_for(all_starts[start]);
         for (const Tolerance& tolerance : tolerances)
-            add(to, "C03", fmt::format("iterations to tolerance, from {} over from LBS", words), tolerance.remark, group,
+            add(to, "C03", fmt::format("iterations to tolerance{}, from {} over from LBS", in_a_twist, words), tolerance.remark, group,
                 over_lbs(tolerance, start));
         add(to, "C03", fmt::format("error to the reference after 24 iterations, from {} over from LBS", words), "", group,
             [start](const ConvergencePaths& of) {
@@ -116,28 +127,49 @@ void add_starts(std::vector<analysis::Measurement>& to, const Group& group)
     }
 }
 
-// iterations ~ vertices^exponent, over the sizes that reach the tolerance.
-void add_exponents(std::vector<analysis::Measurement>& to, const std::vector<Group>& groups)
+// Of all poses, orders and meshes: comparisons with LBS that there is no figure of.
+void add_neither(std::vector<analysis::Measurement>& to, const ConvergenceResult& result)
 {
-    std::vector<const ConvergencePaths*> done;
-    for (const Group& own : groups) {
-        const ConvergencePaths& first = *own.front();
-        const auto same = [&](const ConvergencePaths* other) { return other->pose == first.pose && other->k_stretch == first.k_stretch; };
-        if (std::any_of(done.begin(), done.end(), same)) continue;
-        done.push_back(&first);
+    std::set<std::string> poses;
+    for (const ConvergencePaths& paths : result.all) poses.insert(paths.pose);
+    for (const Tolerance& tolerance : tolerances) {
+        int neither = 0, all = 0;
+        for (const ConvergencePaths& paths : result.all)
+            for (std::size_t start = 1; start < paths.paths.size(); ++start, ++all) neither += !over_lbs(tolerance, start)(paths);
+        if (all == 0) continue;
+        const double share = neither / double(all);
+        to.push_back({"C03", "share of figures in which neither start arrives",
+                      fmt::format("{}, {}, {} comparisons{}", result.all.front().body, fmt::join(poses, " and "), all, tolerance.remark),
+                      share, share, share, "1"});
+    }
+}
+
+bool on_one_ladder(const ConvergencePaths& a, const ConvergencePaths& b)
+{
+    return a.pose == b.pose && a.k_stretch == b.k_stretch && a.setting.order == b.setting.order &&
+           a.setting.precision == b.setting.precision;
+}
+
+// iterations ~ vertices^exponent, over the sizes that reach the tolerance, by order.
+void add_exponents(std::vector<analysis::Measurement>& to, const ConvergenceResult& result)
+{
+    for (const ConvergencePaths& first : result.all) {
+        const auto same = [&](const ConvergencePaths& other) { return on_one_ladder(first, other); };
+        if (&*std::find_if(result.all.begin(), result.all.end(), same) != &first) continue;
         for (const Tolerance& tolerance : tolerances) {
             std::vector<double> vertices, iterations;
-            for (const Group& group : groups)
-                if (const Reached lbs = tolerance.reached(*group.front(), 0); same(group.front()) && lbs.within && lbs.iterations > 0) {
-                    vertices.push_back(group.front()->vertices);
+            for (const ConvergencePaths& paths : result.all)
+                if (const Reached lbs = tolerance.reached(paths, 0); same(paths) && lbs.within && lbs.iterations > 0) {
+                    vertices.push_back(paths.vertices);
                     iterations.push_back(lbs.iterations);
                 }
             if (vertices.size() < 3) continue;
             const analysis::Interval exponent = analysis::observed_order(vertices, iterations).slope;
             const auto [fewest, most] = std::minmax_element(vertices.begin(), vertices.end());
             to.push_back({"C12", "exponent of iterations to tolerance over vertices",
-                          fmt::format("{}, {}, {:g} to {:g} vertices, k_stretch {:g}{}", first.body, first.pose, *fewest, *most,
-                                      first.k_stretch, tolerance.remark),
+                          fmt::format("{}, {}, {:g} to {:g} vertices, k_stretch {:g}, {} {}{}", first.body, first.pose, *fewest, *most,
+                                      first.k_stretch, experiments::name_of(first.setting.order),
+                                      experiments::name_of(first.setting.precision), tolerance.remark),
                           exponent.estimate, exponent.low, exponent.high, "1"});
         }
     }
@@ -151,11 +183,13 @@ std::vector<analysis::Measurement> convergence_figures(const ConvergenceResult& 
     const std::vector<Group> groups = groups_of(result);
     for (const Group& group : groups) {
         for (const Tolerance& tolerance : tolerances)
-            add(figures, "C12", "iterations to tolerance", tolerance.remark, group, iterations_to(tolerance));
+            add(figures, "C12", group.front()->character ? "iterations to tolerance" : "iterations to tolerance, the limb and its sizes",
+                tolerance.remark, group, iterations_to(tolerance));
         add_beside(figures, group);
         add_starts(figures, group);
     }
-    if (result.ladder) add_exponents(figures, groups);
+    add_neither(figures, result);
+    if (result.ladder) add_exponents(figures, result);
     return figures;
 }
 

@@ -8,7 +8,8 @@ namespace experiments {
 
 // Residuals and volume by iteration, thinned to five looks a decade.
 analysis::CsvTable residual_table(const ConvergenceResult& result);
-// One row a path: when it is there by both tolerances, rate, where it stalls, how far from the limit that LBS leads to.
+// One row a path: when it is there by both tolerances, in iterations and in processor time as measured there and then, rate, where it
+// stalls, how far from the limit that LBS leads to.
 analysis::CsvTable rate_table(const ConvergenceResult& result);
 // Error to the reference by iteration, thinned likewise.
 analysis::CsvTable towards_table(const ConvergenceResult& result);

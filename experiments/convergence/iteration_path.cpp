@@ -1,5 +1,6 @@
 #include "experiments/convergence/iteration_path.hpp"
 
+#include "experiments/bench/cpu_clock.hpp"
 #include "experiments/interruption.hpp"
 #include "pbs/solver/particles.hpp"
 #include "pbs/solver/projection.hpp"
@@ -27,18 +28,22 @@ public:
         const pbs::Vec3 origin = pbs::local_origin<Scalar>(start);
         projection_->load(start, bind_points, origin);
         int iteration = 0;
+        double seconds = 0.0;
         for (const int look : looks) {
             stop_if_interrupted();
+            const double start_s = process_cpu_s();
             for (; iteration < look; ++iteration) {
                 projection_->project_bind_constraints();     // (11)
                 projection_->project_stretch_constraints();  // (12)
                 projection_->project_volume_constraints();   // (13)
             }
+            seconds += process_cpu_s() - start_s;
             if (look > 0) projection_->store(origin, path.last);
             path.finite = path.last.allFinite();
             path.looks.push_back(ruler.measure(look, path.last));
             if (!path.finite) break;
         }
+        path.iteration_ms = 1e3 * seconds / std::max(iteration, 1);
         return path;
     }
 

@@ -28,6 +28,7 @@ struct IterationPath {
     std::vector<Look> looks;  // by iteration; the last one is at the last iteration, or where positions ceased to be finite
     pbs::Positions last;      // [m], #V x 3
     bool finite = true;
+    double iteration_ms = 0.0;  // mean processor time of an iteration, looks left out
 };
 
 class IterationRuler {

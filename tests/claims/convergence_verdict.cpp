@@ -24,12 +24,12 @@ VerdictKind kind_for(const std::string& id, const std::vector<ConvergencePaths>&
     return analysis::judge(*claim, {.measurements = experiments::convergence_figures({paths, false, ""})}).kind;
 }
 
-// Volume is there from the first iteration on from everywhere, so that the residual alone decides.
+// Volume is there after one iteration from LBS and after two from everywhere else, so that the residual alone decides.
 ConvergencePaths by_residual(const std::vector<double>& rates)
 {
     ConvergencePaths paths = starts_at_rates(1780, rates);
-    for (auto& path : paths.paths)
-        for (auto& look : path.looks) look.volume_abs_change_pct = look.iteration == 0 ? 1.0 : 0.0;
+    for (std::size_t start = 0; start < paths.paths.size(); ++start)
+        for (auto& look : paths.paths[start].looks) look.volume_abs_change_pct = look.iteration < (start ? 2 : 1) ? 1.0 : 0.0;
     return paths;
 }
 
@@ -54,6 +54,28 @@ TEST(LbsIsTheBetterStart, NotReproducedWhereItIsTheSlowest)
     ConvergencePaths paths = by_residual({0.95, 0.8, 0.8, 0.8});
     paths.paths[0] = path_by(1000, [](int n) { return n < 500 ? 2.0 : 1.0; });  // late by volume, too
     EXPECT_EQ(kind_for("C03", {paths}), VerdictKind::not_reproduced);
+}
+
+TEST(LbsIsTheBetterStart, FlipsWhereNeitherStartArrivesInAnotherOrder)
+{
+    ConvergencePaths lost = by_residual({0.8, 0.9, 0.95, 0.85});
+    for (auto& path : lost.paths)
+        for (auto& look : path.looks) look.volume_abs_change_pct = 1.0;
+    EXPECT_EQ(kind_for("C03", {by_residual({0.8, 0.9, 0.95, 0.85}), lost}), VerdictKind::reproduced_only_for);
+}
+
+TEST(LbsIsTheBetterStart, TwistsAreNotJudged)
+{
+    ConvergencePaths twist = by_residual({0.8, 0.9, 0.95, 0.85});
+    twist.twist = true;
+    EXPECT_EQ(kind_for("C03", {twist}), VerdictKind::not_computable);
+}
+
+TEST(TwentyFourIterationsSuffice, OfTheLimbAreNotJudged)
+{
+    ConvergencePaths limb = by_residual({0.89, 0.9, 0.9, 0.9});
+    limb.character = false;
+    EXPECT_EQ(kind_for("C12", {limb}), VerdictKind::not_computable);
 }
 
 TEST(TwentyFourIterationsSuffice, FlipsWhereThePathIsLonger)

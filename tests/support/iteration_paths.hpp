@@ -27,12 +27,13 @@ inline experiments::IterationPath path_to_floor(int most, double floor, double a
     return path_by(most, [=](int n) { return floor + above * std::pow(rate, n); });
 }
 
-// A body whose starts go to the floor 1 at the given rates; LBS first.
+// A character whose starts go to the floor 1 at the given rates; LBS first.
 inline experiments::ConvergencePaths starts_at_rates(int vertices, const std::vector<double>& rates, int most = 1000)
 {
     experiments::ConvergencePaths paths;
-    paths.body = "limb";
-    paths.pose = "bend 90";
+    paths.body = "human";
+    paths.pose = "01_01 crouch";
+    paths.character = true;
     paths.vertices = vertices;
     paths.k_stretch = 0.2;
     for (const double rate : rates) paths.paths.push_back(path_to_floor(most, 1.0, 1.0, rate));

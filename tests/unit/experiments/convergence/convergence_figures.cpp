@@ -56,10 +56,48 @@ TEST(ConvergenceFigures, AStartThatNeverArrivesGivesABound)
     EXPECT_NE(ratio[0].of.find("at least so much"), std::string::npos);
 }
 
-TEST(ConvergenceFigures, WhereNeitherArrivesThereIsNone)
+// Volume stays at 1 % from every start: three comparisons of three.
+TEST(ConvergenceFigures, WhereNeitherArrivesThereIsNoneAndItIsCounted)
 {
-    for (const Measurement& measured : convergence_figures({{starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})}, false, ""}))
-        EXPECT_TRUE(measured.claim != "C03" || measured.of.find("volume change") == std::string::npos) << measured.of;
+    const auto all = convergence_figures({{starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})}, false, ""});
+    for (const Measurement& measured : all)
+        EXPECT_TRUE(!measured.quantity.starts_with("iterations to tolerance, from") ||
+                    measured.of.find("volume change") == std::string::npos)
+            << measured.of;
+    const auto neither = figures_named(all, "share of figures in which neither start arrives");
+    ASSERT_EQ(neither.size(), 2u);
+    EXPECT_EQ(neither[0].value, 0.0);
+    EXPECT_EQ(neither[1].value, 1.0);
+    EXPECT_EQ(neither[1].of.substr(0, 36), "human, 01_01 crouch, 3 comparisons; ");
+}
+
+// From LBS and from the previous frame the second order is never within 0.5 %.
+TEST(ConvergenceFigures, AnOrderInWhichNeitherArrivesOpensTheInterval)
+{
+    ConvergencePaths arriving = starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9}), lost = arriving;
+    for (IterationPath& path : arriving.paths)
+        for (Look& look : path.looks) look.volume_abs_change_pct = look.iteration < 8 ? 1.0 : 0.0;
+    for (const std::size_t start : {2, 3}) lost.paths[start] = arriving.paths[start];
+    const auto all = convergence_figures({{arriving, lost}, false, ""});
+    const auto previous = figures_named(all, "iterations to tolerance, from the previous frame over from LBS").at(1);
+    EXPECT_EQ(previous.value, 1.0);
+    EXPECT_EQ(previous.low, 0.0);
+    EXPECT_EQ(previous.high, std::numeric_limits<double>::infinity());
+    EXPECT_NE(previous.of.find("neither start arrives in 1 of 2 settings"), std::string::npos) << previous.of;
+    EXPECT_EQ(figures_named(all, "iterations to tolerance, from the rest pose over from LBS").at(1).low, 8.0 / 1000.0);
+    EXPECT_EQ(figures_named(all, "share of figures in which neither start arrives").at(1).value, 1.0 / 6.0);
+}
+
+TEST(ConvergenceFigures, TwistsAndTheLimbAreBesideWhatIsJudged)
+{
+    ConvergencePaths twist = starts_at_rates(1780, {0.9, 0.95, 0.9, 0.8});
+    twist.character = false;
+    twist.twist = true;
+    const auto all = convergence_figures({{twist}, false, ""});
+    EXPECT_TRUE(figures_named(all, "iterations to tolerance").empty());
+    EXPECT_TRUE(figures_named(all, "iterations to tolerance, from the previous frame over from LBS").empty());
+    EXPECT_EQ(figures_named(all, "iterations to tolerance, the limb and its sizes").at(0).value, 29.0);
+    EXPECT_EQ(figures_named(all, "iterations to tolerance in a twist, from the previous frame over from LBS").at(0).value, 59.0 / 29.0);
 }
 
 // Rates exp(-1 / sqrt(vertices)) need log 20 sqrt(vertices) iterations, rounded up: 1 of 67 at most, 1.5 % at one end of a factor of 64.
@@ -68,9 +106,14 @@ TEST(ConvergenceFigures, ExponentOfALadderIsThatOfTheFormula)
     ConvergenceResult ladder;
     ladder.ladder = true;
     for (const int vertices : {500, 2000, 8000, 32000})
-        ladder.all.push_back(starts_at_rates(vertices, {std::exp(-1.0 / std::sqrt(vertices)), 0.5, 0.5, 0.5}, 4000));
+        for (const auto order : {pbs::Order::ordered, pbs::Order::plain}) {
+            const double rate = order == pbs::Order::plain ? 0.5 : std::exp(-1.0 / std::sqrt(vertices));
+            ladder.all.push_back(starts_at_rates(vertices, {rate, 0.5, 0.5, 0.5}, 4000));
+            ladder.all.back().setting.order = order;
+        }
     const auto exponent = figures_named(convergence_figures(ladder), "exponent of iterations to tolerance over vertices");
-    ASSERT_EQ(exponent.size(), 1u);
+    ASSERT_EQ(exponent.size(), 2u);  // each order its own
+    EXPECT_EQ(exponent[1].value, 0.0);
     EXPECT_NEAR(exponent[0].value, 0.5, 0.015 / std::log(64.0) * 2.0);
     EXPECT_LE(exponent[0].low, exponent[0].value);
     EXPECT_GE(exponent[0].high, exponent[0].value);
