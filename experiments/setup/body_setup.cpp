@@ -5,8 +5,10 @@
 #include "analysis/statistics.hpp"
 #include "experiments/run.hpp"
 #include "pbs/character/body_cache.hpp"
+#include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,9 +48,30 @@ void use_own_cache(const fs::path& cache)
     setenv("PBSKIN_CACHE", cache.c_str(), 1);
 }
 
+// Every trial meshes anew.
+void forget_meshes(const fs::path& cache)
+{
+    for (const auto& entry : fs::directory_iterator(cache))
+        if (entry.path().filename() != "packages") fs::remove_all(entry.path());
+}
+
 std::string name_of(const BodySetup& setup, const nlohmann::json& run)
 {
     return fmt::format("{}, {} vertices, 01_01", setup.body, run.at("character").at("vertices").get<long long>());
+}
+
+std::vector<analysis::Measurement> measured_in(const fs::path& run_folder, const BodySetup& setup, const std::vector<std::string>& changed)
+{
+    const nlohmann::json run = nlohmann::json::parse(analysis::read_text((run_folder / "run.json").string()));
+    return setup_measurements(name_of(setup, run), analysis::read_csv((run_folder / "metrics.csv").string()), run, changed);
+}
+
+void write_trials(const std::vector<TriedSetup>& tried, const std::string& path)
+{
+    analysis::CsvTable trials({"trial", "further_keys", "failure"});
+    for (std::size_t i = 0; i < tried.size(); ++i)
+        trials.add_row({int(i), fmt::format("{}", fmt::join(tried[i].setup.further, " ")), tried[i].failure});
+    trials.write(path);
 }
 
 }  // namespace
@@ -69,11 +92,33 @@ Scene scene_of(const BodySetup& setup, double rate_hz)
 
 std::vector<std::string> keys_changed(const nlohmann::json& shared, const nlohmann::json& own)
 {
-    std::vector<std::string> changed, outside;
+    std::vector<std::string> changed;
     add_differences(shared, own, "", changed);
-    std::copy_if(changed.begin(), changed.end(), std::back_inserter(outside),
-                 [](const auto& key) { return !key.starts_with("character"); });
-    return outside;
+    std::erase_if(changed, [](const auto& key) { return key == "character.body" || key == "character.vertices"; });
+    return changed;
+}
+
+const std::vector<std::vector<std::string>>& further_keys()
+{
+    static const std::vector<std::vector<std::string>> keys = {
+        {}, {R"(skinning.weights="rigid")"}, {R"(pbs.precision="f64")"}, {R"(pbs.precision="f64")", "pbs.k_volume=0.5"}};
+    return keys;
+}
+
+std::vector<TriedSetup> tried_setups(const BodySetup& setup, const Trial& trial)
+{
+    std::vector<TriedSetup> tried;
+    for (const std::vector<std::string>& further : further_keys()) {
+        BodySetup own = setup;
+        own.further.insert(own.further.end(), further.begin(), further.end());
+        try {
+            tried.push_back({own, trial(own)});
+        } catch (const pbs::InputError& error) {
+            tried.push_back({own, error.what()});
+        }
+        if (tried.back().failure.empty()) break;
+    }
+    return tried;
 }
 
 std::vector<analysis::Measurement> setup_measurements(const std::string& of, const analysis::CsvTable& metrics, const nlohmann::json& run,
@@ -99,24 +144,36 @@ std::vector<analysis::Measurement> setup_measurements(const std::string& of, con
             {"C17", "seconds to set up", of, set_up_s, set_up_s, set_up_s, "s"}};
 }
 
+std::vector<analysis::Measurement> not_set_up(const std::string& of)
+{
+    const double none = analysis::not_known;
+    return {{"C17", "keys changed besides the body", of, none, none, none, "1"},
+            {"C17", "share of frames finite and without inverted tets", of, 0.0, 0.0, 0.0, "1"}};
+}
+
 std::string set_up_and_record(const BodySetup& setup, double rate_hz, const std::string& folder)
 {
     const fs::path cache = fs::absolute(folder) / "cache", run_folder = fs::path(folder) / "run";
     fs::remove_all(cache);
     use_own_cache(cache);
-    const Scene scene = scene_of(setup, rate_hz);
-    const RunResult result = run_scene(scene, run_folder.string());
+    const auto run = [&](const BodySetup& own) {
+        forget_meshes(cache);
+        return run_scene(scene_of(own, rate_hz), run_folder.string()).breakdown;
+    };
+    const std::vector<TriedSetup> tried = tried_setups(setup, run);
     fs::remove_all(cache);
 
-    const std::vector<std::string> changed = keys_changed(shared_scene(rate_hz).resolved, scene.resolved);
-    const nlohmann::json run = nlohmann::json::parse(analysis::read_text((run_folder / "run.json").string()));
-    const analysis::CsvTable metrics = analysis::read_csv((run_folder / "metrics.csv").string());
-    const auto measured = setup_measurements(name_of(setup, run), metrics, run, changed);
-    analysis::measurement_table(measured).write((fs::path(folder) / "measurements.csv").string());
+    const BodySetup& last = tried.back().setup;
+    const bool runs = tried.back().failure.empty();
+    const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
+    const std::vector<std::string> changed = keys_changed(shared_scene(rate_hz).resolved, scene_of(last, rate_hz).resolved);
+    analysis::measurement_table(runs ? measured_in(run_folder, last, changed) : not_set_up(setup.body + ", 01_01"))
+        .write(path("measurements.csv"));
     analysis::CsvTable keys({"key"});
     for (const std::string& key : changed) keys.add_row({key});
-    keys.write((fs::path(folder) / "changed_keys.csv").string());
-    return result.breakdown;
+    keys.write(path("changed_keys.csv"));
+    write_trials(tried, path("trials.csv"));
+    return tried.back().failure;
 }
 
 }  // namespace experiments

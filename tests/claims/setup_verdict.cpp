@@ -37,10 +37,26 @@ TEST(SetupVerdict, ABodyThatTurnsInsideOutIsNotAccommodated)
     EXPECT_EQ(verdict({body("human", 0), body("frankie", 2)}), VerdictKind::reproduced_only_for);
 }
 
-TEST(SetupVerdict, AChangedKeyIsSetUp)
+// The keys that a body which runs with those of `trial` alone has changed, as the study finds them.
+std::vector<std::string> changed_for(std::size_t trial)
 {
-    EXPECT_EQ(verdict({body("human", 0, {"pbs.k_stretch"})}), VerdictKind::reproduced_only_for);
-    EXPECT_EQ(verdict({body("human", 2, {"pbs.k_stretch"})}), VerdictKind::not_reproduced);
+    using namespace experiments;
+    const auto tried = tried_setups(
+        {"ring"}, [&](const BodySetup& setup) { return std::string(setup.further == further_keys().at(trial) ? "" : "not finite"); });
+    return keys_changed(shared_scene(5.0).resolved, scene_of(tried.back().setup, 5.0).resolved);
+}
+
+TEST(SetupVerdict, ABodyThatNeedsAFurtherKeyFlipsIt)
+{
+    EXPECT_EQ(verdict({body("human", 0), body("ring", 0, changed_for(0))}), VerdictKind::reproduced);
+    EXPECT_EQ(verdict({body("human", 0), body("ring", 0, changed_for(1))}), VerdictKind::reproduced_only_for);
+    EXPECT_EQ(verdict({body("ring", 0, changed_for(3))}), VerdictKind::not_reproduced);
+}
+
+TEST(SetupVerdict, ABodyThatNeverRunsFlipsIt)
+{
+    EXPECT_EQ(verdict({body("human", 0), experiments::not_set_up("ring, 01_01")}), VerdictKind::reproduced_only_for);
+    EXPECT_EQ(verdict({experiments::not_set_up("ring, 01_01")}), VerdictKind::not_reproduced);
 }
 
 TEST(SetupVerdict, NothingMeasuredIsNoVerdict)
