@@ -1,5 +1,6 @@
 #include "experiments/ambiguity/reading.hpp"
 
+#include "experiments/deformers/deformer_spec.hpp"
 #include "experiments/deformers/option_names.hpp"
 
 #include <fmt/format.h>
@@ -64,6 +65,21 @@ void add_class_orders(Readings& readings)
 }
 
 }  // namespace
+
+nlohmann::json to_json(const Reading& reading)
+{
+    DeformerSpec spec;
+    spec.kind = "pbs";
+    spec.pbs = reading.options;
+    return {{"place", reading.place},
+            {"name", reading.name},
+            {"baseline", reading.baseline},
+            {"pbs", to_json(spec)},
+            {"bind_point", reading.bind_point == BindPoint::carried ? "carried" : "reprojected"},
+            {"blended_bones", reading.blended_bones == BlendedBones::nearest_end ? "nearest_end" : "either_end"},
+            {"zone_mean", reading.zone_mean == ZoneMean::of_all ? "of_all" : "of_bone"},
+            {"substeps", reading.substeps}};
+}
 
 std::vector<Reading> readings_of_a_step(const pbs::PbsOptions& own)
 {

@@ -6,6 +6,8 @@
 
 #include "pbs/solver/options.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <string>
 #include <vector>
 
@@ -25,6 +27,8 @@ struct Reading {
     ZoneMean zone_mean = ZoneMean::of_all;
     int substeps = 1;  // of each time step
 };
+
+nlohmann::json to_json(const Reading& reading);  // whatever its motion depends on
 
 inline constexpr const char* own_reading = "as the scene";  // baselines
 inline constexpr const char* jiggling_reading = "jiggling 0.9";

@@ -1,4 +1,5 @@
-// The readings of the paper (ambiguity/reading.hpp): how much each changes the volume of C01 and C02, the jiggling, and their verdicts.
+// The readings of the paper (ambiguity/reading.hpp): how much each changes the volume, the jiggling, and the verdicts of C01 and C02. Those
+// two alone are judged again: they are what one sweep or clip decides; the figures of other claims are of cases of their own.
 //
 //   limb_twist, limb_bend   the scenes' sweeps, each step by itself
 //   human                   the clip 01_01, five frames a second, each step by itself
@@ -44,12 +45,12 @@ StudyRun ambiguity_run(const std::string& name, Scene scene, bool moving, double
     scene.name = name;
     const pbs::PbsOptions own = spec_of(scene, "pbs").pbs;
     const std::vector<Reading> readings = moving ? readings_of_motion(own) : readings_of_a_step(own);
-    nlohmann::json names;
-    for (const Reading& reading : readings) names.push_back(reading.name);
+    nlohmann::json settings;
+    for (const Reading& reading : readings) settings.push_back(to_json(reading));
     return {.name = name,
             .cost_s = cost_s,
             .work = [=](const std::string& folder) { return read_and_record(scene, readings, folder); },
-            .settings = {{"scene", resolved_with_deformers(scene)}, {"readings", names}}};
+            .settings = {{"scene", resolved_with_deformers(scene)}, {"readings", settings}}};
 }
 
 }  // namespace
@@ -73,15 +74,10 @@ StudyPlan plan_ambiguity_study(bool full)
 
 StudyConclusion conclude_ambiguity_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
 {
-    std::vector<analysis::CsvTable> tables;
-    std::string all;
-    for (const std::string& run : finished) {
-        tables.push_back(analysis::read_csv((fs::path(run) / "ambiguity.csv").string()));
-        const std::string text = analysis::read_text((fs::path(run) / "ambiguity.csv").string());
-        all += all.empty() ? text : text.substr(text.find('\n') + 1);  // one head for all
-    }
-    analysis::write_text_atomically((fs::path(folder) / "ambiguity.csv").string(), all);
-    const std::string table = ambiguity_markdown(tables);
+    analysis::CsvTable all{{}};
+    for (const std::string& run : finished) all.append(analysis::read_csv((fs::path(run) / "ambiguity.csv").string()));
+    all.write((fs::path(folder) / "ambiguity.csv").string());
+    const std::string table = finished.empty() ? "" : ambiguity_markdown({all});
     analysis::write_text_atomically((fs::path(folder) / "ambiguity.md").string(), table);
     return {table, !finished.empty()};
 }

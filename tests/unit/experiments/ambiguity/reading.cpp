@@ -1,8 +1,6 @@
 // Truth: a reading is of a place and differs from its baseline, which stands before it.
 #include "experiments/ambiguity/reading.hpp"
 
-#include "experiments/deformers/deformer_spec.hpp"
-
 #include <gtest/gtest.h>
 
 #include <set>
@@ -11,12 +9,12 @@ namespace {
 
 using experiments::Reading;
 
+// What its motion depends on, by name no more.
 nlohmann::json all_of(const Reading& reading)
 {
-    experiments::DeformerSpec spec;
-    spec.kind = "pbs";
-    spec.pbs = reading.options;
-    return {experiments::to_json(spec), int(reading.bind_point), int(reading.blended_bones), int(reading.zone_mean), reading.substeps};
+    nlohmann::json settings = experiments::to_json(reading);
+    for (const char* name : {"place", "name", "baseline"}) settings.erase(name);
+    return settings;
 }
 
 void expect_readings(const std::vector<Reading>& readings)
