@@ -86,6 +86,7 @@ std::vector<StabilityCell> cells_of_map(const Sweep& rows, const Sweep& columns,
             cell.second_factor = columns.factor;
             cell.second_value = value;
             cell.second_unit = columns.unit;
+            cell.as_published = row.as_published && columns.as_published;
             columns.set(cell, value);
             cells.push_back(std::move(cell));
         }

@@ -1,6 +1,7 @@
 #include "experiments/stability/cell_table.hpp"
 
 #include "analysis/measurement.hpp"
+#include "experiments/stability/share_interval.hpp"
 
 #include <fmt/format.h>
 
@@ -62,12 +63,32 @@ Keyed by_sweep(const std::vector<MeasuredCell>& cells)
     return sweeps;
 }
 
-double share(const std::vector<const MeasuredCell*>& cells, std::initializer_list<StabilityOutcome> of)
+bool ran_away(const CellResult& result)
 {
-    const auto counted = std::count_if(cells.begin(), cells.end(), [&](const MeasuredCell* measured) {
-        return std::find(of.begin(), of.end(), measured->result.stability.outcome) != of.end();
-    });
-    return static_cast<double>(counted) / static_cast<double>(cells.size());
+    const StabilityOutcome outcome = result.stability.outcome;
+    return outcome == StabilityOutcome::diverged || outcome == StabilityOutcome::not_finite;
+}
+
+bool is(const CellResult& result, StabilityOutcome outcome)
+{
+    return result.stability.outcome == outcome;
+}
+
+// Nothing worse than bounded or inverted, and it moves in one of the last steps that `converged` looks at.
+bool never_rests(const CellResult& result)
+{
+    if (!is(result, StabilityOutcome::bounded) && !is(result, StabilityOutcome::inverted)) return false;
+    const analysis::StabilityBounds bounds;
+    const auto& steps = result.steps;
+    const auto looked_at = std::min<std::ptrdiff_t>(std::ssize(steps), bounds.still_steps);
+    return std::any_of(steps.end() - looked_at, steps.end(), [&](const auto& step) { return step.motion > bounds.rest_motion; });
+}
+
+template <typename Predicate>
+ShareInterval share(const std::vector<const MeasuredCell*>& cells, Predicate of)
+{
+    const auto counted = std::count_if(cells.begin(), cells.end(), [&](const MeasuredCell* measured) { return of(measured->result); });
+    return share_interval(static_cast<int>(counted), static_cast<int>(cells.size()));
 }
 
 std::vector<CsvTable::Cell> row_of(const MeasuredCell& measured)
@@ -125,12 +146,14 @@ CsvTable stability_measurements(const std::vector<MeasuredCell>& cells)
     std::vector<analysis::Measurement> rows;
     for (const auto& [sweep, of] : by_sweep(cells)) {
         const std::string name = fmt::format("{}, n = {}", sweep, of.size());
-        const auto add = [&](const std::string& quantity, double value) {
-            rows.push_back({"C08", quantity, name, value, value, value, "1"});
+        const auto add = [&](const std::string& quantity, const ShareInterval& share) {
+            rows.push_back({"C08", quantity, name, share.value, share.low, share.high, "1"});
         };
-        add("share of cells diverged or not finite", share(of, {StabilityOutcome::diverged, StabilityOutcome::not_finite}));
-        add("share of cells inverted", share(of, {StabilityOutcome::inverted}));
-        add("share of cells converged", share(of, {StabilityOutcome::converged}));
+        const double away = share(of, ran_away).value;
+        add("share of cells diverged or not finite", {away, away, away});
+        add("share of cells inverted", share(of, [](const CellResult& result) { return is(result, StabilityOutcome::inverted); }));
+        add("share of cells not at rest", share(of, never_rests));
+        add("share of cells converged", share(of, [](const CellResult& result) { return is(result, StabilityOutcome::converged); }));
     }
     return analysis::measurement_table(rows);
 }

@@ -16,7 +16,10 @@ struct MeasuredCell {
 
 analysis::CsvTable cells_csv(const std::vector<MeasuredCell>& cells);
 
-// Of the cells as published: shares by body, jiggle, factor and precision, each with the number of its cells. One row a quantity.
+// Of the cells as published: shares by body, jiggle, factor and precision, each with the number of its cells. One row a quantity. The
+// share that ran away is the cells' own, without an interval: "unconditionally" is refuted by one cell, and what was found in all of them
+// is no sample. Inverted, not at rest (bounded or inverted, and moving to the end) and converged have 95 % of Clopper and Pearson, as if
+// the cells were drawn at random from the settings between them.
 analysis::CsvTable stability_measurements(const std::vector<MeasuredCell>& cells);
 
 // Counts of each outcome by body and model, or by factor too, aligned; of one or more cells.csv.

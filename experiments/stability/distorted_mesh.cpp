@@ -10,7 +10,6 @@
 namespace experiments {
 namespace {
 
-constexpr unsigned seed = 20140528;
 constexpr double share_of_vertices = 0.05;
 
 std::vector<std::vector<int>> tets_around(const pbs::TetMesh& mesh)
@@ -51,7 +50,7 @@ pbs::TetMesh distorted(const pbs::TetMesh& mesh, Defect defect, double thinness)
     const auto around = tets_around(mesh);
     std::vector<int> order(mesh.rest.rows());
     std::iota(order.begin(), order.end(), 0);
-    std::shuffle(order.begin(), order.end(), std::mt19937(seed));
+    std::shuffle(order.begin(), order.end(), std::mt19937(stability_seed));
     std::vector<bool> touched(mesh.rest.rows(), false);
     int wanted = static_cast<int>(share_of_vertices * static_cast<double>(mesh.rest.rows()));
     for (const int vertex : order) {

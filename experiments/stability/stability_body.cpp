@@ -12,13 +12,6 @@ namespace experiments {
 namespace {
 
 constexpr int limb_vertices = 400;
-constexpr unsigned seed = 20140528;
-
-Scene scene_of(const StabilityCell& cell)
-{
-    if (cell.body == "limb") return read_scene("limb_bend", {"character.vertices=" + std::to_string(limb_vertices)});
-    return read_scene("human_01_01", {"character.body=" + cell.body, "motion.start_s=6.72", "motion.duration_s=0.36"});
-}
 
 pbs::Character spoilt(pbs::Character character, Defect defect, double thinness)
 {
@@ -38,7 +31,7 @@ std::vector<pbs::Pose> way_of(const StabilityCell& cell, const pbs::Skeleton& sk
         way = pbs::joint_sweep(skeleton, forearm, disturbance.axis, disturbance.angle_deg, disturbance.turning_steps + 1, cell.time_step_s)
                   .steps;
     } else {
-        const Scene scene = scene_of(cell);
+        const Scene scene = stability_scene(cell.body);
         way = make_motion(scene.motion, skeleton, scene.file).steps;
     }
     if (disturbance.teleport_m > 0.0) {
@@ -51,7 +44,7 @@ std::vector<pbs::Pose> way_of(const StabilityCell& cell, const pbs::Skeleton& sk
 
 pbs::Positions random_shape(const pbs::Positions& blended)
 {
-    std::mt19937 engine(seed);
+    std::mt19937 engine(stability_seed);
     const Eigen::RowVector3d lower = blended.colwise().minCoeff(), size = blended.colwise().maxCoeff() - lower;
     pbs::Positions shape(blended.rows(), 3);
     for (Eigen::Index i = 0; i < shape.size(); ++i)
@@ -83,12 +76,18 @@ pbs::Positions started(Start start, const pbs::Positions& blended)
 
 }  // namespace
 
+Scene stability_scene(const std::string& body)
+{
+    if (body == "limb") return read_scene("limb_bend", {"character.vertices=" + std::to_string(limb_vertices)});
+    return read_scene("human_01_01", {"character.body=" + body, "motion.start_s=6.72", "motion.duration_s=0.36"});
+}
+
 const pbs::Character& stability_character(const StabilityCell& cell)
 {
     static std::map<std::string, pbs::Character> kept;
     const std::string key = cell.body + std::to_string(static_cast<int>(cell.defect)) + std::to_string(std::log10(cell.thinness));
     if (const auto found = kept.find(key); found != kept.end()) return found->second;
-    pbs::Character character = pbs::make_character(scene_of(cell).character);
+    pbs::Character character = pbs::make_character(stability_scene(cell.body).character);
     if (cell.defect != Defect::none) character = spoilt(std::move(character), cell.defect, cell.thinness);
     return kept.emplace(key, std::move(character)).first->second;
 }

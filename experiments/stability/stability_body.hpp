@@ -1,8 +1,9 @@
 // The body of a cell and the way it is led: poses, blended shapes and bind points of each step.
-//   const StabilityBody body(cell);
-//   for (int step = 0; step < body.steps(); ++step) driven->advance(body.drive(step));
+//   StabilityBody body(cell);
+//   for (int step = 0; step < body.steps(); ++step) driven->advance(body.drive(step), cell.time_step_s);
 #pragma once
 
+#include "experiments/scene.hpp"
 #include "experiments/stability/stability_cell.hpp"
 #include "pbs/character/character.hpp"
 
@@ -14,6 +15,9 @@ struct Drive {
     const pbs::Positions& blended;      // LBS, or the start's shape [m], #V x 3
     const pbs::Positions& bind_points;  // posed q_i [m], #V x 3
 };
+
+// A limb, or a character landing from a jump: what cells of `body` begin with.
+Scene stability_scene(const std::string& body);
 
 // Bodies are kept from one cell to the next: the same tets for all.
 const pbs::Character& stability_character(const StabilityCell& cell);

@@ -17,7 +17,10 @@ nlohmann::json to_json(const StabilityCell& cell)
             {"model", cell.model},
             {"factor", cell.factor},
             {"value", cell.value},
+            {"unit", cell.unit},
+            {"second_factor", cell.second_factor},
             {"second_value", cell.second_value},
+            {"second_unit", cell.second_unit},
             {"named", cell.named},
             {"deformer", to_json(cell.spec)},
             {"axis", {axis.x(), axis.y(), axis.z()}},
@@ -31,13 +34,15 @@ nlohmann::json to_json(const StabilityCell& cell)
             {"defect", static_cast<int>(cell.defect)},
             {"thinness", cell.thinness},
             {"mass_ratio", cell.mass_ratio},
-            {"held_end", cell.held_end}};
+            {"held_end", cell.held_end},
+            {"as_published", cell.as_published}};
 }
 
 std::string setting_of(const StabilityCell& cell)
 {
     nlohmann::json setting = to_json(cell);
-    for (const char* of_the_way : {"model", "factor", "value", "second_value", "named", "turning_steps", "start", "stays"})
+    for (const char* of_the_way : {"model", "factor", "value", "unit", "second_factor", "second_value", "second_unit", "named",
+                                   "turning_steps", "start", "stays", "as_published"})
         setting.erase(of_the_way);
     return setting.dump();
 }

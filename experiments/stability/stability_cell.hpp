@@ -26,6 +26,9 @@ struct Disturbance {
 // Tets spoilt before anything is bound: a seeded share of the vertices is moved until a tet at each is so thin.
 enum class Defect { none, slivers, needles };
 
+// Of masses, spoilt tets and random starts.
+inline constexpr unsigned stability_seed = 20140528;
+
 struct StabilityCell {
     std::string body = "limb";  // or a character
     std::string model, factor;  // e.g. pbs_jiggle, time step
@@ -49,7 +52,7 @@ struct StabilityCell {
 };
 
 std::string precision_of(const StabilityCell& cell);  // f32, f64
-nlohmann::json to_json(const StabilityCell& cell);
-std::string setting_of(const StabilityCell& cell);  // body, method, place and pose to stay in: all but the way there
+nlohmann::json to_json(const StabilityCell& cell);    // all of it
+std::string setting_of(const StabilityCell& cell);    // body, method, place and pose to stay in: all but the way there
 
 }  // namespace experiments

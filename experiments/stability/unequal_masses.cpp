@@ -1,19 +1,19 @@
 #include "experiments/stability/unequal_masses.hpp"
 
+#include "experiments/stability/stability_cell.hpp"
+
 #include <cmath>
 #include <random>
 
 namespace experiments {
 namespace {
 
-constexpr unsigned seed = 20140528;
-
 template <typename Scalar>
 std::unique_ptr<pbs::Projection<Scalar>> projection_of(const pbs::TetMesh& mesh, const Eigen::VectorXd& bind_distance,
                                                        const std::vector<bool>& jiggle_zone, const pbs::PbsOptions& options, double ratio)
 {
     auto constraints = pbs::make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, options);
-    std::mt19937 engine(seed);
+    std::mt19937 engine(stability_seed);
     std::uniform_real_distribution<double> share(0.0, 1.0);
     for (Scalar& inverse_mass : constraints.inverse_mass) inverse_mass = static_cast<Scalar>(std::pow(ratio, -share(engine)));
     return pbs::make_projection<Scalar>(std::move(constraints), mesh.tets, options);

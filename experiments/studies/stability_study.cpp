@@ -53,13 +53,12 @@ StudyRun stability_run(const std::string& name, const Cells& cells, double cost_
         settings.push_back(to_json(cell));
         if (!scenes.contains(cell.body)) scenes[cell.body] = stability_scene(cell.body).resolved;
     }
-    return {.name = name,
-            .cost_s = cost_s,
-            .work = [cells](const std::string& folder) { return run_and_record(cells, folder); },
-            .settings = {{"cells", settings},
-                         {"scenes", scenes},
-                         {"seed", stability_seed},
-                         {"criteria", analysis::criteria_text() + endings_text()}}};
+    return {
+        .name = name,
+        .cost_s = cost_s,
+        .work = [cells](const std::string& folder) { return run_and_record(cells, folder); },
+        .settings = {
+            {"cells", settings}, {"scenes", scenes}, {"seed", stability_seed}, {"criteria", analysis::criteria_text() + endings_text()}}};
 }
 
 void add_character(StudyPlan& plan, const std::string& body, bool full)

@@ -4,10 +4,10 @@
 #include "analysis/measurement.hpp"
 #include "analysis/verdict.hpp"
 #include "experiments/stability/cell_table.hpp"
+#include "experiments/stability/stability_cells.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
-
-#include <filesystem>
 
 namespace {
 
@@ -28,11 +28,11 @@ MeasuredCell cell_of(const std::string& factor, StabilityOutcome outcome, bool a
 
 VerdictKind verdict_on(const std::vector<MeasuredCell>& cells)
 {
-    const std::string file = (std::filesystem::temp_directory_path() / "pbs_stability_verdict.csv").string();
+    const test_support::ScratchFolder folder;
+    const std::string file = folder / "measurements.csv";
     stability_measurements(cells).write(file);
     analysis::Records records;
     records.measurements = analysis::measurements(file);
-    std::filesystem::remove(file);
     for (const auto& claim : analysis::parse_claims(analysis::read_text(PBS_CLAIMS_FILE), "claims.toml"))
         if (claim.id == "C08") return analysis::judge(claim, records).kind;
     ADD_FAILURE() << "no claim C08";
@@ -92,15 +92,66 @@ TEST(StabilityVerdict, AMapThatCannotTellIsRefused)
     EXPECT_EQ(blind_spots({cells_csv(cells)}), "no cell is bounded\n");
 }
 
+// Quantities of a sweep stand in the order of claims.toml.
 TEST(StabilityVerdict, SharesAreOfTheCellsOfTheirSweep)
 {
     const analysis::CsvTable shares = stability_measurements(altered(0, StabilityOutcome::diverged));
-    ASSERT_EQ(shares.rows(), 6);
+    ASSERT_EQ(shares.rows(), 8);
     EXPECT_EQ(shares.text_at(0, "of"), "limb, no jiggle, time step, f32, n = 2");
     EXPECT_EQ(shares.number(0, "value"), 0.5);  // one of two
     EXPECT_EQ(shares.number(1, "value"), 0.5);  // the inverted one
     EXPECT_EQ(shares.number(2, "value"), 0.0);
-    EXPECT_EQ(shares.number(3, "value"), 0.0);  // of k_stretch
+    EXPECT_EQ(shares.number(3, "value"), 0.0);
+    EXPECT_EQ(shares.number(4, "value"), 0.0);  // of k_stretch
+}
+
+// Theory: nothing of n is at most 1 - 0.025^(1 / n), all of n at least that.
+TEST(StabilityVerdict, SharesBesideHaveAnIntervalAndTheJudgedOneHasNone)
+{
+    const analysis::CsvTable shares = stability_measurements(stable);
+    for (int row = 0; row < shares.rows(); row += 4) EXPECT_EQ(shares.number(row, "high"), shares.number(row, "value"));
+    EXPECT_EQ(shares.text_at(5, "quantity"), "share of cells inverted");  // none of one
+    EXPECT_NEAR(shares.number(5, "high"), 0.975, 1e-9);
+    EXPECT_EQ(shares.number(5, "low"), 0.0);
+}
+
+// A motion of 1e-4 diagonals a step is beyond the 1e-5 that count as rest; whether tets are inverted says nothing of it.
+TEST(StabilityVerdict, WhatMovesToTheEndIsNotAtRest)
+{
+    const auto moving = [](StabilityOutcome outcome, std::vector<double> motions) {
+        MeasuredCell cell = cell_of("time step", outcome);
+        cell.result.steps.resize(motions.size());
+        for (std::size_t i = 0; i < motions.size(); ++i) cell.result.steps[i].motion = motions[i];
+        return cell;
+    };
+    const auto share = [](const MeasuredCell& cell) {
+        const analysis::CsvTable shares = stability_measurements({cell});
+        EXPECT_EQ(shares.text_at(2, "quantity"), "share of cells not at rest");
+        return shares.number(2, "value");
+    };
+    const std::vector<double> still(12, 0.0), to_the_end(12, 1e-4);
+    std::vector<double> long_ago = still;
+    long_ago[0] = 1e-4;
+    for (const StabilityOutcome outcome : {StabilityOutcome::bounded, StabilityOutcome::inverted}) {
+        EXPECT_EQ(share(moving(outcome, to_the_end)), 1.0);
+        EXPECT_EQ(share(moving(outcome, still)), 0.0);
+        EXPECT_EQ(share(moving(outcome, long_ago)), 0.0);
+    }
+    EXPECT_EQ(share(moving(StabilityOutcome::diverged, to_the_end)), 0.0);  // counted as that
+}
+
+// Without jiggle the time step does not enter, so that sweep holds whatever the method: no figure of the claim.
+TEST(StabilityVerdict, TimeStepsThatDoNotEnterAreNoFigure)
+{
+    for (const bool full : {false, true}) {
+        int controls = 0;
+        for (const StabilityCell& cell : pbs_cells(false, full)) {
+            EXPECT_FALSE(cell.factor == "time step" && cell.as_published);
+            controls += cell.model == "pbs_no_memory";
+        }
+        EXPECT_GT(controls, 0);
+    }
+    for (const StabilityCell& cell : pbs_cells(true, false)) EXPECT_TRUE(cell.factor != "time step" || cell.as_published);
 }
 
 }  // namespace
