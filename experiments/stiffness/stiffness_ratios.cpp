@@ -34,13 +34,20 @@ Window beside_the_paper(Varied varied)
     return {0.0, 1e9};
 }
 
-std::string quantity_of(Varied varied, Method method)
+// Only the jiggling zone on what the paper's solver moves is what the paper runs.
+std::string suffix_of(Method method, const std::string& load)
+{
+    if (method == Method::exponent) return ", exponent";
+    if (is_xpbd(method)) return ", xpbd";
+    return load == "zone" ? "" : ", flesh held";
+}
+
+std::string quantity_of(Varied varied, const std::string& suffix)
 {
     const char* changed = varied == Varied::iterations  ? "twice the iterations over at the once"
                           : varied == Varied::time_step ? "half the time step over at the whole"
                                                         : "twice the resolution over at the once";
-    const char* beside = method == Method::pbs ? "" : method == Method::exponent ? ", exponent" : ", xpbd";
-    return fmt::format("effective stiffness at {}{}", changed, beside);
+    return fmt::format("effective stiffness at {}{}", changed, suffix);
 }
 
 std::string material_of(const StiffnessSetting& setting)
@@ -66,7 +73,7 @@ struct Point {
 using Series = std::map<std::string, std::vector<Point>>;  // of a case, by order and ladder
 
 struct Case {
-    Method method = Method::pbs;
+    std::string suffix;  // of the figure's name
     Series series;
     int left_out = 0;
 };
@@ -76,7 +83,7 @@ std::map<std::string, Case> cases_of(const std::vector<StiffnessRow>& rows, Vari
     std::map<std::string, Case> cases;
     for (const StiffnessRow& row : rows) {
         Case& found = cases[case_of(row, varied)];
-        found.method = row.setting.method;
+        found.suffix = suffix_of(row.setting.method, row.load);
         const bool usable = row.converged && std::isfinite(row.stiffness_n_m) && row.stiffness_n_m > 0.0;
         found.left_out += !usable;
         if (usable) found.series[fmt::format("{} {}", row.setting.order_seed, row.mesh)].push_back({x_of(row, varied), row.stiffness_n_m});
@@ -113,7 +120,7 @@ std::optional<analysis::Measurement> ratio_of(const std::string& of, const Case&
                                    : varied == Varied::iterations
                                        ? fmt::format("{} to {} iterations", points.front().x, points.back().x)
                                        : fmt::format("{:.4g} to {:.4g} ms", 1e3 / points.front().x, 1e3 / points.back().x);
-            result = {"C11", quantity_of(varied, measured.method), of + ", " + to, overall, overall, overall, "1"};
+            result = {"C11", quantity_of(varied, measured.suffix), of + ", " + to, overall, overall, overall, "1"};
         }
         for (std::size_t i = 1; i < points.size(); ++i) {
             const double single = for_one_doubling(points[i - 1], points[i]);

@@ -1,7 +1,11 @@
 #include "experiments/stiffness/stiffness_report.hpp"
 
+#include "analysis/measurement.hpp"
+
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace experiments {
@@ -55,6 +59,25 @@ std::map<std::string, Columns> shown_ratios(const SweptRows& sweep)
     return columns;
 }
 
+std::vector<analysis::Measurement> control_ratios(const SweptRows& sweep)
+{
+    std::vector<StiffnessRow> rows;
+    for (const StiffnessRow& row : sweep.second)
+        if (is_xpbd(row.setting.method)) rows.push_back(row);
+    return stiffness_ratios(rows, sweep.first);
+}
+
+bool stays(const analysis::Claim& claim, const analysis::Measurement& measured)
+{
+    return analysis::extent_of(claim, measured) == analysis::Extent::whole;
+}
+
+// The end of the interval that is farther from one.
+double farther_end(const analysis::Measurement& measured)
+{
+    return std::abs(std::log(measured.low)) > std::abs(std::log(measured.high)) ? measured.low : measured.high;
+}
+
 }  // namespace
 
 analysis::CsvTable exponents_table(const std::vector<SweptRows>& sweeps)
@@ -95,6 +118,35 @@ std::string stiffness_text(const std::vector<SweptRows>& sweeps)
                                 columns.at(Method::xpbd));
     }
     return text;
+}
+
+std::string control_text(const std::vector<SweptRows>& sweeps, const analysis::Claim& claim)
+{
+    std::string text;
+    for (const SweptRows& sweep : sweeps) {
+        const auto measured = control_ratios(sweep);
+        if (measured.empty()) continue;
+        const auto within = std::count_if(measured.begin(), measured.end(), [&](const auto& one) { return stays(claim, one); });
+        const auto& farthest = *std::max_element(measured.begin(), measured.end(), [](const auto& a, const auto& b) {
+            return std::abs(std::log(farther_end(a))) < std::abs(std::log(farther_end(b)));
+        });
+        text += fmt::format("the control, XPBD, at {}: {} of {} figures stay within {}; farthest {:.3g}, of {}\n", doubled(sweep.first),
+                            within, measured.size(), analysis::bound_text(analysis::bound_of(claim, farthest.quantity)),
+                            farther_end(farthest), farthest.of);
+    }
+    return text;
+}
+
+std::string control_markdown(const std::vector<SweptRows>& sweeps, const analysis::Claim& claim)
+{
+    std::string text;
+    for (const SweptRows& sweep : sweeps)
+        for (const auto& measured : control_ratios(sweep))
+            if (!stays(claim, measured))
+                text += fmt::format("| {} | {} | {:.4g} | {:.4g} to {:.4g} |\n", doubled(sweep.first), measured.of, measured.value,
+                                    measured.low, measured.high);
+    if (text.empty()) text = "| none | | | |\n";
+    return "\n## Where XPBD, the control, leaves the claim's bounds\n\n| at | case | ratio | least to most |\n|---|---|---|---|\n" + text;
 }
 
 }  // namespace experiments

@@ -1,6 +1,7 @@
 // What the stiffness study tells: a page with every exponent and every figure of the claim, and a short table for the terminal.
 #pragma once
 
+#include "analysis/claims.hpp"
 #include "experiments/stiffness/stiffness_ratios.hpp"
 
 #include <string>
@@ -17,5 +18,10 @@ std::string stiffness_markdown(const std::vector<SweptRows>& sweeps);
 
 // A line a body and load; for one doubling of each thing, PBS at k_stretch 0.2, with the exponent, XPBD at 30 kPa.
 std::string stiffness_text(const std::vector<SweptRows>& sweeps);
+
+// Whether the control is one: XPBD's stiffness is a material's, so its figures should stay within the bounds that the claim sets PBS. For
+// each thing doubled how many do, from least to most, and where the farthest is; a list of all that do not, for the page.
+std::string control_text(const std::vector<SweptRows>& sweeps, const analysis::Claim& claim);
+std::string control_markdown(const std::vector<SweptRows>& sweeps, const analysis::Claim& claim);
 
 }  // namespace experiments

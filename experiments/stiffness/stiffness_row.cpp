@@ -7,7 +7,6 @@
 namespace experiments {
 namespace {
 
-constexpr double gravity_m_s2 = 9.81;
 constexpr Method methods[] = {Method::pbs, Method::exponent, Method::xpbd, Method::xpbd_small_steps};
 
 StiffnessRow row_of(const LoadedFlesh& flesh, const StiffnessSetting& setting)
@@ -55,10 +54,10 @@ StiffnessRow linear_stiffness(const LoadedFlesh& flesh, const StiffnessSetting& 
 
 StiffnessRow stepped_stiffness(const LoadedFlesh& flesh, const StiffnessSetting& setting)
 {
-    const SteppedFlesh still = step_until_still(flesh, setting, gravity_m_s2);
+    const SteppedFlesh still = step_until_still(flesh, setting, still_gravity_m_s2);
     StiffnessRow row = row_of(flesh, setting);
     row.by = "stepped";
-    row.stiffness_n_m = effective_stiffness_n_m(flesh, still.displacement, gravity_m_s2);
+    row.stiffness_n_m = effective_stiffness_n_m(flesh, still.displacement, still_gravity_m_s2);
     row.converged = still.converged;
     row.steps = still.steps;
     return row;

@@ -10,12 +10,14 @@
 
 namespace experiments {
 
+inline constexpr double still_gravity_m_s2 = 9.81;  // that the solver itself is stepped under
+
 struct StiffnessRow {
     std::string body, load;
     int vertices = 0, edges = 0, tets = 0;
     StiffnessSetting setting;
     std::string mesh = "wanted";  // or "wanted, a tenth finer": of a second ladder of sizes
-    std::string by = "linear";    // or "stepped": the solver itself, under 9.81 m/s^2
+    std::string by = "linear";    // or "stepped": the solver itself, under still_gravity_m_s2
     double stiffness_n_m = 0.0;
     bool converged = false;
     int steps = 0;  // applications of the linear map, or time steps

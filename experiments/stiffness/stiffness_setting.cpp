@@ -17,6 +17,12 @@ const char* name_of(Method method)
     return "";
 }
 
+nlohmann::json to_json(const StiffnessSetting& setting)
+{
+    return {{"method", name_of(setting.method)}, {"k_stretch", setting.k_stretch},     {"young_pa", setting.young_pa},
+            {"iterations", setting.iterations},  {"time_step_s", setting.time_step_s}, {"order_seed", setting.order_seed}};
+}
+
 pbs::PbsOptions pbs_options(const LoadedFlesh& flesh, const StiffnessSetting& setting)
 {
     pbs::PbsOptions options;

@@ -6,6 +6,8 @@
 #include "experiments/stiffness/loaded_flesh.hpp"
 #include "pbs/solver/options.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace experiments {
 
 // exponent: k' = 1 - (1 - k)^(1 / iterations). xpbd: multipliers kept over the iterations of a step. xpbd_small_steps: as many substeps of
@@ -22,6 +24,7 @@ struct StiffnessSetting {
 };
 
 const char* name_of(Method method);
+nlohmann::json to_json(const StiffnessSetting& setting);
 inline bool is_xpbd(Method method)
 {
     return method == Method::xpbd || method == Method::xpbd_small_steps;

@@ -4,17 +4,20 @@
 //
 //   bar   cantilever             limb, human, ...   the jiggling zone, on what the solver moves, and on the rest of the body held
 //
+// Judged is the zone on what the solver moves, as the paper runs it; bars and zones on what is held stand beside it ("flesh held").
 // Writes DIR/stiffness/{iterations,time_step,resolution}_BODY/stiffness.csv and measurements.csv; DIR/stiffness/stiffness.csv,
 // exponents.csv and stiffness.md.
 #include "analysis/atomic_file.hpp"
 #include "analysis/measurement.hpp"
 #include "experiments/cases/real_bodies.hpp"
+#include "experiments/claims_text.hpp"
 #include "experiments/stiffness/stiffness_report.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/character/bodies.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace experiments {
@@ -55,83 +58,116 @@ std::vector<StiffnessSetting> materials(bool full)
 }
 
 struct Sweep {
+    Varied varied;
     std::string body;
     bool full = false;
     std::vector<int> vertices = {0};  // 0: the body's own size
 };
 
-std::vector<StiffnessRow> over_iterations(const Sweep& sweep)
+std::vector<int> iterations_of(const Sweep& sweep)
 {
-    std::vector<StiffnessRow> rows;
-    for (const LoadedFlesh& flesh : flesh_of(sweep.body, sweep.vertices.front()))
-        for (StiffnessSetting setting : materials(sweep.full))
-            for (const int iterations : sweep.full ? std::vector<int>{3, 6, 12, 24, 48, 96, 192, 384} : std::vector<int>{6, 12, 24, 48}) {
-                setting.iterations = iterations;
-                const bool beside_the_paper = iterations >= 12 && iterations <= 48;
-                for (setting.order_seed = 0; setting.order_seed <= (beside_the_paper && sweep.full ? 2u : 0u); ++setting.order_seed)
-                    if (suits(flesh, setting)) rows.push_back(linear_stiffness(flesh, setting));
-            }
-    return rows;
+    if (sweep.varied != Varied::iterations) return {24};
+    return sweep.full ? std::vector<int>{3, 6, 12, 24, 48, 96, 192, 384} : std::vector<int>{6, 12, 24, 48};
 }
 
-std::vector<StiffnessRow> over_time_steps(const Sweep& sweep)
+std::vector<double> time_steps_ms_of(const Sweep& sweep)
+{
+    if (sweep.varied != Varied::time_step) return {10.0};
+    return sweep.full ? std::vector<double>{1.25, 2.5, 5.0, 10.0, 20.0, 40.0} : std::vector<double>{5.0, 10.0, 20.0};
+}
+
+// File order, and beside the paper's number of iterations random orders.
+unsigned long orders_of(const Sweep& sweep, int iterations)
+{
+    return sweep.full && sweep.varied == Varied::iterations && iterations >= 12 && iterations <= 48 ? 3 : 1;
+}
+
+std::vector<StiffnessSetting> settings_of(const Sweep& sweep)
+{
+    std::vector<StiffnessSetting> all;
+    for (StiffnessSetting setting : materials(sweep.full && sweep.varied == Varied::iterations))
+        for (const int iterations : iterations_of(sweep))
+            for (const double time_step_ms : time_steps_ms_of(sweep))
+                for (unsigned long order = 0; order < orders_of(sweep, iterations); ++order) {
+                    setting.iterations = iterations;
+                    setting.time_step_s = 1e-3 * time_step_ms;
+                    setting.order_seed = order;
+                    all.push_back(setting);
+                }
+    return all;
+}
+
+// By the solver itself too: time steps beside the paper's, of what settles quickly.
+bool is_stepped(const Sweep& sweep, const LoadedFlesh& flesh, const StiffnessSetting& setting)
+{
+    const bool beside_the_paper = setting.time_step_s >= 0.005 && setting.time_step_s <= 0.02;
+    const bool quick_to_settle = flesh.load != "cantilever" && setting.method != Method::xpbd_small_steps;
+    const bool asked = sweep.full || (flesh.load == "zone" && setting.method == Method::pbs && setting.k_stretch == 0.2);
+    return sweep.varied == Varied::time_step && beside_the_paper && quick_to_settle && asked;
+}
+
+struct Size {
+    int vertices;
+    const char* mesh;
+};
+
+std::vector<Size> sizes_of(const Sweep& sweep)
+{
+    std::vector<Size> sizes;
+    for (const int vertices : sweep.vertices) {
+        sizes.push_back({vertices, "wanted"});
+        if (sweep.full && sweep.varied == Varied::resolution) sizes.push_back({vertices * 11 / 10, "wanted, a tenth finer"});
+    }
+    return sizes;
+}
+
+std::string measure_and_record(const Sweep& sweep, const std::string& folder)
 {
     std::vector<StiffnessRow> rows;
-    for (const LoadedFlesh& flesh : flesh_of(sweep.body, sweep.vertices.front()))
-        for (StiffnessSetting setting : materials(false))
-            for (const double time_step_ms :
-                 sweep.full ? std::vector<double>{1.25, 2.5, 5.0, 10.0, 20.0, 40.0} : std::vector<double>{5.0, 10.0, 20.0}) {
-                setting.time_step_s = 1e-3 * time_step_ms;
+    for (const Size& size : sizes_of(sweep))
+        for (const LoadedFlesh& flesh : flesh_of(sweep.body, size.vertices))
+            for (const StiffnessSetting& setting : settings_of(sweep)) {
                 if (!suits(flesh, setting)) continue;
                 rows.push_back(linear_stiffness(flesh, setting));
-                const bool beside_the_paper = time_step_ms >= 5.0 && time_step_ms <= 20.0;
-                const bool quick_to_settle = flesh.load != "cantilever" && setting.method != Method::xpbd_small_steps;
-                const bool asked = sweep.full || (flesh.load == "zone" && setting.method == Method::pbs && setting.k_stretch == 0.2);
-                if (beside_the_paper && quick_to_settle && asked) rows.push_back(stepped_stiffness(flesh, setting));
+                rows.back().mesh = size.mesh;
+                if (is_stepped(sweep, flesh, setting)) rows.push_back(stepped_stiffness(flesh, setting));
             }
-    return rows;
-}
-
-std::vector<StiffnessRow> over_resolutions(const Sweep& sweep)
-{
-    std::vector<StiffnessRow> rows;
-    for (const int vertices : sweep.vertices)
-        for (const bool finer : {false, true}) {
-            if (finer && !sweep.full) continue;
-            for (const LoadedFlesh& flesh : flesh_of(sweep.body, finer ? vertices * 11 / 10 : vertices))
-                for (const StiffnessSetting& setting : materials(false)) {
-                    if (!suits(flesh, setting)) continue;
-                    rows.push_back(linear_stiffness(flesh, setting));
-                    if (finer) rows.back().mesh = "wanted, a tenth finer";
-                }
-        }
-    return rows;
-}
-
-std::string measure_and_record(Varied varied, const Sweep& sweep, const std::string& folder)
-{
-    const std::vector<StiffnessRow> rows = varied == Varied::iterations  ? over_iterations(sweep)
-                                           : varied == Varied::time_step ? over_time_steps(sweep)
-                                                                         : over_resolutions(sweep);
     stiffness_table(rows).write((fs::path(folder) / "stiffness.csv").string());
-    analysis::measurement_table(stiffness_ratios(rows, varied)).write((fs::path(folder) / "measurements.csv").string());
+    analysis::measurement_table(stiffness_ratios(rows, sweep.varied)).write((fs::path(folder) / "measurements.csv").string());
     return "";
 }
 
-StudyRun sweep_run(Varied varied, const Sweep& sweep, double cost_s)
+nlohmann::json to_json(const Sweep& sweep)
 {
-    const std::string name = fmt::format("{}_{}", sweeps[static_cast<int>(varied)].second, sweep.body);
-    return {.name = name,
+    nlohmann::json settings = nlohmann::json::array(), sizes = nlohmann::json::array();
+    for (const StiffnessSetting& setting : settings_of(sweep)) settings.push_back(to_json(setting));
+    for (const Size& size : sizes_of(sweep)) sizes.push_back(size.vertices);
+    return {{"body", sweep.body},
+            {"full", sweep.full},
+            {"vertices", sizes},
+            {"settings", settings},
+            {"gravity_m_s2", still_gravity_m_s2},
+            {"density_kg_m3", flesh_density_kg_m3}};
+}
+
+StudyRun sweep_run(const Sweep& sweep, double cost_s)
+{
+    return {.name = fmt::format("{}_{}", sweeps[static_cast<int>(sweep.varied)].second, sweep.body),
             .cost_s = cost_s,
-            .work = [varied, sweep](const std::string& folder) { return measure_and_record(varied, sweep, folder); },
-            .settings = {{"body", sweep.body}, {"full", sweep.full}, {"vertices", sweep.vertices}}};
+            .work = [sweep](const std::string& folder) { return measure_and_record(sweep, folder); },
+            .settings = to_json(sweep)};
 }
 
 void plan_body(StudyPlan& plan, const std::string& body, const std::vector<int>& ladder, bool full)
 {
-    plan.runs.push_back(sweep_run(Varied::iterations, {body, full}, full ? 40.0 : 4.0));
-    plan.runs.push_back(sweep_run(Varied::time_step, {body, full}, full ? 30.0 : 6.0));
-    if (!ladder.empty()) plan.runs.push_back(sweep_run(Varied::resolution, {body, full, ladder}, full ? 60.0 : 5.0));
+    plan.runs.push_back(sweep_run({Varied::iterations, body, full}, full ? 40.0 : 4.0));
+    plan.runs.push_back(sweep_run({Varied::time_step, body, full}, full ? 30.0 : 6.0));
+    if (!ladder.empty()) plan.runs.push_back(sweep_run({Varied::resolution, body, full, ladder}, full ? 60.0 : 5.0));
+}
+
+const analysis::Claim& c11()
+{
+    return *std::find_if(claims().begin(), claims().end(), [](const analysis::Claim& claim) { return claim.id == "C11"; });
 }
 
 }  // namespace
@@ -164,10 +200,12 @@ StudyConclusion conclude_stiffness_study(const std::string& folder, const StudyP
         all.insert(all.end(), rows.begin(), rows.end());
         swept.emplace_back(varied, std::move(rows));
     }
+    const analysis::Claim& claim = c11();
     stiffness_table(all).write((fs::path(folder) / "stiffness.csv").string());
     exponents_table(swept).write((fs::path(folder) / "exponents.csv").string());
-    analysis::write_text_atomically((fs::path(folder) / "stiffness.md").string(), stiffness_markdown(swept));
-    return {stiffness_text(swept), !finished.empty()};
+    analysis::write_text_atomically((fs::path(folder) / "stiffness.md").string(),
+                                    stiffness_markdown(swept) + control_markdown(swept, claim));
+    return {stiffness_text(swept) + control_text(swept, claim), !finished.empty()};
 }
 
 }  // namespace experiments

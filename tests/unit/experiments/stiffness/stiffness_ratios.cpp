@@ -117,6 +117,35 @@ TEST(StiffnessRatios, TellTheMethodsApart)
     for (const char* ratio : {"1 [1, 1]", "2 [2, 2]", "4 [4, 4]"}) EXPECT_NE(text.find(ratio), std::string::npos) << ratio;
 }
 
+// 4 for a doubling against bounds of 0.9 to 1.1, beside one that does not change.
+TEST(StiffnessReport, SaysWhetherTheControlIsOne)
+{
+    std::vector<StiffnessRow> rows = squares();
+    for (StiffnessRow& row : rows) row.setting.method = Method::xpbd;
+    for (StiffnessRow steady : squares()) {
+        steady.setting.method = Method::xpbd;
+        steady.body = "human";
+        steady.stiffness_n_m = 7.0;
+        rows.push_back(steady);
+        steady.setting.method = Method::pbs;
+        rows.push_back(steady);  // no control
+    }
+    analysis::Claim claim;
+    claim.low = 0.9;
+    claim.high = 1.1;
+    const std::string text = control_text({{Varied::iterations, rows}}, claim);
+    EXPECT_EQ(
+        text,
+        "the control, XPBD, at twice the iterations: 1 of 2 figures stay within 0.9 to 1.1; farthest 4, of limb, zone, 30 kPa, 10 ms, "
+        "600 vertices, 12 to 48 iterations\n");
+    const std::string page = control_markdown({{Varied::iterations, rows}}, claim);
+    EXPECT_NE(page.find("| twice the iterations | limb, zone, 30 kPa"), std::string::npos);
+    EXPECT_EQ(page.find("human"), std::string::npos);
+    claim.high = 5.0;
+    EXPECT_NE(control_text({{Varied::iterations, rows}}, claim).find("2 of 2 figures"), std::string::npos);
+    EXPECT_NE(control_markdown({{Varied::iterations, rows}}, claim).find("| none |"), std::string::npos);
+}
+
 TEST(StiffnessRow, ReadsBackWhatWasWritten)
 {
     std::vector<StiffnessRow> rows = squares();
