@@ -11,10 +11,15 @@
 namespace experiments {
 namespace {
 
-enum Sample { lbs_s, bind_s, stretch_s, volume_s, total_s, total_wall_s, surface_s, samples };
+enum Sample { lbs_s, bind_s, stretch_s, volume_s, rest_s, total_s, total_wall_s, surface_s, drawn_wall_s, samples };
 
-// One variant's way through the motion. What is projected class by class, so that each can be timed, is the same as in the whole frame but
-// for the jiggling zone's prediction.
+pbs::PbsOptions without_iterations(pbs::PbsOptions options)
+{
+    options.iterations = 0;
+    return options;
+}
+
+// One variant's way through the motion. What is projected class by class, so that each can be timed, sets out on the frame's LBS.
 template <typename Scalar>
 class TimedVariantFrames {
 public:
@@ -25,6 +30,7 @@ public:
           zone_(pbs::jiggle_zone(character.binding)),
           skinning_(character.mesh.rest, character.weights),
           solver_(character.mesh, character.binding.distance, zone_, options),
+          idle_solver_(character.mesh, character.binding.distance, zone_, without_iterations(options)),
           projection_(pbs::make_projection(pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, zone_, options),
                                            character.mesh.tets, options))
     {
@@ -37,6 +43,7 @@ public:
             const pbs::Pose& pose = motion_.steps[next_];
             next_ = (next_ + 1) % motion_.steps.size();
             whole_frame(pose, seconds);
+            idle_step(pose, seconds);
             parts(pose, seconds);
         }
         for (double& sum : seconds) sum /= frames_a_turn_;
@@ -55,24 +62,30 @@ private:
         seconds[total_s] += end - start;
         seconds[total_wall_s] += wall.seconds();
         if (!character_.surface) return;
+        const double surface_start = thread_cpu_s();
         surface_ = pbs::embedded_positions(*character_.surface, solver_.positions(), character_.mesh.tets);
-        seconds[surface_s] += thread_cpu_s() - end;
+        seconds[surface_s] += thread_cpu_s() - surface_start;
+        seconds[drawn_wall_s] += wall.seconds();
+    }
+
+    void idle_step(const pbs::Pose& pose, std::vector<double>& seconds)
+    {
+        const double start = thread_cpu_s();
+        idle_solver_.advance(lbs_, pbs::posed_bind_points(character_.binding, pose), time_step_s);
+        seconds[rest_s] += thread_cpu_s() - start;
     }
 
     void parts(const pbs::Pose& pose, std::vector<double>& seconds)
     {
         projection_->load(lbs_, pbs::posed_bind_points(character_.binding, pose), pbs::Vec3::Zero());
-        double before = thread_cpu_s();
-        const auto lap = [&](Sample of) {
-            const double now = thread_cpu_s();
-            seconds[of] += now - before;
-            before = now;
+        const auto time = [&](Sample of, void (pbs::Projection<Scalar>::*project)()) {
+            const double start = thread_cpu_s();
+            for (int iteration = 0; iteration < timed_iterations; ++iteration) (projection_.get()->*project)();
+            seconds[of] += thread_cpu_s() - start;
         };
-        for (int iteration = 0; iteration < timed_iterations; ++iteration) {
-            projection_->project_bind_constraints(), lap(bind_s);
-            projection_->project_stretch_constraints(), lap(stretch_s);
-            projection_->project_volume_constraints(), lap(volume_s);
-        }
+        time(volume_s, &pbs::Projection<Scalar>::project_volume_constraints);
+        time(stretch_s, &pbs::Projection<Scalar>::project_stretch_constraints);
+        time(bind_s, &pbs::Projection<Scalar>::project_bind_constraints);
     }
 
     static constexpr double time_step_s = 0.01;
@@ -82,7 +95,7 @@ private:
     int frames_a_turn_;
     std::vector<bool> zone_;
     pbs::BlendSkinning<double> skinning_;
-    pbs::PbsSolver solver_;
+    pbs::PbsSolver solver_, idle_solver_;
     std::unique_ptr<pbs::Projection<Scalar>> projection_;
     pbs::Positions lbs_, surface_;
     std::size_t next_ = 0;
@@ -107,14 +120,17 @@ TimedVariant turns_of(const pbs::Character& character, const pbs::Motion& motion
 FrameTiming summed_up(const NamedVariant& variant, const std::vector<std::vector<double>>& seconds, bool has_surface)
 {
     const auto ms = [&](Sample of) { return scaled(spread_of(seconds[of]), 1e3); };
-    std::vector<double> rest;
-    for (std::size_t i = 0; i < seconds[total_s].size(); ++i)
-        rest.push_back(1e3 * (seconds[total_s][i] - seconds[lbs_s][i] - seconds[bind_s][i] - seconds[stretch_s][i] - seconds[volume_s][i]));
-    return {variant.name,     variant.precision == pbs::Precision::f32 ? "f32" : "f64",
-            ms(lbs_s),        ms(bind_s),
-            ms(stretch_s),    ms(volume_s),
-            spread_of(rest),  ms(total_s),
-            ms(total_wall_s), has_surface ? ms(surface_s) : Spread{}};
+    return {variant.name,
+            variant.precision == pbs::Precision::f32 ? "f32" : "f64",
+            ms(lbs_s),
+            ms(bind_s),
+            ms(stretch_s),
+            ms(volume_s),
+            ms(rest_s),
+            ms(total_s),
+            ms(total_wall_s),
+            has_surface ? ms(surface_s) : Spread{},
+            has_surface ? ms(drawn_wall_s) : Spread{}};
 }
 
 }  // namespace

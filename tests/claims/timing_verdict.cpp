@@ -18,8 +18,12 @@ TimedMesh timed(const std::string& body, const std::string& model, double median
 {
     TimedMesh mesh{.name = body, .body = body, .model = model};
     FrameTiming timing{.variant = "plain", .precision = "f64"};
-    timing.total_ms = {median_ms, 0.9 * median_ms, upper_ms, 9};
-    mesh.timings = {timing};
+    timing.total_wall_ms = {median_ms, 0.9 * median_ms, upper_ms, 9};
+    timing.total_ms = {1.0, 1.0, 1.0, 9};  // processor time is not judged
+    FrameTiming quicker{.variant = "ordered", .precision = "f32"}, slower{.variant = "plain", .precision = "f32"};
+    quicker.total_wall_ms = {1.0, 1.0, 1.0, 9};
+    slower.total_wall_ms = {1e3, 1e3, 1e3, 9};  // nor are they
+    mesh.timings = {timing, quicker, slower};
     return mesh;
 }
 

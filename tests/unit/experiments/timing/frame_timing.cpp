@@ -25,8 +25,11 @@ TEST(FrameTiming, OfEveryVariantByTurns)
         EXPECT_GT(timing.bind_ms.median, 0.0);
         EXPECT_GT(timing.stretch_ms.median, timing.bind_ms.median);  // seven times as many
         EXPECT_GT(timing.total_ms.median, timing.lbs_ms.median);
+        EXPECT_GT(timing.rest_ms.lower, 0.0);
+        EXPECT_GT(timing.total_ms.median, timing.rest_ms.median);  // which has no iterations
         EXPECT_GT(timing.frames_per_s(), 0.0);
         EXPECT_EQ(timing.surface_ms.rounds, 0);  // the limb has none
+        EXPECT_EQ(timing.drawn_wall_ms.rounds, 0);
     }
 }
 
