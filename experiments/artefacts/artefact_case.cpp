@@ -94,7 +94,7 @@ private:
     void add_profile(const ArtefactBody& body, const DeformerSpec& spec, const Shape& shape, std::size_t pose, std::size_t joint)
     {
         const JointProfile profile = body.sections[joint].measure(shape.positions, body.posed.pose(pose));
-        records_.samples.push_back({group_of(spec), pose, joint, extremes_of(profile)});
+        records_.samples.push_back({group_of(spec), pose, joint, extremes_of(profile), spec.kind == "fem" ? spec.fem.element_order : 0});
         for (const JointSection& section : profile) {
             auto row = row_head(body, pose);
             row.push_back(body.joints[joint].name);

@@ -44,6 +44,7 @@ struct ArtefactSample {
     std::string group;  // pbs: in any order and precision; reference: snh_p1 and snh_p2; else the deformer
     std::size_t pose = 0, joint = 0;
     SectionExtremesOverRest extremes;
+    int element_order = 0;  // of the reference
 };
 
 struct ArtefactRecords {

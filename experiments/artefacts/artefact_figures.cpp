@@ -7,17 +7,23 @@
 namespace experiments {
 namespace {
 
-constexpr double deepest_bend_deg = 110.0;
-
 using Extreme = double SectionExtremesOverRest::*;
 
-// The sizes of one group in one pose at one joint: its own first.
-std::vector<double> sizes(const std::vector<ArtefactSample>& samples, const std::string& group, std::size_t pose, std::size_t joint,
-                          Extreme extreme)
+// The samples of one group in one pose at one joint: its own first; of the reference, that of the highest element order.
+std::vector<ArtefactSample> chosen(const std::vector<ArtefactSample>& samples, const std::string& group, std::size_t pose,
+                                   std::size_t joint)
+{
+    std::vector<ArtefactSample> chosen;
+    for (const ArtefactSample& sample : samples)
+        if (sample.group == group && sample.pose == pose && sample.joint == joint) chosen.push_back(sample);
+    std::stable_sort(chosen.begin(), chosen.end(), [](const auto& a, const auto& b) { return a.element_order > b.element_order; });
+    return chosen;
+}
+
+std::vector<double> sizes(const std::vector<ArtefactSample>& samples, Extreme extreme)
 {
     std::vector<double> sizes;
-    for (const ArtefactSample& sample : samples)
-        if (sample.group == group && sample.pose == pose && sample.joint == joint) sizes.push_back(sample.extremes.*extreme);
+    for (const ArtefactSample& sample : samples) sizes.push_back(sample.extremes.*extreme);
     return sizes;
 }
 
@@ -42,11 +48,10 @@ std::string quantity_of(const std::string& quantity, const std::string& group)
     return group == "pbs" ? quantity : quantity + ", " + group;
 }
 
-template <typename Add>
-void for_each_pose_and_joint(const ArtefactCase& of, const ArtefactBody& body, const Add& add)
+std::string reference_name(const std::vector<ArtefactSample>& samples, std::size_t pose, std::size_t joint)
 {
-    for (std::size_t pose = 0; pose < of.poses.size(); ++pose)
-        for (std::size_t joint = 0; joint < body.joints.size(); ++joint) add(pose, joint);
+    const std::vector<ArtefactSample> reference = chosen(samples, "reference", pose, joint);
+    return reference.empty() ? "" : fmt::format("snh_p{}", reference.front().element_order);
 }
 
 }  // namespace
@@ -55,17 +60,17 @@ std::vector<analysis::Measurement> candy_wrapper_figures(const ArtefactCase& of,
                                                          const std::vector<ArtefactSample>& samples)
 {
     std::vector<analysis::Measurement> figures;
-    for_each_pose_and_joint(of, body, [&](std::size_t pose, std::size_t joint) {
+    for (const auto& [pose, joint, reference, outcome] : section_outcomes(of, body, samples))
         for (const std::string group : {"pbs", "lbs", "dqs", "reference"})
             for (const auto& [quantity, extreme] :
                  {std::pair{"smallest section radius over rest", &SectionExtremesOverRest::smallest_radius},
                   {"smallest section area over rest", &SectionExtremesOverRest::smallest_area}}) {
-                const std::vector<double> values = sizes(samples, group, pose, joint, extreme);
+                const std::vector<double> values = sizes(chosen(samples, group, pose, joint), extreme);
                 if (values.empty()) continue;
-                figures.push_back({"C04", quantity_of(quantity, group), of_text(of, body, pose, joint), values.front(), least(values),
-                                   most(values), "1"});
+                const std::string which = group == "reference" ? ", " + reference : "";
+                figures.push_back({"C04", quantity_of(quantity, group), of_text(of, body, pose, joint) + which, values.front(),
+                                   least(values), most(values), "1"});
             }
-    });
     return figures;
 }
 
@@ -73,22 +78,55 @@ std::vector<analysis::Measurement> bulge_figures(const ArtefactCase& of, const A
                                                  const std::vector<ArtefactSample>& samples)
 {
     std::vector<analysis::Measurement> figures;
-    for_each_pose_and_joint(of, body, [&](std::size_t pose, std::size_t joint) {
-        if (body.sections[joint].bend_deg(body.posed.pose(pose)) > deepest_bend_deg) return;
+    for (const auto& [pose, joint, reference_name, outcome] : section_outcomes(of, body, samples)) {
+        if (outcome == SectionOutcome::bent_too_far || outcome == SectionOutcome::reference_not_reached) continue;
         for (const auto& [quantity, extreme] :
              {std::pair{"largest section radius over the reference's", &SectionExtremesOverRest::largest_radius},
               {"largest section area over the reference's", &SectionExtremesOverRest::largest_area}}) {
-            const std::vector<double> reference = sizes(samples, "reference", pose, joint, extreme);
-            if (reference.empty()) continue;
+            const std::vector<double> reference = sizes(chosen(samples, "reference", pose, joint), extreme);
             for (const std::string group : {"pbs", "lbs", "dqs"}) {
-                const std::vector<double> values = sizes(samples, group, pose, joint, extreme);
+                const std::vector<double> values = sizes(chosen(samples, group, pose, joint), extreme);
                 if (values.empty()) continue;
-                figures.push_back({"C05", quantity_of(quantity, group), of_text(of, body, pose, joint), values.front() / reference.front(),
-                                   least(values) / most(reference), most(values) / least(reference), "1"});
+                figures.push_back({"C05", quantity_of(quantity, group), of_text(of, body, pose, joint) + ", over " + reference_name,
+                                   values.front() / reference.front(), least(values) / most(reference), most(values) / least(reference),
+                                   "1"});
             }
         }
-    });
+    }
     return figures;
+}
+
+const char* name_of(SectionOutcome outcome)
+{
+    static constexpr const char* names[] = {"measured", "pbs did not finish", "reference not reached", "bent by more than 110 deg"};
+    return names[static_cast<int>(outcome)];
+}
+
+std::vector<JudgedSection> section_outcomes(const ArtefactCase& of, const ArtefactBody& body, const std::vector<ArtefactSample>& samples)
+{
+    const bool over_reference = of.claim == ArtefactCase::Claim::bulge;
+    std::vector<JudgedSection> sections;
+    for (std::size_t pose = 0; pose < of.poses.size(); ++pose)
+        for (std::size_t joint = 0; joint < body.joints.size(); ++joint) {
+            JudgedSection section{pose, joint, reference_name(samples, pose, joint)};
+            if (over_reference && body.sections[joint].bend_deg(body.posed.pose(pose)) > deepest_bend_deg)
+                section.outcome = SectionOutcome::bent_too_far;
+            else if (over_reference && section.reference.empty())
+                section.outcome = SectionOutcome::reference_not_reached;
+            else if (chosen(samples, "pbs", pose, joint).empty())
+                section.outcome = SectionOutcome::pbs_did_not_finish;
+            sections.push_back(section);
+        }
+    return sections;
+}
+
+analysis::CsvTable section_table(const ArtefactCase& of, const ArtefactBody& body, const std::vector<JudgedSection>& sections)
+{
+    analysis::CsvTable table({"claim", "body", "pose", "joint", "reference", "outcome"});
+    for (const JudgedSection& section : sections)
+        table.add_row({of.claim == ArtefactCase::Claim::bulge ? "C05" : "C04", body.posed.character().name, of.poses[section.pose].name,
+                       body.joints[section.joint].name, section.reference, name_of(section.outcome)});
+    return table;
 }
 
 }  // namespace experiments

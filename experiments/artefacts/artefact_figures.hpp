@@ -1,5 +1,7 @@
 // The figures of C04 and C05 from the sections of all deformers: the narrowest and the widest near a joint, with the spread over meshes,
-// orders and the reference's element orders.
+// orders and the reference's element orders. The reference is snh_p2 where it was run and reached, else snh_p1; `of` says which.
+//   const auto figures = bulge_figures(of, body, records.samples);
+//   section_outcomes(of, body, records.samples)   // of which pose and joint there is a figure, and why not
 #pragma once
 
 #include "analysis/measurement.hpp"
@@ -10,9 +12,25 @@ namespace experiments {
 // of a figure: "limb, twist 90 deg, upper|forearm". Nothing is said of a group without samples.
 std::vector<analysis::Measurement> candy_wrapper_figures(const ArtefactCase& of, const ArtefactBody& body,
                                                          const std::vector<ArtefactSample>& samples);
-// Of poses that bend the joint by at most 110 degrees, that of rest included: beyond, the skin is folded so deeply into the joint that a
-// section's outline may go round both halves of the limb, the reference's as well. The profiles have them all.
+// of a figure: "limb, bend 60 deg, upper|forearm, over snh_p2". Only where the outcome is `measured`.
 std::vector<analysis::Measurement> bulge_figures(const ArtefactCase& of, const ArtefactBody& body,
                                                  const std::vector<ArtefactSample>& samples);
+
+inline constexpr double deepest_bend_deg = 110.0;  // that of rest included
+
+// bent_too_far: of C05, beyond it the skin is folded so deeply into the joint that a section's outline may go
+// round both halves of the limb, the reference's as well. The profiles have them all.
+enum class SectionOutcome { measured, pbs_did_not_finish, reference_not_reached, bent_too_far };
+const char* name_of(SectionOutcome outcome);
+
+struct JudgedSection {
+    std::size_t pose = 0, joint = 0;
+    std::string reference;  // "snh_p2"; empty: none reached
+    SectionOutcome outcome = SectionOutcome::measured;
+};
+
+// One a pose and joint, of the case's claim. C04 does without the reference, which stands beside.
+std::vector<JudgedSection> section_outcomes(const ArtefactCase& of, const ArtefactBody& body, const std::vector<ArtefactSample>& samples);
+analysis::CsvTable section_table(const ArtefactCase& of, const ArtefactBody& body, const std::vector<JudgedSection>& sections);
 
 }  // namespace experiments

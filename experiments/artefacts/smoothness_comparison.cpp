@@ -2,20 +2,22 @@
 
 #include "analysis/frame_metrics.hpp"
 #include "analysis/smoothness.hpp"
+#include "analysis/statistics.hpp"
+#include "experiments/convergence/path_figures.hpp"
 #include "experiments/deformers/option_names.hpp"
+#include "pbs/skinning/blend.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
-#include <memory>
 #include <utility>
 
 namespace experiments {
 namespace {
 
-constexpr int converged_iterations = 400;
-constexpr double tolerance_over_converged = 1.1;
+constexpr double rounding = 1e-12;  // a figure below is none: of rest
 
 const std::vector<std::string> columns = {"body",
                                           "vertices",
@@ -28,6 +30,8 @@ const std::vector<std::string> columns = {"body",
                                           "strain_jump_rms",
                                           "bending_rms_rad",
                                           "volume_abs_change_pct"};
+const std::vector<std::string> iteration_columns = {"body",          "vertices",         "pose",         "iterations_paper",
+                                                    "reached_paper", "iterations_rigid", "reached_rigid"};
 
 struct Twin {
     ArtefactBody paper, rigid;
@@ -41,18 +45,17 @@ Twin twin_of(ArtefactCase of, int vertices)
     return {std::move(paper), ArtefactBody(of, vertices)};
 }
 
-// The first iteration from which on the largest residual stays within the tolerance of the last one.
-int iterations_to_tolerance(const std::vector<pbs::Residuals>& history)
-{
-    const auto largest = [](const pbs::Residuals& r) { return std::max({r.stretch_rms, r.volume_rms, r.bind_rms_m}); };
-    int enough = static_cast<int>(history.size());
-    while (enough > 1 && largest(history[enough - 2]) <= tolerance_over_converged * largest(history.back())) --enough;
-    return enough;
-}
+// A figure by mesh and order, its own first; not a number where there is none.
+struct Ratios {
+    std::vector<double> values = {};
+    std::string remark = {};  // on its own
+};
 
 class Comparison {
 public:
-    explicit Comparison(const ArtefactCase& of) : of_(of), result_{{}, analysis::CsvTable(columns)} {}
+    explicit Comparison(const ArtefactCase& of) : of_(of), result_{{}, analysis::CsvTable(columns), analysis::CsvTable(iteration_columns)}
+    {
+    }
 
     void compare(const Twin& twin, const DeformerSpec& spec)
     {
@@ -72,21 +75,31 @@ public:
         }
     }
 
-    void compare_convergence(const Twin& twin, DeformerSpec spec)
+    // The weights are where the solver starts from, and nothing else of it: two starts towards one limit.
+    void compare_convergence(const Twin& twin, const pbs::PbsOptions& options)
     {
-        spec.pbs.iterations = converged_iterations;
-        spec.pbs.record_iterations = true;
-        spec.pbs.precision = pbs::Precision::f64;
-        for (std::size_t pose = 0; pose < of_.poses.size(); ++pose)
-            add("iterations to tolerance, Eq. 2 over rigid", whole_body(twin, pose), iterations(twin.paper, spec, pose),
-                iterations(twin.rigid, spec, pose));
+        const pbs::Character &paper = twin.paper.posed.character(), &rigid = twin.rigid.posed.character();
+        for (std::size_t pose = 0; pose < of_.poses.size(); ++pose) {
+            const pbs::Pose& now = twin.paper.posed.pose(pose);
+            const pbs::Positions bind_points = pbs::posed_bind_points(paper.binding, now);
+            const std::vector<IterationPath> paths = iterate(paper, options, bind_points, {blended(paper, now), blended(rigid, now)},
+                                                             most_weight_iterations, IterationRuler(paper, bind_points));
+            const double floor = floor_of(paths);
+            add_iterations(twin, pose, reached_residual(paths[0], floor), reached_residual(paths[1], floor));
+        }
     }
 
     WeightsComparison result() &&
     {
         for (const auto& [key, ratios] : ratios_) {
-            const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
-            result_.figures.push_back({"C06", key.first, key.second, ratios.front(), *least, *most, "1"});
+            analysis::Measurement figure{
+                "C06", key.first, key.second + ratios.remark, ratios.values.front(), ratios.values.front(), ratios.values.front(), "1"};
+            if (!std::isfinite(figure.value)) continue;
+            for (const double ratio : ratios.values) {
+                figure.low = std::fmin(figure.low, ratio);
+                figure.high = std::fmax(figure.high, ratio);
+            }
+            result_.figures.push_back(figure);
         }
         return std::move(result_);
     }
@@ -101,20 +114,31 @@ private:
 
     void add(const std::string& quantity, const std::string& at, double paper, double rigid)
     {
-        if (rigid > 0.0) ratios_[{quantity, at}].push_back(paper / rigid);
+        ratios_[{quantity, at}].values.push_back(rigid > rounding ? paper / rigid : analysis::not_known);
+    }
+
+    static pbs::Positions blended(const pbs::Character& character, const pbs::Pose& pose)
+    {
+        pbs::Positions positions;
+        pbs::linear_blend_skinning(character.mesh.rest, character.weights, pose, positions);
+        return positions;
+    }
+
+    // A start that is there already counts as one iteration; where neither arrives there is no ratio.
+    void add_iterations(const Twin& twin, std::size_t pose, const Reached& paper, const Reached& rigid)
+    {
+        result_.iterations.add_row({body_name(twin), static_cast<int>(twin.paper.posed.character().mesh.rest.rows()), of_.poses[pose].name,
+                                    paper.iterations, static_cast<int>(paper.within), rigid.iterations, static_cast<int>(rigid.within)});
+        Ratios& ratios = ratios_[{"iterations to tolerance, Eq. 2 over rigid", whole_body(twin, pose)}];
+        const bool some = paper.within || rigid.within;
+        if (ratios.values.empty() && some && paper.within != rigid.within) ratios.remark = paper.within ? "; at most" : "; at least";
+        ratios.values.push_back(some ? std::max(paper.iterations, 1) / double(std::max(rigid.iterations, 1)) : analysis::not_known);
     }
 
     static double volume_change_pct(const ArtefactBody& body, const Shape& shape)
     {
         const pbs::TetMesh& mesh = body.posed.character().mesh;
         return analysis::Ruler(mesh.rest, mesh.tets).measure(shape.positions).volume_abs_change_pct;
-    }
-
-    static int iterations(const ArtefactBody& body, const DeformerSpec& spec, std::size_t pose)
-    {
-        const std::unique_ptr<Deformer> deformer = make_deformer(spec);
-        deformer->reset(body.posed.character());
-        return iterations_to_tolerance(deformer->advance(body.posed.pose(pose), 0.01).history);
     }
 
     analysis::Smoothness measure(const ArtefactBody& body, const DeformerSpec& spec, const Shape& shape, std::size_t pose,
@@ -132,7 +156,7 @@ private:
     }
 
     const ArtefactCase& of_;
-    std::map<std::pair<std::string, std::string>, std::vector<double>> ratios_;  // by quantity and what it is of; its own first
+    std::map<std::pair<std::string, std::string>, Ratios> ratios_;  // by quantity and what it is of
     WeightsComparison result_;
 };
 
@@ -148,7 +172,7 @@ WeightsComparison compare_weights(const ArtefactCase& of)
         const Twin twin = twin_of(of, vertices);
         comparison.compare(twin, spec_of(of.scene, "lbs"));
         comparison.compare(twin, pbs);
-        comparison.compare_convergence(twin, pbs);
+        comparison.compare_convergence(twin, pbs.pbs);
         if (vertices != 0) continue;
         for (const DeformerSpec& other : other_orders(pbs)) comparison.compare(twin, other);
     }

@@ -5,13 +5,11 @@
 namespace experiments {
 namespace {
 
-constexpr int steps_a_period = 24, periods = 4;
-
 JoltResponse at_frequency(const pbs::Character& character, const DeformerSpec& fem, const std::vector<int>& probe, Jolt jolt,
                           double frequency_hz)
 {
-    jolt.time_step_s = 1.0 / (steps_a_period * frequency_hz);
-    jolt.steps = steps_a_period * periods;
+    jolt.time_step_s = 1.0 / (reference_steps_a_period * frequency_hz);
+    jolt.steps = reference_steps_a_period * reference_periods;
     return jolt_response(character, fem, probe, jolt);
 }
 
@@ -23,7 +21,8 @@ std::optional<JiggleReference> match_reference(const pbs::Character& character, 
     const JoltResponse first = at_frequency(character, fem, probe, jolt, frequency_hz);
     if (!first.finished || !first.swing.found()) return std::nullopt;
     fem.fem.young_pa *= std::pow(frequency_hz / first.swing.frequency_hz.estimate, 2);
-    JiggleReference matched{fem.fem.young_pa, at_frequency(character, fem, probe, jolt, frequency_hz)};
+    JiggleReference matched{fem.fem.young_pa, 1.0 / (reference_steps_a_period * frequency_hz),
+                            at_frequency(character, fem, probe, jolt, frequency_hz)};
     if (!matched.response.finished || !matched.response.swing.found()) return std::nullopt;
     return matched;
 }

@@ -9,12 +9,15 @@
 
 namespace experiments {
 
+inline constexpr int reference_steps_a_period = 24, reference_periods = 4;  // of the frequency asked for
+
 struct JiggleReference {
     double young_pa = 0.0;  // f goes with sqrt(E): from the first modulus' frequency, then solved again
+    double time_step_s = 0.0;
     JoltResponse response;  // at it
 };
 
-// fem: dynamic, of any Young's modulus to begin with. 24 steps a period, 4 periods. Nothing where the first modulus does not swing.
+// fem: dynamic, of any Young's modulus to begin with. Nothing where the first modulus does not swing.
 std::optional<JiggleReference> match_reference(const pbs::Character& character, DeformerSpec fem, const std::vector<int>& probe, Jolt jolt,
                                                double frequency_hz);
 

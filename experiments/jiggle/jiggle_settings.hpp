@@ -1,10 +1,8 @@
-// The settings that C09's figures are measured at, and the figures.
-//   for (const JiggleSetting& setting : jiggle_settings()) responses.push_back(...);
-//   const auto figures = jiggle_figures("limb", measured);
+// The settings that C09's figures are measured at.
+//   for (const JiggleSetting& setting : jiggle_settings()) responses.push_back(jolt_response(character, jiggling(pbs, setting), ...));
 #pragma once
 
-#include "analysis/measurement.hpp"
-#include "experiments/jiggle/jolt_response.hpp"
+#include "experiments/deformers/registry.hpp"
 
 #include <string>
 #include <vector>
@@ -23,16 +21,10 @@ struct JiggleSetting {
 // One at a time from the first: k_stretch 0.05 to 1, steps of 2.5 to 40 ms, 6 to 96 iterations, both masses, the zone not bound.
 std::vector<JiggleSetting> jiggle_settings();
 
-DeformerSpec jiggling(DeformerSpec pbs, const JiggleSetting& setting);
+// The zone is bound and all masses are 1, as in the paper; others are readings of it.
+bool is_of_the_paper(const JiggleSetting& setting);
+
+DeformerSpec jiggling(DeformerSpec pbs, const JiggleSetting& setting);  // gravity as it has it
 std::string text_of(const JiggleSetting& setting);  // "k_stretch 0.1, 10 ms, 24 iterations, unit masses"; a k_bind below 1 behind it
-
-struct MeasuredJiggle {
-    JiggleSetting setting;
-    JoltResponse response;
-};
-
-// Of the settings at which it swings: damping ratio, frequency; the rank correlation of frequency and k_stretch, with the least and the
-// most that is left when one setting is left out; the ratios of frequencies at half the time step and at twice the iterations.
-std::vector<analysis::Measurement> jiggle_figures(const std::string& body, const std::vector<MeasuredJiggle>& measured);
 
 }  // namespace experiments

@@ -55,14 +55,14 @@ JoltResponse jolt_response(const pbs::Character& character, const DeformerSpec& 
         stop_if_interrupted();
         response.finished = response.finished && deformer->advance(pose, jolt.time_step_s).outcome == pbs::Outcome::finished;
     };
-    advance(still);
-    advance(still);
+    for (int step = 0; step < jolt.still_steps; ++step) advance(still);
+    const pbs::Positions lay = deformer->positions().topRows(vertices);
     for (int step = 0; step < jolt.steps && response.finished; ++step) {
         const pbs::Positions before = deformer->positions().topRows(vertices);
         advance(moved);
         const pbs::Positions now = deformer->positions().topRows(vertices);
         double excursion_m = 0.0;
-        for (const int v : probe) excursion_m += (now.row(v) - character.mesh.rest.row(v)).dot(jolt.direction) - jolt.length_m;
+        for (const int v : probe) excursion_m += (now.row(v) - lay.row(v)).dot(jolt.direction) - jolt.length_m;
         response.excursion_m.push_back(excursion_m / static_cast<double>(probe.size()));
         response.speed_rms_m_s.push_back((now - before).norm() / std::sqrt(double(vertices)) / jolt.time_step_s);
     }

@@ -1,7 +1,7 @@
 // The step response of a body's flesh: the skeleton is moved by a jolt in one time step and then held still.
 //   const JoltResponse response = jolt_response(character, spec, probe, {});
 //   response.swing.frequency_hz.estimate, response.left_over_peak
-// What swings is the probe: the mean displacement of its vertices from where the skeleton, moved rigidly, has them, along the jolt.
+// What swings is the probe: the mean displacement of its vertices along the jolt, from where the body lay before, moved with the skeleton.
 #pragma once
 
 #include "analysis/damped_oscillation.hpp"
@@ -15,7 +15,8 @@ struct Jolt {
     pbs::Vec3 direction = pbs::Vec3::UnitY();  // unit
     double length_m = 0.02;
     double time_step_s = 0.01;
-    int steps = 150;  // after the jolt
+    int still_steps = 2;  // before it
+    int steps = 150;      // from the jolt's own on
 };
 
 struct JoltResponse {
@@ -29,7 +30,6 @@ struct JoltResponse {
     bool finished = true;               // every step
 };
 
-// Two still steps come before the jolt.
 JoltResponse jolt_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe, const Jolt& jolt);
 
 }  // namespace experiments

@@ -7,18 +7,21 @@
 //   BODY_bend_*    45, 90 deg on the way that the joint bends
 //   BODY_crouch    frame 164 of CMU's clip 01_01, all joints of the left side
 //
-// Writes DIR/artefacts/CASE/{profiles,intersections,smoothness,measurements}.csv, and intersections.md. The paper says that it does not
-// handle self-intersections: they are counted.
+// Writes DIR/artefacts/CASE/{profiles,sections,intersections,smoothness,iterations,measurements}.csv, and intersections.md, sections.md.
+// The paper says that it does not handle self-intersections: they are counted. sections: where C04 and C05 have a figure, and why not.
 #include "analysis/atomic_file.hpp"
 #include "experiments/artefacts/artefact_figures.hpp"
 #include "experiments/artefacts/smoothness_comparison.hpp"
 #include "experiments/cases/real_bodies.hpp"
+#include "experiments/convergence/path_figures.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
+#include <map>
 
 namespace experiments {
 namespace {
@@ -35,25 +38,37 @@ std::string look_and_record(const ArtefactCase& of, const std::string& folder)
                                                      : bulge_figures(of, body, records.samples);
     figures.insert(figures.end(), weights.figures.begin(), weights.figures.end());
     const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
+    section_table(of, body, section_outcomes(of, body, records.samples)).write(path("sections.csv"));
     records.profiles.write(path("profiles.csv"));
     records.intersections.write(path("intersections.csv"));
     weights.smoothness.write(path("smoothness.csv"));
+    weights.iterations.write(path("iterations.csv"));
     analysis::measurement_table(figures).write(path("measurements.csv"));
     return records.breakdown;
 }
 
+nlohmann::json settings_of(const ArtefactCase& of)
+{
+    auto poses = nlohmann::json::array();
+    for (const ArtefactPose& pose : of.poses) poses.push_back({{"frame", pose.frame}, {"name", pose.name}});
+    return {{"scene", resolved_with_deformers(of.scene)},
+            {"claim", of.claim == ArtefactCase::Claim::bulge ? "C05" : "C04"},
+            {"poses", poses},
+            {"joint", of.joint},
+            {"other_vertices", of.vertices},
+            {"second_order_poses", of.second_order_poses},
+            {"deepest_bend_deg", deepest_bend_deg},
+            {"most_weight_iterations", most_weight_iterations},
+            {"residual_tolerance", residual_tolerance},
+            {"satisfied_residual", satisfied_residual}};
+}
+
 StudyRun artefact_run(const std::string& name, const ArtefactCase& of, double cost_s)
 {
-    std::vector<int> frames;
-    for (const ArtefactPose& pose : of.poses) frames.push_back(pose.frame);
     return {.name = name,
             .cost_s = cost_s,
             .work = [of](const std::string& folder) { return look_and_record(of, folder); },
-            .settings = {{"scene", resolved_with_deformers(of.scene)},
-                         {"frames", frames},
-                         {"joint", of.joint},
-                         {"other_vertices", of.vertices},
-                         {"second_order_poses", of.second_order_poses}}};
+            .settings = settings_of(of)};
 }
 
 const char* const all_deformers = R"(deformers.use=["lbs","dqs","pbs","delta_mush","xpbd","snh_p1"])";
@@ -154,6 +169,25 @@ std::string intersections_text(const std::vector<std::string>& finished)
     return text;
 }
 
+// How many sections each claim is judged by, and which are left out, and why.
+std::string sections_text(const std::vector<std::string>& finished)
+{
+    std::map<std::string, std::map<std::string, std::vector<std::string>>> sections;  // by claim and outcome
+    for (const std::string& run : finished) {
+        const analysis::CsvTable table = analysis::read_csv((fs::path(run) / "sections.csv").string());
+        for (int row = 0; row < table.rows(); ++row)
+            sections[table.text_at(row, "claim")][table.text_at(row, "outcome")].push_back(
+                fmt::format("{} {} {}", table.text_at(row, "body"), table.text_at(row, "pose"), table.text_at(row, "joint")));
+    }
+    std::string text;
+    for (const auto& [claim, outcomes] : sections)
+        for (const auto& [outcome, names] : outcomes) {
+            text += fmt::format("{}: {} sections {}", claim, names.size(), outcome);
+            text += outcome == name_of(SectionOutcome::measured) ? "\n" : fmt::format(": {}\n", fmt::join(names, "; "));
+        }
+    return text;
+}
+
 }  // namespace
 
 StudyPlan plan_artefacts_study(bool full)
@@ -174,9 +208,10 @@ StudyPlan plan_artefacts_study(bool full)
 
 StudyConclusion conclude_artefacts_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
 {
-    const std::string text = intersections_text(finished);
-    analysis::write_text_atomically((fs::path(folder) / "intersections.md").string(), text);
-    return {text, !finished.empty()};
+    const std::string intersections = intersections_text(finished), sections = sections_text(finished);
+    analysis::write_text_atomically((fs::path(folder) / "intersections.md").string(), intersections);
+    analysis::write_text_atomically((fs::path(folder) / "sections.md").string(), sections);
+    return {intersections + "\n" + sections, !finished.empty()};
 }
 
 }  // namespace experiments

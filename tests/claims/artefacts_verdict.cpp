@@ -1,79 +1,109 @@
-// C04, C05 and C06 are judged from what the study of artefacts measures: alter its figures and the verdicts turn round. Truth: the
-// project's own claims.toml; the figures are made up, in the form that the study writes them.
-#include "analysis/verdict.hpp"
-
-#include "analysis/atomic_file.hpp"
-#include "analysis/claims.hpp"
-#include "analysis/measurement.hpp"
+// C04, C05 and C06 are judged from the figures that the study of artefacts writes: alter the sections and strains behind them and the
+// verdicts turn round. Truth: the project's own claims.toml.
+#include "experiments/artefacts/smoothness_comparison.hpp"
+#include "tests/support/artefact_samples.hpp"
+#include "tests/support/study_claims.hpp"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <set>
 
 namespace {
 
 using analysis::Measurement;
 using analysis::VerdictKind;
-
-analysis::Claim claim_of(const std::string& id)
-{
-    const auto claims = analysis::parse_claims(analysis::read_text(PBS_CLAIMS_FILE), PBS_CLAIMS_FILE);
-    return *std::find_if(claims.begin(), claims.end(), [&](const analysis::Claim& claim) { return claim.id == id; });
-}
+using experiments::ArtefactBody;
+using experiments::ArtefactCase;
+using experiments::ArtefactSample;
+using test_support::sample;
 
 VerdictKind verdict(const std::string& id, const std::vector<Measurement>& measured)
 {
     analysis::Records records;
     records.measurements = measured;
-    return judge(claim_of(id), records).kind;
+    return judge(test_support::claim(id), records).kind;
 }
 
-Measurement figure(const std::string& id, const std::string& quantity, double value)
+void expect_the_claims_quantities(const std::string& id, const std::vector<Measurement>& measured)
 {
-    return {id, quantity, "limb, twist 90 deg, upper|forearm", value, value, value, "1"};
+    const analysis::Claim claim = test_support::claim(id);
+    std::set<std::string> known(claim.metrics.begin(), claim.metrics.end()), written;
+    for (const Measurement& figure : measured) written.insert(figure.quantity);
+    for (const std::string& quantity : known) EXPECT_TRUE(written.contains(quantity)) << quantity;
+    known.insert(claim.beside.begin(), claim.beside.end());
+    for (const std::string& quantity : written) EXPECT_TRUE(known.contains(quantity)) << quantity;
 }
 
-TEST(ArtefactsVerdict, AThinSectionIsACandyWrapper)
+class ArtefactsVerdict : public testing::Test {
+protected:
+    std::vector<Measurement> thin(const std::vector<ArtefactSample>& samples) const
+    {
+        return experiments::candy_wrapper_figures(twisted, body, samples);
+    }
+    std::vector<Measurement> wide(const std::vector<ArtefactSample>& samples) const
+    {
+        return experiments::bulge_figures(bent, body, samples);
+    }
+
+    ArtefactCase twisted = test_support::small_limb(ArtefactCase::Claim::candy_wrapper);
+    ArtefactCase bent = test_support::small_limb(ArtefactCase::Claim::bulge);
+    ArtefactBody body{bent};
+};
+
+TEST_F(ArtefactsVerdict, AThinSectionIsACandyWrapper)
 {
-    std::vector<Measurement> measured = {figure("C04", "smallest section radius over rest", 0.97),
-                                         figure("C04", "smallest section area over rest", 0.98),
-                                         figure("C04", "smallest section area over rest, lbs", 0.0)};
-    EXPECT_EQ(verdict("C04", measured), VerdictKind::reproduced);
-    measured[1].low = 0.5;
-    EXPECT_EQ(verdict("C04", measured), VerdictKind::reproduced_only_for);
-    measured[0].value = measured[0].low = 0.3;
-    measured[1].value = 0.2;
-    EXPECT_EQ(verdict("C04", measured), VerdictKind::not_reproduced);
+    std::vector<ArtefactSample> samples = {sample("pbs", 0, 0.97), sample("pbs", 1, 0.98), sample("lbs", 0, 0.0), sample("dqs", 0, 1.0),
+                                           sample("reference", 0, 1.0, 1)};
+    expect_the_claims_quantities("C04", thin(samples));
+    EXPECT_EQ(verdict("C04", thin(samples)), VerdictKind::reproduced);
+    samples.push_back(sample("pbs", 1, 0.5));  // in another order
+    EXPECT_EQ(verdict("C04", thin(samples)), VerdictKind::reproduced_only_for);
+    samples[0] = sample("pbs", 0, 0.3);
+    EXPECT_EQ(verdict("C04", thin(samples)), VerdictKind::not_reproduced);
 }
 
-TEST(ArtefactsVerdict, AWideSectionIsABulge)
+TEST_F(ArtefactsVerdict, AWideSectionIsABulge)
 {
-    std::vector<Measurement> measured = {figure("C05", "largest section radius over the reference's", 1.01),
-                                         figure("C05", "largest section area over the reference's", 1.02),
-                                         figure("C05", "largest section area over the reference's, dqs", 2.0)};
-    EXPECT_EQ(verdict("C05", measured), VerdictKind::reproduced);
-    measured[0].value = measured[0].high = 1.06;
-    EXPECT_EQ(verdict("C05", measured), VerdictKind::reproduced_only_for);
-    measured[1].value = measured[1].high = 1.2;
-    EXPECT_EQ(verdict("C05", measured), VerdictKind::not_reproduced);
+    std::vector<ArtefactSample> samples = {sample("pbs", 0, 1.01), sample("pbs", 1, 1.02),         sample("dqs", 0, 2.0),
+                                           sample("lbs", 0, 1.0),  sample("reference", 0, 1.0, 1), sample("reference", 1, 1.0, 1)};
+    expect_the_claims_quantities("C05", wide(samples));
+    EXPECT_EQ(verdict("C05", wide(samples)), VerdictKind::reproduced);
+    samples[1] = sample("pbs", 1, 1.2);
+    EXPECT_EQ(verdict("C05", wide(samples)), VerdictKind::reproduced_only_for);
+    samples[0] = sample("pbs", 0, 1.2);
+    EXPECT_EQ(verdict("C05", wide(samples)), VerdictKind::not_reproduced);
 }
 
-TEST(ArtefactsVerdict, ARatioAboveOneIsNotSmoother)
+// The body's own figure is over it, and its interval reaches over linear elements too.
+TEST_F(ArtefactsVerdict, QuadraticElementsAreTheReference)
 {
-    std::vector<Measurement> measured = {figure("C06", "strain jump at the joint of PBS, Eq. 2 over rigid", 0.7),
-                                         figure("C06", "strain jump at the joint of LBS, Eq. 2 over rigid", 0.4),
-                                         figure("C06", "curvature of the skin of PBS, Eq. 2 over rigid", 9.0)};
+    std::vector<ArtefactSample> samples = {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1)};
+    EXPECT_EQ(verdict("C05", wide(samples)), VerdictKind::reproduced);
+    samples.push_back(sample("reference", 0, 0.8, 2));
+    EXPECT_EQ(verdict("C05", wide(samples)), VerdictKind::not_reproduced);
+    EXPECT_DOUBLE_EQ(wide(samples)[0].value, 1.25);
+}
+
+TEST_F(ArtefactsVerdict, WithoutAReferenceThereIsNoVerdict)
+{
+    EXPECT_EQ(verdict("C05", wide({sample("pbs", 0, 1.0)})), VerdictKind::not_computable);
+    EXPECT_EQ(verdict("C04", thin({sample("lbs", 0, 0.1)})), VerdictKind::not_computable);
+}
+
+TEST_F(ArtefactsVerdict, ARatioAboveOneIsNotSmoother)
+{
+    bent.poses = {{2, "bend 60 deg"}};
+    std::vector<Measurement> measured = experiments::compare_weights(bent).figures;
+    expect_the_claims_quantities("C06", measured);
+    const auto put = [&](const std::string& quantity, double ratio) {
+        for (Measurement& figure : measured)
+            if (figure.quantity.starts_with(quantity)) figure.value = figure.low = figure.high = ratio;
+    };
+    put("strain jump", 0.5);
+    put("curvature", 9.0);  // beside
     EXPECT_EQ(verdict("C06", measured), VerdictKind::reproduced);
-    measured[0].high = 1.1;
-    EXPECT_EQ(verdict("C06", measured), VerdictKind::reproduced_only_for);
-    measured[0].value = measured[1].value = 1.1;
+    put("strain jump at the joint of PBS", 1.1);
     EXPECT_EQ(verdict("C06", measured), VerdictKind::not_reproduced);
-}
-
-TEST(ArtefactsVerdict, NothingMeasuredIsNoVerdict)
-{
-    EXPECT_EQ(verdict("C04", {}), VerdictKind::not_computable);
-    EXPECT_EQ(verdict("C05", {figure("C04", "smallest section area over rest", 1.0)}), VerdictKind::not_computable);
 }
 
 }  // namespace

@@ -1,63 +1,112 @@
-// C09 is judged from what the study of jiggle measures: alter its figures and the verdict turns round. Truth: the project's own
-// claims.toml; the figures are made up, in the form that the study writes them.
-#include "analysis/verdict.hpp"
-
-#include "analysis/atomic_file.hpp"
-#include "analysis/claims.hpp"
-#include "analysis/measurement.hpp"
+// C09 is judged from the figures that the study of jiggle writes: alter the responses behind them and the verdict turns round. Truth: the
+// project's own claims.toml; flesh that swings as theory has it for elastic flesh, f going with sqrt(k) whatever step and iterations.
+#include "tests/support/jiggle_responses.hpp"
+#include "tests/support/study_claims.hpp"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
 
 namespace {
 
-using analysis::Measurement;
 using analysis::VerdictKind;
+using experiments::JiggleSetting;
+using experiments::MeasuredJiggle;
+using test_support::creeping;
+using test_support::swinging;
 
-VerdictKind verdict(const std::vector<Measurement>& measured)
+constexpr double width = 0.01;
+
+std::vector<MeasuredJiggle> flesh(const std::function<double(const JiggleSetting&)>& hz)
 {
-    const auto claims = analysis::parse_claims(analysis::read_text(PBS_CLAIMS_FILE), PBS_CLAIMS_FILE);
-    const auto jiggle = std::find_if(claims.begin(), claims.end(), [](const analysis::Claim& claim) { return claim.id == "C09"; });
+    std::vector<MeasuredJiggle> measured;
+    for (const JiggleSetting& setting : experiments::jiggle_settings()) measured.push_back(swinging(setting, hz(setting), width));
+    return measured;
+}
+
+double elastic_hz(const JiggleSetting& setting)
+{
+    return 10.0 * std::sqrt(setting.k_stretch);
+}
+
+VerdictKind verdict(const std::vector<std::vector<MeasuredJiggle>>& bodies)
+{
     analysis::Records records;
-    records.measurements = measured;
-    return judge(*jiggle, records).kind;
+    for (std::size_t body = 0; body < bodies.size(); ++body)
+        for (const auto& figure : experiments::jiggle_figures("body " + std::to_string(body), bodies[body]))
+            records.measurements.push_back(figure);
+    return judge(test_support::claim("C09"), records).kind;
 }
 
-Measurement figure(const std::string& quantity, double value)
+TEST(JiggleVerdict, EveryJudgedQuantityIsWrittenAndNoneUnknown)
 {
-    return {"C09", quantity, "limb, k_stretch 0.1, 10 ms, 24 iterations, unit masses", value, value, value, "1"};
+    const analysis::Claim claim = test_support::claim("C09");
+    std::set<std::string> known(claim.metrics.begin(), claim.metrics.end()), written;
+    for (const auto& figure : experiments::jiggle_figures("limb", flesh(elastic_hz))) written.insert(figure.quantity);
+    for (const std::string& quantity : known) EXPECT_TRUE(written.contains(quantity)) << quantity;
+    known.insert(claim.beside.begin(), claim.beside.end());
+    for (const std::string& quantity : written) EXPECT_TRUE(known.contains(quantity)) << quantity;
 }
 
-std::vector<Measurement> set_by_k_stretch_alone()
+TEST(JiggleVerdict, FleshSetByKStretchAloneIsReproduced)
 {
-    return {figure("damping ratio", 0.1), figure("rank correlation of frequency and k_stretch", 1.0),
-            figure("frequency at half the time step over at the whole", 1.0),
-            figure("frequency at twice the iterations over at the once", 1.02), figure("frequency", 7.0)};
+    EXPECT_EQ(verdict({flesh(elastic_hz)}), VerdictKind::reproduced);
 }
 
-TEST(JiggleVerdict, PassiveAndSetByOneScalarIsReproduced)
+TEST(JiggleVerdict, OneSettingThatDoesNotSwingTurnsIt)
 {
-    EXPECT_EQ(verdict(set_by_k_stretch_alone()), VerdictKind::reproduced);
+    auto measured = flesh(elastic_hz);
+    for (MeasuredJiggle& one : measured)
+        if (one.setting.iterations == 96) one = creeping(one.setting);
+    EXPECT_EQ(verdict({measured}), VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict({measured, flesh(elastic_hz)}), VerdictKind::reproduced_only_for);
 }
 
-TEST(JiggleVerdict, AnyQuantityOutsideItsBoundTakesTheWholeAway)
+TEST(JiggleVerdict, OtherReadingsDoNotTurnIt)
 {
-    const double outside[] = {0.0, 0.5, 2.0, 1.3};
-    for (std::size_t i = 0; i < 4; ++i) {
-        auto measured = set_by_k_stretch_alone();
-        measured[i].value = measured[i].low = measured[i].high = outside[i];
-        EXPECT_EQ(verdict(measured), VerdictKind::reproduced_only_for) << measured[i].quantity;
-    }
+    auto measured = flesh(elastic_hz);
+    for (MeasuredJiggle& one : measured)
+        if (!is_of_the_paper(one.setting)) one = creeping(one.setting);
+    EXPECT_EQ(verdict({measured}), VerdictKind::reproduced);
+    for (MeasuredJiggle& one : measured)
+        if (!is_of_the_paper(one.setting)) {
+            one = swinging(one.setting, 3.0);
+            one.response.swing.damping_ratio = {-0.2, -0.3, -0.1};  // grows
+        }
+    EXPECT_EQ(verdict({measured}), VerdictKind::reproduced);
 }
 
-TEST(JiggleVerdict, AllOutsideIsNotReproduced)
+TEST(JiggleVerdict, SwingingForEverTurnsIt)
 {
-    EXPECT_EQ(verdict({figure("damping ratio", -0.1), figure("rank correlation of frequency and k_stretch", 0.1),
-                       figure("frequency at half the time step over at the whole", 2.0),
-                       figure("frequency at twice the iterations over at the once", 1.4)}),
+    auto measured = flesh(elastic_hz);
+    measured.front().response.swing.damping_ratio = {0.0, 0.0, 0.0};
+    EXPECT_EQ(verdict({measured}), VerdictKind::reproduced_only_for);
+    for (MeasuredJiggle& one : measured) one.response.swing.damping_ratio = {0.0, 0.0, 0.0};
+    EXPECT_EQ(verdict({measured}), VerdictKind::not_reproduced);
+}
+
+TEST(JiggleVerdict, AFrequencyThatKStretchHardlyMovesTurnsIt)
+{
+    EXPECT_EQ(verdict({flesh([](const JiggleSetting& s) { return 14.0 + 0.3 * s.k_stretch; })}), VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict({flesh([](const JiggleSetting& s) { return 20.0 - 10.0 * std::sqrt(s.k_stretch); })}), VerdictKind::not_reproduced);
+}
+
+TEST(JiggleVerdict, AFrequencyPerStepTurnsIt)
+{
+    EXPECT_EQ(verdict({flesh([](const JiggleSetting& s) { return elastic_hz(s) * 0.01 / s.time_step_s; })}), VerdictKind::not_reproduced);
+}
+
+TEST(JiggleVerdict, AFrequencySetByIterationsTurnsIt)
+{
+    EXPECT_EQ(verdict({flesh([](const JiggleSetting& s) { return elastic_hz(s) * std::sqrt(s.iterations / 24.0); })}),
               VerdictKind::not_reproduced);
-    EXPECT_EQ(verdict({figure("frequency", 7.0)}), VerdictKind::not_computable);
+}
+
+TEST(JiggleVerdict, NothingJudgedIsNoVerdict)
+{
+    EXPECT_EQ(verdict({}), VerdictKind::not_computable);
 }
 
 }  // namespace

@@ -45,6 +45,16 @@ TEST_F(JoltResponseOfLimb, FreeFleshStaysBehind)
     EXPECT_EQ(free.overshoot_over_jolt, 0.0);
 }
 
+// The way from step to step does not know the clock (Algorithm 1, lines 7, 8 and 16).
+TEST_F(JoltResponseOfLimb, WithoutWeightTheSeriesIsTheSameAtEveryTimeStep)
+{
+    spec = experiments::jiggling(spec, {});
+    const auto slow = response();
+    jolt.time_step_s /= 4.0;
+    const auto quick = response();
+    for (std::size_t i = 0; i < slow.excursion_m.size(); ++i) EXPECT_NEAR(quick.excursion_m[i], slow.excursion_m[i], 1e-12) << i;
+}
+
 // The skin is held by its bones: it swings about where they take it, and calms down.
 TEST_F(JoltResponseOfLimb, HeldFleshSwingsAndCalmsDown)
 {

@@ -1,0 +1,23 @@
+// A small limb bent by 30, 90 and 150 degrees, and made-up sections of it.
+#pragma once
+
+#include "experiments/artefacts/artefact_figures.hpp"
+
+namespace test_support {
+
+inline experiments::ArtefactCase small_limb(experiments::ArtefactCase::Claim claim)
+{
+    experiments::ArtefactCase of;
+    of.scene = experiments::read_scene("limb_bend", {"character.vertices=400", "motion.angle_deg=150", "motion.frames=6"});
+    of.claim = claim;
+    of.poses = {{1, "bend 30 deg"}, {3, "bend 90 deg"}, {5, "bend 150 deg"}};
+    return of;
+}
+
+// Both radii and both areas are `size` over rest.
+inline experiments::ArtefactSample sample(const std::string& group, std::size_t pose, double size, int element_order = 0)
+{
+    return {group, pose, 0, {size, size, size, size}, element_order};
+}
+
+}  // namespace test_support

@@ -1,0 +1,107 @@
+// The figures of C04 and C05 from made-up sections of a small limb. Truth: the ratios of the sizes put in.
+#include "tests/support/artefact_samples.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using experiments::ArtefactBody;
+using experiments::ArtefactCase;
+using experiments::ArtefactSample;
+using experiments::SectionOutcome;
+using test_support::sample;
+
+std::vector<analysis::Measurement> of_quantity(const std::vector<analysis::Measurement>& figures, const std::string& quantity)
+{
+    std::vector<analysis::Measurement> chosen;
+    for (const auto& figure : figures)
+        if (figure.quantity == quantity) chosen.push_back(figure);
+    return chosen;
+}
+
+class BulgeFigures : public testing::Test {
+protected:
+    std::vector<analysis::Measurement> figures(const std::string& quantity = "largest section area over the reference's") const
+    {
+        return of_quantity(experiments::bulge_figures(of, body, samples), quantity);
+    }
+    SectionOutcome outcome(std::size_t pose) const { return experiments::section_outcomes(of, body, samples)[pose].outcome; }
+
+    ArtefactCase of = test_support::small_limb(ArtefactCase::Claim::bulge);
+    ArtefactBody body{of};
+    std::vector<ArtefactSample> samples;
+};
+
+TEST_F(BulgeFigures, AreOverQuadraticElementsWhereverTheyComeAmongTheSamples)
+{
+    samples = {sample("pbs", 0, 1.2), sample("reference", 0, 1.0, 1), sample("reference", 0, 1.5, 2), sample("reference", 0, 0.8, 1)};
+    ASSERT_EQ(figures().size(), 1u);
+    EXPECT_DOUBLE_EQ(figures()[0].value, 1.2 / 1.5);
+    EXPECT_DOUBLE_EQ(figures()[0].low, 1.2 / 1.5);   // over the largest reference
+    EXPECT_DOUBLE_EQ(figures()[0].high, 1.2 / 0.8);  // and the smallest
+    EXPECT_EQ(figures()[0].of, "limb, bend 30 deg, upper|forearm, over snh_p2");
+}
+
+TEST_F(BulgeFigures, AreOverLinearElementsWhereThereAreNoOthers)
+{
+    samples = {sample("pbs", 1, 1.1), sample("pbs", 1, 1.3), sample("reference", 1, 1.0, 1)};
+    ASSERT_EQ(figures().size(), 1u);
+    EXPECT_DOUBLE_EQ(figures()[0].value, 1.1);
+    EXPECT_DOUBLE_EQ(figures()[0].high, 1.3);
+    EXPECT_TRUE(figures()[0].of.ends_with("over snh_p1")) << figures()[0].of;
+}
+
+TEST_F(BulgeFigures, PosesWithoutAReferenceAreCountedAndHaveNone)
+{
+    samples = {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1), sample("pbs", 1, 1.0)};
+    EXPECT_EQ(figures().size(), 1u);
+    EXPECT_EQ(outcome(0), SectionOutcome::measured);
+    EXPECT_EQ(outcome(1), SectionOutcome::reference_not_reached);
+}
+
+TEST_F(BulgeFigures, DeepFoldsAreLeftOutWhateverTheReference)
+{
+    samples = {sample("pbs", 2, 1.0), sample("reference", 2, 1.0, 1)};
+    EXPECT_TRUE(figures().empty());
+    EXPECT_EQ(outcome(2), SectionOutcome::bent_too_far);
+}
+
+TEST_F(BulgeFigures, BlendsStandBesideWherePbsBrokeDown)
+{
+    samples = {sample("dqs", 0, 2.0), sample("reference", 0, 1.0, 1)};
+    EXPECT_TRUE(figures().empty());
+    ASSERT_EQ(figures("largest section radius over the reference's, dqs").size(), 1u);
+    EXPECT_EQ(outcome(0), SectionOutcome::pbs_did_not_finish);
+}
+
+TEST_F(BulgeFigures, TableHasALineASectionWithItsOutcome)
+{
+    samples = {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 2), sample("pbs", 1, 1.0)};
+    const auto table = section_table(of, body, experiments::section_outcomes(of, body, samples));
+    ASSERT_EQ(table.rows(), 3);
+    EXPECT_EQ(table.text_at(0, "reference"), "snh_p2");
+    EXPECT_EQ(table.text_at(0, "outcome"), "measured");
+    EXPECT_EQ(table.text_at(1, "outcome"), "reference not reached");
+    EXPECT_EQ(table.text_at(2, "outcome"), "bent by more than 110 deg");
+}
+
+TEST(CandyWrapperFigures, TakeTheThinnestOfAllAndDoWithoutTheReference)
+{
+    const ArtefactCase of = test_support::small_limb(ArtefactCase::Claim::candy_wrapper);
+    const ArtefactBody body(of);
+    const std::vector<ArtefactSample> samples = {sample("pbs", 0, 0.95), sample("pbs", 0, 0.85), sample("lbs", 0, 0.1),
+                                                 sample("pbs", 2, 0.9)};
+    const auto figures = experiments::candy_wrapper_figures(of, body, samples);
+    const auto own = of_quantity(figures, "smallest section radius over rest");
+    ASSERT_EQ(own.size(), 2u);
+    EXPECT_DOUBLE_EQ(own[0].value, 0.95);
+    EXPECT_DOUBLE_EQ(own[0].low, 0.85);
+    EXPECT_EQ(own[0].of, "limb, bend 30 deg, upper|forearm");
+    EXPECT_EQ(of_quantity(figures, "smallest section area over rest, lbs").size(), 1u);
+    EXPECT_TRUE(of_quantity(figures, "smallest section area over rest, reference").empty());
+    const auto outcomes = experiments::section_outcomes(of, body, samples);
+    EXPECT_EQ(outcomes[1].outcome, SectionOutcome::pbs_did_not_finish);
+    EXPECT_EQ(outcomes[2].outcome, SectionOutcome::measured);  // bent, which is no matter here
+}
+
+}  // namespace

@@ -1,0 +1,121 @@
+// The figures of C09 from made-up responses. Truth: the ratios and ranks of the frequencies put in.
+#include "tests/support/jiggle_responses.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using experiments::MeasuredJiggle;
+using test_support::creeping;
+using test_support::swinging;
+
+std::vector<analysis::Measurement> of_quantity(const std::vector<MeasuredJiggle>& measured, const std::string& quantity)
+{
+    std::vector<analysis::Measurement> chosen;
+    for (const auto& figure : experiments::jiggle_figures("limb", measured))
+        if (figure.quantity == quantity) chosen.push_back(figure);
+    return chosen;
+}
+
+const char* const share = "share of settings that swing";
+const char* const half_step = "frequency at half the time step over at the whole";
+const char* const correlation = "rank correlation of frequency and k_stretch";
+const char* const range = "frequency at the largest k_stretch over at the smallest";
+
+TEST(JiggleFigures, WhatDoesNotSwingCountsInTheShare)
+{
+    const auto shares = of_quantity({swinging({}, 3.0), creeping({.iterations = 96}), creeping({.iterations = 48}),
+                                     swinging({.k_stretch = 0.5}, 4.0), creeping({.masses = pbs::Masses::lumped})},
+                                    share);
+    ASSERT_EQ(shares.size(), 1u);
+    EXPECT_DOUBLE_EQ(shares[0].value, 0.5);
+    EXPECT_EQ(shares[0].of, "limb, 2 of 4 settings");
+}
+
+TEST(JiggleFigures, WhatDoesNotSwingHasNeitherFrequencyNorDamping)
+{
+    const auto figures = experiments::jiggle_figures("limb", {creeping({})});
+    ASSERT_EQ(figures.size(), 2u);  // share, amplitude
+    EXPECT_EQ(figures[0].value, 0.0);
+    EXPECT_EQ(figures[1].quantity, "amplitude");
+    EXPECT_TRUE(experiments::jiggle_figures("limb", {}).empty());
+}
+
+TEST(JiggleFigures, WhatBrokeDownHasNoAmplitude)
+{
+    MeasuredJiggle broken = creeping({});
+    broken.response.finished = false;
+    EXPECT_TRUE(of_quantity({broken}, "amplitude").empty());
+    EXPECT_EQ(of_quantity({broken}, share).size(), 1u);
+}
+
+TEST(JiggleFigures, OtherReadingsHaveTheirOwnDampingRatio)
+{
+    const std::vector<MeasuredJiggle> measured = {swinging({}, 3.0), swinging({.k_bind = 0.0}, 3.0),
+                                                  swinging({.masses = pbs::Masses::lumped}, 3.0)};
+    EXPECT_EQ(of_quantity(measured, "damping ratio").size(), 1u);
+    EXPECT_EQ(of_quantity(measured, "damping ratio, other readings").size(), 2u);
+    EXPECT_DOUBLE_EQ(of_quantity(measured, share)[0].value, 1.0);
+}
+
+TEST(JiggleFigures, HalfTheStepIsOneFigureWithTheRangeOverAllHalvings)
+{
+    const auto ratios = of_quantity({swinging({}, 6.0), swinging({.time_step_s = 0.005}, 12.0), swinging({.time_step_s = 0.0025}, 27.0),
+                                     swinging({.time_step_s = 0.02}, 4.0), swinging({.iterations = 48}, 9.0)},
+                                    half_step);
+    ASSERT_EQ(ratios.size(), 1u);
+    EXPECT_DOUBLE_EQ(ratios[0].value, 12.0 / 6.0);
+    EXPECT_DOUBLE_EQ(ratios[0].low, 6.0 / 4.0);
+    EXPECT_DOUBLE_EQ(ratios[0].high, 27.0 / 12.0);
+    EXPECT_EQ(ratios[0].of, "limb, from k_stretch 0.1, 10 ms, 24 iterations, unit masses, range over 3 halvings");
+}
+
+TEST(JiggleFigures, RatioOfTwiceTheIterationsHasTheEndsOfBothIntervals)
+{
+    const auto ratios =
+        of_quantity({swinging({}, 6.0), swinging({.iterations = 48}, 9.0)}, "frequency at twice the iterations over at the once");
+    ASSERT_EQ(ratios.size(), 1u);
+    EXPECT_DOUBLE_EQ(ratios[0].value, 1.5);
+    EXPECT_NEAR(ratios[0].low, 1.5 * 0.9 / 1.1, 1e-12);
+    EXPECT_NEAR(ratios[0].high, 1.5 * 1.1 / 0.9, 1e-12);
+}
+
+TEST(JiggleFigures, CorrelationIsOfRanksAndTakesTheLeastWithoutOne)
+{
+    std::vector<MeasuredJiggle> measured = {swinging({.k_stretch = 0.05}, 2.0), swinging({}, 3.0), swinging({.k_stretch = 0.2}, 50.0),
+                                            swinging({.k_stretch = 0.5}, 51.0)};
+    ASSERT_EQ(of_quantity(measured, correlation).size(), 1u);
+    EXPECT_DOUBLE_EQ(of_quantity(measured, correlation)[0].value, 1.0);
+    measured.push_back(swinging({.k_stretch = 1.0}, 1.0));
+    EXPECT_NEAR(of_quantity(measured, correlation)[0].value, 0.0, 1e-12);  // sum of squared rank differences 20: 1 - 6 * 20 / (5 * 24)
+    EXPECT_LT(of_quantity(measured, correlation)[0].low, 0.0);
+}
+
+// However many settings there are, rounding must not take a perfect order out of [-1, 1], nor the figure out of its interval.
+TEST(JiggleFigures, CorrelationOfAPerfectOrderIsOneAndInItsInterval)
+{
+    std::vector<MeasuredJiggle> measured;
+    for (int n = 1; n <= 12; ++n) {
+        measured.push_back(swinging({.k_stretch = 0.07 * n}, 1.0 + 0.1 * n));
+        for (const auto& figure : of_quantity(measured, correlation)) {
+            EXPECT_LE(figure.low, figure.value) << n;
+            EXPECT_GE(figure.high, figure.value) << n;
+            EXPECT_LE(figure.high, 1.0) << n;
+            EXPECT_NEAR(figure.value, 1.0, 1e-12) << n;
+        }
+    }
+}
+
+TEST(JiggleFigures, RangeIsOfTheEndsThatSwing)
+{
+    std::vector<MeasuredJiggle> measured = {swinging({}, 3.0), swinging({.k_stretch = 1.0}, 12.0), swinging({.k_stretch = 0.05}, 2.0),
+                                            swinging({.k_stretch = 0.5}, 4.0)};
+    ASSERT_EQ(of_quantity(measured, range).size(), 1u);
+    EXPECT_DOUBLE_EQ(of_quantity(measured, range)[0].value, 6.0);
+    measured[1] = creeping({.k_stretch = 1.0});
+    EXPECT_DOUBLE_EQ(of_quantity(measured, range)[0].value, 2.0);
+    EXPECT_EQ(of_quantity(measured, range)[0].of, "limb, k_stretch 0.5 over 0.05");
+    EXPECT_TRUE(of_quantity({swinging({}, 3.0)}, range).empty());
+}
+
+}  // namespace
