@@ -98,8 +98,11 @@ StudyRun body_run(const std::string& body, const BodyPose& pose, bool full, doub
     of.pose = pose.name;
     of.scene = read_scene("human_01_01", {"character.body=" + body});
     of.frame = pose.frame;
-    of.range.quadratic = of.range.quadratic_corotational = false;  // 5 minutes a pose, and a crouch is not reached
-    of.range.coarser_vertices = {600, 800, 1000, 1200};
+    // No nonlinear law with quadratic elements: the stable one on the human's own mesh is not there after 5 minutes, standing or in the
+    // air, even from the solution with linear ones, and in the crouch not on every coarser mesh.
+    of.range.quadratic = of.range.quadratic_corotational = false;
+    of.range.quadratic_up_to = 0;
+    of.range.coarser_vertices = {500, 600, 700, 800, 900, 1000, 1200};
     if (full) of.range.finer_vertices = {4650};
     of.rounds = {.seconds = full ? 10.0 : 3.0, .fewest = 5, .most = 31};
     of.newton_rounds = {.seconds = full ? 10.0 : 0.0, .fewest = 1, .most = 9};

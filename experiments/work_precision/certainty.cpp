@@ -8,7 +8,7 @@ namespace experiments {
 
 Certainty certainty_of(const Diagram& diagram, const DiagramPoint& nearer, const DiagramPoint& other)
 {
-    if (!diagram.reference_error_pct || !nearer.beside_pct || !other.beside_pct) return Certainty::no_second_solution;
+    if (!diagram.reference_error_pct || !nearer.beside_pct || !other.beside_pct) return Certainty::not_known;
     if (*nearer.beside_pct >= *other.beside_pct) return Certainty::one_solution;
     const bool apart = other.error_pct - nearer.error_pct > 2.0 * *diagram.reference_error_pct;
     return apart ? Certainty::told_apart : Certainty::both_solutions;
@@ -34,8 +34,9 @@ std::string words_of(Certainty certainty, const Diagram& diagram)
     const std::string differ =
         diagram.reference_difference_pct ? fmt::format("the two solutions differ by {:.1f} %", *diagram.reference_difference_pct) : "";
     switch (certainty) {
-        case Certainty::no_second_solution:
-            return " [undecided: there is no second solution to see the reference's error by]";
+        case Certainty::not_known:
+            return diagram.reference_error_pct ? " [undecided: one of the two is the second solution itself; " + differ + "]"
+                                               : " [undecided: there is no second solution to see the reference's error by]";
         case Certainty::one_solution:
             return fmt::format(" [undecided: not so against the second solution; {}]", differ);
         case Certainty::both_solutions:

@@ -10,10 +10,10 @@ namespace experiments {
 
 // Each implies those before it.
 enum class Certainty {
-    no_second_solution,  // nothing is known of the reference's error
-    one_solution,        // the nearer one is not the nearer to the second solution
-    both_solutions,      // it is, but by no more than twice the reference's bound
-    told_apart,          // by more than that
+    not_known,       // there is no second solution, or one of the two is the second solution itself
+    one_solution,    // the nearer one is not the nearer to the second solution
+    both_solutions,  // it is, but by no more than twice the reference's bound
+    told_apart,      // by more than that
 };
 
 // `nearer` has the smaller error.

@@ -51,7 +51,7 @@ void add_crossing(analysis::CsvTable& table, const Diagram& diagram, const Defor
         const DiagramPoint& point = diagram.points[of_one[crossing->one]];
         const std::optional<Certainty> certainty = certainty_from(diagram, one, other, crossing->from);
         const auto is = [&](Certainty least) {
-            return certainty && *certainty != Certainty::no_second_solution ? Cell(int(*certainty >= least)) : Cell(std::nullopt);
+            return certainty && *certainty != Certainty::not_known ? Cell(int(*certainty >= least)) : Cell(std::nullopt);
         };
         add({crossing->from_the_start ? "always" : "from", crossing->from, known(point.ms_q1), known(point.ms_q3), point.setting,
              point.error_pct, known(crossing->other_error), known(diagram.reference_error_pct), is(Certainty::told_apart),

@@ -172,7 +172,10 @@ TEST(Certainty, HangsOnTheBoundAndOnTheSecondSolution)
     EXPECT_EQ(of(where_pbs_is_further_from_the_second(14.0)), Certainty::one_solution);  // 34 % both
     Diagram without = diagram(33.0);
     without.reference_error_pct.reset();
-    EXPECT_EQ(of(without), Certainty::no_second_solution);
+    EXPECT_EQ(of(without), Certainty::not_known);
+    Diagram itself = diagram(33.0);
+    itself.points[3].beside_pct.reset();
+    EXPECT_EQ(of(itself), Certainty::not_known);
 }
 
 TEST(Certainty, OfAllTimesIsTheLeast)
@@ -199,6 +202,14 @@ TEST(Certainty, IsSaidBehindTheSentence)
                 "[within the reference's own bar of up to 6.0 %, though so against both solutions; the two solutions differ by 2.0 %]"));
     EXPECT_TRUE(pbs_or_mush(where_pbs_is_further_from_the_second(20.0)).find("[undecided: not so against the second solution") !=
                 std::string::npos);
+}
+
+TEST(Certainty, OfTheSecondSolutionItselfIsNotKnown)
+{
+    Diagram itself = diagram(33.0);
+    itself.points[3].beside_pct.reset();
+    EXPECT_TRUE(
+        says(findings(itself), "20.0 %) [undecided: one of the two is the second solution itself; the two solutions differ by 2.0 %]"));
 }
 
 TEST(Findings, SayWhatTheFiguresSay)
