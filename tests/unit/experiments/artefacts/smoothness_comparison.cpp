@@ -59,13 +59,18 @@ TEST(WeightsComparison, RigidBlendingShearsOneLayerInATwistWhatEquation2SpreadsO
     EXPECT_LT(figure(twisted, "strain jump at the joint of LBS, Eq. 2 over rigid")->value, 0.8);
 }
 
-TEST(WeightsComparison, IterationsAreTheRatioOfTheirRecord)
+// The blend by Eq. 2 is nearer to a crease than two rigid halves that go through each other.
+TEST(WeightsComparison, IterationsAreTheRatioOfTheirRecordAndRigidHalvesTakeMore)
 {
-    const WeightsComparison bent = compared({{2, "bend 60 deg"}});
+    auto of = test_support::small_limb(experiments::ArtefactCase::Claim::bulge);
+    of.scene.character.vertices = 1200;
+    of.poses = {{3, "bend 90 deg"}};
+    const WeightsComparison bent = experiments::compare_weights(of);
     ASSERT_EQ(bent.iterations.rows(), 1);
     const auto* ratio = figure(bent, "iterations to tolerance, Eq. 2 over rigid");
-    ASSERT_TRUE(bent.iterations.integer(0, "reached_paper") || bent.iterations.integer(0, "reached_rigid"));
+    ASSERT_TRUE(bent.iterations.integer(0, "reached_paper"));
     ASSERT_NE(ratio, nullptr);
+    EXPECT_LT(ratio->value, 1.0);
     const double paper = std::max(bent.iterations.number(0, "iterations_paper"), 1.0);
     EXPECT_DOUBLE_EQ(ratio->value, paper / std::max(bent.iterations.number(0, "iterations_rigid"), 1.0));
 }
