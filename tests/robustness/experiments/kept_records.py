@@ -1,0 +1,40 @@
+"""What is kept of a study's records is enough to judge its claims again, and is kept whole or not at all. Truth: the verdicts of the records
+that it was taken from."""
+import json
+import pathlib
+import subprocess
+import sys
+import unittest
+
+import program
+
+KEEP = pathlib.Path(program.SOURCE) / "experiments" / "records" / "keep.py"
+
+
+class KeptRecords(program.ProgramTest):
+    def keep(self, results, kept):
+        return subprocess.run([sys.executable, "-B", str(KEEP), str(results), str(kept)], capture_output=True, text=True)
+
+    def test_verdicts_come_back(self):
+        results, kept = pathlib.Path(self.path("results")), pathlib.Path(self.path("kept"))
+        self.succeeds("reproduce", "audit", "momentum", "-o", results, "--quiet")
+        told = json.loads((results / "claims.json").read_text())
+        self.assertEqual(self.keep(results, kept).returncode, 0)
+        self.succeeds("reproduce", "--judge", "-o", kept, "--quiet")
+        self.assertEqual(json.loads((kept / "claims.json").read_text()), told)
+        (kept / "momentum" / "limb" / "run.json").unlink()
+        self.assertEqual(program.run("reproduce", "--judge", "-o", kept, "--quiet").returncode, 1)
+
+    def test_what_cannot_be_kept_leaves_the_last_records_alone(self):
+        results, kept = pathlib.Path(self.path("results")), pathlib.Path(self.path("kept"))
+        self.succeeds("reproduce", "audit", "-o", results, "--quiet")
+        self.assertEqual(self.keep(results, kept).returncode, 0)
+        before = {file: file.read_bytes() for file in kept.rglob("*.*") if file.is_file()}
+        (results / "audit" / "print" / "measurements.csv").write_text("x" * 5_000_001)
+        self.assertIn("more than 5", self.keep(results, kept).stderr)
+        self.assertIn("no records", self.keep(pathlib.Path(self.path("nothing")), kept).stderr)
+        self.assertEqual({file: file.read_bytes() for file in kept.rglob("*.*") if file.is_file()}, before)
+
+
+if __name__ == "__main__":
+    unittest.main()
