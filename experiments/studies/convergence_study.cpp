@@ -118,10 +118,10 @@ StudyRun body_run(const std::string& body, int vertices, bool full, double cost_
 // --full: Man and the bunny's stand-in at the sizes of ManHQ and bunnyHQ, too.
 void add_body(StudyPlan& plan, const std::string& body, bool full)
 {
-    plan.runs.push_back(body_run(body, 0, full, full ? 25.0 : 5.0));
+    plan.runs.push_back(body_run(body, 0, full, full ? 13.5 : 5.0));
     for (const TableOneRow& row : table_1())
         if (full && row.model == (body == "man" ? "ManHQ" : body == "frankie" ? "bunnyHQ" : ""))
-            plan.runs.push_back(body_run(body, row.vertices, full, 40.0));
+            plan.runs.push_back(body_run(body, row.vertices, full, body == "man" ? 30.0 : 60.0));
 }
 
 }  // namespace
@@ -129,10 +129,10 @@ void add_body(StudyPlan& plan, const std::string& body, bool full)
 StudyPlan plan_convergence_study(bool full)
 {
     StudyPlan plan;
-    plan.runs.push_back(limb_run("limb_twist", twists, full, full ? 45.0 : 10.0));
-    plan.runs.push_back(limb_run("limb_bend", bends, full, full ? 25.0 : 7.0));
-    plan.runs.push_back(ladder_run("ladder_twist", "limb_twist", {twists.front()}, full, full ? 150.0 : 8.0));
-    plan.runs.push_back(ladder_run("ladder_bend", "limb_bend", bends, full, full ? 150.0 : 7.0));
+    plan.runs.push_back(limb_run("limb_twist", twists, full, full ? 18.0 : 10.0));
+    plan.runs.push_back(limb_run("limb_bend", bends, full, full ? 10.0 : 6.0));
+    plan.runs.push_back(ladder_run("ladder_twist", "limb_twist", {twists.front()}, full, full ? 150.0 : 13.0));
+    plan.runs.push_back(ladder_run("ladder_bend", "limb_bend", bends, full, full ? 150.0 : 13.0));
     for (const std::string& body : installed_bodies(plan.left_out)) try {
             add_body(plan, body, full);
         } catch (const pbs::InputError& error) {  // the clip is not there

@@ -18,7 +18,8 @@ const std::vector<Study>& studies()
          "residuals, volume and the error to the reference over 1 to 1,000 iterations from LBS, the previous frame, the rest pose and the "
          "rigid bind, in three orders and two precisions; on the limb, a ladder of its sizes (in one precision, beside no reference, and "
          "above 8,000 vertices in one order) and every installed body; rates, iterations and time to tolerance, and towards what",
-         "C03, C12", "some 1 minute (--quick), 5 (--full: to 100,000 vertices)", plan_convergence_study, true, conclude_convergence_study},
+         "C03, C12", "some 30 seconds (--quick), 4 minutes (--full: to 100,000 vertices)", plan_convergence_study, true,
+         conclude_convergence_study},
         {"stability",
          "outcome of some hundreds of disturbed bodies: stiffness, time step, iterations, angle, masses, thin tets, gravity, teleports and "
          "broken starts to their extremes; PBS without and with jiggle, XPBD, the reference in equilibrium and in time, by the same bounds",
@@ -63,8 +64,8 @@ const std::vector<Study>& studies()
         {"work_precision",
          "error against run time: LBS, DQS, delta mush, PBS, XPBD and the FEM at many settings and on several meshes, beside the stable "
          "neo-Hookean reference and its own error bar; Pareto fronts, who is nearest from which time on, and whether the physics is needed",
-         "none: read ratios, not times", "some 1.5 minutes (--quick), 11 (--full: more poses, bodies and meshes)",
-         plan_work_precision_study, true, conclude_work_precision_study, true},
+         "none: read ratios, not times", "some 2 minutes (--quick), 17 (--full: more poses, bodies and meshes)", plan_work_precision_study,
+         true, conclude_work_precision_study, true},
         {"error_split",
          "the error of PBS against the reference, split into solver, model and discretisation; the share of the attachment and of the "
          "bones' thickness",
