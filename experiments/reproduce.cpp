@@ -130,8 +130,9 @@ std::vector<analysis::Verdict> verdicts_of(const Study& study, const std::string
 }
 
 // The verdicts of all studies, into DIR/claims.json, DIR/claims.md and the terminal; whether each could be computed.
-bool tell_verdicts(const std::vector<analysis::Verdict>& verdicts, const std::string& folder)
+bool tell_verdicts(std::vector<analysis::Verdict> verdicts, const std::string& folder)
 {
+    std::stable_sort(verdicts.begin(), verdicts.end(), [](const auto& one, const auto& other) { return one.claim.id < other.claim.id; });
     analysis::write_text_atomically((fs::path(folder) / "claims.json").string(), analysis::claims_json(verdicts).dump(2) + "\n");
     analysis::write_text_atomically((fs::path(folder) / "claims.md").string(), analysis::claims_markdown(verdicts));
     fmt::print("{}", analysis::claims_table(verdicts, isatty(STDOUT_FILENO) && !std::getenv("NO_COLOR")));
