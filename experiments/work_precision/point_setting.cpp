@@ -163,8 +163,7 @@ DeformerSpec fem_spec(const Scene& scene, reference_fem::Model model, int elemen
     spec.fem.model = model;
     spec.fem.element_order = element_order;
     spec.fem.nested_start = element_order == 2 && model != reference_fem::Model::linear;
-    const bool dilatation = element_order == 2 && model == reference_fem::Model::stable_neo_hookean;
-    spec.fem.formulation = dilatation ? reference_fem::Formulation::mean_dilatation : reference_fem::Formulation::displacement;
+    spec.fem.formulation = reference_fem::Formulation::displacement;
     return spec;
 }
 
