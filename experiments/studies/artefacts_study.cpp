@@ -141,7 +141,7 @@ void plan_body(const std::string& body, bool full, StudyPlan& plan)
     const int finer = static_cast<int>(1.3 * static_cast<double>(character.mesh.rest.rows()));
     const auto add = [&](const std::string& name, ArtefactCase of, double cost_s) {
         if (full) of.vertices = {finer};
-        plan.runs.push_back(artefact_run(name, of, full ? 3.0 * cost_s : cost_s));
+        plan.runs.push_back(artefact_run(name, of, full ? 1.5 * cost_s : cost_s));
     };
     for (const TurnedJoint& turned : joints_to_turn(joints))
         for (const LimbJoint& joint : joints) {
@@ -193,7 +193,7 @@ std::string sections_text(const std::vector<std::string>& finished)
 StudyPlan plan_artefacts_study(bool full)
 {
     StudyPlan plan;
-    plan.runs.push_back(artefact_run("limb_twist", limb_sweep("twist", 6, full), full ? 60.0 : 11.0));
+    plan.runs.push_back(artefact_run("limb_twist", limb_sweep("twist", 6, full), full ? 26.0 : 11.0));
     plan.runs.push_back(artefact_run("limb_bend", limb_sweep("bend", 5, full), full ? 60.0 : 40.0));
     for (const std::string& body : installed_bodies(plan.left_out)) {
         if (!full && body != "human") continue;

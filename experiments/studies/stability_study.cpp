@@ -64,7 +64,7 @@ StudyRun stability_run(const std::string& name, const Cells& cells, double cost_
 void add_character(StudyPlan& plan, const std::string& body, bool full)
 {
     try {
-        plan.runs.push_back(stability_run("pbs_" + body, pbs_character_cells(body, full), full ? 50.0 : 9.0));
+        plan.runs.push_back(stability_run("pbs_" + body, pbs_character_cells(body, full), full ? 20.0 : 9.0));
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({body, error.what()});
     }
