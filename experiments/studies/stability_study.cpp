@@ -86,13 +86,13 @@ StudyPlan plan_stability_study(bool full)
 {
     StudyPlan plan;
     plan.runs.push_back(stability_run("pbs", pbs_cells(false, full), full ? 8.0 : 2.0));
-    plan.runs.push_back(stability_run("pbs_jiggle", pbs_cells(true, full), full ? 160.0 : 21.0));
+    plan.runs.push_back(stability_run("pbs_jiggle", pbs_cells(true, full), full ? 95.0 : 21.0));
     plan.runs.push_back(stability_run("pbs_maps", pbs_map_cells(full), full ? 80.0 : 9.0));
     add_characters(plan, full);
     plan.runs.push_back(stability_run("controls", negative_controls(full), 2.0));
     plan.runs.push_back(stability_run("xpbd", xpbd_cells(full), full ? 80.0 : 14.0));
-    plan.runs.push_back(stability_run("fem_static", fem_static_cells(full), full ? 150.0 : 32.0));
-    plan.runs.push_back(stability_run("fem_in_time", fem_dynamic_cells(full), full ? 150.0 : 22.0));
+    plan.runs.push_back(stability_run("fem_static", fem_static_cells(full), full ? 200.0 : 32.0));
+    plan.runs.push_back(stability_run("fem_in_time", fem_dynamic_cells(full), full ? 350.0 : 22.0));
     std::string counts;
     std::size_t all = 0;
     for (const StudyRun& run : plan.runs) {
