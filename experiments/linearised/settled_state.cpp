@@ -1,6 +1,7 @@
 #include "experiments/linearised/settled_state.hpp"
 
 #include "experiments/linearised/matrix_free.hpp"
+#include "experiments/linearised/stacked_rows.hpp"
 
 #include <unsupported/Eigen/IterativeSolvers>
 
@@ -21,33 +22,11 @@ pbs::PbsOptions without_bind(pbs::PbsOptions options)
     return options;
 }
 
-// The free particles' rows, stacked, and back.
-class FreeParticles {
-public:
-    explicit FreeParticles(const std::vector<bool>& held) : vertices_(static_cast<Eigen::Index>(held.size()))
-    {
-        for (std::size_t v = 0; v < held.size(); ++v)
-            if (!held[v]) free_.push_back(static_cast<int>(v));
-    }
-
-    Eigen::Index size() const { return 3 * static_cast<Eigen::Index>(free_.size()); }
-    Eigen::VectorXd stacked(const Positions& displacement) const
-    {
-        Eigen::VectorXd stack(size());
-        for (std::size_t i = 0; i < free_.size(); ++i) stack.segment<3>(3 * i) = displacement.row(free_[i]).transpose();
-        return stack;
-    }
-    Positions at_vertices(const Eigen::VectorXd& stack) const
-    {
-        Positions displacement = Positions::Zero(vertices_, 3);
-        for (std::size_t i = 0; i < free_.size(); ++i) displacement.row(free_[i]) = stack.segment<3>(3 * i).transpose();
-        return displacement;
-    }
-
-private:
-    Eigen::Index vertices_;
-    std::vector<int> free_;
-};
+std::vector<bool> free_of(std::vector<bool> held)
+{
+    held.flip();
+    return held;
+}
 
 }  // namespace
 
@@ -96,7 +75,7 @@ void IterationsNearRest::apply(Positions& displacement) const
 SettledState settle(const pbs::TetMesh& mesh, const std::vector<bool>& held, const pbs::PbsOptions& options, const Vec3& acceleration_m_s2)
 {
     const IterationsNearRest iterations(mesh, held, options);
-    const FreeParticles free(held);
+    const StackedRows free(free_of(held));
     SettledState state;
     const auto S = [&](const Eigen::VectorXd& x) {
         ++state.steps;

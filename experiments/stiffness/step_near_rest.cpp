@@ -1,6 +1,7 @@
 #include "experiments/stiffness/step_near_rest.hpp"
 
 #include "experiments/linearised/matrix_free.hpp"
+#include "experiments/linearised/stacked_rows.hpp"
 #include "pbs/solver/constraint_set.hpp"
 
 #include <unsupported/Eigen/IterativeSolvers>
@@ -50,34 +51,6 @@ int vertex_of(const Constraint& constraint, std::size_t corner)
 {
     return constraint.vertex[corner];
 }
-
-// The zone's rows, stacked, and back: everything else starts a step at rest.
-class ZoneRows {
-public:
-    explicit ZoneRows(const std::vector<bool>& zone) : vertices_(static_cast<Eigen::Index>(zone.size()))
-    {
-        for (std::size_t v = 0; v < zone.size(); ++v)
-            if (zone[v]) zone_.push_back(static_cast<int>(v));
-    }
-
-    Eigen::Index size() const { return 3 * static_cast<Eigen::Index>(zone_.size()); }
-    Eigen::VectorXd stacked(const Positions& displacement) const
-    {
-        Eigen::VectorXd stack(size());
-        for (std::size_t i = 0; i < zone_.size(); ++i) stack.segment<3>(3 * i) = displacement.row(zone_[i]).transpose();
-        return stack;
-    }
-    Positions at_vertices(const Eigen::VectorXd& stack) const
-    {
-        Positions displacement = Positions::Zero(vertices_, 3);
-        for (std::size_t i = 0; i < zone_.size(); ++i) displacement.row(zone_[i]) = stack.segment<3>(3 * i).transpose();
-        return displacement;
-    }
-
-private:
-    Eigen::Index vertices_;
-    std::vector<int> zone_;
-};
 
 }  // namespace
 
@@ -163,7 +136,7 @@ void StepNearRest::apply(Positions& displacement)
 RestingFlesh rest_near_rest(const LoadedFlesh& flesh, const StiffnessSetting& setting)
 {
     StepNearRest step(flesh, setting);
-    const ZoneRows zone(flesh.zone);
+    const StackedRows zone(flesh.zone);
     RestingFlesh rest;
     const auto of_step = [&](const Eigen::VectorXd& x) {
         ++rest.steps;
