@@ -143,6 +143,7 @@ private:
             if (error_bar_) cost_.time("error_bar", [&] { context.reference_error = error_bar_->bound(*context.reference, measurer_); });
         }
         for (Runner& runner : runners_) record_deformer(runner, frame, time_s, context);
+        if (scene_.output.writes(frame)) folder_.write_pose(frame, time_s, character_.skeleton, motion_.steps[step]);
         ++frames_;
     }
 

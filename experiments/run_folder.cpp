@@ -159,7 +159,8 @@ RunFolder::RunFolder(const Scene& scene, const pbs::Character& character, const 
     std::error_code error;
     fs::create_directories(fs::path(folder) / "frames", error);
     if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
-    for (const char* old : {"run.json", "metrics.csv", "iterations.csv", "regions.csv"}) fs::remove(fs::path(folder) / old);
+    for (const char* old : {"run.json", "metrics.csv", "iterations.csv", "regions.csv", "bones.csv", "binding.csv"})
+        fs::remove(fs::path(folder) / old);
     for (const auto& entry : fs::directory_iterator(fs::path(folder) / "frames"))
         if (is_own_frame(entry.path())) fs::remove(entry.path());
 }
@@ -213,6 +214,11 @@ void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, 
     collections_[name].emplace_back(time_s, frame_file(name, frame, ".vtu"));
 }
 
+void RunFolder::write_pose(int frame, double time_s, const pbs::Skeleton& skeleton, const pbs::Pose& pose)
+{
+    add_bones(bones_, frame, time_s, skeleton, pose);
+}
+
 void RunFolder::add_state(const DeformerSpec& spec, const pbs::Positions& positions)
 {
     hashes_[spec.label].add(positions);
@@ -224,13 +230,17 @@ void RunFolder::write_tables() const
     metrics_.write((folder / "metrics.csv").string());
     if (iterations_.rows() > 0) iterations_.write((folder / "iterations.csv").string());
     regions_.table().write((folder / "regions.csv").string());
+    if (bones_.rows() > 0) bones_.write((folder / "bones.csv").string());
     for (const auto& [name, frames] : collections_) pbs::write_pvd((folder / "frames" / (name + ".pvd")).string(), frames);
 }
 
 void RunFolder::finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
                        const nlohmann::json& outcome, CostRecord& cost, const nlohmann::json& reference_error_method)
 {
-    cost.time("records", [&] { write_tables(); });
+    cost.time("records", [&] {
+        write_tables();
+        if (bones_.rows() > 0) binding_table(character).write((fs::path(folder_) / "binding.csv").string());
+    });
     analysis::Provenance provenance = analysis::collect_provenance(most_threads(scene_));
     for (const auto& [library, version] : library_versions()) provenance.libraries[library] = version;
     for (const auto& [input, hash] : character.inputs) provenance.input_hashes[input] = hash;

@@ -1,9 +1,10 @@
-// A run's directory: metrics.csv, iterations.csv, regions.csv, frames/, run.json. Each file is written beside and renamed; run.json comes
-// last, so that a folder with run.json is a finished run.
+// A run's directory: metrics.csv, iterations.csv, regions.csv, frames/ with bones.csv and binding.csv beside, run.json. Each file is
+// written beside and renamed; run.json comes last, so that a folder with run.json is a finished run.
 #pragma once
 
 #include "analysis/csv_table.hpp"
 #include "analysis/state_hash.hpp"
+#include "experiments/bone_record.hpp"
 #include "experiments/cost_record.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/frame_measurement.hpp"
@@ -23,7 +24,8 @@ public:
     void add_frame(const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured, const pbs::StepSummary& step);
     void write_frame(const DeformerSpec& spec, int frame, double time_s, const pbs::Character& character, const pbs::Positions& positions,
                      const Eigen::VectorXd& volume_ratios, const std::vector<bool>& prescribed);
-    void add_state(const DeformerSpec& spec, const pbs::Positions& positions);  // into the deformer's state hash
+    void write_pose(int frame, double time_s, const pbs::Skeleton& skeleton, const pbs::Pose& pose);  // of a frame that is written
+    void add_state(const DeformerSpec& spec, const pbs::Positions& positions);                        // into the deformer's state hash
 
     void add_regions(const std::string& label, const pbs::Positions& positions) { regions_.add(label, positions); }
 
@@ -36,7 +38,7 @@ public:
 private:
     const Scene& scene_;
     std::string folder_;
-    analysis::CsvTable metrics_, iterations_;
+    analysis::CsvTable metrics_, iterations_, bones_ = empty_bone_table();
     RegionRecord regions_;
     std::map<std::string, analysis::StateHash> hashes_;
     std::map<std::string, std::vector<std::pair<double, std::string>>> collections_;  // .pvd: time, file

@@ -13,6 +13,7 @@ import sys
 JUDGED = ["scene", "deformer", "variant", "order", "precision", "iterations", "threads", "frame", "time_s", "angle_deg", "outcome",
           "volume_change_pct", "volume_abs_change_pct", "inverted_tets"]
 PROVENANCE = ["version", "git_revision", "git_dirty", "compiler", "flags", "build_type", "cpu_model", "logical_cpus"]
+DRAWN = ("bones.csv", "binding.csv")  # beside frames, which are not kept
 MOST_BYTES = 5_000_000
 TABLE_BYTES = 60_000  # of a study's further tables; longer ones are made again by the run
 
@@ -44,6 +45,8 @@ def keep_run(source, target):
     for table in sorted(source.glob("*.csv")):
         if table.name == "metrics.csv":
             keep_metrics(table, target / table.name)
+        elif table.name in DRAWN:
+            continue
         elif table.name in ("measurements.csv", "printed.csv") or table.stat().st_size <= TABLE_BYTES:
             shutil.copyfile(table, target / table.name)
 

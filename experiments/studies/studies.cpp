@@ -47,6 +47,10 @@ const std::vector<Study>& studies()
          "of the limb and the human, and whether C01 or C02 would be judged otherwise",
          "none: how far C01 and C02 hang on a reading", "some 10 seconds (--quick), 1 minute (--full: the whole clip)",
          plan_ambiguity_study, true, conclude_ambiguity_study},
+        {"frames",
+         "the frames that figures and the report's viewer show: the twisted and the bent limb, the human jumping and walking, by LBS, DQS, "
+         "PBS and stable neo-Hookean finite elements, every frame on disk",
+         "none", "some 30 seconds", plan_frames_study},
         {"timing",
          "milliseconds of a frame on one core, of LBS, bind, stretch, volume and the whole, on meshes made to Table 1's counts, beside its "
          "figures; plain in f64 and f32, ordered in f32, by turns; and the size at which 30 frames a second end",

@@ -74,6 +74,7 @@ StudyPlan plan_setup_study(bool full);
 StudyConclusion conclude_setup_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_bench_study(bool full);
 StudyConclusion conclude_bench_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
+StudyPlan plan_frames_study(bool full);
 StudyPlan plan_features_study(bool full);
 StudyConclusion conclude_features_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
 StudyPlan plan_scale_study(bool full);

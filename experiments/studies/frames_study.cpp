@@ -1,0 +1,88 @@
+// The frames that figures and the report's viewer show; no claim is judged by them.
+//
+//   limb_twist   0 - 180 deg by 10    o=======o~~~~~~~o)   LBS, DQS, PBS and stable neo-Hookean finite elements on the same tets
+//   limb_bend    0 - 150 deg by 10    o=======o
+//   limb_bend_rigid                                        LBS and PBS with rigid weights in place of Eq. 2
+//   human_jump   1.6 s of 01_01 from 6.0 s on, 25 frames a second: the four; PBS without the start from LBS, and with the jiggling zone
+//   human_walk   the first 2.4 s of 01_03: the four; PBS with the jiggling zone
+//
+// Writes DIR/frames/RUN/frames/*.vtu, .vtp and bones.csv, binding.csv, metrics.csv beside.
+#include "experiments/studies/study.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <algorithm>
+
+namespace experiments {
+namespace {
+
+const std::string the_four = R"(deformers.use=["lbs","dqs","pbs","snh_p1"])", blend_and_pbs = R"(deformers.use=["lbs","pbs"])";
+
+StudyRun shown(const std::string& name, const std::string& scene, std::vector<std::string> overrides, double cost_s)
+{
+    overrides.insert(overrides.end(), {"output.frames=[]", "output.frame_names=[]", "output.frames_every=1"});
+    StudyRun run{.name = name, .scene = read_scene(scene, overrides), .cost_s = cost_s};
+    run.scene.name = name;
+    return run;
+}
+
+StudyRun with_pbs(StudyRun run, const std::string& label, const std::string& variant, auto&& change)
+{
+    DeformerSpec spec =
+        *std::find_if(run.scene.deformers.begin(), run.scene.deformers.end(), [](const auto& s) { return s.kind == "pbs"; });
+    spec.label = label;
+    spec.variant = variant;
+    change(spec.pbs);
+    run.scene.deformers.push_back(spec);
+    return run;
+}
+
+// Table 1's "jiggling" is k_stretch in the zone; outside it is 1.
+StudyRun with_jiggle(StudyRun run, double k_jiggle)
+{
+    return with_pbs(std::move(run), "pbs_jiggle", "jiggle", [&](pbs::PbsOptions& options) {
+        options.k_stretch = 1.0;
+        options.jiggle = pbs::Jiggle{k_jiggle};
+    });
+}
+
+StudyRun without_the_start_from_lbs(StudyRun run)
+{
+    return with_pbs(std::move(run), "pbs_increment", "increment",
+                    [](pbs::PbsOptions& options) { options.lbs_entry = pbs::LbsEntry::increment; });
+}
+
+void add_limb(StudyPlan& plan)
+{
+    const std::string reference = R"(reference.name="snh_p1")", none = R"(reference.name="")";
+    plan.runs.push_back(shown("limb_twist", "limb_twist", {the_four, reference, "motion.frames=19"}, 3.5));
+    plan.runs.push_back(shown("limb_bend", "limb_bend", {the_four, reference, "motion.frames=16"}, 19.0));
+    plan.runs.push_back(
+        shown("limb_bend_rigid", "limb_bend", {blend_and_pbs, none, "motion.frames=16", R"(skinning.weights="rigid")"}, 0.5));
+}
+
+void add_human(StudyPlan& plan)
+{
+    const std::string reference = R"(reference.name="snh_p1")", rate = "motion.rate_hz=25.0";
+    const StudyRun jumping =
+        shown("human_jump", "human_01_01", {the_four, reference, rate, "motion.start_s=6.0", "motion.duration_s=1.6"}, 16.0);
+    plan.runs.push_back(with_jiggle(without_the_start_from_lbs(jumping), 0.9));
+    const StudyRun walking =
+        shown("human_walk", "human_01_01", {the_four, reference, rate, "motion.clip=01_03.bvh", "motion.duration_s=2.4"}, 21.0);
+    plan.runs.push_back(with_jiggle(walking, 0.1));
+}
+
+}  // namespace
+
+StudyPlan plan_frames_study(bool)
+{
+    StudyPlan plan;
+    add_limb(plan);
+    try {
+        add_human(plan);
+    } catch (const pbs::InputError& error) {
+        plan.left_out.push_back({"human", error.what()});
+    }
+    return plan;
+}
+
+}  // namespace experiments
