@@ -31,5 +31,6 @@ struct JoltResponse {
 };
 
 JoltResponse jolt_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe, const Jolt& jolt);
+JoltResponse jolt_response(const pbs::Character& character, Deformer& deformer, const std::vector<int>& probe, const Jolt& jolt);
 
 }  // namespace experiments

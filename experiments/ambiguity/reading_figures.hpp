@@ -1,0 +1,38 @@
+// The figures that claims are judged by, of a body moved by each reading in turn; every figure is the claim's own study's, in one pose,
+// order and precision, so that it has no interval.
+//   const ReadingsCase of = {.scene = read_scene("limb_bend", {}), .frame = 18, .pose = "bend 90"};
+//   for (const ReadingFigures& read : figures_of_starts(of, readings)) ...   // one a reading
+#pragma once
+
+#include "experiments/ambiguity/judged_figure.hpp"
+#include "experiments/artefacts/artefact_case.hpp"
+
+namespace experiments {
+
+struct ReadingsCase {
+    Scene scene;
+    int frame = 0;  // of the scene's motion
+    std::string pose;
+    pbs::Vec3 jolt_direction = pbs::Vec3::UnitY();
+    int most_iterations = 1000;  // of paths
+    double timing_s = 2.0;       // in all
+};
+
+// C03, C12: paths of iterations from the four starts, with the reading's weights and bind points. The previous frame, where it is a start,
+// was reached with the bone's own material points.
+std::vector<ReadingFigures> figures_of_starts(const ReadingsCase& of, const std::vector<Reading>& readings);
+
+// C04 or C05, as the case has it: sections of the body's joints in the poses of a sweep, each step of which is taken, beside one reference.
+std::vector<ReadingFigures> figures_of_sections(const ArtefactCase& of, const std::vector<Reading>& readings);
+
+// C07: single projections and a pass of each class that is judged, from the reading's LBS shape, momentum counted by its own masses.
+std::vector<ReadingFigures> figures_of_projections(const ReadingsCase& of, const std::vector<Reading>& readings);
+
+// C09: a jolt without gravity at the reading's own stiffness in the zone, at 0.1 there, at half the time step and at twice the iterations.
+// A reading of flesh that does not jiggle is given Table 1's 0.9 in the zone. All count as the paper's own setting.
+std::vector<ReadingFigures> figures_of_jolts(const ReadingsCase& of, const std::vector<Reading>& readings);
+
+// C10: processor time of a frame, LBS included, of all readings by turns, in the order and precision that are judged (plain, f64).
+std::vector<ReadingFigures> figures_of_frames(const ReadingsCase& of, const std::vector<Reading>& readings);
+
+}  // namespace experiments
