@@ -78,6 +78,14 @@ public:
         return path;
     }
 
+    NewtonSummary solve_at_once(const Targets& targets, const pbs::Vec3& gravity_m_s2)
+    {
+        gravity_.set(held_.gravity_load(gravity_m_s2));
+        const NewtonSummary summary = newton_.minimise(terms_, move_to(targets), displacement_, options_.newton);
+        show();
+        return summary;
+    }
+
     LoadPathSummary advance(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2, double time_step_s)
     {
         const Eigen::VectorXd weight = held_.gravity_load(gravity_m_s2), weight_before = weighs_ ? gravity_.force() : weight;
@@ -156,6 +164,13 @@ LoadPathSummary ElasticBody::advance(const TargetsAt& targets_at, const pbs::Vec
 void ElasticBody::start_from(const pbs::Positions& vertices)
 {
     implementation_->displacement_ = implementation_->held_.prescribed_values(vertices);
+}
+
+NewtonSummary ElasticBody::solve_at_once(const Targets& targets, const pbs::Vec3& gravity_m_s2)
+{
+    require(gravity_m_s2.allFinite(), "gravity_m_s2", gravity_m_s2.transpose(), "expected finite components");
+    require(implementation_->stepper_ == nullptr, "dynamics", "in time", "expected quasi_static for a solve at once");
+    return implementation_->solve_at_once(targets, gravity_m_s2);
 }
 
 const pbs::Positions& ElasticBody::positions() const

@@ -61,6 +61,10 @@ public:
     // A start for Newton other than the last state [m], #V x 3; mid-edge nodes halfway. Does not change what is converged to, only the way.
     void start_from(const pbs::Positions& vertices);
 
+    // Newton alone for these targets, from the last state or start_from(), however broken: no load path, nothing taken back. positions()
+    // are then the last iterate, converged or not. Quasi-static.
+    NewtonSummary solve_at_once(const Targets& targets, const pbs::Vec3& gravity_m_s2);
+
     const pbs::Positions& positions() const;        // deformed vertices [m], #V x 3
     const Eigen::VectorXd& displacement() const;    // of every node of the space [m], #dofs: vertices, then the middles of edges
     pbs::Positions spring_points_deformed() const;  // where the tied points went [m], #S x 3

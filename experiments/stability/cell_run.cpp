@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace experiments {
 namespace {
@@ -18,6 +19,7 @@ struct Course {
     std::vector<analysis::StabilityStep> steps;
     pbs::Positions last;  // [m], #V x 3
     int disturbed_steps = 0;
+    std::vector<int> iterations;  // of the method, by step
 };
 
 bool is_over(const Course& course)
@@ -29,18 +31,26 @@ bool is_over(const Course& course)
            analysis::settled_steps(steps) >= settled_for_good;
 }
 
+std::optional<int> iterations_until_reached(const Course& course)
+{
+    const auto reached = std::find_if(course.steps.begin(), course.steps.end(), [](const auto& step) { return step.solved; });
+    if (reached == course.steps.end()) return std::nullopt;
+    return std::accumulate(course.iterations.begin(), course.iterations.begin() + (reached - course.steps.begin()) + 1, 0);
+}
+
 Course follow(const StabilityCell& cell, const pbs::Positions* undisturbed)
 {
     StabilityBody body(cell);
     const pbs::Character& character = body.character();
     const auto driven = make_driven_body(cell, character);
-    Course course{{}, body.drive(0).blended, body.disturbed_steps()};
+    Course course{{}, body.drive(0).blended, body.disturbed_steps(), {}};
     for (int step = 0; step < body.steps(); ++step) {
         const Drive drive = body.drive(step);
-        const bool solved = driven->advance(drive, cell.time_step_s);
+        const pbs::StepSummary step_summary = driven->advance(drive, cell.time_step_s);
         course.steps.push_back(analysis::stability_step(course.last, driven->positions(), {drive.bind_points, character.binding.distance},
                                                         character.mesh.tets, body.diagonal_m(), undisturbed));
-        course.steps.back().solved = solved;
+        course.steps.back().solved = step_summary.outcome == pbs::Outcome::finished;
+        course.iterations.push_back(step_summary.iterations);
         course.last = driven->positions();
         if (is_over(course)) break;
     }
@@ -84,6 +94,7 @@ CellResult run_cell(const StabilityCell& cell)
     CellResult result;
     Course course = follow(cell, undisturbed ? &*undisturbed : nullptr);
     result.stability = analysis::outcome_of(course.steps, course.disturbed_steps);
+    if (cell.disturbance.start != Start::none) result.iterations_until_reached = iterations_until_reached(course);
     result.steps_not_reached =
         static_cast<int>(std::count_if(course.steps.begin(), course.steps.end(), [](const auto& s) { return !s.solved; }));
     result.steps = std::move(course.steps);

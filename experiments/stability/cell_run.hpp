@@ -5,6 +5,8 @@
 #include "analysis/stability_outcome.hpp"
 #include "experiments/stability/stability_cell.hpp"
 
+#include <optional>
+
 namespace experiments {
 
 struct CellResult {
@@ -12,6 +14,9 @@ struct CellResult {
     std::vector<analysis::StabilityStep> steps;
     bool has_undisturbed = false;  // the same body, set out on the last pose, comes to rest
     int steps_not_reached = 0;
+    // From a broken start: of the method, in the steps up to the first that was reached; of Newton's, until its residual was within
+    // tolerance.
+    std::optional<int> iterations_until_reached;
     double cpu_s = 0.0;
 };
 CellResult run_cell(const StabilityCell& cell);

@@ -30,28 +30,32 @@ public:
     explicit Solved(const Arguments&... arguments) : solver_(arguments...)
     {
     }
-    bool advance(const Drive& drive, double dt_s) override
-    {
-        return solver_.advance(drive.blended, drive.bind_points, dt_s).outcome == pbs::Outcome::finished;
-    }
+    pbs::StepSummary advance(const Drive& drive, double dt_s) override { return solver_.advance(drive.blended, drive.bind_points, dt_s); }
     const pbs::Positions& positions() const override { return solver_.positions(); }
 
 private:
     Solver solver_;
 };
 
-// The finite elements: told the pose alone.
+// The finite elements: told the pose alone, and the shape they start from where it is a broken one.
 class Posed : public DrivenBody {
 public:
-    Posed(const StabilityCell& cell, const pbs::Character& character) : deformer_(make_deformer(cell.spec)) { deformer_->reset(character); }
-    bool advance(const Drive& drive, double dt_s) override
+    Posed(const StabilityCell& cell, const pbs::Character& character)
+        : deformer_(make_deformer(cell.spec)), is_to_start_(cell.disturbance.start != Start::none)
     {
-        return deformer_->advance(drive.pose, dt_s).outcome == pbs::Outcome::finished;
+        deformer_->reset(character);
+    }
+    pbs::StepSummary advance(const Drive& drive, double dt_s) override
+    {
+        if (is_to_start_) deformer_->start_from(drive.blended);
+        is_to_start_ = false;
+        return deformer_->advance(drive.pose, dt_s);
     }
     const pbs::Positions& positions() const override { return deformer_->positions(); }
 
 private:
     std::unique_ptr<Deformer> deformer_;
+    bool is_to_start_;
 };
 
 std::unique_ptr<DrivenBody> make_pbs(const StabilityCell& cell, const pbs::Character& character)

@@ -1,9 +1,10 @@
 // A body under one of the methods, led step by step: what every cell runs, whatever the method.
 //   const auto driven = make_driven_body(cell, character);
-//   const bool reached = driven->advance(drive, dt);
+//   const pbs::StepSummary step = driven->advance(drive, dt);
 #pragma once
 
 #include "experiments/stability/stability_body.hpp"
+#include "pbs/solver/step_summary.hpp"
 
 #include <memory>
 
@@ -12,8 +13,8 @@ namespace experiments {
 class DrivenBody {
 public:
     virtual ~DrivenBody() = default;
-    virtual bool advance(const Drive& drive, double dt_s) = 0;  // whether what the step asked for was reached
-    virtual const pbs::Positions& positions() const = 0;        // [m], #V x 3
+    virtual pbs::StepSummary advance(const Drive& drive, double dt_s) = 0;
+    virtual const pbs::Positions& positions() const = 0;  // [m], #V x 3
 };
 
 std::unique_ptr<DrivenBody> make_driven_body(const StabilityCell& cell, const pbs::Character& character);

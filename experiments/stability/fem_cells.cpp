@@ -44,7 +44,7 @@ std::vector<StabilityCell> fem_static_cells(bool full)
 {
     std::vector<StabilityCell> cells;
     for (const Model model : {Model::linear, Model::corotational, Model::stable_neo_hookean})
-        for (const Sweep* sweep : {&youngs, &poissons, &gravities, &twists, &jumps, &teleports, &slivers})
+        for (const Sweep* sweep : {&youngs, &poissons, &gravities, &twists, &jumps, &teleports, &starts, &slivers})
             append(cells, cells_of(*sweep, base(model, Dynamics::quasi_static), full));
     return cells;
 }

@@ -74,6 +74,7 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
         order_1_->reset(character);
     }
     unspent_s_ = 0.0;
+    start_ = {};
     is_started_ = false;
     failures_in_a_row_ = 0;
     record_ = FemRecord(character, options_, bones_, body_->setup().spring_tet);
@@ -87,7 +88,10 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
     const RootFrame frame(character_->skeleton, pose);
     FrameSolve solve;
     if (!has_memory()) {
-        if (!settle_from_order_1(pose, frame, solve)) solve = settle(frame);
+        if (start_.rows() > 0)
+            solve = settle_from_start(frame);
+        else if (!settle_from_order_1(pose, frame, solve))
+            solve = settle(frame);
         positions_ = frame.to_world(body_->positions());
     } else {
         solve = is_started_ ? move(pose, dt_s) : start_at(frame);
@@ -95,6 +99,7 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
     }
     pbs::StepSummary summary;
     summary.outcome = solve.converged() ? pbs::Outcome::finished : pbs::Outcome::not_converged;
+    for (const auto& stage : solve.stages) summary.iterations += stage.newton_steps();
     summary.seconds = stopwatch.seconds();
 
     record_.add_frame(frame.pose());
@@ -160,6 +165,17 @@ FrameSolve ElasticFemDeformer::settle(const RootFrame& frame)
     follow(PosePath(skeleton, rest_pose(skeleton), frame.pose()), here, gravity_m_s2, solve);
     if (solve.converged()) failures_in_a_row_ = 0;
     return solve;
+}
+
+FrameSolve ElasticFemDeformer::settle_from_start(const RootFrame& frame)
+{
+    body_->start_from(frame.to_root(start_));
+    start_ = {};
+    const reference_fem::NewtonSummary newton = body_->solve_at_once(targets_of(frame.pose()), frame.from_world(options_.gravity_m_s2));
+    reached_pose_ = frame.pose();
+    failures_in_a_row_ = 0;
+    const double reached = newton.converged() ? 1.0 : 0.0;
+    return {{{reached, {{1.0, newton}}, newton.seconds}}, reached};
 }
 
 FrameSolve ElasticFemDeformer::start_at(const RootFrame& frame)

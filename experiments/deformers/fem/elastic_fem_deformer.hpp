@@ -6,6 +6,9 @@
 // not_converged and the next frame sets out from there; the second in a row is tried again from rest, once. With nested_start the body
 // with order 1 goes the way to a pose far from the last, and the one with order 2 sets out from where it arrived; only where that fails it
 // goes the way itself.
+// start_from(): the next frame is Newton's method alone, in the frame's own pose from that shape. Where it does not arrive the positions
+// are its last iterate, and the frame after it goes on from there.
+//
 // In time: the first pose is where the body rests in equilibrium; then every step is a time step. One that does not converge is taken
 // back, and the next one covers its time too.
 #pragma once
@@ -30,6 +33,7 @@ public:
     pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override;
 
     const pbs::Positions& positions() const override { return positions_; }
+    void start_from(const pbs::Positions& shape) override { start_ = shape; }
     bool has_memory() const override { return options_.dynamics != reference_fem::Dynamics::quasi_static; }
     std::vector<bool> prescribed() const override;
     nlohmann::json record() const override;
@@ -37,6 +41,7 @@ public:
 private:
     reference_fem::Targets targets_of(const pbs::Pose& pose) const { return targets(bones_, character_->mesh.rest, pose); }
     FrameSolve settle(const RootFrame& frame);  // in the root's frame
+    FrameSolve settle_from_start(const RootFrame& frame);
     bool settle_from_order_1(const pbs::Pose& pose, const RootFrame& frame, FrameSolve& solve);
     FrameSolve start_at(const RootFrame& frame);          // in the world, at rest
     FrameSolve move(const pbs::Pose& pose, double dt_s);  // in the world
@@ -50,6 +55,7 @@ private:
     std::unique_ptr<reference_fem::ElasticBody> body_;
     pbs::Pose reached_pose_;   // that the body is in: relative to the root, or in the world where it moves in time
     double unspent_s_ = 0.0;   // time of steps that were taken back
+    pbs::Positions start_;     // of the next frame, in the world [m], #V x 3; empty: the last state
     bool is_started_ = false;  // in time: the first pose is there
     int failures_in_a_row_ = 0;
     std::unique_ptr<ElasticFemDeformer> order_1_;  // nested_start

@@ -17,4 +17,9 @@ pbs::Positions RootFrame::to_world(const pbs::Positions& points) const
     return (points * root_.linear().transpose()).rowwise() + root_.translation().transpose();
 }
 
+pbs::Positions RootFrame::to_root(const pbs::Positions& points) const
+{
+    return (points.rowwise() - root_.translation().transpose()) * root_.linear();
+}
+
 }  // namespace experiments

@@ -14,6 +14,7 @@ public:
     const Eigen::Isometry3d& root() const { return root_; }  // the root in the world
     pbs::Vec3 from_world(const pbs::Vec3& direction) const { return root_.linear().transpose() * direction; }
     pbs::Positions to_world(const pbs::Positions& points) const;  // [m], #points x 3
+    pbs::Positions to_root(const pbs::Positions& points) const;   // its inverse
 
 private:
     Eigen::Isometry3d root_;

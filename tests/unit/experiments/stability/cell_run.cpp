@@ -132,6 +132,14 @@ TEST(CellRun, WithJiggleTheTimeStepEntersBesideGravityAlone)
     EXPECT_GT(std::abs(slow.back().motion - light.back().motion), 1e-6);
 }
 
+TEST(CellRun, ABrokenStartTellsTheIterationsUntilItWasReached)
+{
+    StabilityCell cell = pbs_cell();
+    EXPECT_FALSE(run_cell(cell).iterations_until_reached);
+    cell.disturbance.start = Start::mirrored;
+    EXPECT_EQ(run_cell(cell).iterations_until_reached, cell.spec.pbs.iterations);
+}
+
 TEST(CellRun, TeleportIsForgottenWithoutJiggle)
 {
     StabilityCell cell = pbs_cell();

@@ -125,6 +125,45 @@ TEST(ElasticFemDeformer, TheSecondFailureInARowIsTriedAgainFromRestOnce)
     EXPECT_EQ(fem.advance(bent(10.0), 0.01).outcome, pbs::Outcome::finished);
 }
 
+// Theory: at a minimum Newton has nothing left to do.
+TEST(ElasticFemDeformer, StartedFromItsEquilibriumItStaysThere)
+{
+    ElasticFemDeformer fem(coarse);
+    fem.reset(bar());
+    EXPECT_GT(fem.advance(bent(40.0), 0.0).iterations, 0);
+    const pbs::Positions equilibrium = fem.positions();
+    fem.start_from(equilibrium);
+    const pbs::StepSummary again = fem.advance(bent(40.0), 0.0);
+    EXPECT_EQ(again.outcome, pbs::Outcome::finished);
+    EXPECT_LE(again.iterations, 1);  // rounding on the way into the root's frame and back
+    EXPECT_LT(largest_distance(fem.positions(), equilibrium), 1e-9);
+}
+
+// Turned inside out, stable neo-Hookean flesh finds back, whatever was asked before; a law that is infinite there cannot begin: the start
+// is the last iterate, the next frame fails from it, and the second that does sets out from rest.
+TEST(ElasticFemDeformer, ABrokenStartIsTakenAsItIs)
+{
+    const pbs::Pose pose = bent(40.0);
+    const pbs::Positions mirrored = bar().mesh.rest * pbs::Vec3(1.0, 1.0, -1.0).asDiagonal();
+    ElasticFemDeformer stable(coarse);
+    stable.reset(bar());
+    stable.advance(pose, 0.0);
+    const pbs::Positions equilibrium = stable.positions();
+    stable.start_from(mirrored);
+    EXPECT_GT(stable.advance(pose, 0.0).iterations, 1);
+    EXPECT_LT(largest_distance(stable.positions(), equilibrium), 1e-7);
+
+    FemOptions infinite = coarse;
+    infinite.model = Model::neo_hookean;
+    ElasticFemDeformer fem(infinite);
+    fem.reset(bar());
+    fem.start_from(mirrored);
+    EXPECT_EQ(fem.advance(pose, 0.0).outcome, pbs::Outcome::not_converged);
+    EXPECT_LT(largest_distance(fem.positions(), mirrored), 1e-12);
+    EXPECT_EQ(fem.advance(pose, 0.0).outcome, pbs::Outcome::not_converged);
+    EXPECT_EQ(fem.advance(pose, 0.0).outcome, pbs::Outcome::finished);
+}
+
 TEST(ElasticFemDeformer, OnlyNodesArePrescribedVertices)
 {
     ElasticFemDeformer embedded(coarse);

@@ -20,6 +20,7 @@ TEST(RootFrame, RemovesTheRootsMotionAndPutsItBack)
     const Vec3 point(0.1, 0.2, 0.3);
     const pbs::Positions one = point.transpose();
     EXPECT_LT((frame.to_world(one).row(0).transpose() - motion * point).norm(), 1e-14);
+    EXPECT_LT((frame.to_root(frame.to_world(one)) - one).norm(), 1e-14);
 }
 
 TEST(RootFrame, TurnsDirectionsIntoItself)
