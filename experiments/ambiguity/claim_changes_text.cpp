@@ -42,7 +42,8 @@ double size_of_change(const analysis::CsvTable& table, int row)
 std::string text_of_figure(const analysis::CsvTable& table, int row)
 {
     const auto ratio = table.number_or_nothing(row, "b_over_a"), b = table.number_or_nothing(row, "b");
-    if (ratio) return fmt::format("x{:.3g}", *ratio);
+    if (const std::string text = ratio ? fmt::format("x{:.3g}", *ratio) : ""; !text.empty())
+        return text.size() + 2 <= cell_width ? text : fmt::format("x{:.0e}", *ratio);  // a blank before it, a mark behind
     if (!b) return "-";
     return table.number_or_nothing(row, "a") ? fmt::format("0>{:.2g}", *b) : "-";
 }

@@ -65,6 +65,7 @@ std::string untouched_because(const std::string& claim, const Reading& reading, 
     if (is_posed && reading.options.jiggle) return "measured where nothing jiggles";
     if (is_posed && reading.substeps > 1) return "nothing remembers the last step";
     if ((claim == "C03" || claim == "C12") && remembers(reading)) return "the start is what is compared";
+    if (claim == "C01" && reading.blended_bones == baseline.blended_bones) return "LBS alone is measured";
     if (claim == "C07") return of_projections(reading, baseline);
     if (claim == "C09") return of_jolts(reading, baseline);
     if (claim == "C10") return of_frames(reading, baseline);

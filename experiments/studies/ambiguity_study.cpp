@@ -15,6 +15,7 @@
 #include "experiments/ambiguity/claim_changes_text.hpp"
 #include "experiments/ambiguity/reading_comparison.hpp"
 #include "experiments/ambiguity/reading_figures.hpp"
+#include "experiments/ambiguity/untouched.hpp"
 #include "experiments/artefacts/artefact_figures.hpp"
 #include "experiments/deformers/option_names.hpp"
 #include "experiments/studies/study.hpp"
@@ -35,25 +36,44 @@ std::string path_in(const std::string& folder, const char* name)
     return (fs::path(folder) / name).string();
 }
 
+struct Baseline {
+    Reading reading;
+    ReadMotion moved;
+};
+
+// C01, C02.
+void compare_volume(ClaimChanges& changes, const std::string& body, const Reading& reading, const Baseline& a, const ReadMotion& b)
+{
+    for (const char* claim : {"C01", "C02"})
+        if (const std::string reason = untouched_because(claim, reading, a.reading); !reason.empty())
+            changes.add_untouched(body, claim, reading, reason);
+        else
+            changes.add(body, claim, reading, {judged(a.moved), !a.moved.finite}, {judged(b), !b.finite});
+}
+
 std::string read_and_record(const std::string& body, const Scene& scene, const std::vector<Reading>& readings, const std::string& folder)
 {
     const pbs::Character character = pbs::make_character(scene.character);
     const std::vector<bool> zone = pbs::jiggle_zone(character.binding);
-    std::map<std::string, ReadMotion> baselines;
+    std::map<std::string, Baseline> baselines;
     AmbiguityTable table;
     ClaimChanges changes;
     std::string breakdown;
     for (const Reading& reading : readings) {
+        if (reading.options.jiggle && scene.motion.clip.empty()) {
+            if (reading.place.empty()) continue;
+            for (const char* claim : {"C01", "C02"}) changes.add_untouched(body, claim, reading, "a sweep has no speed of its own");
+            continue;
+        }
         ReadMotion moved = move(character, scene, reading);
         if (!moved.finite) breakdown += reading.name + " is not finite. ";
         if (reading.place.empty()) {
-            baselines.emplace(reading.name, std::move(moved));
+            baselines.emplace(reading.name, Baseline{reading, std::move(moved)});
             continue;
         }
-        const ReadMotion& baseline = baselines.at(reading.baseline);
-        table.add(scene, reading, baseline, moved, baselines.at(own_reading), zone);
-        for (const char* claim : {"C01", "C02"})
-            changes.add(body, claim, reading, {judged(baseline), !baseline.finite}, {judged(moved), !moved.finite});
+        const Baseline& baseline = baselines.at(reading.baseline);
+        table.add(scene, reading, baseline.moved, moved, baselines.at(own_reading).moved, zone);
+        compare_volume(changes, body, reading, baseline, moved);
     }
     table.table().write(path_in(folder, "figures.csv"));
     changes.table().write(path_in(folder, "ambiguity.csv"));
@@ -67,17 +87,6 @@ nlohmann::json settings_of(const Scene& scene, const std::vector<Reading>& readi
     return {{"scene", resolved_with_deformers(scene)}, {"readings", settings}};
 }
 
-StudyRun volume_run(const std::string& name, const std::string& body, Scene scene, bool moving, double cost_s)
-{
-    scene.name = name;
-    const pbs::PbsOptions own = spec_of(scene, "pbs").pbs;
-    const std::vector<Reading> readings = moving ? readings_of_motion(own) : readings_of_a_step(own);
-    return {.name = name,
-            .cost_s = cost_s,
-            .work = [=](const std::string& folder) { return read_and_record(body, scene, readings, folder); },
-            .settings = settings_of(scene, readings)};
-}
-
 std::vector<Reading> all_readings(const Scene& scene)
 {
     const pbs::PbsOptions own = spec_of(scene, "pbs").pbs;
@@ -85,6 +94,15 @@ std::vector<Reading> all_readings(const Scene& scene)
     for (const Reading& reading : readings_of_motion(own))
         if (reading.name != own_reading) readings.push_back(reading);
     return readings;
+}
+
+StudyRun volume_run(const std::string& name, const std::string& body, Scene scene, const std::vector<Reading>& readings, double cost_s)
+{
+    scene.name = name;
+    return {.name = name,
+            .cost_s = cost_s,
+            .work = [=](const std::string& folder) { return read_and_record(body, scene, readings, folder); },
+            .settings = settings_of(scene, readings)};
 }
 
 // A run of claims measured otherwise than by volume.
@@ -121,6 +139,7 @@ nlohmann::json settings_of(const ReadingsCase& of)
             {"pose", of.pose},
             {"jolt_direction", {jolt.x(), jolt.y(), jolt.z()}},
             {"iterations", of.most_iterations},
+            {"jolt_steps", of.jolt_steps},
             {"timing_s", of.timing_s}};
 }
 
@@ -173,19 +192,20 @@ ArtefactCase turned_elbow(const std::string& what)
 
 void plan_limb(bool full, StudyPlan& plan)
 {
-    const Scene bend = read_scene("limb_bend", {});
-    plan.runs.push_back(volume_run("limb_twist", "limb", read_scene("limb_twist", {}), false, 1.0));
-    plan.runs.push_back(volume_run("limb_bend", "limb", bend, false, 1.0));
-    plan.runs.push_back(sections_run("limb_joint_twist", turned("twist", {}, 30, 6), 2.0));
-    plan.runs.push_back(sections_run("limb_joint_bend", turned("bend", {}, 30, 3), 4.0));
+    const Scene twist = read_scene("limb_twist", {}), bend = read_scene("limb_bend", {});
+    plan.runs.push_back(volume_run("limb_twist", "limb", twist, all_readings(twist), 1.0));
+    plan.runs.push_back(volume_run("limb_bend", "limb", bend, all_readings(bend), 0.9));
+    plan.runs.push_back(sections_run("limb_joint_twist", turned("twist", {}, 30, 6), 1.4));
+    plan.runs.push_back(sections_run("limb_joint_bend", turned("bend", {}, 30, 3), 3.5));
     const ReadingsCase of = {.scene = bend,
                              .frame = 18,
                              .pose = "bend 90",
                              .jolt_direction = pbs::Vec3::UnitX(),
                              .most_iterations = full ? 1000 : 400,
-                             .timing_s = full ? 6.0 : 2.0};
-    plan.runs.push_back(starts_run("limb", of, full ? 20.0 : 8.0));
-    plan.runs.push_back(step_run("limb", of, full ? 20.0 : 10.0));
+                             .jolt_steps = full ? 150 : 60,
+                             .timing_s = full ? 6.0 : 1.0};
+    plan.runs.push_back(starts_run("limb", of, full ? 5.0 : 2.7));
+    plan.runs.push_back(step_run("limb", of, full ? 24.0 : 10.0));
 }
 
 void plan_human(bool full, StudyPlan& plan)
@@ -193,17 +213,19 @@ void plan_human(bool full, StudyPlan& plan)
     const std::vector<std::string> five_a_second = {"motion.rate_hz=5.0", "output.frames=[]", "output.frame_names=[]"};
     std::vector<std::string> moving = five_a_second;
     if (!full) moving.insert(moving.end(), {"motion.start_s=1.0", "motion.duration_s=6.0"});
-    plan.runs.push_back(volume_run("human", "human", read_scene("human_01_01", five_a_second), false, 3.5));
-    plan.runs.push_back(volume_run("human_moving", "human", read_scene("human_01_01", moving), true, full ? 45.0 : 10.0));
-    plan.runs.push_back(sections_run("human_joint_twist", turned_elbow("twist"), 2.0));
-    plan.runs.push_back(sections_run("human_joint_bend", turned_elbow("bend"), 4.0));
+    const Scene each = read_scene("human_01_01", five_a_second), every = read_scene("human_01_01", moving);
+    plan.runs.push_back(volume_run("human", "human", each, readings_of_a_step(spec_of(each, "pbs").pbs), 4.5));
+    plan.runs.push_back(volume_run("human_moving", "human", every, readings_of_motion(spec_of(every, "pbs").pbs), full ? 45.0 : 10.0));
+    plan.runs.push_back(sections_run("human_joint_twist", turned_elbow("twist"), 1.1));
+    plan.runs.push_back(sections_run("human_joint_bend", turned_elbow("bend"), 2.0));
     const ReadingsCase of = {.scene = read_scene("human_01_01", {"output.frames=[]", "output.frame_names=[]"}),
                              .frame = 164,
                              .pose = "01_01 crouch",
                              .most_iterations = full ? 1000 : 400,
-                             .timing_s = full ? 6.0 : 2.0};
-    plan.runs.push_back(starts_run("human", of, full ? 20.0 : 8.0));
-    plan.runs.push_back(step_run("human", of, full ? 20.0 : 10.0));
+                             .jolt_steps = full ? 150 : 60,
+                             .timing_s = full ? 6.0 : 1.0};
+    plan.runs.push_back(starts_run("human", of, full ? 8.0 : 5.0));
+    plan.runs.push_back(step_run("human", of, full ? 26.0 : 11.0));
 }
 
 analysis::CsvTable of_all(const std::vector<std::string>& runs, const char* name)

@@ -43,9 +43,10 @@ const std::vector<Study>& studies()
          "without inverted tets, seconds to set up",
          "C17", "some 20 seconds (--quick), 1 minute (--full)", plan_setup_study, true, conclude_setup_study},
         {"ambiguity",
-         "where the paper can be read in two ways, and what it leaves unstated: how much each reading changes the volume and the jiggling "
-         "of the limb and the human, and whether C01 or C02 would be judged otherwise",
-         "none: how far C01 and C02 hang on a reading", "some 10 seconds (--quick), 1 minute (--full: the whole clip)",
+         "where the paper can be read in two ways, and what it leaves unstated: how much each reading changes the figures that claims are "
+         "judged by, of the limb and the human, and whether they would be judged otherwise",
+         "none: how far C01-C05, C07, C09, C10 and C12 hang on a reading",
+         "some 1 minute (--quick), 2 (--full: the whole clip, more iterations)",
          plan_ambiguity_study, true, conclude_ambiguity_study},
         {"frames",
          "the frames that figures and the report's viewer show: the twisted and the bent limb, the human jumping and walking, by LBS, DQS, "

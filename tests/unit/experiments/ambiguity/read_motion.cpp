@@ -2,6 +2,7 @@
 #include "experiments/ambiguity/read_motion.hpp"
 
 #include "analysis/frame_metrics.hpp"
+#include "pbs/skinning/blend_skinning.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/limb_character.hpp"
 
@@ -37,7 +38,7 @@ TEST(ReadMotion, OfTheScenesOwnReadingIsTheSolvers)
     ASSERT_EQ(moved.shapes.size(), 4u);
     const pbs::Pose pose = pbs::joint_sweep(limb.skeleton, 1, pbs::Vec3::UnitZ(), 60.0, 4, 0.01).steps[2];
     pbs::Positions lbs;
-    pbs::linear_blend_skinning(limb.mesh.rest, limb.weights, pose, lbs);
+    pbs::BlendSkinning<double>(limb.mesh.rest, limb.weights).linear(pose, lbs);
     pbs::PbsSolver solver(limb.mesh, limb.binding.distance, {}, {});
     solver.advance(lbs, pbs::posed_bind_points(limb.binding, pose), 0.01);
     EXPECT_EQ(moved.shapes[2], solver.positions());
