@@ -1,43 +1,85 @@
-"""Deletes DIR/figures and draws the figures of every study in DIR anew from its records; exit status 1 where one could not be drawn, or
-DIR holds no study.
+"""Deletes the figures of DIR and draws those of figures.toml anew from its records. A figure whose records are missing or stale says so
+instead: exit status 1. One whose study was not run is left out; where DIR holds no study at all the status is 1.
 
     xvfb-run -a python3 paper_figures/make_all.py results/reproduce
+    xvfb-run -a python3 paper_figures/make_all.py results/reproduce --only work_precision --into elsewhere
 """
+import argparse
 import importlib
 import pathlib
 import shutil
 import sys
 
+import entries
 import records
 
-# Which study's records a figure shows.
-figures = {"volume_over_angle": "volume", "volume_over_clip": "volume", "volume_over_iterations": "volume", "frames": "volume",
-           "verification": "verification", "error_split": "error_split", "fit": "fit", "work_precision": "work_precision",
-           "roofline": "bench", "scaling": "bench"}
+endings = ("pdf", "png", "svg", "csv", "webp", "mp4", "values.json")
 
 
-def main(results):
+def delete(name, folder):
+    for ending in endings:
+        (folder / f"{name}.{ending}").unlink(missing_ok=True)
+
+
+def absent_study(entry, results):
+    return next((study for study in entry.studies() if not (results / study).is_dir()), None)
+
+
+def draw(script, group, results, folder):
+    """A script's figures; whether it could."""
+    try:
+        for entry in group:
+            entry.check(results)
+        importlib.import_module(script).draw(results, folder)
+    except records.RecordsMissing as error:
+        for entry in group:
+            delete(entry.name, folder)
+            print(f"figures: {entry.name} not drawn: {error}", file=sys.stderr)
+        return False
+    for entry in group:
+        print(f"figures: {folder / entry.name}")
+    return True
+
+
+def by_script(chosen):
+    scripts = {}
+    for entry in chosen:
+        scripts.setdefault(entry.script, []).append(entry)
+    return scripts
+
+
+def main(results, only=None, folder=None):
     if not results.is_dir():
         sys.exit(f"{results}: no such folder; run ./reproduce first")
-    folder = results / "figures"
-    shutil.rmtree(folder, ignore_errors=True)
-    missing = 0
-    if not any((results / study).is_dir() for study in figures.values()):
+    listed = entries.read()
+    if not any((results / study).is_dir() for entry in listed for study in entry.studies()):
         sys.exit(f"{results}: no study in it; run ./reproduce first")
-    for name, study in figures.items():
-        if not (results / study).is_dir():
-            print(f"figures: {name} left out: the study {study} was not run")
-            continue
-        try:
-            importlib.import_module(name).draw(results, folder)
-            print(f"figures: {folder / name}")
-        except records.RecordsMissing as error:
-            missing += 1
-            print(f"figures: {name} not drawn: {error}", file=sys.stderr)
-    return 1 if missing else 0
+    if only and only not in {entry.name for entry in listed}:
+        sys.exit(f"{only}: no such figure; there are {', '.join(entry.name for entry in listed)}")
+    if not only and not folder:
+        shutil.rmtree(results / "figures", ignore_errors=True)
+    folder = folder or results / "figures"
+    scripts = {entry.script for entry in listed if only in (None, entry.name)}
+    drawn = []
+    for script, group in by_script(entry for entry in listed if entry.script in scripts).items():
+        for entry in group:
+            delete(entry.name, folder)
+        study = next(filter(None, (absent_study(entry, results) for entry in group)), None)
+        if study and not only:
+            print(f"figures: {', '.join(entry.name for entry in group)} left out: the study {study} was not run")
+        else:
+            drawn.append(draw(script, group, results, folder))
+    return 0 if all(drawn) else 1
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("results", metavar="DIR", type=pathlib.Path, help="the records of ./reproduce")
+    parser.add_argument("--only", metavar="NAME", help="this figure alone")
+    parser.add_argument("--into", metavar="FOLDER", type=pathlib.Path, help="where figures go (default: DIR/figures)")
+    return parser.parse_args()
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    sys.exit(main(pathlib.Path(sys.argv[1])))
+    chosen = arguments()
+    sys.exit(main(chosen.results, chosen.only, chosen.into))

@@ -13,6 +13,8 @@ import matplotlib
 matplotlib.use("Agg")
 from matplotlib import pyplot, ticker  # noqa: E402
 
+import hover_titles  # noqa: E402
+
 column_in, page_in = 84 / 25.4, 178 / 25.4  # widths of one column and of the page
 
 black, orange, sky, green = "#000000", "#E69F00", "#56B4E9", "#009E73"
@@ -22,7 +24,8 @@ matplotlib.rcParams.update({
     "font.family": "DejaVu Sans", "font.size": 7.5, "axes.titlesize": 8, "axes.labelsize": 7.5, "legend.fontsize": 7,
     "xtick.labelsize": 7, "ytick.labelsize": 7, "lines.linewidth": 1.2, "lines.markersize": 3.2, "axes.linewidth": 0.6,
     "xtick.major.width": 0.6, "ytick.major.width": 0.6, "axes.grid": True, "grid.linewidth": 0.3, "grid.color": "#D0D0D0",
-    "axes.axisbelow": True, "legend.frameon": False, "savefig.dpi": 300, "pdf.fonttype": 42, "axes.spines.top": False,
+    "axes.axisbelow": True, "legend.frameon": False, "savefig.dpi": 300, "pdf.fonttype": 42, "svg.fonttype": "none",
+    "svg.hashsalt": "pbskin", "axes.spines.top": False,
     "axes.spines.right": False, "figure.constrained_layout.use": True,
 })
 
@@ -51,8 +54,10 @@ def look_of(deformer):
     return looks.get(deformer, Look(deformer, black, (0, (1, 1)), "x"))
 
 
-def panels(rows, columns, height_in=2.0, width_in=None, **options):
+def panels(rows, columns, height_in=2.0, width_in=None, height_ratios=None, **options):
     width = width_in or (page_in if columns > 1 else column_in)
+    if height_ratios:
+        options["gridspec_kw"] = {"height_ratios": height_ratios}
     return pyplot.subplots(rows, columns, figsize=(width, height_in * rows), squeeze=False, **options)
 
 
@@ -102,15 +107,35 @@ def legend_above(figure, columns=None):
     figure.legend(handles, labels, loc="lower center", bbox_to_anchor=(0.5, top), ncol=columns)
 
 
-def save(figure, stem, provenance, table, formats=("pdf", "png")):
-    """stem.pdf and stem.png with the revision in their metadata, and stem.csv: the rows (dicts) behind the figure."""
+def show(panel, picture, title="", below=""):
+    """A still without axes, its title above and its facts below."""
+    panel.imshow(picture, interpolation="antialiased")
+    panel.set(xticks=[], yticks=[], title=title, xlabel=below)
+    panel.spines[:].set_visible(False)
+    panel.grid(False)
+
+
+def source_of(provenance):
+    """Version, revision and the shown scenes' hashes, for a file's metadata."""
+    scenes = "".join(f"; scene {name} {digest}" for name, digest in provenance.get("scenes", {}).items())
+    return "pbskin {} {}{}{}".format(provenance.get("version", "?"), provenance.get("git_revision", "unknown revision"),
+                                     " (dirty)" if provenance.get("git_dirty") else "", scenes)
+
+
+def save(figure, stem, provenance, table, formats=("pdf", "png", "svg")):
+    """stem.pdf, stem.png and stem.svg with the revision in their metadata, and stem.csv: the rows (dicts) behind the figure. Every point
+    drawn has its label and numbers as a title in the SVG, which a browser shows under the pointer."""
     stem.parent.mkdir(parents=True, exist_ok=True)
-    source = "pbskin {} {}{}".format(provenance.get("version", "?"), provenance.get("git_revision", "unknown revision"),
-                                     " (dirty)" if provenance.get("git_dirty") else "")
-    metadata = {"pdf": {"Title": stem.name, "Subject": source, "CreationDate": None},
-                "png": {"Title": stem.name, "Source": source, "Software": "pbskin paper_figures"}}
+    source, rights = source_of(provenance), provenance.get("rights", "")
+    metadata = {"pdf": {"Title": stem.name, "Subject": source, "Keywords": rights, "CreationDate": None},
+                "png": {"Title": stem.name, "Source": source, "Copyright": rights, "Software": "pbskin paper_figures"},
+                "svg": {"Title": stem.name, "Source": source, "Rights": rights, "Creator": "pbskin paper_figures", "Date": None}}
+    figure.canvas.draw()
+    figure.set_layout_engine("none")  # laid out once: the same in every format, and where hover_titles says
     for ending in formats:
-        figure.savefig(stem.with_suffix("." + ending), metadata=metadata[ending])
+        figure.savefig(stem.with_suffix("." + ending), metadata=metadata[ending], dpi=150 if ending == "svg" else 300)
+    if "svg" in formats:
+        hover_titles.add(figure, stem.with_suffix(".svg"))
     pyplot.close(figure)
     with open(stem.with_suffix(".csv"), "w", newline="") as stream:
         writer = csv.DictWriter(stream, fieldnames=list(table[0]), lineterminator="\n")

@@ -1,0 +1,99 @@
+"""The figures that there are, as figures.toml lists them, and whether the records behind one are there and fresh.
+
+    for entry in entries.read():
+        entry.check(results)  # raises RecordsMissing or RecordsStale
+"""
+import pathlib
+import tomllib
+from dataclasses import dataclass
+
+import records
+
+listing = pathlib.Path(__file__).with_name("figures.toml")
+marks = {"R": "minutes, on any machine: ./reproduce --quick or one study on its own", "CR": "hours: ./reproduce --full",
+         "NR": "not from this repository's records"}
+slack_s = 60.0  # that copying a folder may put between the times of its files
+
+
+class RecordsStale(records.RecordsMissing):
+    """Records that do not belong together."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    name: str  # of the files: figures/name.svg
+    title: str
+    caption: str  # what to see
+    claims: list
+    records: list  # patterns below the results' folder; each must match
+    script: str  # the module whose draw(results, figures) draws it
+    mark: str
+
+    def studies(self):
+        return sorted({pattern.split("/")[0] for pattern in self.records})
+
+    def files(self, results):
+        found = {pattern: sorted(results.glob(pattern)) for pattern in self.records}
+        for pattern, files in found.items():
+            if not files:
+                raise records.RecordsMissing(f"{results / pattern}: not there")
+        return [file for files in found.values() for file in files]
+
+    def check(self, results):
+        """Missing where a pattern matches nothing or no run.json tells where it is from. Stale where a run is not in its study's plan (left
+        from an earlier one), where a table was written after its run ended or before a run that it sums up, or where revisions differ."""
+        revisions = {}
+        for file in self.files(results):
+            for run in runs_behind(file, results):
+                check_plan(run)
+                check_times(file, run)
+                revisions.setdefault(revision_of(run), run)
+        if len(revisions) > 1:
+            (first, one), (second, other) = list(revisions.items())[:2]
+            raise RecordsStale(f"stale: {one.parent} is of revision {first[:10]}, {other.parent} of {second[:10]}: run both anew")
+
+
+def read():
+    """The entries in the order of figures.toml."""
+    return [Entry(name=name, **entry) for name, entry in tomllib.loads(listing.read_text())["figures"].items()]
+
+
+def runs_behind(file, results):
+    """The run.json of the run that wrote a file; of a study's table, those of all its runs."""
+    for folder in file.parents:
+        if folder == results:
+            break
+        if (folder / "run.json").is_file():
+            return [folder / "run.json"]
+    study = results / file.relative_to(results).parts[0]
+    runs = [run for run in sorted(study.glob("*/run.json")) if is_planned(run)]
+    if not runs:
+        raise records.RecordsMissing(f"{study}: no run.json in it")
+    return runs
+
+
+def is_planned(run):
+    """A run's folder, or a part of it, named in the plan of its study; a study without a plan names none."""
+    for folder in run.parents:
+        if (folder.parent / "plan.json").is_file():
+            return folder.name in {planned["name"] for planned in records.read_json(folder.parent / "plan.json")["runs"]}
+    return True
+
+
+def check_plan(run):
+    if not is_planned(run):
+        raise RecordsStale(f"stale: {run.parent} is no run of its study's plan.json: left from an earlier one")
+
+
+def check_times(file, run):
+    written_s, ended_s = file.stat().st_mtime, run.stat().st_mtime
+    own = run.parent in file.parents
+    if own and written_s > ended_s + slack_s:
+        raise RecordsStale(f"stale: {file} was changed after its run ended")
+    if not own and written_s < ended_s - slack_s:
+        raise RecordsStale(f"stale: {file} is older than {run.parent}, which it sums up")
+
+
+def revision_of(run):
+    origin = records.read_json(run).get("provenance", {})
+    return origin.get("git_revision", "unknown") + (" (dirty)" if origin.get("git_dirty") else "")

@@ -1,0 +1,66 @@
+"""The numbers behind a figure's points, in its SVG: over each point lies an unseen circle with a title "label: x, y", which browsers show
+under the pointer; each panel's circles in a group of class "values" that names its axes (data-x, data-y)."""
+from xml.sax.saxutils import escape, quoteattr
+
+import numpy
+from matplotlib import ticker
+from matplotlib.category import StrCategoryFormatter
+from matplotlib.collections import PathCollection
+from matplotlib.container import BarContainer
+
+points_an_inch = 72  # the unit of matplotlib's SVG
+radius = 2.5
+
+
+def add(figure, file):
+    """Also names what stands in for matplotlib's font where a reader does not have it: Verdana is as wide."""
+    page, end = file.read_text().replace("'DejaVu Sans'", "'DejaVu Sans', Verdana, sans-serif").rsplit("</svg>", 1)
+    height = figure.get_size_inches()[1] * points_an_inch
+    groups = [group_of(axes, figure.dpi, height) for axes in figure.axes if axes.get_visible()]
+    file.write_text(page + "".join(groups) + "</svg>" + end)
+
+
+def group_of(axes, dpi, height):
+    circles = [circle for label, x, y in points_of(axes) for circle in circles_of(axes, label, x, y, dpi, height)]
+    if not circles:
+        return ""
+    names = f"data-x={quoteattr(axes.get_xlabel())} data-y={quoteattr(axes.get_ylabel())}"
+    return f'<g class="values" fill="none" pointer-events="all" {names}>\n' + "\n".join(circles) + "\n</g>\n"
+
+
+def points_of(axes):
+    """(label, x, y) of each line, cloud of markers and row of bars; not of lines across the panel."""
+    for line in axes.lines:
+        if line.get_transform() == axes.transData:
+            x, y = line.get_data(orig=False)
+            yield line.get_label(), x, y
+    for cloud in axes.collections:
+        if isinstance(cloud, PathCollection):
+            yield (cloud.get_label(), *numpy.ma.filled(cloud.get_offsets(), numpy.nan).T)
+    for bars in axes.containers:
+        if isinstance(bars, BarContainer):
+            yield (bars.get_label(), *numpy.array([end_of(bar, bars.orientation) for bar in bars]).T)
+
+
+def end_of(bar, orientation):
+    x, y, width, height = bar.get_x(), bar.get_y(), bar.get_width(), bar.get_height()
+    return (x + width / 2, y + height) if orientation == "vertical" else (x + width, y + height / 2)
+
+
+def circles_of(axes, label, x, y, dpi, height):
+    """Of the points within the panel."""
+    places = axes.transData.transform(numpy.column_stack([x, y]).astype(float))
+    box = axes.bbox.padded(1.0)
+    names = names_of(axes.xaxis), names_of(axes.yaxis)
+    prefix = "" if label.startswith("_") else f"{label}: "
+    for place, *values in zip(places, x, y):
+        if numpy.isfinite(place).all() and box.contains(*place):
+            across, up = place * points_an_inch / dpi
+            text = prefix + ", ".join(known.get(value, f"{value:.6g}") for known, value in zip(names, values))
+            yield f'<circle cx="{across:.1f}" cy="{height - up:.1f}" r="{radius}"><title>{escape(text)}</title></circle>'
+
+
+def names_of(axis):
+    """Of places on an axis that are named, not numbered."""
+    named = {place: tick.get_text() for place, tick in zip(axis.get_majorticklocs(), axis.get_ticklabels())}
+    return named if isinstance(axis.get_major_formatter(), ticker.FixedFormatter | StrCategoryFormatter) else {}
