@@ -5,6 +5,7 @@
     angle_deg, change_pct = numbers(rows, "angle_deg"), numbers(rows, "volume_change_pct")
 """
 import csv
+import hashlib
 import json
 import math
 
@@ -67,6 +68,11 @@ def at_angle(rows, angle_deg):
         if math.isclose(angle, angle_deg, abs_tol=1e-6):
             return row
     raise RecordsMissing(f"metrics.csv of {rows[0]['scene']}: no frame at {angle_deg:g} degrees")
+
+
+def scene_hash(record):
+    """Digest of the scene as resolved, for a figure's metadata."""
+    return hashlib.sha256(json.dumps(record.get("scene", {}), sort_keys=True).encode()).hexdigest()[:12]
 
 
 def provenance(results):

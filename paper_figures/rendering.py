@@ -1,9 +1,11 @@
 """Still pictures of recorded frames, rendered off screen by VTK. Needs a display: xvfb-run gives one where there is none.
 
-    bounds = rendering.bounds_of(folder / "lbs_000054.vtu")
-    picture = rendering.Stage(width_px, height_px).picture(folder / "lbs_000054.vtu", rendering.center_of(bounds), half_height_m)
+    low, high = rendering.bounds_of(folder / "lbs_000054.vtu")
+    picture = rendering.Stage(width_px, height_px).picture(folder / "lbs_000054.vtu", (low + high) / 2, half_height_m)
+    picture = rendering.Stage(width_px, height_px).shot([bodies.skin(file), *bodies.bones(posed)], rendering.Camera(center, half_height_m))
 """
 import os
+from dataclasses import dataclass
 
 import numpy
 from matplotlib import cm, colors
@@ -20,19 +22,29 @@ import records
 ratio_scale = colors.Normalize(0.5, 1.5)  # of the volume ratio, the same for all pictures
 ratio_colors = cm.get_cmap("PuOr").copy()
 inverted_color, skin_color = (0.85, 0.0, 0.35), (0.87, 0.72, 0.62)
+paper = (1.0, 1.0, 1.0)  # background of stills without a colour scale whose middle is white
 view_direction = numpy.array([0.45, 0.12, 1.0])  # from the body to the camera; y is up
+
+
+@dataclass(frozen=True)
+class Camera:
+    """Parallel projection; direction from the body to the camera, half of the still's height [m]."""
+    center: object
+    half_height_m: float
+    direction: object = tuple(view_direction)
+    up: tuple = (0.0, 1.0, 0.0)
 
 
 class Stage:
     """A window, its lights and camera."""
 
-    def __init__(self, width_px, height_px):
+    def __init__(self, width_px, height_px, background=(0.9, 0.9, 0.9)):
         if not os.environ.get("DISPLAY"):
             raise records.RecordsMissing("no display to render on; run under xvfb-run -a")
         self.renderer = vtkRenderer()
-        self.renderer.SetBackground(0.9, 0.9, 0.9)
+        self.renderer.SetBackground(*background)
         self.renderer.GetActiveCamera().ParallelProjectionOn()
-        for direction, strength in (((-0.6, 0.8, 1.0), 0.9), ((1.0, 0.3, 0.6), 0.4)):
+        for direction, strength in (((-0.6, 0.8, 1.0), 0.9), ((1.0, 0.3, 0.6), 0.4), ((0.0, -0.4, 1.0), 0.2)):
             light = vtkLight()
             light.SetLightTypeToCameraLight()
             light.SetPosition(*direction)
@@ -46,20 +58,25 @@ class Stage:
 
     def picture(self, file, center, half_height_m):
         """The frame as an RGB array: skin smooth-shaded (.vtp), tets coloured by their volume ratio (.vtu)."""
-        actor = _skin(file) if file.suffix == ".vtp" else _tets(file)
-        self.renderer.AddActor(actor)
+        return self.shot([_skin(file) if file.suffix == ".vtp" else _tets(file)], Camera(center, half_height_m))
+
+    def shot(self, actors, view):
+        """The actors through this camera, as an RGB array."""
+        for actor in actors:
+            self.renderer.AddActor(actor)
         camera = self.renderer.GetActiveCamera()
-        camera.SetFocalPoint(*center)
-        camera.SetPosition(*(center + 10.0 * view_direction))
-        camera.SetViewUp(0.0, 1.0, 0.0)
-        camera.SetParallelScale(half_height_m)
+        camera.SetFocalPoint(*view.center)
+        camera.SetPosition(*(numpy.array(view.center) + 10.0 * numpy.array(view.direction)))
+        camera.SetViewUp(*view.up)
+        camera.SetParallelScale(view.half_height_m)
         self.renderer.ResetCameraClippingRange()
         self.window.Render()
         image = vtkWindowToImageFilter()
         image.SetInput(self.window)
         image.ReadFrontBufferOff()
         image.Update()
-        self.renderer.RemoveActor(actor)
+        for actor in actors:
+            self.renderer.RemoveActor(actor)
         width, height, _ = image.GetOutput().GetDimensions()
         pixels = vtk_to_numpy(image.GetOutput().GetPointData().GetScalars())
         return pixels.reshape(height, width, -1)[::-1].copy()
@@ -67,11 +84,11 @@ class Stage:
 
 def bounds_of(file):
     """Lowest and highest corner [m]."""
-    bounds = numpy.array(_read(file).GetBounds()).reshape(3, 2)
+    bounds = numpy.array(read(file).GetBounds()).reshape(3, 2)
     return bounds[:, 0], bounds[:, 1]
 
 
-def _read(file):
+def read(file):
     if not file.is_file():
         raise records.RecordsMissing(f"{file}: not there")
     reader = vtkXMLPolyDataReader() if file.suffix == ".vtp" else vtkXMLUnstructuredGridReader()
@@ -84,31 +101,31 @@ def _read(file):
 
 def _skin(file):
     normals = vtkPolyDataNormals()
-    normals.SetInputData(_read(file))
+    normals.SetInputData(read(file))
     normals.SplittingOff()
     mapper = vtkDataSetMapper()
     mapper.SetInputConnection(normals.GetOutputPort())
     mapper.ScalarVisibilityOff()
-    actor = _actor(mapper, ambient=0.3)
+    actor = actor_of(mapper, ambient=0.3)
     actor.GetProperty().SetColor(*skin_color)
     return actor
 
 
 def _tets(file):
     surface = vtkDataSetSurfaceFilter()
-    surface.SetInputData(_read(file))
+    surface.SetInputData(read(file))
     mapper = vtkDataSetMapper()
     mapper.SetInputConnection(surface.GetOutputPort())
     mapper.SetScalarModeToUseCellFieldData()
     mapper.SelectColorArray("volume_ratio")
-    mapper.SetLookupTable(_ratio_table())
+    mapper.SetLookupTable(ratio_table())
     mapper.UseLookupTableScalarRangeOn()
-    actor = _actor(mapper, ambient=0.6)  # little shade, so that colours read as in the bar
+    actor = actor_of(mapper, ambient=0.6)  # little shade, so that colours read as in the bar
     actor.GetProperty().SetInterpolationToFlat()
     return actor
 
 
-def _ratio_table():
+def ratio_table():
     """ratio_colors over ratio_scale; below zero, inverted, in a colour of its own."""
     steps = 600
     low, high = -ratio_scale.vmax, ratio_scale.vmax
@@ -123,7 +140,7 @@ def _ratio_table():
     return table
 
 
-def _actor(mapper, ambient):
+def actor_of(mapper, ambient):
     actor = vtkActor()
     actor.SetMapper(mapper)
     actor.GetProperty().SetAmbient(ambient)

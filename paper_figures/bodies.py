@@ -1,0 +1,135 @@
+"""Actors of recorded frames for a rendering.Stage: smooth-shaded skin, tets by volume ratio, tets cut open, bones.
+
+    picture = stage.shot([bodies.skin(frames.skin("pbs", 12)), *bodies.bones(frames.bones(12))], camera)
+"""
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkPlane
+from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
+from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
+from vtkmodules.vtkFiltersExtraction import vtkExtractGeometry
+from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
+from vtkmodules.vtkFiltersSources import vtkLineSource, vtkSphereSource
+from vtkmodules.vtkFiltersCore import vtkTubeFilter
+from vtkmodules.vtkRenderingCore import vtkPolyDataMapper
+
+import rendering
+
+bone_color, flesh_color, edge_color = (0.15, 0.15, 0.15), (0.80, 0.55, 0.47), (0.25, 0.2, 0.2)
+
+
+def surface(data):
+    """The boundary with normals for smooth shading."""
+    boundary = vtkDataSetSurfaceFilter()
+    boundary.SetInputData(data)
+    normals = vtkPolyDataNormals()
+    normals.SetInputConnection(boundary.GetOutputPort())
+    normals.SplittingOff()
+    normals.Update()
+    return normals.GetOutput()
+
+
+def points_of(file):
+    """Positions [m], #V x 3."""
+    return vtk_to_numpy(rendering.read(file).GetPoints().GetData())
+
+
+def rest_positions_of(file):
+    return vtk_to_numpy(rendering.read(file).GetPointData().GetArray("rest_position"))
+
+
+def at_rest(file):
+    """The frame's tets where they were at rest."""
+    data = rendering.read(file)
+    points = vtkPoints()
+    points.SetData(data.GetPointData().GetArray("rest_position"))
+    data.SetPoints(points)
+    return data
+
+
+def _actor(data, color, ambient=0.25):
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(data)
+    mapper.ScalarVisibilityOff()
+    actor = rendering.actor_of(mapper, ambient)
+    actor.GetProperty().SetColor(*color)
+    return actor
+
+
+def skin(file, color=rendering.skin_color):
+    return _actor(surface(rendering.read(file)), color)
+
+
+def skin_at_rest(file, color=rendering.skin_color):
+    return _actor(surface(at_rest(file)), color)
+
+
+def skin_by(file, values, scale, colors):
+    """The skin coloured by a number at each of its points."""
+    data = rendering.read(file)
+    array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
+    array.SetName("shown")
+    data.GetPointData().SetScalars(array)
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(surface(data))
+    mapper.SetLookupTable(_shades(scale, colors))
+    mapper.UseLookupTableScalarRangeOn()
+    return rendering.actor_of(mapper, ambient=0.45)
+
+
+def _shades(scale, colors, steps=256):
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(steps)
+    table.SetRange(scale.vmin, scale.vmax)
+    for step in range(steps):
+        table.SetTableValue(step, *colors(step / (steps - 1)))
+    table.Build()
+    return table
+
+
+def cut_open(data, origin, normal):
+    """Whole tets on the far side of the plane, their edges drawn."""
+    plane = vtkPlane()
+    plane.SetOrigin(*origin)
+    plane.SetNormal(*normal)
+    kept = vtkExtractGeometry()
+    kept.SetInputData(data)
+    kept.SetImplicitFunction(plane)
+    kept.ExtractInsideOn()
+    boundary = vtkDataSetSurfaceFilter()
+    boundary.SetInputConnection(kept.GetOutputPort())
+    boundary.Update()
+    actor = _actor(boundary.GetOutput(), flesh_color, ambient=0.4)
+    actor.GetProperty().SetInterpolationToFlat()
+    actor.GetProperty().EdgeVisibilityOn()
+    actor.GetProperty().SetEdgeColor(*edge_color)
+    actor.GetProperty().SetLineWidth(0.8)
+    return actor
+
+
+def bones(posed, radius_m=0.008, color=bone_color):
+    """Each bone a rod between its end points, its joints balls."""
+    return [actor for bone in posed for actor in (_rod(bone.head, bone.tail, radius_m, color), ball(bone.head, 1.8 * radius_m, color),
+                                                  ball(bone.tail, 1.8 * radius_m, color))]
+
+
+def _rod(head, tail, radius_m, color):
+    line = vtkLineSource()
+    line.SetPoint1(*head)
+    line.SetPoint2(*tail)
+    tube = vtkTubeFilter()
+    tube.SetInputConnection(line.GetOutputPort())
+    tube.SetRadius(radius_m)
+    tube.SetNumberOfSides(16)
+    tube.Update()
+    return _actor(tube.GetOutput(), color)
+
+
+def ball(center, radius_m, color):
+    sphere = vtkSphereSource()
+    sphere.SetCenter(*center)
+    sphere.SetRadius(radius_m)
+    sphere.SetThetaResolution(20)
+    sphere.SetPhiResolution(20)
+    sphere.Update()
+    return _actor(sphere.GetOutput(), color)

