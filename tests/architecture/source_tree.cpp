@@ -17,6 +17,7 @@ const std::vector<std::string> commands = {"reproduce", "check", ".ci/run"};
 bool belongs(const std::string& path)
 {
     if (starts_with_any(path, left_out) || path.find("__pycache__") != std::string::npos) return false;
+    if (path.find("node_modules") != std::string::npos || path.starts_with("paper_figures/viewer/dist/")) return false;
     return ends_with_any(path, text_files) || std::ranges::count(commands, path);
 }
 
