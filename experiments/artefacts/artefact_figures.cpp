@@ -37,6 +37,11 @@ double most(const std::vector<double>& values)
     return *std::max_element(values.begin(), values.end());
 }
 
+bool is_of_a_limb(const std::vector<ArtefactSample>& samples)
+{
+    return samples.empty() || most(sizes(samples, &SectionExtremesOverRest::largest_radius)) <= widest_over_rest;
+}
+
 std::string of_text(const ArtefactCase& of, const ArtefactBody& body, std::size_t pose, std::size_t joint)
 {
     return fmt::format("{}, {}, {}", body.posed.character().name, of.poses[pose].name, body.joints[joint].name);
@@ -79,14 +84,15 @@ std::vector<analysis::Measurement> bulge_figures(const ArtefactCase& of, const A
 {
     std::vector<analysis::Measurement> figures;
     for (const auto& [pose, joint, reference_name, outcome] : section_outcomes(of, body, samples)) {
-        if (outcome == SectionOutcome::bent_too_far || outcome == SectionOutcome::reference_not_reached) continue;
+        if (outcome != SectionOutcome::measured && outcome != SectionOutcome::pbs_did_not_finish) continue;
         for (const auto& [quantity, extreme] :
              {std::pair{"largest section radius over the reference's", &SectionExtremesOverRest::largest_radius},
               {"largest section area over the reference's", &SectionExtremesOverRest::largest_area}}) {
             const std::vector<double> reference = sizes(chosen(samples, "reference", pose, joint), extreme);
             for (const std::string group : {"pbs", "lbs", "dqs"}) {
-                const std::vector<double> values = sizes(chosen(samples, group, pose, joint), extreme);
-                if (values.empty()) continue;
+                const std::vector<ArtefactSample> own = chosen(samples, group, pose, joint);
+                if (own.empty() || !is_of_a_limb(own)) continue;
+                const std::vector<double> values = sizes(own, extreme);
                 figures.push_back({"C05", quantity_of(quantity, group), of_text(of, body, pose, joint) + ", over " + reference_name,
                                    values.front() / reference.front(), least(values) / most(reference), most(values) / least(reference),
                                    "1"});
@@ -98,7 +104,8 @@ std::vector<analysis::Measurement> bulge_figures(const ArtefactCase& of, const A
 
 const char* name_of(SectionOutcome outcome)
 {
-    static constexpr const char* names[] = {"measured", "pbs did not finish", "reference not reached", "bent by more than 110 deg"};
+    static constexpr const char* names[] = {"measured", "pbs did not finish", "reference not reached", "bent by more than 110 deg",
+                                            "inside another part"};
     return names[static_cast<int>(outcome)];
 }
 
@@ -113,6 +120,9 @@ std::vector<JudgedSection> section_outcomes(const ArtefactCase& of, const Artefa
                 section.outcome = SectionOutcome::bent_too_far;
             else if (over_reference && section.reference.empty())
                 section.outcome = SectionOutcome::reference_not_reached;
+            else if (over_reference &&
+                     !(is_of_a_limb(chosen(samples, "pbs", pose, joint)) && is_of_a_limb(chosen(samples, "reference", pose, joint))))
+                section.outcome = SectionOutcome::inside_another_part;
             else if (chosen(samples, "pbs", pose, joint).empty())
                 section.outcome = SectionOutcome::pbs_did_not_finish;
             sections.push_back(section);
@@ -123,9 +133,16 @@ std::vector<JudgedSection> section_outcomes(const ArtefactCase& of, const Artefa
 analysis::CsvTable section_table(const ArtefactCase& of, const ArtefactBody& body, const std::vector<JudgedSection>& sections)
 {
     analysis::CsvTable table({"claim", "body", "pose", "joint", "reference", "outcome"});
+    const auto add = [&](std::size_t pose, const std::string& joint, const std::string& reference, const std::string& outcome) {
+        table.add_row({of.claim == ArtefactCase::Claim::bulge ? "C05" : "C04", body.posed.character().name, of.poses[pose].name, joint,
+                       reference, outcome});
+    };
     for (const JudgedSection& section : sections)
-        table.add_row({of.claim == ArtefactCase::Claim::bulge ? "C05" : "C04", body.posed.character().name, of.poses[section.pose].name,
-                       body.joints[section.joint].name, section.reference, name_of(section.outcome)});
+        add(section.pose, body.joints[section.joint].name, section.reference, name_of(section.outcome));
+    for (const JointByHand& joint : joints_by_hand(body.posed.character().name))
+        for (std::size_t pose = 0; pose < of.poses.size(); ++pose)
+            if (!joint.no_section.empty() && (of.joint.empty() || of.joint == name_of(joint)))
+                add(pose, name_of(joint), "", joint.no_section);
     return table;
 }
 

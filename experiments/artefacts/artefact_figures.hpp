@@ -18,9 +18,12 @@ std::vector<analysis::Measurement> bulge_figures(const ArtefactCase& of, const A
 
 inline constexpr double deepest_bend_deg = 110.0;  // that of rest included
 
+inline constexpr double widest_over_rest = 3.0;  // largest radius of a section: none of a limb's own comes near
+
 // bent_too_far: of C05, beyond it the skin is folded so deeply into the joint that a section's outline may go
-// round both halves of the limb, the reference's as well. The profiles have them all.
-enum class SectionOutcome { measured, pbs_did_not_finish, reference_not_reached, bent_too_far };
+// round both halves of the limb, the reference's as well. inside_another_part: of C05, an outline of pbs or the reference is that of a part
+// that the limb has gone into (Frankie's arms in his trunk). The profiles have them all.
+enum class SectionOutcome { measured, pbs_did_not_finish, reference_not_reached, bent_too_far, inside_another_part };
 const char* name_of(SectionOutcome outcome);
 
 struct JudgedSection {
@@ -31,6 +34,7 @@ struct JudgedSection {
 
 // One a pose and joint, of the case's claim. C04 does without the reference, which stands beside.
 std::vector<JudgedSection> section_outcomes(const ArtefactCase& of, const ArtefactBody& body, const std::vector<ArtefactSample>& samples);
+// A line each, and one a pose for a joint without section (joints_by_hand), whose outcome is the reason.
 analysis::CsvTable section_table(const ArtefactCase& of, const ArtefactBody& body, const std::vector<JudgedSection>& sections);
 
 }  // namespace experiments

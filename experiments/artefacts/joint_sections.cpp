@@ -22,8 +22,8 @@ pbs::Vec3 direction(const pbs::Skeleton& skeleton, int bone, const pbs::Pose& po
 std::vector<double> offsets_of(const LimbJoint& joint)
 {
     const double spacing_m = joint.radius_m / stations_a_radius;
-    const int before = static_cast<int>(std::min(reach_radii * joint.radius_m, joint.half_parent_m) / spacing_m);
-    const int after = static_cast<int>(std::min(reach_radii * joint.radius_m, joint.half_child_m) / spacing_m);
+    const int before = static_cast<int>(std::min(reach_radii * joint.radius_m, joint.reach_parent_m) / spacing_m);
+    const int after = static_cast<int>(std::min(reach_radii * joint.radius_m, joint.reach_child_m) / spacing_m);
     std::vector<double> offsets_m;
     for (int i = -before; i <= after; ++i) offsets_m.push_back(i * spacing_m);
     return offsets_m;

@@ -2,7 +2,7 @@
 //   const JointSections sections(character, joint);
 //   sections.measure(positions, pose);            // a profile, one section a station
 //   extremes_of(profile).smallest_area;           // of the narrowest section, over its own at rest
-// Stations stand on the bones, up to 2 limb radii or half a bone from the joint. Their planes fan out evenly, over 3 radii on each side,
+// Stations stand on the bones, up to 2 limb radii or the joint's reach from it. Their planes fan out evenly, over 3 radii on each side,
 // from the direction of one bone to that of the other: on the inside of a joint bent by an angle they meet 6 radii / angle from it, so that
 // they do not cut the limb's other half. Bones carry them, so that all deformers are cut by the same planes. Only the limb's own outline
 // counts, the one round the bone; but where the skin is folded into a joint so deeply that the outline goes round both halves, it measures

@@ -1,9 +1,13 @@
 #include "experiments/artefacts/limb_joints.hpp"
 
+#include "analysis/section_outline.hpp"
 #include "experiments/limb_stations.hpp"
+#include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 namespace experiments {
 namespace {
@@ -35,11 +39,61 @@ double limb_radius(const pbs::Character& character, int parent, int child)
     return sum_m / count;
 }
 
+// Of the circle that has the area of the limb's section across the joint; zero where the skin is not met.
+double section_radius(const pbs::Character& character, const pbs::Bone& parent, const pbs::Bone& child)
+{
+    const pbs::Vec3 normal = along(parent).normalized() + along(child).normalized();
+    const auto sections = pbs::section_outlines(character.mesh.rest, pbs::boundary_of(character.mesh.tets), {{child.head, normal}});
+    const pbs::Positions* own = analysis::enclosing_outline(sections.front(), {child.head, normal});
+    return own ? std::sqrt(analysis::outline_size(*own).area_m2 / std::numbers::pi) : 0.0;
+}
+
+// None where the body has not got the bones, or no flesh there.
+std::optional<LimbJoint> found(const pbs::Character& character, const JointByHand& named)
+{
+    const int parent = pbs::find_bone(character.skeleton, named.parent), child = pbs::find_bone(character.skeleton, named.child);
+    if (parent < 0 || child < 0 || !named.no_section.empty()) return {};
+    const pbs::Bone &before = character.skeleton.bones[parent], &after = character.skeleton.bones[child];
+    const double radius_m = section_radius(character, before, after);
+    if (radius_m <= 0.0) return {};
+    return LimbJoint{name_of(named),
+                     parent,
+                     child,
+                     after.head,
+                     radius_m,
+                     named.reach_parent * along(before).norm(),
+                     named.reach_child * along(after).norm()};
+}
+
 }  // namespace
+
+std::string name_of(const JointByHand& joint)
+{
+    return joint.parent + "|" + joint.child;
+}
+
+// Frankie's bones are short for his flesh: a limb of the rule is longer than 3 times the mean distance of its vertices, his upper arm 1.2,
+// his forearm's upper half 2.5, his tail's first bones 2.3 and 2.8 times. But all planes across forearm, wrist and tail cut one outline of
+// the limb alone. So do those at the elbow and at the tail's root; farther up they cut the skin that hangs from the arm to the flank, and,
+// once the tail is bent, the trunk.
+std::vector<JointByHand> joints_by_hand(const std::string& body)
+{
+    if (body != "frankie") return {};
+    return {{"upper_arm.L", "forearm_upper.L", 0.25, 0.5, ""},
+            {"forearm_upper.L", "forearm_lower.L", 0.5, 0.5, ""},
+            {"forearm_lower.L", "hand.L", 0.5, 0.5, ""},
+            {"tail_1", "tail_2", 0.35, 0.5, ""},
+            {"tail_2", "tail_3", 0.5, 0.5, ""},
+            {"thigh.L", "shin.L", 0.0, 0.0, "no limb's: the leg is drawn into the belly and planes across the shin cut the trunk"}};
+}
 
 std::vector<LimbJoint> limb_joints(const pbs::Character& character)
 {
     std::vector<LimbJoint> joints;
+    const std::vector<JointByHand> by_hand = joints_by_hand(character.name);
+    for (const JointByHand& joint : by_hand)
+        if (const auto limb_joint = found(character, joint)) joints.push_back(*limb_joint);
+    if (!by_hand.empty()) return joints;
     for (const LimbStation& station : limb_stations(character)) {
         if (station.carriers.size() != 2 || station.point.x() < -1e-9) continue;
         const int parent = station.carriers[0], child = station.carriers[1];

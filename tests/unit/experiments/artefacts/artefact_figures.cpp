@@ -1,4 +1,5 @@
 // The figures of C04 and C05 from made-up sections of a small limb. Truth: the ratios of the sizes put in.
+#include "pbs/character/bodies.hpp"
 #include "tests/support/artefact_samples.hpp"
 
 #include <gtest/gtest.h>
@@ -66,6 +67,23 @@ TEST_F(BulgeFigures, DeepFoldsAreLeftOutWhateverTheReference)
     EXPECT_EQ(outcome(2), SectionOutcome::bent_too_far);
 }
 
+TEST_F(BulgeFigures, SectionsOfAPartThatTheLimbHasGoneIntoAreLeftOut)
+{
+    samples = {sample("pbs", 0, 2.9), sample("reference", 0, 1.0, 1), sample("pbs", 1, 1.0), sample("pbs", 1, 3.1),
+               sample("reference", 1, 1.0, 1)};
+    EXPECT_EQ(figures().size(), 1u);
+    EXPECT_EQ(outcome(0), SectionOutcome::measured);
+    EXPECT_EQ(outcome(1), SectionOutcome::inside_another_part);
+    samples = {sample("pbs", 0, 1.0), sample("reference", 0, 8.0, 1), sample("dqs", 0, 1.0)};
+    EXPECT_TRUE(figures().empty());
+    EXPECT_TRUE(figures("largest section area over the reference's, dqs").empty());
+    EXPECT_EQ(outcome(0), SectionOutcome::inside_another_part);
+    samples = {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1), sample("dqs", 0, 8.0)};
+    EXPECT_EQ(figures().size(), 1u);
+    EXPECT_TRUE(figures("largest section area over the reference's, dqs").empty());
+    EXPECT_EQ(outcome(0), SectionOutcome::measured);
+}
+
 TEST_F(BulgeFigures, BlendsStandBesideWherePbsBrokeDown)
 {
     samples = {sample("dqs", 0, 2.0), sample("reference", 0, 1.0, 1)};
@@ -83,6 +101,22 @@ TEST_F(BulgeFigures, TableHasALineASectionWithItsOutcome)
     EXPECT_EQ(table.text_at(0, "outcome"), "measured");
     EXPECT_EQ(table.text_at(1, "outcome"), "reference not reached");
     EXPECT_EQ(table.text_at(2, "outcome"), "bent by more than 110 deg");
+}
+
+TEST(SectionTable, SaysWhyAJointHasNoSection)
+{
+    if (!pbs::body_is_installed("frankie")) GTEST_SKIP() << "pbskin fetch frankie";
+    ArtefactCase of;
+    of.scene = experiments::read_scene("limb_bend", {"character.body=frankie", "motion.joint=shin.L", "motion.frames=2"});
+    of.poses = {{1, "bend 90 deg"}};
+    const ArtefactBody body(of);
+    const auto table = section_table(of, body, experiments::section_outcomes(of, body, {}));
+    ASSERT_EQ(table.rows(), static_cast<int>(body.joints.size()) + 1);
+    EXPECT_EQ(table.text_at(table.rows() - 1, "joint"), "thigh.L|shin.L");
+    EXPECT_TRUE(table.text_at(table.rows() - 1, "outcome").starts_with("no limb's"));
+    of.joint = "tail_1|tail_2";
+    const ArtefactBody tail(of);
+    EXPECT_EQ(section_table(of, tail, experiments::section_outcomes(of, tail, {})).rows(), 1);
 }
 
 TEST(CandyWrapperFigures, TakeTheThinnestOfAllAndDoWithoutTheReference)
