@@ -51,7 +51,7 @@ foreach(name IN ITEMS starts iteration_path path_figures convergence_figures)
     pbs_test(unit experiments/convergence/${name} experiments)
 endforeach()
 foreach(name IN ITEMS ambiguity_table claim_changes claim_changes_text judged_figure read_deformer read_motion reading reading_comparison
-                      reading_figures untouched)
+                      reading_figures reading_sections untouched)
     pbs_test(unit experiments/ambiguity/${name} experiments)
 endforeach()
 pbs_test(verification experiments/ambiguity/reading_sections experiments)
