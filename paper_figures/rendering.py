@@ -38,13 +38,13 @@ class Camera:
 class Stage:
     """A window, its lights and camera."""
 
-    def __init__(self, width_px, height_px, background=(0.9, 0.9, 0.9)):
+    def __init__(self, width_px, height_px, background=(0.8, 0.8, 0.8)):
         if not os.environ.get("DISPLAY"):
             raise records.RecordsMissing("no display to render on; run under xvfb-run -a")
         self.renderer = vtkRenderer()
         self.renderer.SetBackground(*background)
         self.renderer.GetActiveCamera().ParallelProjectionOn()
-        for direction, strength in (((-0.6, 0.8, 1.0), 0.9), ((1.0, 0.3, 0.6), 0.4), ((0.0, -0.4, 1.0), 0.2)):
+        for direction, strength in (((-0.6, 0.8, 1.0), 0.9), ((1.0, 0.3, 0.6), 0.4)):
             light = vtkLight()
             light.SetLightTypeToCameraLight()
             light.SetPosition(*direction)
@@ -58,7 +58,7 @@ class Stage:
 
     def picture(self, file, center, half_height_m):
         """The frame as an RGB array: skin smooth-shaded (.vtp), tets coloured by their volume ratio (.vtu)."""
-        return self.shot([_skin(file) if file.suffix == ".vtp" else _tets(file)], Camera(center, half_height_m))
+        return self.shot([_skin(file) if file.suffix == ".vtp" else tets(file)], Camera(center, half_height_m))
 
     def shot(self, actors, view):
         """The actors through this camera, as an RGB array."""
@@ -111,7 +111,7 @@ def _skin(file):
     return actor
 
 
-def _tets(file):
+def tets(file):
     surface = vtkDataSetSurfaceFilter()
     surface.SetInputData(read(file))
     mapper = vtkDataSetMapper()
@@ -120,8 +120,10 @@ def _tets(file):
     mapper.SelectColorArray("volume_ratio")
     mapper.SetLookupTable(ratio_table())
     mapper.UseLookupTableScalarRangeOn()
-    actor = actor_of(mapper, ambient=0.6)  # little shade, so that colours read as in the bar
+    actor = actor_of(mapper, ambient=0.7)
     actor.GetProperty().SetInterpolationToFlat()
+    actor.GetProperty().SetDiffuse(0.3)  # little shade and no glare, so that colours read as in the bar
+    actor.GetProperty().SetSpecular(0.0)
     return actor
 
 

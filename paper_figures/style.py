@@ -115,6 +115,21 @@ def show(panel, picture, title="", below=""):
     panel.grid(False)
 
 
+def signed(text):
+    """With the sign of minus that type has."""
+    return text.replace("-", "\u2212")
+
+
+def bar(figure, axes, scale, colors, label, extend="neither"):
+    """One colour bar below all panels."""
+    shades = matplotlib.cm.ScalarMappable(scale, colors)
+    figure.colorbar(shades, ax=axes, location="bottom", shrink=0.5, aspect=40, extend=extend, pad=0.01).set_label(label)
+
+
+def ratio_bar(figure, axes, scale, colors):
+    bar(figure, axes, scale, colors, "volume ratio of a tet, deformed over rest [1]; inverted tets in red", "both")
+
+
 def source_of(provenance):
     """Version, revision and the shown scenes' hashes, for a file's metadata."""
     scenes = "".join(f"; scene {name} {digest}" for name, digest in provenance.get("scenes", {}).items())
