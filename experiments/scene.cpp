@@ -169,8 +169,9 @@ void check_fem_keys(const SceneValues& values, const std::string& at, const FemO
                 "expected taylor_hood only with model linear, dynamics quasi_static, element_order 2, poisson > 0 and a direct solver");
     if (quasi_static && (options.rayleigh_mass_1_s > 0.0 || options.rayleigh_stiffness_s > 0.0))
         values.refuse(at + "rayleigh", "expected [0, 0] with dynamics quasi_static: nothing moves there that could be damped");
-    if (options.nested_start && (linear || !quasi_static || options.element_order != 2))
-        values.refuse(at + "nested_start", "expected false unless element_order is 2, the model nonlinear and dynamics quasi_static");
+    if (options.nested_start && (linear || !quasi_static || (options.element_order != 2 && values.integer("character.refine") == 0)))
+        values.refuse(at + "nested_start",
+                      "expected false unless element_order is 2 or character.refine > 0, the model nonlinear and dynamics quasi_static");
     if (!quasi_static && !(options.density_kg_m3 > 0.0)) values.refuse(at + "density_kg_m3", "expected a density > 0 with dynamics");
 }
 

@@ -171,8 +171,8 @@ std::vector<SceneKey> fem_keys()
                    "multigrid, linear model, for what a factor does not fit in memory for"),
                {"cholmod", "umfpack", "cg_ml"}),
         key("fem", "nested_start", boolean, "false", "",
-            "order 2 of a nonlinear model: to a pose in which a bone is turned by more than 15 degrees from the last, Newton's iterations "
-            "start from the solution with order 1: a shorter way to the same solution"),
+            "element_order 2 or a refined character, nonlinear model: to a pose in which a bone is turned by more than 15 degrees from the "
+            "last, Newton's iterations start from the solution with order 1, of the unrefined one: a shorter way to the same solution"),
     };
 }
 

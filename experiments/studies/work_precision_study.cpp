@@ -2,8 +2,8 @@
 //
 //   limb twist  90 deg (--full: and 150)     o=======o~~~~~~~o)
 //   limb bend   60 deg (--full: and 90)      o=======o
-//   human       crouch, in the air (--full: eight frames of 01_01: standing, crouch, in the air, landing, and those at 1/5 to 4/5 of the
-//               clip; and the crouch of every other installed body)
+//   human       crouch, in the air (--full: these also on the tets cut into eight; and standing, landing and the poses at 1/5 to 4/5 of
+//               01_01; and the crouch of every other installed body)
 //
 // Writes DIR/work_precision/CASE/points.csv and, over all cases, points.csv, fronts.csv, crossings.csv, equal_cost.csv, work_precision.md.
 #include "analysis/atomic_file.hpp"
@@ -77,13 +77,14 @@ StudyRun limb_run(const std::string& motion, int angle_deg, bool full, double co
 
 struct BodyPose {
     std::string name;
-    int frame = 0;  // of 01_01 at 100 Hz
+    int frame = 0;         // of 01_01 at 100 Hz
+    bool refined = false;  // solved on the tets cut into eight as well
 };
 // Four by name, and four that nobody chose: at 1/5, 2/5, 3/5 and 4/5 of the clip.
 std::vector<BodyPose> human_poses(bool full)
 {
     if (!full) return {{"crouch", 164}, {"in the air", 672}};
-    std::vector<BodyPose> poses = {{"standing", 0}, {"crouch", 164}, {"in the air", 672}, {"landing", 708}};
+    std::vector<BodyPose> poses = {{"standing", 0}, {"crouch", 164, true}, {"in the air", 672, true}, {"landing", 708}};
     const Scene scene = read_scene("human_01_01", {});
     const pbs::Motion motion = make_motion(scene.motion, pbs::make_character(scene.character).skeleton, scene.file);
     const int last = static_cast<int>(motion.steps.size()) / motion.steps_per_frame - 1;
@@ -100,6 +101,7 @@ StudyRun body_run(const std::string& body, const BodyPose& pose, bool full, doub
     of.frame = pose.frame;
     of.range.quadratic_corotational = false;
     of.range.quadratic_up_to = 1200;
+    of.range.refined = pose.refined;
     of.range.coarser_vertices = full ? std::vector<int>{500, 600, 700, 800, 900, 1000, 1200} : std::vector<int>{800, 1200};
     if (full) of.range.finer_vertices = {4650};
     of.rounds = {.seconds = full ? 10.0 : 3.0, .fewest = 5, .most = 31};
@@ -122,7 +124,8 @@ StudyPlan plan_work_precision_study(bool full)
         plan.runs.push_back(limb_run("bend", 90, full, 200.0));
     }
     try {
-        for (const BodyPose& pose : human_poses(full)) plan.runs.push_back(body_run("human", pose, full, full ? 130.0 : 50.0));
+        for (const BodyPose& pose : human_poses(full))
+            plan.runs.push_back(body_run("human", pose, full, !full ? 50.0 : pose.refined ? 155.0 : 130.0));
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({"human", error.what()});
     }

@@ -88,7 +88,7 @@ public:
             }
         if (!range.refined) return;
         PointSetting setting{"fem_stable_neo_hookean", "P1, tets cut into eight", fem_spec(scene_, Model::stable_neo_hookean, 1)};
-        setting.refined = true;
+        setting.refined = setting.spec.fem.nested_start = true;
         add(setting);
     }
 

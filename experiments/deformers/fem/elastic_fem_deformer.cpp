@@ -1,6 +1,7 @@
 #include "experiments/deformers/fem/elastic_fem_deformer.hpp"
 
 #include "experiments/deformers/fem/harmonic_weights.hpp"
+#include "pbs/geometry/refinement.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/skinning/blend.hpp"
@@ -12,7 +13,7 @@ namespace experiments {
 namespace {
 
 constexpr double largest_turn_deg = 45.0;  // of a bone in one solve
-constexpr double far_turn_deg = 15.0;      // from where on the solution with order 1 is nearer than the last frame's
+constexpr double far_turn_deg = 15.0;      // from where on the solution with fewer nodes is nearer than the last frame's
 
 reference_fem::ElasticOptions solver_options(const FemOptions& options)
 {
@@ -46,7 +47,6 @@ pbs::Pose turned_from(const pbs::Pose& from, pbs::Pose to)
 FemOptions with_order_1(FemOptions options)
 {
     options.element_order = 1;
-    options.nested_start = false;
     if (options.formulation == reference_fem::Formulation::mean_dilatation)  // the same on order 1
         options.formulation = reference_fem::Formulation::displacement;
     return options;
@@ -69,9 +69,10 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
         guide_weights_ = harmonic_weights(character.mesh, gripping_bones(bones_, character.mesh.tets, body_->setup().spring_tet),
                                           static_cast<int>(character.skeleton.bones.size()));
     reached_pose_ = rest_pose(character.skeleton);
-    if (options_.nested_start) {
-        order_1_ = std::make_unique<ElasticFemDeformer>(with_order_1(options_));
-        order_1_->reset(character);
+    fewer_nodes_.reset();
+    if (options_.nested_start && (options_.element_order == 2 || character.unrefined)) {
+        fewer_nodes_ = std::make_unique<ElasticFemDeformer>(with_order_1(options_));
+        fewer_nodes_->reset(options_.element_order == 2 ? character : *character.unrefined);
     }
     unspent_s_ = 0.0;
     start_ = {};
@@ -90,7 +91,7 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
     if (!has_memory()) {
         if (start_.rows() > 0)
             solve = settle_from_start(frame);
-        else if (!settle_from_order_1(pose, frame, solve))
+        else if (!settle_from_fewer_nodes(pose, frame, solve))
             solve = settle(frame);
         positions_ = frame.to_world(body_->positions());
     } else {
@@ -131,13 +132,13 @@ void ElasticFemDeformer::follow(const PosePath& way, const Eigen::Isometry3d& pl
 }
 
 // Where it does not arrive the body is back where it was, mid-edge nodes halfway.
-bool ElasticFemDeformer::settle_from_order_1(const pbs::Pose& pose, const RootFrame& frame, FrameSolve& solve)
+bool ElasticFemDeformer::settle_from_fewer_nodes(const pbs::Pose& pose, const RootFrame& frame, FrameSolve& solve)
 {
     const bool far = PosePath(character_->skeleton, reached_pose_, frame.pose()).largest_turn_deg() > far_turn_deg;
-    if (!order_1_ || !far || order_1_->advance(pose, 0.0).outcome != pbs::Outcome::finished) return false;
+    if (!fewer_nodes_ || !far || fewer_nodes_->advance(pose, 0.0).outcome != pbs::Outcome::finished) return false;
     const pbs::Positions before = body_->positions();
     const pbs::Pose pose_before = reached_pose_;
-    body_->start_from(order_1_->body_->positions());
+    body_->start_from(from_fewer_nodes());
     const PosePath no_way(character_->skeleton, frame.pose(), frame.pose());
     follow(no_way, Eigen::Isometry3d::Identity(), frame.from_world(options_.gravity_m_s2), solve);
     if (solve.converged()) {
@@ -148,6 +149,20 @@ bool ElasticFemDeformer::settle_from_order_1(const pbs::Pose& pose, const RootFr
     reached_pose_ = pose_before;
     solve = {};
     return false;
+}
+
+// In the root's frame, as they are.
+pbs::Positions ElasticFemDeformer::from_fewer_nodes() const
+{
+    pbs::Positions start = fewer_nodes_->body_->positions();
+    if (options_.element_order == 2) return start;
+    pbs::TetMesh mesh = character_->unrefined->mesh;
+    for (int refinement = 0; refinement < character_->refinements; ++refinement) {
+        pbs::Refinement fine = pbs::refine(mesh);
+        start = pbs::prolongated(start, fine.parents);
+        mesh = std::move(fine.mesh);
+    }
+    return start;
 }
 
 FrameSolve ElasticFemDeformer::settle(const RootFrame& frame)

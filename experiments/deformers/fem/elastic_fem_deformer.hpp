@@ -3,9 +3,10 @@
 //
 // Quasi-static: the way from the last solved pose to the frame's is followed in stages in which no bone turns by more than 45 degrees, each
 // halved as often as it takes. Of a frame that is not reached the positions are those of the last equilibrium on the way, the outcome is
-// not_converged and the next frame sets out from there; the second in a row is tried again from rest, once. With nested_start the body
-// with order 1 goes the way to a pose far from the last, and the one with order 2 sets out from where it arrived; only where that fails it
-// goes the way itself.
+// not_converged and the next frame sets out from there; the second in a row is tried again from rest, once. With nested_start a body
+// with fewer nodes goes the way to a pose far from the last, and this one sets out from where it arrived; only where that fails it goes the
+// way itself. The body with fewer nodes: with order 2 the same one with order 1, of a refined character the unrefined one, each from its
+// own such one.
 // start_from(): the next frame is Newton's method alone, in the frame's own pose from that shape. Where it does not arrive the positions
 // are its last iterate, and the frame after it goes on from there.
 //
@@ -42,7 +43,8 @@ private:
     reference_fem::Targets targets_of(const pbs::Pose& pose) const { return targets(bones_, character_->mesh.rest, pose); }
     FrameSolve settle(const RootFrame& frame);  // in the root's frame
     FrameSolve settle_from_start(const RootFrame& frame);
-    bool settle_from_order_1(const pbs::Pose& pose, const RootFrame& frame, FrameSolve& solve);
+    bool settle_from_fewer_nodes(const pbs::Pose& pose, const RootFrame& frame, FrameSolve& solve);
+    pbs::Positions from_fewer_nodes() const;              // [m], #V x 3
     FrameSolve start_at(const RootFrame& frame);          // in the world, at rest
     FrameSolve move(const pbs::Pose& pose, double dt_s);  // in the world
     void follow(const PosePath& way, const Eigen::Isometry3d& place, const pbs::Vec3& gravity_m_s2, FrameSolve& solve);
@@ -58,7 +60,7 @@ private:
     pbs::Positions start_;     // of the next frame, in the world [m], #V x 3; empty: the last state
     bool is_started_ = false;  // in time: the first pose is there
     int failures_in_a_row_ = 0;
-    std::unique_ptr<ElasticFemDeformer> order_1_;  // nested_start
+    std::unique_ptr<ElasticFemDeformer> fewer_nodes_;  // nested_start
     FemRecord record_;
     NewtonRecord newton_record_;
     pbs::Positions positions_;  // [m], #V x 3

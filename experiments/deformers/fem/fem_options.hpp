@@ -32,7 +32,8 @@ struct FemOptions {
     double core_radius = 0.35;     // capsule radius over local limb radius
     double spring_factor = 1.0e4;  // q: springs of density q E / r^2, r the capsule's radius; doubling it changes nothing that is reported
     reference_fem::LinearSolver solver = reference_fem::LinearSolver::cholmod;
-    bool nested_start = false;  // order 2 of a nonlinear model: poses far from the last are set out for from the solution with order 1
+    bool nested_start =
+        false;  // nonlinear: poses far from the last are set out for from the solution with fewer nodes (order 1, unrefined)
 };
 
 }  // namespace experiments

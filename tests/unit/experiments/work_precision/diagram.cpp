@@ -235,4 +235,13 @@ TEST(Findings, EveryDeformerOfTheStudyHasAGroup)
     EXPECT_THROW(group_of("wishful"), std::logic_error);
 }
 
+TEST(WorkPrecisionFindings, OneRefinementIsToldWhereBothSolutionsAreThere)
+{
+    std::vector<Row> with = rows(30.0);
+    with.push_back({"fem_stable_neo_hookean", "P1", 90.0, 9.0});
+    EXPECT_FALSE(says(findings(diagrams_of({points("90 deg", with)}).front()), "refinement"));
+    with.push_back({"fem_stable_neo_hookean", "P1, tets cut into eight", 800.0, 3.0});
+    EXPECT_TRUE(says(findings(diagrams_of({points("90 deg", with)}).front()), "order 1 is 9.0 % off on the case's own tets, 3.0 %"));
+}
+
 }  // namespace
