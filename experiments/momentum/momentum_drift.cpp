@@ -1,5 +1,6 @@
 #include "experiments/momentum/momentum_drift.hpp"
 
+#include "pbs/constraints/volume_printed.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/particles.hpp"
@@ -65,6 +66,27 @@ private:
     double linear_ = 0.0, angular_ = 0.0, linear_sum_ = 0.0, angular_sum_ = 0.0;
 };
 
+// The printed forms are for m_i = 1.
+template <typename Scalar>
+void project_as(pbs::VolumeForm form, const pbs::VolumeConstraint<Scalar>& tet, const std::vector<Scalar>& w,
+                std::array<pbs::Vector3<Scalar>, 4>& p)
+{
+    using pbs::Printed, pbs::project_printed;
+    const auto [i, j, k, l] = tet.vertex;
+    switch (form) {
+        case pbs::VolumeForm::derived:
+            return project(tet, w[i], w[j], w[k], w[l], p[0], p[1], p[2], p[3]);
+        case pbs::VolumeForm::labels_relative:
+            return project_printed<Printed::labels_relative>(tet, p[0], p[1], p[2], p[3]);
+        case pbs::VolumeForm::labels_absolute:
+            return project_printed<Printed::labels_absolute>(tet, p[0], p[1], p[2], p[3]);
+        case pbs::VolumeForm::sign:
+            return project_printed<Printed::sign>(tet, p[0], p[1], p[2], p[3]);
+        case pbs::VolumeForm::as_printed:
+            return project_printed<Printed::as_printed>(tet, p[0], p[1], p[2], p[3]);
+    }
+}
+
 template <typename Scalar>
 MomentumDrift single_projections(const pbs::Character& character, const pbs::Pose& pose, const pbs::PbsOptions& options,
                                  ProjectedClass projected, const Eigen::VectorXd& mass)
@@ -90,7 +112,7 @@ MomentumDrift single_projections(const pbs::Character& character, const pbs::Pos
         const auto [i, j, k, l] = tet.vertex;
         const std::array before = {point(positions, i), point(positions, j), point(positions, k), point(positions, l)};
         auto after = before;
-        project(tet, w[i], w[j], w[k], w[l], after[0], after[1], after[2], after[3]);
+        project_as(options.volume_form, tet, w, after);
         sum.add(tet.vertex, before, after);
     }
     for (const auto& bind : set.bind) {

@@ -56,6 +56,7 @@ int vertex_of(const Constraint& constraint, std::size_t corner)
 
 StepNearRest::StepNearRest(const LoadedFlesh& flesh, const StiffnessSetting& setting)
     : iterations_(setting.method == Method::xpbd_small_steps ? 1 : setting.iterations),
+      forgets_(setting.method == Method::xpbd_forgetting),
       step_s_(setting.method == Method::xpbd_small_steps ? setting.time_step_s / setting.iterations : setting.time_step_s)
 {
     if (is_xpbd(setting.method))
@@ -119,10 +120,15 @@ void StepNearRest::add(const Constraint& constraint, const std::array<Vec3, coun
     if (w_gradient2 > 0.0) projections_.push_back(projection);
 }
 
-void StepNearRest::apply(Positions& displacement)
+void StepNearRest::forget_multipliers()
 {
     for (Projection& projection : projections_) projection.multiplier = 0.0;
-    for (int iteration = 0; iteration < iterations_; ++iteration)
+}
+
+void StepNearRest::apply(Positions& displacement)
+{
+    for (int iteration = 0; iteration < iterations_; ++iteration) {
+        if (iteration == 0 || forgets_) forget_multipliers();
         for (Projection& projection : projections_) {
             double C = 0.0;
             for (int i = 0; i < projection.vertices; ++i) C += displacement.row(projection.vertex[i]).dot(projection.gradient[i]);
@@ -131,6 +137,7 @@ void StepNearRest::apply(Positions& displacement)
             for (int i = 0; i < projection.vertices; ++i)
                 displacement.row(projection.vertex[i]) += change * projection.moved[i].transpose();
         }
+    }
 }
 
 RestingFlesh rest_near_rest(const LoadedFlesh& flesh, const StiffnessSetting& setting)

@@ -4,7 +4,8 @@
 //   const RestingFlesh rest = rest_near_rest(flesh, {.method = Method::pbs, .k_stretch = 0.2, .iterations = 24, .time_step_s = 0.01});
 //   effective_stiffness_n_m(flesh, rest.displacement, 1.0);
 // One projection takes  C = sum g_i . u_i  and does  dlambda = -share (C + alpha / dt^2 lambda) / (sum w |g|^2 + alpha / dt^2),
-// u_i += w_i g_i dlambda: of the position based solver share = k, alpha = 0; of XPBD share = 1, alpha its compliance.
+// u_i += w_i g_i dlambda: of the position based solver share = k, alpha = 0; of XPBD share = 1, alpha its compliance. lambda is that of the
+// step; of XPBD that forgets its multipliers, zero in every iteration.
 #pragma once
 
 #include "experiments/stiffness/loaded_flesh.hpp"
@@ -39,7 +40,10 @@ private:
     void add_pbs(const LoadedFlesh& flesh, const StiffnessSetting& setting);
     void add_xpbd(const LoadedFlesh& flesh, const StiffnessSetting& setting);
 
+    void forget_multipliers();
+
     int iterations_;
+    bool forgets_;
     double step_s_;
     std::vector<Projection> projections_;
 };

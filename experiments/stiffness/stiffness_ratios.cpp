@@ -54,6 +54,7 @@ std::string material_of(const StiffnessSetting& setting)
 {
     if (setting.method == Method::xpbd) return fmt::format("{:.4g} kPa", 1e-3 * setting.young_pa);
     if (setting.method == Method::xpbd_small_steps) return fmt::format("{:.4g} kPa in small steps", 1e-3 * setting.young_pa);
+    if (setting.method == Method::xpbd_forgetting) return fmt::format("{:.4g} kPa, multipliers forgotten", 1e-3 * setting.young_pa);
     return fmt::format("k_stretch {:.4g}{}", setting.k_stretch, setting.method == Method::exponent ? " with the exponent" : "");
 }
 

@@ -7,7 +7,7 @@
 namespace experiments {
 namespace {
 
-constexpr Method methods[] = {Method::pbs, Method::exponent, Method::xpbd, Method::xpbd_small_steps};
+constexpr Method methods[] = {Method::pbs, Method::exponent, Method::xpbd, Method::xpbd_small_steps, Method::xpbd_forgetting};
 
 StiffnessRow row_of(const LoadedFlesh& flesh, const StiffnessSetting& setting)
 {
@@ -25,7 +25,7 @@ Method method_named(const std::string& name)
 {
     for (const Method method : methods)
         if (name == name_of(method)) return method;
-    throw pbs::InputError("stiffness.csv", 0, "method", name, "expected pbs, exponent, xpbd or xpbd_small_steps");
+    throw pbs::InputError("stiffness.csv", 0, "method", name, "expected pbs, exponent, xpbd, xpbd_small_steps or xpbd_forgetting");
 }
 
 StiffnessSetting setting_at(const analysis::CsvTable& table, int row)

@@ -13,6 +13,8 @@ const char* name_of(Method method)
             return "xpbd";
         case Method::xpbd_small_steps:
             return "xpbd_small_steps";
+        case Method::xpbd_forgetting:
+            return "xpbd_forgetting";
     }
     return "";
 }
@@ -44,6 +46,7 @@ XpbdOptions xpbd_options(const LoadedFlesh&, const StiffnessSetting& setting)
     options.iterations = setting.method == Method::xpbd_small_steps ? 1 : setting.iterations;
     options.substeps = setting.method == Method::xpbd_small_steps ? setting.iterations : 1;
     options.jiggle = true;
+    options.keep_multipliers = setting.method != Method::xpbd_forgetting;
     return options;
 }
 

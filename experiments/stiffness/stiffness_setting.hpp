@@ -11,8 +11,9 @@
 namespace experiments {
 
 // exponent: k' = 1 - (1 - k)^(1 / iterations). xpbd: multipliers kept over the iterations of a step. xpbd_small_steps: as many substeps of
-// one iteration as there are iterations.
-enum class Method { pbs, exponent, xpbd, xpbd_small_steps };
+// one iteration as there are iterations. xpbd_forgetting: multipliers are forgotten in every iteration, a broken control that no study
+// runs.
+enum class Method { pbs, exponent, xpbd, xpbd_small_steps, xpbd_forgetting };
 
 struct StiffnessSetting {
     Method method = Method::pbs;
@@ -27,7 +28,7 @@ const char* name_of(Method method);
 nlohmann::json to_json(const StiffnessSetting& setting);
 inline bool is_xpbd(Method method)
 {
-    return method == Method::xpbd || method == Method::xpbd_small_steps;
+    return method == Method::xpbd || method == Method::xpbd_small_steps || method == Method::xpbd_forgetting;
 }
 
 // In double; gravity zero.

@@ -47,7 +47,8 @@ TEST(StepNearRest, HangsWhereThePositionBasedSolverHangs)
 TEST(StepNearRest, HangsWhereXpbdHangs)
 {
     for (const RestOfBody rest : {RestOfBody::projected, RestOfBody::held})
-        for (const int iterations : {2, 12}) expect_as_stepped(limb(rest), {.method = Method::xpbd, .iterations = iterations});
+        for (const Method method : {Method::xpbd, Method::xpbd_forgetting})
+            for (const int iterations : {2, 12}) expect_as_stepped(limb(rest), {.method = method, .iterations = iterations});
     expect_as_stepped(limb(RestOfBody::held), {.method = Method::xpbd_small_steps, .iterations = 4});
 }
 

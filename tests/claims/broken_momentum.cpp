@@ -1,0 +1,109 @@
+// C07 from projections as they are and broken. Truth:
+//   volume sign        corrections are turned round, and still add up to nothing: the verdict must stay (Eq. 3-4 ask for no more)
+//   printed labels     gradients under the wrong particles still add up to nothing (Eq. 15), their moments do not: angular momentum is
+//   lost,
+//                      linear is not
+//   a class dropped    what is not projected has no drift that could be named, so it is not counted as conserved
+#include "tests/support/broken_solver.hpp"
+#include "tests/support/limb_character.hpp"
+#include "tests/support/study_claims.hpp"
+
+#include "experiments/momentum/momentum_drift.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using analysis::Measurement;
+using analysis::VerdictKind;
+using experiments::MomentumDrift;
+using experiments::ProjectedClass;
+using pbs::Masses;
+using test_support::broken;
+using test_support::Broken;
+using test_support::figures_of;
+
+pbs::PbsOptions in_double()
+{
+    pbs::PbsOptions options;
+    options.precision = pbs::Precision::f64;
+    options.order = pbs::Order::plain;
+    return options;
+}
+
+// Single projections and a pass, equal masses, as the study has them.
+std::vector<Measurement> drifts(const pbs::PbsOptions& options)
+{
+    static const test_support::TwoBoneLimb limb = test_support::two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 60.0);
+    const pbs::Character character = test_support::character_of(limb);
+    std::vector<Measurement> measured;
+    const auto add = [&](const char* direction, const char* quantity, const char* of, double drift) {
+        measured.push_back({"C07", std::string(direction) + " drift" + quantity, of, drift, drift, drift, "1"});
+    };
+    for (const auto& [projected, name] : {std::pair{ProjectedClass::stretch, "stretch"}, {ProjectedClass::volume, "volume"}})
+        for (const auto& [measure, quantity] :
+             {std::pair{&experiments::drift_of_projections, ""}, {&experiments::drift_of_a_pass, " of a pass"}}) {
+            const MomentumDrift drift = measure(character, limb.pose, options, projected, Masses::unit);
+            add("linear", quantity, name, drift.linear);
+            add("angular", quantity, name, drift.angular);
+        }
+    return measured;
+}
+
+VerdictKind verdict(const std::vector<Measurement>& measured)
+{
+    analysis::Records records;
+    records.measurements = measured;
+    return judge(test_support::claim("C07"), records).kind;
+}
+
+// A pass conserves angular momentum to first order alone, so that single projections carry the verdict.
+std::vector<Measurement> single(const std::vector<Measurement>& measured, const std::string& of)
+{
+    std::vector<Measurement> found;
+    for (const Measurement& figure : figures_of(measured, "drift", of))
+        if (figure.quantity.find("pass") == std::string::npos) found.push_back(figure);
+    return found;
+}
+
+double drift(const std::vector<Measurement>& measured, const std::string& quantity, const std::string& of)
+{
+    for (const Measurement& figure : measured)
+        if (figure.quantity == quantity && figure.of == of) return figure.value;
+    ADD_FAILURE() << quantity;
+    return 0.0;
+}
+
+TEST(BrokenMomentum, TheSignTurnedRoundConservesAsWell)
+{
+    const auto sound = drifts(in_double()), turned = drifts(broken(in_double(), Broken::volume_sign));
+    EXPECT_EQ(verdict(turned), verdict(sound));
+    for (const char* quantity : {"linear drift", "angular drift"}) {
+        EXPECT_LT(drift(sound, quantity, "volume"), 1e-11);
+        EXPECT_LT(drift(turned, quantity, "volume"), 1e-11);
+    }
+}
+
+TEST(BrokenMomentum, GradientsUnderTheWrongParticlesLoseAngularMomentum)
+{
+    pbs::PbsOptions options = in_double();
+    options.volume_form = pbs::VolumeForm::labels_relative;
+    const auto wrong = drifts(options);
+    for (const std::string pass : {"", " of a pass"}) {
+        EXPECT_LT(drift(wrong, "linear drift" + pass, "volume"), 1e-11);
+        EXPECT_GT(drift(wrong, "angular drift" + pass, "volume"), 0.01);
+        EXPECT_LT(drift(wrong, "linear drift" + pass, "stretch"), 1e-11);
+    }
+    EXPECT_EQ(verdict(single(drifts(in_double()), "")), VerdictKind::reproduced);
+    EXPECT_EQ(verdict(single(wrong, "")), VerdictKind::reproduced_only_for);
+    EXPECT_EQ(verdict(single(wrong, "volume")), VerdictKind::not_reproduced);
+}
+
+TEST(BrokenMomentum, AClassThatIsNotProjectedIsNotConserved)
+{
+    const auto dropped = drifts(broken(in_double(), Broken::volume_dropped));
+    EXPECT_EQ(verdict(single(dropped, "")), VerdictKind::reproduced_only_for);
+    EXPECT_EQ(verdict(single(drifts(broken(in_double(), Broken::nothing_projected)), "")), VerdictKind::not_reproduced);
+}
+
+}  // namespace

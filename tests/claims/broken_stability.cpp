@@ -1,0 +1,86 @@
+// C08 from cells of a jiggling limb that starts broken, by the solver as it is and by broken ones. Truth:
+//   volume sign          each projection doubles the error it should remove: it runs away, not reproduced
+//   nothing projected    flesh falls freely, g t^2 / 2 = 4.9 m in a second: it runs away; without jiggle nothing moves at all
+//   one class dropped    a projection takes no more than its own error, and what is left still holds on to the body: the verdict stays
+//   multipliers forgot   XPBD is no part of the claim; each of its projections still takes a share below one: as stable as with them
+#include "experiments/stability/cell_table.hpp"
+#include "experiments/stability/stability_cells.hpp"
+#include "tests/support/broken_solver.hpp"
+#include "tests/support/study_claims.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace experiments;
+using analysis::StabilityOutcome;
+using analysis::VerdictKind;
+using test_support::broken;
+using test_support::Broken;
+
+constexpr int still_steps = 100;  // a second
+
+std::vector<StabilityCell> chosen(const std::vector<StabilityCell>& cells, const std::string& factor)
+{
+    std::vector<StabilityCell> found;
+    for (const StabilityCell& cell : cells)
+        if (cell.factor == factor && cell.second_factor.empty() && (cell.spec.kind != "pbs" || precision_of(cell) == "f32")) {
+            found.push_back(cell);
+            found.back().still_steps = still_steps;
+        }
+    EXPECT_FALSE(found.empty()) << factor;
+    return found;
+}
+
+VerdictKind verdict(bool jiggle, Broken how)
+{
+    std::vector<MeasuredCell> measured;
+    for (StabilityCell cell : chosen(pbs_cells(jiggle, false), "start")) {
+        cell.spec.pbs = broken(cell.spec.pbs, how);
+        measured.push_back({cell, run_cell(cell)});
+    }
+    analysis::Records records;
+    const test_support::ScratchFolder folder;
+    stability_measurements(measured).write(folder / "measurements.csv");
+    records.measurements = analysis::measurements(folder / "measurements.csv");
+    return judge(test_support::claim("C08"), records).kind;
+}
+
+bool ran_away(const CellResult& result)
+{
+    return result.stability.outcome == StabilityOutcome::diverged || result.stability.outcome == StabilityOutcome::not_finite;
+}
+
+TEST(BrokenStability, TheSignTurnedRoundRunsAway)
+{
+    EXPECT_EQ(verdict(true, Broken::nothing), VerdictKind::reproduced);
+    EXPECT_EQ(verdict(true, Broken::volume_sign), VerdictKind::not_reproduced);
+}
+
+TEST(BrokenStability, OneClassLessTakesNoBoundAway)
+{
+    for (const Broken how : {Broken::bind_dropped, Broken::stretch_dropped, Broken::volume_dropped})
+        EXPECT_EQ(verdict(true, how), VerdictKind::reproduced) << name_of(how);
+}
+
+TEST(BrokenStability, WithNothingProjectedFleshFallsAndWhatHasNoWeightStays)
+{
+    EXPECT_EQ(verdict(true, Broken::nothing_projected), VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict(false, Broken::nothing_projected), VerdictKind::reproduced);
+}
+
+TEST(BrokenStability, ForgottenMultipliersRunAwayNowhereAndAreNoPartOfTheClaim)
+{
+    std::vector<MeasuredCell> measured;
+    for (StabilityCell cell : chosen(xpbd_cells(false), "start"))
+        for (const bool keep : {true, false}) {
+            cell.spec.xpbd.keep_multipliers = keep;
+            measured.push_back({cell, run_cell(cell)});
+            EXPECT_FALSE(ran_away(measured.back().result)) << cell.named << (keep ? "" : ", multipliers forgotten");
+        }
+    EXPECT_EQ(stability_measurements(measured).rows(), 0);
+}
+
+}  // namespace

@@ -1,0 +1,105 @@
+// C11 from a small limb's held flesh, with XPBD's multipliers kept and forgotten. Truth: with multipliers kept the stiffness is the
+// material's, whatever iterations and time step. Forgotten, a lone constraint of inverse masses w is pulled back to 1 / (1 + a) of its
+// error, a = w dt^2 / alpha, in every iteration, so that n of them hang with K = ((1 + a)^n - 1) / dt^2:
+//   twice the iterations   (1 + a)^n + 1 times as stiff: two and more
+//   half the time step     4 ((1 + a / 4)^n - 1) / ((1 + a)^n - 1) times: one and less
+// and so has every mode of a body with one rate an iteration. Rigid constraints, a without bound, know no time step and are four times as
+// stiff at half of it: one and less is for flesh without bind constraints. The paper's solver has no multipliers: its figures and C11's
+// verdict stay.
+#include "experiments/stiffness/stiffness_ratios.hpp"
+#include "tests/support/study_claims.hpp"
+
+#include "analysis/measurement.hpp"
+#include "pbs/character/bodies.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace experiments;
+using analysis::Measurement;
+using analysis::VerdictKind;
+
+LoadedFlesh held_flesh()
+{
+    static const pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 300, .surface = false});
+    return jiggling_flesh(limb, RestOfBody::held);
+}
+
+LoadedFlesh without_bind(LoadedFlesh flesh)
+{
+    flesh.bind_distance.resize(0);
+    return flesh;
+}
+
+std::vector<Measurement> ratios(const LoadedFlesh& flesh, Method method, Varied varied)
+{
+    std::vector<StiffnessRow> rows;
+    for (const double factor : {0.5, 1.0, 2.0}) {
+        StiffnessSetting setting{.method = method};
+        if (varied == Varied::iterations) setting.iterations = static_cast<int>(setting.iterations * factor);
+        if (varied == Varied::time_step) setting.time_step_s /= factor;
+        rows.push_back(linear_stiffness(flesh, setting));
+        EXPECT_TRUE(rows.back().converged);
+    }
+    return stiffness_ratios(rows, varied);
+}
+
+// XPBD's figures in the place of the paper's solver: the verdict that the control has to bring about.
+std::vector<Measurement> control(Method method)
+{
+    std::vector<Measurement> measured;
+    for (const Varied varied : {Varied::iterations, Varied::time_step})
+        for (Measurement figure : ratios(held_flesh(), method, varied)) {
+            figure.quantity.resize(figure.quantity.find(", xpbd"));
+            measured.push_back(figure);
+        }
+    measured.push_back({"C11", "effective stiffness at twice the resolution over at the once", "not varied", 1.0, 1.0, 1.0, "1"});
+    return measured;
+}
+
+VerdictKind verdict(const std::vector<Measurement>& measured)
+{
+    analysis::Records records;
+    records.measurements = measured;
+    return judge(test_support::claim("C11"), records).kind;
+}
+
+TEST(BrokenStiffness, ForgottenMultipliersTurnTheControl)
+{
+    EXPECT_EQ(verdict(control(Method::xpbd)), VerdictKind::reproduced);
+    EXPECT_NE(verdict(control(Method::xpbd_forgetting)), VerdictKind::reproduced);
+}
+
+TEST(BrokenStiffness, ForgottenMultipliersAreStiffenedByIterations)
+{
+    for (const LoadedFlesh& flesh : {held_flesh(), without_bind(held_flesh())}) {
+        const Measurement iterations = ratios(flesh, Method::xpbd_forgetting, Varied::iterations).at(0);
+        EXPECT_GE(iterations.low, 2.0);
+        EXPECT_EQ(iterations.quantity, "effective stiffness at twice the iterations over at the once, xpbd");
+        EXPECT_NE(iterations.of.find("multipliers forgotten"), std::string::npos);
+    }
+}
+
+TEST(BrokenStiffness, ForgottenMultipliersAreSoftenedByShortSteps)
+{
+    EXPECT_LE(ratios(without_bind(held_flesh()), Method::xpbd_forgetting, Varied::time_step).at(0).high, 1.0);
+}
+
+TEST(BrokenStiffness, TheClaimsOwnVerdictIsOfThePaperAlone)
+{
+    std::vector<StiffnessRow> rows;
+    for (const int iterations : {12, 24, 48}) {
+        StiffnessRow row = linear_stiffness(held_flesh(), {.method = Method::pbs, .iterations = iterations});
+        row.load = "zone";
+        rows.push_back(row);
+    }
+    const std::vector<Measurement> own = stiffness_ratios(rows, Varied::iterations);
+    for (const Method method : {Method::xpbd, Method::xpbd_forgetting}) {
+        std::vector<Measurement> beside = own;
+        for (const Measurement& figure : ratios(held_flesh(), method, Varied::iterations)) beside.push_back(figure);
+        EXPECT_EQ(verdict(beside), verdict(own));
+    }
+}
+
+}  // namespace

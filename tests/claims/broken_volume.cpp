@@ -1,0 +1,60 @@
+// C01 is about blending: whatever is broken in the solver must leave its verdict as it is, figure by figure, to the bit, while what is
+// measured of the solver beside it changes. A broken blend has to show. Truth: LBS knows nothing of Algorithm 1; weights that carry every
+// vertex by one bone spoil the tets across the joint alone, so that a twist loses less.
+#include "tests/support/broken_solver.hpp"
+#include "tests/support/study_claims.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace {
+
+using test_support::Broken;
+using test_support::claim;
+
+analysis::Records limb_twist(Broken how, const std::string& weights = "paper")
+{
+    const experiments::Scene scene = experiments::read_scene(
+        "limb_twist", {"character.vertices=400", "motion.frames=10", "output.frames_every=0", R"(reference.name="")",
+                       R"(deformers.use=["lbs", "pbs"])", "skinning.weights=\"" + weights + "\""});
+    experiments::StudyPlan plan;
+    plan.runs.push_back({.name = "limb_twist", .scene = broken(scene, how), .cost_s = 1.0});
+    return test_support::records_of(plan);
+}
+
+const std::vector<double>& volume_change_pct(const analysis::Records& records, const std::string& deformer)
+{
+    return std::find_if(records.cases.begin(), records.cases.end(), [&](const auto& one) { return one.deformer == deformer; })
+        ->volume_change_pct;
+}
+
+double mean_loss_pct(const analysis::Records& records)
+{
+    const std::vector<double>& change = volume_change_pct(records, "lbs");
+    return -std::accumulate(change.begin(), change.end(), 0.0) / static_cast<double>(change.size());
+}
+
+TEST(BrokenVolume, WhatIsSaidOfBlendingStays)
+{
+    const analysis::Records sound = limb_twist(Broken::nothing);
+    const analysis::Verdict whole = judge(claim("C01"), sound);
+    ASSERT_FALSE(whole.cases.empty());
+    for (const Broken how : test_support::every_broken) {
+        const analysis::Records records = limb_twist(how);
+        const analysis::Verdict verdict = judge(claim("C01"), records);
+        EXPECT_EQ(verdict.kind, whole.kind) << name_of(how);
+        EXPECT_EQ(verdict.text, whole.text) << name_of(how);
+        EXPECT_EQ(volume_change_pct(records, "lbs"), volume_change_pct(sound, "lbs")) << name_of(how);
+        EXPECT_NE(volume_change_pct(records, "pbs"), volume_change_pct(sound, "pbs")) << name_of(how);
+    }
+}
+
+TEST(BrokenVolume, ABlendByOneBoneLosesLess)
+{
+    const double own_pct = mean_loss_pct(limb_twist(Broken::nothing)), rigid_pct = mean_loss_pct(limb_twist(Broken::nothing, "rigid"));
+    EXPECT_GT(rigid_pct, 0.0);
+    EXPECT_LT(rigid_pct, own_pct);
+}
+
+}  // namespace

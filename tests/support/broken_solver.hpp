@@ -1,0 +1,59 @@
+// The paper's solver, broken on purpose: what a claim's figures have to tell from the sound one.
+//   spec.pbs = test_support::broken(spec.pbs, Broken::volume_sign);
+#pragma once
+
+#include "analysis/measurement.hpp"
+#include "experiments/scene.hpp"
+#include "pbs/solver/options.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace test_support {
+
+enum class Broken { nothing, volume_sign, bind_dropped, stretch_dropped, volume_dropped, nothing_projected };
+inline constexpr std::array every_broken = {Broken::volume_sign, Broken::bind_dropped, Broken::stretch_dropped, Broken::volume_dropped,
+                                            Broken::nothing_projected};
+
+inline std::string name_of(Broken how)
+{
+    static constexpr const char* names[] = {"as it is",        "volume sign",    "bind dropped",
+                                            "stretch dropped", "volume dropped", "nothing projected"};
+    return names[static_cast<int>(how)];
+}
+
+inline pbs::PbsOptions broken(pbs::PbsOptions options, Broken how)
+{
+    const bool all = how == Broken::nothing_projected;
+    if (how == Broken::volume_sign) {
+        options.volume_form = pbs::VolumeForm::sign;
+        options.order = pbs::Order::plain;
+    }
+    if (all || how == Broken::volume_dropped) options.k_volume = 0.0;
+    if (all || how == Broken::bind_dropped) options.k_bind = 0.0;
+    if (all || how == Broken::stretch_dropped) options.k_stretch = 0.0;
+    if (!options.jiggle) return options;
+    if (options.k_bind == 0.0) options.jiggle->k_bind = 0.0;
+    if (options.k_stretch == 0.0) options.jiggle->k_stretch = 0.0;
+    return options;
+}
+
+inline experiments::Scene broken(experiments::Scene scene, Broken how)
+{
+    for (experiments::DeformerSpec& spec : scene.deformers)
+        if (spec.kind == "pbs") spec.pbs = broken(spec.pbs, how);
+    return scene;
+}
+
+// Those whose quantity and case hold the words.
+inline std::vector<analysis::Measurement> figures_of(const std::vector<analysis::Measurement>& measured, const std::string& quantity,
+                                                     const std::string& of = "")
+{
+    std::vector<analysis::Measurement> found;
+    for (const analysis::Measurement& figure : measured)
+        if (figure.quantity.find(quantity) != std::string::npos && figure.of.find(of) != std::string::npos) found.push_back(figure);
+    return found;
+}
+
+}  // namespace test_support
