@@ -33,7 +33,15 @@ public:
           posed_(scene, frame_numbers(of.frames)),
           motion_(make_motion(scene.motion, posed_.character().skeleton, scene.file))
     {
-        if (own && !of.truth.empty()) truth_ = posed_.shapes(spec_of(scene, of.truth));
+        const int vertices = int(posed_.character().mesh.rest.rows());
+        if (of.truth.empty())
+            reference_ = "none";
+        else if (!own && !of.ladder)
+            reference_ = "the scene's own mesh alone";
+        else if (vertices > of.truth_to)
+            reference_ = fmt::format("left out above {} vertices", of.truth_to);
+        else
+            truth_ = posed_.shapes(spec_of(scene, reference_ = of.truth));
     }
 
     void add_to(ConvergenceResult& result) const
@@ -68,6 +76,7 @@ private:
                                setting,
                                !of_.scene.motion.clip.empty(),
                                of_.frames[frame].twist,
+                               truth_.empty() || has_truth ? reference_ : reference_ + " was not reached",
                                has_truth && truth_[frame].self_intersects,
                                {},
                                {}};
@@ -88,7 +97,8 @@ private:
     std::size_t settings_;  // so many of the case's
     PosedCharacter posed_;
     pbs::Motion motion_;
-    Shapes truth_;  // one a frame; none
+    Shapes truth_;           // one a frame; none
+    std::string reference_;  // its name, or why there is none
 };
 
 }  // namespace

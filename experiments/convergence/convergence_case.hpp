@@ -32,7 +32,8 @@ struct ConvergenceCase {
     bool ladder =
         false;  // other_vertices are a ladder of sizes, each figure its own; else of about one size: their spread is the uncertainty
     int most_iterations = 1000;
-    std::string truth;  // deformer of the scene, on its own mesh; empty: none
+    std::string truth;      // deformer of the scene, on its own mesh and on a ladder's; empty: none
+    int truth_to = 100000;  // vertices: larger meshes of a ladder are left without, and rates.csv says so
 };
 
 struct ConvergencePaths {
@@ -42,6 +43,7 @@ struct ConvergencePaths {
     double k_stretch = 0.0;
     ProjectionSetting setting;
     bool character = false, twist = false;  // of a clip, that is no limb; see NamedFrame
+    std::string reference;                  // the truth's name; of a mesh without, why
     bool reference_self_intersects = false;
     std::vector<IterationPath> paths;        // by SolverStart
     std::vector<double> limit_from_lbs_pct;  // from the last shape of each path to that of LBS, at the joints
