@@ -27,6 +27,7 @@ void add_measure_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 void add_mesh_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 void add_bench_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 void add_fetch_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
+void add_report_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 
 // A subcommand with the options every verb has: --quiet, --verbose, --threads.
 CLI::App* add_verb(CLI::App& app, CommonOptions& common, const std::string& name, const std::string& meaning);

@@ -1,0 +1,56 @@
+// pbskin report DIR: the records and the figures drawn from them as one self-contained page, DIR/report.html.
+#include "experiments/command_line/verbs.hpp"
+#include "experiments/fetch/program_run.hpp"
+#include "experiments/scratch_folder.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <cstdio>
+#include <filesystem>
+
+#include <unistd.h>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path page_maker = fs::path(PBS_FIGURES_FOLDER) / "report.py";
+
+// Debian's first: a version manager's python3 on the PATH often has not what the figures need.
+std::string python_that_draws()
+{
+    const ScratchFolder scratch;
+    for (const char* python : {"/usr/bin/python3", "python3"})
+        if (run_program({python, "-c", "import numpy, matplotlib"}, scratch.path()).succeeded()) return python;
+    throw pbs::InputError("", 0, "report", "",
+                          "no python3 that can import numpy and matplotlib: install python3-numpy and python3-matplotlib");
+}
+
+// The page maker says itself what is missing, and its exit status is the verb's: it takes this process's place.
+int report(const std::string& folder, bool quiet)
+{
+    if (!fs::is_directory(folder))
+        throw pbs::InputError(folder, 0, "", "", "no such folder: expected one that `pbskin reproduce -o` wrote");
+    if (!fs::is_regular_file(page_maker))
+        throw pbs::InputError(page_maker.string(), 0, "", "", "not there: the page is made by the scripts of the project's source");
+    std::vector<std::string> words = {python_that_draws(), "-B", page_maker.string(), folder};
+    if (quiet) words.push_back("--quiet");
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    std::fflush(nullptr);
+    execvp(arguments.front(), arguments.data());
+    throw pbs::InputError("", 0, "report", words.front(), "could not be started");
+}
+
+}  // namespace
+
+void add_report_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+{
+    CLI::App* verb = add_verb(app, common, "report", "records and drawn figures -> one self-contained HTML page; says what is missing");
+    auto folder = std::make_shared<std::string>();
+    verb->add_option("folder", *folder, "what reproduce wrote; the page is report.html in it")->required();
+    verb->callback([&action, &common, folder] { action = [&common, folder] { return report(*folder, common.quiet); }; });
+}
+
+}  // namespace experiments
