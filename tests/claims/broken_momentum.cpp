@@ -78,6 +78,7 @@ TEST(BrokenMomentum, TheSignTurnedRoundConservesAsWell)
 {
     const auto sound = drifts(in_double()), turned = drifts(broken(in_double(), Broken::volume_sign));
     EXPECT_EQ(verdict(turned), verdict(sound));
+    EXPECT_NE(drift(turned, "angular drift of a pass", "volume"), drift(sound, "angular drift of a pass", "volume"));  // it is turned
     for (const char* quantity : {"linear drift", "angular drift"}) {
         EXPECT_LT(drift(sound, quantity, "volume"), 1e-11);
         EXPECT_LT(drift(turned, quantity, "volume"), 1e-11);
