@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace {
 
@@ -100,17 +99,6 @@ TEST(ReadingFigures, OfFramesGrowWithSubsteps)
     const double ratio = all[1].figures[0].value / all[0].figures[0].value;
     EXPECT_GT(ratio, 2.0);  // four steps, of the same work each; a busy machine disturbs both alike
     EXPECT_LT(ratio, 8.0);
-}
-
-// Falls infinitely far in a step.
-TEST(ReadingFigures, OfAReadingThatBreaksDownSaySo)
-{
-    const auto all = figures_of_frames(small_limb(), own_and([](Reading& r) {
-                                           r.options.jiggle = pbs::Jiggle{};
-                                           r.options.gravity_m_s2.y() = -std::numeric_limits<double>::infinity();
-                                       }));
-    EXPECT_FALSE(all[0].broke_down);
-    EXPECT_TRUE(all[1].broke_down);
 }
 
 }  // namespace
