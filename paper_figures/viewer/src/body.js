@@ -1,0 +1,95 @@
+// One deformer's body in three dimensions: the faces that are seen, shaded and coloured. Each face has corners of its own.
+import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Mesh, ShaderMaterial } from "three";
+import { area_normal, face_of } from "./faces.js";
+
+// Light from the camera's left above, and a floor of brightness so that colours read as in the legend. Faces of the cut get the outline
+// of their tets.
+const vertex_shader = `
+attribute vec3 colour;
+attribute float is_cut;
+varying vec3 shade, towards;
+varying vec3 corner;
+varying float outlined;
+void main() {
+    int at = gl_VertexID % 3;
+    corner = vec3(at == 0, at == 1, at == 2);
+    shade = colour;
+    outlined = is_cut;
+    towards = normalMatrix * normal;
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+}`;
+const fragment_shader = `
+uniform float brightness, opacity;
+varying vec3 shade, towards;
+varying vec3 corner;
+varying float outlined;
+void main() {
+    vec3 n = normalize(towards) * (gl_FrontFacing ? 1.0 : -1.0);
+    float light = max(dot(n, normalize(vec3(-0.5, 0.7, 1.0))), 0.0) + 0.35 * max(dot(n, normalize(vec3(0.8, 0.1, 0.6))), 0.0);
+    vec3 lit = shade * min(brightness + (1.0 - brightness) * light, 1.0);
+    vec3 inside = smoothstep(vec3(0.0), 1.4 * fwidth(corner), corner);
+    float line = outlined * (1.0 - min(inside.x, min(inside.y, inside.z)));
+    gl_FragColor = vec4(mix(lit, vec3(0.12), 0.65 * line), opacity);
+}`;
+
+export class Body {
+    constructor() {
+        this.geometry = new BufferGeometry();
+        this.material = new ShaderMaterial({
+            vertexShader: vertex_shader, fragmentShader: fragment_shader, side: DoubleSide,
+            uniforms: { brightness: { value: 0.5 }, opacity: { value: 1 } },
+        });
+        this.mesh = new Mesh(this.geometry, this.material);
+        this.mesh.frustumCulled = false;
+    }
+
+    // Which faces are drawn; `outer` tells those of the whole body's surface, which are shaded smoothly, from those of the cut.
+    show_faces(corners, faces, outer) {
+        this.faces = faces;
+        this.vertices = new Uint32Array(faces.flatMap((face) => face_of(corners, face)));
+        this.smooth = Uint8Array.from(faces, (face) => outer(face) ? 1 : 0);
+        this.geometry.dispose();
+        for (const [name, size] of [["position", 3], ["normal", 3], ["colour", 3], ["is_cut", 1]]) {
+            const attribute = new BufferAttribute(new Float32Array(3 * size * faces.length), size);
+            this.geometry.setAttribute(name, attribute.setUsage(DynamicDrawUsage));
+        }
+        this.geometry.attributes.is_cut.array.forEach((_, at, all) => { all[at] = this.smooth[Math.floor(at / 3)] ? 0 : 1; });
+        this.geometry.setDrawRange(0, this.vertices.length);
+    }
+
+    move(positions, normals) {
+        const to = this.geometry.attributes.position.array, up = this.geometry.attributes.normal.array;
+        this.vertices.forEach((v, at) => {
+            to.set(positions.subarray(3 * v, 3 * v + 3), 3 * at);
+            if (this.smooth[Math.floor(at / 3)]) up.set(normals.subarray(3 * v, 3 * v + 3), 3 * at);
+        });
+        this.faces.forEach((_, face) => {
+            if (this.smooth[face]) return;
+            const normal = area_normal(positions, ...this.vertices.subarray(3 * face, 3 * face + 3));
+            for (let corner = 0; corner < 3; ++corner) up.set(normal, 9 * face + 3 * corner);
+        });
+        this.geometry.attributes.position.needsUpdate = this.geometry.attributes.normal.needsUpdate = true;
+    }
+
+    // colour_of(tet, vertex) -> [red, green, blue]
+    paint(colour_of) {
+        const to = this.geometry.attributes.colour.array;
+        this.vertices.forEach((v, at) => to.set(colour_of(this.faces[Math.floor(at / 3)] >> 2, v), 3 * at));
+        this.geometry.attributes.colour.needsUpdate = true;
+    }
+
+    look(brightness, opacity) {
+        this.material.uniforms.brightness.value = brightness;
+        this.material.uniforms.opacity.value = opacity;
+        this.material.transparent = opacity < 1;
+        this.material.depthWrite = opacity === 1;
+    }
+
+    // Positions [m] as they are drawn, by vertex; nan for vertices of no face that is seen.
+    drawn_positions(count) {
+        const drawn = new Float32Array(3 * count).fill(NaN);
+        const from = this.geometry.attributes.position.array;
+        this.vertices.forEach((v, at) => drawn.set(from.subarray(3 * at, 3 * at + 3), 3 * v));
+        return drawn;
+    }
+}

@@ -1,0 +1,69 @@
+// Faces of a tet mesh: which are seen when only some tets are kept.
+
+const face_corners = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];  // face i is opposite corner i; outwards for positive volumes
+
+// The tet behind each face, 4 x tets; -1: none.
+export function neighbours_of(corners) {
+    const neighbours = new Int32Array(corners.length).fill(-1);
+    const open = new Map();
+    for (let face = 0; face < corners.length; ++face) {
+        const key = face_of(corners, face).sort((a, b) => a - b).join();
+        const other = open.get(key);
+        if (other === undefined) {
+            open.set(key, face);
+        } else {
+            neighbours[face] = other >> 2;
+            neighbours[other] = face >> 2;
+        }
+    }
+    return neighbours;
+}
+
+// Three vertices of face 4 tet + i.
+export function face_of(corners, face) {
+    const tet = face & ~3;
+    return face_corners[face & 3].map((corner) => corners[tet + corner]);
+}
+
+// Faces between a kept tet and none or one that is left out.
+export function seen_faces(neighbours, kept) {
+    const faces = [];
+    for (let face = 0; face < neighbours.length; ++face)
+        if (kept[face >> 2] && (neighbours[face] < 0 || !kept[neighbours[face]])) faces.push(face);
+    return faces;
+}
+
+// The tets whose centre at rest lies below the plane (or above): 1 each. No plane: all.
+export function kept_by(cut, corners, rest) {
+    const kept = new Uint8Array(corners.length / 4).fill(1);
+    if (!cut) return kept;
+    const axis = "xyz".indexOf(cut.axis);
+    for (let tet = 0; tet < kept.length; ++tet) {
+        let sum = 0;
+        for (let corner = 0; corner < 4; ++corner) sum += rest[3 * corners[4 * tet + corner] + axis];
+        kept[tet] = (sum / 4 <= cut.at_m) !== cut.above ? 1 : 0;
+    }
+    return kept;
+}
+
+// Normals (not unit) at the vertices of a surface, each triangle by its area; x y z of each vertex of the mesh.
+export function vertex_normals(positions, corners, faces) {
+    const normals = new Float32Array(positions.length);
+    for (const face of faces) {
+        const [a, b, c] = face_of(corners, face);
+        const [x, y, z] = area_normal(positions, a, b, c);
+        for (const v of [a, b, c]) {
+            normals[3 * v] += x;
+            normals[3 * v + 1] += y;
+            normals[3 * v + 2] += z;
+        }
+    }
+    return normals;
+}
+
+// (b - a) x (c - a)
+export function area_normal(p, a, b, c) {
+    const ux = p[3 * b] - p[3 * a], uy = p[3 * b + 1] - p[3 * a + 1], uz = p[3 * b + 2] - p[3 * a + 2];
+    const vx = p[3 * c] - p[3 * a], vy = p[3 * c + 1] - p[3 * a + 1], vz = p[3 * c + 2] - p[3 * a + 2];
+    return [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+}

@@ -1,0 +1,52 @@
+// What the colours mean, with numbers: those of the scale and those on record.
+import { shown as text } from "./numbers.js";
+
+const what = {
+    skin: "plain skin: the boundary of the tets, smoothly shaded",
+    ratio: "volume ratio of a tet, deformed over rest [1]",
+    error: "distance of a vertex to FEM [mm]; the scale ends at the largest on record in this run",
+    inverted: "inverted tets, volume ratio \u2264 0; the rest of the body is seen through",
+};
+
+export function draw_legend(element, header, run, state) {
+    const { colours } = header;
+    const parts = [];
+    if (state.colour === "ratio") {
+        const { low, high, shades } = colours.ratio;
+        parts.push(bar(shades, [low, (low + high) / 2, high]), swatch(colours.inverted, "inverted"));
+    }
+    if (state.colour === "error") {
+        const most = run.largest_error_mm();
+        parts.push(bar(colours.error.shades, [0, most / 2, most]));
+    }
+    if (state.colour === "inverted") parts.push(swatch(colours.inverted, "inverted"));
+    if (state.colour === "skin") parts.push(swatch(colours.skin, "skin"));
+    const caption = document.createElement("span");
+    caption.className = "vw-caption";
+    caption.textContent = what[state.colour];
+    element.replaceChildren(...parts, caption);
+}
+
+function bar(shades, numbers) {
+    const whole = document.createElement("span"), strip = document.createElement("span"), marks = document.createElement("span");
+    whole.className = "vw-bar";
+    strip.className = "vw-strip";
+    strip.style.background = `linear-gradient(to right, ${shades.join(", ")})`;
+    marks.className = "vw-marks";
+    marks.append(...numbers.map((number) => {
+        const mark = document.createElement("span");
+        mark.textContent = text(number);
+        mark.dataset.value = number;
+        return mark;
+    }));
+    whole.append(strip, marks);
+    return whole;
+}
+
+function swatch(colour, name) {
+    const whole = document.createElement("span"), patch = document.createElement("span");
+    whole.className = "vw-swatch";
+    patch.style.background = colour;
+    whole.append(patch, name);
+    return whole;
+}

@@ -1,0 +1,30 @@
+// Starts the viewer in #viewer and leaves window.viewer for tests and the curious:
+//
+//   viewer.data.runs                     the recorded runs, see data.js
+//   viewer.state.now, viewer.state.set   what is shown, see state.js; set({ at: 3, colour: "error" })
+//   viewer.drawn_positions(panel)        positions [m] as drawn, x y z of each vertex; nan where no face is seen
+//   viewer.pixels(panel)                 red green blue alpha of a panel
+//   viewer.ready                         resolves when the first frame is drawn
+import style from "./style.css";
+import { read_page } from "./data.js";
+import { element } from "./page.js";
+import { Viewer } from "./viewer.js";
+
+async function start(root) {
+    document.head.append(element("style", {}, style));
+    root.textContent = "The recorded frames are being unpacked \u2026";
+    const viewer = new Viewer(root, await read_page());
+    return {
+        viewer, data: viewer.data, state: viewer.state,
+        drawn_positions: (panel) => viewer.panels[panel].body.drawn_positions(viewer.run.vertices),
+        pixels: (panel) => viewer.views.pixels(panel),
+    };
+}
+
+const root = document.getElementById("viewer");
+const ready = start(root);
+window.viewer = { ready };
+ready.then((hook) => Object.assign(window.viewer, hook)).catch((error) => {
+    root.textContent = `The viewer could not start: ${error.message}. It needs WebGL 2.`;
+    console.error(error);
+});

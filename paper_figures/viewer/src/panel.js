@@ -1,0 +1,51 @@
+// One panel's scene: the body, its inverted tets, the skeleton; brought up to date with what is shown.
+import { shade_of } from "./colours.js";
+import { vertex_normals } from "./faces.js";
+import { Body } from "./body.js";
+import { Skeleton } from "./skeleton.js";
+
+const ghost = [0.62, 0.66, 0.7];
+
+export class Panel {
+    constructor() {
+        this.body = new Body();
+        this.inverted = new Body();
+        this.skeleton = new Skeleton();
+        this.contents = [this.inverted.mesh, this.body.mesh, this.skeleton.group];
+    }
+
+    // mesh: { run, neighbours, outer, kept, faces }, see meshes.js
+    update(mesh, label, shown, palette, ratio_shades) {
+        const { run } = mesh, at = shown.at;
+        const positions = run.positions(label, at), codes = run.ratio_codes(label, at);
+        const normals = vertex_normals(positions, run.corners, mesh.outer);
+        const on_surface = (face) => mesh.neighbours[face] < 0;
+        if (this.drawn_faces !== mesh.faces) this.body.show_faces(run.corners, mesh.faces, on_surface);
+        this.drawn_faces = mesh.faces;
+        this.body.move(positions, normals);
+        this.body.paint(this.colouring(run, label, shown, palette, ratio_shades, codes));
+        this.body.look(shown.colour === "skin" ? 0.3 : 0.55, shown.colour === "inverted" ? 0.3 : 1);
+        this.inverted.mesh.visible = shown.colour === "inverted";
+        if (this.inverted.mesh.visible) this.show_inverted(mesh, positions, codes, palette);
+        this.skeleton.group.visible = shown.bones;
+        if (shown.bones) this.skeleton.pose(run.posed_bones(at));
+    }
+
+    colouring(run, label, shown, palette, ratio_shades, codes) {
+        if (shown.colour === "ratio") return (tet) => ratio_shades[codes[tet]];
+        if (shown.colour === "inverted") return () => ghost;
+        if (shown.colour === "skin") return () => palette.skin;
+        const errors = run.errors_mm(label, shown.at), most = run.largest_error_mm();
+        return (_, vertex) => shade_of(palette.error.shades, 0, most, errors[vertex]);
+    }
+
+    // All four faces of each inverted tet that the cut keeps.
+    show_inverted(mesh, positions, codes, palette) {
+        const faces = [];
+        codes.forEach((code, tet) => { if (code === 0 && mesh.kept[tet]) faces.push(4 * tet, 4 * tet + 1, 4 * tet + 2, 4 * tet + 3); });
+        this.inverted.show_faces(mesh.run.corners, faces, () => false);
+        this.inverted.move(positions, positions);
+        this.inverted.paint(() => palette.inverted);
+        this.inverted.look(0.6, 1);
+    }
+}

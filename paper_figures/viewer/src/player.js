@@ -1,0 +1,20 @@
+// Plays the recorded frames, so many a second, round and round.
+
+const frames_per_second = 12;
+
+export class Player {
+    constructor(state, count) {
+        this.state = state;
+        this.count = count;
+        state.on_change((now, changed) => { if (changed.has("playing") && now.playing) this.run(performance.now()); });
+    }
+
+    run(since) {
+        requestAnimationFrame((time) => {
+            if (!this.state.now.playing) return;
+            const due = time - since >= 1000 / frames_per_second;
+            if (due) this.state.set({ at: (this.state.now.at + 1) % this.count() });
+            this.run(due ? time : since);
+        });
+    }
+}

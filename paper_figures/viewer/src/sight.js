@@ -1,0 +1,49 @@
+// Where the camera looks: at the first frame's body, and on with it.
+import { Vector3 } from "three";
+
+export class Sight {
+    constructor(views) {
+        this.views = views;
+    }
+
+    update(run, now, changed) {
+        if (run.name !== this.run_name) {
+            this.first(run, now);
+        } else if (changed.has("at") && now.follow) {
+            const middle = middle_of(run, now.at);
+            this.views.follow(middle.clone().sub(this.middle));
+            this.middle = middle;
+        }
+        if (!now.follow) this.middle = middle_of(run, now.at);
+    }
+
+    first(run, now) {
+        this.run_name = run.name;
+        this.middle = middle_of(run, now.at);
+        this.views.look_at(this.middle, cloud_of(run, now.panels[0]));
+    }
+}
+
+// Mean of the posed bones' ends [m], the same for all deformers.
+function middle_of(run, at) {
+    const ends = run.posed_bones(at), sum = new Vector3();
+    for (let i = 0; i < ends.length; i += 3) sum.add(new Vector3(ends[i], ends[i + 1], ends[i + 2]));
+    return sum.divideScalar(ends.length / 3);
+}
+
+// Points of the body about its middle [m] in some frames of the run: enough of them to know what room it takes.
+function cloud_of(run, label) {
+    const points = [];
+    for (let at = 0; at < run.frames.length; at += 3) {
+        const positions = run.positions(label, at), middle = middle_of(run, at);
+        for (let v = 0; v < run.vertices; v += 5)
+            points.push(new Vector3(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]).sub(middle));
+    }
+    return points;
+}
+
+// Whether it takes more room sideways than upwards.
+export function is_wide(run) {
+    const [left, right] = run.rest_range("x"), [low, high] = run.rest_range("y");
+    return right - left > 1.5 * (high - low);
+}

@@ -1,0 +1,30 @@
+// The posed bones, over the body: a line each, a dot where it begins.
+import { Group, Points, PointsMaterial, BufferGeometry, BufferAttribute } from "three";
+import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
+
+export class Skeleton {
+    constructor() {
+        const line = (width, color) => new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ color, linewidth: width, depthTest: false }));
+        this.lines = [line(5, 0xffffff), line(2.5, 0x111111)];  // dark on a white seam, seen on any body
+        this.dots = new Points(new BufferGeometry(), new PointsMaterial({ color: 0x111111, size: 6, sizeAttenuation: false, depthTest: false }));
+        this.group = new Group();
+        [...this.lines, this.dots].forEach((part, order) => {
+            part.renderOrder = 10 + order;
+            part.frustumCulled = false;
+            this.group.add(part);
+        });
+    }
+
+    // Head and tail [m] of every bone.
+    pose(ends) {
+        for (const line of this.lines) {
+            line.geometry.dispose();
+            line.geometry = new LineSegmentsGeometry().setPositions(Float32Array.from(ends));
+        }
+        const heads = Float32Array.from({ length: ends.length / 2 }, (_, i) => ends[6 * Math.floor(i / 3) + (i % 3)]);
+        this.dots.geometry.dispose();
+        this.dots.geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(heads, 3));
+    }
+}

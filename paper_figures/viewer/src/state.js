@@ -1,0 +1,34 @@
+// What is shown, and who wants to know when it changes.
+//
+// run, at        the run's name, the frame's place in it
+// panels         labels of the deformers shown
+// colour         skin, ratio, error or inverted
+// bones, cut     skeleton shown; { axis, at_m, above } or null
+// claim          whose pose this is, or null
+// playing, follow
+
+export class State {
+    constructor(first) {
+        this.now = first;
+        this.listeners = [];
+    }
+
+    on_change(listener) {
+        this.listeners.push(listener);
+    }
+
+    set(changes) {
+        const changed = Object.keys(changes).filter((key) => this.now[key] !== changes[key]);
+        if (changed.length === 0) return;
+        this.now = { ...this.now, ...changes };
+        for (const listener of this.listeners) listener(this.now, new Set(changed));
+    }
+}
+
+// The panels that a run can show: those wanted where it has them, filled up to four with its own in order.
+export function panels_for(run, wanted) {
+    const usual = ["lbs", "dqs", "pbs", run.reference].filter((label) => run.labels.includes(label));
+    const kept = (wanted ?? usual).filter((label) => run.labels.includes(label));
+    const rest = [...usual, ...run.labels].filter((label) => !kept.includes(label));
+    return [...new Set([...kept, ...rest])].slice(0, 4);
+}

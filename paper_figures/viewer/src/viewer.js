@@ -1,0 +1,171 @@
+// Holds the parts together: state in, panels, legend and address out.
+import { palette_of, ratio_shades } from "./colours.js";
+import { Controls } from "./controls.js";
+import { draw_figures } from "./figures.js";
+import { help, listen } from "./keyboard.js";
+import { draw_legend } from "./legend.js";
+import { hash_of, pose_of } from "./link.js";
+import { Meshes } from "./meshes.js";
+import { element, select } from "./page.js";
+import { Panel } from "./panel.js";
+import { Player } from "./player.js";
+import { Sight, is_wide } from "./sight.js";
+import { State, panels_for } from "./state.js";
+import { Views } from "./views.js";
+
+export class Viewer {
+    constructor(root, data) {
+        this.root = root;
+        this.data = data;
+        this.palette = palette_of(data.colours);
+        this.shades = ratio_shades(this.palette, data.ratio_steps);
+        this.meshes = new Meshes();
+        const first = data.runs[0];
+        this.state = new State({ run: first.name, at: 0, panels: panels_for(first), colour: "ratio", bones: false, cut: null, claim: null,
+                                 playing: false, follow: true });
+        this.build();
+        this.state.on_change((now, changed) => this.update(now, changed));
+        new Player(this.state, () => this.run.frames.length);
+        this.update(this.state.now, new Set(Object.keys(this.state.now)));
+        this.open(location.hash, false);
+        window.addEventListener("hashchange", () => this.open(location.hash, true));
+    }
+
+    get run() {
+        return this.data.runs.find((run) => run.name === this.state.now.run);
+    }
+
+    build() {
+        this.controls = new Controls(this.data.runs, this.actions());
+        this.claim = element("p", { class: "vw-claim vw-hidden" });
+        this.canvas = element("canvas", { "aria-hidden": "true" });
+        this.panels_element = element("div", { class: "vw-panels" }, this.canvas);
+        this.legend = element("div", { class: "vw-legend" });
+        this.note = element("p", { class: "vw-small" });
+        this.root.replaceChildren(this.claim, ...this.controls.bars, this.legend, this.panels_element, this.note,
+                                  element("p", { class: "vw-small" }, help));
+        this.views = new Views(this.canvas, () => this.redraw());
+        this.sight = new Sight(this.views);
+        listen(this.root, this.actions());
+        new ResizeObserver(() => this.redraw()).observe(this.panels_element);
+    }
+
+    // One element each panel: choice of deformer, view, recorded numbers.
+    build_panels(now) {
+        for (const made of this.panel_elements ?? []) made.whole.remove();
+        const options = this.run.deformers.map((deformer) => [deformer.label, deformer.title]);
+        this.panel_elements = now.panels.map((label, at) => {
+            const choice = select(`deformer of panel ${at + 1}`, options, (chosen) => this.choose(at, chosen));
+            choice.value = label;
+            const title = this.run.deformer(label).title;
+            const view = element("div", { class: "vw-view", tabindex: 0, role: "img", "aria-label": `${title}: arrows turn, plus and minus zoom` });
+            const numbers = element("dl", { "aria-label": `recorded numbers of ${title}` });
+            const whole = element("div", { class: "vw-panel" }, choice, view, numbers);
+            this.panels_element.append(whole);
+            return { whole, view, numbers };
+        });
+        this.panels_element.classList.toggle("vw-wide", is_wide(this.run));
+        this.panels = now.panels.map(() => new Panel());
+        this.views.show(this.panel_elements.map((made) => made.view), this.panels.map((panel) => panel.contents));
+    }
+
+    choose(at, label) {
+        const panels = [...this.state.now.panels];
+        panels[at] = label;
+        this.user({ panels });
+    }
+
+    update(now, changed) {
+        const { run } = this;
+        if (changed.has("run") || changed.has("panels")) this.build_panels(now);
+        const mesh = this.meshes.of(run, now.cut);
+        now.panels.forEach((label, at) => {
+            this.panels[at].update(mesh, label, now, this.palette, this.shades);
+            draw_figures(this.panel_elements[at].numbers, run, label, now.at);
+        });
+        this.controls.update(run, now);
+        draw_legend(this.legend, this.data, run, now);
+        this.sight.update(run, now, changed);
+        this.note.textContent = note_of(run, this.data.every);
+        this.show_claim(now.claim);
+        this.redraw();
+    }
+
+    show_claim(claim) {
+        const pose = this.data.poses.find((one) => one.claim === claim);
+        this.claim.classList.toggle("vw-hidden", !claim);
+        const what = pose ? ` Shown: ${pose.what}.` : "";
+        this.claim.textContent = claim ? `${claim}. ${this.data.claims[claim] ?? ""}${what}` : "";
+    }
+
+    redraw() {
+        if (this.waiting) return;
+        this.waiting = requestAnimationFrame(() => {
+            this.waiting = null;
+            this.views.draw();
+        });
+    }
+
+    // A change made by hand: the address follows it, and the claim's pose is left.
+    user(changes) {
+        this.state.set({ claim: null, ...changes });
+        const { now } = this.state;
+        if (!now.playing) history.replaceState(null, "", hash_of({ ...now, frame: this.run.frames[now.at] }));
+    }
+
+    // The pose of an address; one that names a claim alone is the claim's own.
+    open(hash, scroll) {
+        const asked = pose_of(hash);
+        if (!asked) return;
+        const known = this.data.poses.find((pose) => pose.claim === asked.claim);
+        const own = known ? { ...known, panels: known.panels ? known.panels.split(",") : undefined } : {};
+        const pose = { ...(asked.run ? {} : own), ...asked };
+        const run = this.data.runs.find((one) => one.name === pose.run) ?? this.run;
+        this.state.set({ run: run.name, at: run.place_of(pose.frame ?? 0), panels: panels_for(run, pose.panels), colour: pose.colour ?? "ratio",
+                         bones: pose.bones ?? false, cut: pose.cut ?? null, claim: pose.claim ?? null, playing: false });
+        if (scroll) this.root.scrollIntoView({ block: "start" });
+    }
+
+    actions() {
+        const now = () => this.state.now, last = () => this.run.frames.length - 1;
+        const go = (at) => this.user({ at: Math.min(last(), Math.max(0, at)), playing: false });
+        const cut = (changes) => now().cut && this.user({ cut: { ...now().cut, ...changes } });
+        return {
+            run: (name) => this.choose_run(name),
+            at: go, step: (by) => go(now().at + by), first: () => go(0), last: () => go(last()),
+            play: () => this.user({ playing: !now().playing }),
+            colour: (colour) => this.user({ colour }),
+            bones: () => this.user({ bones: !now().bones }),
+            follow: () => this.user({ follow: !now().follow }),
+            cut: () => this.cut_axis(now().cut ? "" : "z"),
+            cut_axis: (axis) => this.cut_axis(axis),
+            cut_at: (at_m) => cut({ at_m }), cut_side: () => cut({ above: !now().cut.above }),
+            move_cut: (by) => cut({ at_m: this.run.stepped(now().cut, by) }),
+            turn: (around, up) => this.moved(() => this.views.turn(around, up)), zoom: (factor) => this.moved(() => this.views.zoom(factor)),
+            reset: () => this.moved(() => this.sight.first(this.run, now())),
+        };
+    }
+
+    choose_run(name) {
+        const run = this.data.runs.find((one) => one.name === name);
+        this.user({ run: name, at: 0, panels: panels_for(run), cut: null, playing: false });
+    }
+
+    cut_axis(axis) {
+        if (!axis) return this.user({ cut: null });
+        const [low, high] = this.run.rest_range(axis);
+        this.user({ cut: { axis, at_m: (low + high) / 2, above: false } });
+    }
+
+    moved(action) {
+        action();
+        this.redraw();
+    }
+}
+
+function note_of(run, every) {
+    const kept = every === 1 ? "every recorded frame" : `one of ${every} recorded frames`;
+    return `${run.vertices} vertices, ${run.tets} tets; ${kept}. Positions are rounded to steps of ${(1e6 * run.step_m).toFixed(1)} \u00b5m, so each `
+        + `coordinate is within half of that of the record; volume ratios to 1/127 up to 2; the numbers are the records' own. A cut goes through the `
+        + `body at rest, so that every panel and frame shows the same tets. ${run.rights}`;
+}

@@ -1,0 +1,53 @@
+// Debian's Chromium without a screen, without a graphics card and without a network, driven by playwright-core.
+import { createRequire } from "node:module";
+import fs from "node:fs";
+import os from "node:os";
+import path from "node:path";
+import { pathToFileURL } from "node:url";
+
+const root = path.resolve(import.meta.dirname, "../..");
+const program = "/usr/bin/chromium";
+const options = ["--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking"];
+
+// What is not there, in words; empty when a browser can be driven.
+export function what_is_missing() {
+    const missing = [];
+    if (!fs.existsSync(program)) missing.push(`${program} (package chromium)`);
+    if (!fs.existsSync(path.join(root, "paper_figures/viewer/node_modules/playwright-core")))
+        missing.push("paper_figures/viewer/node_modules (npm ci there)");
+    return missing.join(", ");
+}
+
+// Opens the file in a window of this size; `problems` gathers what the page reports, and every address it asks for but itself.
+export async function open(file, hash = "", { width = 1280, height = 900, scale = 1, touch = false } = {}) {
+    const { chromium } = createRequire(path.join(root, "paper_figures/viewer/package.json"))("playwright-core");
+    const profile = fs.mkdtempSync(path.join(os.tmpdir(), "pbskin_browser_"));
+    const context = await chromium.launchPersistentContext(profile, {
+        executablePath: program, headless: true, args: options, viewport: { width, height }, deviceScaleFactor: scale, hasTouch: touch,
+    });
+    const page = await context.newPage(), problems = [];
+    page.setDefaultTimeout(120000);
+    page.on("console", (message) => { if (["error", "warning"].includes(message.type())) problems.push(message.text()); });
+    page.on("pageerror", (error) => problems.push(String(error)));
+    const address = pathToFileURL(file).href;
+    page.on("request", (request) => { if (!/^(data|blob):/.test(request.url()) && !request.url().startsWith(address)) problems.push(request.url()); });
+    await page.goto(address + hash);
+    const close = async () => {
+        await context.close();
+        fs.rmSync(profile, { recursive: true, force: true });
+    };
+    return { page, problems, close };
+}
+
+// The same, with the viewer drawn.
+export async function open_viewer(file, hash, size) {
+    const opened = await open(file, hash, size);
+    await opened.page.evaluate(() => window.viewer.ready);
+    await settle(opened.page);
+    return opened;
+}
+
+// Two frames later everything asked for is on the screen.
+export async function settle(page) {
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+}
