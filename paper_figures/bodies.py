@@ -4,13 +4,11 @@
 """
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkPlane
-from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
-from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
-from vtkmodules.vtkFiltersExtraction import vtkExtractGeometry
+from vtkmodules.vtkCommonCore import vtkIdList, vtkLookupTable, vtkPoints
+from vtkmodules.vtkFiltersCore import vtkPolyDataNormals, vtkTubeFilter
+from vtkmodules.vtkFiltersExtraction import vtkExtractCells
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkFiltersSources import vtkLineSource, vtkSphereSource
-from vtkmodules.vtkFiltersCore import vtkTubeFilter
 from vtkmodules.vtkRenderingCore import vtkPolyDataMapper
 
 import rendering
@@ -60,6 +58,13 @@ def skin(file, color=rendering.skin_color):
     return _actor(surface(rendering.read(file)), color)
 
 
+def glass(data, color=rendering.skin_color, opacity=0.18):
+    """The skin to look through."""
+    actor = _actor(surface(data), color, ambient=0.6)
+    actor.GetProperty().SetOpacity(opacity)
+    return actor
+
+
 def skin_at_rest(file, color=rendering.skin_color):
     return _actor(surface(at_rest(file)), color)
 
@@ -74,7 +79,7 @@ def skin_by(file, values, scale, colors):
     mapper.SetInputData(surface(data))
     mapper.SetLookupTable(_shades(scale, colors))
     mapper.UseLookupTableScalarRangeOn()
-    return rendering.actor_of(mapper, ambient=0.45)
+    return rendering.actor_of(mapper, ambient=0.6)
 
 
 def _shades(scale, colors, steps=256):
@@ -87,15 +92,15 @@ def _shades(scale, colors, steps=256):
     return table
 
 
-def cut_open(data, origin, normal):
-    """Whole tets on the far side of the plane, their edges drawn."""
-    plane = vtkPlane()
-    plane.SetOrigin(*origin)
-    plane.SetNormal(*normal)
-    kept = vtkExtractGeometry()
+def cut_open(data, ahead_m):
+    """The tets behind a cut, their edges drawn; ahead_m: how far each point is in front of it."""
+    corners = vtk_to_numpy(data.GetCells().GetConnectivityArray()).reshape(-1, 4)
+    chosen = vtkIdList()
+    for cell in numpy.flatnonzero(ahead_m[corners].mean(axis=1) < 0):
+        chosen.InsertNextId(int(cell))
+    kept = vtkExtractCells()
     kept.SetInputData(data)
-    kept.SetImplicitFunction(plane)
-    kept.ExtractInsideOn()
+    kept.SetCellList(chosen)
     boundary = vtkDataSetSurfaceFilter()
     boundary.SetInputConnection(kept.GetOutputPort())
     boundary.Update()

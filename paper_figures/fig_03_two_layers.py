@@ -4,9 +4,6 @@ import recorded_frames
 import rendering
 import style
 
-caption = ("Figure 3, the two layers: the human at rest (left), after step 1, linear blend skinning (middle), and after step 2, position "
-           "based dynamics with 24 iterations (right), at the deepest crouch before the jump. See the hips, enlarged below: blending folds "
-           "them into themselves, the projection fills them again. Shown is the boundary of the tets, the body that is simulated.")
 scene, frame = "human_jump", 8
 whole_px, hips_px = (640, 760), (640, 380)
 

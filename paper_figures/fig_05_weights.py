@@ -4,9 +4,6 @@ import recorded_frames
 import rendering
 import style
 
-caption = ("Figure 5, the weights: the limb bent by 90 degrees with each vertex on its nearest bone alone (left) and with the weights of "
-           "Eq. 2 (right); above after linear blend skinning, below after PBS with 24 iterations. Rigid weights fold the inside of the joint "
-           "and tear the outside, Eq. 2 cuts the corner; after the projection the two can hardly be told apart.")
 scenes, angle_deg = ("limb_bend_rigid", "limb_bend"), 90
 titles = ("each vertex on one bone", "weights of Eq. 2")
 view = rendering.Camera((-0.06, 0.08, 0), 0.29, (-0.25, 0.25, 1.0))

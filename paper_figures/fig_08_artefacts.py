@@ -4,10 +4,6 @@ import recorded_frames
 import rendering
 import style
 
-caption = ("Figure 8, the artefacts: the limb twisted by 180 degrees (above) and bent by 110 (below), each tet coloured by its volume over "
-           "rest. Twisted: LBS collapses to a point, the candy wrapper, DQS keeps the section; PBS collapses at exactly 180 degrees, where "
-           "its start from LBS is a point, and keeps it at 170 (middle), as does FEM. Bent: DQS bulges outside the elbow, PBS and FEM do "
-           "not. Inverted tets are red. Under each still: total volume change, inverted tets, smallest section over rest.")
 poses = {"limb_twist": (180, 170), "limb_bend": (110,)}
 views = {"limb_twist": rendering.Camera((0, 0, 0), 0.24, (0.0, 0.35, 1.0)), "limb_bend": rendering.Camera((0, 0.14, 0), 0.36, (0.0, 0.1, 1.0))}
 deformers = ("lbs", "dqs", "pbs", "snh_p1")

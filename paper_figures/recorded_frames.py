@@ -58,6 +58,14 @@ class Frames:
         """A row each vertex: nearest bone, parameter on it, rest distance, blended and jiggles (0 or 1)."""
         return records.table(self.folder / "binding.csv", {"vertex", "bone", "parameter", "rest_distance_m", "blended", "jiggles"})
 
+    def projections(self, frame):
+        """Where each vertex's material point of its nearest bone is in this frame [m], #V x 3."""
+        bones = {bone.name: bone for bone in self.bones(frame)}
+        rows = sorted(self.binding(), key=lambda row: int(row["vertex"]))
+        heads, tails = (numpy.array([getattr(bones[row["bone"]], end) for row in rows]) for end in ("head", "tail"))
+        parameters = numpy.clip([float(row["parameter"]) for row in rows], 0, 1)[:, None]
+        return heads + parameters * (tails - heads)
+
     def _file(self, name):
         file = self.folder / "frames" / name
         if not file.is_file():
@@ -89,3 +97,11 @@ def licences_of(frames):
 def middle_of(points, binding, bones):
     """Mean position [m] of the vertices that are nearest to these bones: where to point a camera."""
     return numpy.mean([points[int(row["vertex"])] for row in binding if row["bone"] in bones], axis=0)
+
+
+def heading_of(bones):
+    """Unit vectors of a posed body: forward along the floor, and to its left."""
+    hips = {bone.name: bone.tail for bone in bones}
+    left = (hips["hip.L"] - hips["hip.R"]) * (1, 0, 1)
+    left /= numpy.linalg.norm(left)
+    return numpy.cross(left, (0, 1, 0)), left

@@ -42,22 +42,23 @@ looks = {
     "lbs": Look("LBS", vermillion, (0, (4, 1.5)), "v"),
     "dqs": Look("DQS", orange, (0, (5, 1.2, 1, 1.2)), "s"),
     "pbs": Look("PBS, 24 iterations", blue, "-", "o"),
+    "pbs_jiggle": Look("PBS, jiggling", sky, (0, (2, 1)), "p"),
     "fem_p1": Look("linear FEM, P1 (control)", green, (0, (1, 1)), "^"),
     "fem_p2": Look("linear FEM, P2 (control)", black, (0, (1, 1)), "x"),
     "snh_p1": Look("neo-Hookean FEM, P1", sky, (0, (3, 1)), "P"),
     "snh_p2": Look("neo-Hookean FEM, P2 (truth)", purple, "-", "D"),
 }
 sequence = [(vermillion, "v"), (blue, "o"), (green, "^"), (purple, "D"), (orange, "s"), (sky, "P"), (black, "x")]
+lines = ["-", (0, (4, 1.5)), (0, (5, 1.2, 1, 1.2)), (0, (1, 1)), (0, (3, 1)), "-", (0, (4, 1.5))]
 
 
 def look_of(deformer):
     return looks.get(deformer, Look(deformer, black, (0, (1, 1)), "x"))
 
 
-def panels(rows, columns, height_in=2.0, width_in=None, height_ratios=None, **options):
+def panels(rows, columns, height_in=2.0, width_in=None, height_ratios=None, width_ratios=None, **options):
     width = width_in or (page_in if columns > 1 else column_in)
-    if height_ratios:
-        options["gridspec_kw"] = {"height_ratios": height_ratios}
+    options["gridspec_kw"] = {"height_ratios": height_ratios, "width_ratios": width_ratios}
     return pyplot.subplots(rows, columns, figsize=(width, height_in * rows), squeeze=False, **options)
 
 
@@ -74,6 +75,22 @@ def draw(axes, deformer, x, y, markers=True, **options):
     spacing = max(1, len(x) // 9)
     axes.plot(x, y, color=look.color, linestyle=look.line, marker=look.marker if markers else None, markevery=spacing, label=look.label,
               **options)
+
+
+def draw_series(axes, number, x, y, label, bars=None, **options):
+    """One line of several without a deformer's look, the number-th; bars: lower and upper ends of each point."""
+    color, marker = sequence[number % len(sequence)]
+    axes.plot(x, y, **{"color": color, "marker": marker, "linestyle": lines[number % len(lines)], "label": label} | options)
+    if bars:
+        axes.vlines(x, *bars, color=color, linewidth=0.7)
+
+
+def log_scale(axis, values=None):
+    """A logarithmic axis with plain numbers at these values, or at 1, 2 and 5 of each decade."""
+    axis.axes.set_xscale("log") if axis is axis.axes.xaxis else axis.axes.set_yscale("log")
+    axis.set_major_locator(ticker.FixedLocator(values) if values is not None else ticker.LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_locator(ticker.NullLocator())
 
 
 def per_cent_scale(axes, signed):
@@ -121,7 +138,8 @@ def signed(text):
 
 
 def bar(figure, axes, scale, colors, label, extend="neither"):
-    """One colour bar below all panels."""
+    """One colour bar below all panels, which keep clear of the top."""
+    figure.get_layout_engine().set(rect=(0, 0, 1, 0.985))
     shades = matplotlib.cm.ScalarMappable(scale, colors)
     figure.colorbar(shades, ax=axes, location="bottom", shrink=0.5, aspect=40, extend=extend, pad=0.01).set_label(label)
 

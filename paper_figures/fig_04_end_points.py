@@ -1,0 +1,65 @@
+"""The paper's Fig. 4 and the rule of Eq. 2, drawn from the records: end points s_j and d_j of a bone, a vertex's projection on it, and which
+vertices were blended, over their parameter on the nearest bone."""
+import numpy
+
+import bodies
+import recorded_frames
+import style
+
+low, high = 1 / 6, 5 / 6  # Eq. 2: rigid between
+kinds = {"0": ("one bone", style.sky, "o"), "1": ("blended between bones", style.vermillion, "^")}
+
+
+def chosen_vertex(frames, points):
+    """On the forearm's skin, in the plane of drawing, within the rigid zone."""
+    rows = [row for row in frames.binding() if row["bone"] == "forearm" and 0.25 < float(row["parameter"]) < 0.45]
+    return max(rows, key=lambda row: points[int(row["vertex"])][1] - abs(points[int(row["vertex"])][2]))
+
+
+def draw_limb(panel, frames):
+    """The limb at rest from the side: its slice around the plane of drawing, its bones, one vertex on its bone."""
+    points, binding = bodies.rest_positions_of(frames.tets("lbs", 0)), frames.binding()
+    for blended, (label, color, marker) in kinds.items():
+        shown = points[[int(row["vertex"]) for row in binding if row["blended"] == blended]]
+        shown = shown[abs(shown[:, 2]) < 0.06]
+        panel.plot(*shown.T[:2], linestyle="", marker=marker, color=color, markersize=1.6, label=label)
+    for bone in frames.bones(0):
+        panel.plot(*zip(bone.head[:2], bone.tail[:2]), color=style.black, linewidth=2.5, marker="o", markersize=5)
+        for share in (low, high):
+            panel.axvline(bone.head[0] + share * (bone.tail[0] - bone.head[0]), color=style.black, linewidth=0.8, linestyle=(0, (4, 2)))
+    mark_vertex(panel, frames, points)
+    panel.set(xlabel="x [m]", ylabel="y [m]", aspect="equal", ylim=(-0.2, 0.42), title="limb at rest; dashed: 1/6 and 5/6 of each bone")
+
+
+def mark_vertex(panel, frames, points):
+    row, bone = chosen_vertex(frames, points), frames.bones(0)[1]
+    vertex = points[int(row["vertex"])]
+    foot = bone.head + float(row["parameter"]) * (bone.tail - bone.head)
+    panel.plot(*zip(vertex[:2], foot[:2]), color=style.black, linewidth=1, marker="D", markersize=3)
+    texts = {r"$s_j$": bone.head, r"$d_j$": bone.tail}
+    for text, end in texts.items():
+        panel.annotate(text, end[:2], (0, 32), textcoords="offset points", ha="center", arrowprops={"arrowstyle": "-", "linewidth": 0.5})
+    panel.annotate(f"$v_i$: {float(row['parameter']):.2f} of the way\nfrom $s_j$ to $d_j$", vertex[:2], (0, 12),
+                   textcoords="offset points", ha="center", arrowprops={"arrowstyle": "-", "linewidth": 0.5})
+
+
+def draw_rule(panel, frames):
+    """Every vertex of the human by its parameter; Eq. 2's zone in grey."""
+    binding = frames.binding()
+    panel.axvspan(low, high, color="#E8E8E8", linewidth=0, zorder=0)
+    for blended, (label, color, marker) in kinds.items():
+        rows = [row for row in binding if row["blended"] == blended]
+        x, y = ([float(row[name]) for row in rows] for name in ("parameter", "rest_distance_m"))
+        panel.plot(x, 1000 * numpy.array(y), linestyle="", marker=marker, color=color, markersize=1.6, label=f"{label}: {len(rows)} vertices")
+    panel.set(xlabel="place of its projection from $s_j$ (0) to $d_j$ (1) [1]", ylabel="distance to the bone [mm]", xlim=(-0.25, 1.75),
+              title="the human's vertices")
+    panel.legend(loc="upper right")
+
+
+def draw(results, figures):
+    limb, human = (recorded_frames.Frames(results, scene) for scene in ("limb_bend", "human_walk"))
+    figure, (first, second) = style.stacked((1, 1.75), (1, 1.9))
+    draw_limb(first[0], limb)
+    draw_rule(second[0], human)
+    behind = [{"scene": frames.run.name, **row} for frames in (limb, human) for row in frames.binding()]
+    style.save(figure, figures / "fig_04_end_points", recorded_frames.origin_of(limb, human), behind)

@@ -1,0 +1,47 @@
+"""The paper's Fig. 10: poses with and without the start from LBS. No kicking clip can be had by package name: the poses are of a jump."""
+import matplotlib
+import numpy
+
+import bodies
+import recorded_frames
+import rendering
+import style
+
+scene, shown = "human_jump", (4, 8, 12, 18, 27)
+deformers = {"pbs": "from LBS in each frame", "pbs_increment": "moved by LBS's increment"}
+scale, colors = matplotlib.colors.Normalize(0, 60), matplotlib.colormaps["YlGnBu"]  # [mm]
+direction = (0.8, 0.12, 1.0)
+
+
+def facts(row):
+    return style.signed(f"volume {float(row['volume_change_pct']):+.2f} %\nsmallest section {float(row['min_section_pct']):.0f} %")
+
+
+def away_mm(frames, frame):
+    with_start, without = (bodies.points_of(frames.skin(label, frame)) for label in deformers)
+    return 1000 * numpy.linalg.norm(without - with_start, axis=1)
+
+
+def draw_pose(panels, frames, frame, stage):
+    low, high = rendering.bounds_of(frames.skin("pbs", frame))
+    view = rendering.Camera((low + high) / 2, 0.87, direction)
+    rows = [frames.row(label, frame) for label in deformers]
+    for panel, label, row in zip(panels, deformers, rows):
+        style.show(panel, stage.shot([bodies.skin(frames.skin(label, frame))], view), below=facts(row))
+    distance_mm = away_mm(frames, frame)
+    actor = bodies.skin_by(frames.skin("pbs_increment", frame), distance_mm, scale, colors)
+    style.show(panels[2], stage.shot([actor], view), below=f"largest {distance_mm.max():.0f} mm")
+    panels[0].set_title(f"{float(rows[0]['time_s']):.2f} s")
+    return rows
+
+
+def draw(results, figures):
+    frames = recorded_frames.Frames(results, scene)
+    stage = rendering.Stage(480, 640, background=rendering.paper)
+    figure, axes = style.panels(3, len(shown), height_in=2.2)
+    behind = [row for panels, frame in zip(axes.T, shown) for row in draw_pose(panels, frames, frame, stage)]
+    for panels, text in zip(axes, (*deformers.values(), "distance between the two")):
+        panels[0].set_ylabel(text)
+    style.bar(figure, axes, scale, colors, "distance between the two skins [mm]", "max")
+    behind = style.columns_of(behind, "volume_change_pct", "volume_abs_change_pct", "inverted_tets", "min_section_pct", "stretch_rms")
+    style.save(figure, figures / "fig_10_start_from_lbs", recorded_frames.origin_of(frames), behind)
