@@ -123,10 +123,12 @@ public:
         next_ = (next_ + static_cast<std::size_t>(motion_.steps_per_frame)) % motion_.steps.size();
         const double start_s = thread_cpu_s();
         for (int substep = 0; substep < substeps_; ++substep) deformer_.advance(pose, dt_s_ / substeps_);
-        return {thread_cpu_s() - start_s};
+        const double took_s = thread_cpu_s() - start_s;
+        finite_ = finite_ && deformer_.positions().allFinite();
+        return {took_s};
     }
 
-    bool finite() const { return deformer_.positions().allFinite(); }
+    bool finite() const { return finite_; }  // in every turn
 
 private:
     static Reading judged_precision(Reading reading)
@@ -141,6 +143,7 @@ private:
     double dt_s_;
     ReadDeformer deformer_;
     std::size_t next_ = 0;
+    bool finite_ = true;
 };
 
 JudgedFigure of_frame(const std::string& body, int vertices, double ms)

@@ -215,7 +215,7 @@ void plan_human(bool full, StudyPlan& plan)
     if (!full) moving.insert(moving.end(), {"motion.start_s=1.0", "motion.duration_s=6.0"});
     const Scene each = read_scene("human_01_01", five_a_second), every = read_scene("human_01_01", moving);
     plan.runs.push_back(volume_run("human", "human", each, readings_of_a_step(spec_of(each, "pbs").pbs), 4.5));
-    plan.runs.push_back(volume_run("human_moving", "human", every, readings_of_motion(spec_of(every, "pbs").pbs), full ? 45.0 : 10.0));
+    plan.runs.push_back(volume_run("human_moving", "human", every, readings_of_motion(spec_of(every, "pbs").pbs), full ? 31.0 : 10.0));
     plan.runs.push_back(sections_run("human_joint_twist", turned_elbow("twist"), 1.1));
     plan.runs.push_back(sections_run("human_joint_bend", turned_elbow("bend"), 2.0));
     const ReadingsCase of = {.scene = read_scene("human_01_01", {"output.frames=[]", "output.frame_names=[]"}),

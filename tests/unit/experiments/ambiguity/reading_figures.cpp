@@ -101,4 +101,15 @@ TEST(ReadingFigures, OfFramesGrowWithSubsteps)
     EXPECT_LT(ratio, 8.0);
 }
 
+// Weight acts on what is integrated alone: where all is, an infinite one leaves nothing finite; where nothing is, it is not felt.
+TEST(ReadingFigures, OfFramesTellABreakdown)
+{
+    const auto all = figures_of_frames(small_limb(), own_and([](Reading& r) {
+                                           r.options.lbs_entry = pbs::LbsEntry::increment;
+                                           r.options.gravity_m_s2 = pbs::Vec3(0.0, -std::numeric_limits<double>::infinity(), 0.0);
+                                       }));
+    EXPECT_FALSE(all[0].broke_down);
+    EXPECT_TRUE(all[1].broke_down);
+}
+
 }  // namespace
