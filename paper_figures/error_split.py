@@ -60,4 +60,4 @@ def draw(results, figures):
         behind += draw_parts(axes[0][column], records.table(folder / "parts.csv", part_columns), angle_deg)
         behind += draw_attachments(axes[1][column], records.table(folder / "attachments.csv", attachment_columns), angle_deg)
     style.legend_above(figure, columns=4)
-    style.save(figure, figures / "error_split", records.provenance(results), behind)
+    style.save(figure, figures / "error_split", records.provenance(results / "error_split"), behind)

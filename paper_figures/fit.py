@@ -54,4 +54,4 @@ def draw(results, figures):
     figure, axes = style.panels(1, 2, height_in=2.6)
     behind = draw_young(axes[0][0], records.table(folder / "sag.csv", sag_columns))
     behind += draw_valley(axes[0][1], records.table(folder / "valley.csv", valley_columns))
-    style.save(figure, figures / "fit", records.provenance(results), behind)
+    style.save(figure, figures / "fit", records.provenance(results / "fit"), behind)

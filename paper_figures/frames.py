@@ -76,7 +76,7 @@ def draw(results, figures):
     rows = {deformer: {int(row["frame"]): row for row in run.select(deformer, 24 if deformer == "pbs" else None)} for deformer in deformers}
     behind = style.columns_of([rows[deformer][frame] for deformer in deformers for frame in frames], "volume_change_pct", "inverted_tets",
                               "min_section_pct")
-    origin = records.provenance(results)
+    origin = records.provenance(results / "volume")
     skin = draw_stills(rows, files, frames, names_of(run), skin_of, colour_bar=False)
     style.save(skin, figures / "frames_skin", origin, behind, formats=("png",))
     ratio = draw_stills(rows, files, frames, names_of(run), lambda file: file, colour_bar=True)

@@ -56,11 +56,28 @@ def circles_of(axes, label, x, y, dpi, height):
     for place, *values in zip(places, x, y):
         if numpy.isfinite(place).all() and box.contains(*place):
             across, up = place * points_an_inch / dpi
-            text = prefix + ", ".join(known.get(value, f"{value:.6g}") for known, value in zip(names, values))
+            text = prefix + ", ".join(name_of(value, known) for known, value in zip(names, values))
             yield f'<circle cx="{across:.1f}" cy="{height - up:.1f}" r="{radius}"><title>{escape(text)}</title></circle>'
 
 
 def names_of(axis):
     """Of places on an axis that are named, not numbered."""
-    named = {place: tick.get_text() for place, tick in zip(axis.get_majorticklocs(), axis.get_ticklabels())}
-    return named if isinstance(axis.get_major_formatter(), ticker.FixedFormatter | StrCategoryFormatter) else {}
+    if not isinstance(axis.get_major_formatter(), ticker.FixedFormatter | StrCategoryFormatter):
+        return {}
+    return {place: tick.get_text().replace("\n", " ") for place, tick in zip(axis.get_majorticklocs(), axis.get_ticklabels())}
+
+
+def name_of(value, known):
+    """The name of the nearest place where places have names; the number to six digits where they are numbers."""
+    place = min(known, key=lambda place: abs(place - value), default=None)
+    if place is None or abs(place - value) >= 0.5 or (is_number(known[place]) and place != value):
+        return f"{value:.6g}"
+    return known[place]
+
+
+def is_number(text):
+    try:
+        float(text.replace("\N{MINUS SIGN}", "-"))
+    except ValueError:
+        return False
+    return True

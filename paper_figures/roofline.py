@@ -68,4 +68,4 @@ def draw(results, figures):
     if not behind:
         raise records.RecordsMissing(f"{results / 'bench' / 'bench.json'}: no timing of one thread")
     add_legend(figure, axes[0][0])
-    style.save(figure, figures / "roofline", records.provenance(results), behind)
+    style.save(figure, figures / "roofline", records.provenance(results / "bench"), behind)

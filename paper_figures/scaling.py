@@ -79,4 +79,4 @@ def draw(results, figures):
     if not behind:
         raise records.RecordsMissing(f"{results / 'bench' / 'bench.json'}: no timings")
     style.legend_above(figure, columns=6)
-    style.save(figure, figures / "scaling", records.provenance(results), behind)
+    style.save(figure, figures / "scaling", records.provenance(results / "bench"), behind)

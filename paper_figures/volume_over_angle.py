@@ -3,7 +3,7 @@ import records
 import style
 
 scenes = [("limb_twist", "twist"), ("limb_bend", "bend")]
-measures = [("volume_change_pct", "signed volume change [%]"), ("volume_abs_change_pct", "absolute volume change [%]")]
+measures = [("volume_change_pct", "signed volume\nchange [%]"), ("volume_abs_change_pct", "absolute volume\nchange [%]")]
 
 
 def draw(results, figures):
@@ -26,5 +26,5 @@ def draw(results, figures):
         for panel in axes[row]:
             style.paper_band(panel, signed=row == 0)
             style.per_cent_scale(panel, signed=row == 0)
-    style.legend_above(figure)
-    style.save(figure, figures / "volume_over_angle", records.provenance(results), behind)
+    style.legend_above(figure, columns=3)
+    style.save(figure, figures / "volume_over_angle", records.provenance(results / "volume"), behind)

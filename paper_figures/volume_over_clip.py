@@ -1,17 +1,18 @@
-"""How much volume each deformer changes over the clip on the human; triangles mark the frames that are drawn as stills."""
+"""How much volume each deformer changes over the clip on the human, beside neo-Hookean finite elements; triangles mark the frames that are
+drawn as stills."""
 import records
 import style
 
 measures = [("volume_change_pct", "signed volume\nchange [%]"), ("volume_abs_change_pct", "absolute volume\nchange [%]")]
 
 
-def times_of_stills(run, rows):
-    frames = {int(file.stem.rsplit("_", 1)[1]) for file in (run.folder / "frames").glob("lbs_[0-9]*.vtu")}
+def times_of_stills(folder, rows):
+    frames = {int(file.stem.rsplit("_", 1)[1]) for file in (folder / "frames").glob("lbs_[0-9]*.vtu")}
     return [float(row["time_s"]) for row in rows if int(float(row["frame"])) in frames]
 
 
 def draw(results, figures):
-    run = records.Run(results / "volume" / "human_01_01")
+    run = records.Run(results / "volume" / "human_01_01_truth")
     figure, axes = style.panels(2, 1, height_in=1.7, width_in=style.page_in, sharex=True)
     behind = []
     for deformer, iterations in {"lbs": None, "dqs": None, "pbs": 24, run.reference(): None}.items():
@@ -25,8 +26,8 @@ def draw(results, figures):
         style.per_cent_scale(panel, signed=number == 0)
         panel.set_ylabel(label)
         panel.margins(x=0)
-    for time_s in times_of_stills(run, rows):
+    for time_s in times_of_stills(results / "volume" / "human_01_01", rows):
         axes[0][0].plot(time_s, 1.0, "v", color="black", transform=axes[0][0].get_xaxis_transform(), clip_on=False)
     axes[1][0].set_xlabel("time in the clip [s]")
     style.legend_above(figure)
-    style.save(figure, figures / "volume_over_clip", records.provenance(results), behind)
+    style.save(figure, figures / "volume_over_clip", records.provenance(results / "volume"), behind)

@@ -48,4 +48,4 @@ def draw(results, figures):
         panel.set_xlabel("iterations per step")
         panel.set_ylabel(label)
     style.legend_above(figure)
-    style.save(figure, figures / "volume_over_iterations", records.provenance(results), behind)
+    style.save(figure, figures / "volume_over_iterations", records.provenance(results / "volume"), behind)

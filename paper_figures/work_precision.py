@@ -4,7 +4,7 @@ import records
 import style
 
 looks = {"lbs": ("LBS", style.vermillion, "v"), "dqs": ("DQS", style.orange, "s"), "delta_mush": ("delta mush", style.green, "^"),
-         "pbs": ("PBS", style.blue, "o"), "pbs_exponent": ("PBS, exponent", style.sky, "o"), "xpbd": ("XPBD", style.purple, "D"),
+         "pbs": ("PBS", style.blue, "o"), "pbs_exponent": ("PBS, exponent", style.sky, "p"), "xpbd": ("XPBD", style.purple, "D"),
          "xpbd_small_steps": ("XPBD, small steps", style.purple, "d"), "fem_linear": ("linear FEM", "#999999", "x"),
          "fem_corotational": ("corotational FEM", style.black, "+"), "fem_stable_neo_hookean": ("neo-Hookean FEM", style.black, "P")}
 point_columns = {"body", "pose", "deformer", "setting", "outcome", "ms_median", "error_joint_pct", "reference_error_joint_pct",
@@ -43,7 +43,8 @@ def draw_case(axes, rows, fronts):
     if bound:
         axes.axhspan(low, min(float(bound), high), color="#EFEFEF", linewidth=0, zorder=-1, label="below the reference's own error (bound)")
     axes.set_ylim(low, high)
-    axes.set_title(f"{case}; bound {float(bound):.3g} %" if bound else case)
+    style.log_scale(axes.yaxis)
+    axes.set_title((f"{case}; bound {float(bound):.3g} %" if bound else case).replace(" deg", "\u00b0"))
     axes.set_xlabel("processor time a frame [ms]")
     axes.set_ylabel("error at the joints [%]")
 
@@ -66,4 +67,4 @@ def draw(results, figures):
     style.legend_above(figure, columns=4)
     behind = [{name: row[name] for name in ("body", "pose", "deformer", "setting", "ms_median", "error_joint_pct")}
               for rows in shown for row in measured(rows)]
-    style.save(figure, figures / "work_precision", records.provenance(results), behind)
+    style.save(figure, figures / "work_precision", records.provenance(results / "work_precision"), behind)

@@ -29,7 +29,20 @@ def write_study(results):
     write_run(results / "volume" / "limb_twist")
     write_run(results / "volume" / "limb_bend", frames=31, last_angle_deg=150.0)
     write_run(results / "volume" / "human_01_01", frames=50, last_angle_deg=None)
+    write_run(results / "volume" / "human_01_01_truth", frames=50, last_angle_deg=None)
+    write_regions(results)
     (results / "claims.md").write_text("# Claims\n\n| id | measured |\n|---|---|\n| C01 | 9 \\| 17 %, *signed* |\n\nmore text\n")
+
+
+def write_regions(results):
+    """One bone and one joint of the human; LBS changes them by -1 %, the others by less."""
+    with open(results / "volume" / "regions.csv", "w", newline="") as stream:
+        writer = csv.DictWriter(stream, ["run", "deformer", "kind", "region", "rest_share_pct", "change_pct", "own_change_pct"])
+        writer.writeheader()
+        for deformer, change in (("lbs", -1.0), ("dqs", -0.75), ("pbs", -0.125), ("snh_p1", -0.25)):
+            for kind, region in (("bone", "spine"), ("joint", "spine - chest")):
+                writer.writerow({"run": "human_01_01_truth", "deformer": deformer, "kind": kind, "region": region, "rest_share_pct": 10.0,
+                                 "change_pct": change, "own_change_pct": 10 * change})
 
 
 verification_columns = ["problem", "quantity", "elements", "material", "mesh", "h_m", "dofs", "value", "reference", "unit", "difference_pct"]

@@ -1,0 +1,69 @@
+"""PBS from LBS on a ladder of meshes of one limb, twisted and bent by 90 degrees, after 24 iterations (filled) and after the last (hollow):
+what the constraints leave, how much each tet's volume changes, how far from the finite elements the joint is; and the iterations until
+volumes are kept within 0.5 %. See whether 24 iterations do the same on fine meshes as on coarse ones."""
+import math
+
+import records
+import style
+
+ladders = {"ladder_twist": "twist 90\u00b0", "ladder_bend": "bend 90\u00b0"}
+panels = [("residual_24", "last_residual", "combined residual [1]"),
+          ("volume_abs_change_24_pct", "last_volume_abs_change_pct", "absolute volume\nchange [%]"),
+          ("error_24_pct", "last_error_pct", "error at the joint [%]")]
+columns = {"vertices", "order", "precision", "k_stretch", "start", "iterations", "iterations_to_volume", "volume_reached",
+           *(column for early, late, _ in panels for column in (early, late))}
+
+
+def of_ladder(file):
+    rows = [row for row in records.table(file, columns) if (row["order"], row["precision"], row["start"]) == ("ordered", "f32", "lbs")
+            and float(row["k_stretch"]) == 0.2]
+    if not rows:
+        raise records.RecordsMissing(f"{file}: no rows of ordered f32 from LBS with k_stretch 0.2")
+    return sorted(rows, key=lambda row: int(row["vertices"]))
+
+
+def draw_measure(axes, rows, name, number, early, late):
+    """Where a reference was not run beside the ladder, that is said in the panel."""
+    measured = [row for row in rows if not math.isnan(float(row[early] or "nan"))]
+    if not measured:
+        axes.annotate(f"{name}: no reference on record", (0.5, 0.5 + 0.1 * number), xycoords="axes fraction", ha="center", fontsize=6)
+        return
+    vertices = records.numbers(measured, "vertices")
+    style.draw_series(axes, number, vertices, records.numbers(measured, early), f"{name}, 24 iterations")
+    style.draw_series(axes, number, vertices, records.numbers(measured, late), f"{name}, {int(rows[0]['iterations']):,} iterations",
+                      markerfacecolor="white", linewidth=0.7)
+    axes.set_yscale("log")
+
+
+def draw_iterations(axes, rows, name, number):
+    """A caret where the tolerance was not reached at the last iteration."""
+    color, marker = style.sequence[number]
+    vertices, iterations = records.numbers(rows, "vertices"), records.numbers(rows, "iterations_to_volume")
+    axes.plot(vertices, iterations, color=color, linestyle=style.lines[number], linewidth=0.7)
+    for reached in (True, False):
+        shown = [place for place, row in zip(zip(vertices, iterations), rows) if (float(row["volume_reached"]) == 1.0) == reached]
+        if shown:
+            axes.plot(*zip(*shown), color=color, marker=marker if reached else 6, linestyle="none",
+                      markersize=4 if reached else 8 - 3 * number, label=f"{name}, reached" if reached else f"{name}, not reached")
+
+
+def draw(results, figures):
+    folder = results / "convergence"
+    figure, axes = style.panels(2, 2, height_in=1.75, sharex=True)
+    behind = []
+    for number, (ladder, name) in enumerate(ladders.items()):
+        rows = of_ladder(folder / ladder / "rates.csv")
+        for panel, (early, late, label) in zip(axes.flat, panels):
+            draw_measure(panel, rows, name, number, early, late)
+            panel.set_ylabel(label)
+        draw_iterations(axes[1][1], rows, name, number)
+        behind += [{"ladder": ladder} | {column: row[column] for column in sorted(columns)} for row in rows]
+    axes[1][1].set_ylabel("iterations until 0.5 %\nvolume change")
+    axes[0][1].axhspan(axes[0][1].get_ylim()[0], 0.5, color="#E8E8E8", linewidth=0, zorder=0, label="within 0.5 %")
+    for panel in axes.flat:
+        style.log_scale(panel.yaxis)
+    for panel in axes[1]:
+        style.log_scale(panel.xaxis, sorted({int(row["vertices"]) for row in behind}))
+        panel.set_xlabel("vertices of the limb")
+    style.legend_above(figure, columns=4)
+    style.save(figure, figures / "convergence_mesh", records.provenance(folder), behind)

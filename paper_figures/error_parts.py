@@ -1,0 +1,47 @@
+"""The error of PBS in each pose of the study of error against run time, split three ways over the iterations: what the solver leaves, what
+the constraints themselves leave when converged, and the bound of the reference's own discretisation. Where the bound lies above the whole
+error, the reference is too coarse to tell how wrong PBS is."""
+import error_split
+import records
+import style
+
+columns = {"body", "pose", "deformer", "setting", "iterations", "k_stretch", "order", "precision", "substeps",
+           *(column for column, *_ in error_split.parts)}
+most_panels = 4
+
+
+def of_pbs(rows, k_stretch):
+    chosen = [row for row in rows if (row["deformer"], row["order"], row["precision"]) == ("pbs", "ordered", "f32")
+              and float(row["k_stretch"]) == k_stretch and row["solver_pct"] and "substeps" not in row["setting"]
+              and "mesh" not in row["setting"]]
+    return sorted(chosen, key=lambda row: int(row["iterations"]))
+
+
+def draw_case(axes, rows):
+    behind = []
+    for column, label, color, marker, line in error_split.parts:
+        iterations, values = records.numbers(rows, "iterations"), records.numbers(rows, column)
+        axes.plot(iterations, values, color=color, marker=marker, linestyle=line, label=label)
+        behind += [{"body": rows[0]["body"], "pose": rows[0]["pose"], "part": column, "iterations": i, "value_pct": v}
+                   for i, v in zip(iterations, values)]
+    axes.axvline(24, color=style.black, linewidth=0.6)
+    style.log_scale(axes.xaxis, [1, 4, 24, 96, 384])
+    style.log_scale(axes.yaxis)
+    axes.set_title(f"{rows[0]['body']}, {rows[0]['pose']}".replace(" deg", "\u00b0"))
+    axes.set_xlabel("iterations; line: the paper's 24")
+    axes.set_ylabel("error at the joints [%]")
+    return behind
+
+
+def draw(results, figures):
+    folder = results / "work_precision"
+    cases = [of_pbs(records.table(file, columns), 0.2) for file in sorted(folder.glob("*/points.csv"))]
+    cases = sorted(filter(None, cases), key=lambda rows: not rows[0]["body"].startswith("limb"))[:most_panels]
+    if not cases:
+        raise records.RecordsMissing(f"{folder}: no case with the error split")
+    figure, axes = style.panels(-(-len(cases) // 2), 2, height_in=2.1)
+    behind = [row for panel, rows in zip(axes.flat, cases) for row in draw_case(panel, rows)]
+    for panel in axes.flat[len(cases):]:
+        panel.set_visible(False)
+    style.legend_above(figure, columns=4)
+    style.save(figure, figures / "error_parts", records.provenance(folder), behind)

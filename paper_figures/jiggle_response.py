@@ -1,0 +1,68 @@
+"""How flesh answers a jolt: frequency and damping ratio of the first swing against k_stretch, time step and iterations, on the limb and on
+bodies. See how little k_stretch moves the frequency, and how far the time step and the iterations do, which are no material. Damping is no
+parameter at all; the elements beside swing almost undamped."""
+import records
+import style
+
+columns = {"deformer", "k_stretch", "time_step_ms", "iterations", "masses", "k_bind", "outcome", "frequency_hz", "frequency_low_hz",
+           "frequency_high_hz", "damping_ratio", "damping_low", "damping_high"}
+usual = {"k_stretch": 0.1, "time_step_ms": 10.0, "iterations": 24.0}
+names = {"k_stretch": "k_stretch", "time_step_ms": "time step [ms]", "iterations": "iterations"}
+measures = [("frequency_hz", "frequency_low_hz", "frequency_high_hz", "frequency [Hz]"),
+            ("damping_ratio", "damping_low", "damping_high", "damping ratio [1]")]
+bodies = ("limb", "human", "man", "lady", "frankie")
+
+
+def varied(rows, factor):
+    """The rows in which this alone differs from the usual, and whose swing could be found."""
+    others = [name for name in usual if name != factor]
+    rows = [row for row in rows if row["outcome"] == "found" and (row["deformer"], row["masses"]) == ("pbs", "unit")
+            and float(row["k_bind"]) == 1.0 and all(float(row[name]) == usual[name] for name in others)]
+    return sorted(rows, key=lambda row: float(row[factor]))
+
+
+def draw_body(axes, rows, body, number):
+    behind = []
+    for column, factor in enumerate(names):
+        shown = varied(rows, factor)
+        if not shown:
+            continue
+        x = records.numbers(shown, factor)
+        for row, (measure, low, high, _) in enumerate(measures):
+            bars = records.numbers(shown, low), records.numbers(shown, high)
+            style.draw_series(axes[row][column], number, x, records.numbers(shown, measure), body, bars)
+        behind += [{"body": body, "varied": factor} | {name: row[name] for name in sorted(columns)} for row in shown]
+    return behind
+
+
+def draw_reference(axes, rows):
+    """The limb of the finite elements in time, and PBS on the same mesh."""
+    found = [row for row in rows if row["outcome"] == "found"]
+    for row in found:
+        fem = row["deformer"] != "pbs"
+        for panels, (measure, *_) in zip(axes, measures):
+            panels[0].plot(float(row["k_stretch"]), float(row[measure]), linestyle="none", marker="D" if fem else "o", markersize=5,
+                           color=style.black, markerfacecolor=style.yellow if fem else "white",
+                           label="neo-Hookean FEM in time, limb" if fem else "PBS on the FEM's mesh")
+    return [{"body": "limb_reference", "varied": ""} | {name: row[name] for name in sorted(columns)} for row in found]
+
+
+def draw(results, figures):
+    folder = results / "jiggle"
+    found = {body: folder / f"{body}_jolt" / "responses.csv" for body in bodies}
+    found = {body: records.table(file, columns) for body, file in found.items() if file.is_file()}
+    figure, axes = style.panels(2, 3, height_in=1.9, sharex="col", sharey="row")
+    behind = [row for number, (body, rows) in enumerate(found.items()) for row in draw_body(axes, rows, body, number)]
+    behind += draw_reference(axes, records.table(folder / "limb_reference" / "responses.csv", columns))
+    for column, (factor, name) in enumerate(names.items()):
+        axes[1][column].set_xlabel(name)
+        if factor != "k_stretch":
+            ticks = [2.5, 5, 10, 20, 40] if factor == "time_step_ms" else [6, 12, 24, 48, 96]
+            style.log_scale(axes[1][column].xaxis, ticks)
+    for row, (*_, name) in enumerate(measures):
+        axes[row][0].set_ylabel(name)
+    style.log_scale(axes[0][0].yaxis)
+    axes[1][0].set_ylim(bottom=-0.02)
+    axes[1][0].set_xticks([0, 0.2, 0.4, 0.6, 0.8, 1.0])
+    style.legend_above(figure)
+    style.save(figure, figures / "jiggle_response", records.provenance(folder), behind)

@@ -1,0 +1,52 @@
+"""What one projection of a class of constraints does to linear and angular momentum, over the momentum exchanged: with weighted masses
+rounding alone, in both precisions; with the formulae for unit masses (Eq. 8-9) on unequal masses up to a third; the bind constraint's all
+goes to the bones, which no one moves."""
+import records
+import style
+
+quantities = {"linear drift": "linear momentum", "angular drift": "angular momentum", "taken by the bones: linear drift": "linear momentum",
+              "taken by the bones: angular drift": "angular momentum"}
+masses = {"equal masses": "equal masses", "unequal masses (weighted)": "unequal, weighted",
+          "unequal masses (Eq. 8-9 for m = 1)": "unequal, Eq. 8\u20139"}
+bodies = ("limb", "human")
+looks = {("limb", "f32"): (style.vermillion, "v", "limb, f32"), ("limb", "f64"): (style.vermillion, "^", "limb, f64"),
+         ("human", "f32"): (style.blue, "o", "human, f32"), ("human", "f64"): (style.blue, "s", "human, f64")}
+
+
+def rows_of(file, body):
+    """One row a class, masses and precision: `of` reads "equal masses, limb, stretch, f32"."""
+    found = []
+    for row in records.table(file, {"quantity", "of", "value"}):
+        parts = row["of"].split(", ")
+        if row["quantity"] in quantities and len(parts) == 4 and parts[0] in masses and parts[1] == body:
+            found.append({"momentum": quantities[row["quantity"]], "masses": parts[0], "body": body, "constraints": parts[2],
+                          "precision": parts[3], "drift": row["value"]})
+    if not found:
+        raise records.RecordsMissing(f"{file}: no drift of {body}")
+    return found
+
+
+def draw_momentum(axes, rows, places):
+    for (body, precision), (color, marker, label) in looks.items():
+        shown = [row for row in rows if (row["body"], row["precision"]) == (body, precision)]
+        aside = 0.15 if precision == "f64" else -0.15
+        drift, place = [float(row["drift"]) for row in shown], [places[row["constraints"], row["masses"]] + aside for row in shown]
+        axes.plot(drift, place, linestyle="none", marker=marker, color=color, label=label, markersize=4.5,
+                  markerfacecolor=color if precision == "f32" else "white")
+    axes.set_xscale("log")
+    axes.set_yticks(list(places.values()), [f"{constraints}, {masses[of]}" for constraints, of in places])
+    axes.set_ylim(len(places) - 0.5, -0.5)
+    axes.set_xlabel("change over the momentum exchanged [1]")
+
+
+def draw(results, figures):
+    folder = results / "momentum"
+    rows = [row for body in bodies for row in rows_of(folder / body / "measurements.csv", body)]
+    by_class = sorted(rows, key=lambda row: row["constraints"], reverse=True)
+    places = {key: place for place, key in enumerate(dict.fromkeys((row["constraints"], row["masses"]) for row in by_class))}
+    figure, axes = style.panels(1, 2, height_in=2.4, sharey=True)
+    for panel, momentum in zip(axes[0], ("linear momentum", "angular momentum")):
+        draw_momentum(panel, [row for row in rows if row["momentum"] == momentum], places)
+        panel.set_title(momentum)
+    style.legend_above(figure, columns=4)
+    style.save(figure, figures / "momentum_drift", records.provenance(folder), rows)

@@ -1,0 +1,23 @@
+"""How the five outcomes of the study of stability look: darker is worse, and each has a mark of its own for grey prints."""
+import style
+
+looks = {"converged": ("#FFFFFF", "o", style.blue, "converged: at rest, as if undisturbed"),
+         "bounded": ("#E3EEF7", "s", style.sky, "bounded: moving, or at rest elsewhere"),
+         "inverted": ("#F6CFA0", "v", style.vermillion, "inverted tets at the end"),
+         "diverged": ("#C08A9F", "x", style.black, "diverged"),
+         "not_finite": ("#5A5A5A", "*", style.yellow, "not finite")}
+
+
+def draw_marks(axes, places, outcomes, size):
+    """places: (x, y) of each outcome."""
+    for outcome, (_, marker, color, text) in looks.items():
+        shown = [place for place, found in zip(places, outcomes) if found == outcome]
+        if shown:
+            axes.scatter(*zip(*shown), s=size, marker=marker, color=color, linewidths=0.9, label=text, zorder=3)
+
+
+def legend(figure, axes):
+    """Of all five, that it is seen which do not occur."""
+    for _, marker, color, text in looks.values():
+        axes.scatter([], [], marker=marker, color=color, label=text, edgecolors=style.black if marker == "*" else None)
+    style.legend_above(figure, columns=3)

@@ -1,0 +1,57 @@
+"""Force over displacement of flesh under its weight against iterations, time step and resolution: a material's stiffness would be a flat
+line. That of PBS grows with iterations and falls with the square of the time step; the exponent of Mueller 2007 takes out neither; XPBD,
+which keeps multipliers, is flat."""
+import records
+import style
+
+bodies = [("bar", "cantilever", "bar, held at one end"), ("limb", "zone on held", "limb, flesh on a held core"),
+          ("human", "zone on held", "human, flesh on a held core")]
+factors = {"iterations": "iterations", "time_step_ms": "time step [ms]", "vertices": "vertices"}
+usual = {"iterations": 24.0, "time_step_ms": 10.0}
+methods = [("pbs", 0.2, "PBS, k_stretch 0.2"), ("pbs", 0.9, "PBS, k_stretch 0.9"), ("exponent", 0.2, "PBS with the exponent"),
+           ("xpbd", 0.2, "XPBD"), ("xpbd_small_steps", 0.2, "XPBD, small steps")]
+columns = {"body", "load", "vertices", "mesh", "method", "k_stretch", "iterations", "time_step_ms", "order_seed", "by", "stiffness_n_m",
+           "converged"}
+
+
+def varied(rows, factor, method, k_stretch):
+    """By the linear answer, in the first order of constraints; what did not converge or is not positive has no stiffness."""
+    others = [name for name in usual if name != factor]
+    rows = [row for row in rows if (row["method"], row["by"], row["order_seed"], row["converged"]) == (method, "linear", "0", "1")
+            and float(row["k_stretch"]) == k_stretch and float(row["stiffness_n_m"]) > 0
+            and all(float(row[name]) == usual[name] for name in others)]
+    return sorted({float(row[factor]): row for row in rows}.values(), key=lambda row: float(row[factor]))
+
+
+def rows_of(folder, factor, body, load):
+    name = {"time_step_ms": "time_step", "vertices": "resolution"}.get(factor, factor)
+    return [row for row in records.table(folder / f"{name}_{body}" / "stiffness.csv", columns) if row["load"] == load]
+
+
+def draw_panel(axes, rows, factor):
+    behind = []
+    for number, (method, k_stretch, label) in enumerate(methods):
+        shown = varied(rows, factor, method, k_stretch)
+        if shown:
+            style.draw_series(axes, number, records.numbers(shown, factor), records.numbers(shown, "stiffness_n_m"), label,
+                              markerfacecolor="none" if method == "xpbd_small_steps" else None)
+        behind += [{"varied": factor} | {name: row[name] for name in sorted(columns)} for row in shown]
+    values = sorted({float(row[factor]) for row in behind})
+    axes.set_yscale("log")
+    if values:
+        style.log_scale(axes.xaxis, values)
+    return behind
+
+
+def draw(results, figures):
+    folder = results / "stiffness"
+    figure, axes = style.panels(3, 3, height_in=1.6)
+    behind = []
+    for panels, (body, load, title) in zip(axes, bodies):
+        for panel, (factor, name) in zip(panels, factors.items()):
+            behind += draw_panel(panel, rows_of(folder, factor, body, load), factor)
+            panel.set_title(title)
+            panel.set_xlabel(name)
+        panels[0].set_ylabel("stiffness [N/m]")
+    style.legend_above(figure)
+    style.save(figure, figures / "stiffness", records.provenance(folder), behind)

@@ -1,0 +1,48 @@
+"""Where the human's volume goes over the clip: the change of each bone's and each joint's share, in per cent of the whole body, mean over
+frames. LBS loses at shoulders, spine and hips; what PBS still loses lies along the spine."""
+import records
+import style
+
+deformers = ("lbs", "dqs", "pbs", "snh_p1")
+columns = {"run", "deformer", "kind", "region", "rest_share_pct", "change_pct", "own_change_pct"}
+run_shown = "human_01_01_truth"
+most_regions = 10
+
+
+def largest(rows):
+    """The regions that LBS changes most, the greatest loss first."""
+    of_lbs = [row for row in rows if row["deformer"] == "lbs"]
+    of_lbs.sort(key=lambda row: -abs(float(row["change_pct"])))
+    return [row["region"] for row in of_lbs[:most_regions]]
+
+
+def draw_kind(axes, rows):
+    regions = largest(rows)
+    behind = []
+    for deformer in deformers:
+        shown = sorted((row for row in rows if row["deformer"] == deformer and row["region"] in regions),
+                       key=lambda row: regions.index(row["region"]))
+        look = style.look_of(deformer)
+        axes.plot(records.numbers(shown, "change_pct"), [regions.index(row["region"]) for row in shown], linestyle="none", color=look.color,
+                  marker=look.marker, markersize=4, label=look.label)
+        behind += [{name: row[name] for name in ("run", "deformer", "kind", "region", "rest_share_pct", "change_pct", "own_change_pct")}
+                   for row in shown]
+    axes.axvline(0, color=style.black, linewidth=0.6)
+    axes.set_yticks(range(len(regions)), [region.replace(" - ", "\u2013").replace("_", " ") for region in regions])
+    axes.set_ylim(len(regions) - 0.5, -0.5)
+    axes.set_xlabel("change [% of the body's volume]")
+    return behind
+
+
+def draw(results, figures):
+    file = results / "volume" / "regions.csv"
+    rows = [row for row in records.table(file, columns) if row["run"] == run_shown and row["deformer"] in deformers]
+    if not rows:
+        raise records.RecordsMissing(f"{file}: no rows of {run_shown}")
+    figure, axes = style.panels(1, 2, height_in=2.3)
+    behind = []
+    for panel, kind, title in zip(axes[0], ("bone", "joint"), ("by nearest bone", "blended between two bones")):
+        behind += draw_kind(panel, [row for row in rows if row["kind"] == kind])
+        panel.set_title(f"human, {title}")
+    style.legend_above(figure)
+    style.save(figure, figures / "volume_by_region", records.provenance(results / "volume"), behind)
