@@ -26,7 +26,7 @@ class CommandLine(program.ProgramTest):
         return process
 
     def test_every_verb_has_help(self):
-        for verb in ("list", "explain", "run", "reproduce", "measure", "mesh", "fetch"):
+        for verb in ("list", "explain", "run", "reproduce", "measure", "mesh", "fetch", "report"):
             self.assertIn("--quiet", self.succeeds(verb, "--help").stdout)
 
     def test_version(self):
@@ -54,6 +54,12 @@ class CommandLine(program.ProgramTest):
 
     def test_unknown_claim(self):
         self.refuses("reproduce = C99: unknown claim or study", "reproduce", "C99")
+
+    def test_report_of_a_folder_that_is_not_there_or_holds_no_records(self):
+        self.refuses("nowhere: no such folder", "report", self.path("nowhere"))
+        os.mkdir(self.path("empty"))
+        self.refuses("no records", "report", self.path("empty"))
+        self.assertEqual(os.listdir(self.path("empty")), [])
 
     def test_missing_scene(self):
         self.refuses("nowhere.toml: cannot be read", "run", "nowhere.toml")

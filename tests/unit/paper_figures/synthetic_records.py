@@ -136,3 +136,67 @@ def write_bench(results):
         {"context": {"threads": 2, "iterations": 24, "limits_of_one_core": {"fma_gflops_f32": 200.0, "fma_gflops_f64": 100.0, "copy": copy}},
          "meshes": [mesh(100, 500, 400), mesh(1000, 6000, 5000)],
          "scaling": [{"variant": "ordered", "precision": "f32", "threads": 1, "exponent": 1.0, "interval": [None, None]}]}))
+
+
+def write_table(file, rows):
+    with open(file, "w", newline="") as stream:
+        writer = csv.DictWriter(stream, rows[0])
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def write_claims(results, statement="Volume is kept."):
+    """One claim of each kind: kept in part over a sweep and two clips, real time, in print, untestable."""
+    def interval(estimate, low=None, high=None):
+        return {"estimate": estimate, "low": low, "high": high, "level": 0.95, "n": 50, "block": 1}
+
+    def case(scene, holds, mean, share, angles=()):
+        return {"scene": scene, "deformer": "pbs", "variant": "default", "iterations": 24, "metric": "volume_change_pct", "run": "volume/limb_twist",
+                "frames": 50, "holds": holds, "mean": mean, "share_of_frames": share, "angles_deg": list(angles), "least": -0.9, "most": 0.0,
+                "holding_with_inverted_tets": 0, "text": f"{scene}: as told", "deepest": [{"frame": 3, "time_s": 0.1, "angle_deg": None, "value": -0.9,
+                                                                                        "inverted_tets": 0}]}
+
+    def claim(name, verdict, **others):
+        empty = {"place": "Sec. 4", "study": "volume", "expected": "0.5 % (-0.5 to 0.5 %)", "text": verdict, "measured": "", "interval": None,
+                 "interval_of": "", "runs": [], "cases": [], "beside": [], "orders": [], "measurements": [], "measured_beside": []}
+        return {**empty, "id": name, "statement": statement, "verdict": verdict, **others}
+
+    cases = [case("limb_twist", "part", interval(-0.2), interval(0.9), [[0.0, 175.0]]),
+             case("walk", "none", interval(-0.6, -0.7, -0.5), interval(0.4, 0.3, 0.5)),
+             case("jump", "whole", interval(-0.1, -0.2, 0.0), interval(0.975, 0.96, 0.99))]
+    rates = [{"quantity": "frames a second", "of": f"{body}, plain", "value": value, "low": low, "high": high, "unit": "1/s", "run": "timing/man"}
+             for body, value, low, high in (("man", 233.0, 230.0, 240.0), ("frankie", 107.0, 100.0, 110.0))]
+    judged = [claim("C02", "reproduced only for", cases=cases, runs=["volume/limb_twist"], interval=interval(0.4, 0.3, 0.5),
+                    interval_of="share of frames, walk"),
+              claim("C10", "reproduced", text="reproduced: man, frankie; beside it: much", measured="2 of 2 figures within", measurements=rates),
+              claim("C13", "inconsistent in print", measured="2 of 3 figures consistent"), claim("C16", "cannot be tested here")]
+    (results / "claims.json").write_text(json.dumps({"schema": 1, "claims": judged}))
+
+
+def write_poses(results):
+    """Two poses of work_precision with PBS at 24 iterations, at another k_stretch and on a coarser mesh; in one the reference meets itself."""
+    for pose, lbs, pbs, bar, meets in (("twist", 50.0, 20.0, 10.0, 0), ("crouch", 30.0, 8.0, 15.0, 1)):
+        folder = results / "work_precision" / pose
+        folder.mkdir(parents=True)
+        (folder / "run.json").write_text(json.dumps({"work": {"settings": {"scene": {"pbs": {"k_stretch": 0.2}}}}, "provenance":
+                                                     {"version": "0.1.0", "git_revision": revision, "git_dirty": False}}))
+        common = {"body": "limb", "pose": pose, "iterations": "", "k_stretch": "", "order": "", "precision": "", "substeps": "", "vertices": 1000,
+                  "outcome": "finished", "reference_error_joint_pct": bar, "reference_self_intersects": meets}
+        paper = {"deformer": "pbs", "iterations": 24, "k_stretch": 0.2, "order": "ordered", "precision": "f32", "ms_median": 0.7,
+                 "error_joint_pct": pbs, "error_joint_beside_pct": pbs, "below_reference_error": int(pbs < bar)}
+        rows = [{"deformer": "lbs", "ms_median": 0.1, "error_joint_pct": lbs, "error_joint_beside_pct": lbs, "below_reference_error": 0},
+                {**paper, "k_stretch": 0.9, "error_joint_pct": 1.0}, {**paper, "vertices": 300, "error_joint_pct": 2.0}, paper,
+                {"deformer": "fem_stable_neo_hookean", "outcome": "reference", "ms_median": 900.0, "error_joint_pct": "",
+                 "error_joint_beside_pct": 5.0, "below_reference_error": ""}]
+        write_table(folder / "points.csv", [{**common, **row} for row in rows])
+
+
+def write_timing(results):
+    """Two meshes of the paper's sizes, and one that is none."""
+    (results / "timing" / "man").mkdir(parents=True)
+    (results / "timing" / "man" / "run.json").write_text(json.dumps({"provenance": {"version": "0.1.0", "git_revision": revision}}))
+    rows = [{"mesh": mesh, "variant": variant, "precision": precision, "total_wall_ms": ms * scale, "frames_per_s": 1000 / (ms * scale),
+             "paper_frames_per_s": paper, "cpu_model": "a processor"}
+            for mesh, ms, paper in (("man", 0.5, 90.5), ("frankie", 1.0, 65.8), ("human_20000", 8.0, ""))
+            for variant, precision, scale in (("ordered", "f32", 1.0), ("plain", "f64", 8.0))]
+    write_table(results / "timing" / "timing.csv", rows)

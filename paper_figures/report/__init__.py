@@ -1,0 +1,31 @@
+"""The report: what is on record and the figures drawn from it, as one HTML file that opens from disk and loads nothing.
+
+    import report
+    status = report.main(results)  # writes results/report.html
+"""
+import sys
+
+import records
+from report import page, record_set
+
+usual_most_mb = 25
+
+
+def main(results, quiet=False):
+    """The exit status: 2 where there are no records."""
+    try:
+        found = record_set.RecordSet(results)
+    except records.RecordsMissing as error:
+        print(f"pbskin: {error}", file=sys.stderr)
+        return 2
+    text, missing = page.page(found)
+    file = results / "report.html"
+    part = results / ".report.html.part"
+    part.write_text(text)
+    part.replace(file)
+    if not quiet:
+        for line in missing:
+            print(f"missing: {line}")
+        megabytes = file.stat().st_size / 1e6
+        print(f"{file}: {megabytes:.1f} MB" + (f", more than {usual_most_mb}" if megabytes > usual_most_mb else ""))
+    return 0

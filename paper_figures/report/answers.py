@@ -1,0 +1,135 @@
+"""The first screen: do the claims hold, when not, how far from the finite elements, at what cost. Every sentence is put together from
+claims.json, work_precision/*/points.csv, timing/timing.csv and the studies' costs."""
+from report import costs, verdicts
+from report.markup import Markup, counted, element, escaped, figure, items, joined, span, table
+from report.record_set import not_run, number
+
+failing = ("not reproduced", "reproduced only for", "inconsistent in print", "not computable")
+
+
+def do_they_hold(found):
+    if not found.claims:
+        return element("p", "No verdict is on record: run `pbskin reproduce`, or `pbskin reproduce --judge` on these records.", class_="missing")
+    return joined([element("p", verdicts.counts_sentence(found.claims), class_="answer"), verdicts.chips(found.claims)])
+
+
+def when_not(found):
+    """Every claim that does not hold throughout, with where it does."""
+    def entry(claim):
+        symbol, colour, _ = verdicts.marks[claim["verdict"]]
+        link = element("a", claim["id"], href=f"#{claim['id']}")
+        sign = Markup(f'<span class="{colour}" aria-label="{escaped(claim["verdict"])}">{symbol}</span>')
+        return joined([sign, " ", link, " ", element("span", claim["statement"], class_="statement"), " ", holding(claim)])
+
+    claims = [claim for kind in failing for claim in found.claims or [] if claim["verdict"] == kind]
+    if not claims:
+        return element("p", "Every claim that could be tested holds." if found.claims else "Not known without verdicts.")
+    return items([entry(claim) for claim in claims], "when")
+
+
+def holding(claim):
+    words = verdicts.outcome(claim)
+    return words[:1].upper() + words[1:] + "."
+
+
+class Pose:
+    """A case of the study work_precision: LBS, PBS as the paper sets it, and the reference, on the same tets."""
+
+    def __init__(self, rows, k_stretch):
+        self.name = f"{rows[0]['body']}, {rows[0]['pose']}"
+        self.reference = next((row for row in rows if row["outcome"] == "reference"), None)
+        vertices = self.reference and self.reference["vertices"]
+        own = [row for row in rows if row["vertices"] == vertices]
+        self.lbs = next((row for row in own if row["deformer"] == "lbs"), None)
+        self.pbs = next((row for row in own if row["deformer"] == "pbs" and row["iterations"] == "24" and row["order"] == "ordered"
+                         and row["precision"] == "f32" and number(row, "k_stretch") == k_stretch and row["substeps"] in ("", "1")), None)
+
+    def is_whole(self):
+        return all((self.reference, self.lbs, self.pbs)) and number(self.pbs, "error_joint_pct") is not None
+
+
+def poses(found):
+    all_poses = []
+    for file in found.files("work_precision/*/points.csv"):
+        name = file.parent.relative_to(found.results).as_posix()
+        scene = found.runs.get(name, {}).get("work", {}).get("settings", {}).get("scene", {})
+        rows = found.rows(f"{name}/points.csv")
+        if rows:
+            all_poses.append(Pose(rows, scene.get("pbs", {}).get("k_stretch", 0.2)))
+    whole = [pose for pose in all_poses if pose.is_whole()]
+    return sorted(whole, key=lambda pose: not pose.name.startswith("limb"))
+
+
+def how_far(found):
+    shown = poses(found)
+    if not shown:
+        return element("p", f"How far PBS is from the finite elements is {not_run('work_precision')}.", class_="missing")
+    return joined([element("p", distance_sentence(shown), class_="answer"), pose_table(shown), element("p", bar_sentence(shown))])
+
+
+def errors(shown, deformer):
+    return [number(getattr(pose, deformer), "error_joint_pct") for pose in shown]
+
+
+def distance_sentence(shown):
+    return (f"At the joints PBS with 24 iterations is {span(errors(shown, 'pbs'))} % away from stable neo-Hookean finite elements, "
+            f"LBS {span(errors(shown, 'lbs'))} % (of the mean distance to the bone).")
+
+
+def bar_of(row):
+    bar = number(row, "reference_error_joint_pct")
+    return "\u2013" if bar is None else f"\u2264 {figure(bar)}" + (", meets itself" if row["reference_self_intersects"] == "1" else "")
+
+
+def pose_table(shown):
+    rows = [[pose.name, *(figure(number(row, "error_joint_pct")) for row in (pose.lbs, pose.pbs)),
+             figure(number(pose.reference, "error_joint_beside_pct")), bar_of(pose.pbs)] for pose in shown]
+    return table("Distance from the FEM reference at the joints [%]", ["pose", "LBS", "PBS", "other FEM solution", "reference's own error"], rows)
+
+
+def bar_sentence(shown):
+    """The reference is itself a computation."""
+    below = sum(pose.pbs["below_reference_error"] == "1" for pose in shown)
+    if not below:
+        return "Each of these distances is above the bound of the reference's own error."
+    return (f"In {below} of {counted(len(shown), 'pose')} PBS lies within the bound of the reference's own error: the distance is then not "
+            "settled; how far apart two FEM solutions are is the other measure of it.")
+
+
+def at_what_cost(found):
+    parts = [frame_sentence(found), beside_sentence(found), costs.sentence(found)]
+    return items([part for part in parts if part], "answers")
+
+
+def of_paper_sizes(found, variant, precision):
+    rows = found.rows("timing/timing.csv")
+    return [row for row in rows if (row["variant"], row["precision"]) == (variant, precision) and row["paper_frames_per_s"]]
+
+
+def frame_sentence(found):
+    quick, plain = of_paper_sizes(found, "ordered", "f32"), of_paper_sizes(found, "plain", "f64")
+    if not quick or not plain:
+        return f"A frame's time at the paper's mesh sizes is {not_run('timing')}."
+
+    def told(rows, column):
+        return span([number(row, column) for row in rows])
+
+    return joined([element("b", f"PBS, 24 iterations, meshes of Table 1's sizes, one core ({quick[0]['cpu_model']}): "
+                                f"{told(quick, 'total_wall_ms')} ms a frame"),
+                   f" in single precision and sorted ({told(quick, 'frames_per_s')} frames a second); written plainly in double precision "
+                   f"{told(plain, 'total_wall_ms')} ms ({told(plain, 'frames_per_s')} frames a second; Table 1 prints "
+                   f"{told(plain, 'paper_frames_per_s')})."])
+
+
+def beside_sentence(found):
+    shown = [pose for pose in poses(found) if number(pose.reference, "ms_median") is not None]
+    if not shown:
+        return ""
+    ms = {name: span([number(getattr(pose, name), "ms_median") for pose in shown]) for name in ("lbs", "pbs", "reference")}
+    return f"In the poses of the comparison: LBS {ms['lbs']} ms, PBS {ms['pbs']} ms, the FEM reference {ms['reference']} ms a pose."
+
+
+def first_screen(found):
+    cards = [("Do the paper\u2019s claims hold?", "hold", do_they_hold(found)), ("When not?", "not", when_not(found)),
+             ("How far from the finite elements?", "far", how_far(found)), ("At what cost?", "cost", at_what_cost(found))]
+    return joined((element("section", joined([element("h2", title), content]), class_=f"card {name}") for title, name, content in cards), "\n")

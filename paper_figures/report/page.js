@@ -1,0 +1,54 @@
+"use strict";
+// Values of plots under the pointer, the finger, or by the arrow keys; a claim's link opens what is behind it.
+const readout = document.getElementById("readout");
+let shown = null;
+
+function hide() {
+  if (shown) shown.classList.remove("shown");
+  shown = null;
+  readout.hidden = true;
+}
+
+function show(circle) {
+  hide();
+  shown = circle;
+  circle.classList.add("shown");
+  const axes = circle.parentNode.dataset;
+  readout.textContent = `${circle.dataset.value} (${[axes.x, axes.y].filter(Boolean).join(", ")})`;
+  readout.hidden = false;
+  const box = circle.getBoundingClientRect();
+  const left = Math.min(box.right + 8, innerWidth - readout.offsetWidth - 8);
+  readout.style.left = `${Math.max(8, left)}px`;
+  readout.style.top = `${Math.max(8, box.top - readout.offsetHeight - 6)}px`;
+}
+
+for (const circle of document.querySelectorAll(".values circle")) {
+  const title = circle.querySelector("title");
+  circle.dataset.value = title ? title.textContent : "";
+  if (title) title.remove();
+}
+
+for (const plot of document.querySelectorAll("svg.plot")) {
+  const circles = [...plot.querySelectorAll(".values circle")];
+  const steps = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 };
+  for (const event of ["pointerover", "click"])
+    plot.addEventListener(event, ({ target }) => target.matches(".values circle") ? show(target) : hide());
+  plot.addEventListener("pointerleave", hide);
+  plot.addEventListener("blur", hide);
+  plot.addEventListener("keydown", (event) => {
+    if (event.key === "Escape") hide();
+    const step = steps[event.key];
+    if (!step || !circles.length) return;
+    event.preventDefault();
+    const place = shown ? circles.indexOf(shown) + step : 0;
+    show(circles[(place + circles.length) % circles.length]);
+  });
+}
+addEventListener("scroll", hide, { passive: true });
+
+function openTarget() {
+  const row = location.hash.length > 1 && document.getElementById(location.hash.slice(1));
+  if (row && row.matches("tr.claim")) row.nextElementSibling.querySelector("details").open = true;
+}
+addEventListener("hashchange", openTarget);
+openTarget();

@@ -1,0 +1,66 @@
+"""The page put together: the answers, then what they rest on."""
+import pathlib
+
+from report import answers, citation, costs, errors, figures, origin, reference, verdicts, viewer
+from report.markup import Markup, element, escaped, joined
+
+here = pathlib.Path(__file__).parent
+template = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light">
+<title>{title}</title>
+<link rel="icon" href="data:,">
+<style>
+{style}
+</style>
+</head>
+<body>
+<a class="skip" href="#verdicts">Skip to the verdicts</a>
+<header>
+<h1>{title}</h1>
+{lead}
+</header>
+<main>
+{body}
+</main>
+<div id="readout" role="status" hidden></div>
+<script>
+{script}
+</script>
+</body>
+</html>
+"""
+title = "Position Based Skinning: do its claims hold?"
+
+
+def lead(found):
+    """What was examined, at which revision."""
+    revisions = origin.values_of(found, "git_revision")
+    text = (f"The paper of 2014 against {len(found.runs)} recorded runs of pbskin {', '.join(origin.values_of(found, 'version'))}, "
+            f"revision {', '.join(revision[:10] for revision in revisions)}.")
+    return element("p", text, class_="lead")
+
+
+def navigation(sections):
+    links = joined((element("a", name, href=f"#{anchor}") for anchor, name, _ in sections), " ")
+    return element("nav", links, aria_label="Sections")
+
+
+def page(found):
+    """The page's text, and what is missing in it."""
+    shown, not_shown = viewer.section(found)
+    drawn, not_drawn = figures.section(found)
+    missing = not_shown + not_drawn + ([] if found.claims else ["verdicts: claims.json is not there (pbskin reproduce --judge)"])
+    missing += [f"{study}: {scene} left out: {reason}" for study, scene, reason in found.left_out()]
+    sections = [("verdicts", "Verdicts", verdicts.section(found)), ("viewer", "Viewer", shown),
+                ("errors", "Distance from the finite elements", errors.section(found)), ("figures", "Figures", drawn),
+                ("reference", "Is the reference right?", reference.section(found)), ("costs", "What it cost", costs.section(found)),
+                ("origin", "Where the records come from", origin.section(found)), ("cite", "How to cite", citation.section(found))]
+    body = [element("div", answers.first_screen(found), class_="first-screen"), navigation(sections)]
+    body += [element("section", joined([element("h2", name), content], "\n"), id=anchor) for anchor, name, content in sections]
+    text = template.format(title=escaped(title), lead=lead(found), style=(here / "page.css").read_text(),
+                           script=Markup((here / "page.js").read_text()), body=joined(body, "\n"))
+    return text, missing

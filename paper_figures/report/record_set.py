@@ -1,0 +1,50 @@
+"""What a folder of records holds: the verdicts, where each run comes from, what it cost. Nothing is computed that is not on record.
+
+    found = record_set.RecordSet(results)
+    for claim in found.claims: ...
+"""
+import csv
+
+import records
+
+
+class RecordSet:
+    def __init__(self, results):
+        if not results.is_dir():
+            raise records.RecordsMissing(f"{results}: no such folder")
+        self.results = results
+        self.runs = {file.parent.relative_to(results).as_posix(): records.read_json(file) for file in sorted(results.glob("**/run.json"))}
+        if not self.runs:
+            raise records.RecordsMissing(f"{results}: no records: no run.json in it or below; run `pbskin reproduce -o` into it first")
+        self.studies = sorted({name.split("/")[0] for name in self.runs})
+        self.claims = self._claims()
+
+    def _claims(self):
+        """None where no claim was judged."""
+        file = self.results / "claims.json"
+        return records.read_json(file)["claims"] if file.is_file() else None
+
+    def rows(self, name):
+        """Of a CSV file, or none where it is not there."""
+        file = self.results / name
+        if not file.is_file():
+            return []
+        with open(file, newline="") as stream:
+            return list(csv.DictReader(stream))
+
+    def files(self, pattern):
+        return sorted(self.results.glob(pattern))
+
+    def left_out(self):
+        """(study, scene, why): what could not be run on that machine."""
+        plans = ((file.parent.name, records.read_json(file)) for file in self.files("*/plan.json"))
+        return [(study, left["scene"], left["reason"]) for study, plan in plans for left in plan.get("left_out", [])]
+
+
+def not_run(study):
+    """Why something is not told."""
+    return f"not on record: the study {study} was not run (pbskin reproduce {study})"
+
+
+def number(row, column):
+    return float(row[column]) if row.get(column) else None

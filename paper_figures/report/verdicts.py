@@ -1,0 +1,153 @@
+"""The verdicts: counted, in short words, and as a table whose rows open to the runs behind them."""
+from report import behind
+from report.markup import Markup, counted, element, escaped, figure, items, joined, span
+
+# Of each verdict: symbol, class of its colour, how many are said to be so.
+marks = {
+    "reproduced": ("\u2714", "holds", "hold"),
+    "reproduced only for": ("\u25d0", "partly", "hold in part"),
+    "not reproduced": ("\u2718", "fails", "do not hold"),
+    "inconsistent in print": ("\u2260", "print", "contradict other figures of the paper"),
+    "cannot be tested here": ("\u25cb", "untested", "cannot be tested here"),
+    "not computable": ("?", "fails", "cannot be computed from these records"),
+}
+columns = ("claim", "statement", "verdict", "expected", "measured", "for whom")
+
+
+def mark(verdict):
+    symbol, colour, _ = marks.get(verdict, ("?", "untested", ""))
+    return Markup(f'<span class="mark {colour}"><span aria-hidden="true">{symbol}</span> {escaped(verdict)}</span>')
+
+
+def counts_sentence(claims):
+    """Of 17 claims 3 hold, 8 hold in part, ..."""
+    counts = {kind: sum(claim["verdict"] == kind for claim in claims) for kind in marks}
+    parts = [f"{count} {words if count > 1 else singular(words)}" for (kind, count), (_, _, words) in zip(counts.items(), marks.values()) if count]
+    others = len(claims) - sum(counts.values())
+    parts += [f"{others} otherwise"] if others else []
+    return f"Of {counted(len(claims), 'claim')} " + ", ".join(parts) + "."
+
+
+def singular(words):
+    first, *others = words.split()
+    return " ".join([{"hold": "holds", "do": "does", "contradict": "contradicts", "cannot": "cannot"}[first], *others])
+
+
+def chips(claims):
+    """A mark a claim, to its row."""
+    def chip(claim):
+        symbol, colour, _ = marks.get(claim["verdict"], ("?", "untested", ""))
+        return Markup(f'<a class="chip {colour}" href="#{escaped(claim["id"])}" title="{escaped(claim["statement"])}">'
+                      f'<span aria-hidden="true">{symbol}</span> {escaped(claim["id"])}'
+                      f'<span class="unseen">: {escaped(claim["verdict"])}</span></a>')
+
+    return element("p", joined(map(chip, claims), " "), class_="chips")
+
+
+def own_cases(claim):
+    """Those judged by the claim's own metric, which is the first."""
+    return [case for case in claim["cases"] if case["metric"] == claim["cases"][0]["metric"]]
+
+
+def is_sweep(case):
+    return case["share_of_frames"]["low"] is None  # its frames are poses, no sample of a motion
+
+
+def angles(case):
+    held = ", ".join(f"{figure(low)} to {figure(high)}\u00b0" for low, high in case["angles_deg"])
+    return f"{case['text'].split(':')[0]} " + (f"at {held}" if held else "at no angle")
+
+
+def outcome(claim):
+    """For whom it holds, in a line."""
+    cases = own_cases(claim)
+    if not cases:
+        return words_of(claim)
+    clips = [case for case in cases if not is_sweep(case)]
+    parts = ["for " + ", ".join(angles(case) for case in cases if is_sweep(case))] if len(clips) < len(cases) else []
+    if clips:
+        held = sum(case["holds"] == "whole" for case in clips)
+        parts.append(f"for {held} of {counted(len(clips), 'clip')} ({clip_figures(claim, clips)})")
+    return "; ".join(parts)
+
+
+def words_of(claim):
+    """The verdict's text without the verdict and without single figures."""
+    words = claim["text"].removeprefix(claim["verdict"]).lstrip(": ").split("; farthest")[0].split("; beside it")[0]
+    before = {"reproduced": "for ", "reproduced only for": "for ", "not reproduced": "not for "}
+    if claim["verdict"] == "inconsistent in print":
+        return f"{claim['measured']} with the paper\u2019s others"
+    return before.get(claim["verdict"], "") + words
+
+
+def clip_figures(claim, clips):
+    if is_share(claim):
+        return f"{span([100 * case['share_of_frames']['estimate'] for case in clips])} % of the frames within"
+    return f"means of {span([case['mean']['estimate'] for case in clips])} %"
+
+
+def measured(claim):
+    """The claim's own figures: every case, or every quantity's range; in brackets their intervals."""
+    if claim["cases"]:
+        cases = own_cases(claim)
+        of_clips = "of frames within" if is_share(claim) else "means"
+        told = [f"% {of_clips} [95 % interval]"] if not all(map(is_sweep, cases)) else []
+        return items([*told, *(case_text(claim, case) for case in cases)], "plain")
+    if not claim["measurements"]:
+        return claim["measured"] or "\u2013"
+    quantities = dict.fromkeys(entry["quantity"] for entry in claim["measurements"])
+    return joined([claim["measured"], items([range_text(claim, quantity) for quantity in quantities], "plain")])
+
+
+def case_text(claim, case):
+    name = case["text"].split(":")[0]
+    if is_sweep(case):
+        return f"{name}: {per_cent_span([case['least'], case['most']])} over the angle"
+    share = is_share(claim)
+    return f"{name}: " + behind.with_interval(case["share_of_frames" if share else "mean"], 100 if share else 1)
+
+
+def is_share(claim):
+    """Judged by the share of frames that hold, not by their mean."""
+    return claim["interval_of"].startswith("share")
+
+
+def per_cent_span(values):
+    return span([round(value, 3) for value in values]) + " %"
+
+
+def range_text(claim, quantity):
+    """From the least to the most of its figures, in brackets from the lowest to the highest end of their intervals."""
+    entries = [entry for entry in claim["measurements"] if entry["quantity"] == quantity]
+    unit = "" if entries[0]["unit"] == "1" else f" {entries[0]['unit']}"
+    known = [entry for entry in entries if entry["value"] is not None]
+    if not known:
+        return f"{quantity}: no figure"
+    ends = [end for entry in known for end in (entry["low"], entry["high"]) if end is not None]
+    values = [entry["value"] for entry in known]
+    interval = f" [{figure(min(ends))}, {figure(max(ends))}]" if (min(ends), max(ends)) != (min(values), max(values)) else ""
+    return f"{quantity}: {span(values)}{interval}{unit}"
+
+
+def expected(claim):
+    parts = claim["expected"].split("; ")
+    return items(parts, "plain") if len(parts) > 1 else claim["expected"].replace("-", "\u2212") or "\u2013"
+
+
+def row(claim):
+    name = element("a", claim["id"], href=f"#{claim['id']}")
+    statement = joined([claim["statement"], element("span", f" {claim['place']}", class_="place")])
+    cells = [statement, mark(claim["verdict"]), expected(claim), measured(claim), outcome(claim)]
+    return Markup(f'<tr id="{escaped(claim["id"])}" class="claim"><th scope="row">{name}</th>'
+                  + joined(element("td", cell) for cell in cells) + "</tr>")
+
+
+def section(found):
+    if found.claims is None:
+        return element("p", "claims.json: not there: `pbskin reproduce --judge -o DIR` judges the records", class_="missing")
+    head = joined(element("th", name, scope="col") for name in columns)
+    rows = [Markup(row(claim) + f'<tr class="behind"><td colspan="{len(columns)}">{behind.of(claim, found)}</td></tr>')
+            for claim in found.claims]
+    table = Markup(f"<table class='claims'><caption>Each claim against the bound fixed beforehand</caption><thead><tr>{head}</tr></thead>"
+                   "<tbody>\n" + joined(rows, "\n") + "</tbody></table>")
+    return element("div", table, class_="scroll", tabindex=0, role="region", aria_label="Verdicts")

@@ -1,0 +1,220 @@
+"""Truth: the definition. The page's sentences and tables say what small records hold, it loads nothing, and it says what is missing."""
+import contextlib
+import html.parser
+import io
+import os
+import pathlib
+import re
+import sys
+import tempfile
+import types
+import unittest
+import unittest.mock
+
+root = pathlib.Path(__file__).resolve().parents[3]
+sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
+
+import report  # noqa: E402
+import synthetic_records  # noqa: E402
+from report import costs, markup, record_set  # noqa: E402
+
+
+class Page(html.parser.HTMLParser):
+    """What is on it: ids, links, what would be loaded, headings, unclosed elements."""
+
+    void = {"meta", "link", "img", "br", "input"}
+
+    def __init__(self, text):
+        super().__init__()
+        self.ids, self.links, self.loads, self.headings, self.images, self.open, self.badly_nested = [], [], [], [], [], [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        self.ids += [attributes["id"]] if "id" in attributes else []
+        self.links += [attributes["href"]] if tag == "a" and "href" in attributes else []
+        self.loads += [value for name, value in attributes.items() if name in ("src", "srcset", "poster", "data")]
+        self.loads += [attributes["href"]] if tag not in ("a",) and "href" in attributes else []
+        self.headings += [int(tag[1])] if re.fullmatch("h[1-6]", tag) else []
+        self.images += [attributes] if tag == "img" else []
+        if tag not in self.void:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.badly_nested.append(tag)
+
+
+class Report(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.results = pathlib.Path(folder.name)
+
+    def make(self):
+        """Exit status, the page's text, what was said and what was complained of."""
+        said, complaints = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(complaints):
+            status = report.main(self.results)
+        file = self.results / "report.html"
+        return status, file.read_text() if file.is_file() else "", said.getvalue(), complaints.getvalue()
+
+    def write_svg(self, name, body=""):
+        folder = self.results / "figures"
+        folder.mkdir(exist_ok=True)
+        (folder / f"{name}.svg").write_text(
+            '<?xml version="1.0"?>\n<!DOCTYPE svg PUBLIC "x" "http://www.w3.org/x.dtd">\n'
+            '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="0 0 9 9">'
+            '<metadata><rdf resource="http://purl.org/x"/></metadata><defs><path id="m1" d="M0 0"/></defs>'
+            f'<g clip-path="url(#p1)"><use xlink:href="#m1"/></g>{body}</svg>')
+        (folder / f"{name}.csv").write_text("a\n1\n")
+
+    def test_no_records_no_page(self):
+        status, text, _, complaints = self.make()
+        self.assertEqual((status, text), (2, ""))
+        self.assertIn("no records", complaints)
+        self.assertEqual(list(self.results.iterdir()), [])
+
+    def test_a_folder_that_is_not_there(self):
+        self.results = self.results / "nowhere"
+        self.assertEqual(self.make()[0], 2)
+
+    def test_verdicts_are_counted_and_open_to_their_runs(self):
+        synthetic_records.write_study(self.results)
+        synthetic_records.write_claims(self.results)
+        status, text, _, _ = self.make()
+        self.assertEqual(status, 0)
+        self.assertIn("Of 4 claims 1 holds, 1 holds in part, 1 contradicts other figures of the paper, 1 cannot be tested here.", text)
+        self.assertIn('<tr id="C02" class="claim">', text)
+        self.assertIn('<a href="volume/limb_twist/">volume/limb_twist</a>', text)
+        self.assertIn("limb_twist at 0 to 175\u00b0; for 1 of 2 clips (40 to 97.5 % of the frames within)", text)
+        self.assertIn("<li>walk: 40 [30, 50]</li>", text)
+        self.assertIn("jump: 97.5 [96, 99]", text)
+        self.assertIn("<li>frames a second: 107 to 233 [100, 240] 1/s</li>", text)
+        self.assertIn("<code>", markup.inline("`x`"))
+
+    def test_without_verdicts_it_is_said(self):
+        synthetic_records.write_study(self.results)
+        status, text, said, _ = self.make()
+        self.assertEqual(status, 0)
+        self.assertIn("No verdict is on record", text)
+        self.assertIn("missing: verdicts: claims.json is not there", said)
+
+    def test_distance_and_cost_are_those_of_the_records(self):
+        synthetic_records.write_poses(self.results)
+        synthetic_records.write_timing(self.results)
+        _, text, _, _ = self.make()
+        self.assertIn("PBS with 24 iterations is 8 to 20 % away from stable neo-Hookean finite elements, LBS 30 to 50 %", text)
+        self.assertIn("In 1 of 2 poses PBS lies within the bound", text)
+        self.assertIn("\u2264 15, meets itself", text)
+        self.assertIn("0.5 to 1 ms a frame", text)
+        self.assertIn("(1000 to 2000 frames a second)", text)
+        self.assertIn("LBS 0.1 ms, PBS 0.7 ms, the FEM reference 900 ms a pose", text)
+
+    def test_a_study_that_was_not_run_is_named(self):
+        synthetic_records.write_study(self.results)
+        _, text, said, _ = self.make()
+        for study in ("work_precision", "timing", "verification"):
+            self.assertIn(f"the study {study} was not run", text)
+        self.assertIn("missing: figure fit: the study fit was not run", said)
+
+    def test_costs_are_summed(self):
+        synthetic_records.write_study(self.results)
+        (self.results / "volume" / "costs.csv").write_text("run,expected_cpu_s,cpu_s\na,10,60\nb,20,120\n")
+        found = record_set.RecordSet(self.results)
+        self.assertEqual(costs.sentence(found), "These records took 3 min of processor time (1 study).")
+        self.assertIn("<td>30</td><td>180</td>", costs.section(found))
+
+    def test_the_reference_s_verification(self):
+        synthetic_records.write_verification(self.results)
+        _, text, _, _ = self.make()
+        self.assertIn('<th scope="row">cantilever</th><td>yes</td>', text)
+        self.assertIn("<li>closed form: a beam</li>", text)
+
+    def test_provenance_and_records_of_two_revisions(self):
+        synthetic_records.write_study(self.results)
+        self.assertIn(synthetic_records.revision, self.make()[1])
+        file = self.results / "volume" / "limb_bend" / "run.json"
+        file.write_text(file.read_text().replace(synthetic_records.revision, "f" * 40))
+        self.assertIn("the records are of 2 revisions", self.make()[1])
+
+    def test_figures_are_inline_each_with_ids_of_its_own(self):
+        synthetic_records.write_study(self.results)
+        self.write_svg("volume_over_angle", '<g class="values" data-x="angle"><circle r="1"><title>PBS: 1, 2</title></circle></g>')
+        self.write_svg("volume_over_clip")
+        _, text, said, _ = self.make()
+        self.assertIn('<use href="#volume_over_angle-m1"/>', text)
+        self.assertIn("url(#volume_over_clip-p1)", text)
+        self.assertIn("Figure 2: ", text)
+        self.assertIn("<title>PBS: 1, 2</title>", text)
+        self.assertIn("missing: figure volume_over_iterations: not there yet", said)
+        self.assertIn('download="volume_over_angle.csv"', text)
+
+    def test_a_figure_without_its_records_or_older_than_they_is_refused(self):
+        synthetic_records.write_study(self.results)
+        self.write_svg("volume_over_angle")
+        os.utime(self.results / "figures" / "volume_over_angle.svg", (1e9, 1e9))
+        self.assertIn("figure volume_over_angle: stale", self.make()[2])
+        self.write_svg("volume_over_angle")
+        (self.results / "volume" / "limb_bend" / "metrics.csv").unlink()
+        _, text, said, _ = self.make()
+        self.assertIn("figure volume_over_angle: volume/limb_bend/metrics.csv: not there", said)
+        self.assertNotIn('id="figure-volume_over_angle"', text)
+
+    def test_the_viewer_or_why_there_is_none(self):
+        synthetic_records.write_study(self.results)
+        for fragment, expected in ((lambda results: "<p>turn me</p>", "<p>turn me</p>"), (lambda results: None, "The viewer is missing: ")):
+            module = types.ModuleType("viewer_html")
+            module.fragment = fragment
+            with unittest.mock.patch.dict(sys.modules, {"viewer_html": module}):
+                self.assertIn(expected, self.make()[1])
+
+    def test_nothing_is_loaded_and_the_page_is_whole(self):
+        synthetic_records.write_study(self.results)
+        synthetic_records.write_claims(self.results)
+        synthetic_records.write_poses(self.results)
+        self.write_svg("volume_over_angle")
+        with unittest.mock.patch.dict(sys.modules, {"viewer_html": None}):  # its own tests look at it
+            found = Page(self.make()[1])
+        self.assertEqual([load for load in found.loads if not load.startswith(("data:", "#"))], [])
+        self.assertEqual([link for link in found.links if link.startswith(("http:", "//"))], [])
+        self.assertEqual([link for link in found.links if link.startswith("#") and link[1:] not in found.ids], [])
+        self.assertEqual([link for link in found.links if not link.startswith(("#", "data:", "https:")) and not (self.results / link).exists()], [])
+        self.assertEqual(len(found.ids), len(set(found.ids)))
+        self.assertEqual((found.badly_nested, found.open), ([], []))
+        self.assertEqual(found.headings[0], 1)
+        self.assertTrue(all(after <= before + 1 for before, after in zip(found.headings, found.headings[1:])))
+        self.assertTrue(all(image.get("alt") for image in found.images))
+
+    def test_style_and_script_load_nothing(self):
+        for file in (root / "paper_figures" / "report").glob("page.[cj]s*"):
+            self.assertIsNone(re.search(r"https?:|@import|url\(|fetch\(|XMLHttpRequest|import\s", file.read_text()), file)
+
+    def test_texts_of_records_are_escaped(self):
+        synthetic_records.write_study(self.results)
+        synthetic_records.write_claims(self.results, statement="a < b & <script>alert(1)</script>")
+        text = self.make()[1]
+        self.assertIn("a &lt; b &amp; &lt;script&gt;", text)
+        self.assertNotIn("<script>alert", text)
+
+
+class Contrast(unittest.TestCase):
+    """WCAG 2.1, 1.4.3: text against its ground at 4.5 or more."""
+
+    def luminance(self, color):
+        color = "".join(2 * digit for digit in color[1:]) if len(color) == 4 else color[1:]
+        channels = [int(color[place:place + 2], 16) / 255 for place in (0, 2, 4)]
+        linear = [channel / 12.92 if channel <= 0.04045 else ((channel + 0.055) / 1.055) ** 2.4 for channel in channels]
+        return sum(weight * channel for weight, channel in zip((0.2126, 0.7152, 0.0722), linear))
+
+    def test_every_colour_of_text(self):
+        style = (root / "paper_figures" / "report" / "page.css").read_text()
+        colors = dict(re.findall(r"--(\w+): (#[0-9a-f]{3,6})", style))
+        for name in ("ink", "soft", "link", "holds", "partly", "fails", "print", "untested"):
+            for ground in ("ground", "shade"):
+                light, dark = self.luminance(colors[ground]), self.luminance(colors[name])
+                self.assertGreaterEqual((light + 0.05) / (dark + 0.05), 4.5, (name, ground))
+
+
+if __name__ == "__main__":
+    unittest.main()
