@@ -112,10 +112,11 @@ def cut_open(data, ahead_m):
     return actor
 
 
-def bones(posed, radius_m=0.008, color=bone_color):
-    """Each bone a rod between its end points, its joints balls."""
-    return [actor for bone in posed for actor in (_rod(bone.head, bone.tail, radius_m, color), ball(bone.head, 1.8 * radius_m, color),
-                                                  ball(bone.tail, 1.8 * radius_m, color))]
+def bones(posed, radius_m=0.008, towards=(0.0, 0.0, 0.0), color=bone_color):
+    """Each bone a rod between its end points, its joints balls. Moved towards a parallel camera, nothing hides them."""
+    ends = [(bone.head + numpy.array(towards), bone.tail + numpy.array(towards)) for bone in posed]
+    return [actor for head, tail in ends for actor in (_rod(head, tail, radius_m, color), ball(head, 1.8 * radius_m, color),
+                                                       ball(tail, 1.8 * radius_m, color))]
 
 
 def _rod(head, tail, radius_m, color):

@@ -7,10 +7,10 @@ import style
 limb_view = rendering.Camera((0, 0, 0), 0.33, (0.1, 0.3, 1.0))
 
 
-def opened(frames, data, points, towards, rod_m):
-    """The tets behind their bones; what was cut away as glass."""
+def opened(frames, data, points, towards, view, rod_m):
+    """The tets behind their bones; what was cut away as glass; the bones before it all."""
     ahead_m = (points - frames.projections(0)) @ towards
-    return [bodies.cut_open(data, ahead_m), bodies.glass(data), *bodies.bones(frames.bones(0), rod_m)]
+    return [bodies.cut_open(data, ahead_m), bodies.glass(data), *bodies.bones(frames.bones(0), rod_m, view.direction)]
 
 
 def human(frames):
@@ -18,13 +18,13 @@ def human(frames):
     low, high = rendering.bounds_of(file)
     forward, left = recorded_frames.heading_of(frames.bones(0))
     view = rendering.Camera((low + high) / 2, 0.8, forward + 0.35 * left + (0, 0.1, 0))
-    actors = opened(frames, rendering.read(file), bodies.points_of(file), forward, 0.009)
+    actors = opened(frames, rendering.read(file), bodies.points_of(file), forward, view, 0.009)
     return rendering.Stage(960, 1200, background=rendering.paper).shot(actors, view)
 
 
 def limb(frames):
     file = frames.tets("lbs", 0)
-    actors = opened(frames, bodies.at_rest(file), bodies.rest_positions_of(file), (0.0, 0.0, 1.0), 0.014)
+    actors = opened(frames, bodies.at_rest(file), bodies.rest_positions_of(file), (0.0, 0.0, 1.0), limb_view, 0.012)
     return rendering.Stage(1500, 420, background=rendering.paper).shot(actors, limb_view)
 
 

@@ -39,8 +39,8 @@ def mark_vertex(panel, frames, points):
     texts = {r"$s_j$": bone.head, r"$d_j$": bone.tail}
     for text, end in texts.items():
         panel.annotate(text, end[:2], (0, 32), textcoords="offset points", ha="center", arrowprops={"arrowstyle": "-", "linewidth": 0.5})
-    panel.annotate(f"$v_i$: {float(row['parameter']):.2f} of the way\nfrom $s_j$ to $d_j$", vertex[:2], (0, 12),
-                   textcoords="offset points", ha="center", arrowprops={"arrowstyle": "-", "linewidth": 0.5})
+    panel.annotate(f"$v_i$, at {float(row['parameter']):.2f}\nof the bone", vertex[:2], (14, 8),
+                   textcoords="offset points", ha="left", arrowprops={"arrowstyle": "-", "linewidth": 0.5})
 
 
 def draw_rule(panel, frames):
@@ -50,10 +50,9 @@ def draw_rule(panel, frames):
     for blended, (label, color, marker) in kinds.items():
         rows = [row for row in binding if row["blended"] == blended]
         x, y = ([float(row[name]) for row in rows] for name in ("parameter", "rest_distance_m"))
-        panel.plot(x, 1000 * numpy.array(y), linestyle="", marker=marker, color=color, markersize=1.6, label=f"{label}: {len(rows)} vertices")
-    panel.set(xlabel="place of its projection from $s_j$ (0) to $d_j$ (1) [1]", ylabel="distance to the bone [mm]", xlim=(-0.25, 1.75),
-              title="the human's vertices")
-    panel.legend(loc="upper right")
+        panel.plot(x, 1000 * numpy.array(y), linestyle="", marker=marker, color=color, markersize=1.6, label=f"human's vertices on {label}: {len(rows)}" if blended == "0" else f"{label}: {len(rows)}")
+    panel.set(xlabel="place of its projection from $s_j$ (0) to $d_j$ (1) [1]", ylabel="distance to the bone [mm]", xlim=(-0.25, 1.75))
+    panel.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)
 
 
 def draw(results, figures):

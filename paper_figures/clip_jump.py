@@ -1,0 +1,56 @@
+"""The human jumping under LBS, PBS and FEM side by side, as an animated WebP that plays at the clip's own speed, and one still of it."""
+import matplotlib
+import numpy
+from PIL import Image, ImageDraw, ImageFont
+
+import bodies
+import recorded_frames
+import rendering
+import style
+
+scene, deformers, still = "human_jump", ("lbs", "pbs", "snh_p1"), 8
+pixels, direction, half_height_m, floor_to_middle_m, margin_px = (300, 440), (0.9, 0.15, 1.0), 1.0, 0.96, 40
+xmp = ('<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#"><rdf:Description '
+       'xmlns:dc="http://purl.org/dc/elements/1.1/"><dc:source>{source}</dc:source><dc:rights>{rights}</dc:rights></rdf:Description>'
+       "</rdf:RDF></x:xmpmeta>")
+
+
+def camera(frames, frame):
+    low, high = rendering.bounds_of(frames.skin("snh_p1", frame))
+    middle = (low + high) / 2
+    return rendering.Camera((middle[0], floor_to_middle_m, middle[2]), half_height_m, direction)
+
+
+def words(frames, label, frame):
+    row = frames.row(label, frame)
+    change = style.signed(f"{float(row['volume_change_pct']):+.1f} %")
+    return f"{style.look_of(label).label}\nvolume {change}, {row['inverted_tets']} inverted"
+
+
+def picture(frames, frame, stage, font):
+    """The three bodies, with name and volume change above each and the time below."""
+    view, (width, height) = camera(frames, frame), pixels
+    page = Image.new("RGB", (width * len(deformers), height + 2 * margin_px), "white")
+    pen = ImageDraw.Draw(page)
+    for column, label in enumerate(deformers):
+        page.paste(Image.fromarray(stage.shot([bodies.skin(frames.skin(label, frame))], view)), (column * width, margin_px))
+        pen.text((column * width + 10, 4), words(frames, label, frame), fill="black", font=font)
+    pen.text((10, height + margin_px + 10), f"{float(frames.row('lbs', frame)['time_s']):.2f} s", fill="black", font=font)
+    return page
+
+
+def draw(results, figures):
+    frames = recorded_frames.Frames(results, scene)
+    font = ImageFont.truetype(matplotlib.font_manager.findfont("DejaVu Sans"), 13)
+    stage = rendering.Stage(*pixels, background=rendering.paper)
+    times_s = frames.times_s()
+    pages = [picture(frames, frame, stage, font) for frame in range(len(times_s))]
+    origin = recorded_frames.origin_of(frames)
+    figures.mkdir(parents=True, exist_ok=True)
+    step_ms = round(1000 * (times_s[-1] - times_s[0]) / (len(times_s) - 1))
+    pages[0].save(figures / "clip_jump.webp", save_all=True, append_images=pages[1:], duration=step_ms, loop=0, quality=80,
+                  xmp=xmp.format(source=style.source_of(origin), rights=origin["rights"]).encode())
+    figure, axes = style.panels(1, 1, height_in=style.page_in * pages[0].height / pages[0].width, width_in=style.page_in)
+    style.show(axes[0, 0], numpy.array(pages[still]))
+    behind = [frames.row(label, frame) for label in deformers for frame in range(len(times_s))]
+    style.save(figure, figures / "clip_jump", origin, style.columns_of(behind, "volume_change_pct", "inverted_tets", "min_section_pct"))
