@@ -19,5 +19,6 @@ def draw_marks(axes, places, outcomes, size):
 def legend(figure, axes):
     """Of all five, that it is seen which do not occur."""
     for _, marker, color, text in looks.values():
-        axes.scatter([], [], marker=marker, color=color, label=text, edgecolors=style.black if marker == "*" else None)
+        axes.plot([], [], linestyle="none", marker=marker, color=color, markeredgecolor=style.black if marker == "*" else color,
+                  markeredgewidth=0.8, markersize=6 if marker == "*" else 4.5, label=text)
     style.legend_above(figure, columns=3)

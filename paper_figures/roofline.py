@@ -21,9 +21,9 @@ def draw_roof(axes, limits, precision):
     for name, size in levels:
         bandwidth = bandwidth_gb_s(limits["copy"], size)
         axes.plot(intensity, numpy.minimum(peak, bandwidth * intensity), color="#808080", linewidth=0.7)
-        axes.annotate(f"{name} {bandwidth:.0f} GB/s", (0.108, bandwidth * 0.122), fontsize=5.5, color="#606060", rotation=32,
-                      rotation_mode="anchor")
-    axes.annotate(f"multiply-add {peak:.0f} GFLOP/s", (95, peak * 1.12), fontsize=5.5, color="#606060", ha="right")
+        text = f"{name}\n{bandwidth:.0f}{' GB/s' if name == 'memory' else ''}"
+        axes.annotate(text, (peak / bandwidth, peak * 1.08), fontsize=5, color="#606060", ha="center", va="bottom")
+    axes.annotate(f"multiply-add {peak:.0f} GFLOP/s", (95, peak * 1.12), fontsize=5, color="#606060", ha="right")
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlim(0.1, 100)
@@ -42,7 +42,8 @@ def draw_points(axes, mesh, precision, filled):
             point = timing["roofline"][name]
             axes.plot(point["flops_per_byte"], point["gflops"], marker, color=color, markerfacecolor=color if filled else "none",
                       markersize=4, markeredgewidth=0.8)
-            rows.append({"vertices": mesh["mesh"]["vertices"], "order": timing["variant"], "precision": precision, "constraints": name, **point})
+            rows.append({"vertices": mesh["mesh"]["vertices"], "order": timing["variant"], "precision": precision, "constraints": name,
+                         **point})
     return rows
 
 

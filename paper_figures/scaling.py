@@ -35,8 +35,7 @@ def draw_cost(axes, record, precision):
         scale = [1e6 / iterations / bench_records.constraints(mesh) for mesh, _ in found]
         median = [timing["ms_step"] * s for (_, timing), s in zip(found, scale)]
         tets = [mesh["mesh"]["tets"] for mesh, _ in found]
-        axes.plot(tets, median, color=color, linestyle=line, marker="o",
-                  label=bench_records.names[variant])
+        axes.plot(tets, median, color=color, linestyle=line, marker=bench_records.markers[variant], label=bench_records.names[variant])
         quartiles = [[timing["quartiles"]["ms_step"][bound] * s for (_, timing), s in zip(found, scale)] for bound in (0, 1)]
         axes.fill_between(tets, *quartiles, color=color, alpha=0.2, linewidth=0)
         rows += [{"shown": "ns_per_constraint", "order": variant, "precision": precision, "threads": 1, "tets": t, "value": m}
@@ -60,7 +59,7 @@ def draw_threads(axes, record):
             found = [(tets, timing["speedup_by_threads"]) for tets, timing in found if timing and "speedup_by_threads" in timing]
             if not found:
                 continue
-            axes.plot(*zip(*found), color=bench_records.orders[variant][0], linestyle=line, marker="o",
+            axes.plot(*zip(*found), color=bench_records.orders[variant][0], linestyle=line, marker=bench_records.markers[variant],
                       label=bench_records.names[variant])
             rows += [{"shown": "speedup_by_threads", "order": variant, "precision": precision, "threads": threads, "tets": t, "value": s}
                      for t, s in found]
