@@ -19,6 +19,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::array<const char*, 3> extent_names = {"none", "part", "whole"};
+
 json to_json_of(const Interval& interval)
 {
     return {{"estimate", interval.estimate}, {"low", interval.low}, {"high", interval.high},
@@ -27,7 +29,6 @@ json to_json_of(const Interval& interval)
 
 json to_json_of(const CaseJudgement& judged)
 {
-    const std::array<const char*, 3> extents = {"none", "part", "whole"};
     json angles = json::array(), deepest = json::array();
     for (const AngleRange& range : judged.angles) angles.push_back({range.from_deg, range.to_deg});
     for (const FailingFrame& failing : judged.deepest)
@@ -43,7 +44,7 @@ json to_json_of(const CaseJudgement& judged)
             {"metric", judged.metric},
             {"run", judged.run},
             {"frames", judged.frames},
-            {"holds", extents[static_cast<std::size_t>(judged.extent)]},
+            {"holds", extent_names[static_cast<std::size_t>(judged.extent)]},
             {"mean", to_json_of(judged.mean)},
             {"share_of_frames", to_json_of(judged.share)},
             {"angles_deg", angles},
@@ -73,10 +74,17 @@ json to_json_of(const Measurement& measured)
             {"high", measured.high},         {"unit", measured.unit}, {"run", measured.run}};
 }
 
+json to_json_of(const Claim& claim, const Measurement& measured)
+{
+    json record = to_json_of(measured);
+    record["holds"] = extent_names[static_cast<std::size_t>(extent_of(claim, measured))];
+    return record;
+}
+
 json to_json_of(const Verdict& verdict)
 {
     json measurements = json::array();
-    for (const Measurement& measured : verdict.measurements) measurements.push_back(to_json_of(measured));
+    for (const Measurement& measured : verdict.measurements) measurements.push_back(to_json_of(verdict.claim, measured));
     json beside_measured = json::array();
     for (const Measurement& measured : verdict.measured_beside) beside_measured.push_back(to_json_of(measured));
     json cases = json::array(), beside = json::array(), orders = json::array();
@@ -120,21 +128,6 @@ std::string markdown_cell(const std::string& text)
         cell += c == '\n' ? ' ' : c;
     }
     return cell;
-}
-
-const char* colour_of(VerdictKind kind)
-{
-    switch (kind) {
-        case VerdictKind::reproduced:
-            return "\033[32m";
-        case VerdictKind::reproduced_only_for:
-            return "\033[33m";
-        case VerdictKind::not_reproduced:
-        case VerdictKind::not_computable:
-            return "\033[31m";
-        default:
-            return "\033[90m";
-    }
 }
 
 struct TitledRow {
@@ -239,31 +232,6 @@ std::string claims_markdown(const std::vector<Verdict>& verdicts)
             text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", markdown_cell(verdict.claim.id), markdown_cell(row.name),
                                 markdown_cell(title), row.measured, row.interval, markdown_cell(row.holds), markdown_cell(run));
     return text;
-}
-
-std::string claims_table(const std::vector<Verdict>& verdicts, bool colours)
-{
-    std::size_t name = 0, measured = 0, interval = 0;
-    for (const Verdict& verdict : verdicts)
-        for (const auto& [title, row, run] : rows_of(verdict)) {
-            name = std::max(name, row.name.size());
-            measured = std::max(measured, row.measured.size());
-            interval = std::max(interval, row.interval.size());
-        }
-    std::string table;
-    for (const Verdict& verdict : verdicts) {
-        const std::string kind = verdict.cases.empty() ? verdict.text : label(verdict.kind);
-        table += fmt::format("{}  {}\n     {} ({}) Expected: {}.\n", verdict.claim.id,
-                             colours ? colour_of(verdict.kind) + kind + "\033[0m" : kind, verdict.claim.statement, verdict.claim.place,
-                             expected_text(verdict.claim));
-        std::string measure;
-        for (const auto& [title, row, run] : rows_of(verdict)) {
-            if (title != measure) table += fmt::format("     by {}\n", measure = title);
-            table += fmt::format("       {:<{}}  {:<{}}  {:<{}}  {}\n", row.name, name, row.measured, measured, row.interval, interval,
-                                 row.holds);
-        }
-    }
-    return table;
 }
 
 std::string expected_text(const Claim& claim)

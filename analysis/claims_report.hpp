@@ -1,6 +1,6 @@
-// Verdicts as files and on the screen: claims.json for programs, claims.md for pages, an aligned table for the terminal.
+// Verdicts as files: claims.json for programs, claims.md for pages.
 //   write_text_atomically(folder + "/claims.json", claims_json(verdicts).dump(2) + "\n");
-//   write_text_atomically(folder + "/claims.md", claims_markdown(verdicts));   fmt::print("{}", claims_table(verdicts, true));
+//   write_text_atomically(folder + "/claims.md", claims_markdown(verdicts));
 #pragma once
 
 #include "analysis/verdict.hpp"
@@ -17,9 +17,6 @@ nlohmann::json claims_json(const std::vector<Verdict>& verdicts);
 // A table with the columns id, statement, expected, measured, interval, verdict, runs: one row a claim, and under it one a case, which has
 // its name, metric and where the claim holds in the columns statement, expected and verdict.
 std::string claims_markdown(const std::vector<Verdict>& verdicts);
-
-// The same for the terminal, its columns aligned; colours: green reproduced, yellow in part, red not, grey otherwise.
-std::string claims_table(const std::vector<Verdict>& verdicts, bool colours);
 
 std::string expected_text(const Claim& claim);  // 14 % (12 to 16 %)
 

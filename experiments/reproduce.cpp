@@ -2,6 +2,7 @@
 
 #include "analysis/atomic_file.hpp"
 #include "analysis/claims_report.hpp"
+#include "analysis/claims_table.hpp"
 #include "experiments/claims_text.hpp"
 #include "experiments/exit_status.hpp"
 #include "experiments/studies/study.hpp"
@@ -9,16 +10,14 @@
 #include "experiments/studies/worker_pool.hpp"
 #include "experiments/study_costs.hpp"
 #include "experiments/study_records.hpp"
+#include "experiments/terminal.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <numeric>
 
@@ -135,7 +134,8 @@ bool tell_verdicts(std::vector<analysis::Verdict> verdicts, const std::string& f
     std::stable_sort(verdicts.begin(), verdicts.end(), [](const auto& one, const auto& other) { return one.claim.id < other.claim.id; });
     analysis::write_text_atomically((fs::path(folder) / "claims.json").string(), analysis::claims_json(verdicts).dump(2) + "\n");
     analysis::write_text_atomically((fs::path(folder) / "claims.md").string(), analysis::claims_markdown(verdicts));
-    fmt::print("{}", analysis::claims_table(verdicts, isatty(STDOUT_FILENO) && !std::getenv("NO_COLOR")));
+    fmt::print("{}each case's figures: {}\nall on one page: pbskin report {}\n",
+               analysis::claims_table(verdicts, terminal_width(), terminal_has_colours()), (fs::path(folder) / "claims.md").string(), folder);
     return std::none_of(verdicts.begin(), verdicts.end(),
                         [](const auto& verdict) { return verdict.kind == analysis::VerdictKind::not_computable; });
 }
@@ -175,8 +175,8 @@ int reproduce(const ReproduceArguments& arguments)
         beside += conclusion.text;
         all_hold &= conclusion.holds;
     }
-    const bool all_computed = verdicts.empty() || tell_verdicts(verdicts, arguments.folder);
     fmt::print("{}", beside);
+    const bool all_computed = verdicts.empty() || tell_verdicts(verdicts, arguments.folder);
     spdlog::info("what it took:\n{}", cost_table(costs));
     if (broke_down) return exit_breakdown;
     return all_computed && all_hold ? exit_finished : exit_bound;

@@ -2,7 +2,7 @@
 find_package(GSL REQUIRED)
 foreach(name IN ITEMS frame_metrics error_norms cross_section surface_volume statistics bootstrap grid_convergence
         stability_outcome state_hash atomic_file csv_table provenance
-        claims case_record case_row verdict claims_report measurement)
+        claims case_record case_row verdict claims_report claims_table text_columns measurement)
     pbs_test(unit analysis/${name} analysis)
 endforeach()
 pbs_test(unit analysis/pareto_front analysis)

@@ -1,0 +1,27 @@
+#include "experiments/terminal.hpp"
+
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace experiments {
+
+std::size_t terminal_width()
+{
+    std::size_t width = 0;
+    if (const char* columns = std::getenv("COLUMNS")) std::from_chars(columns, columns + std::strlen(columns), width);
+    if (width > 0) return width;
+    winsize size{};
+    if (isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+    return 100;
+}
+
+bool terminal_has_colours()
+{
+    return isatty(STDOUT_FILENO) && !std::getenv("NO_COLOR");
+}
+
+}  // namespace experiments

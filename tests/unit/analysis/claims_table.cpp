@@ -1,0 +1,85 @@
+// Truth: the definition: a claim in a few lines, its columns beginning at the same place, no line longer than the terminal's.
+#include "analysis/claims_table.hpp"
+
+#include "analysis/text_columns.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace {
+
+using namespace analysis;
+
+std::vector<Verdict> three_verdicts()
+{
+    Claim claim;
+    claim.id = "C02";
+    claim.statement = "Volume is kept within half a per cent of what it was";
+    claim.place = "Sec. 4";
+    claim.metrics = {"volume_change_pct"};
+    claim.deformer = "pbs";
+    claim.expected = 0.5;
+    claim.low = -0.5;
+    claim.high = 0.5;
+    CaseRecord walk;
+    walk.scene = "walk";
+    walk.deformer = "pbs";
+    walk.frame = walk.time_s = walk.inverted_tets = {0, 1, 2, 3};
+    walk.volume_change_pct = {0, -0.1, -0.9, -0.2};
+    walk.volume_abs_change_pct = {0, 1, 2, 3};
+    Claim measured = claim;
+    measured.rule = ClaimRule::measured;
+    measured.metrics = {"frames a second"};
+    measured.low = 30;
+    measured.high = 1e12;
+    Claim other = claim;
+    other.id = "C016";
+    other.rule = ClaimRule::untestable;
+    other.reason = "no figures";
+    Records timed;
+    timed.measurements = {{"C02", "frames a second", "man, plain", 60, 59, 61, "1/s"}, {"C02", "frames a second", "giant, plain", 9, 8, 10, "1/s"}};
+    return {judge(claim, {.cases = {walk}}), judge(measured, timed), judge(other, {})};
+}
+
+std::vector<std::string> lines_of(const std::string& text)
+{
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+TEST(ClaimsTable, NoLineIsLongerThanTheTerminals)
+{
+    for (const std::size_t width : {60u, 80u, 100u, 160u})
+        for (const std::string& line : lines_of(claims_table(three_verdicts(), width, false))) EXPECT_LE(characters(line), width) << line;
+}
+
+TEST(ClaimsTable, ColumnsBeginAtTheSamePlace)
+{
+    const auto lines = lines_of(claims_table(three_verdicts(), 100, false));
+    const std::size_t verdict = lines.at(0).find("verdict"), claim = lines.at(0).find("claim"), found = lines.at(0).find("found");
+    EXPECT_EQ(lines.at(2).find("not reproduced"), verdict);
+    EXPECT_EQ(lines.at(2).find("Volume is"), claim);
+    EXPECT_EQ(lines.at(2).find("walk"), found);
+}
+
+TEST(ClaimsTable, SaysWhatWasFoundForWhomAndHowMany)
+{
+    const std::string text = claims_table(three_verdicts(), 160, false);
+    for (const char* part : {"reproduced", "1 of 2 figures within", "man", "not for giant", "farthest: frames a second of giant", "cannot be",
+                             "no figures", "expected: 30 or more", "3 claims: 1 reproduced only for some, 1 not reproduced, 1 cannot be tested here"})
+        EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
+TEST(ClaimsTable, HasColoursOnlyWhenAsked)
+{
+    EXPECT_EQ(claims_table(three_verdicts(), 100, false).find('\033'), std::string::npos);
+    const std::string coloured = claims_table(three_verdicts(), 100, true);
+    EXPECT_NE(coloured.find("\033[31mnot reproduced\033[0m"), std::string::npos);
+    EXPECT_NE(coloured.find("\033[33mreproduced\033[0m"), std::string::npos);
+    EXPECT_NE(coloured.find("\033[90mcannot be\033[0m"), std::string::npos);
+}
+
+}  // namespace
