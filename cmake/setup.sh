@@ -97,6 +97,20 @@ timed() {
     return "$status"
 }
 
+# The report's viewer, bundled with three.js, where npm is there; it fetches 50 MB, once. Without, the report says how to get it.
+build_viewer() {
+    local folder=paper_figures/viewer
+    if ! command -v npm >/dev/null; then
+        say "no npm: the report comes without its viewer; any npm will do (package npm)"
+        return 1
+    fi
+    if [[ ! $folder/node_modules -nt $folder/package-lock.json ]]; then
+        [[ $install == yes ]] || { say "--no-install was given; for the viewer: npm ci in $folder"; return 1; }
+        (cd "$folder" && npm ci --silent && touch node_modules) || return 1
+    fi
+    (cd "$folder" && npm run build --silent)
+}
+
 print_timeline() {
     local entry line=''
     for entry in "${timeline[@]}"; do

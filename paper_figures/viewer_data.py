@@ -1,95 +1,141 @@
-"""The interactive viewer as a piece of HTML for the report: its header, the frames and the program, all inline, no network.
+"""Recorded frames of DIR/frames packed into one block of bytes and a header that says what lies where, for the interactive viewer.
 
-    fragment = viewer_data.packed(results)               # <div id="viewer">, the data and the bundle
-    links = viewer_data.claim_links(results)              # claim -> "#run=...", which opens the claim's pose in the viewer
-    python3 paper_figures/viewer_data.py results/reproduce viewer.html    # a page with nothing else
+Positions are rounded to a grid of 65536 steps over the longest edge of the run's bounding box: low_m + step_m * code, each coordinate
+within step_m / 2 of the record. A frame is stored as the difference of its codes to the frame before (modulo 65536), first the low bytes
+of all frames, then the high ones, which packs well.
+Volume ratios take one byte: 0 is an inverted tet (ratio <= 0), a code c > 0 stands for (c - 1) / 127, and 255 for all above 2.
 """
-import base64
-import html
-import json
-import os
-import pathlib
-import sys
+import gzip
 
-from matplotlib import cm, colors
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
+import recorded_frames
 import records
-import viewer_frames
-import viewer_poses
 
-most_bytes = 15_000_000  # of the viewer in a report that stays below 25 MB
-skin, inverted, ratio_low, ratio_high = "#debe9e", "#d90059", 0.5, 1.5
-folder = pathlib.Path(__file__).resolve().parent / "viewer"
-how_to_build = "npm ci && npm run build, in paper_figures/viewer"
-page = """<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
-<title>pbskin: recorded frames</title><link rel="icon" href="data:,"></head><body>
-{body}
-</body></html>
-"""
+titles = {"limb_twist": "limb, twist", "limb_bend": "limb, bend", "human_jump": "human, jumping", "human_walk": "human, walking"}
+deformers = {"lbs": "LBS", "dqs": "DQS", "pbs": "PBS", "snh_p1": "FEM", "pbs_jiggle": "PBS, jiggling flesh",
+             "pbs_increment": "PBS, no start from LBS"}
+figures = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "error_linf_m", "min_section_pct", "angle_deg",
+           "reference_self_intersects")
+ratio_steps, position_steps = 127, 65535
 
 
-def bundle_file():
-    return pathlib.Path(os.environ.get("PBS_VIEWER_BUILD") or folder / "dist") / "viewer.js"
+def read_frame(file):
+    """Positions [m], #V x 3, tets, #T x 4, volume ratios, #T, rest positions [m], #V x 3."""
+    if not file.is_file():
+        raise records.RecordsMissing(f"{file}: not there")
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    grid = reader.GetOutput()
+    ratio, rest = grid.GetCellData().GetArray("volume_ratio"), grid.GetPointData().GetArray("rest_position")
+    if not ratio or not rest:
+        raise records.RecordsMissing(f"{file}: no {'rest_position' if ratio else 'volume_ratio'}")
+    tets = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+    return tuple(numpy.array(array) for array in (vtk_to_numpy(grid.GetPoints().GetData()), tets, vtk_to_numpy(ratio), vtk_to_numpy(rest)))
 
 
-def shades_of(name):
-    return [colors.to_hex(shade) for shade in cm.get_cmap(name)([step / 63 for step in range(64)])]
+def grid_over(positions):
+    """Lowest corner [m] and step [m] of the grid that positions are rounded to."""
+    points = positions.reshape(-1, 3)
+    low = points.min(axis=0)
+    return low, (points.max(axis=0) - low).max() / position_steps
 
 
-def colours():
-    return {"ratio": {"low": ratio_low, "high": ratio_high, "shades": shades_of("PuOr")}, "error": {"shades": shades_of("viridis_r")},
-            "skin": skin, "inverted": inverted}
+def codes_of(positions, low, step):
+    return numpy.rint((positions - low) / step).astype("<u2")
 
 
-def statements(results):
-    """claim -> what the paper says, where the claims are on record."""
-    file = results / "claims.json"
-    return {claim["id"]: claim["statement"] for claim in records.read_json(file)["claims"]} if file.is_file() else {}
+def differences(codes):
+    """Of each frame to the one before, modulo 65536, the first as it is: their low bytes, then their high bytes."""
+    result = codes.copy()
+    result[1:] -= codes[:-1]
+    return numpy.stack([result & 255, result >> 8]).astype("u1")
 
 
-def pack(results):
-    """Every frame, or every second, third, ... one where that is too much for a page. Header and base64 text."""
-    for every in range(1, 100):
-        header, block = viewer_frames.pack(results, every)
-        text = base64.b64encode(block).decode()
-        if len(text) <= most_bytes:
-            return header, text
-    raise records.RecordsMissing(f"{results / 'frames'}: too large for a page")
+def ratio_codes(ratios):
+    codes = numpy.clip(1 + numpy.rint(ratios * ratio_steps), 1, 255)
+    return numpy.where(ratios <= 0, 0, codes).astype("u1")
 
 
-def packed(results):
-    """The viewer's HTML; without the built program, what is missing and how to get it."""
-    if not bundle_file().is_file():
-        return f'<p class="missing" id="viewer">The interactive viewer is not built: {html.escape(how_to_build)}.</p>'
-    header, block = pack(results)
-    header.update(colours=colours(), poses=viewer_poses.poses_of(header["runs"]), claims=statements(results))
-    words = json.dumps(header, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
-    program = bundle_file().read_text().replace("</script", "<\\/script")
-    return "\n".join((
-        '<div id="viewer"><noscript>The viewer needs JavaScript.</noscript></div>',
-        f'<script type="application/json" id="viewer-header">{words}</script>',
-        f'<script type="application/octet-stream;base64" id="viewer-block">{block}</script>', f"<script>{program}</script>"))
+class Block:
+    """Arrays one behind the other, each at a multiple of four bytes."""
+
+    def __init__(self):
+        self.bytes = bytearray()
+
+    def put(self, array):
+        self.bytes += bytes(-len(self.bytes) % 4)
+        place = len(self.bytes)
+        self.bytes += numpy.ascontiguousarray(array).tobytes()
+        return place
 
 
-def claim_links(results):
-    """claim -> link that opens its pose."""
-    runs = [viewer_frames.facts_of(recorded, 1) for recorded in viewer_frames.recorded_runs(results)]
-    return {pose["claim"]: viewer_poses.link_of(pose) for pose in viewer_poses.poses_of(runs)}
+def rows_of(recorded):
+    """label -> its rows of metrics.csv, of the deformers that the scene ran, in the order of the panels."""
+    labels = [label for label in deformers if label in recorded.deformers]
+    if not labels:
+        raise records.RecordsMissing(f"{recorded.folder / 'run.json'}: none of the deformers {', '.join(deformers)}")
+    return {label: recorded.run.select(recorded.deformers[label][0], variant=recorded.deformers[label][1]) for label in labels}
 
 
-def main(results, file):
-    try:
-        text = page.format(body=packed(results))
-    except records.RecordsMissing as error:
-        print(f"viewer: {error}", file=sys.stderr)
-        return 1
-    file.write_text(text)
-    print(f"viewer: {file}, {len(text) / 1e6:.1f} MB")
-    return 0 if bundle_file().is_file() else 1
+def figures_of(rows):
+    """column -> a number per frame; null where the record has none."""
+    return {column: [float(row[column]) if row.get(column) else None for row in rows] for column in figures}
 
 
-if __name__ == "__main__":
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    sys.exit(main(*map(pathlib.Path, sys.argv[1:])))
+def pack_bones(recorded, frames, block):
+    """Names, and where the posed ends lie: float32, frame by frame, head and tail [m] of every bone."""
+    rows = records.table(recorded.folder / "bones.csv", {"frame", "bone", *recorded_frames.bone_ends})
+    of_frame = {}
+    for row in rows:
+        of_frame.setdefault(int(row["frame"]), []).append([float(row[column]) for column in recorded_frames.bone_ends])
+    missing = [frame for frame in frames if frame not in of_frame]
+    if missing:
+        raise records.RecordsMissing(f"{recorded.folder / 'bones.csv'}: no frame {missing[0]}")
+    ends = numpy.array([of_frame[frame] for frame in frames], dtype="<f4")
+    names = [row["bone"] for row in rows[:ends.shape[1]]]
+    return {"names": names, "ends": block.put(ends)}
+
+
+def facts_of(recorded, every):
+    """What the run's tables say, without its frames."""
+    rows = {label: kept[::every] for label, kept in rows_of(recorded).items()}
+    first = next(iter(rows.values()))
+    shown = [{"label": label, "title": deformers[label], "figures": figures_of(rows[label])} for label in rows]
+    return {"name": recorded.run.name, "title": titles[recorded.run.name], "reference": recorded.run.reference(),
+            "rights": "; ".join(recorded_frames.licences_of(recorded)), "frames": [int(row["frame"]) for row in first],
+            "times_s": [float(row["time_s"]) for row in first], "deformers": shown}
+
+
+def pack_run(recorded, every, block):
+    """The header of one run; its arrays go into the block."""
+    facts = facts_of(recorded, every)
+    labels = [deformer["label"] for deformer in facts["deformers"]]
+    read = {label: [read_frame(recorded.tets(label, frame)) for frame in facts["frames"]] for label in labels}
+    positions = {label: numpy.stack([one[0] for one in read[label]]) for label in labels}
+    low, step = grid_over(numpy.stack(list(positions.values())))
+    _, tets, _, rest = read[labels[0]][0]
+    rest_low, rest_step = grid_over(rest)
+    for deformer in facts["deformers"]:
+        deformer["positions"] = block.put(differences(codes_of(positions[deformer["label"]], low, step)))
+        deformer["ratios"] = block.put(numpy.stack([ratio_codes(one[2]) for one in read[deformer["label"]]]))
+    return {**facts, "vertices": len(rest), "tets": len(tets), "low_m": low.tolist(), "step_m": step, "rest_low_m": rest_low.tolist(),
+            "rest_step_m": rest_step, "tet_corners": block.put(tets.astype("<u4")), "bones": pack_bones(recorded, facts["frames"], block),
+            "rest_codes": block.put(codes_of(rest, rest_low, rest_step))}
+
+
+def recorded_runs(results):
+    found = [recorded_frames.Frames(results, name) for name in titles if (results / "frames" / name).is_dir()]
+    if not found:
+        raise records.RecordsMissing(f"{results / 'frames'}: no frames on record; the study `frames` writes them")
+    return found
+
+
+def pack(results, every=1):
+    """The header and the compressed block of all runs on record, every so many frames."""
+    block = Block()
+    runs = [pack_run(recorded, every, block) for recorded in recorded_runs(results)]
+    return {"schema": 1, "every": every, "ratio_steps": ratio_steps, "runs": runs}, gzip.compress(bytes(block.bytes), 9, mtime=0)

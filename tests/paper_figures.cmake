@@ -1,5 +1,26 @@
 # Tests of the figure scripts.
 add_test(NAME unit/paper_figures COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/figures_test.py)
 set_tests_properties(unit/paper_figures PROPERTIES LABELS unit TIMEOUT 300)
+add_test(NAME unit/paper_figures/viewer COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/viewer_test.py)
+set_tests_properties(unit/paper_figures/viewer PROPERTIES LABELS unit TIMEOUT 300)
+
+# The viewer's own program, where there is a node to run it; ./check --long brings one.
+find_program(PBS_NODE NAMES node nodejs)
+if(PBS_NODE)
+    foreach(name codes faces link shown)
+        add_test(NAME unit/paper_figures/viewer/${name}
+            COMMAND ${PBS_NODE} --test ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/viewer/${name}.test.mjs)
+        set_tests_properties(unit/paper_figures/viewer/${name} PROPERTIES LABELS unit TIMEOUT 300)
+    endforeach()
+else()
+    message(STATUS "node is not there: the tests of the viewer's program are left out")
+endif()
+
+# In a real browser; skipped but by ./check --long.
+if(TARGET pbskin)
+    add_test(NAME browser/viewer COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/browser/browser_test.py
+        $<TARGET_FILE:pbskin> ${CMAKE_BINARY_DIR}/tests/browser)
+    set_tests_properties(browser/viewer PROPERTIES LABELS browser SKIP_RETURN_CODE 77 TIMEOUT 1800)
+endif()
 add_test(NAME unit/paper_figures/report COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/report_test.py)
 set_tests_properties(unit/paper_figures/report PROPERTIES LABELS unit TIMEOUT 120)

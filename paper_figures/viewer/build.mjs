@@ -1,8 +1,9 @@
 // Bundles src/main.js and three.js into one script, $PBS_VIEWER_BUILD/viewer.js (dist/ where that is not set).
 import { build } from "esbuild";
 import path from "node:path";
+import { fileURLToPath } from "node:url";
 
-const here = import.meta.dirname;
+const here = path.dirname(fileURLToPath(import.meta.url));
 const folder = process.env.PBS_VIEWER_BUILD || path.join(here, "dist");
 
 await build({

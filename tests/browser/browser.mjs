@@ -3,20 +3,12 @@ import { createRequire } from "node:module";
 import fs from "node:fs";
 import os from "node:os";
 import path from "node:path";
-import { pathToFileURL } from "node:url";
+import { fileURLToPath, pathToFileURL } from "node:url";
 
-const root = path.resolve(import.meta.dirname, "../..");
+const root = fileURLToPath(new URL("../..", import.meta.url));
 const program = "/usr/bin/chromium";
-const options = ["--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking"];
-
-// What is not there, in words; empty when a browser can be driven.
-export function what_is_missing() {
-    const missing = [];
-    if (!fs.existsSync(program)) missing.push(`${program} (package chromium)`);
-    if (!fs.existsSync(path.join(root, "paper_figures/viewer/node_modules/playwright-core")))
-        missing.push("paper_figures/viewer/node_modules (npm ci there)");
-    return missing.join(", ");
-}
+const options = ["--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+                 "--disable-background-networking"];
 
 // Opens the file in a window of this size; `problems` gathers what the page reports, and every address it asks for but itself.
 export async function open(file, hash = "", { width = 1280, height = 900, scale = 1, touch = false } = {}) {
@@ -30,7 +22,9 @@ export async function open(file, hash = "", { width = 1280, height = 900, scale 
     page.on("console", (message) => { if (["error", "warning"].includes(message.type())) problems.push(message.text()); });
     page.on("pageerror", (error) => problems.push(String(error)));
     const address = pathToFileURL(file).href;
-    page.on("request", (request) => { if (!/^(data|blob):/.test(request.url()) && !request.url().startsWith(address)) problems.push(request.url()); });
+    page.on("request", (request) => {
+        if (!/^(data|blob):/.test(request.url()) && !request.url().startsWith(address)) problems.push(request.url());
+    });
     await page.goto(address + hash);
     const close = async () => {
         await context.close();

@@ -32,6 +32,10 @@ void main() {
     gl_FragColor = vec4(mix(lit, vec3(0.12), 0.65 * line), opacity);
 }`;
 
+function copy(to, at, from, place) {
+    for (let axis = 0; axis < 3; ++axis) to[3 * at + axis] = from[3 * place + axis];
+}
+
 export class Body {
     constructor() {
         this.geometry = new BufferGeometry();
@@ -60,8 +64,8 @@ export class Body {
     move(positions, normals) {
         const to = this.geometry.attributes.position.array, up = this.geometry.attributes.normal.array;
         this.vertices.forEach((v, at) => {
-            to.set(positions.subarray(3 * v, 3 * v + 3), 3 * at);
-            if (this.smooth[Math.floor(at / 3)]) up.set(normals.subarray(3 * v, 3 * v + 3), 3 * at);
+            copy(to, at, positions, v);
+            if (this.smooth[Math.floor(at / 3)]) copy(up, at, normals, v);
         });
         this.faces.forEach((_, face) => {
             if (this.smooth[face]) return;
@@ -89,7 +93,7 @@ export class Body {
     drawn_positions(count) {
         const drawn = new Float32Array(3 * count).fill(NaN);
         const from = this.geometry.attributes.position.array;
-        this.vertices.forEach((v, at) => drawn.set(from.subarray(3 * at, 3 * at + 3), 3 * v));
+        this.vertices.forEach((v, at) => copy(drawn, v, from, at));
         return drawn;
     }
 }

@@ -1,4 +1,4 @@
-// What the packed bytes stand for: positions on a grid, volume ratios, float32 bone ends. The counterpart of viewer_frames.py.
+// What the packed bytes stand for: positions on a grid, volume ratios, float32 bone ends. The counterpart of viewer_data.py.
 
 // Differences to the frame before, low bytes then high bytes, to codes frame by frame.
 export function codes_of(bytes, frames, numbers) {

@@ -11,6 +11,11 @@ export function shade_of(shades, low, high, value) {
     return shades[Math.round(share * (shades.length - 1))];
 }
 
+// Of a distance: the scale is one of square roots, so that small distances are told apart beside large ones.
+export function distance_shade(shades, most, distance) {
+    return shade_of(shades, 0, 1, Math.sqrt(distance / (most || 1)));
+}
+
 // The page's tables, parsed.
 export function palette_of(colours) {
     return {

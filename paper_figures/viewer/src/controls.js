@@ -4,6 +4,8 @@ import { button, element, group, select, slider } from "./page.js";
 
 const colour_names = { skin: "skin", ratio: "volume ratio", error: "distance to FEM", inverted: "inverted tets" };
 
+const cut_names = [["", "no cut"], ["x", "across x"], ["y", "across y"], ["z", "across z"]];
+
 export class Controls {
     constructor(runs, actions) {
         this.run = select("recorded run", runs.map((run) => [run.name, run.title]), actions.run);
@@ -13,15 +15,16 @@ export class Controls {
         this.colours = colourings.map((name) => button(colour_names[name], `colour by ${colour_names[name]}`, () => actions.colour(name)));
         this.bones = button("bones", "show the skeleton", actions.bones);
         this.follow = button("follow", "the camera follows the body", actions.follow);
-        this.axis = select("cut the tets by a plane", [["", "no cut"], ["x", "across x"], ["y", "across y"], ["z", "across z"]], actions.cut_axis);
+        this.axis = select("cut the tets by a plane", cut_names, actions.cut_axis);
         this.cut_at = slider("where the cut is, in the body at rest", actions.cut_at);
         this.side = button("other side", "show the other side of the cut", actions.cut_side);
         this.cut_text = element("output", { class: "vw-cut" });
+        const first_view = button("first view", "the camera where it began", actions.reset);
+        const back = button("\u2039", "one frame back", () => actions.step(-1));
+        const on = button("\u203a", "one frame on", () => actions.step(1));
         this.bars = [
-            element("div", { class: "vw-bars" }, group("run", this.run), button("\u2039", "one frame back", () => actions.step(-1)), this.play,
-                    button("\u203a", "one frame on", () => actions.step(1)), this.time, this.clock),
-            element("div", { class: "vw-bars" }, group("colour", ...this.colours), group("show", this.bones, this.follow,
-                    button("first view", "the camera where it began", actions.reset)),
+            element("div", { class: "vw-bars" }, group("run", this.run), back, this.play, on, this.time, this.clock),
+            element("div", { class: "vw-bars" }, group("colour", ...this.colours), group("show", this.bones, this.follow, first_view),
                     group("cut", this.axis, this.cut_at, this.side, this.cut_text)),
         ];
     }

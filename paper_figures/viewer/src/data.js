@@ -74,6 +74,11 @@ export class Run {
         return this.deformer(label).figures[column][at];
     }
 
+    // Whether the reference is recorded to pass through itself, so that distances to it say less.
+    reference_intersects(at) {
+        return this.deformers.some((deformer) => deformer.figures.reference_self_intersects[at] === 1);
+    }
+
     // Place of the frame nearest to this number.
     place_of(frame) {
         let best = 0;

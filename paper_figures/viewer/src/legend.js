@@ -4,7 +4,7 @@ import { shown as text } from "./numbers.js";
 const what = {
     skin: "plain skin: the boundary of the tets, smoothly shaded",
     ratio: "volume ratio of a tet, deformed over rest [1]",
-    error: "distance of a vertex to FEM [mm]; the scale ends at the largest on record in this run",
+    error: "distance of a vertex to FEM [mm], on a scale of square roots; it ends at the largest on record in this run",
     inverted: "inverted tets, volume ratio \u2264 0; the rest of the body is seen through",
 };
 
@@ -17,7 +17,7 @@ export function draw_legend(element, header, run, state) {
     }
     if (state.colour === "error") {
         const most = run.largest_error_mm();
-        parts.push(bar(colours.error.shades, [0, most / 2, most]));
+        parts.push(bar(colours.error.shades, [0, most / 4, most]));
     }
     if (state.colour === "inverted") parts.push(swatch(colours.inverted, "inverted"));
     if (state.colour === "skin") parts.push(swatch(colours.skin, "skin"));

@@ -1,4 +1,4 @@
-// Starts the viewer in #viewer and leaves window.viewer for tests and the curious:
+// Starts the viewer in #frame-viewer and leaves window.viewer for tests and the curious:
 //
 //   viewer.data.runs                     the recorded runs, see data.js
 //   viewer.state.now, viewer.state.set   what is shown, see state.js; set({ at: 3, colour: "error" })
@@ -21,7 +21,7 @@ async function start(root) {
     };
 }
 
-const root = document.getElementById("viewer");
+const root = document.getElementById("frame-viewer");
 const ready = start(root);
 window.viewer = { ready };
 ready.then((hook) => Object.assign(window.viewer, hook)).catch((error) => {

@@ -1,5 +1,5 @@
 // One panel's scene: the body, its inverted tets, the skeleton; brought up to date with what is shown.
-import { shade_of } from "./colours.js";
+import { distance_shade } from "./colours.js";
 import { vertex_normals } from "./faces.js";
 import { Body } from "./body.js";
 import { Skeleton } from "./skeleton.js";
@@ -36,7 +36,7 @@ export class Panel {
         if (shown.colour === "inverted") return () => ghost;
         if (shown.colour === "skin") return () => palette.skin;
         const errors = run.errors_mm(label, shown.at), most = run.largest_error_mm();
-        return (_, vertex) => shade_of(palette.error.shades, 0, most, errors[vertex]);
+        return (_, vertex) => distance_shade(palette.error.shades, most, errors[vertex]);
     }
 
     // All four faces of each inverted tet that the cut keeps.

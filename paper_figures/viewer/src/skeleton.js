@@ -4,11 +4,17 @@ import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 
+const dark = 0x111111;
+
+function line(linewidth, color) {
+    return new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ color, linewidth, depthTest: false }));
+}
+
 export class Skeleton {
     constructor() {
-        const line = (width, color) => new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ color, linewidth: width, depthTest: false }));
-        this.lines = [line(5, 0xffffff), line(2.5, 0x111111)];  // dark on a white seam, seen on any body
-        this.dots = new Points(new BufferGeometry(), new PointsMaterial({ color: 0x111111, size: 6, sizeAttenuation: false, depthTest: false }));
+        this.lines = [line(5, 0xffffff), line(2.5, dark)];  // dark on a white seam, seen on any body
+        const dot = new PointsMaterial({ color: dark, size: 6, sizeAttenuation: false, depthTest: false });
+        this.dots = new Points(new BufferGeometry(), dot);
         this.group = new Group();
         [...this.lines, this.dots].forEach((part, order) => {
             part.renderOrder = 10 + order;

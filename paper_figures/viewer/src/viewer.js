@@ -58,7 +58,8 @@ export class Viewer {
             const choice = select(`deformer of panel ${at + 1}`, options, (chosen) => this.choose(at, chosen));
             choice.value = label;
             const title = this.run.deformer(label).title;
-            const view = element("div", { class: "vw-view", tabindex: 0, role: "img", "aria-label": `${title}: arrows turn, plus and minus zoom` });
+            const name = `${title}: arrows turn, plus and minus zoom`;
+            const view = element("div", { class: "vw-view", tabindex: 0, role: "img", "aria-label": name });
             const numbers = element("dl", { "aria-label": `recorded numbers of ${title}` });
             const whole = element("div", { class: "vw-panel" }, choice, view, numbers);
             this.panels_element.append(whole);
@@ -86,7 +87,7 @@ export class Viewer {
         this.controls.update(run, now);
         draw_legend(this.legend, this.data, run, now);
         this.sight.update(run, now, changed);
-        this.note.textContent = note_of(run, this.data.every);
+        this.note.textContent = note_of(run, this.data.every, now.at);
         this.show_claim(now.claim);
         this.redraw();
     }
@@ -121,8 +122,9 @@ export class Viewer {
         const own = known ? { ...known, panels: known.panels ? known.panels.split(",") : undefined } : {};
         const pose = { ...(asked.run ? {} : own), ...asked };
         const run = this.data.runs.find((one) => one.name === pose.run) ?? this.run;
-        this.state.set({ run: run.name, at: run.place_of(pose.frame ?? 0), panels: panels_for(run, pose.panels), colour: pose.colour ?? "ratio",
-                         bones: pose.bones ?? false, cut: pose.cut ?? null, claim: pose.claim ?? null, playing: false });
+        this.state.set({ run: run.name, at: run.place_of(pose.frame ?? 0), panels: panels_for(run, pose.panels),
+                         colour: pose.colour ?? "ratio", bones: pose.bones ?? false, cut: pose.cut ?? null, claim: pose.claim ?? null,
+                         playing: false });
         if (scroll) this.root.scrollIntoView({ block: "start" });
     }
 
@@ -141,7 +143,8 @@ export class Viewer {
             cut_axis: (axis) => this.cut_axis(axis),
             cut_at: (at_m) => cut({ at_m }), cut_side: () => cut({ above: !now().cut.above }),
             move_cut: (by) => cut({ at_m: this.run.stepped(now().cut, by) }),
-            turn: (around, up) => this.moved(() => this.views.turn(around, up)), zoom: (factor) => this.moved(() => this.views.zoom(factor)),
+            turn: (around, up) => this.moved(() => this.views.turn(around, up)),
+            zoom: (factor) => this.moved(() => this.views.zoom(factor)),
             reset: () => this.moved(() => this.sight.first(this.run, now())),
         };
     }
@@ -163,9 +166,11 @@ export class Viewer {
     }
 }
 
-function note_of(run, every) {
+function note_of(run, every, at) {
+    const mark = run.reference_intersects(at) ? "* In this frame the FEM reference passes through itself: distances to it say less. " : "";
     const kept = every === 1 ? "every recorded frame" : `one of ${every} recorded frames`;
-    return `${run.vertices} vertices, ${run.tets} tets; ${kept}. Positions are rounded to steps of ${(1e6 * run.step_m).toFixed(1)} \u00b5m, so each `
-        + `coordinate is within half of that of the record; volume ratios to 1/127 up to 2; the numbers are the records' own. A cut goes through the `
-        + `body at rest, so that every panel and frame shows the same tets. ${run.rights}`;
+    const step_um = (1e6 * run.step_m).toFixed(1);
+    return `${mark}${run.vertices} vertices, ${run.tets} tets; ${kept}. Positions are rounded to steps of ${step_um} \u00b5m: each `
+        + "coordinate is within half of that of the record; volume ratios to 1/127 up to 2; the numbers are the records' own. A cut goes "
+        + `through the body at rest, so that every panel and frame shows the same tets. ${run.rights}`;
 }

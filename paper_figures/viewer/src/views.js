@@ -12,7 +12,7 @@ export class Views {
         this.renderer.outputColorSpace = LinearSRGBColorSpace;
         this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, most_pixels_per_point));
         this.renderer.autoClear = false;
-        this.camera = new PerspectiveCamera(30, 1, 0.01, 200);
+        this.camera = new PerspectiveCamera(18, 1, 0.01, 200);
         this.target = new Vector3();
         this.on_move = on_move;
         this.views = [];

@@ -1,0 +1,90 @@
+"""The report's viewer in Debian's Chromium, on a graphics card made of software. Run by `./check --long`, which sets PBS_LONG=1: then what
+is missing fails; without, the test is skipped (exit status 77).
+
+    PBS_LONG=1 python3 tests/browser/browser_test.py build/release/bin/pbskin SCRATCH
+
+PBS_BROWSER_RESULTS=DIR takes the records of a run that is there; else the study `frames` is run first (a minute or two)."""
+import csv
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+root = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(root / "paper_figures"))
+
+import recorded_frames  # noqa: E402
+import viewer_data  # noqa: E402
+import viewer_poses  # noqa: E402
+
+skipped = 77
+sampled = {"limb_twist": ["lbs", "snh_p1"], "human_jump": ["pbs", "dqs"], "human_walk": ["pbs_jiggle"]}
+columns = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "error_linf_m")
+
+
+def what_is_missing():
+    found = {"node": shutil.which("node"), "npm": shutil.which("npm"), "chromium": pathlib.Path("/usr/bin/chromium").exists(),
+             "paper_figures/viewer/node_modules (npm ci there)": (root / "paper_figures/viewer/node_modules/playwright-core").exists()}
+    return [name for name, there in found.items() if not there]
+
+
+def recorded(program, scratch):
+    """A folder with DIR/frames in it."""
+    if os.environ.get("PBS_BROWSER_RESULTS"):
+        return pathlib.Path(os.environ["PBS_BROWSER_RESULTS"]).resolve()
+    folder = scratch / "records"
+    subprocess.run([program, "reproduce", "frames", "--quiet", "--resume", "-o", str(folder)], check=True, stdout=subprocess.DEVNULL)
+    return folder
+
+
+def sample_of(frames, label, frame):
+    """Positions [m] by VTK's reader, numbers by the row of metrics.csv."""
+    row = frames.row(label, frame)
+    positions = viewer_data.read_frame(frames.tets(label, frame))[0]
+    return {"run": frames.run.name, "label": label, "frame": frame, "positions_m": positions.ravel().tolist(),
+            "figures": {column: row[column] for column in columns if row[column]}}
+
+
+def largest_error_m(frames):
+    shown = {frames.deformers[label] for label in frames.deformers if label in viewer_data.deformers}
+    with open(frames.folder / "metrics.csv", newline="") as stream:
+        return max(float(row["error_linf_m"]) for row in csv.DictReader(stream) if (row["deformer"], row["variant"]) in shown)
+
+
+def truth_of(results):
+    runs = viewer_data.recorded_runs(results)
+    samples = []
+    for frames in runs:
+        last = len(frames.times_s()) - 1
+        samples += [sample_of(frames, label, frame) for label in sampled.get(frames.run.name, []) for frame in (0, last // 2, last)]
+    return {"samples": samples, "largest_error_m": {frames.run.name: largest_error_m(frames) for frames in runs},
+            "poses": viewer_poses.poses_of([viewer_data.facts_of(frames, 1) for frames in runs])}
+
+
+def main(program, scratch):
+    """Exit status."""
+    missing = what_is_missing()
+    if not os.environ.get("PBS_LONG"):
+        print("skipped: part of ./check --long" + (f"; missing here: {', '.join(missing)}" if missing else ""))
+        return skipped
+    if missing:
+        print(f"missing: {', '.join(missing)}")
+        return 1
+    scratch.mkdir(parents=True, exist_ok=True)
+    results = recorded(program, scratch)
+    page, truth = scratch / "viewer.html", scratch / "truth.json"
+    surroundings = {**os.environ, "PBS_VIEWER_BUILD": str(scratch), "PBS_VIEWER_PAGE": str(page), "PBS_VIEWER_TRUTH": str(truth),
+                    "PBS_VIEWER_PICTURES": str(scratch), "PBS_REPORT_PAGE": str(results / "report.html")}
+    truth.write_text(json.dumps(truth_of(results)))
+    subprocess.run(["node", "build.mjs"], cwd=root / "paper_figures/viewer", env=surroundings, check=True)
+    subprocess.run([sys.executable, "-B", root / "paper_figures/viewer_html.py", results, page], env=surroundings, check=True)
+    # Its own exit status tells of figures that were not drawn.
+    subprocess.run([sys.executable, "-B", root / "paper_figures/report.py", "--quiet", results], env=surroundings)
+    tests = sorted(str(file) for file in pathlib.Path(__file__).parent.glob("*.test.mjs"))
+    return subprocess.run(["node", "--test", *tests], env=surroundings).returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1], pathlib.Path(sys.argv[2]).resolve()))

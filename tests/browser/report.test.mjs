@@ -1,0 +1,29 @@
+// Truth: the definition of the report. It opens from disk, alone, at the width of a desk and of a phone, with the viewer in it.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { open_viewer, settle } from "./browser.mjs";
+
+const file = process.env.PBS_REPORT_PAGE, pictures = process.env.PBS_VIEWER_PICTURES;
+
+for (const [name, width, height] of [["desktop", 1280, 900], ["phone", 390, 844]]) {
+    test(`the report at ${width} px`, async () => {
+        const { page, problems, close } = await open_viewer(file, "", { width, height, touch: width < 500 });
+        try {
+            assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "it scrolls sideways");
+            if (pictures) await page.screenshot({ path: `${pictures}/report_${name}.png` });
+            await page.evaluate(() => { location.hash = "claim=C01"; });
+            await page.waitForFunction(() => window.viewer.state.now.claim === "C01");
+            await page.waitForTimeout(1500);  // smooth scrolling
+            await settle(page);
+            const { top, bottom } = await page.evaluate(() => document.getElementById("frame-viewer").getBoundingClientRect().toJSON());
+            assert.ok(top < height && bottom > 0, `the viewer is at ${top} to ${bottom} px`);
+            const ids = await page.evaluate(() => [...document.querySelectorAll("[id]")].map((one) => one.id));
+            assert.ok(await page.locator("h2").count() > 3);
+            assert.equal(new Set(ids).size, ids.length, "an id twice");
+            if (pictures) await page.screenshot({ path: `${pictures}/report_viewer_${name}.png` });
+            assert.deepEqual(problems, []);
+        } finally {
+            await close();
+        }
+    });
+}

@@ -1,0 +1,197 @@
+// Truth: the records. What the viewer draws and says in a real browser is what the study `frames` wrote, within the stated quantisation.
+// Started by browser_test.py, which names the page and a file with samples of the records.
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import { after, before, test } from "node:test";
+import { open_viewer, settle } from "./browser.mjs";
+
+const file = process.env.PBS_VIEWER_PAGE;
+const truth = JSON.parse(fs.readFileSync(process.env.PBS_VIEWER_TRUTH));
+const pictures = process.env.PBS_VIEWER_PICTURES;
+let opened, page;
+
+before(async () => {
+    opened = await open_viewer(file);
+    page = opened.page;
+});
+after(() => opened?.close());
+
+// How many colours the panel shows, and which share of its pixels is not the most frequent one.
+function colours_of(panel) {
+    return page.evaluate((at) => {
+        const bytes = window.viewer.pixels(at), counts = new Map();
+        for (let i = 0; i < bytes.length; i += 4) {
+            const key = (bytes[i] << 16) | (bytes[i + 1] << 8) | bytes[i + 2];
+            counts.set(key, (counts.get(key) ?? 0) + 1);
+        }
+        return { colours: counts.size, drawn: 1 - Math.max(...counts.values()) / (bytes.length / 4) };
+    }, panel);
+}
+
+async function show(changes) {
+    await page.evaluate((wanted) => window.viewer.state.set(wanted), changes);
+    await settle(page);
+}
+
+// x y z of each vertex [m] in the first panel; nan where no face is seen.
+function drawn_positions() {
+    return page.evaluate(() => [...window.viewer.drawn_positions(0)]);
+}
+
+async function show_sample({ run, frame, label }, colour = "skin") {
+    await page.evaluate((hash) => { location.hash = hash; }, `run=${run}&frame=${frame}&colour=${colour}&panels=${label}`);
+    await page.waitForFunction((wanted) => window.viewer.state.now.run === wanted.run
+        && window.viewer.state.now.panels[0] === wanted.label && window.viewer.state.now.colour === wanted.colour, { run, label, colour });
+    await settle(page);
+}
+
+test("the page opens from disk, alone and without a word on the console", () => assert.deepEqual(opened.problems, []));
+
+test("every panel is drawn", async () => {
+    const panels = await page.locator("#frame-viewer .vw-panel").count();
+    assert.equal(panels, 4);
+    for (let panel = 0; panel < panels; ++panel) {
+        const { colours, drawn } = await colours_of(panel);
+        assert.ok(colours > 20, `panel ${panel}: ${colours} colours`);
+        assert.ok(drawn > 0.01, `panel ${panel}: ${drawn} of it drawn`);
+    }
+});
+
+for (const sample of truth.samples) {
+    const name = `${sample.run}, ${sample.label}, frame ${sample.frame}`;
+    test(`drawn vertices are the record's: ${name}`, async () => {
+        await show_sample(sample);
+        const drawn = await drawn_positions(), step_m = await page.evaluate(() => window.viewer.viewer.run.step_m);
+        const apart = drawn.map((value, i) => Math.abs(value - sample.positions_m[i])).filter((value) => !Number.isNaN(value));
+        assert.ok(apart.length > sample.positions_m.length / 3, `${apart.length} coordinates drawn`);
+        const rounding = Math.max(...sample.positions_m.map(Math.abs)) * 2 ** -23;  // single precision on the way to the card
+        assert.ok(Math.max(...apart) <= step_m / 2 + rounding, `${Math.max(...apart)} m apart, half a step is ${step_m / 2} m`);
+    });
+    test(`numbers under the panel are the record's: ${name}`, async () => {
+        await show_sample(sample);
+        for (const [column, recorded] of Object.entries(sample.figures)) {
+            const shown = page.locator(`#frame-viewer .vw-panel dd[data-column="${column}"]`).first();
+            assert.equal(Number(await shown.getAttribute("data-value")), Number(recorded), column);
+        }
+    });
+    test(`inverted tets are as many as on record: ${name}`, async () => {
+        await show_sample(sample, "inverted");
+        const faces = await page.evaluate(() => window.viewer.viewer.panels[0].inverted.faces.length);
+        assert.equal(faces / 4, Number(sample.figures.inverted_tets));
+    });
+}
+
+test("the legend's numbers are the record's", async () => {
+    for (const [run, largest_m] of Object.entries(truth.largest_error_m)) {
+        await show_sample({ run, frame: 0, label: "lbs" }, "error");
+        const end = page.locator("#frame-viewer .vw-marks span").last(), text = await end.textContent();
+        assert.equal(Number(await end.getAttribute("data-value")), 1000 * largest_m);
+        assert.ok(Math.abs(Number(text) - 1000 * largest_m) <= 0.005 * 1000 * largest_m, text);
+    }
+    await show({ colour: "ratio" });
+    assert.deepEqual(await page.locator("#frame-viewer .vw-marks span").allTextContents(), ["0.5", "1", "1.5"]);
+});
+
+test("the slider moves the vertices, the clock and the address", async () => {
+    await show_sample({ run: truth.samples[0].run, frame: 0, label: "lbs" });
+    const before_move = await drawn_positions();
+    await page.locator('#frame-viewer input[aria-label="frame"]').focus();
+    await page.keyboard.press("End");
+    await settle(page);
+    const after_move = await drawn_positions();
+    const moved_m = Math.max(...after_move.map((value, i) => Math.abs(value - before_move[i])).filter((value) => !Number.isNaN(value)));
+    assert.ok(moved_m > 0.05, `${moved_m} m`);
+    const last = await page.evaluate(() => window.viewer.viewer.run.frames.at(-1));
+    assert.match(await page.locator("#frame-viewer .vw-time").textContent(), new RegExp(`^frame ${last} of ${last},`));
+    assert.match(await page.evaluate(() => location.hash), new RegExp(`frame=${last}&`));
+});
+
+test("play moves on and stops", async () => {
+    await page.locator('#frame-viewer button[aria-label="play the frames"]').click();
+    await page.waitForFunction(() => window.viewer.state.now.at > 0 && window.viewer.state.now.at < 5);
+    await page.locator('#frame-viewer button[aria-label="pause"]').click();
+    const stopped = await page.evaluate(() => window.viewer.state.now.at);
+    await page.waitForTimeout(400);
+    assert.equal(await page.evaluate(() => window.viewer.state.now.at), stopped);
+});
+
+function camera_position() {
+    return page.evaluate(() => window.viewer.viewer.views.camera.position.toArray());
+}
+
+test("keys: a frame on, colours, bones, cut, turn; the focus is seen", async () => {
+    await show({ at: 0, colour: "skin", bones: false, cut: null });
+    await page.locator("#frame-viewer .vw-panel select").first().focus();
+    await page.keyboard.press("Tab");
+    assert.equal(await page.evaluate(() => document.activeElement.className), "vw-view");
+    const outline = await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle);
+    await page.keyboard.press(".");
+    const camera = await camera_position();
+    for (const key of ["e", "b", "c", "ArrowLeft"]) await page.keyboard.press(key);
+    const now = await page.evaluate(() => window.viewer.state.now);
+    assert.deepEqual([now.at, now.colour, now.bones, now.cut.axis, outline], [1, "error", true, "z", "solid"]);
+    assert.notDeepEqual(await camera_position(), camera);
+});
+
+test("a cut shows fewer tets, cut open", async () => {
+    await show({ cut: null });
+    const whole = await page.evaluate(() => window.viewer.viewer.panels.map((panel) => panel.body.faces.length));
+    await page.locator('#frame-viewer select[aria-label="cut the tets by a plane"]').selectOption("y");
+    await settle(page);
+    const { faces, kept, tets } = await page.evaluate(() => {
+        const { viewer } = window.viewer;
+        const kept = viewer.meshes.mesh.kept.reduce((a, b) => a + b, 0);
+        return { faces: viewer.panels.map((panel) => panel.body.faces.length), kept, tets: viewer.run.tets };
+    });
+    assert.ok(kept > 0 && kept < tets);
+    assert.ok(faces.every((count) => count === faces[0]) && faces[0] !== whole[0]);
+});
+
+test("dragging one panel turns all", async () => {
+    await show({ cut: null, bones: false });
+    const box = await page.locator("#frame-viewer .vw-view").nth(1).boundingBox();
+    const drawn = () => page.evaluate(() => window.viewer.viewer.panels.map((_, at) =>
+        window.viewer.pixels(at).reduce((sum, byte, i) => (sum * 31 + byte * (i % 7)) % 1e9, 0)));
+    const first = await drawn();
+    await page.mouse.move(box.x + 40, box.y + 60);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 120, box.y + 80, { steps: 4 });
+    await page.mouse.up();
+    await settle(page);
+    (await drawn()).forEach((sum, panel) => assert.notEqual(sum, first[panel], `panel ${panel}`));
+});
+
+test("a claim's link opens its pose", async () => {
+    for (const pose of truth.poses) {
+        await page.evaluate((claim) => { location.hash = `claim=${claim}`; }, pose.claim);
+        await page.waitForFunction((claim) => window.viewer.state.now.claim === claim, pose.claim);
+        const { run, frame, colour } = await page.evaluate(() => {
+            const { now } = window.viewer.state;
+            return { run: now.run, frame: window.viewer.viewer.run.frames[now.at], colour: now.colour };
+        });
+        assert.deepEqual({ run, frame, colour }, { run: pose.run, frame: pose.frame, colour: pose.colour });
+        assert.ok((await page.locator("#frame-viewer .vw-claim").textContent()).startsWith(`${pose.claim}.`));
+    }
+});
+
+for (const [name, width, height] of [["desktop", 1280, 900], ["phone", 390, 844]]) {
+    test(`nothing is wider than ${width} px, every control can be pressed`, async () => {
+        const other = await open_viewer(file, "#claim=C01", { width, height, touch: width < 500 });
+        try {
+            const wide = await other.page.evaluate(() => [...document.querySelectorAll("#frame-viewer, #frame-viewer *")]
+                .filter((one) => one.getBoundingClientRect().right > innerWidth + 0.5).map((one) => one.className || one.tagName));
+            assert.deepEqual(wide, []);
+            assert.ok(await other.page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+            const controls = other.page.locator("#frame-viewer").locator("button, select, input");
+            const faulty = await controls.evaluateAll((all) => all.filter((one) => !one.getAttribute("aria-label")
+                || (one.offsetParent && one.getBoundingClientRect().height < 30)).map((one) => one.outerHTML));
+            assert.deepEqual(faulty, []);
+            if (pictures) await other.page.screenshot({ path: `${pictures}/viewer_${name}.png`, fullPage: true });
+            assert.deepEqual(other.problems, []);
+        } finally {
+            await other.close();
+        }
+    });
+}
+
+test("nothing was reported on the way", () => assert.deepEqual(opened.problems, []));

@@ -1,0 +1,21 @@
+// Truth: the definition. An address and what is shown are the same thing; what is not ours is left alone.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { hash_of, pose_of } from "../../../../paper_figures/viewer/src/link.js";
+
+test("there and back", () => {
+    const pose = { run: "human_jump", frame: 12, colour: "error", panels: ["lbs", "snh_p1"], cut: { axis: "x", at_m: -0.25, above: true },
+                   bones: true, claim: "C02" };
+    assert.deepEqual(pose_of(hash_of(pose)), pose);
+});
+
+test("a claim alone is enough", () => assert.deepEqual(pose_of("#claim=C05"), { claim: "C05" }));
+
+test("addresses of the page's own sections are not ours", () => {
+    assert.equal(pose_of(""), null);
+    assert.equal(pose_of("#figures"), null);
+});
+
+test("nonsense is dropped", () => {
+    assert.deepEqual(pose_of("#run=a&frame=-1&colour=pink&cut=w,0,above"), { run: "a", cut: null });
+});

@@ -1,0 +1,38 @@
+// Truth: the definition of what is shown: colours, numbers, panels.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { distance_shade, palette_of, ratio_shades, rgb_of, shade_of } from "../../../../paper_figures/viewer/src/colours.js";
+import { shown, signed } from "../../../../paper_figures/viewer/src/numbers.js";
+import { State, panels_for } from "../../../../paper_figures/viewer/src/state.js";
+
+test("shades lie evenly between low and high and end there", () => {
+    const shades = ["a", "b", "c"];
+    assert.deepEqual([-9, 0.5, 0.9, 1, 1.5, 9].map((value) => shade_of(shades, 0.5, 1.5, value)), ["a", "a", "b", "b", "c", "c"]);
+    assert.deepEqual([0, 25, 100].map((distance) => distance_shade(shades, 100, distance)), ["a", "b", "c"]);
+});
+
+test("an inverted tet has the colour of its own", () => {
+    const shades = ["#000000", "#808080", "#ffffff"];
+    const palette = palette_of({ ratio: { low: 0.5, high: 1.5, shades }, error: { shades }, skin: "#102030", inverted: "#ff0000" });
+    const of_code = ratio_shades(palette, 127);
+    assert.deepEqual([of_code[0], of_code[1], of_code[128], of_code[255]], [[1, 0, 0], [0, 0, 0], rgb_of("#808080"), [1, 1, 1]]);
+});
+
+test("numbers have three digits and a dash where none is on record", () => {
+    assert.deepEqual([null, 0, -0.37149, 12.345, 1234.5].map(shown), ["\u2013", "0", "\u22120.371", "12.3", "1235"]);
+    assert.equal(signed(5), "+5");
+});
+
+test("a run shows four panels, those asked for first", () => {
+    const run = { reference: "snh_p1", labels: ["lbs", "dqs", "pbs", "snh_p1", "pbs_jiggle"] };
+    assert.deepEqual(panels_for(run), ["lbs", "dqs", "pbs", "snh_p1"]);
+    assert.deepEqual(panels_for(run, ["pbs_jiggle", "unheard_of"]), ["pbs_jiggle", "lbs", "dqs", "pbs"]);
+});
+
+test("listeners hear what changed, and nothing when nothing did", () => {
+    const state = new State({ at: 0, colour: "skin" }), heard = [];
+    state.on_change((now, changed) => heard.push([now.at, ...changed]));
+    state.set({ at: 0 });
+    state.set({ at: 3, colour: "skin" });
+    assert.deepEqual(heard, [[3, "at"]]);
+});

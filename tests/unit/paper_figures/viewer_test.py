@@ -1,0 +1,102 @@
+"""Truth: the definition. What is packed for the viewer stands for what was recorded, within what the header states; what is missing is
+said, and no page is made from half of it."""
+import base64
+import gzip
+import json
+import os
+import pathlib
+import re
+import sys
+import tempfile
+import unittest
+
+import numpy
+
+root = pathlib.Path(__file__).resolve().parents[3]
+sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
+
+import records  # noqa: E402
+import synthetic_frames  # noqa: E402
+import viewer_html  # noqa: E402
+import viewer_data  # noqa: E402
+import viewer_poses  # noqa: E402
+
+
+class Viewer(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.results = pathlib.Path(folder.name)
+        synthetic_frames.write_frames(self.results)
+        self.run = self.results / "frames" / "limb_twist"
+
+    def unpacked(self, every=1):
+        header, block = viewer_data.pack(self.results, every)
+        return header["runs"][0], gzip.decompress(block)
+
+    def test_positions_are_those_recorded_within_half_a_step(self):
+        run, block = self.unpacked()
+        for deformer in run["deformers"]:
+            count = len(run["frames"]) * run["vertices"] * 3
+            low, high = numpy.frombuffer(block, "u1", 2 * count, deformer["positions"]).reshape(2, len(run["frames"]), -1).astype(int)
+            codes = numpy.cumsum(low + 256 * high, axis=0) % 65536
+            packed = numpy.tile(run["low_m"], run["vertices"]) + run["step_m"] * codes
+            for at, frame in enumerate(run["frames"]):
+                recorded = numpy.ravel(synthetic_frames.positions_of(deformer["label"], frame))
+                self.assertLessEqual(abs(packed[at] - recorded).max(), run["step_m"] / 2 * (1 + 1e-9))
+
+    def test_tets_ratios_and_bones(self):
+        run, block = self.unpacked()
+        corners = numpy.frombuffer(block, "<u4", 8, run["tet_corners"])
+        self.assertEqual(corners.tolist(), [corner for tet in synthetic_frames.tets for corner in tet])
+        lbs = next(deformer for deformer in run["deformers"] if deformer["label"] == "lbs")
+        codes = numpy.frombuffer(block, "u1", 8, lbs["ratios"]).reshape(4, 2)
+        self.assertEqual(codes[2].tolist(), [0, 1 + round(0.5 * 127)])
+        self.assertEqual(codes[0].tolist(), [128, 1 + round(0.5 * 127)])
+        ends = numpy.frombuffer(block, "<f4", 4 * 12, run["bones"]["ends"]).reshape(4, 2, 6)
+        self.assertEqual(ends[3].tolist(), [[0, 0, 3, 1, 0, 3], [1, 0, 3, 2, 0, 3]])
+
+    def test_numbers_are_the_records_own(self):
+        run, _ = self.unpacked(every=2)
+        self.assertEqual(run["frames"], [0, 2])
+        lbs = next(deformer for deformer in run["deformers"] if deformer["label"] == "lbs")
+        self.assertEqual(lbs["figures"]["volume_change_pct"], [-2.0, -9.0])
+        self.assertEqual(lbs["figures"]["inverted_tets"], [0.0, 1.0])
+        self.assertEqual([deformer["title"] for deformer in run["deformers"]], ["LBS", "DQS", "PBS", "FEM"])
+
+    def test_a_claim_opens_at_the_recorded_extreme(self):
+        links = viewer_html.claim_links(self.results)
+        self.assertEqual(links, {"C01": "#run=limb_twist&frame=2&colour=ratio&claim=C01",
+                                 "C04": "#run=limb_twist&frame=3&colour=skin&claim=C04"})
+        self.assertEqual(viewer_poses.position_of([1.0, None, -3.0], "far"), 2)
+        self.assertIsNone(viewer_poses.position_of([None], max))
+
+    def test_what_is_missing_is_named(self):
+        def assert_missing(expected):
+            with self.assertRaises(records.RecordsMissing) as caught:
+                viewer_data.pack(self.results)
+            self.assertIn(expected, str(caught.exception))
+
+        (self.run / "frames" / "pbs_000001.vtu").unlink()
+        assert_missing("pbs_000001.vtu: not there")
+        (self.run / "metrics.csv").unlink()
+        assert_missing("metrics.csv: not there")
+        self.run.rename(self.results / "frames" / "another")
+        assert_missing("no frames on record")
+
+    def test_page_with_and_without_the_program(self):
+        os.environ["PBS_VIEWER_BUILD"] = str(self.results)
+        self.addCleanup(os.environ.pop, "PBS_VIEWER_BUILD")
+        with self.assertRaisesRegex(records.RecordsMissing, "npm ci"):
+            viewer_html.fragment(self.results)
+        (self.results / "viewer.js").write_text('run("</script>")')
+        page = viewer_html.fragment(self.results)
+        header = json.loads(re.search(r'id="viewer-header">(.*?)</script>', page)[1])
+        self.assertEqual(header["runs"][0]["name"], "limb_twist")
+        block = re.search(r'id="viewer-block">(.*?)</script>', page)[1]
+        self.assertEqual(gzip.decompress(base64.b64decode(block)), self.unpacked()[1])
+        self.assertEqual(page.count("</script>"), 3)
+
+
+if __name__ == "__main__":
+    unittest.main()
