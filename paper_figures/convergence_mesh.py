@@ -24,15 +24,19 @@ def of_ladder(file):
 
 def draw_measure(axes, rows, name, number, early, late):
     """Where a reference was not run beside the ladder, that is said in the panel."""
-    measured = [row for row in rows if not math.isnan(float(row[early] or "nan"))]
-    if not measured:
+    if not any(is_measured(row, early) for row in rows):
         axes.annotate(f"{name}: no reference on record", (0.5, 0.5 + 0.1 * number), xycoords="axes fraction", ha="center", fontsize=6)
         return
-    vertices = records.numbers(measured, "vertices")
-    style.draw_series(axes, number, vertices, records.numbers(measured, early), f"{name}, 24 iterations")
-    style.draw_series(axes, number, vertices, records.numbers(measured, late), f"{name}, {int(rows[0]['iterations']):,} iterations",
-                      markerfacecolor="white", linewidth=0.7)
+    last = f"{name}, {int(rows[0]['iterations']):,} iterations"
+    for column, label, look in ((early, f"{name}, 24 iterations", {}), (late, last, {"markerfacecolor": "white", "linewidth": 0.7})):
+        measured = [row for row in rows if is_measured(row, column)]
+        if measured:
+            style.draw_series(axes, number, records.numbers(measured, "vertices"), records.numbers(measured, column), label, **look)
     axes.set_yscale("log")
+
+
+def is_measured(row, column):
+    return not math.isnan(float(row[column] or "nan"))
 
 
 def draw_iterations(axes, rows, name, number):

@@ -50,7 +50,7 @@ class Entry:
                 revisions.setdefault(revision_of(run), run)
         if len(revisions) > 1:
             (first, one), (second, other) = list(revisions.items())[:2]
-            raise RecordsStale(f"stale: {one.parent} is of revision {first[:10]}, {other.parent} of {second[:10]}: run both anew")
+            raise RecordsStale(f"stale: {one.parent} is of revision {first}, {other.parent} of {second}: run both anew")
 
 
 def read():
@@ -96,4 +96,4 @@ def check_times(file, run):
 
 def revision_of(run):
     origin = records.read_json(run).get("provenance", {})
-    return origin.get("git_revision", "unknown") + (" (dirty)" if origin.get("git_dirty") else "")
+    return origin.get("git_revision", "unknown")[:10] + (" (dirty)" if origin.get("git_dirty") else "")

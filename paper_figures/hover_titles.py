@@ -3,8 +3,6 @@ under the pointer; each panel's circles in a group of class "values" that names 
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy
-from matplotlib import ticker
-from matplotlib.category import StrCategoryFormatter
 from matplotlib.collections import PathCollection
 from matplotlib.container import BarContainer
 
@@ -61,23 +59,21 @@ def circles_of(axes, label, x, y, dpi, height):
 
 
 def names_of(axis):
-    """Of places on an axis that are named, not numbered."""
-    if not isinstance(axis.get_major_formatter(), ticker.FixedFormatter | StrCategoryFormatter):
-        return {}
-    return {place: tick.get_text().replace("\n", " ") for place, tick in zip(axis.get_majorticklocs(), axis.get_ticklabels())}
+    """Of places on an axis whose ticks are no numbers of their own: methods, regions, the settings of a map."""
+    texts = {place: tick.get_text().replace("\n", " ") for place, tick in zip(axis.get_majorticklocs(), axis.get_ticklabels())}
+    return {place: text for place, text in texts.items() if text and "$" not in text and number(text) != place}
 
 
 def name_of(value, known):
-    """The name of the nearest place where places have names; the number to six digits where they are numbers."""
+    """The name of this place, or of the nearest where places have names rather than numbers; else the number to six digits."""
     place = min(known, key=lambda place: abs(place - value), default=None)
-    if place is None or abs(place - value) >= 0.5 or (is_number(known[place]) and place != value):
+    if place is None or abs(place - value) >= 0.5 or (number(known[place]) is not None and place != value):
         return f"{value:.6g}"
     return known[place]
 
 
-def is_number(text):
+def number(text):
     try:
-        float(text.replace("\N{MINUS SIGN}", "-"))
+        return float(text.replace("\N{MINUS SIGN}", "-").replace(",", ""))
     except ValueError:
-        return False
-    return True
+        return None

@@ -1,6 +1,9 @@
 # Tests of the figure scripts.
 add_test(NAME unit/paper_figures COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/figures_test.py)
 set_tests_properties(unit/paper_figures PROPERTIES LABELS unit TIMEOUT 300)
+add_test(NAME unit/paper_figures/listed COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/listed_figures_test.py)
+add_test(NAME unit/paper_figures/plots COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/plots_test.py)
+set_tests_properties(unit/paper_figures/listed unit/paper_figures/plots PROPERTIES LABELS unit TIMEOUT 300)
 add_test(NAME unit/paper_figures/viewer COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/viewer_test.py)
 set_tests_properties(unit/paper_figures/viewer PROPERTIES LABELS unit TIMEOUT 300)
 

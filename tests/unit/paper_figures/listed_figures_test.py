@@ -1,0 +1,121 @@
+"""Truth: the definition. Every figure is listed with what it needs, and none is drawn from records that are missing or do not belong
+together."""
+import contextlib
+import importlib
+import inspect
+import io
+import json
+import os
+import pathlib
+import sys
+import tempfile
+import tomllib
+import unittest
+
+root = pathlib.Path(__file__).resolve().parents[3]
+sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
+
+import entries  # noqa: E402
+import make_all  # noqa: E402
+import synthetic_records  # noqa: E402
+import synthetic_tables  # noqa: E402
+
+
+def drawn(results, only=None):
+    """Exit status of make_all, and what it said to whom it may concern."""
+    said = io.StringIO()
+    with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(said):
+        status = make_all.main(results, only)
+    return status, said.getvalue()
+
+
+class Listing(unittest.TestCase):
+    def test_every_entry_tells_what_to_see_and_has_a_script_that_draws(self):
+        claims = {claim["id"] for claim in tomllib.loads((root / "experiments" / "claims.toml").read_text())["claim"]}
+        for entry in entries.read():
+            with self.subTest(entry.name):
+                self.assertIn(entry.mark, entries.marks)
+                self.assertGreater(len(entry.caption.split()), 8)
+                self.assertTrue(entry.title and entry.records)
+                self.assertLessEqual(set(entry.claims), claims)
+                module = importlib.import_module(entry.script)
+                self.assertEqual(list(inspect.signature(module.draw).parameters), ["results", "figures"])
+                self.assertTrue(module.__doc__)
+
+    def test_every_script_that_draws_is_listed(self):
+        listed = {entry.script for entry in entries.read()}
+        for file in sorted((root / "paper_figures").glob("*.py")):
+            if "\ndef draw(results, figures):" in file.read_text():
+                self.assertIn(file.stem, listed)
+
+    def test_without_its_records_every_figure_refuses_with_the_reason(self):
+        with tempfile.TemporaryDirectory() as folder:
+            results = pathlib.Path(folder)
+            for entry in entries.read():
+                for study in entry.studies():
+                    synthetic_tables.write_origin(results / study / "run")
+            status, said = drawn(results)
+            self.assertEqual(status, 1)
+            for entry in entries.read():
+                self.assertIn(f"figures: {entry.name} not drawn: {results}", said)
+                self.assertIn(": not there", next(line for line in said.splitlines() if f" {entry.name} not" in line))
+            self.assertFalse(list(results.glob("figures/*")))
+
+
+class Staleness(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.results = pathlib.Path(folder.name)
+        synthetic_records.write_study(self.results)
+        self.volume = self.results / "volume"
+
+    def assert_stale(self, reason, name="volume_over_angle"):
+        status, said = drawn(self.results, name)
+        self.assertEqual(status, 1)
+        self.assertIn(f"{name} not drawn: stale: ", said)
+        self.assertIn(reason, said)
+        self.assertFalse((self.results / "figures" / f"{name}.png").exists())
+
+    def test_fresh_records_are_drawn(self):
+        self.assertEqual(drawn(self.results, "volume_over_angle"), (0, ""))
+
+    def test_a_figure_that_is_refused_leaves_no_old_one(self):
+        self.assertEqual(drawn(self.results, "volume_over_angle")[0], 0)
+        (self.volume / "limb_bend" / "metrics.csv").unlink()
+        status, said = drawn(self.results, "volume_over_angle")
+        self.assertEqual(status, 1)
+        self.assertIn("limb_bend/metrics.csv: not there", said)
+        self.assertFalse(list(self.results.glob("figures/volume_over_angle.*")))
+
+    def test_two_revisions_in_one_figure(self):
+        synthetic_tables.write_origin(self.volume / "limb_bend", of="f" * 40)
+        self.assert_stale(f"of revision 0123456789, {self.volume / 'limb_bend'} of ffffffffff")
+        self.assertEqual(drawn(self.results, "volume_over_clip")[0], 0)  # of one revision
+
+    def test_a_dirty_tree_is_another_revision(self):
+        run = self.volume / "limb_bend" / "run.json"
+        record = json.loads(run.read_text())
+        record["provenance"]["git_dirty"] = True
+        run.write_text(json.dumps(record))
+        self.assert_stale(f"{self.volume / 'limb_bend'} of 0123456789 (dirty)")
+
+    def test_a_run_that_its_plan_does_not_name(self):
+        (self.volume / "plan.json").write_text(json.dumps({"runs": [{"name": "limb_twist"}]}))
+        self.assert_stale("limb_bend is no run of its study's plan.json")
+
+    def test_a_table_changed_after_its_run(self):
+        table, ended_s = self.volume / "limb_twist" / "metrics.csv", (self.volume / "limb_twist" / "run.json").stat().st_mtime
+        os.utime(table, (ended_s + 30, ended_s + 30))
+        self.assertEqual(drawn(self.results, "volume_over_angle")[0], 0)
+        os.utime(table, (ended_s + 90, ended_s + 90))
+        self.assert_stale("metrics.csv was changed after its run ended")
+
+    def test_a_table_older_than_a_run_that_it_sums_up(self):
+        table, ended_s = self.volume / "regions.csv", (self.volume / "limb_twist" / "run.json").stat().st_mtime
+        os.utime(table, (ended_s - 90, ended_s - 90))
+        self.assert_stale("regions.csv is older than", "volume_by_region")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,142 @@
+"""Truth: the definition. A plot shows the rows that it says it shows, with their numbers: in the CSV behind it and under the pointer."""
+import contextlib
+import csv
+import io
+import pathlib
+import re
+import sys
+import tempfile
+import unittest
+from xml.etree import ElementTree
+
+root = pathlib.Path(__file__).resolve().parents[3]
+sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
+
+import make_all  # noqa: E402
+import style  # noqa: E402
+import synthetic_records  # noqa: E402
+import synthetic_tables  # noqa: E402
+
+svg = "{http://www.w3.org/2000/svg}"
+
+
+class Plots(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.results = pathlib.Path(folder.name)
+        style.matplotlib.rcParams["savefig.dpi"] = 60  # quick
+
+    def drawn(self, name):
+        """The rows of the CSV behind a figure."""
+        said = io.StringIO()
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(said):
+            self.assertEqual(make_all.main(self.results, name), 0, said.getvalue())
+        self.stem = self.results / "figures" / name
+        for ending in ("pdf", "png", "svg"):
+            self.assertIn(synthetic_records.revision.encode(), self.stem.with_suffix("." + ending).read_bytes())
+        with open(self.stem.with_suffix(".csv"), newline="") as stream:
+            return list(csv.DictReader(stream))
+
+    def titles(self, x_label):
+        """What the pointer shows in the panels of this x axis."""
+        page = ElementTree.parse(self.stem.with_suffix(".svg"))
+        return [title.text for group in page.iter(svg + "g") if group.get("data-x") == x_label for title in group.iter(svg + "title")]
+
+    def test_titles_of_a_line_are_its_numbers(self):
+        synthetic_records.write_study(self.results)
+        rows = [row for row in self.drawn("volume_over_angle") if row["deformer"] == "lbs" and row["scene"] == "limb_twist"]
+        shown = [title for title in self.titles("") if title.startswith("LBS: ")]  # the axis is named below
+        expected = ["LBS: {:.6g}, {:.6g}".format(float(row["angle_deg"]), float(row["volume_change_pct"])) for row in rows]
+        self.assertEqual(shown[:len(expected)], expected)
+
+    def test_titles_lie_where_matplotlib_puts_the_marks(self):
+        synthetic_records.write_study(self.results)
+        self.drawn("volume_over_clip")
+        page = self.stem.with_suffix(".svg").read_text()
+        circles = [tuple(map(float, place)) for place in re.findall(r'<circle cx="([-.\d]+)" cy="([-.\d]+)"', page)]
+        panels = page[page.index('id="axes_1"'):page.index('id="legend_1"')]
+        marks = re.findall(rf'x="([-.\d]+)" y="([-.\d]+)" style="fill: {style.blue.lower()}', panels)
+        colored = [tuple(map(float, place)) for place in marks]
+        self.assertGreater(len(colored), 10)
+        for x, y in colored:
+            self.assertLess(min(abs(x - u) + abs(y - v) for u, v in circles), 0.2)
+
+    def test_convergence(self):
+        synthetic_tables.write_convergence(self.results / "convergence")
+        rows = self.drawn("convergence_iterations")
+        self.assertEqual(len(rows), 3 * 2 * 4 * 4)  # cases, measures, starts, iterations
+        values = {(row["case"], row["start"], row["measure"], float(row["iteration"])): float(row["value"]) for row in rows}
+        self.assertEqual(values["human", "lbs", "error_joint_pct", 24.0], 60.0 / 25)
+        self.assertEqual(values["limb_twist", "rest_pose", "combined", 0.0], 3.0)
+        rows = self.drawn("convergence_mesh")
+        self.assertEqual([row["vertices"] for row in rows], ["500", "1000", "2000"] * 2)
+        self.assertIn("twist 90\u00b0, reached: 1000, 100", self.titles("vertices of the limb"))
+        self.assertIn("twist 90\u00b0, not reached: 500, 1000", self.titles("vertices of the limb"))
+
+    def test_error_parts(self):
+        synthetic_tables.write_error_parts(self.results / "work_precision")
+        rows = self.drawn("error_parts")
+        parts = {(row["part"], float(row["iterations"])): float(row["value_pct"]) for row in rows}
+        self.assertEqual(len(rows), 4 * 3)  # parts, iterations: neither another order nor another stiffness nor substeps
+        self.assertEqual(parts["solver_pct", 24.0], 1.25)
+
+    def test_sections_are_of_one_mesh_and_the_best_elements(self):
+        synthetic_tables.write_artefacts(self.results / "artefacts")
+        rows = self.drawn("section_profiles")
+        self.assertEqual(len(rows), 6 * 4 * 3)  # panels, deformers, sections
+        self.assertEqual({(row["deformer"], round(float(row["area_over_rest_pct"]), 6)) for row in rows},
+                         {("lbs", 50.0), ("dqs", 110.0), ("pbs", 100.0), ("snh_p2", 100.0)})
+        self.assertEqual([float(row["offset_cm"]) for row in rows[:3]], [-10.0, 0.0, 10.0])
+
+    def test_stability(self):
+        synthetic_tables.write_stability(self.results / "stability")
+        self.assertEqual(len(self.drawn("stability_maps")), 2 * 6)
+        shown = self.titles("iterations")
+        self.assertIn("diverged: 10, 90", shown)  # as the axes name the cell
+        self.assertIn("converged: at rest, as if undisturbed: 1, 0", shown)
+        self.assertEqual(len(shown), 6)
+        rows = self.drawn("stability_cells")
+        self.assertEqual([(row["model"], row["value"]) for row in rows], [("pbs", "10"), ("pbs", "1"), ("xpbd", "10"), ("xpbd", "1")])
+        self.assertIn("gravity: 1 g to 10 g", self.stem.with_suffix(".svg").read_text())
+
+    def test_jiggle_leaves_out_swings_that_were_not_found(self):
+        synthetic_tables.write_jiggle(self.results / "jiggle")
+        rows = [row for row in self.drawn("jiggle_response") if row["varied"] == "k_stretch"]
+        self.assertEqual([(float(row["k_stretch"]), float(row["frequency_hz"])) for row in rows], [(0.1, 10.0), (0.4, 20.0)])
+        self.assertIn("neo-Hookean FEM in time, limb: 0.1, 0.5", self.titles("k_stretch"))
+
+    def test_stiffness_is_of_answers_that_converged(self):
+        synthetic_tables.write_stiffness(self.results / "stiffness")
+        rows = [row for row in self.drawn("stiffness") if (row["body"], row["varied"], row["method"]) == ("limb", "time_step_ms", "pbs")]
+        self.assertEqual([(row["time_step_ms"], float(row["stiffness_n_m"])) for row in rows], [("5", 960.0), ("10", 240.0)])
+
+    def test_momentum(self):
+        synthetic_tables.write_momentum(self.results / "momentum")
+        rows = self.drawn("momentum_drift")
+        self.assertEqual(len(rows), 2 * 3 * 3 * 2 * 2)  # bodies, masses, classes, momenta, precisions: not what a pass does
+        self.assertEqual({row["drift"] for row in rows if row["constraints"] == "volume" and row["masses"].endswith("m = 1)")}, {"0.25"})
+        self.assertIn("limb, f32: 0.25, stretch, unequal, Eq. 8\u20139", self.titles("change over the momentum exchanged [1]"))
+
+    def test_regions(self):
+        synthetic_records.write_study(self.results)
+        self.drawn("volume_by_region")
+        self.assertIn("LBS: -1, spine\u2013chest", self.titles("change [% of the body's volume]"))
+
+    def test_timing(self):
+        synthetic_tables.write_timing(self.results / "timing")
+        self.drawn("timing_sizes")
+        shown = self.titles("vertices")
+        self.assertIn("ordered, f32: 20000, 2.5", shown)
+        self.assertIn("paper, by frame rate: 1654, 11", shown)
+        self.assertIn("paper, by CT: 1654, 0.52", shown)
+
+    def test_costs_of_features(self):
+        synthetic_tables.write_features(self.results / "features")
+        self.assertEqual(len(self.drawn("features_cost")), 3)
+        shown = self.titles("a frame's processor time, with over without [1]")
+        self.assertEqual(shown, ["limb: 0.5, sleep", "human: 0.5, sleep", "human: 1.5, rendered surface"])
+
+
+if __name__ == "__main__":
+    unittest.main()
