@@ -39,18 +39,28 @@ def picture(frames, frame, stage, font):
     return page
 
 
+def draw_clip(file, frames, origin):
+    font = ImageFont.truetype(matplotlib.font_manager.findfont("DejaVu Sans"), 13)
+    stage, times_s = rendering.Stage(*pixels, background=rendering.paper), frames.times_s()
+    pages = [picture(frames, frame, stage, font) for frame in range(len(times_s))]
+    file.parent.mkdir(parents=True, exist_ok=True)
+    step_ms = round(1000 * (times_s[-1] - times_s[0]) / (len(times_s) - 1))
+    pages[0].save(file, save_all=True, append_images=pages[1:], duration=step_ms, loop=0, quality=80,
+                  xmp=xmp.format(source=style.source_of(origin), rights=origin["rights"]).encode())
+
+
+def draw_still(frames):
+    stage = rendering.Stage(*(2 * size for size in pixels), background=rendering.paper)
+    figure, axes = style.panels(1, len(deformers), height_in=3.6)
+    for panel, label in zip(axes[0], deformers):
+        style.show(panel, stage.shot([bodies.skin(frames.skin(label, still))], camera(frames, still)), words(frames, label, still))
+    return figure
+
+
 def draw(results, figures):
     frames = recorded_frames.Frames(results, scene)
-    font = ImageFont.truetype(matplotlib.font_manager.findfont("DejaVu Sans"), 13)
-    stage = rendering.Stage(*pixels, background=rendering.paper)
-    times_s = frames.times_s()
-    pages = [picture(frames, frame, stage, font) for frame in range(len(times_s))]
     origin = recorded_frames.origin_of(frames)
-    figures.mkdir(parents=True, exist_ok=True)
-    step_ms = round(1000 * (times_s[-1] - times_s[0]) / (len(times_s) - 1))
-    pages[0].save(figures / "clip_jump.webp", save_all=True, append_images=pages[1:], duration=step_ms, loop=0, quality=80,
-                  xmp=xmp.format(source=style.source_of(origin), rights=origin["rights"]).encode())
-    figure, axes = style.panels(1, 1, height_in=style.page_in * pages[0].height / pages[0].width, width_in=style.page_in)
-    style.show(axes[0, 0], numpy.array(pages[still]))
-    behind = [frames.row(label, frame) for label in deformers for frame in range(len(times_s))]
-    style.save(figure, figures / "clip_jump", origin, style.columns_of(behind, "volume_change_pct", "inverted_tets", "min_section_pct"))
+    draw_clip(figures / "clip_jump.webp", frames, origin)
+    behind = [frames.row(label, frame) for label in deformers for frame in range(len(frames.times_s()))]
+    style.save(draw_still(frames), figures / "clip_jump", origin,
+               style.columns_of(behind, "volume_change_pct", "inverted_tets", "min_section_pct"))

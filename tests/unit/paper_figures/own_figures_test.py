@@ -1,0 +1,129 @@
+"""Truth: the definition. The paper's own figures show what the frames on record hold, say whose body and motion it is, and refuse without."""
+import csv
+import importlib
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import numpy
+
+root = pathlib.Path(__file__).resolve().parents[3]
+sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
+
+import entries  # noqa: E402
+import fig_06_constraints  # noqa: E402
+import recorded_frames  # noqa: E402
+import records  # noqa: E402
+import synthetic_frames  # noqa: E402
+import table_1_timing  # noqa: E402
+
+own = [entry for entry in entries.read() if entry.script.startswith(("fig_", "table_", "clip_"))]
+
+
+class OwnFigures(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.results = pathlib.Path(folder.name)
+
+    def frames(self, scene="limb_bend"):
+        synthetic_frames.write_frames(self.results, scene, frames=10)
+        (self.results / "frames" / scene / "binding.csv").write_text(
+            "vertex,bone,parameter,rest_distance_m,blended,jiggles\n1,forearm,0.5,0.2,0,0\n0,upper,0.25,0.1,0,0\n2,forearm,1.5,0.3,1,1\n")
+        return recorded_frames.Frames(self.results, scene)
+
+    def assert_missing(self, expected, action):
+        with self.assertRaises(records.RecordsMissing) as caught:
+            action()
+        self.assertIn(expected, str(caught.exception))
+
+    def test_every_own_figure_is_listed_and_refuses_without_records(self):
+        names = {entry.name for entry in own}
+        self.assertEqual(names, {file.stem for kind in ("fig_*", "table_*", "clip_*") for file in (root / "paper_figures").glob(kind + ".py")})
+        self.assertEqual(sorted(name[:6] for name in names if name.startswith("fig_")), [f"fig_{number:02}" for number in range(1, 11)])
+        for entry in own:
+            with self.subTest(entry.name):
+                self.assert_missing("not there", lambda: importlib.import_module(entry.script).draw(self.results, self.results / "figures"))
+                self.assertFalse((self.results / "figures").exists())
+
+    def test_projections_lie_on_the_posed_bone_within_its_ends(self):
+        found = self.frames().projections(3)  # bones upper from x = 0 to 1 and forearm from 1 to 2, at z = 3
+        self.assertEqual(found.tolist(), [[0.25, 0, 3], [1.5, 0, 3], [2, 0, 3]])
+
+    def test_rows_and_files_are_found_by_label_and_frame(self):
+        frames = self.frames()
+        self.assertEqual(frames.frame_at_angle(70), 7)
+        self.assertEqual(frames.row("pbs", 7)["min_section_pct"], "93")
+        self.assertEqual(frames.skin("lbs", 2), frames.tets("lbs", 2))  # no rendered surface: the tets' boundary
+        self.assert_missing("lbs_000099.vtu: not there", lambda: frames.tets("lbs", 99))
+        self.assert_missing("no deformer labelled pbs_jiggle", lambda: frames.row("pbs_jiggle", 1))
+        self.assert_missing("bones.csv: no frame 99", lambda: frames.bones(99))
+
+    def test_heading_is_forward_along_the_floor(self):
+        bones = [recorded_frames.Bone("hip.L", None, numpy.array([0, 1, -1.0])), recorded_frames.Bone("hip.R", None, numpy.array([0, 0.5, 1.0]))]
+        forward, left = recorded_frames.heading_of(bones)
+        numpy.testing.assert_allclose(left, [0, 0, -1])
+        numpy.testing.assert_allclose(forward, [1, 0, 0])  # left x up
+
+    def test_licences_are_those_of_what_is_shown(self):
+        file = self.results / "frames" / "limb_bend" / "run.json"
+        self.assertEqual(recorded_frames.licences_of(self.frames()), [])
+        record = json.loads(file.read_text())
+        record["scene"] |= {"character": {"body": "human"}, "motion": {"clip": "01_03.bvh"}}
+        record["provenance"] = {"git_revision": "abc"}
+        file.write_text(json.dumps(record))
+        origin = recorded_frames.origin_of(recorded_frames.Frames(self.results, "limb_bend"))
+        self.assertIn("MakeHuman, CC0", origin["rights"])
+        self.assertIn("motion 01_03: CMU", origin["rights"])
+        self.assertEqual((origin["git_revision"], origin["scenes"]), ("abc", {"limb_bend": records.scene_hash(record)}))
+        self.assertNotEqual(records.scene_hash(record), records.scene_hash(record | {"scene": {}}))
+
+    def test_a_tets_lengths_and_volume(self):
+        self.frames()
+        figures = self.results / "figures"
+        fig_06_constraints.draw(self.results, figures)
+        with open(figures / "fig_06_constraints.csv", newline="") as stream:
+            rows = {row["state"]: row for row in csv.DictReader(stream)}
+        growth = 1 + 0.1 * synthetic_frames.labels["pbs"] * 9
+        self.assertEqual(rows["rest"]["tet"], "1")  # points 2 to 5: the one that the records call squeezed most
+        self.assertAlmostEqual(float(rows["rest"]["volume_cm3"]), 1e6 / 3)
+        self.assertAlmostEqual(float(rows["pbs"]["volume_cm3"]), growth ** 3 * 1e6 / 3, places=3)
+        self.assertAlmostEqual(float(rows["rest"]["length_12_mm"]), 1000 * 2 ** 0.5)
+        self.assertAlmostEqual(float(rows["pbs"]["length_34_mm"]), 1000 * growth * 2 ** 0.5, places=6)
+
+    def write_timing(self, orders=table_1_timing.orders):
+        folder = self.results / "timing"
+        folder.mkdir(exist_ok=True)
+        (folder / "run.json").write_text(json.dumps({"provenance": {"git_revision": "abc"}}))
+        columns = ["mesh", "body", "model", "stands_in", "vertices", "edges", "tets", "vertices_over_table_1", "edges_over_table_1",
+                   "tets_over_table_1", "variant", "precision", "total_ms", "frames_per_s", "paper_frames_per_s", "paper_ms", "paper_ct_ms",
+                   "cpu_model"]
+        with open(folder / "timing.csv", "w", newline="") as stream:
+            table = csv.writer(stream)
+            table.writerow(columns)
+            for mesh, model, stands_in in (("human_1", "Man", 1), ("man_1", "Man", 0), ("human_9", "-", 0)):
+                for order, precision in orders:
+                    table.writerow([mesh, mesh[:-2], model, stands_in, 200, 600, 400, 0.5, 0.75, 0.8, order, precision,
+                                    4.0 if order == "plain" else 0.5, 250, 90.5, 11.05, 0.52, "a processor"])
+
+    def test_table_1_shows_the_papers_own_body_and_the_counts_it_prints(self):
+        self.write_timing()
+        figures = self.results / "figures"
+        table_1_timing.draw(self.results, figures)
+        with open(figures / "table_1_timing.csv", newline="") as stream:
+            row, = csv.DictReader(stream)
+        self.assertEqual((row["mesh"], row["vertices"], row["edges"], row["tets"]), ("man", "400 / 200", "800 / 600", "500 / 400"))
+        self.assertEqual((row["paper_ms"], row["paper_ct_ms"], row["plain_f64_ms"], row["ordered_f32_ms"]), ("11.1", "0.52", "4.00", "0.50"))
+        text = (figures / "table_1_timing.tex").read_text()
+        self.assertIn("Man & man & 400 / 200 & 800 / 600 & 500 / 400 & 90.5 ", text)
+        self.assertIn("a processor", text)
+
+    def test_table_1_refuses_half_a_timing(self):
+        self.write_timing(orders=table_1_timing.orders[:1])
+        self.assert_missing("not timed in plain f64 and ordered f32", lambda: table_1_timing.draw(self.results, self.results / "figures"))
+
+
+if __name__ == "__main__":
+    unittest.main()
