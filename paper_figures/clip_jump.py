@@ -50,10 +50,13 @@ def draw_clip(file, frames, origin):
 
 
 def draw_still(frames):
-    stage = rendering.Stage(*(2 * size for size in pixels), background=rendering.paper)
-    figure, axes = style.panels(1, len(deformers), height_in=3.6)
+    stage = rendering.Stage(700, 800, background=rendering.paper)
+    low, high = rendering.bounds_of(frames.skin("snh_p1", still))
+    view = rendering.Camera((low + high) / 2, 0.78, direction)
+    figure, axes = style.panels(1, len(deformers), height_in=3.0)
     for panel, label in zip(axes[0], deformers):
-        style.show(panel, stage.shot([bodies.skin(frames.skin(label, still))], camera(frames, still)), words(frames, label, still))
+        name, facts = words(frames, label, still).split("\n")
+        style.show(panel, stage.shot([bodies.skin(frames.skin(label, still))], view), name, facts)
     return figure
 
 

@@ -13,7 +13,7 @@ import sys
 import entries
 import records
 
-endings = ("pdf", "png", "svg", "csv", "webp", "mp4", "values.json")
+endings = ("pdf", "png", "svg", "csv", "tex", "webp", "mp4", "values.json")
 
 
 def delete(name, folder):
