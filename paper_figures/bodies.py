@@ -11,6 +11,7 @@ from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkFiltersSources import vtkLineSource, vtkSphereSource
 from vtkmodules.vtkRenderingCore import vtkPolyDataMapper
 
+import records
 import rendering
 
 bone_color, flesh_color, edge_color = (0.15, 0.15, 0.15), (0.80, 0.55, 0.47), (0.25, 0.2, 0.2)
@@ -33,7 +34,10 @@ def points_of(file):
 
 
 def rest_positions_of(file):
-    return vtk_to_numpy(rendering.read(file).GetPointData().GetArray("rest_position"))
+    array = rendering.read(file).GetPointData().GetArray("rest_position")
+    if array is None:
+        raise records.RecordsMissing(f"{file}: no rest_position at its points")
+    return vtk_to_numpy(array)
 
 
 def at_rest(file):

@@ -1,5 +1,5 @@
-"""The paper's Fig. 4 and the rule of Eq. 2, drawn from the records: end points s_j and d_j of a bone, a vertex's projection on it, and which
-vertices were blended, over their parameter on the nearest bone."""
+"""The paper's Fig. 4 and the rule of Eq. 2, drawn from the records: end points s_j and d_j of a bone, a vertex's projection on it, and
+which vertices were blended, over their parameter on the nearest bone."""
 import numpy
 
 import bodies
@@ -50,7 +50,8 @@ def draw_rule(panel, frames):
     for blended, (label, color, marker) in kinds.items():
         rows = [row for row in binding if row["blended"] == blended]
         x, y = ([float(row[name]) for row in rows] for name in ("parameter", "rest_distance_m"))
-        panel.plot(x, 1000 * numpy.array(y), linestyle="", marker=marker, color=color, markersize=1.6, label=f"human's vertices on {label}: {len(rows)}" if blended == "0" else f"{label}: {len(rows)}")
+        named = f"human's vertices {'on ' if blended == '0' else ''}{label}: {len(rows)}"
+        panel.plot(x, 1000 * numpy.array(y), linestyle="", marker=marker, color=color, markersize=1.6, label=named)
     panel.set(xlabel="place of its projection from $s_j$ (0) to $d_j$ (1) [1]", ylabel="distance to the bone [mm]", xlim=(-0.25, 1.75))
     panel.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)
 

@@ -88,6 +88,11 @@ def draw_lengths(panel, corners):
     panel.legend(loc="upper right", ncol=1, handletextpad=0.2)
 
 
+def numbers_of(corners):
+    lengths = {f"length_{one + 1}{other + 1}_mm": length for (one, other), length in zip(edges, lengths_mm(corners))}
+    return {"volume_cm3": volume_cm3(corners), **lengths}
+
+
 def one_scale(panels):
     """The same length is as long in every panel."""
     half = max(abs(numpy.array([*panel.get_xlim(), *panel.get_ylim()])).max() for panel in panels)
@@ -105,6 +110,5 @@ def draw(results, figures):
         draw_tet(panel, state, corners[state], corners["rest"], title)
     one_scale(axes[0][:3])
     draw_lengths(axes[0, 3], corners)
-    behind = [{"scene": scene, "frame": frame, "tet": tet, "state": state, "volume_cm3": volume_cm3(corners[state]),
-               **{f"length_{one + 1}{other + 1}_mm": length for (one, other), length in zip(edges, lengths_mm(corners[state]))}} for state in states]
+    behind = [{"scene": scene, "frame": frame, "tet": tet, "state": state, **numbers_of(corners[state])} for state in states]
     style.save(figure, figures / "fig_06_constraints", recorded_frames.origin_of(frames), behind)

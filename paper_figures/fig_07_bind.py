@@ -1,5 +1,5 @@
-"""The paper's Fig. 7, drawn from the records: a vertex, its projection on the bone, and the distance that the bind constraint keeps; at rest,
-and in the bent limb after LBS and after PBS."""
+"""The paper's Fig. 7, drawn from the records: a vertex, its projection on the bone, and the distance that the bind constraint keeps; at
+rest, and in the bent limb after LBS and after PBS."""
 import numpy
 
 import bodies
@@ -48,7 +48,8 @@ def draw(results, figures):
     vertex = chosen_vertex(frames, posed)
     feet = {0: frames.projections(0)[vertex], frame: frames.projections(frame)[vertex]}
     figure, axes = style.panels(1, 3, height_in=2.3)
-    shown = ((rest, 0, "$p_i$", style.black, "o", "lbs", "at rest"), (posed["lbs"], frame, "$p_{i,LBS}$", style.vermillion, "v", "lbs", "after LBS"),
+    shown = ((rest, 0, "$p_i$", style.black, "o", "lbs", "at rest"),
+             (posed["lbs"], frame, "$p_{i,LBS}$", style.vermillion, "v", "lbs", "after LBS"),
              (posed["pbs"], frame, "$p_{i,PBD}$", style.blue, "s", "pbs", "after PBS"))
     for panel, (points, at, text, color, marker, label, title) in zip(axes[0], shown):
         draw_state(panel, frames, label, at)

@@ -29,8 +29,7 @@ class Frames:
 
     def skin(self, label, frame):
         """The rendered surface; the built-in bodies have none but their tets' boundary."""
-        surface = self.folder / "frames" / f"{label}_surface_{frame:06}.vtp"
-        return surface if surface.is_file() else self.tets(label, frame)
+        return self.tets(label, frame) if self.body in ("limb", "bar") else self._file(f"{label}_surface_{frame:06}.vtp")
 
     def row(self, label, frame):
         if label not in self.deformers:

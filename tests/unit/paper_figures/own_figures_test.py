@@ -41,7 +41,8 @@ class OwnFigures(unittest.TestCase):
 
     def test_every_own_figure_is_listed_and_refuses_without_records(self):
         names = {entry.name for entry in own}
-        self.assertEqual(names, {file.stem for kind in ("fig_*", "table_*", "clip_*") for file in (root / "paper_figures").glob(kind + ".py")})
+        scripts = {file.stem for kind in ("fig_*.py", "table_*.py", "clip_*.py") for file in (root / "paper_figures").glob(kind)}
+        self.assertEqual(names, scripts)
         self.assertEqual(sorted(name[:6] for name in names if name.startswith("fig_")), [f"fig_{number:02}" for number in range(1, 11)])
         for entry in own:
             with self.subTest(entry.name):
@@ -61,8 +62,14 @@ class OwnFigures(unittest.TestCase):
         self.assert_missing("no deformer labelled pbs_jiggle", lambda: frames.row("pbs_jiggle", 1))
         self.assert_missing("bones.csv: no frame 99", lambda: frames.bones(99))
 
+    def test_a_real_body_has_a_rendered_surface(self):
+        frames = self.frames()
+        frames.body = "human"
+        self.assert_missing("lbs_surface_000002.vtp: not there", lambda: frames.skin("lbs", 2))
+
     def test_heading_is_forward_along_the_floor(self):
-        bones = [recorded_frames.Bone("hip.L", None, numpy.array([0, 1, -1.0])), recorded_frames.Bone("hip.R", None, numpy.array([0, 0.5, 1.0]))]
+        tails = {"hip.L": [0, 1, -1.0], "hip.R": [0, 0.5, 1.0]}
+        bones = [recorded_frames.Bone(name, None, numpy.array(tail)) for name, tail in tails.items()]
         forward, left = recorded_frames.heading_of(bones)
         numpy.testing.assert_allclose(left, [0, 0, -1])
         numpy.testing.assert_allclose(forward, [1, 0, 0])  # left x up

@@ -1,5 +1,5 @@
-"""Truth: the definition. A still shows tets in the colours of its bar, hides nothing that stands before it, and a clip plays at the records'
-speed. Needs a display: xvfb-run gives one."""
+"""Truth: the definition. A still shows tets in the colours of its bar, hides nothing that stands before it, and a clip plays at the
+records' speed. Needs a display: xvfb-run gives one."""
 import pathlib
 import sys
 import tempfile
