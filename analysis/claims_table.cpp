@@ -14,8 +14,12 @@
 namespace analysis {
 namespace {
 
-constexpr std::array all_kinds = {VerdictKind::reproduced,           VerdictKind::reproduced_only_for,   VerdictKind::not_reproduced,
-                                  VerdictKind::inconsistent_in_print, VerdictKind::cannot_be_tested_here, VerdictKind::not_computable};
+constexpr std::array all_kinds = {VerdictKind::reproduced,
+                                  VerdictKind::reproduced_only_for,
+                                  VerdictKind::not_reproduced,
+                                  VerdictKind::inconsistent_in_print,
+                                  VerdictKind::cannot_be_tested_here,
+                                  VerdictKind::not_computable};
 
 const char* colour_of(VerdictKind kind)
 {
@@ -70,7 +74,8 @@ std::string found_text(const Verdict& verdict)
     if (text.starts_with(label(verdict.kind))) text.erase(0, label(verdict.kind).size());
     text.erase(0, std::min(text.find_first_not_of(": "), text.size()));
     for (const char* part : {"; not for ", "; farthest: ", "; beside it: "})
-        if (const std::size_t place = text.find(part); place != std::string::npos) text = text.substr(0, place) + '\n' + text.substr(place + 2);
+        if (const std::size_t place = text.find(part); place != std::string::npos)
+            text = text.substr(0, place) + '\n' + text.substr(place + 2);
     return verdict.measured.empty() ? text : verdict.measured + "\n" + text;
 }
 
@@ -98,8 +103,7 @@ std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width
 {
     const Layout layout = layout_of(verdicts, width);
     const std::size_t whole = std::max<std::size_t>(width, 60);
-    std::string table = side_by_side(
-        {{"", layout.id}, {"verdict", layout.verdict}, {"claim", layout.statement}, {"found", layout.found}});
+    std::string table = side_by_side({{"", layout.id}, {"verdict", layout.verdict}, {"claim", layout.statement}, {"found", layout.found}});
     table += std::string(whole, '-') + "\n";
     for (const Verdict& verdict : verdicts)
         table += side_by_side({{verdict.claim.id, layout.id},

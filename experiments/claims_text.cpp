@@ -17,26 +17,43 @@ const std::vector<analysis::Claim>& claims()
 
 namespace {
 
-std::string measure_of(const analysis::Claim& claim)
+using Lines = std::vector<std::pair<std::string, std::string>>;
+
+Lines measured_quantities(const analysis::Claim& claim)
 {
-    if (claim.rule == analysis::ClaimRule::untestable) return "  why not  " + claim.reason;
-    if (claim.rule == analysis::ClaimRule::printed) return "  measured by the paper's own figures, each against what the others ask for";
-    if (claim.rule != analysis::ClaimRule::measured)
-        return fmt::format("  measured {} of {}{}\n  expected {}", fmt::join(claim.metrics, ", "), claim.deformer,
-                           claim.iterations > 0 ? fmt::format(" at {} iterations", claim.iterations) : "", analysis::expected_text(claim));
-    std::string text = "  measured, each figure's interval within its bound:";
+    std::vector<std::string> quantities;
     for (const std::string& quantity : claim.metrics)
-        text += fmt::format("\n             {}: {}", quantity, analysis::bound_text(analysis::bound_of(claim, quantity)));
-    for (const std::string& quantity : claim.beside) text += fmt::format("\n    beside   {}", quantity);
-    return text;
+        quantities.push_back(fmt::format("{}: {}", quantity, analysis::bound_text(analysis::bound_of(claim, quantity))));
+    return {{"expected", fmt::format("of each figure its interval within the bound:\n{}", fmt::join(quantities, "\n"))},
+            {"beside", fmt::format("{}", fmt::join(claim.beside, "\n"))}};
+}
+
+Lines measure_of(const analysis::Claim& claim)
+{
+    switch (claim.rule) {
+        case analysis::ClaimRule::untestable:
+            return {{"why not", claim.reason}};
+        case analysis::ClaimRule::printed:
+            return {{"measured", "the paper's own figures, each against what its others ask for"}};
+        case analysis::ClaimRule::measured:
+            return measured_quantities(claim);
+        default:
+            break;
+    }
+    const std::string iterations = claim.iterations > 0 ? fmt::format(" at {} iterations", claim.iterations) : "";
+    return {{"measured", fmt::format("{} of {}{}", fmt::join(claim.metrics, ", "), claim.deformer, iterations)},
+            {"expected", analysis::expected_text(claim)}};
 }
 
 }  // namespace
 
-std::string describe_claim(const analysis::Claim& claim)
+Lines claim_lines(const analysis::Claim& claim)
 {
-    return fmt::format("{} (claim)\n  claim    {} ({})\n  study    {}, some {:g} minutes\n{}", claim.id, claim.statement, claim.place,
-                       claim.study, claim.cost_minutes, measure_of(claim));
+    Lines lines = {{"claim", claim.statement}, {"where", claim.place}};
+    if (claim.rule != analysis::ClaimRule::untestable)
+        lines.emplace_back("study", fmt::format("{}, about {:g} min", claim.study, claim.cost_minutes));
+    for (auto& line : measure_of(claim)) lines.push_back(std::move(line));
+    return lines;
 }
 
 }  // namespace experiments

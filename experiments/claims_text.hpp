@@ -3,9 +3,15 @@
 
 #include "analysis/claims.hpp"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace experiments {
 
 const std::vector<analysis::Claim>& claims();
-std::string describe_claim(const analysis::Claim& claim);  // a few lines for the terminal
+
+// What is claimed, where it is measured and what is expected, for `explain`: label and text.
+std::vector<std::pair<std::string, std::string>> claim_lines(const analysis::Claim& claim);
 
 }  // namespace experiments

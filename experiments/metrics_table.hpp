@@ -11,4 +11,6 @@ struct MetricText {
 };
 const std::vector<MetricText>& metric_texts();
 
+std::vector<std::string> symbols_of(const MetricText& metric);  // of its formula, each "name: what it is"
+
 }  // namespace experiments

@@ -135,7 +135,8 @@ bool tell_verdicts(std::vector<analysis::Verdict> verdicts, const std::string& f
     analysis::write_text_atomically((fs::path(folder) / "claims.json").string(), analysis::claims_json(verdicts).dump(2) + "\n");
     analysis::write_text_atomically((fs::path(folder) / "claims.md").string(), analysis::claims_markdown(verdicts));
     fmt::print("{}each case's figures: {}\nall on one page: pbskin report {}\n",
-               analysis::claims_table(verdicts, terminal_width(), terminal_has_colours()), (fs::path(folder) / "claims.md").string(), folder);
+               analysis::claims_table(verdicts, terminal_width(), terminal_has_colours()), (fs::path(folder) / "claims.md").string(),
+               folder);
     return std::none_of(verdicts.begin(), verdicts.end(),
                         [](const auto& verdict) { return verdict.kind == analysis::VerdictKind::not_computable; });
 }

@@ -217,9 +217,9 @@ std::string SceneKey::rule() const
                                             "three numbers", "a list of numbers", "a list of texts", "a list of integers"};
     std::string words = fmt::format("expected {}", names[static_cast<int>(type)]);
     if (lowest == above_zero)
-        words += fmt::format(" > 0 and <= {:g}", highest);
+        words += highest < infinite ? fmt::format(" > 0 and <= {:.10g}", highest) : " > 0";
     else if (lowest > -infinite && highest < infinite)
-        words += fmt::format(" from {:g} to {:g}", lowest, highest);
+        words += fmt::format(" from {:.10g} to {:.10g}", lowest, highest);
     else if (lowest > -infinite)
         words += fmt::format(" >= {:g}", lowest);
     return words;

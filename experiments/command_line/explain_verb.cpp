@@ -1,4 +1,5 @@
 // pbskin explain NAME: what a metric, claim, scene key or study means.
+#include "analysis/text_columns.hpp"
 #include "experiments/claims_text.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/deformers/registry.hpp"
@@ -6,17 +7,29 @@
 #include "experiments/scene.hpp"
 #include "experiments/scene_schema.hpp"
 #include "experiments/studies/study.hpp"
+#include "experiments/terminal.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/nearest_name.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 namespace experiments {
 namespace {
 
-void line(const char* label, const std::string& text)
+// Label and text, the text wrapped beside the label.
+void line(const std::string& label, const std::string& text)
 {
-    if (!text.empty()) fmt::print("  {:<8} {}\n", label, text);
+    constexpr std::size_t label_width = 8, least = 30;
+    const std::size_t width = std::max(terminal_width(), label_width + 4 + least) - label_width - 4;
+    if (!text.empty()) fmt::print("{}", analysis::side_by_side({{"", 0}, {label, label_width}, {text, width}}));
+}
+
+std::string lines_of(std::vector<std::string> texts)
+{
+    return fmt::format("{}", fmt::join(texts, "\n"));
 }
 
 bool explain_key(const std::string& name)
@@ -41,6 +54,7 @@ bool explain_metric(const std::string& name)
         fmt::print("{} (metric)\n", text.name);
         line("meaning", text.meaning);
         line("formula", text.formula);
+        line("", lines_of(symbols_of(text)));
         line("unit", text.unit);
         line("source", text.source);
         line("cost", text.cost);
@@ -53,7 +67,8 @@ bool explain_claim(const std::string& name)
 {
     for (const auto& claim : claims()) {
         if (claim.id != name) continue;
-        fmt::print("{}\n", describe_claim(claim));
+        fmt::print("{} (claim)\n", claim.id);
+        for (const auto& [label, text] : claim_lines(claim)) line(label, text);
         return true;
     }
     return false;
@@ -74,8 +89,12 @@ bool explain_study(const std::string& name)
 
 bool explain_deformer_or_scene(const std::string& name)
 {
-    for (const auto& kind : deformer_kinds())
-        if (kind.kind == name) return fmt::print("{} (deformer)\n  {}\n", kind.kind, kind.meaning), true;
+    for (const auto& kind : deformer_kinds()) {
+        if (kind.kind != name) continue;
+        fmt::print("{} (deformer)\n", kind.kind);
+        line("meaning", kind.meaning);
+        return true;
+    }
     for (const auto& scene : built_in_scenes())
         if (scene.name == name) return fmt::print("{} (scene)\n  {}\n\n{}", scene.name, scene.meaning, scene.text), true;
     return false;

@@ -44,6 +44,13 @@ class CommandLine(program.ProgramTest):
     def test_explains_scene_keys(self):
         self.assertIn("0 leaves the class out", self.succeeds("explain", "k_volume").stdout)
 
+    def test_explains_a_formula_with_its_symbols_within_the_terminals_width(self):
+        text = self.succeeds("explain", "error_joint_pct", env={**os.environ, "COLUMNS": "100"}).stdout
+        self.assertIn("  formula   100 sqrt(sum_i m_i |x_i - xref_i|^2 / sum_i m_i) / (sum_i m_i d_i / sum_i m_i)\n            x_i: ", text)
+        for name in ("error_joint_pct", "work_precision", "C09", "fem"):
+            text = self.succeeds("explain", name, env={**os.environ, "COLUMNS": "60"}).stdout
+            self.assertLessEqual(max(map(len, text.splitlines())), 60)
+
     def test_unknown_name(self):
         self.refuses("nearest known one is C02", "explain", "C2")
 

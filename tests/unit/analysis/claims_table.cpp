@@ -38,7 +38,8 @@ std::vector<Verdict> three_verdicts()
     other.rule = ClaimRule::untestable;
     other.reason = "no figures";
     Records timed;
-    timed.measurements = {{"C02", "frames a second", "man, plain", 60, 59, 61, "1/s"}, {"C02", "frames a second", "giant, plain", 9, 8, 10, "1/s"}};
+    timed.measurements = {{"C02", "frames a second", "man, plain", 60, 59, 61, "1/s"},
+                          {"C02", "frames a second", "giant, plain", 9, 8, 10, "1/s"}};
     return {judge(claim, {.cases = {walk}}), judge(measured, timed), judge(other, {})};
 }
 
@@ -68,8 +69,9 @@ TEST(ClaimsTable, ColumnsBeginAtTheSamePlace)
 TEST(ClaimsTable, SaysWhatWasFoundForWhomAndHowMany)
 {
     const std::string text = claims_table(three_verdicts(), 160, false);
-    for (const char* part : {"reproduced", "1 of 2 figures within", "man", "not for giant", "farthest: frames a second of giant", "cannot be",
-                             "no figures", "expected: 30 or more", "3 claims: 1 reproduced only for some, 1 not reproduced, 1 cannot be tested here"})
+    for (const char* part :
+         {"reproduced", "1 of 2 figures within", "man", "not for giant", "farthest: frames a second of giant", "cannot be", "no figures",
+          "expected: 30 or more", "3 claims: 1 reproduced only for some, 1 not reproduced, 1 cannot be tested here"})
         EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
