@@ -26,6 +26,9 @@ paper = (1.0, 1.0, 1.0)  # background of stills without a colour scale whose mid
 view_direction = numpy.array([0.45, 0.12, 1.0])  # from the body to the camera; y is up
 
 
+kept = []  # the first window, to the end: xvfb starts over when its last client leaves, and turns away who comes in that moment
+
+
 @dataclass(frozen=True)
 class Camera:
     """Parallel projection; direction from the body to the camera, half of the still's height [m]."""
@@ -55,6 +58,8 @@ class Stage:
         self.window.SetMultiSamples(8)
         self.window.SetSize(width_px, height_px)
         self.window.AddRenderer(self.renderer)
+        if not kept:
+            kept.append(self.window)
 
     def picture(self, file, center, half_height_m):
         """The frame as an RGB array: skin smooth-shaded (.vtp), tets coloured by their volume ratio (.vtu)."""
