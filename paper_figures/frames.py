@@ -1,5 +1,5 @@
-"""Stills of the human under LBS, PBS and FEM at the recorded frames: the skin, and the tets coloured by their volume ratio. Under each
-stand the inverted tets and the smallest limb cross-section (100 %: as at rest)."""
+"""Stills of the human jumping under LBS, PBS and neo-Hookean finite elements: the skin, and the tets coloured by their volume ratio. Under
+each stand the inverted tets and the smallest limb cross-section (100 %: as at rest)."""
 import numpy
 
 import records
@@ -37,13 +37,14 @@ def half_height_of(boxes):
     return 0.54 * max(height_m, width_m * pixels[1] / pixels[0])
 
 
-def names_of(run):
-    """frame -> what it shows, as the scene names it."""
-    output = run.record.get("scene", {}).get("output", {})
-    return dict(zip(output.get("frames", []), output.get("frame_names", [])))
+def evenly(frames):
+    """As many as are shown, from the first to the last."""
+    if len(frames) <= most_stills:
+        return frames
+    return [frames[number * (len(frames) - 1) // (most_stills - 1)] for number in range(most_stills)]
 
 
-def draw_stills(rows, files, frames, names, file_of, colour_bar):
+def draw_stills(rows, files, frames, file_of, colour_bar):
     """Deformers down, frames across; all through one camera that follows the LBS body."""
     stage = rendering.Stage(*pixels)
     boxes = {frame: rendering.bounds_of(files["lbs"][frame]) for frame in frames}
@@ -57,8 +58,7 @@ def draw_stills(rows, files, frames, names, file_of, colour_bar):
             panel.grid(False)
         panels[0].set_ylabel(style.look_of(deformer).label, fontsize=8)
     for panel, frame in zip(axes[0], frames):
-        time = f"{float(rows['lbs'][frame]['time_s']):.2f} s"
-        panel.set_title(f"{names[frame]}, {time}" if frame in names else time)
+        panel.set_title(f"{float(rows['lbs'][frame]['time_s']):.2f} s")
     if colour_bar:
         shades = style.matplotlib.cm.ScalarMappable(rendering.ratio_scale, rendering.ratio_colors)
         bar = figure.colorbar(shades, ax=axes, location="bottom", shrink=0.5, aspect=40, extend="both", pad=0.01)
@@ -67,17 +67,17 @@ def draw_stills(rows, files, frames, names, file_of, colour_bar):
 
 
 def draw(results, figures):
-    run = records.Run(results / "volume" / "human_01_01")
+    run = records.Run(results / "frames" / "human_jump")
     deformers = ["lbs", "pbs", run.reference()]
     files = {deformer: files_of(run, deformer) for deformer in deformers}
-    frames = sorted(set.intersection(*(set(found) for found in files.values())))[:most_stills]
+    frames = evenly(sorted(set.intersection(*(set(found) for found in files.values()))))
     if not frames:
         raise records.RecordsMissing(f"{run.folder / 'frames'}: no frame that all of {', '.join(deformers)} have")
     rows = {deformer: {int(row["frame"]): row for row in run.select(deformer, 24 if deformer == "pbs" else None)} for deformer in deformers}
     behind = style.columns_of([rows[deformer][frame] for deformer in deformers for frame in frames], "volume_change_pct", "inverted_tets",
                               "min_section_pct")
-    origin = records.provenance(results / "volume")
-    skin = draw_stills(rows, files, frames, names_of(run), skin_of, colour_bar=False)
+    origin = records.provenance(run.folder)
+    skin = draw_stills(rows, files, frames, skin_of, colour_bar=False)
     style.save(skin, figures / "frames_skin", origin, behind, formats=("png",))
-    ratio = draw_stills(rows, files, frames, names_of(run), lambda file: file, colour_bar=True)
+    ratio = draw_stills(rows, files, frames, lambda file: file, colour_bar=True)
     style.save(ratio, figures / "frames_volume_ratio", origin, behind, formats=("png",))

@@ -1,14 +1,8 @@
-"""How much volume each deformer changes over the clip on the human, beside neo-Hookean finite elements; triangles mark the frames that are
-drawn as stills."""
+"""How much volume each deformer changes over the clip on the human, beside neo-Hookean finite elements."""
 import records
 import style
 
 measures = [("volume_change_pct", "signed volume\nchange [%]"), ("volume_abs_change_pct", "absolute volume\nchange [%]")]
-
-
-def times_of_stills(folder, rows):
-    frames = {int(file.stem.rsplit("_", 1)[1]) for file in (folder / "frames").glob("lbs_[0-9]*.vtu")}
-    return [float(row["time_s"]) for row in rows if int(float(row["frame"])) in frames]
 
 
 def draw(results, figures):
@@ -26,8 +20,6 @@ def draw(results, figures):
         style.per_cent_scale(panel, signed=number == 0)
         panel.set_ylabel(label)
         panel.margins(x=0)
-    for time_s in times_of_stills(results / "volume" / "human_01_01", rows):
-        axes[0][0].plot(time_s, 1.0, "v", color="black", transform=axes[0][0].get_xaxis_transform(), clip_on=False)
     axes[1][0].set_xlabel("time in the clip [s]")
     style.legend_above(figure)
     style.save(figure, figures / "volume_over_clip", records.provenance(results / "volume"), behind)
