@@ -50,5 +50,7 @@ function openTarget() {
   const row = location.hash.length > 1 && document.getElementById(location.hash.slice(1));
   if (row && row.matches("tr.claim")) row.nextElementSibling.querySelector("details").open = true;
 }
+for (const link of document.querySelectorAll("a.pose"))
+  link.addEventListener("click", () => document.getElementById("viewer").scrollIntoView());
 addEventListener("hashchange", openTarget);
 openTarget();

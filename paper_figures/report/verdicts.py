@@ -134,19 +134,21 @@ def expected(claim):
     return items(parts, "plain") if len(parts) > 1 else claim["expected"].replace("-", "\u2212") or "\u2013"
 
 
-def row(claim):
+def row(claim, pose):
+    """pose: link to it in the viewer, or none."""
     name = element("a", claim["id"], href=f"#{claim['id']}")
-    statement = joined([claim["statement"], element("span", f" {claim['place']}", class_="place")])
+    statement = joined([claim["statement"], element("span", f" {claim['place']}", class_="place")]
+                       + ([" ", element("a", "see it move", href=pose, class_="pose")] if pose else []))
     cells = [statement, mark(claim["verdict"]), expected(claim), measured(claim), outcome(claim)]
     return Markup(f'<tr id="{escaped(claim["id"])}" class="claim"><th scope="row">{name}</th>'
                   + joined(element("td", cell) for cell in cells) + "</tr>")
 
 
-def section(found):
+def section(found, poses):
     if found.claims is None:
         return element("p", "claims.json: not there: `pbskin reproduce --judge -o DIR` judges the records", class_="missing")
     head = joined(element("th", name, scope="col") for name in columns)
-    rows = [Markup(row(claim) + f'<tr class="behind"><td colspan="{len(columns)}">{behind.of(claim, found)}</td></tr>')
+    rows = [Markup(row(claim, poses.get(claim["id"])) + f'<tr class="behind"><td colspan="{len(columns)}">{behind.of(claim, found)}</td></tr>')
             for claim in found.claims]
     table = Markup(f"<table class='claims'><caption>Each claim against the bound fixed beforehand</caption><thead><tr>{head}</tr></thead>"
                    "<tbody>\n" + joined(rows, "\n") + "</tbody></table>")

@@ -50,6 +50,9 @@ class Report(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.results = pathlib.Path(folder.name)
+        without_viewer = unittest.mock.patch.dict(sys.modules, {"viewer_html": None})  # it has tests of its own
+        without_viewer.start()
+        self.addCleanup(without_viewer.stop)
 
     def make(self):
         """Exit status, the page's text, what was said and what was complained of."""
@@ -163,19 +166,22 @@ class Report(unittest.TestCase):
 
     def test_the_viewer_or_why_there_is_none(self):
         synthetic_records.write_study(self.results)
+        synthetic_records.write_claims(self.results)
         for fragment, expected in ((lambda results: "<p>turn me</p>", "<p>turn me</p>"), (lambda results: None, "The viewer is missing: ")):
             module = types.ModuleType("viewer_html")
             module.fragment = fragment
+            module.claim_links = lambda results: {"C02": "#run=limb"}
             with unittest.mock.patch.dict(sys.modules, {"viewer_html": module}):
-                self.assertIn(expected, self.make()[1])
+                text = self.make()[1]
+            self.assertIn(expected, text)
+            self.assertEqual('href="#run=limb"' in text, "turn me" in expected)
 
     def test_nothing_is_loaded_and_the_page_is_whole(self):
         synthetic_records.write_study(self.results)
         synthetic_records.write_claims(self.results)
         synthetic_records.write_poses(self.results)
         self.write_svg("volume_over_angle")
-        with unittest.mock.patch.dict(sys.modules, {"viewer_html": None}):  # its own tests look at it
-            found = Page(self.make()[1])
+        found = Page(self.make()[1])
         self.assertEqual([load for load in found.loads if not load.startswith(("data:", "#"))], [])
         self.assertEqual([link for link in found.links if link.startswith(("http:", "//"))], [])
         self.assertEqual([link for link in found.links if link.startswith("#") and link[1:] not in found.ids], [])
