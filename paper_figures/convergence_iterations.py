@@ -1,6 +1,6 @@
 """PBS over 1,000 iterations from four starts: above, what the constraints leave unsatisfied; below, the distance to the finite element
-reference. Residuals fall on and on, the error does not: past some 20 to 100 iterations PBS converges to a shape of its own. From the frame
-before or the rest pose a twisted limb is never told that it is twisted: the residual is small and the error large."""
+reference. See that the error does not follow the residual: in the twist it grows again while PBS converges to a shape of its own. From the
+frame before or the rest pose a twisted limb is never told that it is twisted: the residual is small and the error large."""
 import records
 import style
 
