@@ -16,6 +16,7 @@ export async function open(file, hash = "", { width = 1280, height = 900, scale 
     const profile = fs.mkdtempSync(path.join(os.tmpdir(), "pbskin_browser_"));
     const context = await chromium.launchPersistentContext(profile, {
         executablePath: program, headless: true, args: options, viewport: { width, height }, deviceScaleFactor: scale, hasTouch: touch,
+        timeout: 120000,
     });
     const page = await context.newPage(), problems = [];
     page.setDefaultTimeout(120000);

@@ -163,7 +163,7 @@ test("dragging one panel turns all", async () => {
 
 test("a claim's link opens its pose", async () => {
     for (const pose of truth.poses) {
-        await page.evaluate((claim) => { location.hash = `claim=${claim}`; }, pose.claim);
+        await page.locator("#frame-viewer .vw-poses a", { hasText: pose.claim }).click();
         await page.waitForFunction((claim) => window.viewer.state.now.claim === claim, pose.claim);
         const { run, frame, colour } = await page.evaluate(() => {
             const { now } = window.viewer.state;

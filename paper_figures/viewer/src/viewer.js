@@ -42,7 +42,7 @@ export class Viewer {
         this.panels_element = element("div", { class: "vw-panels" }, this.canvas);
         this.legend = element("div", { class: "vw-legend" });
         this.note = element("p", { class: "vw-small" });
-        this.root.replaceChildren(this.claim, ...this.controls.bars, this.legend, this.panels_element, this.note,
+        this.root.replaceChildren(links_to(this.data.poses), this.claim, ...this.controls.bars, this.legend, this.panels_element, this.note,
                                   element("p", { class: "vw-small" }, help));
         this.views = new Views(this.canvas, () => this.redraw());
         this.sight = new Sight(this.views);
@@ -164,6 +164,11 @@ export class Viewer {
         action();
         this.redraw();
     }
+}
+
+function links_to(poses) {
+    const links = poses.flatMap(({ claim, what }) => [" ", element("a", { href: `#claim=${claim}`, title: what }, claim)]);
+    return element("p", { class: "vw-small vw-poses" }, links.length ? "Poses of the claims:" : "", ...links);
 }
 
 function note_of(run, every, at) {
