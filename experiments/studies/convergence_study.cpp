@@ -135,8 +135,8 @@ StudyPlan plan_convergence_study(bool full)
     StudyPlan plan;
     plan.runs.push_back(limb_run("limb_twist", twists, full, full ? 18.0 : 10.0));
     plan.runs.push_back(limb_run("limb_bend", bends, full, full ? 10.0 : 6.0));
-    plan.runs.push_back(ladder_run("ladder_twist", "limb_twist", {twists.front()}, full, full ? 155.0 : 15.0));
-    plan.runs.push_back(ladder_run("ladder_bend", "limb_bend", bends, full, full ? 160.0 : 17.0));
+    plan.runs.push_back(ladder_run("ladder_twist", "limb_twist", {twists.front()}, full, full ? 65.0 : 15.0));
+    plan.runs.push_back(ladder_run("ladder_bend", "limb_bend", bends, full, full ? 60.0 : 16.0));
     for (const std::string& body : installed_bodies(plan.left_out)) try {
             add_body(plan, body, full);
         } catch (const pbs::InputError& error) {  // the clip is not there

@@ -64,7 +64,7 @@ StudyPlan plan_setup_study(bool full)
             setups.push_back({body});
     setups.push_back({"ring"});
     for (const BodySetup& setup : setups) try {
-            plan.runs.push_back(setup_run(setup, full ? 100.0 : 5.0, full ? 16.0 : 5.5));
+            plan.runs.push_back(setup_run(setup, full ? 100.0 : 5.0, full ? 9.0 : 5.5));
         } catch (const pbs::InputError& error) {  // the clip is not there
             plan.left_out.push_back({setup.body, error.what()});
         }
