@@ -196,6 +196,7 @@ FemOptions fem_options(const SceneValues& values, const std::string& at)
     options.spring_factor = values.number(at + "spring_factor");
     options.solver = option_of<reference_fem::LinearSolver>(values.text(at + "solver"));
     options.nested_start = values.boolean(at + "nested_start");
+    options.most_newton_steps = values.integer(at + "most_newton_steps");
     check_fem_keys(values, at, options);
     return options;
 }

@@ -170,6 +170,11 @@ std::vector<SceneKey> fem_keys()
                    "cholmod; umfpack is the second opinion on the linear model; cg_ml: conjugate gradients with algebraic "
                    "multigrid, linear model, for what a factor does not fit in memory for"),
                {"cholmod", "umfpack", "cg_ml"}),
+        within(key("fem", "most_newton_steps", integer, "0", "",
+                   "nonlinear model, dynamics quasi_static: a stage of the way to a pose that has taken so many of Newton's steps ends, "
+                   "and the "
+                   "pose is not reached; 0: no limit"),
+               0, 1e9),
         key("fem", "nested_start", boolean, "false", "",
             "element_order 2 or a refined character, nonlinear model: to a pose in which a bone is turned by more than 15 degrees from the "
             "last, Newton's iterations start from the solution with order 1, of the unrefined one: a shorter way to the same solution"),

@@ -46,19 +46,25 @@ public:
 
     void add_to(ConvergenceResult& result) const
     {
-        for (std::size_t frame = 0; frame < truth_.size(); ++frame)
-            if (!truth_[frame].finished) result.breakdown += fmt::format("{} at {}. ", of_.truth, of_.frames[frame].name);
         for (const double k_stretch : of_.k_stretch) {
             pbs::PbsOptions options = spec_of(of_.scene, "pbs").pbs;
             options.k_stretch = k_stretch;
             const std::vector<FrameStarts> starts = starts_of(posed_.character(), motion_, frame_numbers(of_.frames), options);
             for (std::size_t setting = 0; setting < settings_; ++setting)
                 for (std::size_t frame = 0; frame < starts.size(); ++frame)
-                    result.all.push_back(follow(starts[frame], frame, of_.settings[setting], options));
+                    add(follow(starts[frame], frame, of_.settings[setting], options), result);
         }
     }
 
 private:
+    static void add(ConvergencePaths paths, ConvergenceResult& result)
+    {
+        for (std::size_t start = 0; start < paths.paths.size(); ++start)
+            if (!paths.paths[start].finite)
+                result.breakdown += fmt::format("{} from {} is not finite. ", paths.pose, name_of(static_cast<SolverStart>(start)));
+        result.all.push_back(std::move(paths));
+    }
+
     ConvergencePaths follow(const FrameStarts& starts, std::size_t frame, const ProjectionSetting& setting, pbs::PbsOptions options) const
     {
         options.order = setting.order;

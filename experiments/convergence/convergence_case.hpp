@@ -52,7 +52,7 @@ struct ConvergencePaths {
 struct ConvergenceResult {
     std::vector<ConvergencePaths> all;
     bool ladder = false;    // as asked for
-    std::string breakdown;  // of the reference
+    std::string breakdown;  // paths that ceased to be finite; a reference that was not reached is in `reference`
 };
 
 ConvergenceResult measure_convergence(const ConvergenceCase& of);

@@ -23,7 +23,7 @@ public:
     virtual void foresee(const std::vector<pbs::Pose>& /*poses*/) {}
 
     // What the next call of advance sets out from, however broken, in place of what the deformer would take [m], #V x 3, in the world.
-    // Those whose positions depend on no start, and those in time, ignore it.
+    // The nonlinear finite elements in equilibrium alone do; all others ignore it.
     virtual void start_from(const pbs::Positions& /*shape*/) {}
 
     // The next positions depend on the last: such a deformer sees every step, the others see frames only.

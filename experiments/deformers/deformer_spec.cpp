@@ -38,6 +38,7 @@ nlohmann::json to_json(const FemOptions& options)
             {"gravity_m_s2", {options.gravity_m_s2.x(), options.gravity_m_s2.y(), options.gravity_m_s2.z()}},
             {"dynamics", name_of(options.dynamics)},
             {"nested_start", options.nested_start},
+            {"most_newton_steps", options.most_newton_steps},
             {"rayleigh", {options.rayleigh_mass_1_s, options.rayleigh_stiffness_s}},
             {"attachment", name_of(options.attachment)},
             {"core_radius", options.core_radius},

@@ -14,8 +14,8 @@ struct CellResult {
     std::vector<analysis::StabilityStep> steps;
     bool has_undisturbed = false;  // the same body, set out on the last pose, comes to rest
     int steps_not_reached = 0;
-    // From a broken start: of the method, in the steps up to the first that was reached; of Newton's, until its residual was within
-    // tolerance.
+    // From a broken start: of the method, in the steps up to and with the first that was reached. Of Newton's method, until its residual
+    // was within tolerance, a first solve that failed counted in; PBS and XPBD take all of theirs in any case, which says nothing of them.
     std::optional<int> iterations_until_reached;
     double cpu_s = 0.0;
 };

@@ -6,14 +6,14 @@
 //                     What is broken or moved at the start is gone there after one step: all that can fail is that step
 //   pbs_maps          time step x k_stretch; iterations x twist
 //   pbs_human, ...    characters landing from a jump
-//   controls          Eq. 12-20 as printed: what instability looks like
+//   controls          Eq. 12-20 as printed, and teleports beyond the numbers' range: what instability looks like
 //   xpbd              the same limb with a material, also in small steps
 //   fem_static        linear, corotational and stable neo-Hookean in equilibrium
 //   fem_in_time       the last two by generalised-alpha
 // A broken start of the finite elements in equilibrium is where Newton's method sets out, in the last pose and without a load path; in time
 // they are not asked. The linear ones have no start: a control.
 //
-// The judged share is that of the cells run, all of them, without an interval: one that runs away is enough against "unconditionally". The
+// The judged share is that of the cells run but the controls, all of them, without an interval: one that runs away is enough against "unconditionally". The
 // bind constraint holds what no longer has a right shape, so the shares inverted and still moving stand beside it.
 // Writes DIR/stability/RUN/cells.csv and measurements.csv, and cells.csv, the maps, outcomes.md, criteria.md. It fails where an outcome
 // occurs in no cell, or where the sign as printed does not run away: then the map could not tell stable from unstable.

@@ -12,6 +12,8 @@
 namespace experiments {
 namespace {
 
+constexpr int most_newton_steps = 120;  // of 45 degrees of a joint's turn; a folded crease may ask for any number, minutes each
+
 const DeformerSpec& first_fem(const Scene& scene)
 {
     const auto found = std::find_if(scene.deformers.begin(), scene.deformers.end(), [](const auto& spec) { return spec.kind == "fem"; });
@@ -163,6 +165,7 @@ DeformerSpec fem_spec(const Scene& scene, reference_fem::Model model, int elemen
     spec.fem.model = model;
     spec.fem.element_order = element_order;
     spec.fem.nested_start = element_order == 2 && model != reference_fem::Model::linear;
+    spec.fem.most_newton_steps = most_newton_steps;
     spec.fem.formulation = reference_fem::Formulation::displacement;
     return spec;
 }

@@ -24,7 +24,8 @@ LoadPathSummary follow_load_path(const std::function<NewtonSummary(double fracti
     LoadPathSummary path;
     double step = std::min(options.first_step, 1.0);
     int converged_in_a_row = 0;
-    while (!path.converged()) {
+    const auto has_steps_left = [&] { return options.most_newton_steps == 0 || path.newton_steps() < options.most_newton_steps; };
+    while (!path.converged() && has_steps_left()) {
         const Eigen::VectorXd last_converged = displacement;
         const double fraction = path.reached + step >= 1.0 - 1e-12 ? 1.0 : path.reached + step;
         path.steps.push_back({fraction, attempt(fraction)});

@@ -12,6 +12,7 @@ namespace reference_fem {
 struct LoadPathOptions {
     double first_step = 1.0;            // of the fraction
     double smallest_step = 1.0 / 64.0;  // no halving below
+    int most_newton_steps = 0;          // the path ends where it has taken so many; 0: no limit
 };
 
 struct LoadStep {

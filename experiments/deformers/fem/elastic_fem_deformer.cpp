@@ -28,7 +28,7 @@ reference_fem::ElasticOptions solver_options(const FemOptions& options)
             .rayleigh_stiffness_s = options.rayleigh_stiffness_s,
             .solver = options.solver,
             .newton = {},
-            .path = {}};
+            .path = {.most_newton_steps = options.most_newton_steps}};
 }
 
 pbs::Pose placed(pbs::Pose pose, const Eigen::Isometry3d& place)

@@ -32,8 +32,8 @@ struct FemOptions {
     double core_radius = 0.35;     // capsule radius over local limb radius
     double spring_factor = 1.0e4;  // q: springs of density q E / r^2, r the capsule's radius; doubling it changes nothing that is reported
     reference_fem::LinearSolver solver = reference_fem::LinearSolver::cholmod;
-    bool nested_start =
-        false;  // nonlinear: poses far from the last are set out for from the solution with fewer nodes (order 1, unrefined)
+    int most_newton_steps = 0;  // quasi-static: of a way to a pose, or of each stage of it; then it is not reached; 0: no limit
+    bool nested_start = false;  // nonlinear: far poses are set out for from the solution with fewer nodes (order 1, unrefined)
 };
 
 }  // namespace experiments

@@ -148,7 +148,7 @@ class CommandLine(program.ProgramTest):
         _, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, errors)
         self.assertFalse(os.path.exists(self.path("out", "run.json")))
-        whole = r"frames|metrics\.csv|iterations\.csv|regions\.csv|run\.json|[a-z0-9_]+\.(vtu|vtp|pvd)"  # a temporary's name begins with a dot or ends otherwise
+        whole = r"frames|(metrics|iterations|regions|bones|binding)\.csv|run\.json|[a-z0-9_]+\.(vtu|vtp|pvd)"  # a temporary's name begins with a dot or ends otherwise
         names = [name for _, folders, files in os.walk(self.path("out")) for name in folders + files]
         self.assertIn("frames", names)
         self.assertEqual([name for name in names if not re.fullmatch(whole, name)], [])

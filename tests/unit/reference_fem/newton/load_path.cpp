@@ -36,6 +36,26 @@ TEST(LoadPath, OneStepWhereItConverges)
     EXPECT_EQ(path.halvings(), 0);
 }
 
+// Two of Newton's steps an attempt.
+TEST(LoadPath, EndsWhereItHasTakenTheStepsItMay)
+{
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(1);
+    const auto attempt = [&](double fraction) {
+        NewtonSummary summary = Attempt{u, 0.25}(fraction);
+        summary.iterations.assign(3, NewtonIteration{.step_length = 1.0});
+        summary.iterations.back().step_length = 0.0;
+        return summary;
+    };
+    const int needed = follow_load_path(attempt, u, {}).newton_steps();
+    u.setZero();
+    EXPECT_TRUE(follow_load_path(attempt, u, {.most_newton_steps = needed}).converged());
+    u.setZero();
+    const LoadPathSummary path = follow_load_path(attempt, u, {.most_newton_steps = needed - 1});
+    EXPECT_FALSE(path.converged());
+    EXPECT_EQ(path.reached, u(0));
+    EXPECT_GT(path.reached, 0.0);
+}
+
 TEST(LoadPath, HalvesUntilAStepConvergesAndReachesTheEnd)
 {
     Eigen::VectorXd u = Eigen::VectorXd::Zero(1);
