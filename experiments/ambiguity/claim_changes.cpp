@@ -62,9 +62,9 @@ Cells compared(const JudgedFigure* a, const JudgedFigure* b, bool b_broke_down)
             why(a, b, b_broke_down)};
 }
 
-Cells without_figure(const std::string& flips, const std::string& reason)
+Cells without_figure(const std::string& flips, const std::string& reason, const std::string& quantity = "")
 {
-    Cells cells = {"", "", "", ""};
+    Cells cells = {quantity, "", "", ""};
     for (int i = 0; i < 4; ++i) cells.push_back(std::nullopt);
     cells.insert(cells.end(), {"", "", flips, reason});
     return cells;
@@ -89,6 +89,11 @@ void ClaimChanges::add(const std::string& body, const std::string& claim, const 
     for (const JudgedFigure& of_b : b.figures)
         if (of_b.claim == claim && !find(a, of_b)) {
             add_row(compared(nullptr, &of_b, b.broke_down));
+            any = true;
+        }
+    for (const LeftOutQuantity& one : b.left_out)
+        if (one.claim == claim) {
+            add_row(without_figure("no figure", one.reason, one.quantity));
             any = true;
         }
     if (!any) add_row(without_figure("no figure", b.broke_down ? "B breaks down" : "neither reading has a figure"));

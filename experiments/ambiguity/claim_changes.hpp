@@ -4,7 +4,8 @@
 //   changes.add_untouched("human", "C10", reading, "another factor is no more work");
 //   changes.table().write("ambiguity.csv");
 // verdict_flips: yes, no, not touched, no figure. A figure that B has none of because the reading broke down does not hold: the verdict
-// flips where A's held. Where A or B has no figure for another reason, nothing is said of a verdict.
+// flips where A's held. Where A or B has no figure for another reason, nothing is said of a verdict; a quantity that is left out of
+// readings has a row with the reason.
 #pragma once
 
 #include "analysis/csv_table.hpp"

@@ -1,6 +1,9 @@
 #include "experiments/ambiguity/claim_changes_text.hpp"
 
+#include "analysis/text_columns.hpp"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -64,18 +67,12 @@ std::string text_of(const analysis::CsvTable& table, const Cell& cell)
 }
 
 // Lines of at most `widest`, all but the first indented.
-std::string wrapped(const std::string& head, const std::vector<std::string>& parts)
+std::string hanging(const std::string& head, const std::vector<std::string>& parts)
 {
-    std::string text, line = head;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const std::string part = parts[i] + (i + 1 < parts.size() ? ";" : "");
-        if (line.size() + 1 + part.size() > widest) {
-            text += line + "\n";
-            line = std::string(head.size(), ' ');
-        }
-        line += " " + part;
-    }
-    return text + line + "\n";
+    if (parts.empty()) return head + "\n";
+    const std::string indent(head.size() + 1, ' ');
+    const auto lines = analysis::wrapped(fmt::format("{}", fmt::join(parts, "; ")), widest - indent.size());
+    return fmt::format("{} {}\n", head, fmt::join(lines, "\n" + indent));
 }
 
 class Text {
@@ -130,6 +127,7 @@ private:
     std::string words_of(const std::string& claim) const
     {
         std::vector<std::string> flipping, reasons;
+        std::map<std::string, std::vector<std::string>> without;  // quantities by why there is none
         int figures = 0, flips = 0;
         for (int row = 0; row < table_.rows(); ++row) {
             if (table_.text_at(row, "claim") != claim) continue;
@@ -138,9 +136,12 @@ private:
             flips += word == "yes";
             if (word == "yes") add_new(flipping, table_.text_at(row, "body") + ", " + table_.text_at(row, "reading_b"));
             if (word == "not touched") add_new(reasons, table_.text_at(row, "reason"));
+            if (word == "no figure") add_new(without[table_.text_at(row, "reason")], table_.text_at(row, "quantity"));
         }
-        std::string text = wrapped(fmt::format("{}: {} of {} figures flip{}", claim, flips, figures, flips > 0 ? " by" : ""), flipping);
-        if (!reasons.empty()) text += wrapped("     not touched where", reasons);
+        std::string text = hanging(fmt::format("{}: {} of {} figures flip{}", claim, flips, figures, flips > 0 ? " by" : ""), flipping);
+        if (!reasons.empty()) text += hanging("     not touched where", reasons);
+        for (const auto& [reason, quantities] : without)
+            text += hanging("     no figure:", {fmt::format("{}: {}", reason, fmt::join(quantities, ", "))});
         return text;
     }
 

@@ -1,6 +1,9 @@
 #include "experiments/ambiguity/judged_figure.hpp"
 
 #include "experiments/claims_text.hpp"
+#include "pbs/character/body_cache.hpp"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <stdexcept>
@@ -40,6 +43,25 @@ const analysis::Claim& claim_named(const std::string& id)
     const auto found = std::find_if(claims().begin(), claims().end(), [&](const analysis::Claim& claim) { return claim.id == id; });
     if (found == claims().end()) throw std::logic_error("no claim " + id);
     return *found;
+}
+
+std::string digest_of(const std::vector<analysis::Claim>& claims)
+{
+    nlohmann::json all = nlohmann::json::array();
+    for (const analysis::Claim& claim : claims) {
+        all.push_back({claim.id, static_cast<int>(claim.rule), claim.metrics, claim.deformer, claim.iterations, claim.low, claim.high,
+                       claim.share, claim.part, claim.level});
+        for (const analysis::QuantityBound& bound : claim.bounds) all.push_back({bound.quantity, bound.low, bound.high});
+    }
+    return pbs::content_hash(all.dump());
+}
+
+std::vector<LeftOutQuantity> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason)
+{
+    std::vector<LeftOutQuantity> left_out;
+    for (const std::string& quantity : claim_named(claim).metrics)
+        if (std::find(measured.begin(), measured.end(), quantity) == measured.end()) left_out.push_back({claim, quantity, reason});
+    return left_out;
 }
 
 std::vector<JudgedFigure> judged(const std::vector<analysis::Measurement>& measured)

@@ -18,11 +18,20 @@ struct JudgedFigure {
     std::string remark = {};                           // "at least so much": the value bounds the figure
 };
 
+// A quantity that a claim is judged by and that is not measured of readings.
+struct LeftOutQuantity {
+    std::string claim, quantity, reason;
+};
+
 // What one reading makes of the claims that were looked at.
 struct ReadingFigures {
     std::vector<JudgedFigure> figures;
     bool broke_down = false;  // positions ceased to be finite
+    std::vector<LeftOutQuantity> left_out = {};
 };
+
+// Of the quantities that the claim is judged by.
+std::vector<LeftOutQuantity> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason);
 
 std::vector<JudgedFigure> judged(const std::vector<analysis::Measurement>& measured);
 
@@ -30,5 +39,8 @@ std::vector<JudgedFigure> judged(const std::vector<analysis::Measurement>& measu
 std::vector<JudgedFigure> judged(const ReadMotion& moved);
 
 const analysis::Claim& claim_named(const std::string& id);
+
+// Of all that decides whether a figure holds: another bound is another digest.
+std::string digest_of(const std::vector<analysis::Claim>& claims);
 
 }  // namespace experiments

@@ -1,5 +1,7 @@
 #include "experiments/ambiguity/untouched.hpp"
 
+#include "experiments/ambiguity/read_deformer.hpp"
+
 namespace experiments {
 namespace {
 
@@ -14,14 +16,9 @@ bool same_but_for(Reading reading, const Reading& baseline, const TakeOver& take
     return to_json(reading) == to_json(baseline);
 }
 
-bool remembers(const Reading& reading)
-{
-    return reading.options.jiggle || reading.options.lbs_entry == pbs::LbsEntry::increment;
-}
-
 std::string of_projections(const Reading& reading, const Reading& baseline)
 {
-    if (remembers(reading)) return "each projection is taken by itself, from the LBS shape";
+    if (ReadDeformer(reading).has_memory()) return "each projection is taken by itself, from the LBS shape";
     const bool of_bones = same_but_for(reading, baseline, [&](Reading& r) {
         r.bind_point = baseline.bind_point;
         r.options.bind_on_bone = baseline.options.bind_on_bone;
@@ -64,7 +61,7 @@ std::string untouched_because(const std::string& claim, const Reading& reading, 
     const bool is_posed = claim == "C03" || claim == "C12" || claim == "C04" || claim == "C05";
     if (is_posed && reading.options.jiggle) return "measured where nothing jiggles";
     if (is_posed && reading.substeps > 1) return "nothing remembers the last step";
-    if ((claim == "C03" || claim == "C12") && remembers(reading)) return "the start is what is compared";
+    if ((claim == "C03" || claim == "C12") && ReadDeformer(reading).has_memory()) return "the start is what is compared";
     if (claim == "C01" && reading.blended_bones == baseline.blended_bones) return "LBS alone is measured";
     if (claim == "C07") return of_projections(reading, baseline);
     if (claim == "C09") return of_jolts(reading, baseline);

@@ -1,11 +1,12 @@
 // The readings of the paper (ambiguity/reading.hpp): how much each changes the figures that claims are judged by, and whether it turns a
-// verdict round. A reading is as the scene has it but for one place; every figure is measured by its claim's own study's functions.
+// verdict round. A reading is as the scene has it but for one place; every figure is measured by its claim's own study's functions, but
+// for C10, a frame's processor time, where the study takes wall time, and C09, without what the study makes of all its settings at once.
 //
 //   limb_twist, limb_bend       C01, C02: the scenes' sweeps, each step by itself
 //   human                       C01, C02: the clip 01_01, five frames a second, each step by itself
 //   human_moving                C01, C02: what remembers the last step, every step of six seconds of the clip (--full: of all of it)
 //   BODY_joint_twist, _bend     C04, C05: sections of the limb's joint, of the human's elbow
-//   BODY_starts                 C03, C12: iterations from four starts, of the limb bent by 90 degrees, of the human's crouch
+//   BODY_starts                 C03: iterations from four starts, of the limb bent by 90 degrees, of the human's crouch; there C12, too
 //   BODY_step                   C07, C09, C10: momentum of projections there, a jolt, the time of a frame by turns
 //
 // Writes DIR/ambiguity/RUN/ambiguity.csv, of the first four also figures.csv (volume, jiggling, distance), and of all of them
@@ -17,12 +18,14 @@
 #include "experiments/ambiguity/reading_figures.hpp"
 #include "experiments/ambiguity/untouched.hpp"
 #include "experiments/artefacts/artefact_figures.hpp"
+#include "experiments/convergence/path_figures.hpp"
 #include "experiments/deformers/option_names.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
@@ -80,11 +83,13 @@ std::string read_and_record(const std::string& body, const Scene& scene, const s
     return breakdown;
 }
 
-nlohmann::json settings_of(const Scene& scene, const std::vector<Reading>& readings)
+nlohmann::json settings_of(const Scene& scene, const std::vector<Reading>& readings, const std::vector<std::string>& claims)
 {
     nlohmann::json settings;
     for (const Reading& reading : readings) settings.push_back(to_json(reading));
-    return {{"scene", resolved_with_deformers(scene)}, {"readings", settings}};
+    std::vector<analysis::Claim> judging;
+    for (const std::string& claim : claims) judging.push_back(claim_named(claim));
+    return {{"scene", resolved_with_deformers(scene)}, {"readings", settings}, {"claims", claims}, {"bounds", digest_of(judging)}};
 }
 
 std::vector<Reading> all_readings(const Scene& scene)
@@ -102,15 +107,15 @@ StudyRun volume_run(const std::string& name, const std::string& body, Scene scen
     return {.name = name,
             .cost_s = cost_s,
             .work = [=](const std::string& folder) { return read_and_record(body, scene, readings, folder); },
-            .settings = settings_of(scene, readings)};
+            .settings = settings_of(scene, readings, {"C01", "C02"})};
 }
 
 // A run of claims measured otherwise than by volume.
-StudyRun claims_run(const std::string& name, const Scene& scene, const nlohmann::json& settings, double cost_s,
-                    const std::function<void(ReadingComparison&)>& measure)
+StudyRun claims_run(const std::string& name, const Scene& scene, const std::vector<std::string>& claims, const nlohmann::json& settings,
+                    double cost_s, const std::function<void(ReadingComparison&)>& measure)
 {
     const std::vector<Reading> readings = all_readings(scene);
-    nlohmann::json all = settings_of(scene, readings);
+    nlohmann::json all = settings_of(scene, readings, claims);
     all.update(settings);
     const auto work = [=, body = scene.character.body](const std::string& folder) {
         ReadingComparison comparison(body, readings);
@@ -121,13 +126,23 @@ StudyRun claims_run(const std::string& name, const Scene& scene, const nlohmann:
     return {.name = name, .cost_s = cost_s, .work = work, .settings = all};
 }
 
+nlohmann::json settings_of(const ArtefactCase& of)
+{
+    nlohmann::json poses, by_hand;
+    for (const ArtefactPose& pose : of.poses) poses.push_back({{"frame", pose.frame}, {"name", pose.name}});
+    for (const JointByHand& joint : joints_by_hand(of.scene.character.body))
+        by_hand[name_of(joint)] = {joint.reach_parent, joint.reach_child, joint.no_section};
+    return {{"poses", poses},
+            {"joint", of.joint},
+            {"joints_by_hand", by_hand},
+            {"deepest_bend_deg", deepest_bend_deg},
+            {"widest_over_rest", widest_over_rest}};
+}
+
 StudyRun sections_run(const std::string& name, const ArtefactCase& of, double cost_s)
 {
     const std::string claim = of.claim == ArtefactCase::Claim::bulge ? "C05" : "C04";
-    nlohmann::json poses;
-    for (const ArtefactPose& pose : of.poses) poses.push_back({{"frame", pose.frame}, {"name", pose.name}});
-    const nlohmann::json settings = {{"claim", claim}, {"poses", poses}, {"joint", of.joint}, {"deepest_bend_deg", deepest_bend_deg}};
-    return claims_run(name, of.scene, settings, cost_s, [=](ReadingComparison& comparison) {
+    return claims_run(name, of.scene, {claim}, settings_of(of), cost_s, [=](ReadingComparison& comparison) {
         comparison.measure({claim}, [&](const auto& readings) { return figures_of_sections(of, readings); });
     });
 }
@@ -139,55 +154,57 @@ nlohmann::json settings_of(const ReadingsCase& of)
             {"pose", of.pose},
             {"jolt_direction", {jolt.x(), jolt.y(), jolt.z()}},
             {"iterations", of.most_iterations},
+            {"residual_tolerance", residual_tolerance},
+            {"satisfied_residual", satisfied_residual},
+            {"volume_tolerance_pct", volume_tolerance_pct},
             {"jolt_steps", of.jolt_steps},
+            {"jolt_k_stretch", {table_1_k_stretch, soft_k_stretch}},
+            {"least_answer", least_answer},
             {"timing_s", of.timing_s}};
 }
 
 StudyRun starts_run(const std::string& body, const ReadingsCase& of, double cost_s)
 {
-    return claims_run(body + "_starts", of.scene, settings_of(of), cost_s, [=](ReadingComparison& comparison) {
-        comparison.measure({"C03", "C12"}, [&](const auto& readings) { return figures_of_starts(of, readings); });
+    const std::vector<std::string> claims = {"C03", "C12"};
+    return claims_run(body + "_starts", of.scene, claims, settings_of(of), cost_s, [=](ReadingComparison& comparison) {
+        comparison.measure(claims, [&](const auto& readings) { return figures_of_starts(of, readings); });
     });
 }
 
 StudyRun step_run(const std::string& body, const ReadingsCase& of, double cost_s)
 {
-    return claims_run(body + "_step", of.scene, settings_of(of), cost_s, [=](ReadingComparison& comparison) {
+    return claims_run(body + "_step", of.scene, {"C07", "C09", "C10"}, settings_of(of), cost_s, [=](ReadingComparison& comparison) {
         comparison.measure({"C07"}, [&](const auto& readings) { return figures_of_projections(of, readings); });
         comparison.measure({"C09"}, [&](const auto& readings) { return figures_of_jolts(of, readings); });
         comparison.measure({"C10"}, [&](const auto& readings) { return figures_of_frames(of, readings); });
     });
 }
 
+LimbJoint joint_of(const pbs::Character& character, const std::string& name)
+{
+    const std::vector<LimbJoint> joints = limb_joints(character);
+    const auto found = std::find_if(joints.begin(), joints.end(), [&](const LimbJoint& joint) { return joint.name == name; });
+    if (found == joints.end()) throw pbs::InputError(character.name, 0, "joint", name, "expected it among the body's joints");
+    return *found;
+}
+
 // A joint turned by 5 degrees a frame, looked at every `look_deg`.
-ArtefactCase turned(const std::string& what, std::vector<std::string> overrides, int look_deg, int looks)
+ArtefactCase turned(const std::string& body, const std::string& joint, const std::string& what, int look_deg, int looks)
 {
     constexpr int frame_deg = 5;
-    overrides.insert(overrides.end(), {R"(deformers.use=["lbs","pbs","snh_p1"])", "reference.name=snh_p1",
-                                       fmt::format("motion.angle_deg={}", look_deg * looks),
-                                       fmt::format("motion.frames={}", look_deg * looks / frame_deg + 1)});
+    const pbs::Character character = pbs::make_character({.body = body});
+    const LimbJoint at = joint_of(character, joint);
+    const pbs::Vec3 axis = what == "twist" ? twist_axis(character.skeleton, at) : hinge_axis(character.skeleton, at);
     ArtefactCase of;
-    of.scene = read_scene("limb_" + what, overrides);
+    of.scene = read_scene("limb_" + what, {"character.body=" + body, "motion.joint=" + character.skeleton.bones[at.child].name,
+                                           fmt::format("motion.axis=[{:.9f},{:.9f},{:.9f}]", axis.x(), axis.y(), axis.z()),
+                                           fmt::format("motion.angle_deg={}", look_deg * looks),
+                                           fmt::format("motion.frames={}", look_deg * looks / frame_deg + 1),
+                                           R"(deformers.use=["lbs","pbs","snh_p1"])", "reference.name=snh_p1"});
+    of.joint = joint;
     of.claim = what == "twist" ? ArtefactCase::Claim::candy_wrapper : ArtefactCase::Claim::bulge;
     for (int i = 1; i <= looks; ++i) of.poses.push_back({i * look_deg / frame_deg, fmt::format("{} {} deg", what, i * look_deg)});
     return of;
-}
-
-ArtefactCase turned_elbow(const std::string& what)
-{
-    const std::string name = "upper_arm.L|forearm_upper.L";
-    const pbs::Character human = pbs::make_character({.body = "human"});
-    for (const LimbJoint& joint : limb_joints(human)) {
-        if (joint.name != name) continue;
-        const pbs::Vec3 axis = what == "twist" ? twist_axis(human.skeleton, joint) : hinge_axis(human.skeleton, joint);
-        ArtefactCase of = turned(what,
-                                 {"character.body=human", "motion.joint=" + human.skeleton.bones[joint.child].name,
-                                  fmt::format("motion.axis=[{:.9f},{:.9f},{:.9f}]", axis.x(), axis.y(), axis.z())},
-                                 45, 2);
-        of.joint = name;
-        return of;
-    }
-    throw pbs::InputError("human", 0, "joint", name, "expected it among the body's joints");
 }
 
 void plan_limb(bool full, StudyPlan& plan)
@@ -195,8 +212,9 @@ void plan_limb(bool full, StudyPlan& plan)
     const Scene twist = read_scene("limb_twist", {}), bend = read_scene("limb_bend", {});
     plan.runs.push_back(volume_run("limb_twist", "limb", twist, all_readings(twist), 1.0));
     plan.runs.push_back(volume_run("limb_bend", "limb", bend, all_readings(bend), 0.9));
-    plan.runs.push_back(sections_run("limb_joint_twist", turned("twist", {}, 30, 6), 1.4));
-    plan.runs.push_back(sections_run("limb_joint_bend", turned("bend", {}, 30, 3), 3.5));
+    const std::string joint = "upper|forearm";
+    plan.runs.push_back(sections_run("limb_joint_twist", turned("limb", joint, "twist", 30, 6), 1.4));
+    plan.runs.push_back(sections_run("limb_joint_bend", turned("limb", joint, "bend", 30, 3), 3.5));
     const ReadingsCase of = {.scene = bend,
                              .frame = 18,
                              .pose = "bend 90",
@@ -216,8 +234,9 @@ void plan_human(bool full, StudyPlan& plan)
     const Scene each = read_scene("human_01_01", five_a_second), every = read_scene("human_01_01", moving);
     plan.runs.push_back(volume_run("human", "human", each, readings_of_a_step(spec_of(each, "pbs").pbs), 4.5));
     plan.runs.push_back(volume_run("human_moving", "human", every, readings_of_motion(spec_of(every, "pbs").pbs), full ? 31.0 : 10.0));
-    plan.runs.push_back(sections_run("human_joint_twist", turned_elbow("twist"), 1.1));
-    plan.runs.push_back(sections_run("human_joint_bend", turned_elbow("bend"), 2.0));
+    const std::string elbow = "upper_arm.L|forearm_upper.L";
+    plan.runs.push_back(sections_run("human_joint_twist", turned("human", elbow, "twist", 45, 2), 1.1));
+    plan.runs.push_back(sections_run("human_joint_bend", turned("human", elbow, "bend", 45, 2), 2.0));
     const ReadingsCase of = {.scene = read_scene("human_01_01", {"output.frames=[]", "output.frame_names=[]"}),
                              .frame = 164,
                              .pose = "01_01 crouch",

@@ -65,6 +65,18 @@ TEST(ClaimChanges, OfAClaimWithoutAFigureHaveARowThatSaysSo)
     EXPECT_EQ(table.text_at(0, "reason"), "neither reading has a figure");
 }
 
+TEST(ClaimChanges, OfAQuantityThatIsLeftOutHaveARowWithTheReason)
+{
+    const ReadingFigures measured = {{figure(0.5, Extent::whole)}, false, {{"C09", "share", "four settings"}, {"C12", "other", "why"}}};
+    const auto table = compared(measured, measured);
+    ASSERT_EQ(table.rows(), 2);
+    EXPECT_EQ(table.text_at(0, "verdict_flips"), "no");
+    EXPECT_EQ(table.text_at(1, "quantity"), "share");
+    EXPECT_EQ(table.text_at(1, "verdict_flips"), "no figure");
+    EXPECT_EQ(table.text_at(1, "reason"), "four settings");
+    EXPECT_FALSE(table.number_or_nothing(1, "b").has_value());
+}
+
 TEST(ClaimChanges, OfAReadingThatBreaksDownFlipWhatHeld)
 {
     const ReadingFigures broken = {{}, true};

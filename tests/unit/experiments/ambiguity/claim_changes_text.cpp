@@ -69,6 +69,20 @@ TEST(ClaimChangesText, OfAClaimWithoutAFigureHasADash)
     EXPECT_TRUE(has(experiments::claim_changes_text(changes.table()), " -\n"));
 }
 
+// In one line for all of one reason; the cell shows what there is a figure of.
+TEST(ClaimChangesText, SaysWhichQuantitiesAreLeftOutAndWhy)
+{
+    ClaimChanges changes;
+    ReadingFigures a = with("C09", 2.0, Extent::whole), b = with("C09", 3.0, Extent::whole);
+    a.left_out = b.left_out = {{"C09", "share", "four settings"}, {"C09", "range", "four settings"}};
+    changes.add("limb", "C09", named("B"), a, b);
+    changes.add("limb", "C09", named("other"), a, b);
+    const std::string text = experiments::claim_changes_text(changes.table());
+    EXPECT_TRUE(has(text, "no figure: four settings: share, range\n")) << text;
+    EXPECT_TRUE(has(text, "x1.5\n")) << text;
+    EXPECT_TRUE(has(text, "C09: 0 of 2 figures flip\n")) << text;
+}
+
 TEST(ClaimChangesText, OfAReadingThatBreaksDownMarksTheFlip)
 {
     ClaimChanges changes;

@@ -30,6 +30,33 @@ TEST(JudgedFigure, KeepsABoundApartFromWhatItIsOf)
     EXPECT_EQ(figures[0].remark, "at least so much");
 }
 
+TEST(JudgedFigure, LeavesOutWhatIsNotMeasured)
+{
+    const auto left_out = experiments::all_but("C12", {}, "why");
+    ASSERT_EQ(left_out.size(), 1u);
+    EXPECT_EQ(left_out[0].quantity, "iterations to tolerance");
+    EXPECT_TRUE(experiments::all_but("C12", {"iterations to tolerance"}, "why").empty());
+}
+
+TEST(DigestOfClaims, IsAnotherWithAnotherBoundAndTheSameWithOtherWords)
+{
+    const analysis::Claim claim = experiments::claim_named("C09");
+    const std::string digest = experiments::digest_of({claim});
+    const auto changed = [&](const auto& change) {
+        analysis::Claim other = claim;
+        change(other);
+        return experiments::digest_of({other});
+    };
+    EXPECT_NE(changed([](auto& c) { c.bounds.at(0).low -= 1e-3; }), digest);
+    EXPECT_NE(changed([](auto& c) { c.bounds.pop_back(); }), digest);
+    EXPECT_NE(changed([](auto& c) { c.low -= 1e-3; }), digest);
+    EXPECT_NE(changed([](auto& c) { c.high += 1e-3; }), digest);
+    EXPECT_NE(changed([](auto& c) { c.share = 0.9; }), digest);
+    EXPECT_NE(changed([](auto& c) { c.metrics.pop_back(); }), digest);
+    EXPECT_EQ(changed([](auto& c) { c.statement += "!"; }), digest);
+    EXPECT_NE(experiments::digest_of({claim, experiments::claim_named("C10")}), digest);
+}
+
 experiments::ReadMotion clip_of(double change_pct)
 {
     experiments::ReadMotion moved;
