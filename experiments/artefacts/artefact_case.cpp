@@ -22,7 +22,8 @@ const std::vector<std::string> profile_columns = {"body",
                                                   "area_over_rest",
                                                   "smallest_radius_over_rest",
                                                   "largest_radius_over_rest",
-                                                  "outlines"};
+                                                  "outlines",
+                                                  "limb_share"};
 const std::vector<std::string> intersection_columns = {"body",      "vertices", "pose",      "deformer", "order",
                                                        "precision", "surface",  "triangles", "pairs",    "pairs_at_rest"};
 
@@ -99,7 +100,8 @@ private:
             auto row = row_head(body, pose);
             row.push_back(body.joints[joint].name);
             add_deformer(row, spec);
-            row.insert(row.end(), {section.offset_m, section.area, section.smallest_radius, section.largest_radius, section.outlines});
+            row.insert(row.end(), {section.offset_m, section.area, section.smallest_radius, section.largest_radius, section.outlines,
+                                   section.limb_share});
             records_.profiles.add_row(row);
         }
     }

@@ -1,6 +1,7 @@
 #include "experiments/artefacts/artefact_figures.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -37,9 +38,25 @@ double most(const std::vector<double>& values)
     return *std::max_element(values.begin(), values.end());
 }
 
-bool is_of_a_limb(const std::vector<ArtefactSample>& samples)
+bool is_wide(const std::vector<ArtefactSample>& samples)
 {
-    return samples.empty() || most(sizes(samples, &SectionExtremesOverRest::largest_radius)) <= widest_over_rest;
+    return !samples.empty() && most(sizes(samples, &SectionExtremesOverRest::largest_radius)) > widest_over_rest;
+}
+
+// "pbs 7.56 times as wide as at rest, 34 % of that outline the limb's own skin"
+std::string remark_on_width(const std::vector<ArtefactSample>& samples, std::size_t pose, std::size_t joint)
+{
+    std::vector<std::string> remarks;
+    for (const std::string group : {"pbs", "lbs", "dqs", "reference"}) {
+        const std::vector<ArtefactSample> own = chosen(samples, group, pose, joint);
+        if (!is_wide(own)) continue;
+        const SectionExtremesOverRest widest = std::max_element(own.begin(), own.end(), [](const auto& a, const auto& b) {
+                                                   return a.extremes.largest_radius < b.extremes.largest_radius;
+                                               })->extremes;
+        remarks.push_back(fmt::format("{} {:.3g} times as wide as at rest, {:.0f} % of that outline the limb's own skin", group,
+                                      widest.largest_radius, 100.0 * widest.limb_share_of_widest));
+    }
+    return fmt::format("{}", fmt::join(remarks, "; "));
 }
 
 std::string of_text(const ArtefactCase& of, const ArtefactBody& body, std::size_t pose, std::size_t joint)
@@ -65,7 +82,7 @@ std::vector<analysis::Measurement> candy_wrapper_figures(const ArtefactCase& of,
                                                          const std::vector<ArtefactSample>& samples)
 {
     std::vector<analysis::Measurement> figures;
-    for (const auto& [pose, joint, reference, outcome] : section_outcomes(of, body, samples))
+    for (const auto& [pose, joint, reference, outcome, remark] : section_outcomes(of, body, samples))
         for (const std::string group : {"pbs", "lbs", "dqs", "reference"})
             for (const auto& [quantity, extreme] :
                  {std::pair{"smallest section radius over rest", &SectionExtremesOverRest::smallest_radius},
@@ -83,7 +100,7 @@ std::vector<analysis::Measurement> bulge_figures(const ArtefactCase& of, const A
                                                  const std::vector<ArtefactSample>& samples)
 {
     std::vector<analysis::Measurement> figures;
-    for (const auto& [pose, joint, reference_name, outcome] : section_outcomes(of, body, samples)) {
+    for (const auto& [pose, joint, reference_name, outcome, remark] : section_outcomes(of, body, samples)) {
         if (outcome != SectionOutcome::measured && outcome != SectionOutcome::pbs_did_not_finish) continue;
         for (const auto& [quantity, extreme] :
              {std::pair{"largest section radius over the reference's", &SectionExtremesOverRest::largest_radius},
@@ -91,7 +108,7 @@ std::vector<analysis::Measurement> bulge_figures(const ArtefactCase& of, const A
             const std::vector<double> reference = sizes(chosen(samples, "reference", pose, joint), extreme);
             for (const std::string group : {"pbs", "lbs", "dqs"}) {
                 const std::vector<ArtefactSample> own = chosen(samples, group, pose, joint);
-                if (own.empty() || !is_of_a_limb(own)) continue;
+                if (own.empty()) continue;
                 const std::vector<double> values = sizes(own, extreme);
                 figures.push_back({"C05", quantity_of(quantity, group), of_text(of, body, pose, joint) + ", over " + reference_name,
                                    values.front() / reference.front(), least(values) / most(reference), most(values) / least(reference),
@@ -120,11 +137,11 @@ std::vector<JudgedSection> section_outcomes(const ArtefactCase& of, const Artefa
                 section.outcome = SectionOutcome::bent_too_far;
             else if (over_reference && section.reference.empty())
                 section.outcome = SectionOutcome::reference_not_reached;
-            else if (over_reference &&
-                     !(is_of_a_limb(chosen(samples, "pbs", pose, joint)) && is_of_a_limb(chosen(samples, "reference", pose, joint))))
+            else if (over_reference && is_wide(chosen(samples, "reference", pose, joint)))
                 section.outcome = SectionOutcome::inside_another_part;
             else if (chosen(samples, "pbs", pose, joint).empty())
                 section.outcome = SectionOutcome::pbs_did_not_finish;
+            if (over_reference) section.remark = remark_on_width(samples, pose, joint);
             sections.push_back(section);
         }
     return sections;
@@ -132,17 +149,19 @@ std::vector<JudgedSection> section_outcomes(const ArtefactCase& of, const Artefa
 
 analysis::CsvTable section_table(const ArtefactCase& of, const ArtefactBody& body, const std::vector<JudgedSection>& sections)
 {
-    analysis::CsvTable table({"claim", "body", "pose", "joint", "reference", "outcome"});
-    const auto add = [&](std::size_t pose, const std::string& joint, const std::string& reference, const std::string& outcome) {
+    analysis::CsvTable table({"claim", "body", "pose", "joint", "reference", "outcome", "remark"});
+    const auto add = [&](std::size_t pose, const std::string& joint, const std::string& reference, const std::string& outcome,
+                         const std::string& remark) {
         table.add_row({of.claim == ArtefactCase::Claim::bulge ? "C05" : "C04", body.posed.character().name, of.poses[pose].name, joint,
-                       reference, outcome});
+                       reference, outcome, remark});
     };
     for (const JudgedSection& section : sections)
-        add(section.pose, body.joints[section.joint].name, section.reference, name_of(section.outcome));
-    for (const JointByHand& joint : joints_by_hand(body.posed.character().name))
-        for (std::size_t pose = 0; pose < of.poses.size(); ++pose)
-            if (!joint.no_section.empty() && (of.joint.empty() || of.joint == name_of(joint)))
-                add(pose, name_of(joint), "", joint.no_section);
+        add(section.pose, body.joints[section.joint].name, section.reference, name_of(section.outcome), section.remark);
+    for (const JointByHand& joint : joints_by_hand(body.posed.character().name)) {
+        const std::string why = why_left_out(body.posed.character(), joint);
+        if (why.empty() || !(of.joint.empty() || of.joint == name_of(joint))) continue;
+        for (std::size_t pose = 0; pose < of.poses.size(); ++pose) add(pose, name_of(joint), "", why, "");
+    }
     return table;
 }
 

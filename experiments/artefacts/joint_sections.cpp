@@ -1,5 +1,6 @@
 #include "experiments/artefacts/joint_sections.hpp"
 
+#include "experiments/artefacts/outline_skin.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>
@@ -29,6 +30,19 @@ std::vector<double> offsets_of(const LimbJoint& joint)
     return offsets_m;
 }
 
+bool is_below(const pbs::Skeleton& skeleton, int bone, int ancestor)
+{
+    while (bone >= 0 && bone != ancestor) bone = skeleton.bones[bone].parent;
+    return bone == ancestor;
+}
+
+std::vector<bool> vertices_on_limb(const pbs::Character& character, const LimbJoint& joint)
+{
+    std::vector<bool> on_limb;
+    for (const int bone : character.binding.bone) on_limb.push_back(is_below(character.skeleton, bone, joint.parent));
+    return on_limb;
+}
+
 double share(double now, double rest)
 {
     return rest > 0.0 ? now / rest : 1.0;
@@ -46,16 +60,23 @@ SectionExtremesOverRest extremes_of(const JointProfile& profile)
         return std::pair{(*least).*size, (*most).*size};
     };
     extremes.smallest_radius = range(&JointSection::smallest_radius).first;
-    extremes.largest_radius = range(&JointSection::largest_radius).second;
+    const auto widest =
+        std::max_element(profile.begin(), profile.end(), [](const auto& a, const auto& b) { return a.largest_radius < b.largest_radius; });
+    extremes.largest_radius = widest->largest_radius;
+    extremes.limb_share_of_widest = widest->limb_share;
     std::tie(extremes.smallest_area, extremes.largest_area) = range(&JointSection::area);
     return extremes;
 }
 
 JointSections::JointSections(const pbs::Character& character, const LimbJoint& joint)
-    : skeleton_(character.skeleton), joint_(joint), skin_(pbs::boundary_of(character.mesh.tets)), offsets_m_(offsets_of(joint))
+    : skeleton_(character.skeleton),
+      joint_(joint),
+      skin_(pbs::boundary_of(character.mesh.tets)),
+      on_limb_(vertices_on_limb(character, joint)),
+      offsets_m_(offsets_of(joint))
 {
     const pbs::Pose still(skeleton_.bones.size(), Eigen::Isometry3d::Identity());
-    rest_ = sizes(character.mesh.rest, still, nullptr);
+    rest_ = cuts(character.mesh.rest, still);
 }
 
 double JointSections::bend_deg(const pbs::Pose& pose) const
@@ -79,29 +100,31 @@ std::vector<pbs::CuttingPlane> JointSections::planes(const pbs::Pose& pose) cons
     return planes;
 }
 
-std::vector<analysis::OutlineSize> JointSections::sizes(const pbs::Positions& positions, const pbs::Pose& pose,
-                                                        std::vector<int>* outlines) const
+std::vector<JointSections::Cut> JointSections::cuts(const pbs::Positions& positions, const pbs::Pose& pose) const
 {
-    const std::vector<pbs::CuttingPlane> cuts = planes(pose);
-    const auto sections = pbs::section_outlines(positions, skin_, cuts);
-    std::vector<analysis::OutlineSize> sizes;
-    for (std::size_t i = 0; i < cuts.size(); ++i) {
-        const pbs::Positions* own = analysis::enclosing_outline(sections[i], {cuts[i].point, cuts[i].normal});
-        sizes.push_back(own ? analysis::outline_size(*own) : analysis::OutlineSize{});
-        if (outlines) outlines->push_back(static_cast<int>(sections[i].size()));
+    const std::vector<pbs::CuttingPlane> planes = this->planes(pose);
+    const auto sections = pbs::section_outlines(positions, skin_, planes);
+    std::vector<Cut> cuts;
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        Cut cut{.outlines = static_cast<int>(sections[i].size())};
+        if (const pbs::Positions* own = analysis::enclosing_outline(sections[i], {planes[i].point, planes[i].normal})) {
+            cut.size = analysis::outline_size(*own);
+            cut.limb_share = share_of_outline(*own, planes[i], positions, skin_, on_limb_);
+        }
+        cuts.push_back(cut);
     }
-    return sizes;
+    return cuts;
 }
 
 JointProfile JointSections::measure(const pbs::Positions& positions, const pbs::Pose& pose) const
 {
-    std::vector<int> outlines;
-    const std::vector<analysis::OutlineSize> now = sizes(positions, pose, &outlines);
+    const std::vector<Cut> now = cuts(positions, pose);
     JointProfile profile;
-    for (std::size_t i = 0; i < now.size(); ++i)
-        profile.push_back({offsets_m_[i], share(now[i].area_m2, rest_[i].area_m2),
-                           share(now[i].smallest_radius_m, rest_[i].smallest_radius_m),
-                           share(now[i].largest_radius_m, rest_[i].largest_radius_m), outlines[i]});
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        const analysis::OutlineSize &size = now[i].size, &rest = rest_[i].size;
+        profile.push_back({offsets_m_[i], share(size.area_m2, rest.area_m2), share(size.smallest_radius_m, rest.smallest_radius_m),
+                           share(size.largest_radius_m, rest.largest_radius_m), now[i].outlines, now[i].limb_share});
+    }
     return profile;
 }
 

@@ -19,11 +19,13 @@ struct JointSection {
     double offset_m = 0.0;                                           // from the joint, negative on the parent; of the rest pose
     double area = 1.0, smallest_radius = 1.0, largest_radius = 1.0;  // over the same station's at rest
     int outlines = 0;                                                // that the plane cuts out of the whole body
+    double limb_share = 1.0;  // of the outline's length: skin that hangs on the parent or a bone below it; the rest is another part's
 };
 using JointProfile = std::vector<JointSection>;
 
 struct SectionExtremesOverRest {
     double smallest_radius = 1.0, smallest_area = 1.0, largest_radius = 1.0, largest_area = 1.0;
+    double limb_share_of_widest = 1.0;  // where the largest radius is
 };
 SectionExtremesOverRest extremes_of(const JointProfile& profile);
 
@@ -38,13 +40,19 @@ public:
 
 private:
     std::vector<pbs::CuttingPlane> planes(const pbs::Pose& pose) const;
-    std::vector<analysis::OutlineSize> sizes(const pbs::Positions& positions, const pbs::Pose& pose, std::vector<int>* outlines) const;
+    struct Cut {
+        analysis::OutlineSize size;
+        int outlines = 0;
+        double limb_share = 1.0;
+    };
+    std::vector<Cut> cuts(const pbs::Positions& positions, const pbs::Pose& pose) const;
 
     pbs::Skeleton skeleton_;
     LimbJoint joint_;
     pbs::Triangles skin_;
+    std::vector<bool> on_limb_;  // #V
     std::vector<double> offsets_m_;
-    std::vector<analysis::OutlineSize> rest_;  // of each station
+    std::vector<Cut> rest_;  // of each station
 };
 
 }  // namespace experiments

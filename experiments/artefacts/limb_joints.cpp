@@ -48,19 +48,16 @@ double section_radius(const pbs::Character& character, const pbs::Bone& parent, 
     return own ? std::sqrt(analysis::outline_size(*own).area_m2 / std::numbers::pi) : 0.0;
 }
 
-// None where the body has not got the bones, or no flesh there.
 std::optional<LimbJoint> found(const pbs::Character& character, const JointByHand& named)
 {
+    if (!why_left_out(character, named).empty()) return {};
     const int parent = pbs::find_bone(character.skeleton, named.parent), child = pbs::find_bone(character.skeleton, named.child);
-    if (parent < 0 || child < 0 || !named.no_section.empty()) return {};
     const pbs::Bone &before = character.skeleton.bones[parent], &after = character.skeleton.bones[child];
-    const double radius_m = section_radius(character, before, after);
-    if (radius_m <= 0.0) return {};
     return LimbJoint{name_of(named),
                      parent,
                      child,
                      after.head,
-                     radius_m,
+                     section_radius(character, before, after),
                      named.reach_parent * along(before).norm(),
                      named.reach_child * along(after).norm()};
 }
@@ -70,6 +67,16 @@ std::optional<LimbJoint> found(const pbs::Character& character, const JointByHan
 std::string name_of(const JointByHand& joint)
 {
     return joint.parent + "|" + joint.child;
+}
+
+std::string why_left_out(const pbs::Character& character, const JointByHand& joint)
+{
+    if (!joint.no_section.empty()) return joint.no_section;
+    const auto& bones = character.skeleton.bones;
+    for (const std::string& bone : {joint.parent, joint.child})
+        if (pbs::find_bone(character.skeleton, bone) < 0) return "no bone " + bone;
+    const int parent = pbs::find_bone(character.skeleton, joint.parent), child = pbs::find_bone(character.skeleton, joint.child);
+    return section_radius(character, bones[parent], bones[child]) > 0.0 ? "" : "no flesh round the joint";
 }
 
 // Frankie's bones are short for his flesh: a limb of the rule is longer than 3 times the mean distance of its vertices, his upper arm 1.2,

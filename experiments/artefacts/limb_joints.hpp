@@ -29,6 +29,8 @@ struct JointByHand {
     std::string no_section;  // why it has none; empty: it has
 };
 std::string name_of(const JointByHand& joint);
+// Why the character has no sections there: no_section, or a bone or flesh that it has not got. Empty: it has.
+std::string why_left_out(const pbs::Character& character, const JointByHand& joint);
 std::vector<JointByHand> joints_by_hand(const std::string& body);  // none: the body follows the rule
 
 pbs::Vec3 twist_axis(const pbs::Skeleton& skeleton, const LimbJoint& joint);  // the child's direction

@@ -38,6 +38,7 @@ Window beside_the_paper(Varied varied)
 std::string suffix_of(Method method, const std::string& load)
 {
     if (method == Method::exponent) return ", exponent";
+    if (method == Method::xpbd_forgetting) return ", xpbd, multipliers forgotten";
     if (is_xpbd(method)) return ", xpbd";
     return load == "zone" ? "" : ", flesh held";
 }

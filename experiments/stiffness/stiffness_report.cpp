@@ -59,11 +59,14 @@ std::map<std::string, Columns> shown_ratios(const SweptRows& sweep)
     return columns;
 }
 
-std::vector<analysis::Measurement> control_ratios(const SweptRows& sweep)
+enum class Multipliers { kept, forgotten };
+
+std::vector<analysis::Measurement> control_ratios(const SweptRows& sweep, Multipliers multipliers)
 {
+    const bool forgets = multipliers == Multipliers::forgotten;
     std::vector<StiffnessRow> rows;
     for (const StiffnessRow& row : sweep.second)
-        if (is_xpbd(row.setting.method)) rows.push_back(row);
+        if (is_xpbd(row.setting.method) && (row.setting.method == Method::xpbd_forgetting) == forgets) rows.push_back(row);
     return stiffness_ratios(rows, sweep.first);
 }
 
@@ -123,17 +126,18 @@ std::string stiffness_text(const std::vector<SweptRows>& sweeps)
 std::string control_text(const std::vector<SweptRows>& sweeps, const analysis::Claim& claim)
 {
     std::string text;
-    for (const SweptRows& sweep : sweeps) {
-        const auto measured = control_ratios(sweep);
-        if (measured.empty()) continue;
-        const auto within = std::count_if(measured.begin(), measured.end(), [&](const auto& one) { return stays(claim, one); });
-        const auto& farthest = *std::max_element(measured.begin(), measured.end(), [](const auto& a, const auto& b) {
-            return std::abs(std::log(farther_end(a))) < std::abs(std::log(farther_end(b)));
-        });
-        text += fmt::format("the control, XPBD, at {}: {} of {} figures stay within {}; farthest {:.3g}, of {}\n", doubled(sweep.first),
-                            within, measured.size(), analysis::bound_text(analysis::bound_of(claim, farthest.quantity)),
-                            farther_end(farthest), farthest.of);
-    }
+    for (const auto& [multipliers, name] : {std::pair{Multipliers::kept, "XPBD"}, {Multipliers::forgotten, "XPBD without its multipliers"}})
+        for (const SweptRows& sweep : sweeps) {
+            const auto measured = control_ratios(sweep, multipliers);
+            if (measured.empty()) continue;
+            const auto within = std::count_if(measured.begin(), measured.end(), [&](const auto& one) { return stays(claim, one); });
+            const auto& farthest = *std::max_element(measured.begin(), measured.end(), [](const auto& a, const auto& b) {
+                return std::abs(std::log(farther_end(a))) < std::abs(std::log(farther_end(b)));
+            });
+            text += fmt::format("the control, {}, at {}: {} of {} figures stay within {}; farthest {:.3g}, of {}\n", name,
+                                doubled(sweep.first), within, measured.size(),
+                                analysis::bound_text(analysis::bound_of(claim, farthest.quantity)), farther_end(farthest), farthest.of);
+        }
     return text;
 }
 
@@ -141,7 +145,7 @@ std::string control_markdown(const std::vector<SweptRows>& sweeps, const analysi
 {
     std::string text;
     for (const SweptRows& sweep : sweeps)
-        for (const auto& measured : control_ratios(sweep))
+        for (const auto& measured : control_ratios(sweep, Multipliers::kept))
             if (!stays(claim, measured))
                 text += fmt::format("| {} | {} | {:.4g} | {:.4g} to {:.4g} |\n", doubled(sweep.first), measured.of, measured.value,
                                     measured.low, measured.high);

@@ -20,7 +20,8 @@ std::string stiffness_markdown(const std::vector<SweptRows>& sweeps);
 std::string stiffness_text(const std::vector<SweptRows>& sweeps);
 
 // Whether the control is one: XPBD's stiffness is a material's, so its figures should stay within the bounds that the claim sets PBS. For
-// each thing doubled how many do, from least to most, and where the farthest is; a list of all that do not, for the page.
+// each thing doubled how many do, from least to most, and where the farthest is; the same of XPBD whose multipliers are forgotten, which
+// should not, so that the study is seen to see it. A list of all of XPBD's that do not, for the page.
 std::string control_text(const std::vector<SweptRows>& sweeps, const analysis::Claim& claim);
 std::string control_markdown(const std::vector<SweptRows>& sweeps, const analysis::Claim& claim);
 

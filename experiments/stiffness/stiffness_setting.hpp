@@ -11,8 +11,7 @@
 namespace experiments {
 
 // exponent: k' = 1 - (1 - k)^(1 / iterations). xpbd: multipliers kept over the iterations of a step. xpbd_small_steps: as many substeps of
-// one iteration as there are iterations. xpbd_forgetting: multipliers are forgotten in every iteration, a broken control that no study
-// runs.
+// one iteration as there are iterations. xpbd_forgetting: multipliers are forgotten in every iteration, so that the control has to fail.
 enum class Method { pbs, exponent, xpbd, xpbd_small_steps, xpbd_forgetting };
 
 struct StiffnessSetting {

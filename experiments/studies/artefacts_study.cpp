@@ -184,15 +184,21 @@ std::string intersections_text(const std::vector<std::string>& finished)
     return text;
 }
 
-// How many sections each claim is judged by, and which are left out, and why.
+// How many sections each claim is judged by, which of them with a remark, and which are left out, and why.
 std::string sections_text(const std::vector<std::string>& finished)
 {
     std::map<std::string, std::map<std::string, std::vector<std::string>>> sections;  // by claim and outcome
+    std::string remarks;
     for (const std::string& run : finished) {
         const analysis::CsvTable table = analysis::read_csv((fs::path(run) / "sections.csv").string());
-        for (int row = 0; row < table.rows(); ++row)
-            sections[table.text_at(row, "claim")][table.text_at(row, "outcome")].push_back(
-                fmt::format("{} {} {}", table.text_at(row, "body"), table.text_at(row, "pose"), table.text_at(row, "joint")));
+        for (int row = 0; row < table.rows(); ++row) {
+            const std::string claim = table.text_at(row, "claim"), outcome = table.text_at(row, "outcome");
+            const std::string of =
+                fmt::format("{} {} {}", table.text_at(row, "body"), table.text_at(row, "pose"), table.text_at(row, "joint"));
+            sections[claim][outcome].push_back(of);
+            if (!table.text_at(row, "remark").empty())
+                remarks += fmt::format("{}: {}, {}: {}\n", claim, of, outcome, table.text_at(row, "remark"));
+        }
     }
     std::string text;
     for (const auto& [claim, outcomes] : sections)
@@ -200,7 +206,7 @@ std::string sections_text(const std::vector<std::string>& finished)
             text += fmt::format("{}: {} sections {}", claim, names.size(), outcome);
             text += outcome == name_of(SectionOutcome::measured) ? "\n" : fmt::format(": {}\n", fmt::join(names, "; "));
         }
-    return text;
+    return text + remarks;
 }
 
 }  // namespace

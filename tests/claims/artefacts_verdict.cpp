@@ -74,6 +74,14 @@ TEST_F(ArtefactsVerdict, AWideSectionIsABulge)
     EXPECT_EQ(verdict("C05", wide(samples)), VerdictKind::not_reproduced);
 }
 
+// Nothing puts the limb into another part but pbs itself.
+TEST_F(ArtefactsVerdict, HoweverWideASectionOfPbsAloneItFails)
+{
+    for (const double wide_over_rest : {2.9, 3.1, 8.0})
+        EXPECT_EQ(verdict("C05", wide({sample("pbs", 0, wide_over_rest), sample("reference", 0, 1.0, 1)})), VerdictKind::not_reproduced)
+            << wide_over_rest;
+}
+
 // The body's own figure is over it, and its interval reaches over linear elements too.
 TEST_F(ArtefactsVerdict, QuadraticElementsAreTheReference)
 {

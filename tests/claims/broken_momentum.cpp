@@ -1,8 +1,7 @@
 // C07 from projections as they are and broken. Truth:
 //   volume sign        corrections are turned round, and still add up to nothing: the verdict must stay (Eq. 3-4 ask for no more)
-//   printed labels     gradients under the wrong particles still add up to nothing (Eq. 15), their moments do not: angular momentum is
-//   lost,
-//                      linear is not
+//   printed labels     gradients under the wrong particles still add up to nothing (Eq. 15), their moments do not: angular momentum
+//                      is lost, linear is not
 //   a class dropped    what is not projected has no drift that could be named, so it is not counted as conserved
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/limb_character.hpp"

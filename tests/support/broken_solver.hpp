@@ -12,24 +12,28 @@
 
 namespace test_support {
 
-enum class Broken { nothing, volume_sign, bind_dropped, stretch_dropped, volume_dropped, nothing_projected };
+// The printed volume equation is projected in order plain alone: nothing_in_plain_order is what volume_sign is compared with.
+enum class Broken { nothing, nothing_in_plain_order, volume_sign, bind_dropped, stretch_dropped, volume_dropped, nothing_projected };
 inline constexpr std::array every_broken = {Broken::volume_sign, Broken::bind_dropped, Broken::stretch_dropped, Broken::volume_dropped,
                                             Broken::nothing_projected};
 
 inline std::string name_of(Broken how)
 {
-    static constexpr const char* names[] = {"as it is",        "volume sign",    "bind dropped",
-                                            "stretch dropped", "volume dropped", "nothing projected"};
+    static constexpr const char* names[] = {"as it is",        "as it is, plain", "volume sign",      "bind dropped",
+                                            "stretch dropped", "volume dropped",  "nothing projected"};
     return names[static_cast<int>(how)];
+}
+
+inline Broken sound_beside(Broken how)
+{
+    return how == Broken::volume_sign ? Broken::nothing_in_plain_order : Broken::nothing;
 }
 
 inline pbs::PbsOptions broken(pbs::PbsOptions options, Broken how)
 {
     const bool all = how == Broken::nothing_projected;
-    if (how == Broken::volume_sign) {
-        options.volume_form = pbs::VolumeForm::sign;
-        options.order = pbs::Order::plain;
-    }
+    if (how == Broken::volume_sign) options.volume_form = pbs::VolumeForm::sign;
+    if (how == Broken::volume_sign || how == Broken::nothing_in_plain_order) options.order = pbs::Order::plain;
     if (all || how == Broken::volume_dropped) options.k_volume = 0.0;
     if (all || how == Broken::bind_dropped) options.k_bind = 0.0;
     if (all || how == Broken::stretch_dropped) options.k_stretch = 0.0;

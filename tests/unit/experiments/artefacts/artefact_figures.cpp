@@ -27,6 +27,7 @@ protected:
         return of_quantity(experiments::bulge_figures(of, body, samples), quantity);
     }
     SectionOutcome outcome(std::size_t pose) const { return experiments::section_outcomes(of, body, samples)[pose].outcome; }
+    std::string remark(std::size_t pose) const { return experiments::section_outcomes(of, body, samples)[pose].remark; }
 
     ArtefactCase of = test_support::small_limb(ArtefactCase::Claim::bulge);
     ArtefactBody body{of};
@@ -67,21 +68,31 @@ TEST_F(BulgeFigures, DeepFoldsAreLeftOutWhateverTheReference)
     EXPECT_EQ(outcome(2), SectionOutcome::bent_too_far);
 }
 
-TEST_F(BulgeFigures, SectionsOfAPartThatTheLimbHasGoneIntoAreLeftOut)
+TEST_F(BulgeFigures, SectionsOfAPartThatTheReferenceHasGoneIntoAreLeftOut)
 {
-    samples = {sample("pbs", 0, 2.9), sample("reference", 0, 1.0, 1), sample("pbs", 1, 1.0), sample("pbs", 1, 3.1),
-               sample("reference", 1, 1.0, 1)};
+    samples = {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1), sample("reference", 0, 3.1, 1),
+               sample("dqs", 0, 1.0), sample("pbs", 1, 1.0),          sample("reference", 1, 2.9, 1)};
     EXPECT_EQ(figures().size(), 1u);
-    EXPECT_EQ(outcome(0), SectionOutcome::measured);
-    EXPECT_EQ(outcome(1), SectionOutcome::inside_another_part);
-    samples = {sample("pbs", 0, 1.0), sample("reference", 0, 8.0, 1), sample("dqs", 0, 1.0)};
-    EXPECT_TRUE(figures().empty());
     EXPECT_TRUE(figures("largest section area over the reference's, dqs").empty());
     EXPECT_EQ(outcome(0), SectionOutcome::inside_another_part);
-    samples = {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1), sample("dqs", 0, 8.0)};
-    EXPECT_EQ(figures().size(), 1u);
-    EXPECT_TRUE(figures("largest section area over the reference's, dqs").empty());
+    EXPECT_EQ(outcome(1), SectionOutcome::measured);
+    EXPECT_EQ(remark(0), "reference 3.1 times as wide as at rest, 100 % of that outline the limb's own skin");
+    EXPECT_EQ(remark(1), "");
+}
+
+// However wide: a bulge of pbs is what C05 denies.
+TEST_F(BulgeFigures, WhatIsWideUnderPbsOrABlendAloneIsJudgedWithARemark)
+{
+    samples = {sample("pbs", 0, 1.0), sample("pbs", 0, 3.1), sample("reference", 0, 1.0, 1), sample("dqs", 0, 8.0)};
+    samples[1].extremes.limb_share_of_widest = 0.25;
+    ASSERT_EQ(figures().size(), 1u);
+    EXPECT_DOUBLE_EQ(figures()[0].high, 3.1);
+    EXPECT_EQ(figures("largest section area over the reference's, dqs").size(), 1u);
     EXPECT_EQ(outcome(0), SectionOutcome::measured);
+    EXPECT_EQ(remark(0),
+              "pbs 3.1 times as wide as at rest, 25 % of that outline the limb's own skin; "
+              "dqs 8 times as wide as at rest, 100 % of that outline the limb's own skin");
+    EXPECT_EQ(section_table(of, body, experiments::section_outcomes(of, body, samples)).text_at(0, "remark"), remark(0));
 }
 
 TEST_F(BulgeFigures, BlendsStandBesideWherePbsBrokeDown)

@@ -38,6 +38,7 @@ TEST_F(JointSectionsOfLimb, AreWholeAtRest)
         EXPECT_NEAR(section.area, 1.0, 1e-12);
         EXPECT_NEAR(section.smallest_radius, 1.0, 1e-12);
         EXPECT_EQ(section.outlines, 1);
+        EXPECT_EQ(section.limb_share, 1.0);  // both bones hang on the parent
     }
 }
 

@@ -98,6 +98,22 @@ TEST(JointsByHand, OneOutsideTheSkinIsNone)
     EXPECT_TRUE(experiments::limb_joints(limb).empty());
 }
 
+TEST(JointsByHand, WhatIsLeftOutHasItsReason)
+{
+    pbs::Character limb = limb_as_frankie("tail_1", "tail_2");
+    const auto why = [&](const std::string& child) {
+        for (const auto& joint : experiments::joints_by_hand("frankie"))
+            if (joint.child == child) return experiments::why_left_out(limb, joint);
+        return std::string("not named");
+    };
+    EXPECT_EQ(why("tail_2"), "");
+    EXPECT_EQ(why("tail_3"), "no bone tail_3");
+    EXPECT_EQ(why("hand.L"), "no bone forearm_lower.L");
+    EXPECT_TRUE(why("shin.L").starts_with("no limb's"));
+    limb.mesh.rest.col(0).array() += 10.0;
+    EXPECT_EQ(why("tail_2"), "no flesh round the joint");
+}
+
 TEST(JointsByHand, OtherBodiesFollowTheRule)
 {
     for (const char* body : {"limb", "bar", "human", "man", "lady", "ring", ""})
