@@ -141,7 +141,7 @@ std::vector<JudgedSection> section_outcomes(const ArtefactCase& of, const Artefa
                 section.outcome = SectionOutcome::inside_another_part;
             else if (chosen(samples, "pbs", pose, joint).empty())
                 section.outcome = SectionOutcome::pbs_did_not_finish;
-            if (over_reference) section.remark = remark_on_width(samples, pose, joint);
+            if (over_reference && section.outcome != SectionOutcome::bent_too_far) section.remark = remark_on_width(samples, pose, joint);
             sections.push_back(section);
         }
     return sections;

@@ -63,9 +63,10 @@ TEST_F(BulgeFigures, PosesWithoutAReferenceAreCountedAndHaveNone)
 
 TEST_F(BulgeFigures, DeepFoldsAreLeftOutWhateverTheReference)
 {
-    samples = {sample("pbs", 2, 1.0), sample("reference", 2, 1.0, 1)};
+    samples = {sample("pbs", 2, 5.0), sample("reference", 2, 1.0, 1)};
     EXPECT_TRUE(figures().empty());
     EXPECT_EQ(outcome(2), SectionOutcome::bent_too_far);
+    EXPECT_EQ(remark(2), "");
 }
 
 TEST_F(BulgeFigures, SectionsOfAPartThatTheReferenceHasGoneIntoAreLeftOut)
