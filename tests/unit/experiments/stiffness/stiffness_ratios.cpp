@@ -146,6 +146,21 @@ TEST(StiffnessReport, SaysWhetherTheControlIsOne)
     EXPECT_NE(control_markdown({{Varied::iterations, rows}}, claim).find("| none |"), std::string::npos);
 }
 
+// Beside the control, in a line and under a quantity of its own: no figure of the control, nor of any claim.
+TEST(StiffnessReport, TellsForgottenMultipliersApart)
+{
+    std::vector<StiffnessRow> rows = squares();
+    for (StiffnessRow& row : rows) row.setting.method = Method::xpbd_forgetting;
+    analysis::Claim claim;
+    claim.low = 0.9;
+    claim.high = 1.1;
+    const std::vector<SweptRows> sweeps = {{Varied::iterations, rows}};
+    EXPECT_EQ(control_text(sweeps, claim).find("the control, XPBD without its multipliers, at twice the iterations: 0 of 1 figures"), 0u);
+    EXPECT_NE(control_markdown(sweeps, claim).find("| none |"), std::string::npos);
+    EXPECT_NE(stiffness_markdown(sweeps).find("30 kPa, multipliers forgotten"), std::string::npos);
+    EXPECT_TRUE(stiffness_ratios(rows, Varied::iterations).at(0).quantity.ends_with("over at the once, xpbd, multipliers forgotten"));
+}
+
 TEST(StiffnessRow, ReadsBackWhatWasWritten)
 {
     std::vector<StiffnessRow> rows = squares();
