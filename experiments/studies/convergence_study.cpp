@@ -6,7 +6,7 @@
 //   ladder_twist, _bend     the limb from 500 vertices to 8,000 in three orders (--full: to 100,000 in one); the reference on the same tets
 //                           to 5,000 vertices (--full: 10,000; the bend 2,500), left out above: rates.csv says so of each mesh
 //
-// Writes DIR/convergence/RUN/residuals.csv, rates.csv, towards.csv, measurements.csv, and rates.csv, convergence.md of all runs.
+// Writes DIR/convergence/RUN/residuals.csv, rates.csv, towards.csv, measurements.csv, and convergence.md of all runs.
 #include "analysis/atomic_file.hpp"
 #include "analysis/measurement.hpp"
 #include "experiments/audit/table_1.hpp"
@@ -19,6 +19,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 
 namespace experiments {
@@ -145,7 +146,7 @@ StudyPlan plan_convergence_study(bool full)
     return plan;
 }
 
-// From each start, in the default order: residual, iterations and error, a line a pose.
+// From each start, in the default order: residual, iterations and error, a line a pose; -: no rate could be fitted, no reference.
 StudyConclusion conclude_convergence_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
 {
     std::string text = fmt::format("{:8} {:16} {:>8} {:>9} {:15} {:>9} {:>12} {:>12} {:>9} {:>9} {:>9}\n", "body", "pose", "vertices",
@@ -153,6 +154,7 @@ StudyConclusion conclude_convergence_study(const std::string& folder, const Stud
     const auto count = [](const analysis::CsvTable& table, int row, const char* iterations, const char* reached) {
         return fmt::format("{}{}", table.integer(row, reached) ? "" : "> ", table.integer(row, iterations));
     };
+    const auto known = [](double value, const char* form) { return std::isfinite(value) ? fmt::format(fmt::runtime(form), value) : "-"; };
     for (const std::string& run : finished) {
         const analysis::CsvTable rates = analysis::read_csv((fs::path(run) / "rates.csv").string());
         const bool is_ladder = fs::path(run).filename().string().starts_with("ladder");
@@ -160,12 +162,13 @@ StudyConclusion conclude_convergence_study(const std::string& folder, const Stud
             if (rates.text_at(row, "order") != "ordered" || rates.text_at(row, "precision") != "f32") continue;
             const bool of_lbs = rates.text_at(row, "start") == name_of(SolverStart::lbs);
             if (is_ladder ? !of_lbs : !rates.integer(row, "own_mesh")) continue;
-            text += fmt::format("{:8} {:16} {:8} {:9} {:15} {:9.4f} {:>12} {:>12} {:9.1f} {:9} {:9.1f}\n", rates.text_at(row, "body"),
-                                rates.text_at(row, "pose"), rates.integer(row, "vertices"), rates.number(row, "k_stretch"),
-                                rates.text_at(row, "start"), rates.number(row, "rate_per_iteration"),
-                                count(rates, row, "iterations_to_residual", "residual_reached"),
-                                count(rates, row, "iterations_to_volume", "volume_reached"), rates.number(row, "error_24_pct"),
-                                rates.integer(row, "least_error_iteration"), rates.number(row, "last_error_pct"));
+            text += fmt::format(
+                "{:8} {:16} {:8} {:9} {:15} {:>9} {:>12} {:>12} {:>9} {:>9} {:>9}\n", rates.text_at(row, "body"),
+                rates.text_at(row, "pose"), rates.integer(row, "vertices"), rates.number(row, "k_stretch"), rates.text_at(row, "start"),
+                known(rates.number(row, "rate_per_iteration"), "{:.4f}"), count(rates, row, "iterations_to_residual", "residual_reached"),
+                count(rates, row, "iterations_to_volume", "volume_reached"), known(rates.number(row, "error_24_pct"), "{:.1f}"),
+                std::isfinite(rates.number(row, "error_24_pct")) ? rates.text_at(row, "least_error_iteration") : "-",
+                known(rates.number(row, "last_error_pct"), "{:.1f}"));
         }
     }
     analysis::write_text_atomically((fs::path(folder) / "convergence.md").string(), "```\n" + text + "```\n");
