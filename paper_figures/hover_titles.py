@@ -19,7 +19,7 @@ def add(figure, file):
 
 
 def group_of(axes, dpi, height):
-    circles = [circle for label, x, y in points_of(axes) for circle in circles_of(axes, label, x, y, dpi, height)]
+    circles = [circle for points in points_of(axes) for circle in circles_of(axes, *points, dpi, height)]
     if not circles:
         return ""
     names = f"data-x={quoteattr(axes.get_xlabel())} data-y={quoteattr(axes.get_ylabel())}"
@@ -27,31 +27,35 @@ def group_of(axes, dpi, height):
 
 
 def points_of(axes):
-    """(label, x, y) of each line, cloud of markers and row of bars; not of lines across the panel."""
+    """(label, x, y of the places, x, y to be said) of each line, cloud of markers and row of bars; not of lines across the panel."""
     for line in axes.lines:
         if line.get_transform() == axes.transData:
             x, y = line.get_data(orig=False)
-            yield line.get_label(), x, y
+            yield line.get_label(), x, y, x, y
     for cloud in axes.collections:
         if isinstance(cloud, PathCollection):
-            yield (cloud.get_label(), *numpy.ma.filled(cloud.get_offsets(), numpy.nan).T)
+            x, y = numpy.ma.filled(cloud.get_offsets(), numpy.nan).T
+            yield cloud.get_label(), x, y, x, y
     for bars in axes.containers:
         if isinstance(bars, BarContainer):
-            yield (bars.get_label(), *numpy.array([end_of(bar, bars.orientation) for bar in bars]).T)
+            yield (bars.get_label(), *numpy.array([end_and_length_of(bar, bars.orientation) for bar in bars]).T)
 
 
-def end_of(bar, orientation):
+def end_and_length_of(bar, orientation):
+    """x and y of its end, then of what it stands for: of stacked bars each begins where the one before ends."""
     x, y, width, height = bar.get_x(), bar.get_y(), bar.get_width(), bar.get_height()
-    return (x + width / 2, y + height) if orientation == "vertical" else (x + width, y + height / 2)
+    if orientation == "vertical":
+        return x + width / 2, y + height, x + width / 2, height
+    return x + width, y + height / 2, width, y + height / 2
 
 
-def circles_of(axes, label, x, y, dpi, height):
+def circles_of(axes, label, x, y, said_x, said_y, dpi, height):
     """Of the points within the panel."""
     places = axes.transData.transform(numpy.column_stack([x, y]).astype(float))
     box = axes.bbox.padded(1.0)
     names = names_of(axes.xaxis), names_of(axes.yaxis)
     prefix = "" if label.startswith("_") else f"{label}: "
-    for place, *values in zip(places, x, y):
+    for place, *values in zip(places, said_x, said_y):
         if numpy.isfinite(place).all() and box.contains(*place):
             across, up = place * points_an_inch / dpi
             text = prefix + ", ".join(name_of(value, known) for known, value in zip(names, values))

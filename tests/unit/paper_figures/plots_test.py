@@ -125,7 +125,9 @@ class Plots(unittest.TestCase):
 
     def test_timing(self):
         synthetic_tables.write_timing(self.results / "timing")
-        self.drawn("timing_sizes")
+        rows = self.drawn("timing_sizes")
+        stretch_ms = next(float(row["stretch_ms"]) for row in rows if (row["variant"], row["mesh"]) == ("plain", "man_1654"))
+        self.assertIn(f"stretch: {stretch_ms:.6g}, man, 1,654", self.titles("processor time of a frame [ms]"))  # not LBS and bind with it
         shown = self.titles("vertices")
         self.assertIn("ordered, f32: 20000, 2.5", shown)
         self.assertIn("paper, by frame rate: 1654, 11", shown)
