@@ -11,6 +11,7 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
+import entries
 import recorded_frames
 import records
 
@@ -127,10 +128,17 @@ def pack_run(recorded, every, block):
             "rest_codes": block.put(codes_of(rest, rest_low, rest_step))}
 
 
+def check(results, names):
+    """Planned, written by its own run and not changed since, as it is asked of a figure's records; one revision for all."""
+    files = [f"frames/{run}/{file}" for run in names for file in ("metrics.csv", "bones.csv", "frames/*.vtu")]
+    entries.Entry("viewer", "", "", [], files, "", "R").check(results)
+
+
 def recorded_runs(results):
     found = [recorded_frames.Frames(results, name) for name in titles if (results / "frames" / name).is_dir()]
     if not found:
         raise records.RecordsMissing(f"{results / 'frames'}: no frames on record; the study `frames` writes them")
+    check(results, [recorded.run.name for recorded in found])
     return found
 
 

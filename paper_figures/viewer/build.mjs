@@ -1,10 +1,14 @@
-// Bundles src/main.js and three.js into one script, $PBS_VIEWER_BUILD/viewer.js (dist/ where that is not set).
+// Bundles src/main.js and three.js, with the text of its licence, into one script: $PBS_VIEWER_BUILD/viewer.js (dist/ where that is not
+// set).
 import { build } from "esbuild";
+import fs from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 const folder = process.env.PBS_VIEWER_BUILD || path.join(here, "dist");
+
+const licence = fs.readFileSync(path.join(here, "node_modules/three/LICENSE"), "utf8");
 
 await build({
     absWorkingDir: here,
@@ -16,6 +20,7 @@ await build({
     target: "es2022",
     charset: "ascii",
     loader: { ".css": "text" },
+    banner: { js: `/*! three.js\n${licence}*/` },
     legalComments: "eof",
     logLevel: "warning",
 });

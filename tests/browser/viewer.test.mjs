@@ -41,7 +41,8 @@ function drawn_positions() {
 async function show_sample({ run, frame, label }, colour = "skin") {
     await page.evaluate((hash) => { location.hash = hash; }, `run=${run}&frame=${frame}&colour=${colour}&panels=${label}`);
     await page.waitForFunction((wanted) => window.viewer.state.now.run === wanted.run
-        && window.viewer.state.now.panels[0] === wanted.label && window.viewer.state.now.colour === wanted.colour, { run, label, colour });
+        && window.viewer.state.now.panels[0] === wanted.label && window.viewer.state.now.colour === wanted.colour
+        && window.viewer.viewer.run.frames[window.viewer.state.now.at] === wanted.frame, { run, frame, label, colour });
     await settle(page);
 }
 

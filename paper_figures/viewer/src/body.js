@@ -3,7 +3,7 @@ import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Mesh, Sh
 import { area_normal, face_of } from "./faces.js";
 
 // Light from the camera's left above, and a floor of brightness so that colours read as in the legend. Faces of the cut get the outline
-// of their tets.
+// of their tets, thin and a shade of their own colour, so that small faces show it as well.
 const vertex_shader = `
 attribute vec3 colour;
 attribute float is_cut;
@@ -27,9 +27,9 @@ void main() {
     vec3 n = normalize(towards) * (gl_FrontFacing ? 1.0 : -1.0);
     float light = max(dot(n, normalize(vec3(-0.5, 0.7, 1.0))), 0.0) + 0.35 * max(dot(n, normalize(vec3(0.8, 0.1, 0.6))), 0.0);
     vec3 lit = shade * min(brightness + (1.0 - brightness) * light, 1.0);
-    vec3 inside = smoothstep(vec3(0.0), 1.4 * fwidth(corner), corner);
+    vec3 inside = smoothstep(vec3(0.0), fwidth(corner), corner);
     float line = outlined * (1.0 - min(inside.x, min(inside.y, inside.z)));
-    gl_FragColor = vec4(mix(lit, vec3(0.12), 0.65 * line), opacity);
+    gl_FragColor = vec4(mix(lit, 0.72 * lit, line), opacity);
 }`;
 
 function copy(to, at, from, place) {

@@ -35,6 +35,7 @@ export class Controls {
         this.play.setAttribute("aria-label", now.playing ? "pause" : "play the frames");
         this.time.max = run.frames.length - 1;
         this.time.value = now.at;
+        this.clock.setAttribute("aria-live", now.playing ? "off" : "polite");
         this.clock.textContent = clock_of(run, now.at);
         this.time.setAttribute("aria-valuetext", this.clock.textContent);
         this.colours.forEach((made, at) => {

@@ -2,8 +2,8 @@
 
 export const help = "Keys inside the viewer: space plays, comma and full stop step a frame, Home and End go to the first and last; "
     + "s, v, e, i colour by skin, volume ratio, error, inverted tets; b bones; c cut, [ and ] move it; r the first view. In a panel: "
-    + "arrows turn, + and \u2212 zoom. Mouse or fingers: drag turns, wheel or pinch zooms, right button or two fingers shift; all panels "
-    + "move together.";
+    + "arrows turn, + and \u2212 zoom. Mouse or fingers: drag turns (a finger: sideways; up and down it scrolls the page), wheel or pinch "
+    + "zooms, right button or two fingers shift; all panels move together.";
 
 const colours = { s: "skin", v: "ratio", e: "error", i: "inverted" };
 const turns = { ArrowLeft: [-8, 0], ArrowRight: [8, 0], ArrowUp: [0, 8], ArrowDown: [0, -8] };

@@ -59,7 +59,7 @@ export class Viewer {
             choice.value = label;
             const title = this.run.deformer(label).title;
             const name = `${title}: arrows turn, plus and minus zoom`;
-            const view = element("div", { class: "vw-view", tabindex: 0, role: "img", "aria-label": name });
+            const view = element("div", { class: "vw-view", tabindex: 0, role: "application", "aria-label": name });
             const numbers = element("dl", { "aria-label": `recorded numbers of ${title}` });
             const whole = element("div", { class: "vw-panel" }, choice, view, numbers);
             this.panels_element.append(whole);

@@ -84,6 +84,24 @@ class Viewer(unittest.TestCase):
         self.run.rename(self.results / "frames" / "another")
         assert_missing("no frames on record")
 
+    def test_frames_left_from_an_earlier_plan_or_changed_since_are_refused(self):
+        (self.results / "frames" / "plan.json").write_text(json.dumps({"runs": [{"name": "limb_twist"}]}))
+        viewer_data.recorded_runs(self.results)
+        written_s = (self.run / "run.json").stat().st_mtime
+        os.utime(self.run / "frames" / "pbs_000001.vtu", (written_s + 600, written_s + 600))
+        with self.assertRaisesRegex(records.RecordsMissing, "pbs_000001.vtu was changed after its run ended"):
+            viewer_html.claim_links(self.results)
+        (self.results / "frames" / "plan.json").write_text(json.dumps({"runs": [{"name": "limb_bend"}]}))
+        with self.assertRaisesRegex(records.RecordsMissing, "no run of its study"):
+            viewer_data.pack(self.results)
+
+    def test_the_bundle_carries_the_licence_of_three_js(self):
+        build = (root / "paper_figures" / "viewer" / "build.mjs").read_text()
+        self.assertRegex(build, r"node_modules/three/LICENSE")
+        bundle = root / "paper_figures" / "viewer" / "dist" / "viewer.js"
+        if bundle.is_file():
+            self.assertIn("Permission is hereby granted, free of charge", bundle.read_text())
+
     def test_page_with_and_without_the_program(self):
         os.environ["PBS_VIEWER_BUILD"] = str(self.results)
         self.addCleanup(os.environ.pop, "PBS_VIEWER_BUILD")
