@@ -19,12 +19,18 @@ def when_not(found):
         symbol, colour, _ = verdicts.marks[claim["verdict"]]
         link = element("a", claim["id"], href=f"#{claim['id']}")
         sign = Markup(f'<span class="{colour}" aria-label="{escaped(claim["verdict"])}">{symbol}</span>')
-        return joined([sign, " ", link, " ", element("span", claim["statement"], class_="statement"), " ", holding(claim)])
+        statement = element("span", with_symbols_named(claim["statement"]), class_="statement")
+        return joined([sign, " ", link, " ", statement, " ", holding(claim)])
 
     claims = [claim for kind in failing for claim in found.claims or [] if claim["verdict"] == kind]
     if not claims:
         return element("p", "Every claim that could be tested holds." if found.claims else "Not known without verdicts.")
     return items([entry(claim) for claim in claims], "when")
+
+
+def with_symbols_named(text):
+    """For who has not read the paper."""
+    return text.replace("k_stretch", "k_stretch (how stiff edges are, 0 to 1)")
 
 
 def holding(claim):
@@ -49,6 +55,7 @@ class Pose:
 
 
 def poses(found):
+    """The whole ones, the limb's first; and the names of the others."""
     all_poses = []
     for file in found.files("work_precision/*/points.csv"):
         name = file.parent.relative_to(found.results).as_posix()
@@ -57,14 +64,23 @@ def poses(found):
         if rows:
             all_poses.append(Pose(rows, scene.get("pbs", {}).get("k_stretch", 0.2)))
     whole = [pose for pose in all_poses if pose.is_whole()]
-    return sorted(whole, key=lambda pose: not pose.name.startswith("limb"))
+    return sorted(whole, key=lambda pose: not pose.name.startswith("limb")), [pose.name for pose in all_poses if not pose.is_whole()]
+
+
+def left_out_sentence(names):
+    """Poses without all three on record, or without the error of PBS."""
+    told = f"Without an error of PBS, or without LBS or the reference, on record and so left out: {'; '.join(names)}."
+    return element("p", told, class_="missing") if names else ""
 
 
 def how_far(found):
-    shown = poses(found)
+    shown, left_out = poses(found)
+    if not shown and left_out:
+        return left_out_sentence(left_out)
     if not shown:
-        return element("p", f"How far PBS is from the finite elements is {not_run('work_precision')}.", class_="missing")
-    return joined([element("p", distance_sentence(shown), class_="answer"), pose_table(shown), element("p", bar_sentence(shown))])
+        return element("p", f"How far PBS is from the finite elements is {not_run(found, 'work_precision')}.", class_="missing")
+    return joined([element("p", distance_sentence(shown), class_="answer"), pose_table(shown), element("p", bar_sentence(shown)),
+                   left_out_sentence(left_out)])
 
 
 def errors(shown, deformer):
@@ -109,7 +125,7 @@ def of_paper_sizes(found, variant, precision):
 def frame_sentence(found):
     quick, plain = of_paper_sizes(found, "ordered", "f32"), of_paper_sizes(found, "plain", "f64")
     if not quick or not plain:
-        return f"A frame's time at the paper's mesh sizes is {not_run('timing')}."
+        return f"A frame's time at the paper's mesh sizes is {not_run(found, 'timing')}."
 
     def told(rows, column):
         return span([number(row, column) for row in rows])
@@ -122,7 +138,7 @@ def frame_sentence(found):
 
 
 def beside_sentence(found):
-    shown = [pose for pose in poses(found) if number(pose.reference, "ms_median") is not None]
+    shown = [pose for pose in poses(found)[0] if number(pose.reference, "ms_median") is not None]
     if not shown:
         return ""
     ms = {name: span([number(getattr(pose, name), "ms_median") for pose in shown]) for name in ("lbs", "pbs", "reference")}

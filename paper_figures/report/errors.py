@@ -36,6 +36,6 @@ def section(found):
     runs = [(name, reference_of(run)) for name, run in found.runs.items() if name.startswith("volume/")]
     rows = [row_of(found, name, fem) for name, fem in runs if fem]
     if not rows:
-        return element("p", f"The distance over whole sweeps and clips is {not_run('volume')}.", class_="missing")
+        return element("p", f"The distance over whole sweeps and clips is {not_run(found, 'volume')}.", class_="missing")
     header = ["run", "reference", *(label for _, label in shown), "frames in which the reference meets itself"]
     return table("Error at the joints [% of the mean distance to the bone]: median over the frames (least to most)", header, rows)

@@ -5,6 +5,7 @@ import re
 
 import entries
 import records
+from report import record_set
 from report.markup import Markup, element, escaped, joined
 
 slack_s = 60.0  # that copying a folder may put between the times of its files
@@ -34,12 +35,12 @@ def drawn(found, entry):
     """The figure's file, refused where its records are gone or have changed since."""
     absent = next((study for study in entry.studies() if study not in found.studies), None)
     if absent:
-        raise NotDrawn(f"the study {absent} was not run")
+        raise NotDrawn(record_set.why_absent(found, absent))
     try:
         entry.check(found.results)
     except records.RecordsMissing as error:
         raise NotDrawn(str(error).replace(f"{found.results}/", "")) from None
-    for ending in ("svg", "webp", "png"):
+    for ending in ("svg", "png", "webp"):
         file = found.results / "figures" / f"{entry.name}.{ending}"
         if file.is_file():
             newest_s = max(behind.stat().st_mtime for behind in entry.files(found.results))
@@ -53,14 +54,16 @@ def picture(file, entry):
     label = f"{entry.title}. {entry.caption}"
     if file.suffix == ".svg":
         return element("div", inline_svg(file.read_text(), entry.name, label), class_="scroll drawing")
-    return Markup(f'<img alt="{html.escape(label)}" src="{data_uri(file, pictures[file.suffix[1:]])}">')
+    return "" if file.suffix == ".webp" else Markup(f'<img alt="{html.escape(label)}" src="{data_uri(file, pictures[file.suffix[1:]])}">')
 
 
 def clip(found, entry):
+    """Below its still; page.js opens it unless the reader asks for less motion."""
     file = found.results / "figures" / f"{entry.name}.webp"
-    if not file.is_file() or not (found.results / "figures" / f"{entry.name}.svg").is_file():
+    if not file.is_file():
         return ""
-    return Markup(f'<img alt="{html.escape(entry.title)}, moving" src="{data_uri(file, pictures["webp"])}">')
+    moving = Markup(f'<img alt="{html.escape(entry.title)}, moving" src="{data_uri(file, pictures["webp"])}">')
+    return element("details", joined([element("summary", "The clip, moving"), moving]), class_="clip")
 
 
 def numbers_link(found, entry):
@@ -76,9 +79,14 @@ def claims_links(entry, known):
     return joined((element("a", claim, href=f"#{claim}") if claim in known else escaped(claim) for claim in entry.claims), ", ")
 
 
+def numbered(entry, number):
+    """A title that carries the paper's own number keeps it alone."""
+    return entry.title if re.match(r"(Figure|Table) \d", entry.title) else f"Figure {number}: {entry.title}"
+
+
 def drawn_figure(found, entry, number, file):
     known = {claim["id"] for claim in found.claims or []}
-    about = [element("b", f"Figure {number}: {entry.title}. "), entry.caption, " "]
+    about = [element("b", f"{numbered(entry, number)}. "), entry.caption, " "]
     about += ["Claims: ", claims_links(entry, known), ". "] if entry.claims else []
     about += [Markup(f'<abbr title="{html.escape(entries.marks[entry.mark])}">{entry.mark}</abbr>'), numbers_link(found, entry)]
     caption = element("figcaption", joined(about))
@@ -88,10 +96,10 @@ def drawn_figure(found, entry, number, file):
 def section(found):
     """The figures' HTML, and what is missing."""
     parts, missing = [], []
-    for entry in entries.read():
+    for number, entry in enumerate(entries.read(), 1):  # the paper's come first: no number stands twice, whichever are missing
         try:
             file = drawn(found, entry)
-            parts.append(drawn_figure(found, entry, len(parts) + 1, file))
+            parts.append(drawn_figure(found, entry, number, file))
         except NotDrawn as reason:
             missing.append(f"figure {entry.name}: {reason}")
     intro = ("R: redrawn in minutes on any machine; CR: in hours; NR: not from this repository\u2019s records. Values stand under the pointer; "

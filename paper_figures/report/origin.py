@@ -10,6 +10,7 @@ licences = {
     "frankie": "Frankie: CC-BY 3.0, John \u201cgeartrooper\u201d Siar, Gregor Koch, the Apricot project; Debian\u2019s cube2-data; made into tets and "
                "posed here.",
 }
+viewer = "Viewer: three.js, MIT licence, the three.js authors; the licence\u2019s text stands in this page before the program."
 motion_capture = "Clips: CMU Graphics Lab Motion Capture Database (mocap.cs.cmu.edu), free to use; created with funding from NSF EIA-0196217."
 
 
@@ -67,11 +68,12 @@ def warnings(found):
     return [f"the records are of {len(revisions)} revisions"] if len(revisions) > 1 else []
 
 
-def section(found):
+def section(found, with_viewer=False):
     left_out = [f"{study}: {scene}: {reason}" for study, scene, reason in found.left_out()]
     parts = [element("p", f"Note: {text}.", class_="missing") for text in warnings(found)]
     parts += [facts_table(found), inputs_table(found)]
     parts += [element("h3", "Left out"), items(left_out)] if left_out else []
     shown = rights(found)
     parts += [element("h3", "Bodies and motions"), items(shown)] if shown else []
+    parts += [element("h3", "Program of the viewer"), items([viewer])] if with_viewer else []
     return joined(parts, "\n")

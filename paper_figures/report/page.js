@@ -50,7 +50,16 @@ function openTarget() {
   const row = location.hash.length > 1 && document.getElementById(location.hash.slice(1));
   if (row && row.matches("tr.claim")) row.nextElementSibling.querySelector("details").open = true;
 }
-for (const link of document.querySelectorAll("a.pose"))
-  link.addEventListener("click", () => document.getElementById("viewer").scrollIntoView());
+// "See it move": to the viewer, and the keys with it.
+function goToViewer() {
+  const viewer = document.getElementById("frame-viewer") ?? document.getElementById("viewer");
+  viewer.tabIndex = -1;
+  viewer.focus({ preventScroll: true });
+  viewer.scrollIntoView();
+}
+for (const link of document.querySelectorAll("a.pose")) link.addEventListener("click", goToViewer);
+
+const lessMotion = matchMedia("(prefers-reduced-motion: reduce)").matches;
+for (const clip of document.querySelectorAll("details.clip")) clip.open = !lessMotion;
 addEventListener("hashchange", openTarget);
 openTarget();

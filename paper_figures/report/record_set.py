@@ -41,9 +41,15 @@ class RecordSet:
         return [(study, left["scene"], left["reason"]) for study, plan in plans for left in plan.get("left_out", [])]
 
 
-def not_run(study):
+def not_run(found, study):
     """Why something is not told."""
-    return f"not on record: the study {study} was not run (pbskin reproduce {study})"
+    return f"not on record: {why_absent(found, study)} (pbskin reproduce {study})"
+
+
+def why_absent(found, study):
+    if study in found.studies:
+        return f"the runs of the study {study} have none of it"
+    return f"the study {study} was begun and has not ended" if (found.results / study).is_dir() else f"the study {study} was not run"
 
 
 def number(row, column):

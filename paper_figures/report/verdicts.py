@@ -1,4 +1,6 @@
 """The verdicts: counted, in short words, and as a table whose rows open to the runs behind them."""
+import re
+
 from report import behind
 from report.markup import Markup, counted, element, escaped, figure, items, joined, span
 
@@ -53,9 +55,16 @@ def is_sweep(case):
     return case["share_of_frames"]["low"] is None  # its frames are poses, no sample of a motion
 
 
+spoken = {"limb_twist": "the limb twisted", "limb_bend": "the limb bent"}  # runs by what they show
+
+
 def angles(case):
-    held = ", ".join(f"{figure(low)} to {figure(high)}\u00b0" for low, high in case["angles_deg"])
-    return f"{case['text'].split(':')[0]} " + (f"at {held}" if held else "at no angle")
+    """Where a sweep holds, of the angles that it has."""
+    name = case["text"].split(":")[0]
+    last = re.search(r" deg of ([0-9.]+)", case["text"])
+    held = ", ".join(f"{figure(low)} to {figure(high)}" for low, high in case["angles_deg"])
+    whole = f" of {last[1]}" if last else ""
+    return f"{spoken.get(name, name)} " + (f"by {held}{whole}\u00b0" if held else "by no angle")
 
 
 def outcome(claim):
@@ -77,7 +86,19 @@ def words_of(claim):
     before = {"reproduced": "for ", "reproduced only for": "for ", "not reproduced": "not for "}
     if claim["verdict"] == "inconsistent in print":
         return f"{claim['measured']} with the paper\u2019s others"
+    if claim["verdict"] == "not reproduced":
+        words += farthest(claim)
     return before.get(claim["verdict"], "") + words
+
+
+def farthest(claim):
+    """The figure that is farthest from what is expected of it."""
+    said = re.search(r"; farthest: (.*?) is (\S+)(?:; |$)", claim["text"])
+    if not said:
+        return ""
+    bounds = dict(part.rsplit(": ", 1) for part in claim["expected"].split("; ") if ": " in part)
+    asked = next((bound for quantity, bound in bounds.items() if said[1].startswith(f"{quantity} of ")), claim["expected"])
+    return f"; farthest: {said[1]} is {said[2]}, expected {asked}"
 
 
 def clip_figures(claim, clips):
@@ -134,6 +155,11 @@ def expected(claim):
     return items(parts, "plain") if len(parts) > 1 else claim["expected"].replace("-", "\u2212") or "\u2013"
 
 
+def named_cell(column, cell):
+    """Its column's name stands in it where rows are stacked."""
+    return element("td", joined([element("span", column, class_="column"), cell]))
+
+
 def row(claim, pose):
     """pose: link to it in the viewer, or none."""
     name = element("a", claim["id"], href=f"#{claim['id']}")
@@ -141,15 +167,16 @@ def row(claim, pose):
                        + ([" ", element("a", "see it move", href=pose, class_="pose")] if pose else []))
     cells = [statement, mark(claim["verdict"]), expected(claim), measured(claim), outcome(claim)]
     return Markup(f'<tr id="{escaped(claim["id"])}" class="claim"><th scope="row">{name}</th>'
-                  + joined(element("td", cell) for cell in cells) + "</tr>")
+                  + joined(named_cell(column, cell) for column, cell in zip(columns[1:], cells))
+                  + "</tr>")
 
 
 def section(found, poses):
     if found.claims is None:
         return element("p", "claims.json: not there: `pbskin reproduce --judge -o DIR` judges the records", class_="missing")
     head = joined(element("th", name, scope="col") for name in columns)
-    rows = [Markup(row(claim, poses.get(claim["id"])) + f'<tr class="behind"><td colspan="{len(columns)}">{behind.of(claim, found)}</td></tr>')
-            for claim in found.claims]
+    rows = [Markup(row(claim, poses.get(claim["id"])) + f'<tr class="behind"><td colspan="{len(columns)}">'
+            f'{behind.of(claim, found)}</td></tr>') for claim in found.claims]
     table = Markup(f"<table class='claims'><caption>Each claim against the bound fixed beforehand</caption><thead><tr>{head}</tr></thead>"
                    "<tbody>\n" + joined(rows, "\n") + "</tbody></table>")
     return element("div", table, class_="scroll", tabindex=0, role="region", aria_label="Verdicts")

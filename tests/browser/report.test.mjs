@@ -1,9 +1,15 @@
 // Truth: the definition of the report. It opens from disk, alone, at the width of a desk and of a phone, with the viewer in it.
 import assert from "node:assert/strict";
+import fs from "node:fs";
 import { test } from "node:test";
 import { open_viewer, settle } from "./browser.mjs";
 
 const file = process.env.PBS_REPORT_PAGE, pictures = process.env.PBS_VIEWER_PICTURES;
+
+test("the report stays below 25 MB and carries the licence of three.js", () => {
+    assert.ok(fs.statSync(file).size < 25e6, `${fs.statSync(file).size} bytes`);
+    assert.match(fs.readFileSync(file, "utf8"), /three\.js authors[^]*Permission is hereby granted, free of charge/);
+});
 
 for (const [name, width, height] of [["desktop", 1280, 900], ["phone", 390, 844]]) {
     test(`the report at ${width} px`, async () => {

@@ -14,9 +14,10 @@ import unittest.mock
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
+import entries  # noqa: E402
 import report  # noqa: E402
 import synthetic_records  # noqa: E402
-from report import costs, markup, record_set  # noqa: E402
+from report import answers, costs, figures, markup, origin, record_set, verdicts  # noqa: E402
 
 
 class Page(html.parser.HTMLParser):
@@ -90,7 +91,7 @@ class Report(unittest.TestCase):
         self.assertIn("Of 4 claims 1 holds, 1 holds in part, 1 contradicts other figures of the paper, 1 cannot be tested here.", text)
         self.assertIn('<tr id="C02" class="claim">', text)
         self.assertIn('<a href="volume/limb_twist/">volume/limb_twist</a>', text)
-        self.assertIn("limb_twist at 0 to 175\u00b0; for 1 of 2 clips (40 to 97.5 % of the frames within)", text)
+        self.assertIn("the limb twisted by 0 to 175\u00b0; for 1 of 2 clips (40 to 97.5 % of the frames within)", text)
         self.assertIn("<li>walk: 40 [30, 50]</li>", text)
         self.assertIn("jump: 97.5 [96, 99]", text)
         self.assertIn("<li>frames a second: 107 to 233 [100, 240] 1/s</li>", text)
@@ -121,6 +122,35 @@ class Report(unittest.TestCase):
             self.assertIn(f"the study {study} was not run", text)
         self.assertIn("missing: figure fit: the study fit was not run", said)
 
+    def test_a_study_that_has_not_ended_is_not_called_one_that_was_not_run(self):
+        synthetic_records.write_study(self.results)
+        (self.results / "timing").mkdir()
+        _, text, said, _ = self.make()
+        self.assertIn("the study timing was begun and has not ended", text)
+        self.assertNotIn("the study timing was not run", text + said)
+
+    def test_a_pose_without_an_error_of_pbs_is_named(self):
+        synthetic_records.write_poses(self.results)
+        file = sorted(self.results.glob("work_precision/*/points.csv"))[0]
+        found = record_set.RecordSet(self.results)
+        whole = [pose.name for pose in answers.poses(found)[0]]
+        rows = file.read_text().splitlines()
+        file.write_text("\n".join(row for row in rows if not row.startswith("pbs,") and ",pbs," not in row) + "\n")
+        shown, left_out = answers.poses(found)
+        self.assertEqual((len(shown), len(left_out)), (len(whole) - 1, 1))
+        self.assertIn(f"left out: {left_out[0]}.", answers.how_far(found))
+
+    def test_what_fails_says_by_how_much(self):
+        claim = {"verdict": "not reproduced", "cases": [], "expected": "share of steps: 0.5 to 1; ratio of rates: 0.9 to 1.1",
+                 "text": "not reproduced: limb, man; farthest: ratio of rates of man, at 10 ms is 2; beside it: all else"}
+        self.assertEqual(verdicts.outcome(claim), "not for limb, man; farthest: ratio of rates of man, at 10 ms is 2, expected 0.9 to 1.1")
+
+    def test_the_viewer_s_program_is_named_where_it_is_shown(self):
+        synthetic_records.write_study(self.results)
+        found = record_set.RecordSet(self.results)
+        self.assertIn("three.js, MIT licence", origin.section(found, with_viewer=True))
+        self.assertNotIn("three.js", origin.section(found))
+
     def test_costs_are_summed(self):
         synthetic_records.write_study(self.results)
         (self.results / "volume" / "costs.csv").write_text("run,expected_cpu_s,cpu_s\na,10,60\nb,20,120\n")
@@ -148,10 +178,27 @@ class Report(unittest.TestCase):
         _, text, said, _ = self.make()
         self.assertIn('<use href="#volume_over_angle-m1"/>', text)
         self.assertIn("url(#volume_over_clip-p1)", text)
-        self.assertIn("Figure 2: ", text)
+        place = [entry.name for entry in entries.read()].index("volume_over_clip") + 1
+        self.assertIn(f"<b>Figure {place}: Volume change over the clip. </b>", text)
         self.assertIn("<title>PBS: 1, 2</title>", text)
         self.assertIn("missing: figure volume_over_iterations: not there yet", said)
         self.assertIn('download="volume_over_angle.csv"', text)
+
+    def test_no_number_stands_twice_before_a_title(self):
+        titles = [figures.numbered(entry, number) for number, entry in enumerate(entries.read(), 1)]
+        self.assertIn("Figure 8: candy wrapper and bulge, with FEM beside them", titles)
+        self.assertIn("Table 1: frame rates, then and here", titles)
+        numbers = [re.match(r"(Figure|Table) \d+(?=: )", title)[0] for title in titles]
+        self.assertEqual(len(numbers), len(set(numbers)))
+
+    def test_a_clip_has_its_still_above_and_is_opened_by_the_page(self):
+        synthetic_records.write_study(self.results)
+        self.write_svg("volume_over_angle")
+        (self.results / "figures" / "volume_over_angle.webp").write_bytes(b"RIFF")
+        text = self.make()[1]
+        still, moving = text.index('id="volume_over_angle-m1"'), text.index('<details class="clip"><summary>The clip, moving</summary><img')
+        self.assertLess(still, moving)
+        self.assertIn("prefers-reduced-motion", text[moving:])
 
     def test_a_figure_without_its_records_or_older_than_they_is_refused(self):
         synthetic_records.write_study(self.results)
