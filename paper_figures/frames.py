@@ -2,6 +2,7 @@
 each stand the inverted tets and the smallest limb cross-section (100 %: as at rest)."""
 import numpy
 
+import recorded_frames
 import records
 import rendering
 import style
@@ -67,7 +68,8 @@ def draw_stills(rows, files, frames, file_of, colour_bar):
 
 
 def draw(results, figures):
-    run = records.Run(results / "frames" / "human_jump")
+    recorded = recorded_frames.Frames(results, "human_jump")
+    run = recorded.run
     deformers = ["lbs", "pbs", run.reference()]
     files = {deformer: files_of(run, deformer) for deformer in deformers}
     frames = evenly(sorted(set.intersection(*(set(found) for found in files.values()))))
@@ -76,8 +78,8 @@ def draw(results, figures):
     rows = {deformer: {int(row["frame"]): row for row in run.select(deformer, 24 if deformer == "pbs" else None)} for deformer in deformers}
     behind = style.columns_of([rows[deformer][frame] for deformer in deformers for frame in frames], "volume_change_pct", "inverted_tets",
                               "min_section_pct")
-    origin = records.provenance(run.folder)
+    origin = recorded_frames.origin_of(recorded)
     skin = draw_stills(rows, files, frames, skin_of, colour_bar=False)
-    style.save(skin, figures / "frames_skin", origin, behind, formats=("png",))
+    style.save(skin, figures / "frames_skin", origin, behind)
     ratio = draw_stills(rows, files, frames, lambda file: file, colour_bar=True)
-    style.save(ratio, figures / "frames_volume_ratio", origin, behind, formats=("png",))
+    style.save(ratio, figures / "frames_volume_ratio", origin, behind)

@@ -8,7 +8,7 @@ import os
 from dataclasses import dataclass
 
 import numpy
-from matplotlib import cm, colors
+from matplotlib import colors
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
@@ -20,9 +20,10 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  the rendering back end
 import records
 
 ratio_scale = colors.Normalize(0.5, 1.5)  # of the volume ratio, the same for all pictures
-ratio_colors = cm.get_cmap("PuOr").copy()
-inverted_color, skin_color = (0.85, 0.0, 0.35), (0.87, 0.72, 0.62)
-paper = (1.0, 1.0, 1.0)  # background of stills without a colour scale whose middle is white
+# From dark to light, so that squeezed and swollen are told apart in grey as well; inverted is darker than all of it.
+ratio_colors = colors.LinearSegmentedColormap.from_list("volume ratio", ["#2C6DB5", "#B4B4B4", "#FFE54A"])
+inverted_color, skin_color = (0.5, 0.0, 0.1), (0.87, 0.72, 0.62)
+paper = (1.0, 1.0, 1.0)  # background of stills
 view_direction = numpy.array([0.45, 0.12, 1.0])  # from the body to the camera; y is up
 
 
@@ -41,7 +42,7 @@ class Camera:
 class Stage:
     """A window, its lights and camera."""
 
-    def __init__(self, width_px, height_px, background=(0.8, 0.8, 0.8)):
+    def __init__(self, width_px, height_px, background=paper):
         if not os.environ.get("DISPLAY"):
             raise records.RecordsMissing("no display to render on; run under xvfb-run -a")
         self.renderer = vtkRenderer()

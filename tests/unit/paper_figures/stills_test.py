@@ -47,6 +47,13 @@ class Stills(unittest.TestCase):
             around = self.shot([rendering.tets(frames.tets("lbs", frame))], 0.3 * frame)[30:60, 45:75].reshape(-1, 3)
             self.assert_hue(around[around.sum(axis=1).argmax()], color)  # the brightest: glare would wash it out
 
+    def test_the_scale_reads_in_grey_and_inverted_is_darker_than_all_of_it(self):
+        colors = numpy.array([*rendering.ratio_colors(numpy.linspace(0, 1, 50))[:, :3], rendering.inverted_color])
+        linear = numpy.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)  # IEC 61966-2-1
+        *scale, inverted = linear @ (0.2126, 0.7152, 0.0722)
+        self.assertTrue((numpy.diff(scale) > 0).all())
+        self.assertLess(2 * inverted, scale[0])
+
     def test_what_is_beside_the_body_is_background(self):
         frames = self.write("limb_twist")
         self.assertEqual(self.shot([bodies.skin(frames.tets("lbs", 0))])[0, 0].tolist(), [0, 0, 255])
