@@ -51,6 +51,13 @@ def draw_iterations(axes, rows, name, number):
                       markersize=4 if reached else 8 - 3 * number, label=f"{name}, reached" if reached else f"{name}, not reached")
 
 
+def draw_band(axes):
+    """Down to the axis, wherever that is."""
+    low, high = axes.get_ylim()
+    axes.axhspan(min(low, 0.4), 0.5, color="#E8E8E8", linewidth=0, zorder=0, label="within 0.5 %")
+    axes.set_ylim(min(low, 0.4), high)
+
+
 def draw(results, figures):
     folder = results / "convergence"
     figure, axes = style.panels(2, 2, height_in=1.75, sharex=True)
@@ -63,11 +70,12 @@ def draw(results, figures):
         draw_iterations(axes[1][1], rows, name, number)
         behind += [{"ladder": ladder} | {column: row[column] for column in sorted(columns)} for row in rows]
     axes[1][1].set_ylabel("iterations until 0.5 %\nvolume change")
-    axes[0][1].axhspan(axes[0][1].get_ylim()[0], 0.5, color="#E8E8E8", linewidth=0, zorder=0, label="within 0.5 %")
     for panel in axes.flat:
-        style.log_scale(panel.yaxis)
+        low, high = panel.get_ylim()
+        style.log_scale(panel.yaxis, steps=(1, 2, 5) if high > 5 * low else (1, 1.5, 2, 2.5, 3, 3.5, 4, 5, 7))
+    draw_band(axes[0][1])
     for panel in axes[1]:
-        style.log_scale(panel.xaxis, sorted({int(row["vertices"]) for row in behind}))
+        style.decades(panel.xaxis)
         panel.set_xlabel("vertices of the limb")
     style.legend_above(figure, columns=4)
     style.save(figure, figures / "convergence_mesh", records.provenance(folder), behind)

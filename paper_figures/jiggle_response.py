@@ -7,7 +7,7 @@ import style
 columns = {"deformer", "k_stretch", "time_step_ms", "iterations", "masses", "k_bind", "outcome", "frequency_hz", "frequency_low_hz",
            "frequency_high_hz", "damping_ratio", "damping_low", "damping_high"}
 usual = {"k_stretch": 0.1, "time_step_ms": 10.0, "iterations": 24.0}
-names = {"k_stretch": "k_stretch", "time_step_ms": "time step [ms]", "iterations": "iterations"}
+names = {"k_stretch": "k_stretch [1]", "time_step_ms": "time step [ms]", "iterations": "iterations"}
 measures = [("frequency_hz", "frequency_low_hz", "frequency_high_hz", "frequency [Hz]"),
             ("damping_ratio", "damping_low", "damping_high", "damping ratio [1]")]
 bodies = ("limb", "human", "man", "lady", "frankie")

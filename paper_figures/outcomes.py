@@ -13,7 +13,8 @@ def draw_marks(axes, places, outcomes, size):
     for outcome, (_, marker, color, text) in looks.items():
         shown = [place for place, found in zip(places, outcomes) if found == outcome]
         if shown:
-            axes.scatter(*zip(*shown), s=size, marker=marker, color=color, linewidths=0.9, label=text, zorder=3)
+            fill = {"c": color, "edgecolors": style.black} if marker == "*" else {"color": color}  # yellow alone does not show on white
+            axes.scatter(*zip(*shown), s=size, marker=marker, **fill, linewidths=0.5 if marker == "*" else 0.9, label=text, zorder=3)
 
 
 def legend(figure, axes):

@@ -9,7 +9,7 @@ columns = {"factor", "value", "unit", "second_factor", "second_value", "second_u
 
 
 def named(factor, unit):
-    return f"{factor} [{'degrees' if unit == 'deg' else unit}]" if unit != "1" else factor
+    return f"{factor} [{'degrees' if unit == 'deg' else unit}]" if unit != "1" or factor == "k_stretch" else factor
 
 
 def draw_map(axes, rows, title):

@@ -85,12 +85,20 @@ def draw_series(axes, number, x, y, label, bars=None, **options):
         axes.vlines(x, *bars, color=color, linewidth=0.7)
 
 
-def log_scale(axis, values=None):
-    """A logarithmic axis with plain numbers at these values, or at 1, 2 and 5 of each decade."""
+def log_scale(axis, values=None, steps=(1, 2, 5)):
+    """A logarithmic axis with plain numbers at these values, or at these steps of each decade."""
     axis.axes.set_xscale("log") if axis is axis.axes.xaxis else axis.axes.set_yscale("log")
-    axis.set_major_locator(ticker.FixedLocator(values) if values is not None else ticker.LogLocator(subs=(1, 2, 5)))
+    axis.set_major_locator(ticker.FixedLocator(values) if values is not None else ticker.LogLocator(subs=steps))
     axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_locator(ticker.NullLocator())
+
+
+def decades(axis):
+    """A logarithmic axis with plain numbers at whole decades alone, where more would run into each other; the ticks between are bare."""
+    log_scale(axis, steps=(1,))
+    axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:,g}"))
+    axis.set_minor_locator(ticker.LogLocator(subs=range(2, 10)))
+    axis.set_minor_formatter(ticker.NullFormatter())
 
 
 def per_cent_scale(axes, signed):

@@ -26,7 +26,7 @@ def draw_sizes(axes, rows):
                   markersize=5, label=label)
     axes.axhline(1000 / 30, color=style.black, linewidth=0.6)
     axes.annotate("30 frames/s", (1150, 1000 / 27), fontsize=6)
-    style.log_scale(axes.xaxis)
+    style.decades(axes.xaxis)
     style.log_scale(axes.yaxis)
     axes.set_xlabel("vertices")
     axes.set_ylabel("wall-clock time of a frame [ms]")

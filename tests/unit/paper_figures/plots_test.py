@@ -104,7 +104,7 @@ class Plots(unittest.TestCase):
         synthetic_tables.write_jiggle(self.results / "jiggle")
         rows = [row for row in self.drawn("jiggle_response") if row["varied"] == "k_stretch"]
         self.assertEqual([(float(row["k_stretch"]), float(row["frequency_hz"])) for row in rows], [(0.1, 10.0), (0.4, 20.0)])
-        self.assertIn("neo-Hookean FEM in time, limb: 0.1, 0.5", self.titles("k_stretch"))
+        self.assertIn("neo-Hookean FEM in time, limb: 0.1, 0.5", self.titles("k_stretch [1]"))
 
     def test_stiffness_is_of_answers_that_converged(self):
         synthetic_tables.write_stiffness(self.results / "stiffness")
