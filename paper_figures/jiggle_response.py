@@ -1,5 +1,5 @@
 """How flesh answers a jolt: frequency and damping ratio of the first swing against k_stretch, time step and iterations, on the limb and on
-bodies. See how little k_stretch moves the frequency, and how far the time step and the iterations do, which are no material. Damping is no
+bodies. k_stretch moves Frankie's frequency far, the others' little; time step and iterations, which are no material, all. Damping is no
 parameter at all; the elements beside swing almost undamped."""
 import records
 import style

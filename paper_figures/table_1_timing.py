@@ -7,8 +7,8 @@ import style
 orders = (("plain", "f64"), ("ordered", "f32"))  # in the order of the mesh file; as this code runs by default
 columns = {"model": "model", "mesh": "mesh here", "vertices": "vertices\npaper / here", "edges": "edges\npaper / here",
            "tets": "tets\npaper / here", "paper_frames_per_s": "paper\n[fps]", "plain_f64_frames_per_s": "plain f64\nwall [fps]",
-           "ordered_f32_frames_per_s": "ordered f32\nwall [fps]", "paper_ms": "paper, by\nits fps [ms]", "paper_ct_ms": "paper, by\nits CT [ms]",
-           "plain_f64_ms": "plain f64\nCPU [ms]", "ordered_f32_ms": "ordered f32\nCPU [ms]"}
+           "ordered_f32_frames_per_s": "ordered f32\nwall [fps]", "paper_ms": "paper, by\nits fps [ms]",
+           "paper_ct_ms": "paper, by\nits CT [ms]", "plain_f64_ms": "plain f64\nCPU [ms]", "ordered_f32_ms": "ordered f32\nCPU [ms]"}
 widths = (0.07, 0.08, 0.1, 0.115, 0.115, 0.055, 0.075, 0.085, 0.08, 0.08, 0.075, 0.085)  # of the page
 
 
