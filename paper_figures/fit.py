@@ -22,7 +22,7 @@ def draw_young(axes, rows):
                       marker=marker, linestyle=line, label=f"{iterations} iterations, {vertices} vertices")
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.set_xlabel("k_stretch")
+    axes.set_xlabel("k_stretch [1]")
     axes.set_ylabel("Young's modulus [kPa]")
     axes.set_title("by sag: k_volume 1, time step 10 ms, 1000 kg/m\u00b3")
     axes.legend(fontsize=5.5)

@@ -7,12 +7,14 @@ import re
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from xml.etree import ElementTree
 
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
 import make_all  # noqa: E402
+import stiffness  # noqa: E402
 import style  # noqa: E402
 import synthetic_records  # noqa: E402
 import synthetic_tables  # noqa: E402
@@ -110,6 +112,14 @@ class Plots(unittest.TestCase):
         synthetic_tables.write_stiffness(self.results / "stiffness")
         rows = [row for row in self.drawn("stiffness") if (row["body"], row["varied"], row["method"]) == ("limb", "time_step_ms", "pbs")]
         self.assertEqual([(row["time_step_ms"], float(row["stiffness_n_m"])) for row in rows], [("5", 960.0), ("10", 240.0)])
+
+    def test_stiffness_beyond_rounding_is_left_out_and_counted(self):
+        synthetic_tables.write_stiffness(self.results / "stiffness")
+        with unittest.mock.patch.object(stiffness, "stiffest_n_m", 500.0):
+            rows = self.drawn("stiffness")
+        rows = [row for row in rows if (row["body"], row["varied"], row["method"]) == ("limb", "time_step_ms", "pbs")]
+        self.assertEqual([row["time_step_ms"] for row in rows], ["10"])
+        self.assertEqual(self.stem.with_suffix(".svg").read_text().count("1 stiffer, left out"), 3)  # once a body
 
     def test_momentum(self):
         synthetic_tables.write_momentum(self.results / "momentum")
