@@ -9,32 +9,51 @@ import json
 import pathlib
 import shutil
 import sys
+import tomllib
 
 JUDGED = ["scene", "deformer", "variant", "order", "precision", "iterations", "threads", "frame", "time_s", "angle_deg", "outcome",
           "volume_change_pct", "volume_abs_change_pct", "inverted_tets"]
 PROVENANCE = ["version", "git_revision", "git_dirty", "compiler", "flags", "build_type", "cpu_model", "logical_cpus"]
 DRAWN = ("bones.csv", "binding.csv")  # beside frames, which are not kept
 MOST_BYTES = 5_000_000
-TABLE_BYTES = 60_000  # of a study's further tables; longer ones are made again by the run
+TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run
+SUMMARY_BYTES = 100_000  # of a study's own files, which sum up its runs'
 
 
 def rounded(text):
-    """Seven digits are enough for every bound; texts stay."""
+    """Six digits are enough for every bound; texts stay."""
     try:
-        return text if text == "" or text.lstrip("-").isdigit() else f"{float(text):.7g}"
+        return text if text == "" or text.lstrip("-").isdigit() else f"{float(text):.6g}"
     except ValueError:
         return text
 
 
+def judged_deformers():
+    """Each deformer that claims judge from metrics.csv -> its iterations, None for any."""
+    claims = tomllib.loads((pathlib.Path(__file__).resolve().parents[1] / "claims.toml").read_text(encoding="utf-8"))["claim"]
+    return {claim[key]: claim.get("iterations") for claim in claims for key in ("deformer", "orders") if key in claim}
+
+
+def is_judged(row, deformers):
+    iterations = deformers.get(row["deformer"])
+    return row["deformer"] in deformers and (iterations is None or int(float(row["iterations"])) == iterations)
+
+
 def keep_metrics(source, target):
-    """The columns of metrics.csv that claims are judged by."""
+    """The rows and columns of metrics.csv that claims are judged by."""
+    deformers = judged_deformers()
     with source.open(newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+        rows = [row for row in csv.DictReader(file) if is_judged(row, deformers)]
     columns = [column for column in JUDGED if rows and column in rows[0]]
     with target.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)
         writer.writerows([rounded(row[column]) for column in columns] for row in rows)
+
+
+def keep_table(source, target):
+    with source.open(newline="", encoding="utf-8") as file, target.open("w", newline="", encoding="utf-8") as kept:
+        csv.writer(kept, lineterminator="\n").writerows([rounded(cell) for cell in row] for row in csv.reader(file))
 
 
 def keep_run(source, target):
@@ -47,14 +66,16 @@ def keep_run(source, target):
             keep_metrics(table, target / table.name)
         elif table.name in DRAWN:
             continue
-        elif table.name in ("measurements.csv", "printed.csv") or table.stat().st_size <= TABLE_BYTES:
+        elif table.name in ("measurements.csv", "printed.csv"):
             shutil.copyfile(table, target / table.name)
+        elif table.stat().st_size <= TABLE_BYTES:
+            keep_table(table, target / table.name)
 
 
 def keep_study(source, target):
     target.mkdir(parents=True)
     for file in sorted(source.iterdir()):
-        if file.suffix in (".csv", ".md", ".json") and (file.name == "plan.json" or file.stat().st_size <= 4 * TABLE_BYTES):
+        if file.suffix in (".csv", ".md", ".json") and (file.name == "plan.json" or file.stat().st_size <= SUMMARY_BYTES):
             shutil.copyfile(file, target / file.name)
     for run in json.loads((source / "plan.json").read_text(encoding="utf-8"))["runs"]:
         if (source / run["name"] / "run.json").exists():
@@ -69,9 +90,10 @@ def keep(results, target):
     beside = target.with_name(target.name + ".new")
     shutil.rmtree(beside, ignore_errors=True)
     for plan in plans:
+        if plan.parent.name == "frames":  # no claim is judged by them
+            continue
         keep_study(plan.parent, beside / plan.parent.name)
-    for name in ("claims.json", "claims.md"):
-        shutil.copyfile(results / name, beside / name)
+    shutil.copyfile(results / "claims.md", beside / "claims.md")  # claims.json is longer, and --judge writes it again
     size = sum(file.stat().st_size for file in beside.rglob("*") if file.is_file())
     if size > MOST_BYTES:
         sys.exit(f"keep: {size / 1e6:.2f} MB in {beside}, more than {MOST_BYTES / 1e6:g}")

@@ -69,7 +69,7 @@ const std::vector<Study>& studies()
         {"work_precision",
          "error against run time: LBS, DQS, delta mush, PBS, XPBD and the FEM at many settings and on several meshes, beside the stable "
          "neo-Hookean reference and its own error bar; Pareto fronts, who is nearest from which time on, and whether the physics is needed",
-         "none: read ratios, not times", "some 3 minutes (--quick), 35 (--full: more poses, bodies and meshes)", plan_work_precision_study,
+         "none: read ratios, not times", "some 3 minutes (--quick), 48 (--full: more poses, bodies and meshes)", plan_work_precision_study,
          true, conclude_work_precision_study, true},
         {"error_split",
          "the error of PBS against the reference, split into solver, model and discretisation; the share of the attachment and of the "

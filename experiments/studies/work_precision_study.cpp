@@ -117,22 +117,22 @@ StudyRun body_run(const std::string& body, const BodyPose& pose, bool full, doub
 StudyPlan plan_work_precision_study(bool full)
 {
     StudyPlan plan;
-    plan.runs.push_back(limb_run("twist", 90, full, full ? 95.0 : 28.0));
-    plan.runs.push_back(limb_run("bend", 60, full, full ? 115.0 : 31.0));
+    plan.runs.push_back(limb_run("twist", 90, full, full ? 70.0 : 28.0));
+    plan.runs.push_back(limb_run("bend", 60, full, full ? 65.0 : 31.0));
     if (full) {
-        plan.runs.push_back(limb_run("twist", 150, full, 115.0));
-        plan.runs.push_back(limb_run("bend", 90, full, 200.0));
+        plan.runs.push_back(limb_run("twist", 150, full, 80.0));
+        plan.runs.push_back(limb_run("bend", 90, full, 440.0));
     }
     try {
         for (const BodyPose& pose : human_poses(full))
-            plan.runs.push_back(body_run("human", pose, full, !full ? 50.0 : pose.refined ? 155.0 : 130.0));
+            plan.runs.push_back(body_run("human", pose, full, full ? 145.0 : 50.0));
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({"human", error.what()});
     }
     if (!full) return plan;
     std::vector<analysis::LeftOut> left_out;
     for (const std::string& body : installed_bodies(left_out)) try {
-            if (body != "human") plan.runs.push_back(body_run(body, {"crouch", 164}, full, 150.0));
+            if (body != "human") plan.runs.push_back(body_run(body, {"crouch", 164}, full, 350.0));
         } catch (const pbs::InputError& error) {  // the clip is not there
             left_out.push_back({body, error.what()});
         }

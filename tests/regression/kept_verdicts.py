@@ -1,0 +1,38 @@
+"""The verdicts that README tells are still those of the records beside the sources, by the bounds of claims.toml: they change only with new
+records or another rule."""
+import pathlib
+import shutil
+import sys
+import unittest
+
+import program
+
+SOURCE = pathlib.Path(program.SOURCE)
+KEPT = SOURCE / "experiments" / "records" / "full"
+sys.path.insert(0, str(SOURCE / "paper_figures"))
+import claims_table  # noqa: E402
+
+
+class KeptVerdicts(program.ProgramTest):
+    def judged(self):
+        copy = pathlib.Path(self.path("kept"))
+        shutil.copytree(KEPT, copy)
+        (copy / "claims.md").unlink()
+        self.succeeds("reproduce", "--judge", "-o", copy, "--quiet")
+        return copy
+
+    def test_records_beside_the_sources_give_the_verdicts_on_record(self):
+        self.assertEqual((self.judged() / "claims.md").read_text(), (KEPT / "claims.md").read_text())
+
+    def test_all_seventeen_claims_are_on_record(self):
+        verdicts = [claims_table.cells(line)[0] for line in claims_table.table_lines(KEPT)[2:]]
+        self.assertEqual([text.strip("*` ")[:3] for text in verdicts], [f"C{number:02d}" for number in range(1, 18)])
+
+    def test_readme_tells_the_same_table(self):
+        told = (SOURCE / "README.md").read_text()
+        for line in claims_table.table_lines(KEPT):
+            self.assertIn(line, told)
+
+
+if __name__ == "__main__":
+    unittest.main()
