@@ -49,13 +49,19 @@ def draw_case(axes, rows, fronts):
     axes.set_ylabel("error at the joints [%]")
 
 
+def place(rows):
+    """The limb first, then the poses that the quick study has too, then the rest."""
+    body, pose = rows[0]["body"], rows[0]["pose"]
+    return not body.startswith("limb"), (body, pose) not in (("human", "crouch"), ("human", "in the air"))
+
+
 def draw(results, figures):
     folder = results / "work_precision"
     cases = [records.table(file, point_columns) for file in sorted(folder.glob("*/points.csv"))]
     cases = [rows for rows in cases if measured(rows)]
     if not cases:
         raise records.RecordsMissing(f"{folder}: no case with a reference")
-    cases.sort(key=lambda rows: not rows[0]["body"].startswith("limb"))  # the limb's first
+    cases.sort(key=place)
     fronts = [row for row in records.table(folder / "fronts.csv", front_columns) if row["measure"] == "error_joint_pct"]
     shown = cases[:most_panels]
     columns = 2

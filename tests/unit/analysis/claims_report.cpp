@@ -1,6 +1,8 @@
 // Truth: the contract of claims.json and claims.md.
 #include "analysis/claims_report.hpp"
 
+#include "tests/support/volume_claim.hpp"
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -13,28 +15,12 @@ using namespace analysis;
 
 std::vector<Verdict> two_verdicts()
 {
-    Claim claim;
-    claim.id = "C02";
-    claim.statement = "volume | kept";
-    claim.place = "Sec. 4";
-    claim.study = "volume";
-    claim.metrics = {"volume_change_pct"};
-    claim.deformer = "pbs";
-    claim.expected = 0.5;
-    claim.low = -0.5;
-    claim.high = 0.5;
-    CaseRecord walk;
-    walk.scene = "walk";
-    walk.deformer = "pbs";
-    walk.run = "volume/walk";
-    walk.frame = walk.time_s = walk.inverted_tets = {0, 1, 2, 3};
-    walk.volume_change_pct = {0, -0.1, -0.9, -0.2};
-    walk.volume_abs_change_pct = {0, 1, 2, 3};
+    const Claim claim = test_support::volume_claim("volume | kept");
     Claim other = claim;
     other.id = "C016";
     other.rule = ClaimRule::untestable;
     other.reason = "no figures";
-    return {judge(claim, {.cases = {walk}}), judge(other, {})};
+    return {judge(claim, {.cases = {test_support::walk()}}), judge(other, {})};
 }
 
 TEST(ClaimsJson, CarriesTheContractsFields)

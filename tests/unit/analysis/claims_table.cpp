@@ -2,6 +2,7 @@
 #include "analysis/claims_table.hpp"
 
 #include "analysis/text_columns.hpp"
+#include "tests/support/volume_claim.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,21 +14,7 @@ using namespace analysis;
 
 std::vector<Verdict> three_verdicts()
 {
-    Claim claim;
-    claim.id = "C02";
-    claim.statement = "Volume is kept within half a per cent of what it was";
-    claim.place = "Sec. 4";
-    claim.metrics = {"volume_change_pct"};
-    claim.deformer = "pbs";
-    claim.expected = 0.5;
-    claim.low = -0.5;
-    claim.high = 0.5;
-    CaseRecord walk;
-    walk.scene = "walk";
-    walk.deformer = "pbs";
-    walk.frame = walk.time_s = walk.inverted_tets = {0, 1, 2, 3};
-    walk.volume_change_pct = {0, -0.1, -0.9, -0.2};
-    walk.volume_abs_change_pct = {0, 1, 2, 3};
+    const Claim claim = test_support::volume_claim("Volume is kept within half a per cent of what it was");
     Claim measured = claim;
     measured.rule = ClaimRule::measured;
     measured.metrics = {"frames a second"};
@@ -40,7 +27,7 @@ std::vector<Verdict> three_verdicts()
     Records timed;
     timed.measurements = {{"C02", "frames a second", "man, plain", 60, 59, 61, "1/s"},
                           {"C02", "frames a second", "giant, plain", 9, 8, 10, "1/s"}};
-    return {judge(claim, {.cases = {walk}}), judge(measured, timed), judge(other, {})};
+    return {judge(claim, {.cases = {test_support::walk()}}), judge(measured, timed), judge(other, {})};
 }
 
 std::vector<std::string> lines_of(const std::string& text)

@@ -1,0 +1,40 @@
+// A claim of volume and one walk that it is judged by, for those who write verdicts down.
+//   judge(test_support::volume_claim("volume is kept"), {.cases = {test_support::walk()}})
+#pragma once
+
+#include "analysis/case_record.hpp"
+#include "analysis/claims.hpp"
+
+#include <string>
+
+namespace test_support {
+
+inline analysis::Claim volume_claim(const std::string& statement)
+{
+    analysis::Claim claim;
+    claim.id = "C02";
+    claim.statement = statement;
+    claim.place = "Sec. 4";
+    claim.study = "volume";
+    claim.metrics = {"volume_change_pct"};
+    claim.deformer = "pbs";
+    claim.expected = 0.5;
+    claim.low = -0.5;
+    claim.high = 0.5;
+    return claim;
+}
+
+// Four frames, the third out of bounds.
+inline analysis::CaseRecord walk()
+{
+    analysis::CaseRecord walk;
+    walk.scene = "walk";
+    walk.deformer = "pbs";
+    walk.run = "volume/walk";
+    walk.frame = walk.time_s = walk.inverted_tets = {0, 1, 2, 3};
+    walk.volume_change_pct = {0, -0.1, -0.9, -0.2};
+    walk.volume_abs_change_pct = {0, 1, 2, 3};
+    return walk;
+}
+
+}  // namespace test_support
