@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path page_maker = fs::path(PBS_FIGURES_FOLDER) / "report.py";
+const fs::path page_maker = fs::path(PBS_FIGURES_FOLDER) / "make_report.py";
 
 // Debian's first: a version manager's python3 on the PATH often has not what the figures need.
 std::string python_that_draws()

@@ -81,7 +81,7 @@ def main(program, scratch):
     subprocess.run(["node", "build.mjs"], cwd=root / "paper_figures/viewer", env=surroundings, check=True)
     subprocess.run([sys.executable, "-B", root / "paper_figures/viewer_html.py", results, page], env=surroundings, check=True)
     # Its own exit status tells of figures that were not drawn.
-    subprocess.run([sys.executable, "-B", root / "paper_figures/report.py", "--quiet", results], env=surroundings)
+    subprocess.run([sys.executable, "-B", root / "paper_figures/make_report.py", "--quiet", results], env=surroundings)
     tests = sorted(str(file) for file in pathlib.Path(__file__).parent.glob("*.test.mjs"))
     return subprocess.run(["node", "--test", *tests], env=surroundings).returncode
 

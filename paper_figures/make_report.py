@@ -1,12 +1,12 @@
 """DIR's records and the figures drawn from them as one self-contained page, DIR/report.html; says what is missing in it. Exit status 2
 where DIR holds no records.
 
-    python3 paper_figures/report.py results/reproduce
+    python3 paper_figures/make_report.py results/reproduce
 """
 import pathlib
 import sys
 
-import report  # the folder beside this file
+import report
 
 if __name__ == "__main__":
     folders = [argument for argument in sys.argv[1:] if argument != "--quiet"]
