@@ -7,6 +7,7 @@ import bodies
 import recorded_frames
 import rendering
 import style
+import whole_file
 
 scene, deformers, still = "human_jump", ("lbs", "pbs", "snh_p1"), 8
 pixels, direction, half_height_m, floor_to_middle_m, margin_px = (300, 440), (0.9, 0.15, 1.0), 1.0, 0.96, 40
@@ -45,8 +46,9 @@ def draw_clip(file, frames, origin):
     pages = [picture(frames, frame, stage, font) for frame in range(len(times_s))]
     file.parent.mkdir(parents=True, exist_ok=True)
     step_ms = round(1000 * (times_s[-1] - times_s[0]) / (len(times_s) - 1))
-    pages[0].save(file, save_all=True, append_images=pages[1:], duration=step_ms, loop=0, quality=80,
-                  xmp=xmp.format(source=style.source_of(origin), rights=origin["rights"]).encode())
+    with whole_file.beside(file) as path:
+        pages[0].save(path, save_all=True, append_images=pages[1:], duration=step_ms, loop=0, quality=80,
+                      xmp=xmp.format(source=style.source_of(origin), rights=origin["rights"]).encode())
 
 
 def draw_still(frames):

@@ -1,5 +1,6 @@
 """Deletes the figures of DIR and draws those of figures.toml anew from its records. A figure whose records are missing or stale says so
-instead: exit status 1. One whose study was not run is left out; where DIR holds no study at all the status is 1.
+instead: exit status 1. One whose study was not run is left out; where DIR holds no study at all the status is 1. Where a file cannot be
+written it is named: exit status 2.
 
     xvfb-run -a python3 paper_figures/make_all.py results/reproduce
     xvfb-run -a python3 paper_figures/make_all.py results/reproduce --only work_precision --into elsewhere
@@ -12,6 +13,7 @@ import sys
 
 import entries
 import records
+import whole_file
 
 endings = ("pdf", "png", "svg", "csv", "tex", "webp", "mp4", "values.json")
 
@@ -82,4 +84,8 @@ def arguments():
 
 if __name__ == "__main__":
     chosen = arguments()
-    sys.exit(main(chosen.results, chosen.only, chosen.into))
+    try:
+        sys.exit(main(chosen.results, chosen.only, chosen.into))
+    except whole_file.CannotBeWritten as error:
+        print(f"figures: {error}", file=sys.stderr)
+        sys.exit(2)

@@ -14,6 +14,7 @@ matplotlib.use("Agg")
 from matplotlib import pyplot, ticker  # noqa: E402
 
 import hover_titles  # noqa: E402
+import whole_file  # noqa: E402
 
 column_in, page_in = 84 / 25.4, 178 / 25.4  # widths of one column and of the page
 
@@ -174,11 +175,12 @@ def save(figure, stem, provenance, table, formats=("pdf", "png", "svg")):
     figure.canvas.draw()
     figure.set_layout_engine("none")  # laid out once: the same in every format, and where hover_titles says
     for ending in formats:
-        figure.savefig(stem.with_suffix("." + ending), metadata=metadata[ending], dpi=150 if ending == "svg" else 300)
-    if "svg" in formats:
-        hover_titles.add(figure, stem.with_suffix(".svg"))
+        with whole_file.beside(stem.with_suffix("." + ending)) as path:
+            figure.savefig(path, metadata=metadata[ending], dpi=150 if ending == "svg" else 300)
+            if ending == "svg":
+                hover_titles.add(figure, path)
     pyplot.close(figure)
-    with open(stem.with_suffix(".csv"), "w", newline="") as stream:
+    with whole_file.beside(stem.with_suffix(".csv")) as path, open(path, "w", newline="") as stream:
         writer = csv.DictWriter(stream, fieldnames=list(table[0]), lineterminator="\n")
         writer.writeheader()
         writer.writerows(table)

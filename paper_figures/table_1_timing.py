@@ -3,6 +3,7 @@ two times that exclude each other, a frame rate and a CT of 100 steps; both stan
 processor time, our frame rates wall-clock."""
 import records
 import style
+import whole_file
 
 orders = (("plain", "f64"), ("ordered", "f32"))  # in the order of the mesh file; as this code runs by default
 columns = {"model": "model", "mesh": "mesh here", "vertices": "vertices\npaper / here", "edges": "edges\npaper / here",
@@ -72,4 +73,5 @@ def draw(results, figures):
     lines = [line_of(model, mesh) for model, mesh in models.items()]
     cpu = next(iter(models.values()))["plain", "f64"]["cpu_model"]
     style.save(drawn(lines), figures / "table_1_timing", records.provenance(results / "timing"), lines)
-    (figures / "table_1_timing.tex").write_text(latex(lines, cpu))
+    with whole_file.beside(figures / "table_1_timing.tex") as path:
+        path.write_text(latex(lines, cpu))

@@ -6,13 +6,14 @@
 import sys
 
 import records
+import whole_file
 from report import page, record_set
 
 usual_most_mb = 25
 
 
 def main(results, quiet=False):
-    """The exit status: 2 where there are no records."""
+    """The exit status: 2 where there are no records, or the page cannot be written."""
     try:
         found = record_set.RecordSet(results)
     except records.RecordsMissing as error:
@@ -20,9 +21,12 @@ def main(results, quiet=False):
         return 2
     text, missing = page.page(found)
     file = results / "report.html"
-    part = results / ".report.html.part"
-    part.write_text(text)
-    part.replace(file)
+    try:
+        with whole_file.beside(file) as part:
+            part.write_text(text)
+    except whole_file.CannotBeWritten as error:
+        print(f"pbskin: {error}", file=sys.stderr)
+        return 2
     if not quiet:
         for line in missing:
             print(f"missing: {line}")

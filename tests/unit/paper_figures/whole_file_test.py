@@ -1,0 +1,65 @@
+"""Figures are whole or not there. Truth: what the folder holds after each way in which drawing can end."""
+import os
+import pathlib
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "paper_figures"))
+
+import whole_file  # noqa: E402
+
+
+class WholeFile(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+        self.file = self.folder / "volume.png"
+        self.file.write_text("old")
+
+    def names(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+    def drawn_elsewhere(self, lines):
+        """How a process of its own that draws ended."""
+        text = f"import os, pathlib, signal, whole_file\nwith whole_file.beside(pathlib.Path({str(self.file)!r})) as path:\n{lines}"
+        paths = {**os.environ, "PYTHONPATH": str(pathlib.Path(whole_file.__file__).parent)}
+        return subprocess.run([sys.executable, "-B", "-c", text], env=paths, capture_output=True).returncode
+
+    def test_takes_its_place_when_it_is_whole(self):
+        with whole_file.beside(self.file) as path:
+            self.assertEqual(path.suffix, ".png")
+            path.write_text("new")
+            self.assertEqual(self.file.read_text(), "old")
+        self.assertEqual((self.file.read_text(), self.names()), ("new", ["volume.png"]))
+
+    def test_a_failure_leaves_the_old_one(self):
+        with self.assertRaises(KeyError), whole_file.beside(self.file) as path:
+            path.write_text("half")
+            raise KeyError
+        self.assertEqual((self.file.read_text(), self.names()), ("old", ["volume.png"]))
+
+    def test_a_kill_leaves_the_old_one_and_the_next_drawing_removes_the_half(self):
+        killed = self.drawn_elsewhere(" path.write_text('half'); os.kill(os.getpid(), signal.SIGKILL)")
+        self.assertEqual(killed, -signal.SIGKILL)
+        self.assertEqual(self.file.read_text(), "old")
+        self.assertEqual(len(self.names()), 2)
+        with whole_file.beside(self.file) as path:
+            path.write_text("new")
+        self.assertEqual((self.file.read_text(), self.names()), ("new", ["volume.png"]))
+
+    def test_a_full_disk_names_the_file_and_the_reason(self):
+        usual = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1000, usual[1]))  # Python ignores SIGXFSZ: write() fails
+        self.addCleanup(resource.setrlimit, resource.RLIMIT_FSIZE, usual)
+        with self.assertRaisesRegex(whole_file.CannotBeWritten, "volume.png: cannot be written: File too large"), whole_file.beside(self.file) as path:
+            path.write_bytes(bytes(5000))
+        self.assertEqual((self.file.read_text(), self.names()), ("old", ["volume.png"]))
+
+
+if __name__ == "__main__":
+    unittest.main()
