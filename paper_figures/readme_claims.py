@@ -1,14 +1,62 @@
-"""Copies the table of DIR/claims.md into README.md, between its markers. Nobody types that table.
+"""A line a claim of DIR/claims.json into README.md, between its markers: what is expected, measured and found. Nobody types that table; all
+figures behind a line stand in DIR/claims.md.
 
     python3 paper_figures/readme_claims.py results/reproduce
 """
 import pathlib
+import re
 import sys
 
-import claims_table
 import records
+from report import verdicts
+from report.markup import counted, span
 
 begin, end = "<!-- claims:begin -->", "<!-- claims:end -->"
+
+columns = ("id", "statement", "expected", "measured", "verdict")
+most_quantities = 3  # that are told one by one
+
+
+def line(*cells):
+    return "| " + " | ".join(cell.replace("|", "\\|").replace("\u2212", "-") for cell in cells) + " |"
+
+
+def measured(claim):
+    """From the least to the most, of each bound's quantities, and how much of it is as expected."""
+    cases = verdicts.own_cases(claim)
+    if cases:
+        held = [sum(case["holds"] == how for case in cases) for how in ("whole", "part")]
+        reach = verdicts.per_cent_span([end for case in cases for end in (case["least"], case["most"])])
+        return f"{reach}; {held[0]} of {counted(len(cases), 'run')} within, {held[1]} in part"
+    bounds = claim["expected"].split("; ")
+    if len(bounds) > most_quantities:
+        name, value = re.search(r"; farthest: (.*?) of .*? is ([^; ]+)", claim["text"]).groups()
+        return f"{claim['measured']}; farthest: {name} {value}"
+    names = [bound.rsplit(": ", 1)[0] for bound in bounds] if len(bounds) > 1 else [None]  # one bound: of all quantities
+    ranges = [range_of([entry for entry in claim["measurements"] if name in (None, entry["quantity"])]) for name in names]
+    return "; ".join(filter(None, [*ranges, claim["measured"]]))
+
+
+def range_of(entries):
+    values = [entry["value"] for entry in entries if entry["value"] is not None]
+    unit = "" if not values or entries[0]["unit"] == "1" else f" {entries[0]['unit']}"
+    return span(values) + unit if values else ""
+
+
+def expected(claim):
+    bounds = claim["expected"].split("; ")
+    return claim["expected"] if len(bounds) <= most_quantities else f"{len(bounds)} quantities, each within its bound"
+
+
+def table_lines(results):
+    """Header first."""
+    file = results / "claims.json"
+    if not file.is_file():
+        raise records.RecordsMissing(f"{file}: not there: `pbskin reproduce --judge -o {results}` writes it")
+    rows = [line(claim["id"], f"{claim['statement']} ({claim['place']})", expected(claim), measured(claim),
+                 claim["verdict"].removesuffix(" only for") + (" in part" if claim["verdict"].endswith(" only for") else ""))
+            for claim in records.read_json(file)["claims"]]
+    return [line(*columns), "|---" * len(columns) + "|", *rows]
 
 
 def revisions(results):
@@ -26,7 +74,7 @@ def revisions(results):
 
 def main(results, readme):
     try:
-        table = "\n".join(claims_table.table_lines(results))
+        table = "\n".join(table_lines(results))
         measured = ", ".join(revisions(results))
     except records.RecordsMissing as error:
         sys.exit(f"readme_claims: {error}")

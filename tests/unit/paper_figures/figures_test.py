@@ -69,6 +69,15 @@ class Figures(unittest.TestCase):
         with open(self.results / "figures" / "volume_over_angle.csv", newline="") as stream:
             rows = [row for row in csv.DictReader(stream) if row["deformer"] == "lbs" and row["scene"] == "limb_twist"]
         self.assertEqual([float(row["volume_change_pct"]) for row in rows], [-angle / 10 for angle in range(0, 181, 5)])
+        with open(self.results / "figures" / "volume_over_iterations.csv", newline="") as stream:
+            signed = [row for row in csv.DictReader(stream) if row["pose"] == "all frames" and row["measure"] == "volume_change_pct"]
+        self.assertEqual([(row["iterations"], row["q10"], row["median"], row["q90"]) for row in signed],
+                         [(count, "-3.0", "-2.0", "-1.0") for count in ("1", "24", "96")])  # as recorded, not of the rows
+
+    def test_a_run_of_an_earlier_version_has_no_order_statistics(self):
+        human = self.results / "volume" / "human_01_01"
+        (human / "frame_statistics.csv").unlink()
+        self.assert_missing("of an earlier version and has to be made again", lambda: records.Run(human).statistics("pbs", 24))
 
     def test_table_of_claims(self):
         header, _, row = claims_table.table_lines(self.results)
@@ -161,11 +170,21 @@ class Figures(unittest.TestCase):
     def test_readme_is_changed_between_its_markers_alone(self):
         readme = self.results / "README.md"
         readme.write_text(f"before\n{readme_claims.begin}\nold\n{readme_claims.end}\nafter\n")
+        synthetic_records.write_claims(self.results)
         readme_claims.main(self.results, readme)
         text = readme.read_text()
         self.assertTrue(text.startswith("before\n") and text.endswith("\nafter\n"))
-        self.assertIn("| C01 |", text)
+        self.assertIn("| C02 | Volume is kept. (Sec. 4) | 0.5 % (-0.5 to 0.5 %) | -0.9 to 0 %; 1 of 3 runs within, 1 in part "
+                      "| reproduced in part |\n", text)
+        self.assertIn("| 107 to 233 1/s; 2 of 2 figures within | reproduced |\n", text)
         self.assertNotIn("old", text)
+
+    def test_readme_tells_the_farthest_of_many_quantities_and_each_range_of_few(self):
+        rows = [{"quantity": name, "value": value, "unit": "1"} for name, value in (("a", 1.0), ("a", 2.0), ("b", 5.0))]
+        claim = {"cases": [], "measurements": rows, "measured": "2 of 3 figures within", "text": "x; farthest: b of limb, 10 ms is 5; beside it: c"}
+        self.assertEqual(readme_claims.measured({**claim, "expected": "0 to 1"}), "1 to 5; 2 of 3 figures within")
+        self.assertEqual(readme_claims.measured({**claim, "expected": "b: 0 to 1; a: 3 or more"}), "5; 1 to 2; 2 of 3 figures within")
+        self.assertEqual(readme_claims.measured({**claim, "expected": "a: 1; b: 1; c: 1; d: 1"}), "2 of 3 figures within; farthest: b 5")
 
     def test_readme_of_features_is_changed_between_its_markers_alone(self):
         folder = self.results / "features" / "human"
