@@ -18,6 +18,15 @@ void add_bones(analysis::CsvTable& bones, int frame, double time_s, const pbs::S
     }
 }
 
+analysis::CsvTable rest_bone_table(const pbs::Skeleton& skeleton)
+{
+    analysis::CsvTable bones({"bone", "parent", "head_x_m", "head_y_m", "head_z_m", "tail_x_m", "tail_y_m", "tail_z_m"});
+    for (const pbs::Bone& bone : skeleton.bones)
+        bones.add_row({bone.name, bone.parent < 0 ? "" : skeleton.bones[bone.parent].name, bone.head.x(), bone.head.y(), bone.head.z(),
+                       bone.tail.x(), bone.tail.y(), bone.tail.z()});
+    return bones;
+}
+
 analysis::CsvTable binding_table(const pbs::Character& character)
 {
     analysis::CsvTable table({"vertex", "bone", "parameter", "rest_distance_m", "blended", "jiggles"});

@@ -14,7 +14,7 @@ import tomllib
 JUDGED = ["scene", "deformer", "variant", "order", "precision", "iterations", "threads", "frame", "time_s", "angle_deg", "outcome",
           "volume_change_pct", "volume_abs_change_pct", "inverted_tets"]
 PROVENANCE = ["version", "git_revision", "git_dirty", "compiler", "flags", "build_type", "cpu_model", "logical_cpus"]
-DRAWN = ("bones.csv", "binding.csv")  # beside frames, which are not kept
+DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # beside frames, which are not kept
 MOST_BYTES = 5_000_000
 TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run
 SUMMARY_BYTES = 100_000  # of a study's own files, which sum up its runs'

@@ -1,4 +1,4 @@
-// bones.csv and binding.csv. Truth: rigid motion by hand, and the limb's own geometry.
+// bones.csv, bones_rest.csv and binding.csv. Truth: rigid motion by hand, and the limb's own geometry.
 #include "experiments/bone_record.hpp"
 
 #include "pbs/character/bodies.hpp"
@@ -30,6 +30,18 @@ TEST(BoneRecord, ABoneStandsWhereThePosePutsIt)
     EXPECT_NEAR(bones.number(1, "tail_x_m"), 0.0, 1e-15);
     EXPECT_NEAR(bones.number(1, "tail_y_m"), 1.0, 1e-15);
     EXPECT_DOUBLE_EQ(bones.number(0, "head_x_m"), -1.0);
+}
+
+TEST(BoneRecord, AtRestABoneStandsWhereItsSkeletonHasIt)
+{
+    const analysis::CsvTable bones = rest_bone_table(arm());
+    ASSERT_EQ(bones.rows(), 2);
+    EXPECT_EQ(bones.text_at(0, "bone"), "upper");
+    EXPECT_EQ(bones.text_at(0, "parent"), "");
+    EXPECT_EQ(bones.text_at(1, "parent"), "upper");
+    EXPECT_EQ(bones.number(0, "head_x_m"), -1.0);
+    EXPECT_EQ(bones.number(1, "tail_x_m"), 1.0);
+    EXPECT_EQ(bones.number(1, "tail_y_m"), 0.0);
 }
 
 TEST(BoneRecord, WithoutBonesThereIsNoRow)
