@@ -1,0 +1,155 @@
+"""A Slurm cluster of one node in a folder of its own: munged, slurmctld and slurmd on free ports of the loopback, with their own key, socket,
+configuration and state; no accounting, no cgroups. Nothing of a system's Slurm is read or touched, and root is not needed.
+
+    with slurm_cluster.SlurmCluster() as cluster:
+        subprocess.run(["sbatch", ...], env=cluster.environment)
+
+Whatever happens, it ends what it started: orphans come to this process, which knows its children; daemons die with it."""
+import ctypes
+import getpass
+import os
+import pathlib
+import signal
+import socket
+import subprocess
+import tempfile
+import time
+
+PROGRAMS = ("munged", "mungekey", "slurmctld", "slurmd", "sbatch", "srun", "sinfo", "squeue", "scontrol")
+PATH = os.environ["PATH"] + ":/usr/sbin:/sbin"
+CONFIGURATION = """ClusterName=own
+SlurmctldHost=localhost(127.0.0.1)
+SlurmctldPort={controller_port}
+SlurmdPort={node_port}
+SlurmUser={user}
+SlurmdUser={user}
+AuthType=auth/munge
+AuthInfo=socket={folder}/munge/socket
+CredType=cred/munge
+StateSaveLocation={folder}/state
+SlurmdSpoolDir={folder}/spool
+SlurmctldPidFile={folder}/slurmctld.pid
+SlurmdPidFile={folder}/slurmd.pid
+MailProg=/bin/true
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+JobAcctGatherType=jobacct_gather/none
+AccountingStorageType=accounting_storage/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_Core
+SchedulerParameters=sched_interval=1
+SlurmdParameters=config_overrides
+CommunicationParameters=NoInAddrAny,NoCtldInAddrAny
+NodeName=localhost NodeAddr=127.0.0.1 CPUs=2 RealMemory=4000
+PartitionName=local Nodes=localhost Default=YES MaxTime=60
+"""
+_prctl = ctypes.CDLL(None).prctl
+DEATH_SIGNAL, SUBREAPER = 1, 36
+
+
+def missing():
+    """The programs that are not there."""
+    return [name for name in PROGRAMS if not any(os.access(os.path.join(folder, name), os.X_OK) for folder in PATH.split(":"))]
+
+
+def free_ports(count):
+    sockets = [socket.create_server(("127.0.0.1", 0)) for _ in range(count)]
+    ports = [own.getsockname()[1] for own in sockets]
+    for own in sockets:
+        own.close()
+    return ports
+
+
+def wait_for(what, condition, seconds=60):
+    deadline = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > deadline:
+            raise TimeoutError(what)
+        time.sleep(0.2)
+
+
+def children():
+    """Process ids of this process's children, orphans that came to it included."""
+    found = []
+    for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        try:
+            name, fields = stat.read_text().rsplit(")", 1)
+        except (OSError, ValueError):
+            continue
+        if int(fields.split()[1]) == os.getpid():
+            found.append(int(name.split()[0]))
+    return found
+
+
+class SlurmCluster:
+    def __init__(self):
+        self.daemons = []
+
+    def __enter__(self):
+        _prctl(SUBREAPER, 1, 0, 0, 0)
+        self.before = children()
+        self.temporary = tempfile.TemporaryDirectory(prefix="slurm_")
+        self.folder = pathlib.Path(self.temporary.name)
+        try:
+            self.start()
+        except BaseException as error:
+            told = self.logs()
+            self.stop()
+            raise RuntimeError(f"no Slurm cluster: {error}\n{told}") from error
+        return self
+
+    def __exit__(self, *_):
+        self.stop()
+
+    def start(self):
+        self.folder.chmod(0o711)  # munged wants its socket in the reach of all
+        for name, mode in (("munge", 0o711), ("state", 0o700), ("spool", 0o755)):
+            (self.folder / name).mkdir()
+            (self.folder / name).chmod(mode)
+        controller_port, node_port = free_ports(2)
+        configuration = self.folder / "slurm.conf"
+        configuration.write_text(CONFIGURATION.format(folder=self.folder, user=getpass.getuser(), controller_port=controller_port, node_port=node_port))
+        self.environment = {name: value for name, value in os.environ.items() if not name.startswith(("SLURM", "SBATCH", "SRUN"))}
+        self.environment.update(PATH=PATH, SLURM_CONF=str(configuration), USER=getpass.getuser())
+        munge = self.folder / "munge"
+        subprocess.run(["mungekey", "--create", f"--keyfile={munge}/key"], check=True, env=self.environment)
+        self.daemon("munged", "--foreground", "--force", f"--key-file={munge}/key", f"--socket={munge}/socket", f"--pid-file={munge}/pid",
+                    f"--log-file={munge}/log", f"--seed-file={munge}/seed", "--num-threads=2")
+        wait_for("munged's socket", (munge / "socket").exists)
+        self.daemon("slurmctld", "-D", "-f", configuration)
+        self.daemon("slurmd", "-D", "-N", "localhost", "-f", configuration)
+        wait_for("an idle node", lambda: self.told("sinfo", "-h", "-o", "%T").strip() == "idle")
+
+    def daemon(self, *command):
+        with open(self.folder / f"{command[0]}.out", "w", encoding="utf-8") as log:
+            self.daemons.append(subprocess.Popen([str(part) for part in command], stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,
+                                                 env=self.environment, preexec_fn=lambda: _prctl(DEATH_SIGNAL, signal.SIGTERM, 0, 0, 0)))
+
+    def told(self, *command):
+        return subprocess.run(command, capture_output=True, text=True, env=self.environment, timeout=60).stdout
+
+    def logs(self):
+        return "\n".join(f"{path.name}: {path.read_text()[-2000:]}" for path in sorted(self.folder.glob("*.out")))
+
+    def stop(self):
+        """Jobs first, then the daemons, then whatever of theirs is left."""
+        if len(self.daemons) == 3:
+            try:
+                self.told("scancel", "--user", getpass.getuser())
+                wait_for("an empty queue", lambda: not self.told("squeue", "-h").strip(), 20)
+            except (TimeoutError, subprocess.TimeoutExpired):
+                pass
+        for daemon in reversed(self.daemons):
+            daemon.terminate()
+            try:
+                daemon.wait(15)
+            except subprocess.TimeoutExpired:
+                daemon.kill()
+                daemon.wait()
+        for process in set(children()) - set(self.before):
+            try:
+                os.kill(process, signal.SIGKILL)
+                os.waitpid(process, 0)
+            except (ProcessLookupError, ChildProcessError):
+                pass
+        self.temporary.cleanup()
