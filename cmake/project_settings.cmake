@@ -18,8 +18,12 @@ endif()
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 
-# The include root, the warnings and nothing else.
+# The include root, the warnings and nothing else; an installation leaves the warnings to its user.
 add_library(pbs_settings INTERFACE)
-target_include_directories(pbs_settings INTERFACE ${PROJECT_SOURCE_DIR})
-target_compile_options(pbs_settings INTERFACE -Wall -Wextra -Wpedantic $<$<BOOL:${PBS_WERROR}>:-Werror>)
+target_include_directories(pbs_settings INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include>)
+target_compile_options(pbs_settings INTERFACE
+    "$<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic>" $<BUILD_INTERFACE:$<$<BOOL:${PBS_WERROR}>:-Werror>>)
+target_compile_features(pbs_settings INTERFACE cxx_std_20)
+# Eigen's arrays cross from the installed libraries to programs built for wider registers, and back, and must be freed as allocated.
+target_compile_definitions(pbs_settings INTERFACE $<INSTALL_INTERFACE:EIGEN_MAX_ALIGN_BYTES=16>)
 target_link_libraries(pbs_settings INTERFACE Eigen3::Eigen)

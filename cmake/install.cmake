@@ -1,0 +1,56 @@
+# `cmake --install`: the libraries for `find_package(pbs COMPONENTS ...)`, an install component each, and the program with what it needs.
+# Everything is found relative to the prefix, so that an installation may be moved.
+include(CMakePackageConfigHelpers)
+set(config_folder lib/cmake/pbs)
+
+# pbs_install_libraries(COMPONENT TARGET=NAME...): static libraries, known outside as pbs::NAME.
+function(pbs_install_libraries component)
+    foreach(pair IN LISTS ARGN)
+        string(REPLACE "=" ";" pair ${pair})
+        list(POP_FRONT pair target name)
+        set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+        install(TARGETS ${target} EXPORT pbs-${component} ARCHIVE DESTINATION lib COMPONENT ${component})
+    endforeach()
+    install(EXPORT pbs-${component} FILE pbs-${component}-targets.cmake NAMESPACE pbs:: DESTINATION ${config_folder} COMPONENT ${component})
+endfunction()
+
+# pbs_install_headers(COMPONENT FOLDER...): by the same paths under include/ as in the sources; pbs/geometry's go where their library goes.
+function(pbs_install_headers component)
+    foreach(folder IN LISTS ARGN)
+        file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
+        if(component STREQUAL "method")
+            list(FILTER headers EXCLUDE REGEX "/(mesh_io|meshing|module)[a-z_]*\\.hpp$")
+        endif()
+        list(FILTER headers EXCLUDE REGEX "/(mesh_io_|meshing_|guarded_reading|isolated_reader|packed_bytes|vtk_messages)[a-z_]*\\.hpp$")  # no call for users
+        install(FILES ${headers} DESTINATION include/${folder} COMPONENT ${component})
+    endforeach()
+endfunction()
+
+pbs_install_libraries(method pbs_settings=settings pbs_method=method)
+pbs_install_headers(method pbs/geometry pbs/skinning pbs/constraints pbs/solver pbs/solver/batched)
+pbs_install_libraries(mesh_io pbs_module=module pbs_meshing=meshing pbs_mesh_io=mesh_io)
+install(FILES pbs/geometry/mesh_io.hpp pbs/geometry/meshing.hpp pbs/geometry/module.hpp DESTINATION include/pbs/geometry COMPONENT mesh_io)
+pbs_install_libraries(character pbs_character=character)
+pbs_install_headers(character pbs/character)
+if(PBS_WITH_ANALYSIS)
+    pbs_install_libraries(analysis analysis=analysis)
+    pbs_install_headers(analysis analysis)
+endif()
+if(PBS_WITH_FEM)
+    pbs_install_libraries(fem reference_fem_laws=fem_laws reference_fem_multigrid=fem_multigrid reference_fem=fem)
+    pbs_install_headers(fem reference_fem reference_fem/laws reference_fem/newton reference_fem/potentials reference_fem/dynamics)
+endif()
+
+get_target_property(mesh_io_links pbs_mesh_io LINK_LIBRARIES)
+set(vtk_components ${mesh_io_links})
+list(FILTER vtk_components INCLUDE REGEX "^VTK::")
+list(TRANSFORM vtk_components REPLACE "^VTK::" "")
+list(JOIN vtk_components " " vtk_components)
+configure_package_config_file(cmake/pbs-config.cmake.in pbs-config.cmake INSTALL_DESTINATION ${config_folder})
+write_basic_package_version_file(pbs-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/pbs-config.cmake ${PROJECT_BINARY_DIR}/pbs-config-version.cmake DESTINATION ${config_folder}
+    COMPONENT method)
+
+if(TARGET pbskin)
+    include(install_program)
+endif()
