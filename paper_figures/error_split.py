@@ -48,7 +48,8 @@ def draw_attachments(axes, rows, angle_deg):
     axes.barh([name_of(row) for row in chosen], [float(row["model_pct"] or "nan") for row in chosen], color=style.sky, height=0.6)
     axes.set_xlabel("model error against P1, k_stretch 0.2 [%]")
     axes.grid(axis="y", visible=False)
-    return [{"scene": row["scene"], "angle_deg": row["angle_deg"], "k_stretch": row["k_stretch"], "shown": "model_pct", "at": row["reference"],
+    return [{"scene": row["scene"], "angle_deg": row["angle_deg"], "k_stretch": row["k_stretch"], "shown": "model_pct",
+             "at": row["reference"],
              "value_pct": row["model_pct"]} for row in chosen]
 
 

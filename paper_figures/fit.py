@@ -1,5 +1,5 @@
-"""What k_stretch is worth: Young's modulus of the elastic bar that sags as PBS does, over k_stretch, for several iteration counts and meshes;
-and how near any Poisson's ratio comes to PBS in twist and bend."""
+"""What k_stretch is worth: Young's modulus of the elastic bar that sags as PBS does, over k_stretch, for several iteration counts and
+meshes; and how near any Poisson's ratio comes to PBS in twist and bend."""
 import records
 import style
 

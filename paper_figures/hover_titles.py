@@ -1,5 +1,6 @@
 """The numbers behind a figure's points, in its SVG: over each point lies an unseen circle with a title "label: x, y", which browsers show
-under the pointer; each panel's circles in a group of class "values" that names its axes (data-x, data-y)."""
+under the pointer; each panel's circles in a group of class "values" that names its axes (data-x, data-y). A drawing of a body, true to
+scale, has none: its places are no figures."""
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy
@@ -14,7 +15,7 @@ def add(figure, file):
     """Also names what stands in for matplotlib's font where a reader does not have it: Verdana is as wide."""
     page, end = file.read_text().replace("'DejaVu Sans'", "'DejaVu Sans', Verdana, sans-serif").rsplit("</svg>", 1)
     height = figure.get_size_inches()[1] * points_an_inch
-    groups = [group_of(axes, figure.dpi, height) for axes in figure.axes if axes.get_visible()]
+    groups = [group_of(axes, figure.dpi, height) for axes in figure.axes if axes.get_visible() and axes.get_aspect() == "auto"]
     file.write_text(page + "".join(groups) + "</svg>" + end)
 
 

@@ -50,7 +50,8 @@ def latex(lines, cpu):
     head = " & ".join(text.replace("\n", " ") for text in columns.values())
     body = "\n".join(" & ".join(line.values()).replace("_", r"\_") + r" \\" for line in lines)
     return (f"% timed on one core of {cpu}; the paper: Intel i5 2.50 GHz, 2014\n"
-            f"\\begin{{tabular}}{{ll{'r' * (len(columns) - 2)}}}\n\\toprule\n{head} \\\\\n\\midrule\n{body}\n\\bottomrule\n\\end{{tabular}}\n")
+            f"\\begin{{tabular}}{{ll{'r' * (len(columns) - 2)}}}\n\\toprule\n"
+            f"{head} \\\\\n\\midrule\n{body}\n\\bottomrule\n\\end{{tabular}}\n")
 
 
 def drawn(lines):

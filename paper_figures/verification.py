@@ -5,7 +5,8 @@ import re
 import records
 import style
 
-looks = {"P1": (style.vermillion, "v"), "P2": (style.blue, "o"), "P2 mean dilatation": (style.orange, "s"), "P2 Taylor-Hood": (style.green, "D")}
+looks = {"P1": (style.vermillion, "v"), "P2": (style.blue, "o"), "P2 mean dilatation": (style.orange, "s"),
+         "P2 Taylor-Hood": (style.green, "D")}
 norms = {"error in L2 over that of the solution": ("$L^2$", "-", 1),
          "error in the H1 seminorm over that of the solution": ("$H^1$", (0, (4, 1.5)), 0)}
 # What is shown of each problem, and how it is called.

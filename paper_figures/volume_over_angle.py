@@ -1,4 +1,5 @@
-"""How much volume each deformer changes as the limb is twisted and bent: signed (the paper's measure) and absolute (gains do not hide losses)."""
+"""How much volume each deformer changes as the limb is twisted and bent: signed (the paper's measure) and absolute (gains do
+not hide losses)."""
 import records
 import style
 

@@ -9,7 +9,8 @@ failing = ("not reproduced", "reproduced only for", "inconsistent in print", "no
 
 def do_they_hold(found):
     if not found.claims:
-        return element("p", "No verdict is on record: run `pbskin reproduce`, or `pbskin reproduce --judge` on these records.", class_="missing")
+        return element("p", "No verdict is on record: run `pbskin reproduce`, or `pbskin reproduce --judge` on these records.",
+                       class_="missing")
     return joined([element("p", verdicts.counts_sentence(found.claims), class_="answer"), verdicts.chips(found.claims)])
 
 
@@ -100,7 +101,8 @@ def bar_of(row):
 def pose_table(shown):
     rows = [[pose.name, *(figure(number(row, "error_joint_pct")) for row in (pose.lbs, pose.pbs)),
              figure(number(pose.reference, "error_joint_beside_pct")), bar_of(pose.pbs)] for pose in shown]
-    return table("Distance from the FEM reference at the joints [%]", ["pose", "LBS", "PBS", "other FEM solution", "reference's own error"], rows)
+    header = ["pose", "LBS", "PBS", "other FEM solution", "reference's own error"]
+    return table("Distance from the FEM reference at the joints [%]", header, rows)
 
 
 def bar_sentence(shown):
@@ -148,4 +150,5 @@ def beside_sentence(found):
 def first_screen(found):
     cards = [("Do the paper\u2019s claims hold?", "hold", do_they_hold(found)), ("When not?", "not", when_not(found)),
              ("How far from the finite elements?", "far", how_far(found)), ("At what cost?", "cost", at_what_cost(found))]
-    return joined((element("section", joined([element("h2", title), content]), class_=f"card {name}") for title, name, content in cards), "\n")
+    return joined((element("section", joined([element("h2", title), content]), class_=f"card {name}") for title, name, content in cards),
+                  "\n")

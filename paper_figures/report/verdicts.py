@@ -24,7 +24,8 @@ def mark(verdict):
 def counts_sentence(claims):
     """Of 17 claims 3 hold, 8 hold in part, ..."""
     counts = {kind: sum(claim["verdict"] == kind for claim in claims) for kind in marks}
-    parts = [f"{count} {words if count > 1 else singular(words)}" for (kind, count), (_, _, words) in zip(counts.items(), marks.values()) if count]
+    parts = [f"{count} {words if count > 1 else singular(words)}"
+             for (kind, count), (_, _, words) in zip(counts.items(), marks.values()) if count]
     others = len(claims) - sum(counts.values())
     parts += [f"{others} otherwise"] if others else []
     return f"Of {counted(len(claims), 'claim')} " + ", ".join(parts) + "."
@@ -56,6 +57,18 @@ def is_sweep(case):
 
 
 spoken = {"limb_twist": "the limb twisted", "limb_bend": "the limb bent"}  # runs by what they show
+
+
+def in_words(run):
+    """A run's name: human_01_01 (jiggle) is the human in clip 01_01, with jiggling flesh."""
+    if run in spoken:
+        return spoken[run].removeprefix("the ")
+    clip = re.fullmatch(r"([a-z]+)_(\d\d_\d\d)(?: \((.*)\))?", run)
+    if not clip:
+        return run
+    body, number, variant = clip.groups()
+    flesh = {"jiggle": ", jiggling flesh", None: ""}
+    return f"{body if body == 'human' else body.capitalize()}, clip {number}" + flesh.get(variant, f", {variant}")
 
 
 def angles(case):
@@ -121,7 +134,7 @@ def measured(claim):
 
 
 def case_text(claim, case):
-    name = case["text"].split(":")[0]
+    name = in_words(case["text"].split(":")[0])
     if is_sweep(case):
         return f"{name}: {per_cent_span([case['least'], case['most']])} over the angle"
     share = is_share(claim)
