@@ -2,6 +2,7 @@
 //   pbskin run limb_twist -o results/limb_twist        one scene: frames and records
 //   pbskin reproduce volume --quick                    studies -> records -> verdicts
 //   pbskin measure rest.msh frame_*.vtu --max-volume-change 0.5
+#include "experiments/command_line/description.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/interruption.hpp"
 #include "experiments/version_text.hpp"
@@ -40,6 +41,7 @@ int parse_and_act(int argc, char** argv)
 {
     CLI::App app("pbskin: a verification suite for position based skinning", "pbskin");
     app.set_version_flag("--version", version_text());
+    app.add_flag_callback("--describe", [&app] { throw CLI::CallForVersion(describe(app), 0); })->group("");
     app.require_subcommand(1);
     CommonOptions common;
     VerbAction action;

@@ -14,7 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path page_maker = fs::path(PBS_FIGURES_FOLDER) / "make_report.py";
+// In a build as in an installation: share/pbskin beside the program's own folder.
+fs::path page_maker()
+{
+    return fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share/pbskin/paper_figures/make_report.py";
+}
 
 // Debian's first: a version manager's python3 on the PATH often has not what the figures need.
 std::string python_that_draws()
@@ -31,9 +35,9 @@ int report(const std::string& folder, bool quiet)
 {
     if (!fs::is_directory(folder))
         throw pbs::InputError(folder, 0, "", "", "no such folder: expected one that `pbskin reproduce -o` wrote");
-    if (!fs::is_regular_file(page_maker))
-        throw pbs::InputError(page_maker.string(), 0, "", "", "not there: the page is made by the scripts of the project's source");
-    std::vector<std::string> words = {python_that_draws(), "-B", page_maker.string(), folder};
+    if (!fs::is_regular_file(page_maker()))
+        throw pbs::InputError(page_maker().string(), 0, "", "", "not there: the page is made by the scripts installed beside the program");
+    std::vector<std::string> words = {python_that_draws(), "-B", page_maker().string(), folder};
     if (quiet) words.push_back("--quiet");
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
