@@ -69,10 +69,6 @@ def glass(data, color=rendering.skin_color, opacity=0.18):
     return actor
 
 
-def skin_at_rest(file, color=rendering.skin_color):
-    return _actor(surface(at_rest(file)), color)
-
-
 def skin_by(file, values, scale, colors):
     """The skin coloured by a number at each of its points."""
     data = rendering.read(file)

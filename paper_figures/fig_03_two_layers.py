@@ -1,4 +1,5 @@
-"""The paper's Fig. 3: the body at rest, after linear blend skinning, after position based dynamics; below, the hips of the same."""
+"""The paper's Fig. 3: the rendered surface at rest, after linear blend skinning, after position based dynamics; below, the hips
+of the same."""
 import bodies
 import recorded_frames
 import rendering
@@ -9,8 +10,7 @@ whole_px, hips_px = (640, 760), (640, 380)
 
 
 def pictures(frames, stage, centers, half_height_m):
-    lbs, pbs = frames.tets("lbs", frame), frames.tets("pbs", frame)
-    actors = [bodies.skin_at_rest(lbs), bodies.skin(lbs), bodies.skin(pbs)]
+    actors = [bodies.skin(frames.skin_at_rest()), *(bodies.skin(frames.skin(label, frame)) for label in ("lbs", "pbs"))]
     return [stage.shot([actor], rendering.Camera(center, half_height_m)) for actor, center in zip(actors, centers)]
 
 

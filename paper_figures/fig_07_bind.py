@@ -46,7 +46,7 @@ def draw(results, figures):
     rest = bodies.rest_positions_of(frames.tets("lbs", 0))
     posed = {label: bodies.points_of(frames.tets(label, frame)) for label in labels}
     vertex = chosen_vertex(frames, posed)
-    feet = {0: frames.projections(0)[vertex], frame: frames.projections(frame)[vertex]}
+    feet = {at: frames.projections(frames.bones(at))[vertex] for at in (0, frame)}
     figure, axes = style.panels(1, 3, height_in=2.3)
     shown = ((rest, 0, "$p_i$", style.black, "o", "lbs", "at rest"),
              (posed["lbs"], frame, "$p_{i,LBS}$", style.vermillion, "v", "lbs", "after LBS"),

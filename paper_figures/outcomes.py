@@ -14,12 +14,12 @@ def draw_marks(axes, places, outcomes, size):
         shown = [place for place, found in zip(places, outcomes) if found == outcome]
         if shown:
             fill = {"c": color, "edgecolors": style.black} if marker == "*" else {"color": color}  # yellow alone does not show on white
-            axes.scatter(*zip(*shown), s=size, marker=marker, **fill, linewidths=0.3 if marker == "*" else 0.9, label=text, zorder=3)
+            axes.scatter(*zip(*shown), s=size * (3.5 if marker == "*" else 1), marker=marker, **fill, linewidths=0.3 if marker == "*" else 0.9, label=text, zorder=3)
 
 
 def legend(figure, axes):
     """Of all five, that it is seen which do not occur."""
     for _, marker, color, text in looks.values():
         axes.plot([], [], linestyle="none", marker=marker, color=color, markeredgecolor=style.black if marker == "*" else color,
-                  markeredgewidth=0.8, markersize=6 if marker == "*" else 4.5, label=text)
+                  markeredgewidth=0.6 if marker == "*" else 0.8, markersize=9 if marker == "*" else 4.5, label=text)
     style.legend_above(figure, columns=3)

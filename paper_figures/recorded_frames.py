@@ -29,7 +29,18 @@ class Frames:
 
     def skin(self, label, frame):
         """The rendered surface; the built-in bodies have none but their tets' boundary."""
-        return self.tets(label, frame) if self.body in ("limb", "bar") else self._file(f"{label}_surface_{frame:06}.vtp")
+        return self.tets(label, frame) if self.body in built_in else self._file(f"{label}_surface_{frame:06}.vtp")
+
+    def skin_at_rest(self):
+        """The rendered surface at rest; None for the built-in bodies, which have none."""
+        return None if self.body in built_in else self._file("surface_rest.vtp", "")
+
+    def embedding(self):
+        """Of each point of the rendered surface the tet that carries it, #S, and the share of each of its corners, #S x 4."""
+        rows = records.table(self._file("embedding.csv", ""), {"point", "tet", *share_columns})
+        rows.sort(key=lambda row: int(row["point"]))
+        shares = numpy.array([[float(row[column]) for column in share_columns] for row in rows])
+        return numpy.array([int(row["tet"]) for row in rows]), shares
 
     def row(self, label, frame):
         if label not in self.deformers:
@@ -48,31 +59,41 @@ class Frames:
 
     def bones(self, frame):
         rows = records.table(self.folder / "bones.csv", {"frame", "bone", *bone_ends})
-        ends = [(row["bone"], numpy.array([float(row[column]) for column in bone_ends])) for row in rows if int(row["frame"]) == frame]
-        if not ends:
+        posed = [bone_of(row) for row in rows if int(row["frame"]) == frame]
+        if not posed:
             raise records.RecordsMissing(f"{self.folder / 'bones.csv'}: no frame {frame}")
-        return [Bone(name, numbers[:3], numbers[3:]) for name, numbers in ends]
+        return posed
+
+    def bones_at_rest(self):
+        return [bone_of(row) for row in records.table(self._file("bones_rest.csv", ""), {"bone", *bone_ends})]
 
     def binding(self):
         """A row each vertex: nearest bone, parameter on it, rest distance, blended and jiggles (0 or 1)."""
         return records.table(self.folder / "binding.csv", {"vertex", "bone", "parameter", "rest_distance_m", "blended", "jiggles"})
 
-    def projections(self, frame):
-        """Where each vertex's material point of its nearest bone is in this frame [m], #V x 3."""
-        bones = {bone.name: bone for bone in self.bones(frame)}
+    def projections(self, bones):
+        """Where each vertex's material point of its nearest bone is, with the bones there [m], #V x 3."""
+        bones = {bone.name: bone for bone in bones}
         rows = sorted(self.binding(), key=lambda row: int(row["vertex"]))
         heads, tails = (numpy.array([getattr(bones[row["bone"]], end) for row in rows]) for end in ("head", "tail"))
         parameters = numpy.clip([float(row["parameter"]) for row in rows], 0, 1)[:, None]
         return heads + parameters * (tails - heads)
 
-    def _file(self, name):
-        file = self.folder / "frames" / name
+    def _file(self, name, below="frames"):
+        file = self.folder / below / name
         if not file.is_file():
             raise records.RecordsMissing(f"{file}: not there")
         return file
 
 
+built_in = ("limb", "bar")
 bone_ends = [f"{end}_{axis}_m" for end in ("head", "tail") for axis in "xyz"]
+share_columns = [f"barycentric_{corner}" for corner in range(4)]
+
+
+def bone_of(row):
+    ends = numpy.array([float(row[column]) for column in bone_ends])
+    return Bone(row["bone"], ends[:3], ends[3:])
 
 
 def origin_of(*shown):

@@ -1,6 +1,6 @@
 """Every disturbance of the limb by every method: what comes of it. A row is a quantity driven to its extremes, its marks go from the
-least to the greatest value. See
-which methods come to rest as if undisturbed, which leave tets inverted, and whether any but the printed form of PBS diverges."""
+least to the greatest value. See which methods come to rest as if undisturbed, which leave tets inverted, and whether any but the printed
+form of PBS diverges."""
 import records
 import outcomes
 import style

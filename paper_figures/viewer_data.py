@@ -3,9 +3,12 @@
 Positions are rounded to a grid of 65536 steps over the longest edge of the run's bounding box: low_m + step_m * code, each coordinate
 within step_m / 2 of the record. A frame is stored as the difference of its codes to the frame before (modulo 65536), first the low bytes
 of all frames, then the high ones, which packs well.
+The rendered surface is not stored frame by frame: each of its points is the sum of the corners of the tet that carries it, by their shares
+(float32), and so within step_m / 2 times the sum of the shares' sizes.
 Volume ratios take one byte: 0 is an inverted tet (ratio <= 0), a code c > 0 stands for (c - 1) / 127, and 255 for all above 2.
 """
 import gzip
+import hashlib
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -14,10 +17,11 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 import entries
 import recorded_frames
 import records
+import rendering
 
 titles = {"limb_twist": "limb, twist", "limb_bend": "limb, bend", "human_jump": "human, jumping", "human_walk": "human, walking"}
 deformers = {"lbs": "LBS", "dqs": "DQS", "pbs": "PBS", "snh_p1": "FEM", "pbs_jiggle": "PBS, jiggling flesh",
-             "pbs_increment": "PBS, no start from LBS"}
+             "pbs_no_zone": "PBS, as stiff, no jiggling", "pbs_increment": "PBS, no start from LBS"}
 figures = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "error_linf_m", "min_section_pct", "angle_deg",
            "reference_self_intersects")
 ratio_steps, position_steps = 127, 65535
@@ -62,16 +66,20 @@ def ratio_codes(ratios):
 
 
 class Block:
-    """Arrays one behind the other, each at a multiple of four bytes."""
+    """Arrays one behind the other, each at a multiple of four bytes, and once: runs of one body share it."""
 
     def __init__(self):
         self.bytes = bytearray()
+        self.places = {}
 
     def put(self, array):
-        self.bytes += bytes(-len(self.bytes) % 4)
-        place = len(self.bytes)
-        self.bytes += numpy.ascontiguousarray(array).tobytes()
-        return place
+        packed = numpy.ascontiguousarray(array).tobytes()
+        digest = hashlib.sha256(packed).digest()
+        if digest not in self.places:
+            self.bytes += bytes(-len(self.bytes) % 4)
+            self.places[digest] = len(self.bytes)
+            self.bytes += packed
+        return self.places[digest]
 
 
 def rows_of(recorded):
@@ -101,6 +109,19 @@ def pack_bones(recorded, frames, block):
     return {"names": names, "ends": block.put(ends)}
 
 
+def pack_surface(recorded, block):
+    """The rendered surface: its triangles, and what carries each of its points. None for a body without one."""
+    file = recorded.skin_at_rest()
+    if not file:
+        return None
+    triangles = vtk_to_numpy(rendering.read(file).GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    tets, shares = recorded.embedding()
+    if triangles.max() >= len(tets):
+        raise records.RecordsMissing(f"{recorded.folder / 'embedding.csv'}: {len(tets)} points, but {file.name} has more")
+    return {"points": len(tets), "triangles": len(triangles), "corners": block.put(triangles.astype("<u4")),
+            "tets": block.put(tets.astype("<u4")), "shares": block.put(shares.astype("<f4"))}
+
+
 def facts_of(recorded, every):
     """What the run's tables say, without its frames."""
     rows = {label: kept[::every] for label, kept in rows_of(recorded).items()}
@@ -125,7 +146,7 @@ def pack_run(recorded, every, block):
         deformer["ratios"] = block.put(numpy.stack([ratio_codes(one[2]) for one in read[deformer["label"]]]))
     return {**facts, "vertices": len(rest), "tets": len(tets), "low_m": low.tolist(), "step_m": step, "rest_low_m": rest_low.tolist(),
             "rest_step_m": rest_step, "tet_corners": block.put(tets.astype("<u4")), "bones": pack_bones(recorded, facts["frames"], block),
-            "rest_codes": block.put(codes_of(rest, rest_low, rest_step))}
+            "rest_codes": block.put(codes_of(rest, rest_low, rest_step)), "surface": pack_surface(recorded, block)}
 
 
 def check(results, names):

@@ -10,7 +10,7 @@ set_tests_properties(unit/paper_figures/viewer PROPERTIES LABELS unit TIMEOUT 30
 # The viewer's own program, where there is a node to run it; ./check --long brings one.
 find_program(PBS_NODE NAMES node nodejs)
 if(PBS_NODE)
-    foreach(name codes faces link shown)
+    foreach(name codes faces link shown surface touch)
         add_test(NAME unit/paper_figures/viewer/${name}
             COMMAND ${PBS_NODE} --test ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/viewer/${name}.test.mjs)
         set_tests_properties(unit/paper_figures/viewer/${name} PROPERTIES LABELS unit TIMEOUT 300)

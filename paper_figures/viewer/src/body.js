@@ -1,6 +1,6 @@
 // One deformer's body in three dimensions: the faces that are seen, shaded and coloured. Each face has corners of its own.
 import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Mesh, ShaderMaterial } from "three";
-import { area_normal, face_of } from "./faces.js";
+import { area_normal, triangles_of } from "./faces.js";
 
 // Light from the camera's left above, and a floor of brightness so that colours read as in the legend. Faces of the cut get the outline
 // of their tets, thin and a shade of their own colour, so that small faces show it as well.
@@ -47,14 +47,24 @@ export class Body {
         this.mesh.frustumCulled = false;
     }
 
-    // Which faces are drawn; `outer` tells those of the whole body's surface, which are shaded smoothly, from those of the cut.
+    // Which faces of tets are drawn; `outer` tells those of the whole body's surface, which are shaded smoothly, from those of the cut.
     show_faces(corners, faces, outer) {
-        this.faces = faces;
-        this.vertices = new Uint32Array(faces.flatMap((face) => face_of(corners, face)));
-        this.smooth = Uint8Array.from(faces, (face) => outer(face) ? 1 : 0);
+        this.show_triangles(triangles_of(corners, faces), Uint32Array.from(faces, (face) => face >> 2),
+                            Uint8Array.from(faces, (face) => outer(face) ? 1 : 0));
+    }
+
+    // The rendered surface; see surface.js.
+    show_surface({ corners, tets }) {
+        const behind = Uint32Array.from({ length: corners.length / 3 }, (_, face) => tets[corners[3 * face]]);
+        this.show_triangles(corners, behind, new Uint8Array(behind.length).fill(1));
+    }
+
+    // vertices: three each triangle; of each triangle the tet that is behind it, and whether it is shaded smoothly.
+    show_triangles(vertices, tets, smooth) {
+        Object.assign(this, { vertices, tets, smooth });
         this.geometry.dispose();
         for (const [name, size] of [["position", 3], ["normal", 3], ["colour", 3], ["is_cut", 1]]) {
-            const attribute = new BufferAttribute(new Float32Array(3 * size * faces.length), size);
+            const attribute = new BufferAttribute(new Float32Array(size * vertices.length), size);
             this.geometry.setAttribute(name, attribute.setUsage(DynamicDrawUsage));
         }
         this.geometry.attributes.is_cut.array.forEach((_, at, all) => { all[at] = this.smooth[Math.floor(at / 3)] ? 0 : 1; });
@@ -67,8 +77,8 @@ export class Body {
             copy(to, at, positions, v);
             if (this.smooth[Math.floor(at / 3)]) copy(up, at, normals, v);
         });
-        this.faces.forEach((_, face) => {
-            if (this.smooth[face]) return;
+        this.smooth.forEach((smooth, face) => {
+            if (smooth) return;
             const normal = area_normal(positions, ...this.vertices.subarray(3 * face, 3 * face + 3));
             for (let corner = 0; corner < 3; ++corner) up.set(normal, 9 * face + 3 * corner);
         });
@@ -78,7 +88,7 @@ export class Body {
     // colour_of(tet, vertex) -> [red, green, blue]
     paint(colour_of) {
         const to = this.geometry.attributes.colour.array;
-        this.vertices.forEach((v, at) => to.set(colour_of(this.faces[Math.floor(at / 3)] >> 2, v), 3 * at));
+        this.vertices.forEach((v, at) => to.set(colour_of(this.tets[Math.floor(at / 3)], v), 3 * at));
         this.geometry.attributes.colour.needsUpdate = true;
     }
 

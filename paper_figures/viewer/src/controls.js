@@ -1,5 +1,6 @@
 // The bars above the panels: run, time, colouring, cut, skeleton.
 import { colourings } from "./link.js";
+import { draws_surface } from "./state.js";
 import { button, element, group, select, slider } from "./page.js";
 
 const colour_names = { skin: "skin", ratio: "volume ratio", error: "distance to FEM", inverted: "inverted tets" };
@@ -13,6 +14,7 @@ export class Controls {
         this.time = slider("frame", actions.at);
         this.clock = element("output", { class: "vw-time" });
         this.colours = colourings.map((name) => button(colour_names[name], `colour by ${colour_names[name]}`, () => actions.colour(name)));
+        this.rendered = button("rendered skin", "show the rendered surface in place of the tets' boundary", actions.rendered);
         this.bones = button("bones", "show the skeleton", actions.bones);
         this.follow = button("follow", "the camera follows the body", actions.follow);
         this.axis = select("cut the tets by a plane", cut_names, actions.cut_axis);
@@ -24,7 +26,8 @@ export class Controls {
         const on = button("\u203a", "one frame on", () => actions.step(1));
         this.bars = [
             element("div", { class: "vw-bars" }, group("run", this.run), back, this.play, on, this.time, this.clock),
-            element("div", { class: "vw-bars" }, group("colour", ...this.colours), group("show", this.bones, this.follow, first_view),
+            element("div", { class: "vw-bars" }, group("colour", ...this.colours),
+                    group("show", this.rendered, this.bones, this.follow, first_view),
                     group("cut", this.axis, this.cut_at, this.side, this.cut_text)),
         ];
     }
@@ -41,6 +44,8 @@ export class Controls {
         this.colours.forEach((made, at) => {
             made.setAttribute("aria-pressed", String(colourings[at] === now.colour));
         });
+        this.rendered.setAttribute("aria-pressed", String(draws_surface(run, now)));
+        this.rendered.disabled = !run.surface || Boolean(now.cut);
         this.bones.setAttribute("aria-pressed", String(now.bones));
         this.follow.setAttribute("aria-pressed", String(now.follow));
         this.update_cut(run, now.cut);

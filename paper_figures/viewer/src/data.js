@@ -1,5 +1,6 @@
 // The recorded runs of the page: header (JSON) and block (base64, gzip), read once.
 import { codes_of, distances_mm, positions_of } from "./codes.js";
+import { carried } from "./surface.js";
 
 export async function read_page() {
     const header = JSON.parse(document.getElementById("viewer-header").textContent);
@@ -16,8 +17,8 @@ async function unpacked(base64) {
 // One run: its header's fields, its arrays as views, its frames by their place in `frames`.
 export class Run {
     constructor(header, block) {
-        const { bones, ...rest } = header;
-        Object.assign(this, rest, { bone_names: bones.names });
+        const { bones, surface, ...rest } = header;
+        Object.assign(this, rest, { bone_names: bones.names, surface: surface ? surface_of(surface, block) : null });
         this.block = block;
         this.corners = new Uint32Array(block, header.tet_corners, 4 * header.tets);
         this.rest = positions_of(new Uint16Array(block, header.rest_codes, 3 * header.vertices), header.rest_low_m, header.rest_step_m);
@@ -43,8 +44,14 @@ export class Run {
         return new Uint8Array(this.block, this.deformer(label).ratios + at * this.tets, this.tets);
     }
 
-    errors_mm(label, at) {
-        return distances_mm(this.positions(label, at), this.positions(this.reference, at));
+    // Positions [m] of the points that are drawn: of the tets' vertices, or of the rendered surface that they carry.
+    points(label, at, rendered) {
+        const positions = this.positions(label, at);
+        return rendered ? carried(this.surface, this.corners, positions) : positions;
+    }
+
+    errors_mm(label, at, rendered) {
+        return distances_mm(this.points(label, at, rendered), this.points(this.reference, at, rendered));
     }
 
     // Head and tail [m] of every bone.
@@ -91,4 +98,10 @@ export class Run {
         const recorded = this.deformers.flatMap((deformer) => deformer.figures.error_linf_m).filter((value) => value !== null);
         return 1000 * Math.max(0, ...recorded);
     }
+}
+
+function surface_of(header, block) {
+    const { points, triangles } = header;
+    return { points, corners: new Uint32Array(block, header.corners, 3 * triangles), tets: new Uint32Array(block, header.tets, points),
+             shares: new Float32Array(block, header.shares, 4 * points) };
 }

@@ -46,17 +46,17 @@ export function kept_by(cut, corners, rest) {
     return kept;
 }
 
+// Three vertices of each face, one behind the other.
+export function triangles_of(corners, faces) {
+    return Uint32Array.from(faces.flatMap((face) => face_of(corners, face)));
+}
+
 // Normals (not unit) at the vertices of a surface, each triangle by its area; x y z of each vertex of the mesh.
-export function vertex_normals(positions, corners, faces) {
+export function vertex_normals(positions, triangles) {
     const normals = new Float32Array(positions.length);
-    for (const face of faces) {
-        const [a, b, c] = face_of(corners, face);
-        const [x, y, z] = area_normal(positions, a, b, c);
-        for (const v of [a, b, c]) {
-            normals[3 * v] += x;
-            normals[3 * v + 1] += y;
-            normals[3 * v + 2] += z;
-        }
+    for (let at = 0; at < triangles.length; at += 3) {
+        const corners = triangles.subarray(at, at + 3), normal = area_normal(positions, ...corners);
+        for (const v of corners) for (let axis = 0; axis < 3; ++axis) normals[3 * v + axis] += normal[axis];
     }
     return normals;
 }

@@ -1,9 +1,9 @@
 // Keys, while the focus is inside the viewer. A control that uses a key itself keeps it.
 
 export const help = "Keys inside the viewer: space plays, comma and full stop step a frame, Home and End go to the first and last; "
-    + "s, v, e, i colour by skin, volume ratio, error, inverted tets; b bones; c cut, [ and ] move it; r the first view. In a panel: "
-    + "arrows turn, + and \u2212 zoom. Mouse or fingers: drag turns (a finger: sideways; up and down it scrolls the page), wheel or pinch "
-    + "zooms, right button or two fingers shift; all panels move together.";
+    + "s, v, e, i colour by skin, volume ratio, error, inverted tets; k rendered skin or tets; b bones; c cut, [ and ] move it; "
+    + "r the first view. In a panel: arrows turn, + and \u2212 zoom. Mouse or fingers: drag turns (one finger: sideways; up and down it "
+    + "scrolls the page; two turn any way), wheel or pinch zooms, right button shifts; all panels move together.";
 
 const colours = { s: "skin", v: "ratio", e: "error", i: "inverted" };
 const turns = { ArrowLeft: [-8, 0], ArrowRight: [8, 0], ArrowUp: [0, 8], ArrowDown: [0, -8] };
@@ -25,7 +25,8 @@ function act(key, in_panel, actions) {
     if (key in colours) return run(() => actions.colour(colours[key]));
     const plain = {
         " ": actions.play, ",": () => actions.step(-1), ".": () => actions.step(1), Home: actions.first, End: actions.last,
-        b: actions.bones, c: actions.cut, "[": () => actions.move_cut(-1), "]": () => actions.move_cut(1), r: actions.reset,
+        k: actions.rendered, b: actions.bones, c: actions.cut, "[": () => actions.move_cut(-1), "]": () => actions.move_cut(1),
+        r: actions.reset,
     };
     return Object.hasOwn(plain, key) && run(plain[key]);
 }

@@ -1,11 +1,19 @@
 // What the colours mean, with numbers: those of the scale and those on record.
 import { shown as text } from "./numbers.js";
+import { draws_surface } from "./state.js";
 
 const what = {
     skin: "plain skin: the boundary of the tets, smoothly shaded",
     ratio: "volume ratio of a tet, deformed over rest [1]",
     error: "distance of a vertex to FEM [mm], on a scale of square roots; it ends at the largest on record in this run",
     inverted: "inverted tets, volume ratio \u2264 0; the rest of the body is seen through",
+};
+
+const on_the_surface = {
+    ...what, skin: "the rendered surface, carried by the tets",
+    ratio: "volume ratio of the tet that carries the skin there, deformed over rest [1]",
+    error: "distance of a point of the skin to the same under FEM [mm], on a scale of square roots; it ends at the largest on record in "
+        + "this run, of a vertex of the tets",
 };
 
 export function draw_legend(element, header, run, state) {
@@ -23,7 +31,7 @@ export function draw_legend(element, header, run, state) {
     if (state.colour === "skin") parts.push(swatch(colours.skin, "skin"));
     const caption = document.createElement("span");
     caption.className = "vw-caption";
-    caption.textContent = what[state.colour];
+    caption.textContent = (draws_surface(run, state) ? on_the_surface : what)[state.colour];
     element.replaceChildren(...parts, caption);
 }
 

@@ -1,4 +1,5 @@
-// A pose as text in the address: #run=human_jump&frame=12&colour=error&panels=lbs,dqs,pbs,snh_p1&cut=x,0.1,below&bones=1&claim=C02
+// A pose as text in the address:
+// #run=human_jump&frame=12&colour=error&panels=lbs,dqs,pbs,snh_p1&surface=rendered&cut=x,0.1,below&bones=1&claim=C02
 
 export const colourings = ["skin", "ratio", "error", "inverted"];
 
@@ -11,6 +12,7 @@ export function pose_of(hash) {
     if (/^\d+$/.test(words.get("frame") ?? "")) pose.frame = Number(words.get("frame"));
     if (colourings.includes(words.get("colour"))) pose.colour = words.get("colour");
     if (words.get("panels")) pose.panels = words.get("panels").split(",");
+    if (words.has("surface")) pose.rendered = words.get("surface") === "rendered";
     if (words.has("cut")) pose.cut = cut_of(words.get("cut"));
     if (words.has("bones")) pose.bones = words.get("bones") === "1";
     if (words.get("claim")) pose.claim = words.get("claim");
@@ -20,6 +22,7 @@ export function pose_of(hash) {
 export function hash_of(pose) {
     const words = [`run=${pose.run}`, `frame=${pose.frame}`, `colour=${pose.colour}`, `panels=${pose.panels.join(",")}`];
     if (pose.cut) words.push(`cut=${pose.cut.axis},${Number(pose.cut.at_m.toFixed(4))},${pose.cut.above ? "above" : "below"}`);
+    if (pose.rendered) words.push("surface=rendered");
     if (pose.bones) words.push("bones=1");
     if (pose.claim) words.push(`claim=${encodeURIComponent(pose.claim)}`);
     return `#${words.join("&")}`;

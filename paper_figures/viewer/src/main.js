@@ -2,7 +2,8 @@
 //
 //   viewer.data.runs                     the recorded runs, see data.js
 //   viewer.state.now, viewer.state.set   what is shown, see state.js; set({ at: 3, colour: "error" })
-//   viewer.drawn_positions(panel)        positions [m] as drawn, x y z of each vertex; nan where no face is seen
+//   viewer.drawn_positions(panel)        positions [m] as drawn, x y z of each vertex (of the rendered surface, where that is drawn);
+//                                        nan where no face is seen
 //   viewer.pixels(panel)                 red green blue alpha of a panel
 //   viewer.ready                         resolves when the first frame is drawn
 import style from "./style.css";
@@ -16,7 +17,7 @@ async function start(root) {
     const viewer = new Viewer(root, await read_page());
     return {
         viewer, data: viewer.data, state: viewer.state,
-        drawn_positions: (panel) => viewer.panels[panel].body.drawn_positions(viewer.run.vertices),
+        drawn_positions: (panel) => viewer.panels[panel].drawn_positions(),
         pixels: (panel) => viewer.views.pixels(panel),
     };
 }

@@ -1,5 +1,5 @@
 // What of a run's tet mesh is seen: worked out once a run, and again when the cut moves.
-import { kept_by, neighbours_of, seen_faces } from "./faces.js";
+import { kept_by, neighbours_of, seen_faces, triangles_of } from "./faces.js";
 
 export class Meshes {
     constructor() {
@@ -20,7 +20,8 @@ export class Meshes {
     topology(run) {
         if (!this.topologies.has(run.name)) {
             const neighbours = neighbours_of(run.corners);
-            this.topologies.set(run.name, { neighbours, outer: seen_faces(neighbours, new Uint8Array(run.tets).fill(1)) });
+            const outer = seen_faces(neighbours, new Uint8Array(run.tets).fill(1));
+            this.topologies.set(run.name, { neighbours, outer: triangles_of(run.corners, outer) });
         }
         return this.topologies.get(run.name);
     }

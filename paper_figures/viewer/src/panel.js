@@ -1,8 +1,9 @@
-// One panel's scene: the body, its inverted tets, the skeleton; brought up to date with what is shown.
+// One panel's scene: the body (tets or rendered surface), its inverted tets, the skeleton; brought up to date with what is shown.
 import { distance_shade } from "./colours.js";
 import { vertex_normals } from "./faces.js";
 import { Body } from "./body.js";
 import { Skeleton } from "./skeleton.js";
+import { draws_surface } from "./state.js";
 
 const ghost = [0.62, 0.66, 0.7];
 
@@ -17,25 +18,35 @@ export class Panel {
     // mesh: { run, neighbours, outer, kept, faces }, see meshes.js
     update(mesh, label, shown, palette, ratio_shades) {
         const { run } = mesh, at = shown.at;
-        const positions = run.positions(label, at), codes = run.ratio_codes(label, at);
-        const normals = vertex_normals(positions, run.corners, mesh.outer);
-        const on_surface = (face) => mesh.neighbours[face] < 0;
-        if (this.drawn_faces !== mesh.faces) this.body.show_faces(run.corners, mesh.faces, on_surface);
-        this.drawn_faces = mesh.faces;
-        this.body.move(positions, normals);
+        const rendered = draws_surface(run, shown), codes = run.ratio_codes(label, at);
+        this.choose_faces(mesh, rendered);
+        this.points = run.points(label, at, rendered);
+        this.body.move(this.points, vertex_normals(this.points, rendered ? run.surface.corners : mesh.outer));
         this.body.paint(this.colouring(run, label, shown, palette, ratio_shades, codes));
         this.body.look(shown.colour === "skin" ? 0.3 : 0.55, shown.colour === "inverted" ? 0.3 : 1);
         this.inverted.mesh.visible = shown.colour === "inverted";
-        if (this.inverted.mesh.visible) this.show_inverted(mesh, positions, codes, palette);
+        if (this.inverted.mesh.visible) this.show_inverted(mesh, run.positions(label, at), codes, palette);
         this.skeleton.group.visible = shown.bones;
         if (shown.bones) this.skeleton.pose(run.posed_bones(at));
+    }
+
+    choose_faces(mesh, rendered) {
+        const chosen = rendered ? mesh.run.surface : mesh.faces;
+        if (this.chosen === chosen) return;
+        this.chosen = chosen;
+        if (rendered) this.body.show_surface(chosen);
+        else this.body.show_faces(mesh.run.corners, chosen, (face) => mesh.neighbours[face] < 0);
+    }
+
+    drawn_positions() {
+        return this.body.drawn_positions(this.points.length / 3);
     }
 
     colouring(run, label, shown, palette, ratio_shades, codes) {
         if (shown.colour === "ratio") return (tet) => ratio_shades[codes[tet]];
         if (shown.colour === "inverted") return () => ghost;
         if (shown.colour === "skin") return () => palette.skin;
-        const errors = run.errors_mm(label, shown.at), most = run.largest_error_mm();
+        const errors = run.errors_mm(label, shown.at, draws_surface(run, shown)), most = run.largest_error_mm();
         return (_, vertex) => distance_shade(palette.error.shades, most, errors[vertex]);
     }
 

@@ -3,6 +3,7 @@
 // run, at        the run's name, the frame's place in it
 // panels         labels of the deformers shown
 // colour         skin, ratio, error or inverted
+// rendered       the rendered surface in place of the tets' boundary, where the run has one and nothing is cut
 // bones, cut     skeleton shown; { axis, at_m, above } or null
 // claim          whose pose this is, or null
 // playing, follow
@@ -23,6 +24,11 @@ export class State {
         this.now = { ...this.now, ...changes };
         for (const listener of this.listeners) listener(this.now, new Set(changed));
     }
+}
+
+// Whether the rendered surface is what is drawn.
+export function draws_surface(run, now) {
+    return Boolean(run.surface && now.rendered && !now.cut);
 }
 
 // The panels that a run can show: those wanted where it has them, filled up to four with its own in order.

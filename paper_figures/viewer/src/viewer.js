@@ -21,8 +21,8 @@ export class Viewer {
         this.shades = ratio_shades(this.palette, data.ratio_steps);
         this.meshes = new Meshes();
         const first = data.runs[0];
-        this.state = new State({ run: first.name, at: 0, panels: panels_for(first), colour: "ratio", bones: false, cut: null, claim: null,
-                                 playing: false, follow: true });
+        this.state = new State({ run: first.name, at: 0, panels: panels_for(first), colour: "ratio", rendered: true, bones: false,
+                                 cut: null, claim: null, playing: false, follow: true });
         this.build();
         this.state.on_change((now, changed) => this.update(now, changed));
         new Player(this.state, () => this.run.frames.length);
@@ -123,8 +123,8 @@ export class Viewer {
         const pose = { ...(asked.run ? {} : own), ...asked };
         const run = this.data.runs.find((one) => one.name === pose.run) ?? this.run;
         this.state.set({ run: run.name, at: run.place_of(pose.frame ?? 0), panels: panels_for(run, pose.panels),
-                         colour: pose.colour ?? "ratio", bones: pose.bones ?? false, cut: pose.cut ?? null, claim: pose.claim ?? null,
-                         playing: false });
+                         colour: pose.colour ?? "ratio", rendered: pose.rendered ?? false, bones: pose.bones ?? false,
+                         cut: pose.cut ?? null, claim: pose.claim ?? null, playing: false });
         if (scroll) this.root.scrollIntoView({ block: "start" });
     }
 
@@ -137,6 +137,7 @@ export class Viewer {
             at: go, step: (by) => go(now().at + by), first: () => go(0), last: () => go(last()),
             play: () => this.user({ playing: !now().playing }),
             colour: (colour) => this.user({ colour }),
+            rendered: () => this.run.surface && this.user({ rendered: !now().rendered }),
             bones: () => this.user({ bones: !now().bones }),
             follow: () => this.user({ follow: !now().follow }),
             cut: () => this.cut_axis(now().cut ? "" : "z"),
@@ -175,7 +176,9 @@ function note_of(run, every, at) {
     const mark = run.reference_intersects(at) ? "* In this frame the FEM reference passes through itself: distances to it say less. " : "";
     const kept = every === 1 ? "every recorded frame" : `one of ${every} recorded frames`;
     const step_um = (1e6 * run.step_m).toFixed(1);
-    return `${mark}${run.vertices} vertices, ${run.tets} tets; ${kept}. Positions are rounded to steps of ${step_um} \u00b5m: each `
+    const surface = run.surface ? `, which carry the ${run.surface.points} points of the rendered surface` : "";
+    const rounding = `Positions are rounded to steps of ${step_um} \u00b5m: each `;
+    return `${mark}${run.vertices} vertices, ${run.tets} tets${surface}; ${kept}. ${rounding}`
         + "coordinate is within half of that of the record; volume ratios to 1/127 up to 2; the numbers are the records' own. A cut goes "
         + `through the body at rest, so that every panel and frame shows the same tets. ${run.rights}`;
 }

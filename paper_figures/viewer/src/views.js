@@ -1,17 +1,11 @@
 // All panels by one WebGL context: a scissored part of one canvas each, one camera for all, controls on every panel.
-import { Color, ColorManagement, LinearSRGBColorSpace, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
+import { Color, ColorManagement, LinearSRGBColorSpace, PerspectiveCamera, Scene, TOUCH, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { leave_scrolling } from "./touch.js";
 
 ColorManagement.enabled = false;  // colours go to the screen as they stand in the legend
 const background = new Color(0xf1f3f5), most_pixels_per_point = 2;
 const first_direction = new Vector3(0.45, 0.12, 1).normalize();
-
-// One finger up or down scrolls the page, which OrbitControls would forbid; sideways it turns; two fingers are the view's own.
-function leave_scrolling(element) {
-    element.style.touchAction = "pan-y";
-    const keep = (event) => { if (event.touches.length > 1 && event.cancelable) event.preventDefault(); };
-    for (const gesture of ["touchstart", "touchmove"]) element.addEventListener(gesture, keep, { passive: false });
-}
 
 export class Views {
     constructor(canvas, on_move) {
@@ -34,6 +28,7 @@ export class Views {
             scene.add(...contents[at]);
             const controls = new OrbitControls(this.camera, element);
             controls.target = this.target;
+            controls.touches = { ONE: TOUCH.ROTATE, TWO: TOUCH.DOLLY_ROTATE };
             leave_scrolling(element);
             controls.update();
             controls.addEventListener("change", this.on_move);

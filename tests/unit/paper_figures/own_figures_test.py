@@ -50,8 +50,10 @@ class OwnFigures(unittest.TestCase):
                 self.assertFalse((self.results / "figures").exists())
 
     def test_projections_lie_on_the_posed_bone_within_its_ends(self):
-        found = self.frames().projections(3)  # bones upper from x = 0 to 1 and forearm from 1 to 2, at z = 3
+        frames = self.frames()
+        found = frames.projections(frames.bones(3))  # bones upper from x = 0 to 1 and forearm from 1 to 2, at z = 3
         self.assertEqual(found.tolist(), [[0.25, 0, 3], [1.5, 0, 3], [2, 0, 3]])
+        self.assertEqual(frames.projections(frames.bones_at_rest()).tolist(), [[0.25, 0, 0], [1.5, 0, 0], [2, 0, 0]])
 
     def test_rows_and_files_are_found_by_label_and_frame(self):
         frames = self.frames()
@@ -64,8 +66,10 @@ class OwnFigures(unittest.TestCase):
 
     def test_a_real_body_has_a_rendered_surface(self):
         frames = self.frames()
+        self.assertIsNone(frames.skin_at_rest())
         frames.body = "human"
         self.assert_missing("lbs_surface_000002.vtp: not there", lambda: frames.skin("lbs", 2))
+        self.assert_missing("surface_rest.vtp: not there", frames.skin_at_rest)
 
     def test_heading_is_forward_along_the_floor(self):
         tails = {"hip.L": [0, 1, -1.0], "hip.R": [0, 0.5, 1.0]}

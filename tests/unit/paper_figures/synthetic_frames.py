@@ -17,6 +17,14 @@ vtu = """<?xml version="1.0"?>
 </Piece></UnstructuredGrid></VTKFile>
 """
 
+skin = """<?xml version="1.0"?>
+<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian"><PolyData><Piece NumberOfPoints="3" NumberOfPolys="1">
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">{positions}</DataArray></Points>
+<Polys><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">3</DataArray></Polys></Piece></PolyData></VTKFile>
+"""
+carriers = [(0, (0.25, 0.25, 0.25, 0.25)), (1, (-0.5, 0.5, 0.5, 0.5)), (0, (1.0, 0.0, 0.0, 0.0))]  # of each point of the skin
+
 
 def positions_of(label, frame):
     """Five points [m]; they grow by the label's rate and move along x."""
@@ -24,15 +32,22 @@ def positions_of(label, frame):
     return [(scale * x + 0.3 * frame, scale * y, scale * z) for x, y, z in rest]
 
 
+def skin_of(positions):
+    """Three points [m], carried by the tets."""
+    return [tuple(sum(share * positions[corner][axis] for share, corner in zip(shares, tets[tet])) for axis in range(3))
+            for tet, shares in carriers]
+
+
 def ratios_of(label, frame):
     """The first tet turns inside out in frame 2 of LBS."""
     return (-0.25 if (label, frame) == ("lbs", 2) else 1 + 0.1 * frame, 0.5)
 
 
-def write_frame(file, label, frame):
-    def text(rows):
-        return " ".join(str(value) for row in rows for value in row)
+def text(rows):
+    return " ".join(str(value) for row in rows for value in row)
 
+
+def write_frame(file, label, frame):
     file.write_text(vtu.format(rest=text(rest), ratios=text([ratios_of(label, frame)]), positions=text(positions_of(label, frame)),
                                corners=text(tets)))
 
@@ -41,12 +56,35 @@ def error_m(label, frame):
     return max(sum((a - b) ** 2 for a, b in zip(p, q)) ** 0.5 for p, q in zip(positions_of(label, frame), positions_of("snh_p1", frame)))
 
 
-def write_frames(results, scene="limb_twist", frames=4):
+def write_skin(folder):
+    """The rendered surface at rest, and what carries it."""
+    (folder / "surface_rest.vtp").write_text(skin.format(positions=text(skin_of(rest))))
+    with open(folder / "embedding.csv", "w", newline="") as stream:
+        table = csv.writer(stream)
+        table.writerow(["point", "tet", *(f"barycentric_{corner}" for corner in range(4))])
+        table.writerows([point, tet, *shares] for point, (tet, shares) in enumerate(carriers))
+
+
+def write_bones(folder, frames):
+    """bones.csv: two of them along x, in frame f at z = f; bones_rest.csv: the same at z = 0."""
+    ends = [f"{end}_{axis}_m" for end in ("head", "tail") for axis in "xyz"]
+    with open(folder / "bones.csv", "w", newline="") as stream, open(folder / "bones_rest.csv", "w", newline="") as resting:
+        posed, at_rest = csv.writer(stream), csv.writer(resting)
+        posed.writerow(["frame", "time_s", "bone", "parent", *ends])
+        at_rest.writerow(["bone", "parent", *ends])
+        for bone, at in (("upper", 0), ("forearm", 1)):
+            at_rest.writerow([bone, "", at, 0, 0, at + 1, 0, 0])
+        for frame in range(frames):
+            for bone, at in (("upper", 0), ("forearm", 1)):
+                posed.writerow([frame, frame / 100, bone, "", at, 0, frame, at + 1, 0, frame])
+
+
+def write_frames(results, scene="limb_twist", frames=4, body="limb"):
     """DIR/frames/SCENE; volume_change_pct of LBS is smallest in frame 2."""
     folder = results / "frames" / scene
     (folder / "frames").mkdir(parents=True)
     (folder / "run.json").write_text(json.dumps({"scene": {
-        "character": {"body": "limb"}, "motion": {}, "reference": {"name": "snh_p1"},
+        "character": {"body": body}, "motion": {}, "reference": {"name": "snh_p1"},
         "runs": [{"label": label, "name": label, "variant": "default"} for label in labels]}}))
     columns = ["scene", "deformer", "variant", "iterations", "frame", "time_s", "volume_change_pct", "inverted_tets", "j_min",
                "error_joint_pct", "error_linf_m", "min_section_pct", "angle_deg"]
@@ -60,9 +98,6 @@ def write_frames(results, scene="limb_twist", frames=4):
                 table.writerow([scene, label, "default", 24 if label == "pbs" else "", frame, frame / 100, -abs(frame - 2) or -9, inverted,
                                 min(ratios), 10 * frame, error_m(label, frame), 100 - frame, 10 * frame])
                 write_frame(folder / "frames" / f"{label}_{frame:06}.vtu", label, frame)
-    with open(folder / "bones.csv", "w", newline="") as stream:
-        table = csv.writer(stream)
-        table.writerow(["frame", "time_s", "bone", "parent", *(f"{end}_{axis}_m" for end in ("head", "tail") for axis in "xyz")])
-        for frame in range(frames):
-            for bone, at in (("upper", 0), ("forearm", 1)):
-                table.writerow([frame, frame / 100, bone, "", at, 0, frame, at + 1, 0, frame])
+    write_bones(folder, frames)
+    if body != "limb":
+        write_skin(folder)

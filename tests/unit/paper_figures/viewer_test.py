@@ -56,6 +56,38 @@ class Viewer(unittest.TestCase):
         ends = numpy.frombuffer(block, "<f4", 4 * 12, run["bones"]["ends"]).reshape(4, 2, 6)
         self.assertEqual(ends[3].tolist(), [[0, 0, 3, 1, 0, 3], [1, 0, 3, 2, 0, 3]])
 
+    def test_the_rendered_surface_is_carried_within_the_rounding_of_the_tets(self):
+        with tempfile.TemporaryDirectory() as folder:
+            synthetic_frames.write_frames(pathlib.Path(folder), "human_jump", body="human")
+            header, block = viewer_data.pack(pathlib.Path(folder))
+        run, block = header["runs"][0], gzip.decompress(block)
+        surface = run["surface"]
+        self.assertEqual((surface["points"], surface["triangles"]), (3, 1))
+        self.assertEqual(numpy.frombuffer(block, "<u4", 3, surface["corners"]).tolist(), [0, 1, 2])
+        shares = numpy.frombuffer(block, "<f4", 12, surface["shares"]).reshape(3, 4)
+        carriers = numpy.array(synthetic_frames.tets)[numpy.frombuffer(block, "<u4", 3, surface["tets"])]
+        for deformer in run["deformers"]:
+            low, high = numpy.frombuffer(block, "u1", 2 * 4 * 15, deformer["positions"]).reshape(2, 4, 5, 3).astype(int)
+            codes = numpy.cumsum(low + 256 * high, axis=0) % 65536
+            packed = numpy.einsum("pc,fpcx->fpx", shares, (run["low_m"] + run["step_m"] * codes)[:, carriers])
+            for frame in range(4):
+                recorded = synthetic_frames.skin_of(synthetic_frames.positions_of(deformer["label"], frame))
+                apart = abs(packed[frame] - recorded).max(axis=1)
+                self.assertTrue((apart <= abs(shares).sum(axis=1) * run["step_m"] / 2 * (1 + 1e-6)).all())
+
+    def test_the_limb_has_no_surface_but_its_tets(self):
+        self.assertIsNone(self.unpacked()[0]["surface"])
+
+    def test_a_surface_and_what_carries_it_belong_together(self):
+        synthetic_frames.write_frames(self.results, "human_jump", body="human")
+        file = self.results / "frames" / "human_jump" / "embedding.csv"
+        file.write_text("".join(file.read_text().splitlines(keepends=True)[:-1]))
+        with self.assertRaisesRegex(records.RecordsMissing, "embedding.csv: 2 points, but surface_rest.vtp has more"):
+            viewer_data.pack(self.results)
+        file.unlink()
+        with self.assertRaisesRegex(records.RecordsMissing, "embedding.csv: not there"):
+            viewer_data.pack(self.results)
+
     def test_numbers_are_the_records_own(self):
         run, _ = self.unpacked(every=2)
         self.assertEqual(run["frames"], [0, 2])

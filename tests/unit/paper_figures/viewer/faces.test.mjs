@@ -1,7 +1,8 @@
 // Truth: geometry. The faces of a closed surface have the body's volume within and point outwards.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { area_normal, face_of, kept_by, neighbours_of, seen_faces, vertex_normals } from "../../../../paper_figures/viewer/src/faces.js";
+import { area_normal, face_of, kept_by, neighbours_of, seen_faces, triangles_of, vertex_normals }
+    from "../../../../paper_figures/viewer/src/faces.js";
 
 // The unit cube in five tets, each of positive volume.
 const points = Float32Array.from([0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1]);
@@ -34,6 +35,6 @@ test("a cut keeps the tets whose centre lies on its side", () => {
 });
 
 test("normals of a cube's corners point away from its middle", () => {
-    const normals = vertex_normals(points, corners, seen_faces(neighbours_of(corners), all));
+    const normals = vertex_normals(points, triangles_of(corners, seen_faces(neighbours_of(corners), all)));
     for (let i = 0; i < points.length; ++i) assert.equal(Math.sign(normals[i]), points[i] === 1 ? 1 : -1);
 });
