@@ -1,7 +1,7 @@
 // All panels by one WebGL context: a scissored part of one canvas each, one camera for all, controls on every panel.
 import { Color, ColorManagement, LinearSRGBColorSpace, PerspectiveCamera, Scene, TOUCH, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { leave_scrolling } from "./touch.js";
+import { keep_level, leave_scrolling } from "./touch.js";
 
 ColorManagement.enabled = false;  // colours go to the screen as they stand in the legend
 const background = new Color(0xf1f3f5), most_pixels_per_point = 2;
@@ -30,6 +30,7 @@ export class Views {
             controls.target = this.target;
             controls.touches = { ONE: TOUCH.ROTATE, TWO: TOUCH.DOLLY_ROTATE };
             leave_scrolling(element);
+            keep_level(element, controls);
             controls.update();
             controls.addEventListener("change", this.on_move);
             return { element, scene, controls };

@@ -1,7 +1,7 @@
 // Truth: the definition. One finger is left to the page, two are the view's own.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { leave_scrolling } from "../../../../paper_figures/viewer/src/touch.js";
+import { keep_level, leave_scrolling } from "../../../../paper_figures/viewer/src/touch.js";
 
 function panel() {
     const element = Object.assign(new EventTarget(), { style: { touchAction: "none" } });
@@ -26,3 +26,20 @@ test("under two fingers it stays", () => {
 });
 
 test("a scrolling that has begun is not stopped", () => assert.equal(is_kept("touchmove", 2, false), false));
+
+test("one finger leaves the tilt as it is, two are free, and so is a mouse", () => {
+    const element = new EventTarget();
+    const controls = { angle: 1, minPolarAngle: 0, maxPolarAngle: Math.PI, update() {}, getPolarAngle() { return this.angle; } };
+    keep_level(element, controls);
+    const after = (change, pointerId, pointerType = "touch") => {
+        element.dispatchEvent(Object.assign(new Event(change), { pointerId, pointerType }));
+        return [controls.minPolarAngle, controls.maxPolarAngle];
+    };
+    const free = [0, Math.PI];
+    assert.deepEqual(after("pointerdown", 1), [1, 1]);
+    assert.deepEqual(after("pointerdown", 2), free);
+    controls.angle = 2;
+    assert.deepEqual(after("pointerup", 1), [2, 2]);
+    assert.deepEqual(after("pointercancel", 2), free);
+    assert.deepEqual(after("pointerdown", 3, "mouse"), free);
+});
