@@ -1,0 +1,75 @@
+// Truth: the definition. On a phone one finger scrolls the page and leaves the view level, two fingers turn and zoom it and leave the page.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { open_viewer, settle } from "./browser.mjs";
+
+let opened, page, client;
+
+before(async () => {
+    opened = await open_viewer(process.env.PBS_VIEWER_PAGE, "", { width: 390, height: 844, touch: true });
+    page = opened.page;
+    client = await page.context().newCDPSession(page);
+    await page.evaluate(() => { document.body.style.paddingBottom = "2000px"; });
+});
+after(() => opened?.close());
+
+function state() {
+    return page.evaluate(() => {
+        const { camera, target } = window.viewer.viewer.views, eye = camera.position.clone().sub(target);
+        return { scrolled: scrollY, scale: visualViewport.scale, away: eye.length(), up: eye.y / eye.length(),
+                 around: Math.atan2(eye.x, eye.z) };
+    });
+}
+
+function touch(type, points) {
+    return client.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+}
+
+// Each finger from its place to another, both relative to the middle of the first panel [px]; the state before and after.
+async function gesture(from, to, steps = 12) {
+    await page.evaluate(() => document.querySelector("#frame-viewer .vw-view").scrollIntoView({ block: "center" }));
+    await settle(page);
+    const { x, y, width, height } = await page.locator("#frame-viewer .vw-view").first().boundingBox();
+    const place = (share) => from.map((start, finger) => [0, 1].map((axis) =>
+        [x + width / 2, y + height / 2][axis] + start[axis] + share * (to[finger][axis] - start[axis])));
+    const first = await state();
+    for (let fingers = 1; fingers <= from.length; ++fingers) await touch("touchStart", place(0).slice(0, fingers));
+    for (let step = 1; step <= steps; ++step) {
+        await touch("touchMove", place(step / steps));
+        await page.waitForTimeout(16);
+    }
+    await touch("touchEnd", []);
+    await page.waitForTimeout(500);  // the scrolling runs out
+    await settle(page);
+    return [first, await state()];
+}
+
+function assert_near(value, expected, within) {
+    assert.ok(Math.abs(value - expected) <= within, `${value}, expected ${expected}`);
+}
+
+test("one finger upwards scrolls the page and leaves the view level", async () => {
+    const [before, after] = await gesture([[0, 0]], [[0, -120]]);
+    assert.ok(after.scrolled > before.scrolled + 60, `from ${before.scrolled} to ${after.scrolled} px`);
+    assert_near(after.up, before.up, 1e-6);
+    assert_near(after.away, before.away, 1e-6);
+});
+
+test("one finger sideways turns the view about the vertical", async () => {
+    const [before, after] = await gesture([[0, 0]], [[60, 0]]);
+    assert.equal(after.scrolled, before.scrolled);
+    assert.ok(Math.abs(after.around - before.around) > 0.2);
+    assert_near(after.up, before.up, 1e-6);
+});
+
+test("two fingers drawn apart come nearer by as much; the page keeps its size", async () => {
+    const [before, after] = await gesture([[-30, 0], [30, 0]], [[-60, 0], [60, 0]]);
+    assert_near(after.away / before.away, 0.5, 0.05);
+    assert.deepEqual([after.scrolled, after.scale], [before.scrolled, before.scale]);
+});
+
+test("two fingers upwards tilt the view and leave the page", async () => {
+    const [before, after] = await gesture([[-30, 10], [30, 10]], [[-30, -5], [30, -5]]);
+    assert.ok(after.up < before.up - 0.1, `from ${before.up} to ${after.up}`);
+    assert.equal(after.scrolled, before.scrolled);
+});
