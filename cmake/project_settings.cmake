@@ -24,6 +24,5 @@ target_include_directories(pbs_settings INTERFACE $<BUILD_INTERFACE:${PROJECT_SO
 target_compile_options(pbs_settings INTERFACE
     "$<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic>" $<BUILD_INTERFACE:$<$<BOOL:${PBS_WERROR}>:-Werror>>)
 target_compile_features(pbs_settings INTERFACE cxx_std_20)
-# Eigen's arrays cross from the installed libraries to programs built for wider registers, and back, and must be freed as allocated.
-target_compile_definitions(pbs_settings INTERFACE $<INSTALL_INTERFACE:EIGEN_MAX_ALIGN_BYTES=16>)
+target_compile_options(pbs_settings INTERFACE "$<INSTALL_INTERFACE:SHELL:-include pbs/geometry/installed_eigen.hpp>")
 target_link_libraries(pbs_settings INTERFACE Eigen3::Eigen)

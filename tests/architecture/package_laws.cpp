@@ -57,7 +57,8 @@ Violations package_list_form(const SourceTree& tree)
 
 Violations package_list_cover(const SourceTree& tree)
 {
-    const std::set<std::string> known = known_to_cmake(tree);
+    std::set<std::string> known = known_to_cmake(tree);
+    known.insert("pbs");  // ourselves, as tests/packaging finds us
     Violations violations;
     for (const auto& [path, text] : tree) {
         if (!is_cmake_file(path)) continue;

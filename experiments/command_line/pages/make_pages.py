@@ -1,0 +1,33 @@
+"""The manual page and the completions of bash and zsh, written from what the program says of itself.
+
+    pbskin --describe > command_line.json
+    python3 make_pages.py command_line.json DIR VERSION     # DIR/pbskin.1, DIR/pbskin, DIR/_pbskin
+"""
+import json
+import pathlib
+import sys
+
+import bash_completion
+import man_page
+import zsh_completion
+
+# What `pbskin list KIND` names, for words that may be such a name as well as a file.
+listed = {("run", "scene"): "scenes", ("reproduce", "names"): "claims studies", ("explain", "name"): "claims studies metrics deformers"}
+
+
+def main(description, folder, version):
+    program = json.loads(description.read_text(encoding="utf-8"))
+    for verb in program["verbs"]:
+        for option in verb["options"]:
+            option["listed"] = listed.get((verb["name"], option["name"]), "")
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, text in (("pbskin.1", man_page.text(program, version)), ("pbskin", bash_completion.text(program)),
+                       ("_pbskin", zsh_completion.text(program))):
+        (folder / name).write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 4:
+        print(__doc__, file=sys.stderr)
+        sys.exit(2)
+    main(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3])

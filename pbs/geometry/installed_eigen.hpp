@@ -1,0 +1,10 @@
+// Read before all else in programs that use an installed pbs (its targets ask for it). Eigen aligns what it allocates by the widest
+// registers it is compiled for, and an array that the library allocates is freed by the program, or the other way round: both have to be
+// compiled for the same alignment. The library is compiled for 16 bytes; only its kernels know more, behind raw pointers.
+#pragma once
+
+#include <Eigen/Core>
+
+static_assert(EIGEN_DEFAULT_ALIGN_BYTES == 16,
+              "pbs was built with Eigen's alignment of 16 bytes: compile what uses it without -mavx, "
+              "-mavx512f or -march=native, or build pbs with the same CMAKE_CXX_FLAGS and without this line");

@@ -1,0 +1,90 @@
+"""Somebody else's project finds the installed method, builds with it and bends a bar; what is not there is named.
+
+Truth: a bar of two halves that fold over each other by 90 degrees loses volume under linear blend skinning (Sec. 4 of the paper), and
+Eq. 11 gives most of it back; the consumer's own cache tells what was looked for.
+"""
+import platform
+import re
+import shutil
+import unittest
+
+import installation
+from installation import CMAKE, SOURCE, folder, run
+
+project = SOURCE / "tests/packaging/method_consumer"
+
+
+def setUpModule():
+    global prefix
+    prefix = installation.install("method")
+
+
+def configure(source, build, *options):
+    return run(CMAKE, "-S", source, "-B", folder / build, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}", *options)
+
+
+def asking_for(name, components, version=""):
+    """A project that asks for these components and does no more."""
+    source = folder / name
+    source.mkdir()
+    (source / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.25)\nproject(asks LANGUAGES CXX)\n"
+                                           f"find_package(pbs {version} {components})\nmessage(STATUS \"found ${{pbs_FOUND}}\")\n")
+    return configure(source, name + "_build")
+
+
+class Consumer(unittest.TestCase):
+    def test_method_in_a_project_of_its_own(self):
+        configured = configure(project, "consumer")
+        self.assertEqual(configured.returncode, 0, configured.stderr)
+        built = run(CMAKE, "--build", folder / "consumer")
+        self.assertEqual(built.returncode, 0, built.stdout)
+        told = run(folder / "consumer/bent_bar")
+        self.assertEqual(told.returncode, 0, told.stderr)
+        match = re.fullmatch(r"tets 1920, lbs (-[0-9.]+) %, pbs (-?[0-9.]+) %\n", told.stdout)
+        self.assertTrue(match, told.stdout)
+        lbs, pbs = map(float, match.groups())
+        self.assertLess(lbs, -1)
+        self.assertLess(abs(pbs), abs(lbs) / 2)
+
+        cache = (folder / "consumer/CMakeCache.txt").read_text()
+        found = set(re.findall(r"^(\w+)_DIR:PATH=", cache, re.MULTILINE))
+        self.assertLessEqual(found, {"pbs", "Eigen3", "TBB"}, "the method asks for Eigen, and oneTBB with threads")
+
+    # An array allocated here and freed there would crash.
+    @unittest.skipUnless(platform.machine() == "x86_64", "the registers of x86-64")
+    def test_wider_registers_are_refused(self):
+        configured = configure(project, "wider", "-DCMAKE_CXX_FLAGS=-mavx")
+        self.assertEqual(configured.returncode, 0, configured.stderr)
+        built = run(CMAKE, "--build", folder / "wider")
+        self.assertNotEqual(built.returncode, 0)
+        self.assertIn("pbs was built with Eigen's alignment of 16 bytes", built.stdout)
+
+    def test_nothing_names_the_source_tree(self):
+        texts = [name for name in installation.files_naming(prefix, SOURCE) if not name.endswith(".a")]
+        self.assertEqual(texts, [])
+
+    def test_a_component_that_is_not_installed(self):
+        asked = asking_for("absent", "REQUIRED COMPONENTS method fem")
+        self.assertNotEqual(asked.returncode, 0)
+        self.assertIn("component 'fem' is not installed under", " ".join(asked.stderr.split()))
+
+    def test_a_component_that_does_not_exist(self):
+        asked = asking_for("unknown", "REQUIRED COMPONENTS skin")
+        self.assertNotEqual(asked.returncode, 0)
+        self.assertIn("there is no component 'skin': expected one of method, mesh_io", " ".join(asked.stderr.split()))
+
+    def test_an_optional_component_that_is_not_installed(self):
+        asked = asking_for("optional", "OPTIONAL_COMPONENTS fem COMPONENTS method")
+        self.assertEqual(asked.returncode, 0, asked.stderr)
+        self.assertRegex(asked.stdout, "found (TRUE|1)")
+
+    def test_a_version_to_come(self):
+        asked = asking_for("later", "REQUIRED", "99.0")
+        self.assertNotEqual(asked.returncode, 0)
+        self.assertIn('compatible with requested version "99.0"', " ".join(asked.stderr.split()))
+
+
+if __name__ == "__main__":
+    if not shutil.which("ninja"):
+        raise SystemExit("ninja is not there")
+    unittest.main()

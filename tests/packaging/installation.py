@@ -1,0 +1,31 @@
+"""Installs components of the build under test into a folder of its own, and moves them before they are used."""
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+BUILD = pathlib.Path(os.environ["PBS_BUILD"])
+SOURCE = pathlib.Path(os.environ["PBS_SOURCE"])
+CMAKE = os.environ["PBS_CMAKE"]
+scratch = tempfile.TemporaryDirectory()
+folder = pathlib.Path(scratch.name)
+unittest.addModuleCleanup(scratch.cleanup)
+
+
+def run(*words, **options):
+    return subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=1800, **options)
+
+
+def install(component):
+    """The prefix, which is not the one that it was installed to."""
+    installed = run(CMAKE, "--install", BUILD, "--component", component, "--prefix", folder / "installed")
+    if installed.returncode != 0:
+        raise RuntimeError(installed.stdout + installed.stderr)
+    return (folder / "installed").rename(folder / f"moved_{component}")
+
+
+def files_naming(prefix, path):
+    """Installed files with that path in them, links left out."""
+    return [str(file.relative_to(prefix)) for file in sorted(prefix.rglob("*"))
+            if file.is_file() and not file.is_symlink() and str(path).encode() in file.read_bytes()]
