@@ -65,7 +65,8 @@ def circles_of(axes, label, x, y, said_x, said_y, dpi, height):
 
 def names_of(axis):
     """Of places on an axis whose ticks are no numbers of their own: methods, regions, the settings of a map."""
-    texts = {place: tick.get_text().replace("\n", " ") for place, tick in zip(axis.get_majorticklocs(), axis.get_ticklabels())}
+    places = axis.get_majorticklocs()  # panels that share an axis show its names once, but all have them
+    texts = dict(zip(places, (text.replace("\n", " ") for text in axis.get_major_formatter().format_ticks(places))))
     return {place: text for place, text in texts.items() if text and "$" not in text and number(text) != place}
 
 

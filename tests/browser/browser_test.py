@@ -1,9 +1,10 @@
-"""The report's viewer in Debian's Chromium, on a graphics card made of software. Run by `./check --long`, which sets PBS_LONG=1: then what
+"""The report and its viewer in Debian's Chromium, on a graphics card made of software. Run by `./check --long`, which sets PBS_LONG=1: then what
 is missing fails; without, the test is skipped (exit status 77).
 
     PBS_LONG=1 python3 tests/browser/browser_test.py build/release/bin/pbskin SCRATCH
 
-PBS_BROWSER_RESULTS=DIR takes the records of a run that is there; else the study `frames` is run first (a minute or two)."""
+PBS_BROWSER_RESULTS=DIR takes the records of a run that is there, with its figures; else the records beside the sources are judged again, the
+studies `frames` and `audit` are run (a minute or two) and all figures drawn that can be drawn of these."""
 import csv
 import json
 import os
@@ -31,11 +32,15 @@ def what_is_missing():
 
 
 def recorded(program, scratch):
-    """A folder with DIR/frames in it."""
+    """A folder with DIR/frames, verdicts and figures in it."""
     if os.environ.get("PBS_BROWSER_RESULTS"):
         return pathlib.Path(os.environ["PBS_BROWSER_RESULTS"]).resolve()
     folder = scratch / "records"
-    subprocess.run([program, "reproduce", "frames", "--quiet", "--resume", "-o", str(folder)], check=True, stdout=subprocess.DEVNULL)
+    shutil.copytree(root / "experiments" / "records" / "full", folder, dirs_exist_ok=True)
+    for names in (["frames", "audit", "--resume"], ["--judge"]):  # the verdicts of all that is there, last
+        subprocess.run([program, "reproduce", *names, "--quiet", "-o", str(folder)], check=names != ["--judge"], stdout=subprocess.DEVNULL)
+    # Their own exit status tells of figures that were not drawn.
+    subprocess.run(["xvfb-run", "-a", sys.executable, "-B", root / "paper_figures" / "make_all.py", folder], stdout=subprocess.DEVNULL)
     return folder
 
 

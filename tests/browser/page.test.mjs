@@ -1,0 +1,170 @@
+// Truth: the records and the definition of the page. Its first screen and its verdicts say what claims.json says, the values under the
+// pointer stand in each figure's CSV, nothing overlaps or is wider than the window, keys alone get everywhere, and it prints.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { open_viewer, settle } from "./browser.mjs";
+import { claims, drawn_figures, file, pictures, table_of } from "./records.mjs";
+
+const said = { "reproduced": "hold", "reproduced only for": "hold in part", "not reproduced": "do", "inconsistent in print": "contradict",
+               "cannot be tested here": "cannot be tested", "not computable": "cannot be computed" };
+let opened, page;
+
+before(async () => {
+    opened = await open_viewer(file);
+    page = opened.page;
+    await page.emulateMedia({ reducedMotion: "reduce" });  // else it scrolls for a while, which hides what is under the pointer
+});
+after(() => opened?.close());
+
+test("the first screen answers four questions, as claims.json does", async () => {
+    assert.deepEqual(await page.locator(".first-screen > .card > h2").allTextContents(),
+                     ["Do the paper\u2019s claims hold?", "When not?", "How far from the finite elements?", "At what cost?"]);
+    for (const name of ["hold", "not", "far", "cost"])
+        assert.ok((await page.locator(`.card.${name}`).innerText()).length > 60, name);
+    const answer = await page.locator(".card.hold .answer").textContent();
+    assert.ok(answer.startsWith(`Of ${claims.length} claims `), answer);
+    for (const [verdict, words] of Object.entries(said)) {
+        const count = claims.filter((claim) => claim.verdict === verdict).length;
+        const told = answer.match(new RegExp(`(\\d+) ${words}(?:s|es)?(?=[ ,.])(?! in part)`));
+        assert.equal(count, told ? Number(told[1]) : 0, `${verdict}: ${answer}`);
+    }
+    const failing = claims.filter(({ verdict }) => !["reproduced", "cannot be tested here"].includes(verdict)).map(({ id }) => id).sort();
+    assert.deepEqual((await page.locator(".card.not .when > li > a").allTextContents()).sort(), failing);
+});
+
+test("every claim has its mark and its row, with the verdict on record", async () => {
+    const chips = await page.locator(".chips .chip").evaluateAll((all) => all.map((one) => one.textContent.match(/(C\d+): (.*)/).slice(1)));
+    const recorded = claims.map(({ id, verdict }) => [id, verdict]);
+    assert.deepEqual(chips, recorded);
+    const rows = await page.locator("tr.claim").evaluateAll((all) => all.map((row) =>
+        [row.id, row.querySelector(".mark").lastChild.textContent.trim()]));
+    assert.deepEqual(rows, recorded);
+    assert.equal(claims.length, 17);
+});
+
+test("every drawn figure is there, inline", async () => {
+    const there = await page.locator("#figures figure").evaluateAll((all) => all.map((one) => one.id.replace("figure-", "")));
+    const refused = await page.locator("#figures .not-drawn").count() ? await page.locator("#figures .not-drawn").textContent() : "";
+    for (const name of drawn_figures()) {
+        assert.ok(there.includes(name) || refused.includes(name), name);
+        if (there.includes(name)) assert.equal(await page.locator(`#figure-${name} svg.plot`).count(), 1, name);
+    }
+    assert.ok(there.length >= 8, `${there.length} figures`);
+});
+
+// As it stands or in another unit: the CSV keeps the record's. A name of a place on an axis is one of the CSV's columns.
+function stands_in({ numbers, header }, said) {
+    const value = Number(said);
+    return header.includes(`_${said}_`) || [1, 1000, 0.001, 100, 0.01].some((unit) => numbers.some((number) =>
+        Math.abs(unit * number - value) <= 2e-5 * Math.abs(value) + 1e-15));
+}
+
+test("the values under the pointer are the figure's CSV's", async () => {
+    const plots = page.locator("svg.plot:has(.values circle)");
+    assert.ok(await plots.count() >= 5, `${await plots.count()} plots with values`);
+    for (let at = 0; at < await plots.count(); ++at) {
+        const plot = plots.nth(at), circles = plot.locator(".values circle"), count = await circles.count();
+        const name = await plot.evaluate((one) => one.closest("figure").id.replace("figure-", ""));
+        const table = table_of(name);
+        await plot.scrollIntoViewIfNeeded();
+        for (const place of new Set([0, count >> 1, count - 1])) {
+            await circles.nth(place).hover({ force: true });
+            assert.ok(await page.locator("#readout").isVisible(), `${name}: nothing shown`);
+            const value = await page.locator(".values circle.shown").getAttribute("data-value");
+            assert.ok((await page.locator("#readout").textContent()).startsWith(`${value} (`), name);
+            const numbers = value.split(": ").at(-1).split(", ").filter((part) => part !== "" && !Number.isNaN(Number(part)));
+            for (const said of numbers) assert.ok(stands_in(table, said), `${name}: ${said} of "${value}" is not in its CSV`);
+        }
+    }
+});
+
+test("the arrow keys lead from value to value in a plot", async () => {
+    const plot = page.locator("svg.plot:has(.values circle)").first();
+    await plot.focus();
+    await settle(page);
+    const texts = [];
+    for (const key of ["ArrowRight", "ArrowRight", "ArrowLeft"]) {
+        await page.keyboard.press(key);
+        texts.push(await page.locator(".values circle.shown").evaluate((circle) => circle.outerHTML));
+    }
+    assert.notEqual(texts[0], texts[1]);
+    assert.equal(texts[0], texts[2]);
+    await page.keyboard.press("Escape");
+    assert.ok(await page.locator("#readout").isHidden());
+});
+
+test("keys alone get to the viewer, move its time and play", async () => {
+    await page.evaluate(() => { window.scrollTo(0, 0); document.activeElement.blur(); });
+    let pressed = 0;
+    const on_slider = () => page.evaluate(() => document.activeElement.matches('#frame-viewer input[aria-label="frame"]'));
+    while (!await on_slider() && ++pressed < 300) await page.keyboard.press("Tab");
+    assert.ok(await on_slider(), `not reached by ${pressed} tabs`);
+    const at = () => page.evaluate(() => window.viewer.state.now.at);
+    const first = await at();
+    await page.keyboard.press("ArrowRight");
+    await settle(page);
+    assert.equal(await at(), first + 1);
+    await page.keyboard.press("Space");
+    await page.waitForFunction((begun) => window.viewer.state.now.at !== begun, first + 1);
+    await page.keyboard.press("Space");
+    assert.equal(await page.evaluate(() => window.viewer.state.now.playing), false);
+});
+
+test("a claim's link to its pose takes the focus along", async () => {
+    const link = page.locator("tr.claim a.pose").first();
+    const id = await link.evaluate((one) => one.closest("tr").id);
+    await link.focus();
+    await page.keyboard.press("Enter");
+    await page.waitForFunction((claim) => window.viewer.state.now.claim === claim, id);
+    assert.ok(await page.evaluate(() => document.getElementById("frame-viewer").contains(document.activeElement)));
+});
+
+// Texts of elements beyond the window, but for those in a box of its own that scrolls; cells of one row that lie over each other; cells
+// whose content is wider than they are.
+function faults_of_layout() {
+    const scrolls = (one) => one.closest(".scroll, pre, .unseen, .skip, #readout, details:not([open])");
+    const seen = (one) => one.getClientRects().length > 0;
+    const name = (one) => `${one.tagName} ${one.className} "${one.textContent.slice(0, 40)}"`;
+    const beyond = [...document.querySelectorAll("body *")].filter((one) => seen(one) && !scrolls(one)
+        && (one.getBoundingClientRect().right > innerWidth + 0.5 || one.getBoundingClientRect().left < -0.5)).map(name);
+    const over = [];
+    for (const row of document.querySelectorAll(".claims tr.claim")) {
+        const cells = [...row.children].map((cell) => [cell, cell.getBoundingClientRect()]);
+        cells.forEach(([cell, one], at) => cells.slice(at + 1).forEach(([, other]) => {
+            const across = Math.min(one.right, other.right) - Math.max(one.left, other.left);
+            const down = Math.min(one.bottom, other.bottom) - Math.max(one.top, other.top);
+            if (across > 1 && down > 1) over.push(name(cell));
+        }));
+        over.push(...cells.filter(([cell]) => cell.scrollWidth > cell.clientWidth + 1).map(([cell]) => `too narrow: ${name(cell)}`));
+    }
+    return { beyond, over };
+}
+
+for (const [name, width, height] of [["desktop", 1280, 900], ["phone", 390, 844]]) {
+    test(`nothing is beyond ${width} px or lies over another`, async () => {
+        const other = await open_viewer(file, "", { width, height, touch: width < 500 });
+        try {
+            assert.deepEqual(await other.page.evaluate(faults_of_layout), { beyond: [], over: [] });
+            if (pictures) {
+                await other.page.locator("#verdicts").screenshot({ path: `${pictures}/page_verdicts_${name}.png` });
+                await other.page.locator("#figures figure:has(svg)").last().screenshot({ path: `${pictures}/page_figure_${name}.png` });
+            }
+            assert.deepEqual(other.problems, []);
+        } finally {
+            await other.close();
+        }
+    });
+}
+
+test("on paper the tables are whole, without what can only be pressed", async () => {
+    await page.emulateMedia({ media: "print", reducedMotion: "reduce" });
+    for (const hidden of ["nav", "#viewer", ".skip"]) assert.ok(await page.locator(hidden).first().isHidden(), hidden);
+    const clipped = await page.locator(".scroll").evaluateAll((all) => all.filter((one) => one.getClientRects().length
+        && getComputedStyle(one).overflowY !== "visible").length);
+    assert.equal(clipped, 0);
+    const paper = await page.pdf({ format: "A4", ...(pictures ? { path: `${pictures}/report.pdf` } : {}) });
+    assert.ok((paper.toString("latin1").match(/\/Type\s*\/Page\b/g) ?? []).length >= 3);
+    await page.emulateMedia({ media: "screen", reducedMotion: "reduce" });
+});
+
+test("nothing was reported on the way", () => assert.deepEqual(opened.problems, []));
