@@ -9,6 +9,8 @@
 `run` goes on where it was stopped. More options of snakemake follow after `--`. What a sweep file holds: sweep_file.py.
 Exit status: 0 finished (runs that broke down numerically are in the table), 1 snakemake or a program failed, 2 bad input or usage."""
 import argparse
+import fcntl
+import os
 import pathlib
 import subprocess
 import sys
@@ -52,12 +54,19 @@ def check(sweep):
 def run(sweep, options, more):
     """Snakemake's own status, but 2 where a run was refused, whose message is shown again."""
     options.output.mkdir(parents=True, exist_ok=True)
+    lock = os.open(options.output / ".lock", os.O_CREAT | os.O_RDWR)  # unlike snakemake's own, it ends with who holds it, however that ends
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        print(f"sweep: {options.output}: another sweep runs there", file=sys.stderr)
+        return 2
     for old in options.output.glob("refused/*.txt"):
         old.unlink()
     where = ["--profile", str(HERE / "slurm")] if options.slurm else ["--cores", str(options.jobs), "--quiet", "rules"]
-    command = ["snakemake", "-s", str(HERE / "Snakefile"), "-d", str(options.output), *where, *more,
+    command = ["snakemake", "-s", str(HERE / "Snakefile"), "-d", str(options.output), "--nolock", "--rerun-incomplete",
+               *where, *more,
                "--config", f"sweep={pathlib.Path(options.sweep).resolve()}", f"pbskin={options.pbskin.resolve()}"]
-    status = subprocess.run(command).returncode
+    status = subprocess.run(command, pass_fds=[lock]).returncode
     refused = sorted(options.output.glob("refused/*.txt"))
     for path in refused[:10]:
         print(f"sweep: run {path.stem}: {path.read_text().strip()}", file=sys.stderr)

@@ -12,6 +12,7 @@ import json
 import math
 import os
 import pathlib
+import shutil
 import tempfile
 
 from sweep_runs import write_atomically
@@ -72,8 +73,9 @@ class Table:
         missing = [metric for metric in metrics_of(rows[0]) if metric not in self.metrics]
         if missing:
             raise MergeError(f"runs/{run.name}: has a metric that the first run has not: {missing[0]}; output.metrics must not vary")
-        for label in record["state_hash"]:
-            own = [row for row in rows if row["deformer"] == label]
+        for deformer in record["scene"]["runs"]:
+            label = deformer["label"]
+            own = [row for row in rows if (row["deformer"], row["variant"]) == (deformer["name"], deformer["variant"])]
             head = [run.name, *(json_text(value) for value in run.varied.values()), label, outcome["exit_status"]]
             if self.sweep.rows == "frames":
                 self.writer.writerows(head + [row.get(column, "") for column in self.frame_head()] for row in own)
@@ -136,6 +138,8 @@ def merge(sweep, folder):
     with open(folder / "sweep.csv", "rb") as file:
         told = provenance.record(sweep, hashlib.file_digest(file, "sha256").hexdigest())
     write_atomically(folder / "sweep.json", json.dumps(told, indent=2) + "\n")
+    for left in (folder / "runs").glob(".*"):  # of jobs that were killed
+        shutil.rmtree(left, ignore_errors=True)
     return told
 
 

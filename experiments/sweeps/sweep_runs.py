@@ -1,6 +1,6 @@
 """The runs of one job, one after the other, each in its own folder `runs/NAME` with `pbskin run`'s records.
 
-A run that is finished has an outcome.json beside them, written last: how it ended (0, or 3: a numerical breakdown, which is a result), and
+A run's folder is there when the run is finished, with an outcome.json: how it ended (0, or 3: a numerical breakdown, which is a result), and
 what it cost. It is never run again. Bad input (2), an interruption or a crash is no outcome: it stops the job with the program's message,
 which also lies in `refused/NAME.txt`."""
 import json
@@ -47,27 +47,54 @@ def stored(folder):
     return len(found) + 1, sum(entry.st_blocks * 512 for entry in found)
 
 
+def outcome_of(place):
+    try:
+        return json.loads((place / "outcome.json").read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return None
+    except ValueError as error:
+        raise RunFailed(1, f"{place}: {error}; remove the folder and run the sweep again") from None
+
+
 def finish(sweep, run, folder, pbskin):
-    """The run's outcome, of before or of now."""
-    place = pathlib.Path(folder, "runs", run.name)
-    record, refused = place / "outcome.json", pathlib.Path(folder, "refused", run.name + ".txt")
-    if record.exists():
-        return json.loads(record.read_text())
+    """The run's outcome, of before or of now. It runs beside and its folder is renamed: of two jobs that do the same run, as where a killed
+    sweep's jobs are still queued, the first to end counts."""
+    place, refused = pathlib.Path(folder, "runs", run.name), pathlib.Path(folder, "refused", run.name + ".txt")
+    outcome = outcome_of(place)
+    if outcome:
+        return outcome
+    place.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=place.parent, prefix=f".{run.name}.", ignore_cleanup_errors=True) as own:
+        made = pathlib.Path(own, "run")
+        try:
+            outcome = start(sweep, run, made, pbskin)
+        except RunFailed as error:
+            write_atomically(refused, f"{error}\n")
+            raise
+        try:
+            os.rename(made, place)
+        except OSError:
+            outcome = outcome_of(place)
+    if not outcome:
+        raise RunFailed(1, f"{place}: not a finished run, in the way of one; remove the folder and run the sweep again")
+    refused.unlink(missing_ok=True)
+    return outcome
+
+
+def start(sweep, run, place, pbskin):
+    """One `pbskin run` into a new folder, its outcome.json last."""
     command = [str(pbskin), "run", sweep.scene, "--quiet", "-o", str(place)]
     for override in run.overrides:
         command += ["--set", override]
-    start, before = time.monotonic(), children_seconds()
+    begin, before = time.monotonic(), children_seconds()
     process = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace")
-    seconds, cpu_seconds = time.monotonic() - start, children_seconds() - before
+    seconds, cpu_seconds = time.monotonic() - begin, children_seconds() - before
     if process.returncode not in OUTCOMES:
-        told = process.stderr.strip() or f"{pbskin} ended with status {process.returncode}"
-        write_atomically(refused, told + "\n")
-        raise RunFailed(process.returncode, told)
+        raise RunFailed(process.returncode, process.stderr.strip() or f"{pbskin} ended with status {process.returncode}")
     files, size = stored(place)
     outcome = {"schema": 1, "exit_status": process.returncode, "message": process.stderr.strip(), "seconds": round(seconds, 3),
                "cpu_seconds": round(cpu_seconds, 3), "files": files + 1, "stored_bytes": size + 4096}
-    write_atomically(record, json.dumps(outcome, indent=2, sort_keys=True) + "\n")
-    refused.unlink(missing_ok=True)
+    write_atomically(place / "outcome.json", json.dumps(outcome, indent=2, sort_keys=True) + "\n")
     return outcome
 
 

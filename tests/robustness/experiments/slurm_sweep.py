@@ -1,0 +1,112 @@
+"""Sweeps here and on a Slurm cluster of one node, which the test starts and stops. Run by `./check --long`, which sets PBS_LONG=1: then a
+program that is missing fails the test.
+
+Truth: the other engine. The same sweep makes the same bytes of sweep.csv, also where it was killed and begun again while its jobs were still
+queued; the reference on two tasks of a Slurm job is that of one process to within both residuals (see verification/experiments/distributed)."""
+import csv
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+import numpy
+
+import program
+import slurm_cluster
+
+SWEEPS = pathlib.Path(program.SOURCE, "experiments/sweeps")
+MODE_SHARE = 0.78  # of a uniform transverse load in a cantilever's first mode
+BAD = 'schema = 1\nscene = "limb_bend"\n[set]\nmotion.frames = 2\n[grid]\npbs.k_volume = [0.5, 1.4]\n'
+
+
+class Sweeps(program.ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        missing = slurm_cluster.missing() + [name for name in ("snakemake",) if not shutil.which(name)]
+        if missing:
+            raise RuntimeError("not installed: " + ", ".join(missing))
+        cls.cluster = slurm_cluster.SlurmCluster()
+        cls.cluster.__enter__()
+        cls.addClassCleanup(cls.cluster.stop)
+
+    def command(self, sweep, name, *options):
+        return [sys.executable, "-B", str(SWEEPS / "sweep.py"), "run", str(sweep), "-o", self.path(name), "--pbskin", program.PBSKIN, *options]
+
+    def sweep(self, sweep, name, *options, status=0):
+        start = time.monotonic()
+        process = subprocess.run(self.command(sweep, name, *options), env=self.cluster.environment, capture_output=True, text=True, timeout=600)
+        print(f"{name}: {time.monotonic() - start:.1f} s", flush=True)
+        self.assertEqual(process.returncode, status, process.stderr[-4000:])
+        return process
+
+    def assert_same_tables(self, first, second, rows):
+        self.assertEqual(self.read(first, "sweep.csv"), self.read(second, "sweep.csv"))
+        self.assertEqual(self.read(first, "sweep.csv").count("\n"), 1 + rows)
+        self.assertEqual(json.loads(self.read(first, "sweep.json"))["exit_statuses"], json.loads(self.read(second, "sweep.json"))["exit_statuses"])
+
+    def jobs_of(self, name):
+        return list(pathlib.Path(self.path(name), ".snakemake/slurm_logs").rglob("*.log"))
+
+    def test_a_row_a_frame_in_jobs_of_two_runs(self):
+        example = SWEEPS / "examples/limb_bend.toml"
+        self.sweep(example, "limb_here", "-j", "2")
+        self.sweep(example, "limb_slurm", "--slurm")
+        self.assertEqual((len(self.jobs_of("limb_here")), len(self.jobs_of("limb_slurm"))), (0, 3))  # it was Slurm
+        self.assert_same_tables("limb_here", "limb_slurm", rows=6 * 3 * 7)
+
+    def test_killed_and_begun_again_while_its_jobs_are_queued(self):
+        example = SWEEPS / "examples/human_stiffness.toml"
+        self.sweep(example, "human_here", "-j", "2")
+        process = subprocess.Popen(self.command(example, "human_slurm", "--slurm"), env=self.cluster.environment, start_new_session=True,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        runs = pathlib.Path(self.path("human_slurm", "runs"))
+        try:
+            slurm_cluster.wait_for("two runs", lambda: len(list(runs.glob("[!.]*"))) >= 2, 300)
+        finally:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+        first = {path: path.stat().st_ino for path in runs.glob("[!.]*/run.json")}
+        self.assertFalse(pathlib.Path(self.path("human_slurm", "sweep.csv")).exists())
+        self.assertTrue(self.cluster.told("squeue", "-h").strip())
+        self.sweep(example, "human_slurm", "--slurm")
+        self.assert_same_tables("human_here", "human_slurm", rows=12 * 2)
+        self.assertEqual({path: path.stat().st_ino for path in first}, first)
+
+    def test_bad_input_stops_the_sweep_and_is_told_from_the_job(self):
+        process = self.sweep(self.write("bad.toml", BAD), "bad", "--slurm", status=2)
+        self.assertIn("pbs.k_volume = 1.4", process.stderr)
+        self.assertFalse(pathlib.Path(self.path("bad", "sweep.csv")).exists())
+
+    def solve(self, command, name, status=0):
+        body = ["--bar", "6000", "--gravity", "0", "0", "-9.81", "--nodes", "-o", self.path(name)]
+        environment = {**self.cluster.environment, "OPENBLAS_NUM_THREADS": "1", "PBSKIN_DISTRIBUTED": os.environ["PBSKIN_DISTRIBUTED"]}
+        process = subprocess.run([*command, *body], env=environment, capture_output=True, text=True, timeout=300)
+        self.assertEqual(process.returncode, status, process.stderr)
+        with open(self.path(name, "nodes.csv"), encoding="utf-8") as file:
+            return json.loads(self.read(name, "record.json")), numpy.array(list(csv.reader(file))[1:], dtype=float)
+
+    @unittest.skipUnless(os.environ.get("PBSKIN_DISTRIBUTED"), "built without MPI")
+    def test_distributed_reference_as_a_job_of_two_tasks(self):
+        expected, nodes = self.solve([os.environ["PBSKIN_DISTRIBUTED"]], "reference_here")
+        log = self.path("job.log")
+        found, found_nodes = self.solve(["sbatch", "--wait", "-o", log, str(SWEEPS / "slurm/distributed.sh")], "reference_slurm")
+        self.assertEqual((expected["ranks"], found["ranks"]), (1, 2))
+        for key in ("tets", "vertices", "dofs", "element_order", "young_pa", "poisson", "gravity_m_s2", "converged"):
+            self.assertEqual(found[key], expected[key], key)
+        tolerance = (expected["relative_residual"] + found["relative_residual"]) / MODE_SHARE
+        error = numpy.linalg.norm(found_nodes - nodes) / numpy.linalg.norm(nodes[:, 2:])
+        print(f"two tasks of Slurm against one process: {error:.1e} relative, tolerance {tolerance:.1e}", flush=True)
+        self.assertLess(error, tolerance)
+        self.assertAlmostEqual(found["compliance_j"] / expected["compliance_j"], 1.0, delta=tolerance)
+
+
+if __name__ == "__main__":
+    if not os.environ.get("PBS_LONG"):
+        print("skipped: PBS_LONG is not set")
+        sys.exit(77)
+    unittest.main()

@@ -1,0 +1,84 @@
+"""Truth: the definition, with a program that stands for pbskin. A run that ended is never started again; a numerical breakdown is an outcome;
+bad input and crashes are none, and their message is kept. The sizes on paper are arithmetic."""
+import json
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+from unittest import mock
+
+root = pathlib.Path(__file__).resolve().parents[4]
+sys.path[:0] = [str(root / "experiments/sweeps"), str(pathlib.Path(__file__).parent)]
+
+import sweep_file  # noqa: E402
+import sweep_runs  # noqa: E402
+import sweep_size  # noqa: E402
+
+
+class SweepRuns(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.program = self.folder / "program"
+        self.program.write_text(f"#!/bin/sh\nexec {sys.executable} -B {pathlib.Path(__file__).parent}/synthetic_runs.py \"$@\"\n")
+        self.program.chmod(0o755)
+        started = mock.patch.dict(os.environ, STARTS=str(self.folder / "starts"))
+        started.start()
+        self.addCleanup(started.stop)
+
+    def sweep(self, *iterations):
+        text = f'schema = 1\nscene = "limb_bend"\n[grid]\npbs.iterations = {list(iterations)}\n[output]\nbatch = {len(iterations)}\n'
+        (self.folder / "sweep.toml").write_text(text)
+        return sweep_file.read(self.folder / "sweep.toml")
+
+    def finish(self, sweep):
+        for name in sweep.batches():
+            sweep_runs.finish_batch(sweep, name, self.folder, self.program)
+            return json.loads((self.folder / "batches" / f"{name}.json").read_text())
+
+    def starts(self):
+        return (self.folder / "starts").read_text().split()
+
+    def test_outcomes_and_what_they_cost(self):
+        sweep = self.sweep(1, 101)
+        self.assertEqual(list(self.finish(sweep).values()), [0, 3])
+        outcome = json.loads((self.folder / "runs" / sweep.runs[0].name / "outcome.json").read_text())
+        self.assertEqual(outcome["files"], 4)  # the folder, metrics.csv, run.json, outcome.json
+        self.assertGreater(outcome["cpu_seconds"], 0)
+        self.assertGreaterEqual(outcome["stored_bytes"], 3 * 4096)
+
+    def test_finished_runs_are_not_started_again(self):
+        self.finish(self.sweep(1, 2))
+        self.finish(self.sweep(1, 2, 3))
+        self.assertEqual(self.starts(), ["1", "2", "3"])
+
+    def test_bad_input_stops_the_job_with_its_message(self):
+        sweep = self.sweep(1, 100, 2)
+        with self.assertRaises(sweep_runs.RunFailed) as caught:
+            self.finish(sweep)
+        self.assertEqual((caught.exception.status, str(caught.exception)), (2, "pbskin: --set: pbs.iterations = 100: refused"))
+        refused = self.folder / "refused" / f"{sweep.runs[1].name}.txt"
+        self.assertEqual(refused.read_text(), str(caught.exception) + "\n")
+        self.assertFalse((self.folder / "batches").exists())
+        self.assertEqual(self.starts(), ["1", "100"])
+
+    def test_crashes_are_no_outcome_and_are_tried_again(self):
+        for _ in range(2):
+            with self.assertRaises(sweep_runs.RunFailed) as caught:
+                self.finish(self.sweep(1, 102))
+            self.assertEqual(caught.exception.status, -9)
+        self.assertEqual(self.starts(), ["1", "102", "102"])
+
+    def test_sizes_on_paper(self):
+        total = sweep_size.paper([(1.0, 1e6, 5), (3.0, 3e6, 7)], runs=9000, batch=9, cores=10, job_start_s=6.0)
+        self.assertEqual((total["jobs"], total["files"], total["storage_gb"]), (1000, 9000 * 6 + 1000, 18.0))
+        self.assertAlmostEqual(total["core_hours"], (9000 * 2.0 + 1000 * 6.0) / 3600)
+        self.assertAlmostEqual(total["wall_hours"], total["core_hours"] / 10)
+        one = sweep_size.paper([(1.0, 1e6, 5)], runs=9, batch=9, cores=10, job_start_s=6.0)
+        self.assertAlmostEqual(one["wall_hours"], 15.0 / 3600)  # one job is not cut
+
+
+if __name__ == "__main__":
+    unittest.main()
