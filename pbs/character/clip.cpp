@@ -1,8 +1,10 @@
 #include "pbs/character/clip.hpp"
 
 #include "pbs/character/bvh_header.hpp"
+#include "pbs/character/clip_bytes.hpp"
 #include "pbs/character/text_file.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/isolated_reader.hpp"
 
 #include <assimp/config.h>
 #include <assimp/scene.h>
@@ -18,6 +20,7 @@ namespace {
 
 constexpr double free_key_rate_hz = 120.0;   // motions whose keys are not frames are sampled at this rate
 constexpr double default_tick_rate_hz = 25;  // assimp's word for files that state none
+constexpr int most_frames = 10'000'000;      // a day at 115 Hz
 
 Eigen::Quaterniond to_eigen(const aiQuaternion& q)
 {
@@ -146,12 +149,9 @@ std::vector<Node> read_hierarchy(const aiScene& scene, Clip& clip)
     return nodes;
 }
 
-}  // namespace
-
-Clip read_clip(const std::string& path)
+// In a child process: assimp is not to be trusted with a damaged file.
+Clip clip_by_assimp(const std::string& path, bool bvh)
 {
-    const std::string text = read_text_file(path);
-    if (is_bvh(text)) check_bvh_header(text, path);
     Assimp::Importer importer;
     const aiScene& scene = import(importer, path);
 
@@ -160,12 +160,24 @@ Clip read_clip(const std::string& path)
     const std::vector<Node> nodes = read_hierarchy(scene, clip);
     const aiAnimation& motion = *scene.mAnimations[0];
     const double tick_rate_hz = motion.mTicksPerSecond > 0.0 ? motion.mTicksPerSecond : default_tick_rate_hz;
-    const double ticks_per_frame = is_bvh(text) ? 1.0 : tick_rate_hz / free_key_rate_hz;
+    const double ticks_per_frame = bvh ? 1.0 : tick_rate_hz / free_key_rate_hz;
     clip.frame_time_s = ticks_per_frame / tick_rate_hz;
-    const int frames = static_cast<int>(std::floor(motion.mDuration / ticks_per_frame + 1e-6)) + 1;
-    clip.root.resize(frames, 3);
-    for (int frame = 0; frame < frames; ++frame) sample_frame(nodes, frame * ticks_per_frame, frame, clip);
+    const double frames = std::floor(motion.mDuration / ticks_per_frame + 1e-6) + 1.0;
+    if (!(frames >= 1.0 && frames <= most_frames))
+        throw InputError(path, 0, "frames", std::to_string(frames), "expected 1 to " + std::to_string(most_frames));
+    clip.root.resize(static_cast<Eigen::Index>(frames), 3);
+    for (int frame = 0; frame < static_cast<int>(frames); ++frame) sample_frame(nodes, frame * ticks_per_frame, frame, clip);
     return clip;
+}
+
+}  // namespace
+
+Clip read_clip(const std::string& path)
+{
+    const std::string text = read_text_file(path);
+    const bool bvh = is_bvh(text);
+    if (bvh) check_bvh_header(text, path);
+    return unpacked_clip(read_isolated(path, [&](const std::string& file) { return packed(clip_by_assimp(file, bvh)); }), path);
 }
 
 }  // namespace pbs

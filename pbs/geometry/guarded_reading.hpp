@@ -1,6 +1,4 @@
-// Other people's readers on damaged files: assimp ends the process on one damaged .ply in two, VTK and Gmsh on rarer ones, and all three
-// may ask for memory or time without end. They run in a child process, silent, with a limit on both; what they read comes back through a
-// pipe, and whatever becomes of the child, the caller gets a mesh or an InputError.
+// Points and cells read by other people's readers, in a child process (isolated_reader.hpp) and over a pipe.
 #pragma once
 
 #include "pbs/geometry/types.hpp"
@@ -15,7 +13,11 @@ struct IndexedPoints {
     Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> cells;  // vertex indices, #C x corners
 };
 
-// read(path) in a child process; its exceptions come back as InputErrors.
+// read(path) in a child process; its exceptions come back as InputErrors. Indices are as the child gives them.
 IndexedPoints read_guarded(const std::string& path, const std::function<IndexedPoints(const std::string&)>& read);
+
+// What comes over the pipe; an InputError that names the file where the bytes are no whole mesh.
+std::string packed(const IndexedPoints& mesh);
+IndexedPoints unpacked_points(const std::string& bytes, const std::string& path);
 
 }  // namespace pbs

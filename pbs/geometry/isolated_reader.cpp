@@ -1,0 +1,167 @@
+#include "pbs/geometry/isolated_reader.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <new>
+#include <stdexcept>
+
+namespace pbs {
+namespace {
+
+enum class Answer : char { whole = 1, error = 2 };  // the last byte
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool sanitized = true;  // slow, and terabytes of addresses are reserved
+#else
+constexpr bool sanitized = false;
+#endif
+
+// Far above what a sound file needs. Time is longer than processor time, for machines that are busy with other work.
+constexpr double base_limit_s = 20.0, limit_s_per_megabyte = 10.0;
+constexpr double base_cpu_limit_s = sanitized ? 20.0 : 4.0, cpu_limit_s_per_megabyte = sanitized ? 10.0 : 2.0;
+constexpr std::uintmax_t base_limit_bytes = std::uintmax_t(1) << 30, limit_bytes_per_byte = 200;
+
+constexpr const char* too_much_memory = "damaged: asks for more memory than such a file can need";
+
+std::uintmax_t bytes_of(const std::string& path)
+{
+    std::error_code code;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, code);
+    return code ? 0 : bytes;
+}
+
+double limit_s(const std::string& path)
+{
+    return base_limit_s + limit_s_per_megabyte * 1e-6 * static_cast<double>(bytes_of(path));
+}
+
+void limit(int resource, std::uintmax_t most)
+{
+    rlimit now{};
+    getrlimit(resource, &now);
+    const rlimit wanted{std::min<rlim_t>(most, now.rlim_max), now.rlim_max};
+    setrlimit(resource, &wanted);
+}
+
+void limit_child(std::uintmax_t file_bytes)
+{
+    limit(RLIMIT_CORE, 0);
+    limit(RLIMIT_CPU, static_cast<std::uintmax_t>(base_cpu_limit_s + cpu_limit_s_per_megabyte * 1e-6 * static_cast<double>(file_bytes)));
+    if (sanitized) return;
+    std::uintmax_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    const std::uintmax_t own = pages * static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE));
+    limit(RLIMIT_AS, own + base_limit_bytes + limit_bytes_per_byte * file_bytes);
+}
+
+void silence()
+{
+    const int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    dup2(nothing, STDOUT_FILENO);
+    dup2(nothing, STDERR_FILENO);
+}
+
+std::string answer_to(const std::string& path, const std::function<std::string(const std::string&)>& read)
+{
+    try {
+        std::string bytes = read(path);
+        bytes.push_back(static_cast<char>(Answer::whole));
+        return bytes;
+    } catch (const InputError& error) {
+        return error.what() + std::string(1, static_cast<char>(Answer::error));
+    } catch (const std::bad_alloc&) {
+        return path + ": " + too_much_memory + static_cast<char>(Answer::error);
+    } catch (const std::length_error&) {
+        return path + ": " + too_much_memory + static_cast<char>(Answer::error);
+    } catch (const std::exception& error) {
+        return path + ": " + error.what() + static_cast<char>(Answer::error);
+    }
+}
+
+[[noreturn]] void answer_as_child(int pipe, const std::string& path, const std::function<std::string(const std::string&)>& read)
+{
+    for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGTERM}) std::signal(signal, SIG_DFL);
+    std::signal(SIGINT, SIG_IGN);  // the parent decides
+    silence();
+    limit_child(bytes_of(path));
+    const std::string bytes = answer_to(path, read);
+    for (std::size_t at = 0; at < bytes.size();) {
+        const ssize_t count = ::write(pipe, bytes.data() + at, bytes.size() - at);
+        if (count <= 0) _exit(1);
+        at += static_cast<std::size_t>(count);
+    }
+    _exit(0);
+}
+
+// Everything the child writes until it closes the pipe; false when the time is up.
+bool collect(int pipe, double limit_s, std::string& bytes)
+{
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit_s);
+    char buffer[1 << 16];
+    for (;;) {
+        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now()).count();
+        if (left <= 0) return false;
+        pollfd waiting{pipe, POLLIN, 0};
+        if (poll(&waiting, 1, static_cast<int>(std::min<long long>(left, 1000))) <= 0) continue;
+        const ssize_t count = ::read(pipe, buffer, sizeof buffer);
+        if (count == 0) return true;
+        if (count > 0) bytes.append(buffer, static_cast<std::size_t>(count));
+    }
+}
+
+int status_of(pid_t child)
+{
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
+}
+
+// What ended a child that gave no whole answer.
+std::string death(int status)
+{
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) return "took more processor time than such a file can need";
+    if (WIFSIGNALED(status)) return std::string("broke down on it: ") + strsignal(WTERMSIG(status));
+    return "ended in the middle, with exit status " + std::to_string(WEXITSTATUS(status));
+}
+
+}  // namespace
+
+std::string read_isolated(const std::string& path, const std::function<std::string(const std::string&)>& read)
+{
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) throw InputError(path, 0, "", "", std::string("cannot be read: ") + std::strerror(errno));
+    const pid_t child = fork();
+    if (child == 0) answer_as_child(ends[1], path, read);
+    close(ends[1]);
+    std::string bytes;
+    const bool in_time = child > 0 && collect(ends[0], limit_s(path), bytes);
+    close(ends[0]);
+    if (child < 0) throw InputError(path, 0, "", "", "cannot be read: no process can be started");
+    if (!in_time) kill(child, SIGKILL);
+    const int status = status_of(child);
+
+    if (!in_time) throw InputError(path, 0, "", "", "damaged: the reader did not end");
+    if (status != 0 || bytes.empty()) throw InputError(path, 0, "", "", "damaged: the reader " + death(status));
+    const bool whole = bytes.back() == static_cast<char>(Answer::whole);
+    bytes.pop_back();
+    if (!whole) throw InputError("", 0, "", "", bytes);
+    return bytes;
+}
+
+}  // namespace pbs
