@@ -61,9 +61,7 @@ def draw_stills(rows, files, frames, file_of, colour_bar):
     for panel, frame in zip(axes[0], frames):
         panel.set_title(f"{float(rows['lbs'][frame]['time_s']):.2f} s")
     if colour_bar:
-        shades = style.matplotlib.cm.ScalarMappable(rendering.ratio_scale, rendering.ratio_colors)
-        bar = figure.colorbar(shades, ax=axes, location="bottom", shrink=0.5, aspect=40, extend="both", pad=0.01)
-        bar.set_label("volume ratio of a tet, deformed over rest [1]; inverted tets in red")
+        style.ratio_bar(figure, axes, rendering.ratio_scale, rendering.ratio_colors)
     return figure
 
 

@@ -154,7 +154,8 @@ def bar(figure, axes, scale, colors, label, extend="neither"):
 
 
 def ratio_bar(figure, axes, scale, colors):
-    bar(figure, axes, scale, colors, "volume ratio of a tet, deformed over rest [1]; inverted tets in red", "both")
+    label = "volume ratio of a tet, deformed over rest [1]; inverted tets in dark red, in grey the darkest"
+    bar(figure, axes, scale, colors, label, "both")
 
 
 def source_of(provenance):
