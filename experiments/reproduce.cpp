@@ -26,13 +26,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool asked_for(const Study& study, const std::vector<std::string>& names)
+bool is_named(const Study& study, const std::vector<std::string>& names)
 {
-    const auto asks = [&](const std::string& name) {
+    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
         const auto of_study = [&](const analysis::Claim& claim) { return claim.id == name && claim.study == study.name; };
         return name == study.name || std::any_of(claims().begin(), claims().end(), of_study);
-    };
-    return names.empty() ? study.by_default : std::any_of(names.begin(), names.end(), asks);
+    });
+}
+
+// A study that is named is run in the size that is asked for; the others as the set has them.
+Extent asked_for(const Study& study, const std::vector<std::string>& names, bool full)
+{
+    if (names.empty()) return full ? study.sets.full : study.sets.quick;
+    if (!is_named(study, names)) return Extent::none;
+    return full ? Extent::full : Extent::quick;
 }
 
 void refuse_unknown(const std::vector<std::string>& names)
@@ -61,9 +68,12 @@ struct PlannedStudy {
 std::vector<PlannedStudy> plan_studies(const ReproduceArguments& arguments)
 {
     std::vector<PlannedStudy> planned;
-    for (const Study& study : studies())
-        if (asked_for(study, arguments.names))
-            planned.push_back({&study, study.plan(arguments.full), (fs::path(arguments.folder) / study.name).string()});
+    for (const Study& study : studies()) {
+        const Extent extent = asked_for(study, arguments.names, arguments.full);
+        if (extent == Extent::none) continue;
+        planned.push_back({&study, study.plan(extent == Extent::full), (fs::path(arguments.folder) / study.name).string()});
+        planned.back().plan.extent = extent;
+    }
     return planned;
 }
 
@@ -173,6 +183,7 @@ int reproduce(const ReproduceArguments& arguments)
         for (auto& verdict : verdicts_of(*study, folder, arguments.folder)) verdicts.push_back(std::move(verdict));
         if (!study->conclude) continue;
         const StudyConclusion conclusion = study->conclude(folder, plan, outcome.folders);
+        analysis::write_text_atomically((fs::path(folder) / "conclusion.txt").string(), conclusion.text);
         beside += conclusion.text;
         all_hold &= conclusion.holds;
     }
@@ -189,7 +200,7 @@ int judge_again(const ReproduceArguments& arguments)
     std::vector<analysis::Verdict> verdicts;
     for (const Study& study : studies()) {
         const std::string folder = (fs::path(arguments.folder) / study.name).string();
-        if (!has_study_plan(folder) || !(arguments.names.empty() || asked_for(study, arguments.names))) continue;
+        if (!has_study_plan(folder) || !(arguments.names.empty() || is_named(study, arguments.names))) continue;
         for (auto& verdict : verdicts_of(study, folder, arguments.folder)) verdicts.push_back(std::move(verdict));
     }
     if (verdicts.empty())

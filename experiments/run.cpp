@@ -4,6 +4,7 @@
 #include "experiments/interruption.hpp"
 #include "experiments/progress.hpp"
 #include "experiments/reference_error_bar.hpp"
+#include "experiments/run_end.hpp"
 #include "experiments/run_folder.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
@@ -190,6 +191,7 @@ private:
         nlohmann::json outcome = {{"finished", true}, {"frames", frames_}, {"breakdowns", breakdowns_}, {"not_converged", not_converged_}};
         if (!scene_.reference.empty()) outcome["self_intersecting_reference_frames"] = self_intersecting_frames_;
         if (error_bar_) outcome["frames_below_reference_error"] = frames_below_reference_error_;
+        outcome.update(run_end(stopwatch_.seconds()));
         folder_.finish(character_, records, outcome, cost_, error_bar_ ? error_bar_->method() : nlohmann::json());
 
         RunResult result{frames_, stopwatch_.seconds(), breakdown_, {}};

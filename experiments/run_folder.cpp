@@ -2,7 +2,9 @@
 
 #include "analysis/atomic_file.hpp"
 #include "analysis/provenance.hpp"
+#include "experiments/frame_statistics.hpp"
 #include "experiments/library_versions.hpp"
+#include "experiments/surface_record.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/quality.hpp"
@@ -159,7 +161,8 @@ RunFolder::RunFolder(const Scene& scene, const pbs::Character& character, const 
     std::error_code error;
     fs::create_directories(fs::path(folder) / "frames", error);
     if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
-    for (const char* old : {"run.json", "metrics.csv", "iterations.csv", "regions.csv", "bones.csv", "binding.csv"})
+    for (const char* old : {"run.json", "metrics.csv", "frame_statistics.csv", "distances.csv", "iterations.csv", "regions.csv",
+                            "bones.csv", "bones_rest.csv", "binding.csv", "surface_rest.vtp", "embedding.csv"})
         fs::remove(fs::path(folder) / old);
     for (const auto& entry : fs::directory_iterator(fs::path(folder) / "frames"))
         if (is_own_frame(entry.path())) fs::remove(entry.path());
@@ -208,9 +211,13 @@ void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, 
     const std::string name = spec.label;
     const fs::path frames = fs::path(folder_) / "frames";
     pbs::write_vtu((frames / frame_file(name, frame, ".vtu")).string(), positions, character.mesh.tets, fields);
-    if (character.surface)
-        pbs::write_vtp((frames / frame_file(name + "_surface", frame, ".vtp")).string(),
-                       pbs::embedded_positions(*character.surface, positions, character.mesh.tets), character.surface->triangles);
+    if (character.surface) {
+        const pbs::Positions rendered = pbs::embedded_positions(*character.surface, positions, character.mesh.tets);
+        pbs::write_vtp((frames / frame_file(name + "_surface", frame, ".vtp")).string(), rendered, character.surface->triangles);
+        distances_.add(frame, time_s, name, "rendered surface", rendered);
+    } else {
+        distances_.add(frame, time_s, name, "mesh", positions);
+    }
     collections_[name].emplace_back(time_s, frame_file(name, frame, ".vtu"));
 }
 
@@ -228,10 +235,20 @@ void RunFolder::write_tables() const
 {
     const fs::path folder(folder_);
     metrics_.write((folder / "metrics.csv").string());
+    frame_statistics(metrics_).write((folder / "frame_statistics.csv").string());
     if (iterations_.rows() > 0) iterations_.write((folder / "iterations.csv").string());
     regions_.table().write((folder / "regions.csv").string());
+    if (distances_.table().rows() > 0) distances_.table().write((folder / "distances.csv").string());
     if (bones_.rows() > 0) bones_.write((folder / "bones.csv").string());
     for (const auto& [name, frames] : collections_) pbs::write_pvd((folder / "frames" / (name + ".pvd")).string(), frames);
+}
+
+void RunFolder::write_what_frames_hang_on(const pbs::Character& character) const
+{
+    const fs::path folder(folder_);
+    rest_bone_table(character.skeleton).write((folder / "bones_rest.csv").string());
+    binding_table(character).write((folder / "binding.csv").string());
+    if (character.surface) write_surface(*character.surface, character.mesh, folder_);
 }
 
 void RunFolder::finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
@@ -239,7 +256,7 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
 {
     cost.time("records", [&] {
         write_tables();
-        if (bones_.rows() > 0) binding_table(character).write((fs::path(folder_) / "binding.csv").string());
+        if (bones_.rows() > 0) write_what_frames_hang_on(character);
     });
     analysis::Provenance provenance = analysis::collect_provenance(most_threads(scene_));
     for (const auto& [library, version] : library_versions()) provenance.libraries[library] = version;

@@ -1,5 +1,6 @@
-// A run's directory: metrics.csv, iterations.csv, regions.csv, frames/ with bones.csv and binding.csv beside, run.json. Each file is
-// written beside and renamed; run.json comes last, so that a folder with run.json is a finished run.
+// A run's directory: metrics.csv, frame_statistics.csv, iterations.csv, regions.csv, frames/ with distances.csv, bones.csv, bones_rest.csv,
+// binding.csv and, where there is a rendered surface, surface_rest.vtp and embedding.csv beside, run.json. Each file is written beside and
+// renamed; run.json comes last, so that a folder with run.json is a finished run.
 #pragma once
 
 #include "analysis/csv_table.hpp"
@@ -7,6 +8,7 @@
 #include "experiments/bone_record.hpp"
 #include "experiments/cost_record.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "experiments/distance_record.hpp"
 #include "experiments/frame_measurement.hpp"
 #include "experiments/scene.hpp"
 #include "experiments/volume/region_record.hpp"
@@ -36,10 +38,13 @@ public:
                 const nlohmann::json& outcome, CostRecord& cost, const nlohmann::json& reference_error_method = nullptr);
 
 private:
+    void write_what_frames_hang_on(const pbs::Character& character) const;
+
     const Scene& scene_;
     std::string folder_;
     analysis::CsvTable metrics_, iterations_, bones_ = empty_bone_table();
     RegionRecord regions_;
+    DistanceRecord distances_;
     std::map<std::string, analysis::StateHash> hashes_;
     std::map<std::string, std::vector<std::pair<double, std::string>>> collections_;  // .pvd: time, file
 };

@@ -48,9 +48,10 @@ void write_study_plan(const std::string& folder, const StudyPlan& plan)
         runs.push_back(entry);
     }
     for (const analysis::LeftOut& out : plan.left_out) left_out.push_back({{"scene", out.scene}, {"reason", out.reason}});
+    const char* extent = plan.extent == Extent::full ? "full" : "quick";
     fs::create_directories(folder);
-    analysis::write_text_atomically(plan_file(folder),
-                                    nlohmann::json{{"schema", 1}, {"runs", runs}, {"left_out", left_out}}.dump(2) + "\n");
+    analysis::write_text_atomically(
+        plan_file(folder), nlohmann::json{{"schema", 1}, {"extent", extent}, {"runs", runs}, {"left_out", left_out}}.dump(2) + "\n");
 }
 
 bool has_study_plan(const std::string& folder)

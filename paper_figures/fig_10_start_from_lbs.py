@@ -3,6 +3,7 @@ import matplotlib
 import numpy
 
 import bodies
+import recorded_distances
 import recorded_frames
 import rendering
 import style
@@ -28,9 +29,9 @@ def draw_pose(panels, frames, frame, stage):
     rows = [frames.row(label, frame) for label in deformers]
     for panel, label, row in zip(panels, deformers, rows):
         style.show(panel, stage.shot([bodies.skin(frames.skin(label, frame))], view), below=facts(row))
-    distance_mm = away_mm(frames, frame)
-    actor = bodies.skin_by(frames.skin("pbs_increment", frame), distance_mm, scale, colors)
-    style.show(panels[2], stage.shot([actor], view), below=f"largest {distance_mm.max():.0f} mm")
+    actor = bodies.skin_by(frames.skin("pbs_increment", frame), away_mm(frames, frame), scale, colors)
+    apart = recorded_distances.between(frames, frame, *deformers)
+    style.show(panels[2], stage.shot([actor], view), below=f"largest {apart['largest_mm']:.0f} mm")
     panels[0].set_title(f"{float(rows[0]['time_s']):.2f} s")
     return rows
 

@@ -33,6 +33,15 @@ class Run:
             raise RecordsMissing(f"{self.folder / 'metrics.csv'}: no rows of {wanted}")
         return sorted(rows, key=lambda row: int(float(row["frame"])))
 
+    def statistics(self, deformer, iterations=None, variant="default"):
+        """Order statistics of the deformer over the frames: a row of frame_statistics.csv."""
+        rows = frame_statistics(self.folder, deformer, variant)
+        if iterations is not None:
+            rows = [row for row in rows if row["iterations"] and int(row["iterations"]) == iterations]
+        if not rows:
+            raise RecordsMissing(f"{self.folder / 'frame_statistics.csv'}: no row of deformer {deformer}, {iterations} iterations")
+        return rows[0]
+
     def reference(self):
         """Name of the deformer that errors are measured against; without one, of the last FEM deformer."""
         name = self.record.get("scene", {}).get("reference", {}).get("name")
@@ -45,6 +54,15 @@ class Run:
         """The iteration counts that were run with the paper's PBS."""
         rows = [row for row in self.rows if row["deformer"] == "pbs" and (row["variant"] or "default") == "default"]
         return sorted({int(float(row["iterations"])) for row in rows if row["iterations"]})
+
+
+def frame_statistics(folder, deformer, variant="default"):
+    """A deformer's rows of frame_statistics.csv: of each setting the order statistics over the run's frames."""
+    file = folder / "frame_statistics.csv"
+    if not file.is_file():
+        raise RecordsMissing(f"{file}: not there: the run is of an earlier version and has to be made again")
+    rows = table(file, {"deformer", "variant", "iterations", "frames"})
+    return [row for row in rows if row["deformer"] == deformer and (row["variant"] or "default") == variant]
 
 
 def numbers(rows, column):

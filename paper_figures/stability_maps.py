@@ -5,7 +5,7 @@ import outcomes
 import style
 
 maps = {"map_time_step_k_stretch.csv": "24 iterations", "map_iterations_twist.csv": "time step 10 ms"}
-columns = {"factor", "value", "unit", "second_factor", "second_value", "second_unit", "precision", "outcome"}
+columns = {"factor", "value", "unit", "second_factor", "second_value", "second_unit", "precision", "outcome", "steps"}
 
 
 def named(factor, unit):

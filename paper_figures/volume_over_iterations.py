@@ -1,7 +1,5 @@
 """PBS volume change against the number of iterations: the median over the clip's frames and the band that holds 8 frames in 10 for the
 human, single poses for the limb."""
-import numpy
-
 import records
 import style
 
@@ -11,13 +9,13 @@ measures = [("volume_change_pct", "signed volume change [%]"), ("volume_abs_chan
 
 
 def draw_human(axes, run, measure, color):
-    """The order statistics of the recorded rows; returns what was drawn."""
-    drawn = []
-    for iterations in run.pbs_iterations():
-        low, median, high = numpy.nanquantile(records.numbers(run.select("pbs", iterations), measure), [0.1, 0.5, 0.9])
-        drawn.append({"scene": run.name, "pose": "all frames", "measure": measure, "iterations": iterations, "median": median, "q10": low,
-                      "q90": high})
-    iterations, low, median, high = ([entry[key] for entry in drawn] for key in ("iterations", "q10", "median", "q90"))
+    """The recorded order statistics over the frames; returns what was drawn."""
+    rows = [run.statistics("pbs", iterations) for iterations in run.pbs_iterations()]
+    quantity = measure.removesuffix("_pct")
+    low, median, high = (records.numbers(rows, f"{quantity}_{share}_pct") for share in ("p10", "median", "p90"))
+    iterations = run.pbs_iterations()
+    drawn = [{"scene": run.name, "pose": "all frames", "measure": measure, "iterations": of[0], "median": of[1], "q10": of[2], "q90": of[3]}
+             for of in zip(iterations, median, low, high)]
     axes.fill_between(iterations, low, high, color=color, alpha=0.25, linewidth=0, label="human, 10\u201390 % of frames")
     axes.plot(iterations, median, color=color, linewidth=1.8, label="human, median")
     return drawn

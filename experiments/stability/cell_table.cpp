@@ -201,8 +201,8 @@ std::string blind_spots(const std::vector<CsvTable>& tables)
 
 CsvTable map_csv(const std::vector<CsvTable>& tables, const std::string& factor, const std::string& second_factor)
 {
-    CsvTable map({"factor", "value", "unit", "second_factor", "second_value", "second_unit", "precision", "outcome", "last_inverted_tets",
-                  "recovery_steps"});
+    CsvTable map({"factor", "value", "unit", "second_factor", "second_value", "second_unit", "precision", "outcome", "steps",
+                  "last_inverted_tets", "recovery_steps"});
     const auto or_nothing = [](const std::optional<double>& value) {
         return value ? CsvTable::Cell(*value) : CsvTable::Cell(std::nullopt);
     };
@@ -211,7 +211,7 @@ CsvTable map_csv(const std::vector<CsvTable>& tables, const std::string& factor,
             if (cells.text_at(row, "factor") != factor || cells.text_at(row, "second_factor") != second_factor) continue;
             map.add_row({factor, cells.number(row, "value"), cells.text_at(row, "unit"), second_factor, cells.number(row, "second_value"),
                          cells.text_at(row, "second_unit"), cells.text_at(row, "precision"), cells.text_at(row, "outcome"),
-                         or_nothing(cells.number_or_nothing(row, "last_inverted_tets")),
+                         static_cast<int>(cells.integer(row, "steps")), or_nothing(cells.number_or_nothing(row, "last_inverted_tets")),
                          or_nothing(cells.number_or_nothing(row, "recovery_steps"))});
         }
     return map;

@@ -123,8 +123,7 @@ std::vector<StabilityCell> pbs_character_cells(const std::string& body, bool ful
 
 std::vector<StabilityCell> pbs_map_cells(bool full)
 {
-    StabilityCell from = base("limb", true, pbs::Precision::f32, full);
-    from.still_steps = full ? 600 : 300;
+    const StabilityCell from = base("limb", true, pbs::Precision::f32, full);
     std::vector<StabilityCell> cells = cells_of_map(time_steps, k_stretches, from, full);
     append(cells, cells_of_map(iterations_of_maps, twists, from, full));
     return cells;

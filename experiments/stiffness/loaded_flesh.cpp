@@ -60,12 +60,17 @@ double mean_displacement_m(const LoadedFlesh& flesh, const pbs::Positions& displ
     return moment / mass_kg;
 }
 
-double effective_stiffness_n_m(const LoadedFlesh& flesh, const pbs::Positions& displacement, double gravity_m_s2)
+double weight_n(const LoadedFlesh& flesh, double gravity_m_s2)
 {
     double mass_kg = 0.0;
     for (std::size_t v = 0; v < flesh.zone.size(); ++v)
         if (flesh.zone[v]) mass_kg += flesh.mass_kg(v);
-    return mass_kg * gravity_m_s2 / mean_displacement_m(flesh, displacement);
+    return mass_kg * gravity_m_s2;
+}
+
+double effective_stiffness_n_m(const LoadedFlesh& flesh, const pbs::Positions& displacement, double gravity_m_s2)
+{
+    return weight_n(flesh, gravity_m_s2) / mean_displacement_m(flesh, displacement);
 }
 
 }  // namespace experiments

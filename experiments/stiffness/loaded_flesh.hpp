@@ -38,7 +38,10 @@ LoadedFlesh hanging_bar(int vertices);
 // Of the zone, weighted by mass, along gravity [m].
 double mean_displacement_m(const LoadedFlesh& flesh, const pbs::Positions& displacement);
 
-// Weight of the zone over its mean displacement [N/m]. With m_i = 1 gravity moves every particle alike, so the weight is that of the same
+// Weight of the zone [N].
+double weight_n(const LoadedFlesh& flesh, double gravity_m_s2);
+
+// That weight over the zone's mean displacement [N/m]. With m_i = 1 gravity moves every particle alike, so the weight is that of the same
 // flesh at `flesh_density_kg_m3`; in ratios of stiffnesses it cancels.
 double effective_stiffness_n_m(const LoadedFlesh& flesh, const pbs::Positions& displacement, double gravity_m_s2);
 

@@ -46,6 +46,7 @@ StiffnessRow linear_stiffness(const LoadedFlesh& flesh, const StiffnessSetting& 
 {
     const RestingFlesh rest = rest_near_rest(flesh, setting);
     StiffnessRow row = row_of(flesh, setting);
+    row.force_n = weight_n(flesh, 1.0);
     row.stiffness_n_m = effective_stiffness_n_m(flesh, rest.displacement, 1.0);
     row.converged = rest.converged;
     row.steps = rest.steps;
@@ -57,6 +58,7 @@ StiffnessRow stepped_stiffness(const LoadedFlesh& flesh, const StiffnessSetting&
     const SteppedFlesh still = step_until_still(flesh, setting, still_gravity_m_s2);
     StiffnessRow row = row_of(flesh, setting);
     row.by = "stepped";
+    row.force_n = weight_n(flesh, still_gravity_m_s2);
     row.stiffness_n_m = effective_stiffness_n_m(flesh, still.displacement, still_gravity_m_s2);
     row.converged = still.converged;
     row.steps = still.steps;
@@ -66,12 +68,12 @@ StiffnessRow stepped_stiffness(const LoadedFlesh& flesh, const StiffnessSetting&
 analysis::CsvTable stiffness_table(const std::vector<StiffnessRow>& rows)
 {
     analysis::CsvTable table({"body", "load", "vertices", "edges", "tets", "mesh", "method", "k_stretch", "young_pa", "iterations",
-                              "time_step_ms", "order_seed", "by", "stiffness_n_m", "converged", "steps"});
+                              "time_step_ms", "order_seed", "by", "force_n", "stiffness_n_m", "converged", "steps"});
     for (const StiffnessRow& row : rows) {
         const StiffnessSetting& set = row.setting;
         table.add_row({row.body, row.load, row.vertices, row.edges, row.tets, row.mesh, std::string(name_of(set.method)), set.k_stretch,
-                       set.young_pa, set.iterations, 1e3 * set.time_step_s, static_cast<int>(set.order_seed), row.by, row.stiffness_n_m,
-                       row.converged ? 1 : 0, row.steps});
+                       set.young_pa, set.iterations, 1e3 * set.time_step_s, static_cast<int>(set.order_seed), row.by, row.force_n,
+                       row.stiffness_n_m, row.converged ? 1 : 0, row.steps});
     }
     return table;
 }
@@ -89,6 +91,7 @@ std::vector<StiffnessRow> stiffness_rows(const analysis::CsvTable& table)
         row.mesh = table.text_at(i, "mesh");
         row.setting = setting_at(table, i);
         row.by = table.text_at(i, "by");
+        row.force_n = table.number(i, "force_n");
         row.stiffness_n_m = table.number(i, "stiffness_n_m");
         row.converged = table.integer(i, "converged") != 0;
         row.steps = static_cast<int>(table.integer(i, "steps"));

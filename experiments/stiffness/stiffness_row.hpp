@@ -18,7 +18,7 @@ struct StiffnessRow {
     StiffnessSetting setting;
     std::string mesh = "wanted";  // or "wanted, a tenth finer": of a second ladder of sizes
     std::string by = "linear";    // or "stepped": the solver itself, under still_gravity_m_s2
-    double stiffness_n_m = 0.0;
+    double force_n = 0.0, stiffness_n_m = 0.0;
     bool converged = false;
     int steps = 0;  // applications of the linear map, or time steps
 };
@@ -26,8 +26,8 @@ struct StiffnessRow {
 StiffnessRow linear_stiffness(const LoadedFlesh& flesh, const StiffnessSetting& setting);
 StiffnessRow stepped_stiffness(const LoadedFlesh& flesh, const StiffnessSetting& setting);
 
-// Columns: body, load, vertices, edges, tets, mesh, method, k_stretch, young_pa, iterations, time_step_ms, order_seed, by, stiffness_n_m,
-// converged, steps. k_stretch says nothing of xpbd, young_pa nothing of pbs.
+// Columns: body, load, vertices, edges, tets, mesh, method, k_stretch, young_pa, iterations, time_step_ms, order_seed, by, force_n,
+// stiffness_n_m, converged, steps. k_stretch says nothing of xpbd, young_pa nothing of pbs.
 analysis::CsvTable stiffness_table(const std::vector<StiffnessRow>& rows);
 std::vector<StiffnessRow> stiffness_rows(const analysis::CsvTable& table);
 

@@ -7,7 +7,7 @@
 //   human_moving                C01, C02: what remembers the last step, every step of six seconds of the clip (--full: of all of it)
 //   BODY_joint_twist, _bend     C04, C05: sections of the limb's joint, of the human's elbow
 //   BODY_starts                 C03: iterations from four starts, of the limb bent by 90 degrees, of the human's crouch; there C12, too
-//   BODY_step                   C07, C09, C10: momentum of projections there, a jolt, the time of a frame by turns
+//   BODY_step                   C07, C09, C10: momentum of projections there, a jolt, the time of a frame by turns (the human's: --full)
 //
 // Writes DIR/ambiguity/RUN/ambiguity.csv, of the first four also figures.csv (volume, jiggling, distance), and of all of them
 // ambiguity.csv, ambiguity.txt (the table that is printed), figures.csv and figures.md.
@@ -244,7 +244,7 @@ void plan_human(bool full, StudyPlan& plan)
                              .jolt_steps = full ? 150 : 60,
                              .timing_s = full ? 6.0 : 1.0};
     plan.runs.push_back(starts_run("human", of, full ? 8.0 : 5.0));
-    plan.runs.push_back(step_run("human", of, full ? 26.0 : 11.0));
+    if (full) plan.runs.push_back(step_run("human", of, 26.0));
 }
 
 analysis::CsvTable of_all(const std::vector<std::string>& runs, const char* name)

@@ -1,14 +1,16 @@
 // The frames that figures and the report's viewer show; no claim is judged by them.
 //
 //   limb_twist   0 - 180 deg by 10    o=======o~~~~~~~o)   LBS, DQS, PBS and stable neo-Hookean finite elements on the same tets
-//   limb_bend    0 - 150 deg by 10    o=======o
+//   limb_bend    0 - 110 deg by 10    o=======o            (--full: to 150, where the finite elements take longest)
 //   limb_bend_rigid                                        LBS and PBS with rigid weights in place of Eq. 2
 //   human_jump   1.6 s of 01_01 from 6.0 s on, 25 frames a second: the four; PBS without the start from LBS, and with the jiggling zone
-//   human_walk   the first 2.4 s of 01_03: the four; PBS with the jiggling zone
+//   human_walk   the first 2.4 s of 01_03: the four; PBS with the jiggling zone, and with the stiffness that its flesh has outside of it
 //
-// Writes DIR/frames/RUN/frames/*.vtu, .vtp and bones.csv, binding.csv, metrics.csv beside.
+// Writes DIR/frames/RUN/frames/*.vtu, .vtp and metrics.csv, bones.csv, bones_rest.csv, binding.csv, surface_rest.vtp, embedding.csv beside.
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -37,12 +39,20 @@ StudyRun with_pbs(StudyRun run, const std::string& label, const std::string& var
 }
 
 // Table 1's "jiggling" is k_stretch in the zone; outside it is 1.
+const double k_stretch_with_jiggle = 1.0;
+
 StudyRun with_jiggle(StudyRun run, double k_jiggle)
 {
     return with_pbs(std::move(run), "pbs_jiggle", "jiggle", [&](pbs::PbsOptions& options) {
-        options.k_stretch = 1.0;
+        options.k_stretch = k_stretch_with_jiggle;
         options.jiggle = pbs::Jiggle{k_jiggle};
     });
+}
+
+// What jiggling adds is told from this one: the same stiffness, no zone.
+StudyRun without_jiggle(StudyRun run)
+{
+    return with_pbs(std::move(run), "pbs_no_zone", "no_zone", [](pbs::PbsOptions& options) { options.k_stretch = k_stretch_with_jiggle; });
 }
 
 StudyRun without_the_start_from_lbs(StudyRun run)
@@ -51,13 +61,14 @@ StudyRun without_the_start_from_lbs(StudyRun run)
                     [](pbs::PbsOptions& options) { options.lbs_entry = pbs::LbsEntry::increment; });
 }
 
-void add_limb(StudyPlan& plan)
+void add_limb(StudyPlan& plan, bool full)
 {
+    const int steps = full ? 15 : 11;
+    const std::string angle = fmt::format("motion.angle_deg={}", 10 * steps), frames = fmt::format("motion.frames={}", steps + 1);
     const std::string reference = R"(reference.name="snh_p1")", none = R"(reference.name="")";
     plan.runs.push_back(shown("limb_twist", "limb_twist", {the_four, reference, "motion.frames=19"}, 3.5));
-    plan.runs.push_back(shown("limb_bend", "limb_bend", {the_four, reference, "motion.frames=16"}, 19.0));
-    plan.runs.push_back(
-        shown("limb_bend_rigid", "limb_bend", {blend_and_pbs, none, "motion.frames=16", R"(skinning.weights="rigid")"}, 0.5));
+    plan.runs.push_back(shown("limb_bend", "limb_bend", {the_four, reference, angle, frames}, full ? 17.0 : 5.0));
+    plan.runs.push_back(shown("limb_bend_rigid", "limb_bend", {blend_and_pbs, none, angle, frames, R"(skinning.weights="rigid")"}, 0.5));
 }
 
 void add_human(StudyPlan& plan)
@@ -68,15 +79,15 @@ void add_human(StudyPlan& plan)
     plan.runs.push_back(with_jiggle(without_the_start_from_lbs(jumping), 0.9));
     const StudyRun walking =
         shown("human_walk", "human_01_01", {the_four, reference, rate, "motion.clip=01_03.bvh", "motion.duration_s=2.4"}, 21.0);
-    plan.runs.push_back(with_jiggle(walking, 0.1));
+    plan.runs.push_back(with_jiggle(without_jiggle(walking), 0.1));
 }
 
 }  // namespace
 
-StudyPlan plan_frames_study(bool)
+StudyPlan plan_frames_study(bool full)
 {
     StudyPlan plan;
-    add_limb(plan);
+    add_limb(plan, full);
     try {
         add_human(plan);
     } catch (const pbs::InputError& error) {

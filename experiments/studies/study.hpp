@@ -24,9 +24,12 @@ struct StudyRun {
     nlohmann::json settings = {};  // what the work is the result of: on record, and what --resume compares
 };
 
+enum class Extent { none, quick, full };
+
 struct StudyPlan {
     std::vector<StudyRun> runs;
-    std::vector<analysis::LeftOut> left_out;  // what is not installed here
+    std::vector<analysis::LeftOut> left_out = {};  // what is not installed here
+    Extent extent = Extent::quick;                 // as it was asked for
 };
 
 // What a study says when its runs have ended, beside the claims that are judged from their records.
@@ -35,10 +38,15 @@ struct StudyConclusion {
     bool holds = true;
 };
 
+// How much of a study is part of `pbskin reproduce` and of `pbskin reproduce --full`, both without names.
+struct Sets {
+    Extent quick = Extent::quick, full = Extent::full;
+};
+
 struct Study {
     std::string name, meaning, claims, cost;
     StudyPlan (*plan)(bool full);
-    bool by_default = true;  // part of `pbskin reproduce` without names
+    Sets sets = {};
     // Of the study's folder and the folders of the runs that ended; writes the records that sum them up.
     StudyConclusion (*conclude)(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished) = nullptr;
     bool alone = false;  // it times: one run at once, whatever -j says

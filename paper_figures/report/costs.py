@@ -1,4 +1,5 @@
-"""What the studies cost: processor time expected beforehand and taken, from each study's costs.csv."""
+"""What the studies cost: processor time expected beforehand and taken, and wall time, from each study's costs.csv."""
+import records
 from report.markup import counted, details, element, figure, joined, table
 from report.record_set import number
 
@@ -11,6 +12,18 @@ def of_studies(found):
 
 def total(rows, column):
     return sum(number(row, column) or 0.0 for row in rows)
+
+
+def size(found, study):
+    """Quick or full, as its plan has it; older plans say nothing."""
+    plan = found.results / study / "plan.json"
+    return records.read_json(plan).get("extent", "\u2013") if plan.is_file() else "\u2013"
+
+
+def totals(rows):
+    """How many, and sums; wall time only where each of them has it."""
+    wall = figure(total(rows, "wall_s")) if all(row.get("wall_s") for row in rows) else "\u2013"
+    return [len(rows), figure(total(rows, "expected_cpu_s")), figure(total(rows, "cpu_s")), wall]
 
 
 def minutes(seconds):
@@ -29,11 +42,8 @@ def section(found):
     studies = of_studies(found)
     if not studies:
         return element("p", "no study left its costs.csv", class_="missing")
-    header = ["study", "runs", "expected [s]", "taken [s]"]
-    rows = [[study, len(rows), figure(total(rows, "expected_cpu_s")), figure(total(rows, "cpu_s"))] for study, rows in studies]
-    everything = [row for _, rows in studies for row in rows]
-    rows.append([element("b", "all"), len(everything), figure(total(everything, "expected_cpu_s")), figure(total(everything, "cpu_s"))])
-    single = [[f"{study}/{row['run']}", figure(number(row, "expected_cpu_s")), figure(number(row, "cpu_s"))]
-              for study, rows in studies for row in rows]
-    runs = table("Each run's processor time", ["run", "expected [s]", "taken [s]"], single, "tall")
-    return joined([table("Processor time of the studies", header, rows), details("each run", runs)])
+    header = ["runs", "processor, expected [s]", "processor, taken [s]", "runs' wall time in all [s]"]
+    rows = [[study, size(found, study), *totals(rows)] for study, rows in studies]
+    rows.append([element("b", "all"), "", *totals([row for _, rows in studies for row in rows])])
+    single = [[f"{study}/{row['run']}", *totals([row])[1:]] for study, rows in studies for row in rows]
+    return joined([table("Time of the studies", ["study", "size", *header], rows), details("each run", table("Each run's time", ["run", *header[1:]], single, "tall"))])

@@ -6,7 +6,7 @@ import re
 import entries
 import records
 from report import record_set
-from report.markup import Markup, element, escaped, joined
+from report.markup import Markup, details, element, escaped, joined
 
 slack_s = 60.0  # that copying a folder may put between the times of its files
 most_inline_kb = 400  # of a CSV that travels with the page
@@ -93,13 +93,25 @@ def drawn_figure(found, entry, number, file):
     return element("figure", joined([picture(file, entry), clip(found, entry), caption], "\n"), id=f"figure-{entry.name}")
 
 
+def conclusions(found, entry, told):
+    """What the studies behind a figure conclude, each beside its first figure."""
+    parts = []
+    for study in entry.studies():
+        file = found.results / study / "conclusion.txt"
+        if study not in told and file.is_file() and file.read_text().strip():
+            parts.append(details(f"What the study {study} concludes", element("pre", file.read_text().strip("\n"), tabindex="0")))
+        told.add(study)
+    return parts
+
+
 def section(found):
     """The figures' HTML, and what is missing."""
-    parts, missing = [], []
+    parts, missing, told = [], [], set()
     for number, entry in enumerate(entries.read(), 1):  # the paper's come first: no number stands twice, whichever are missing
         try:
             file = drawn(found, entry)
             parts.append(drawn_figure(found, entry, number, file))
+            parts += conclusions(found, entry, told)
         except NotDrawn as reason:
             missing.append(f"figure {entry.name}: {reason}")
     intro = ("R: redrawn in minutes on any machine; CR: in hours; NR: not from this repository\u2019s records. Values stand under the pointer; "

@@ -2,6 +2,7 @@
 import contextlib
 import html.parser
 import io
+import json
 import os
 import pathlib
 import re
@@ -17,7 +18,7 @@ sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 import entries  # noqa: E402
 import report  # noqa: E402
 import synthetic_records  # noqa: E402
-from report import answers, costs, figures, markup, origin, record_set, verdicts  # noqa: E402
+from report import answers, costs, errors, figures, markup, origin, record_set, verdicts  # noqa: E402
 
 
 class Page(html.parser.HTMLParser):
@@ -156,7 +157,36 @@ class Report(unittest.TestCase):
         (self.results / "volume" / "costs.csv").write_text("run,expected_cpu_s,cpu_s\na,10,60\nb,20,120\n")
         found = record_set.RecordSet(self.results)
         self.assertEqual(costs.sentence(found), "These records took 3 min of processor time (1 study).")
-        self.assertIn("<td>30</td><td>180</td>", costs.section(found))
+        self.assertIn("<td>30</td><td>180</td><td>\u2013</td>", costs.section(found))  # of an earlier version: no wall time
+
+    def test_wall_time_and_the_size_of_a_study_stand_beside_its_cost(self):
+        synthetic_records.write_study(self.results)
+        (self.results / "volume" / "costs.csv").write_text("run,expected_cpu_s,cpu_s,wall_s\na,10,60,70\nb,20,120,125\n")
+        (self.results / "volume" / "plan.json").write_text(json.dumps({"extent": "quick", "runs": [], "left_out": []}))
+        shown = costs.section(record_set.RecordSet(self.results))
+        self.assertIn("<td>quick</td><td>2</td><td>30</td><td>180</td><td>195</td>", shown)
+
+    def test_what_a_study_concludes_stands_beside_its_first_figure(self):
+        synthetic_records.write_study(self.results)
+        (self.results / "volume" / "conclusion.txt").write_text("chest  -1.0 %\nspine  < 0\n")
+        for name in ("volume_over_angle", "volume_over_clip"):
+            self.write_svg(name)
+        text = self.make()[1]
+        self.assertEqual(text.count("What the study volume concludes"), 1)
+        self.assertIn("chest  -1.0 %\nspine  &lt; 0</pre>", text)
+        self.assertLess(text.index('id="figure-volume_over_angle"'), text.index("What the study volume concludes"))
+        self.assertLess(text.index("What the study volume concludes"), text.index('id="figure-volume_over_clip"'))
+
+    def test_errors_over_whole_runs_are_the_recorded_order_statistics(self):
+        synthetic_records.write_study(self.results)
+        run = self.results / "volume" / "limb_twist"
+        fem = {"name": "snh_p2", "model": "stable_neo_hookean", "element_order": 2}
+        record = json.loads((run / "run.json").read_text()) | {"outcome": {"frames": 37}}
+        record["scene"] = {"reference": {"name": "snh_p2"}, "fem": [fem]}
+        (run / "run.json").write_text(json.dumps(record))
+        synthetic_records.write_frame_statistics(run, "pbs", 24, error_joint_least_pct=1.5, error_joint_median_pct=12, error_joint_most_pct=40)
+        shown = errors.section(record_set.RecordSet(self.results))
+        self.assertIn("<td>12 (1.5 to 40)</td>", shown)
 
     def test_the_reference_s_verification(self):
         synthetic_records.write_verification(self.results)

@@ -76,7 +76,7 @@ def write_stability(study):
     for name, (factor, unit, second, second_unit) in maps.items():
         write(study / f"{name}.csv",
               [{"factor": factor, "value": value, "unit": unit, "second_factor": second, "second_value": other, "second_unit": second_unit,
-                "precision": "f32", "outcome": outcome}
+                "precision": "f32", "outcome": outcome, "steps": 604}
                for (value, other), outcome in zip(itertools.product((1, 10, 100), (0, 90)), outcomes)])
     write(study / "cells.csv",
           [{"body": body, "model": model, "factor": "gravity", "value": value, "unit": "g", "named": "", "second_factor": "",
