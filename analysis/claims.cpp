@@ -1,12 +1,11 @@
 #include "analysis/claims.hpp"
 
-#include "pbs/geometry/input_error.hpp"
+#include "analysis/toml_keys.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 
@@ -23,83 +22,28 @@ const std::map<std::string, ClaimRule> rules = {{"share_within", ClaimRule::shar
 
 const std::set<std::string> measurable = {"volume_loss_pct", "volume_change_pct", "volume_abs_change_pct"};
 
-// One [[claim]] table, read key by key; what is left unread is unknown.
-class ClaimReader {
-public:
-    ClaimReader(const toml::table& table, const std::string& file) : table_(table), file_(file) {}
-
-    template <typename Value>
-    void required(const char* key, Value& value)
-    {
-        if (!table_.contains(key)) throw InputError(file_, line(table_), key, "", "missing in this claim");
-        optional(key, value);
+// [{ quantity, low, high }, ...]
+std::vector<QuantityBound> read_bounds(TomlKeys& claim, const std::string& file)
+{
+    claim.mark_read("bounds");
+    const toml::node* node = claim.node("bounds");
+    if (!node) return {};
+    if (!node->is_array()) claim.refuse("bounds", "expected a list");
+    std::vector<QuantityBound> bounds;
+    for (const toml::node& entry : *node->as_array()) {
+        if (!entry.is_table()) claim.refuse("bounds", "expected { quantity, low, high }");
+        TomlKeys keys(*entry.as_table(), file, "claim");
+        QuantityBound& bound = bounds.emplace_back();
+        keys.required("quantity", bound.quantity);
+        keys.optional("low", bound.low);
+        keys.optional("high", bound.high);
+        keys.require_nothing_unknown();
+        if (!(bound.low <= bound.high)) keys.refuse("low", "expected low <= high");
     }
+    return bounds;
+}
 
-    template <typename Value>
-    void optional(const char* key, Value& value)
-    {
-        read_.insert(key);
-        const toml::node* node = table_.get(key);
-        if (!node) return;
-        const auto found = node->value<Value>();
-        if (!found) refuse(key, "has the wrong type");
-        value = *found;
-    }
-
-    bool has(const char* key) const { return table_.contains(key); }
-
-    void optional(const char* key, std::vector<std::string>& values)
-    {
-        read_.insert(key);
-        const toml::node* node = table_.get(key);
-        if (!node) return;
-        if (!node->is_array()) refuse(key, "expected a list");
-        for (const toml::node& entry : *node->as_array()) {
-            if (!entry.is_string()) refuse(key, "expected texts");
-            values.push_back(entry.value<std::string>().value());
-        }
-    }
-
-    void optional(const char* key, std::vector<QuantityBound>& bounds)
-    {
-        read_.insert(key);
-        const toml::node* node = table_.get(key);
-        if (!node) return;
-        if (!node->is_array()) refuse(key, "expected a list");
-        for (const toml::node& entry : *node->as_array()) {
-            if (!entry.is_table()) refuse(key, "expected { quantity, low, high }");
-            ClaimReader reader(*entry.as_table(), file_);
-            QuantityBound& bound = bounds.emplace_back();
-            reader.required("quantity", bound.quantity);
-            reader.optional("low", bound.low);
-            reader.optional("high", bound.high);
-            reader.require_nothing_unknown();
-            if (!(bound.low <= bound.high)) reader.refuse("low", "expected low <= high");
-        }
-    }
-
-    void require_nothing_unknown() const
-    {
-        for (const auto& [key, node] : table_)
-            if (!read_.contains(std::string(key.str())))
-                throw InputError(file_, line(node), std::string(key.str()), "", "unknown key of a claim");
-    }
-
-    [[noreturn]] void refuse(const char* key, const std::string& rule) const
-    {
-        const toml::node* node = table_.get(key);
-        throw InputError(file_, node ? line(*node) : line(table_), key, "", rule);
-    }
-
-private:
-    static int line(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
-
-    const toml::table& table_;
-    const std::string& file_;
-    std::set<std::string> read_;
-};
-
-void require_bounds(const Claim& claim, const ClaimReader& reader)
+void require_bounds(const Claim& claim, const TomlKeys& reader)
 {
     const auto bounded = [&](const std::string& quantity) {
         return std::any_of(claim.bounds.begin(), claim.bounds.end(), [&](const auto& bound) { return bound.quantity == quantity; });
@@ -111,7 +55,7 @@ void require_bounds(const Claim& claim, const ClaimReader& reader)
         reader.refuse("bounds", "expected a bound for each of the metrics, or low and high");
 }
 
-void require_judgeable(const Claim& claim, const ClaimReader& reader)
+void require_judgeable(const Claim& claim, const TomlKeys& reader)
 {
     const bool by_records = claim.rule == ClaimRule::share_within || claim.rule == ClaimRule::mean_within;
     if (by_records && claim.metrics.empty()) reader.refuse("metrics", "expected at least one");
@@ -133,7 +77,7 @@ void require_judgeable(const Claim& claim, const ClaimReader& reader)
 
 Claim read_claim(const toml::table& table, const std::string& file)
 {
-    ClaimReader reader(table, file);
+    TomlKeys reader(table, file, "claim");
     Claim claim;
     std::string rule;
     reader.required("id", claim.id);
@@ -146,7 +90,7 @@ Claim read_claim(const toml::table& table, const std::string& file)
     reader.optional("deformer", claim.deformer);
     reader.optional("beside", claim.beside);
     reader.optional("orders", claim.orders);
-    reader.optional("bounds", claim.bounds);
+    claim.bounds = read_bounds(reader, file);
     reader.optional("iterations", claim.iterations);
     reader.optional("expected_pct", claim.expected);
     reader.optional("low_pct", claim.low);
@@ -164,33 +108,19 @@ Claim read_claim(const toml::table& table, const std::string& file)
     return claim;
 }
 
-toml::table parse_toml(const std::string& text, const std::string& file)
-{
-    try {
-        return toml::parse(text, file);
-    } catch (const toml::parse_error& error) {
-        throw InputError(file, static_cast<int>(error.source().begin.line), "", "", std::string(error.description()));
-    }
-}
-
 }  // namespace
 
 std::vector<Claim> parse_claims(const std::string& text, const std::string& file)
 {
-    const toml::table document = parse_toml(text, file);
-    for (const auto& [key, node] : document)
-        if (key.str() != "schema" && key.str() != "claim")
-            throw InputError(file, static_cast<int>(node.source().begin.line), std::string(key.str()), "",
-                             "unknown key: expected schema or claim");
-    if (document["schema"].value_or(0) != 1) throw InputError(file, 0, "schema", "", "expected 1");
-    const toml::array* tables = document["claim"].as_array();
-    if (!tables || !tables->is_homogeneous(toml::node_type::table)) throw InputError(file, 0, "claim", "", "expected [[claim]] tables");
+    const toml::table document = parse_toml_document(text, file, {"check", "claim"});
+    const std::vector<const toml::table*> tables = toml_tables(document, "claim", file);
+    if (tables.empty()) throw InputError(file, 0, "claim", "", "expected [[claim]] tables");
     std::vector<Claim> claims;
-    for (const toml::node& node : *tables) {
-        claims.push_back(read_claim(*node.as_table(), file));
+    for (const toml::table* table : tables) {
+        claims.push_back(read_claim(*table, file));
         const auto same = [&](const Claim& other) { return other.id == claims.back().id; };
         if (std::count_if(claims.begin(), claims.end(), same) > 1)
-            throw InputError(file, static_cast<int>(node.source().begin.line), "id", claims.back().id, "expected each claim once");
+            throw InputError(file, static_cast<int>(table->source().begin.line), "id", claims.back().id, "expected each claim once");
     }
     return claims;
 }

@@ -23,6 +23,7 @@ void add_list_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 void add_explain_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 void add_run_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
+void add_check_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 void add_measure_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 void add_mesh_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 void add_bench_verb(CLI::App& app, CommonOptions& common, VerbAction& action);

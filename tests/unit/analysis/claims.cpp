@@ -60,20 +60,22 @@ TEST(Claims, BrokenFilesAreNamedWithTheirLine)
 {
     EXPECT_EQ(message_of(head + body), "accepted");
     EXPECT_EQ(message_of(head + body + "bound = 3\n"), "claims.toml:13: bound: unknown key of a claim");
-    EXPECT_EQ(message_of(head + body + "share = \"most\"\n"), "claims.toml:13: share: has the wrong type");
-    EXPECT_EQ(message_of(head + body + "share = 1.5\n"), "claims.toml:13: share: expected 0 < share <= 1");
-    EXPECT_EQ(message_of(head + body + "level = 1.0\n"), "claims.toml:13: level: expected 0 < level < 1");
-    EXPECT_EQ(message_of(head + body + "iterations = -1\n"), "claims.toml:13: iterations: expected >= 0");
+    EXPECT_EQ(message_of(head + body + "share = \"most\"\n"), "claims.toml:13: share = most: has the wrong type");
+    EXPECT_EQ(message_of(head + body + "share = 1.5\n"), "claims.toml:13: share = 1.5: expected 0 < share <= 1");
+    EXPECT_EQ(message_of(head + body + "level = 1.0\n"), "claims.toml:13: level = 1.0: expected 0 < level < 1");
+    EXPECT_EQ(message_of(head + body + "iterations = -1\n"), "claims.toml:13: iterations = -1: expected >= 0");
     EXPECT_EQ(message_of(head), "claims.toml:2: rule: missing in this claim");
     EXPECT_EQ(message_of(head + "rule = \"guess\"\n"),
-              "claims.toml:8: rule: expected share_within, mean_within, measured, printed or untestable");
+              "claims.toml:8: rule = guess: expected share_within, mean_within, measured, printed or untestable");
     EXPECT_EQ(message_of(head + "rule = \"untestable\"\n"), "claims.toml:2: reason: missing in this claim");
     EXPECT_EQ(message_of(head + "rule = \"mean_within\"\n"), "claims.toml:2: metrics: expected at least one");
     EXPECT_EQ(message_of(head + "rule = \"mean_within\"\nmetrics = [\"beauty\"]\n").substr(0, 30), "claims.toml:9: metrics: beauty");
-    EXPECT_EQ(message_of(head + "rule = \"mean_within\"\nmetrics = \"volume_loss_pct\"\n"), "claims.toml:9: metrics: expected a list");
+    EXPECT_EQ(message_of(head + "rule = \"mean_within\"\nmetrics = \"volume_loss_pct\"\n"),
+              "claims.toml:9: metrics = volume_loss_pct: expected a list");
     EXPECT_EQ(message_of(head + "rule = \"mean_within\"\nmetrics = [\"volume_loss_pct\"]\ndeformer = \"lbs\"\n"),
               "claims.toml:2: low_pct: expected low_pct < high_pct");
-    EXPECT_EQ(message_of("schema = 1\nverdict = \"reproduced\"\n"), "claims.toml:2: verdict: unknown key: expected schema or claim");
+    EXPECT_EQ(message_of("schema = 1\nverdict = \"reproduced\"\n"),
+              "claims.toml:2: verdict: unknown key: expected schema or check or claim");
     EXPECT_EQ(message_of("schema = 2\n"), "claims.toml: schema: expected 1");
     EXPECT_EQ(message_of("schema = 1\n"), "claims.toml: claim: expected [[claim]] tables");
     EXPECT_EQ(message_of("schema = \n").substr(0, 14), "claims.toml:1:");
@@ -91,14 +93,14 @@ TEST(Claims, AMeasuredClaimBoundsEachOfItsQuantities)
     EXPECT_EQ(message_of(measured + "bounds = [" + radius + ", " + area + "]\n"), "accepted");
     EXPECT_EQ(message_of(measured + "bounds = [" + radius + "]\n"),
               "claims.toml:10: bounds: expected a bound for each of the metrics, or low and high");
-    EXPECT_EQ(message_of(measured + "low = 1.0\nhigh = 0.0\n"), "claims.toml:10: low: expected low <= high");
+    EXPECT_EQ(message_of(measured + "low = 1.0\nhigh = 0.0\n"), "claims.toml:10: low = 1.0: expected low <= high");
     EXPECT_EQ(message_of(measured + "bounds = [{ quantity = \"radius\", low = 2.0, high = 1.0 }]\n"),
-              "claims.toml:10: low: expected low <= high");
+              "claims.toml:10: low = 2.0: expected low <= high");
     EXPECT_EQ(message_of(measured + "bounds = [{ quantity = \"beauty\" }]\n"),
               "claims.toml:10: bounds: beauty: expected one of this claim's metrics");
     EXPECT_EQ(message_of(measured + "bounds = [{ low = 1.0 }]\n"), "claims.toml:10: quantity: missing in this claim");
     EXPECT_EQ(message_of(measured + "bounds = [3]\n"), "claims.toml:10: bounds: expected { quantity, low, high }");
-    EXPECT_EQ(message_of(measured + "bounds = 3\n"), "claims.toml:10: bounds: expected a list");
+    EXPECT_EQ(message_of(measured + "bounds = 3\n"), "claims.toml:10: bounds = 3: expected a list");
 }
 
 TEST(Claims, EachOnlyOnce)

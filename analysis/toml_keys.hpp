@@ -1,0 +1,77 @@
+// One TOML table read key by key, for files whose every key is known: what is left unread is an error with its line.
+//   TomlKeys keys(table, "claims.toml", "claim");
+//   keys.required("id", claim.id);  keys.optional("low", claim.low);  keys.require_nothing_unknown();
+#pragma once
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <set>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace analysis {
+
+// InputError with the line of a text that is no TOML, or of a key at the top that `known` does not hold; schema = 1 must be there.
+toml::table parse_toml_document(const std::string& text, const std::string& file, const std::set<std::string>& known);
+
+// The tables of [[name]]; none where the name is missing. InputError where it is something else.
+std::vector<const toml::table*> toml_tables(const toml::table& parent, const std::string& name, const std::string& file);
+
+class TomlKeys {
+public:
+    // thing: what a table is called in messages.
+    TomlKeys(const toml::table& table, const std::string& file, const std::string& thing) : table_(table), file_(file), thing_(thing) {}
+
+    template <typename Value>
+    void required(const char* key, Value& value)
+    {
+        if (!table_.contains(key)) throw pbs::InputError(file_, line(), key, "", "missing in this " + thing_);
+        optional(key, value);
+    }
+
+    template <typename Value>
+    void optional(const char* key, Value& value)
+    {
+        read_.insert(key);
+        const toml::node* node = table_.get(key);
+        if (!node) return;
+        const auto found = node->value<Value>();
+        if (!found) refuse(key, "has the wrong type");
+        value = *found;
+    }
+
+    template <typename Value>
+    void optional(const char* key, std::vector<Value>& values)
+    {
+        read_.insert(key);
+        const toml::node* node = table_.get(key);
+        if (!node) return;
+        if (!node->is_array()) refuse(key, "expected a list");
+        for (const toml::node& entry : *node->as_array()) {
+            const auto found = entry.value<Value>();
+            if (!found) refuse(key, std::is_same_v<Value, std::string> ? "expected texts" : "expected whole numbers");
+            values.push_back(*found);
+        }
+    }
+
+    void mark_read(const char* key) { read_.insert(key); }
+    bool has(const char* key) const { return table_.contains(key); }
+    const toml::node* node(const char* key) const { return table_.get(key); }
+    int line() const { return line_of(table_); }
+    void require_nothing_unknown() const;
+    [[noreturn]] void refuse(const char* key, const std::string& rule) const;  // an InputError at the key's place
+
+private:
+    static int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
+
+    const toml::table& table_;
+    const std::string& file_;
+    std::string thing_;
+    std::set<std::string> read_;
+};
+
+}  // namespace analysis

@@ -1,0 +1,179 @@
+#include "experiments/check/check_run.hpp"
+
+#include "analysis/atomic_file.hpp"
+#include "analysis/check/check_judgement.hpp"
+#include "analysis/provenance.hpp"
+#include "experiments/metrics_table.hpp"
+#include "experiments/run.hpp"
+#include "generated/claims_texts.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+using analysis::CheckCase;
+using analysis::CheckRules;
+using analysis::CheckScene;
+using analysis::CheckState;
+using analysis::CheckSuite;
+using analysis::CsvTable;
+
+CheckRules rules_of(const CheckArguments& arguments)
+{
+    std::vector<std::string> metrics;
+    for (const MetricText& metric : metric_texts())
+        if (metric.name != "outcome") metrics.push_back(metric.name);
+    const CheckRules own = analysis::parse_check_rules(::claims::claims_toml, "experiments/claims.toml", metrics);
+    if (arguments.bounds.empty()) return own;
+    CheckRules rules = analysis::parse_check_rules(analysis::read_text(arguments.bounds), arguments.bounds, metrics);
+    if (rules.tolerances.empty()) rules.tolerances = own.tolerances;
+    return rules;
+}
+
+struct Baseline {
+    CsvTable table;
+    std::string file;
+};
+
+std::optional<Baseline> baseline_of(const CheckArguments& arguments)
+{
+    if (!arguments.write_baseline.empty()) return std::nullopt;
+    if (!arguments.baseline.empty()) return Baseline{analysis::read_csv(arguments.baseline), arguments.baseline};
+    if (!arguments.bounds.empty()) return std::nullopt;
+    const std::string own = "experiments/check_baseline.csv";
+    return Baseline{analysis::parse_csv(::claims::check_baseline_csv, own), own};
+}
+
+std::string unit_of(const std::string& metric)
+{
+    for (const MetricText& text : metric_texts())
+        if (text.name == metric) return text.unit;
+    return "";
+}
+
+// A file beside the bounds, or a built-in scene.
+Scene scene_of(const CheckScene& check, const CheckRules& rules, int threads)
+{
+    const fs::path beside = fs::path(rules.file).parent_path() / check.scene;
+    std::error_code error;
+    Scene scene = read_scene(fs::is_regular_file(beside, error) ? beside.string() : check.scene, check.set);
+    for (DeformerSpec& spec : scene.deformers) spec.pbs.threads = threads;
+    return scene;
+}
+
+CheckSuite suite_left_out(const CheckScene& check, const CheckRules& rules)
+{
+    CheckSuite suite{check.name, 0.0, {}, {}};
+    suite.cases.push_back(
+        {check.name, "runs", CheckState::left_out,
+         fmt::format("left out with its bounds: {} is not installed; `pbskin run {}` tells what it needs", check.needs, check.scene),
+         std::nullopt, std::nullopt, rules.file, check.line});
+    return suite;
+}
+
+class SceneCheck {
+public:
+    SceneCheck(const CheckRules& rules, const std::optional<Baseline>& baseline, CsvTable& measured)
+        : rules_(rules), baseline_(baseline), measured_(measured)
+    {
+    }
+
+    CheckSuite suite(const CheckScene& check, const std::string& folder, int threads, std::vector<std::string>& breakdowns)
+    {
+        const RunResult result = run_scene(scene_of(check, rules_, threads), folder);
+        CheckSuite suite{check.name, result.seconds, {}, {}};
+        suite.cases.push_back({check.name, "runs", result.breakdown.empty() ? CheckState::held : CheckState::broke_down,
+                               result.breakdown.empty() ? fmt::format("{} frames", result.frames) : result.breakdown, std::nullopt,
+                               std::nullopt, rules_.file, check.line, result.seconds});
+        if (!result.breakdown.empty()) breakdowns.push_back(check.name + ": " + result.breakdown);
+        const CsvTable metrics = analysis::read_csv((fs::path(folder) / "metrics.csv").string());
+        for (const analysis::CheckBound& bound : rules_.bounds)
+            if (bound.scene == check.name) suite.cases.push_back(judge_bound(bound, unit_of(bound.metric), metrics, rules_.file));
+        add_baseline_cases(suite, metrics, folder);
+        return suite;
+    }
+
+private:
+    void add_baseline_cases(CheckSuite& suite, const CsvTable& metrics, const std::string& folder)
+    {
+        const nlohmann::json run = nlohmann::json::parse(analysis::read_text((fs::path(folder) / "run.json").string()));
+        CsvTable now = analysis::baseline_columns(rules_);
+        analysis::add_baseline_rows(now, rules_, suite.name, metrics, run["character"]["vertices"].get<int>(),
+                                    run["character"]["tets"].get<int>());
+        measured_.append(now);
+        if (baseline_)
+            for (CheckCase& check : analysis::compare_with_baseline(rules_, suite.name, now, baseline_->table, baseline_->file))
+                suite.cases.push_back(std::move(check));
+        suite.properties = analysis::step_times(suite.name, now, baseline_ ? &baseline_->table : nullptr);
+    }
+
+    const CheckRules& rules_;
+    const std::optional<Baseline>& baseline_;
+    CsvTable& measured_;
+};
+
+nlohmann::json to_json(const CheckCase& check)
+{
+    nlohmann::json json = {{"name", check.name}, {"state", to_string(check.state)}, {"message", check.message}};
+    if (check.frame) json["frame"] = *check.frame;
+    if (check.value) json["value"] = *check.value;
+    if (!check.file.empty()) json["file"] = check.file;
+    if (check.line > 0) json["line"] = check.line;
+    return json;
+}
+
+void write_record(const std::string& folder, const std::vector<CheckSuite>& suites, int threads)
+{
+    nlohmann::json record = {{"schema", 1}, {"provenance", analysis::collect_provenance(threads)}};
+    for (const CheckState state : {CheckState::held, CheckState::failed, CheckState::left_out, CheckState::broke_down})
+        record["outcome"][to_string(state)] = count(suites, state);
+    for (const CheckSuite& suite : suites) {
+        nlohmann::json& json = record["scenes"].emplace_back();
+        json = {{"name", suite.name}, {"seconds", suite.seconds}, {"cases", nlohmann::json::array()}};
+        for (const CheckCase& check : suite.cases) json["cases"].push_back(to_json(check));
+        for (const auto& [name, value] : suite.properties) json["tracked"][name] = value;
+    }
+    analysis::write_text_atomically((fs::path(folder) / "check.json").string(), record.dump(2) + "\n");
+}
+
+bool is_left_out(const CheckScene& check)
+{
+    return !check.needs.empty() && !pbs::body_is_installed(check.needs);
+}
+
+void require_scenes(const CheckRules& rules, bool require_all)
+{
+    const bool none = std::all_of(rules.scenes.begin(), rules.scenes.end(), is_left_out);
+    for (const CheckScene& check : rules.scenes)
+        if (is_left_out(check) && (none || require_all)) pbs::require_body(check.needs);
+}
+
+}  // namespace
+
+CheckResult run_check(const CheckArguments& arguments)
+{
+    const CheckRules rules = rules_of(arguments);
+    const std::optional<Baseline> baseline = baseline_of(arguments);
+    require_scenes(rules, arguments.require_all);
+
+    CsvTable measured = analysis::baseline_columns(rules);
+    SceneCheck scenes(rules, baseline, measured);
+    CheckResult result;
+    for (const CheckScene& check : rules.scenes)
+        result.suites.push_back(is_left_out(check) ? suite_left_out(check, rules)
+                                                   : scenes.suite(check, (fs::path(arguments.folder) / check.name).string(),
+                                                                  arguments.threads, result.breakdowns));
+    if (!arguments.write_baseline.empty()) measured.write(arguments.write_baseline);
+    write_record(arguments.folder, result.suites, arguments.threads);
+    return result;
+}
+
+}  // namespace experiments
