@@ -1,0 +1,28 @@
+# Doxygen reads `///`, the headers are written with `//`: a comment before a declaration, or behind it, becomes its documentation, the first
+# comment the file's, an indented line in it code. Lines keep their numbers: \file takes that of #pragma once.
+function escaped(text) { gsub(/[\\@#<>%&$]/, "\\\\&", text); gsub(/::/, "\\::", text); return text }
+
+function flush(closing) { if (held != "") print held closing; held = "" }
+
+FNR == 1 { print "/// \\file"; in_head = 1 }
+/^#pragma once/ { in_head = 0; flush(in_code ? " \\endcode" : ""); in_code = 0; next }
+
+/^ *\/\// {
+    start = index($0, "//")
+    text = substr($0, start + 2)
+    is_code = text ~ /^   /
+    flush(in_code && !is_code ? " \\endcode" : "")
+    held = substr($0, 1, start - 1) "///" (is_code ? (in_code ? "" : " \\code{.cpp}") text : escaped(text))
+    in_code = is_code
+    next
+}
+
+{
+    flush(in_code ? " \\endcode" : "")
+    in_code = 0
+    place = match($0, /[;,{}]  +\/\/ /)
+    if (place && $0 !~ /^#|namespace /) print substr($0, 1, place) "  ///< " escaped(substr($0, place + RLENGTH))
+    else if (match($0, /^[ A-Za-z_0-9]+  \/\/ /)) print substr($0, 1, RLENGTH - 5) "  ///< " escaped(substr($0, RLENGTH + 1))
+    else print
+}
+END { flush(in_code ? " \\endcode" : "") }

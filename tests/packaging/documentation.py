@@ -1,0 +1,55 @@
+"""The documentation of the headers builds without a warning and says what the headers say. Long.
+
+Truth: the headers themselves; a page is Doxygen's reading of what cmake/documentation/comments.awk hands it.
+"""
+import html
+import os
+import re
+import shutil
+import sys
+import unittest
+
+from installation import BUILD, CMAKE, SOURCE, run
+
+
+def words_of(page):
+    text = (BUILD / "doc/html" / page).read_text(encoding="utf-8")
+    return " ".join(html.unescape(re.sub(r"<[^>]+>", " ", text)).split())
+
+
+class Documentation(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.built = run(CMAKE, "--build", BUILD, "--target", "doc")
+
+    def test_no_warning(self):
+        self.assertEqual(self.built.returncode, 0, self.built.stdout[-3000:])
+
+    def test_shapes_and_units(self):
+        self.assertIn("bind_points are the posed q_i [m], #V x 3", words_of("classpbs_1_1PbsSolver.html"))
+
+    def test_comments_behind_members(self):
+        self.assertIn("stop when the largest of the three residuals is below", words_of("structpbs_1_1PbsOptions.html"))
+
+    def test_sources(self):
+        self.assertIn("Kavan, Collins, Zara, O'Sullivan", words_of("blend_8hpp.html"))
+
+    def test_errors(self):
+        self.assertIn("file, line, field, value and the rule it breaks", words_of("input__error_8hpp.html"))
+
+    def test_every_installed_header_has_a_page(self):
+        files = words_of("files.html")
+        for folder in ("pbs", "reference_fem", "analysis"):
+            for header in (SOURCE / folder).rglob("*.hpp"):
+                self.assertIn(f" {header.name} ", f" {files} ")
+
+    def test_main_page(self):
+        self.assertIn("put to the test", words_of("index.html"))
+
+
+if __name__ == "__main__":
+    if os.environ.get("PBS_LONG") != "1":
+        sys.exit(77)
+    if not shutil.which("doxygen"):
+        sys.exit("doxygen is not there")
+    unittest.main()
