@@ -1,0 +1,45 @@
+"""`cmake --workflow --preset ci` is what ./check runs, and ./check is what continuous integration runs.
+
+Truth: the files themselves, read side by side.
+"""
+import json
+import os
+import pathlib
+import re
+import unittest
+
+SOURCE = pathlib.Path(os.environ["PBS_SOURCE"])
+
+
+def text(name):
+    return (SOURCE / name).read_text(encoding="utf-8")
+
+
+class Presets(unittest.TestCase):
+    def setUp(self):
+        presets = json.loads(text("CMakePresets.json"))
+        self.steps = {flow["name"]: [(step["type"], step["name"]) for step in flow["steps"]] for flow in presets["workflowPresets"]}
+        self.configured = {preset["name"]: preset for preset in presets["configurePresets"]}
+
+    def test_check_configures_by_the_preset_of_the_workflow(self):
+        self.assertEqual(self.steps["ci"], [("configure", "ci"), ("build", "ci"), ("test", "ci")])
+        self.assertEqual(re.findall(r"configure cmake --preset (\S+)", text("check")), ["ci"])
+        self.assertNotRegex(text("check"), r"--preset ci[^|]* -D")
+
+    def test_both_in_one_folder(self):
+        folder = re.search(r"^build_folder=(\S+)$", text("cmake/setup.sh"), re.MULTILINE)[1]
+        self.assertEqual(self.configured["ci"]["binaryDir"], "${sourceDir}/" + folder)
+
+    def test_continuous_integration_runs_check(self):
+        self.assertRegex(text(".ci/run"), r'(?m)^exec ".*/\.\./check" "\$@"$')
+
+    def test_packages_are_for_any_machine(self):
+        self.assertEqual(self.steps["package"][-1], ("package", "package"))
+        self.assertEqual(self.configured["package"]["cacheVariables"]["PBS_NATIVE"], "OFF")
+
+    def test_contributing_names_it(self):
+        self.assertIn("cmake --workflow --preset ci", text("CONTRIBUTING.md"))
+
+
+if __name__ == "__main__":
+    unittest.main()
