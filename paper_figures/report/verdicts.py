@@ -68,7 +68,7 @@ def in_words(run):
         return run
     body, number, variant = clip.groups()
     flesh = {"jiggle": ", jiggling flesh", None: ""}
-    return f"{body if body == 'human' else body.capitalize()}, clip {number}" + flesh.get(variant, f", {variant}")
+    return f"{body}, clip {number}" + flesh.get(variant, f", {variant}")
 
 
 def angles(case):
@@ -124,9 +124,9 @@ def measured(claim):
     """The claim's own figures: every case, or every quantity's range; in brackets their intervals."""
     if claim["cases"]:
         cases = own_cases(claim)
-        of_clips = "of frames within" if is_share(claim) else "means"
-        told = [f"% {of_clips} [95 % interval]"] if not all(map(is_sweep, cases)) else []
-        return items([*told, *(case_text(claim, case) for case in cases)], "plain")
+        sweeps, clips = ([case_text(claim, case) for case in cases if is_sweep(case) == swept] for swept in (True, False))
+        what = "share of frames within" if is_share(claim) else "mean"
+        return items([*sweeps, *([f"Of clips the {what}, in % [95 % interval]:"] if clips else []), *clips], "plain")
     if not claim["measurements"]:
         return claim["measured"] or "\u2013"
     quantities = dict.fromkeys(entry["quantity"] for entry in claim["measurements"])

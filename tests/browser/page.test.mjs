@@ -119,10 +119,10 @@ test("a claim's link to its pose takes the focus along", async () => {
     assert.ok(await page.evaluate(() => document.getElementById("frame-viewer").contains(document.activeElement)));
 });
 
-// Texts of elements beyond the window, but for those in a box of its own that scrolls; cells of one row that lie over each other; cells
-// whose content is wider than they are.
-function faults_of_layout() {
-    const scrolls = (one) => one.closest(".scroll, pre, .unseen, .skip, #readout, details:not([open])");
+// Texts of elements beyond the window, but for those in a box of its own that scrolls (nothing does on paper); cells of one row that lie
+// over each other; cells whose content is wider than they are.
+function faults_of_layout(boxes) {
+    const scrolls = (one) => one.closest(`${boxes}.unseen, .skip, #readout, details:not([open])`);
     const seen = (one) => one.getClientRects().length > 0;
     const name = (one) => `${one.tagName} ${one.className} "${one.textContent.slice(0, 40)}"`;
     const beyond = [...document.querySelectorAll("body *")].filter((one) => seen(one) && !scrolls(one)
@@ -144,7 +144,7 @@ for (const [name, width, height] of [["desktop", 1280, 900], ["phone", 390, 844]
     test(`nothing is beyond ${width} px or lies over another`, async () => {
         const other = await open_viewer(file, "", { width, height, touch: width < 500 });
         try {
-            assert.deepEqual(await other.page.evaluate(faults_of_layout), { beyond: [], over: [] });
+            assert.deepEqual(await other.page.evaluate(faults_of_layout, ".scroll, pre, "), { beyond: [], over: [] });
             if (pictures) {
                 await other.page.locator("#verdicts").screenshot({ path: `${pictures}/page_verdicts_${name}.png` });
                 await other.page.locator("#figures figure:has(svg)").last().screenshot({ path: `${pictures}/page_figure_${name}.png` });
@@ -162,6 +162,13 @@ test("on paper the tables are whole, without what can only be pressed", async ()
     const clipped = await page.locator(".scroll").evaluateAll((all) => all.filter((one) => one.getClientRects().length
         && getComputedStyle(one).overflowY !== "visible").length);
     assert.equal(clipped, 0);
+    const { width, height } = page.viewportSize();
+    await page.setViewportSize({ width: 718, height: 1046 });  // A4 at 96 points an inch within Chromium's margins of 1 cm
+    await settle(page);
+    assert.deepEqual(await page.evaluate(faults_of_layout, "pre, "), { beyond: [], over: [] });
+    if (pictures) await page.screenshot({ path: `${pictures}/page_paper.png` });
+    if (pictures) await page.locator("#verdicts").screenshot({ path: `${pictures}/page_paper_verdicts.png` });
+    await page.setViewportSize({ width, height });
     const paper = await page.pdf({ format: "A4", ...(pictures ? { path: `${pictures}/report.pdf` } : {}) });
     assert.ok((paper.toString("latin1").match(/\/Type\s*\/Page\b/g) ?? []).length >= 3);
     await page.emulateMedia({ media: "screen", reducedMotion: "reduce" });
