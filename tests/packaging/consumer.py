@@ -9,9 +9,11 @@ import shutil
 import unittest
 
 import installation
-from installation import CMAKE, SOURCE, folder, run
+from installation import BUILD, CMAKE, SOURCE, folder, run
 
 project = SOURCE / "tests/packaging/method_consumer"
+# Of the build under test: a sanitizer's are asked of all that is linked with it.
+own_flags = re.search(r"^CMAKE_CXX_FLAGS:STRING=(.*)$", (BUILD / "CMakeCache.txt").read_text(), re.MULTILINE)[1]
 
 
 def setUpModule():
@@ -19,8 +21,9 @@ def setUpModule():
     prefix = installation.install("method")
 
 
-def configure(source, build, *options):
-    return run(CMAKE, "-S", source, "-B", folder / build, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}", *options)
+def configure(source, build, flags=""):
+    return run(CMAKE, "-S", source, "-B", folder / build, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}",
+               f"-DCMAKE_CXX_FLAGS={own_flags} {flags}")
 
 
 def asking_for(name, components, version=""):
@@ -53,7 +56,7 @@ class Consumer(unittest.TestCase):
     # An array allocated here and freed there would crash.
     @unittest.skipUnless(platform.machine() == "x86_64", "the registers of x86-64")
     def test_wider_registers_are_refused(self):
-        configured = configure(project, "wider", "-DCMAKE_CXX_FLAGS=-mavx")
+        configured = configure(project, "wider", "-mavx")
         self.assertEqual(configured.returncode, 0, configured.stderr)
         built = run(CMAKE, "--build", folder / "wider")
         self.assertNotEqual(built.returncode, 0)
