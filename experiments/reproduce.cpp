@@ -104,6 +104,7 @@ StudyOutcome run_study(const PlannedStudy& planned, const std::vector<StudyRun>&
         const auto run = std::find_if(runs.begin(), runs.end(), [&](const StudyRun& of) { return of.name == result.name; });
         if (result.finished) outcome.costs.add(result.name, run->cost_s, result.cpu_s);
     }
+    outcome.costs.complete(planned.folder, planned.plan);
     outcome.costs.write();
     outcome.folders = finished_runs(planned.folder);
     return outcome;

@@ -1,5 +1,6 @@
 #include "experiments/study_costs.hpp"
 
+#include "analysis/atomic_file.hpp"
 #include "analysis/csv_table.hpp"
 
 #include <fmt/format.h>
@@ -8,15 +9,37 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
+#include <optional>
 
 namespace experiments {
+namespace {
+
+struct RecordedCost {
+    double cpu_s = 0.0;  // of its own process, all its threads
+    std::optional<double> wall_s;
+};
+
+// Nothing where the run did not end.
+std::optional<RecordedCost> recorded_cost(const std::filesystem::path& folder)
+{
+    if (!std::filesystem::exists(folder / "run.json")) return std::nullopt;
+    const auto run = nlohmann::json::parse(analysis::read_text((folder / "run.json").string()));
+    const auto& outcome = run.at("outcome");
+    RecordedCost cost;
+    cost.cpu_s = (run.contains("cost") ? run.at("cost").at("cpu_seconds").at("total") : outcome.at("cpu_seconds")).get<double>();
+    if (outcome.contains("wall_s")) cost.wall_s = outcome.at("wall_s").get<double>();
+    return cost;
+}
+
+}  // namespace
 
 StudyCosts::StudyCosts(const std::string& folder) : file_((std::filesystem::path(folder) / "costs.csv").string())
 {
     if (!std::filesystem::exists(file_)) return;
     const analysis::CsvTable table = analysis::read_csv(file_);
     for (int row = 0; row < table.rows(); ++row)
-        runs_.push_back({table.text_at(row, "run"), table.number(row, "expected_cpu_s"), table.number(row, "cpu_s")});
+        runs_.push_back({table.text_at(row, "run"), table.number(row, "expected_cpu_s"), table.number(row, "cpu_s"),
+                         table.has_column("wall_s") ? table.number_or_nothing(row, "wall_s") : std::nullopt});
 }
 
 void StudyCosts::add(const std::string& run, double expected_s, double cpu_s)
@@ -25,10 +48,24 @@ void StudyCosts::add(const std::string& run, double expected_s, double cpu_s)
     runs_.push_back({run, expected_s, cpu_s});
 }
 
+void StudyCosts::complete(const std::string& folder, const StudyPlan& plan)
+{
+    std::vector<RunCost> ordered;
+    for (const StudyRun& run : plan.runs) {
+        const auto recorded = recorded_cost(std::filesystem::path(folder) / run.name);
+        if (!recorded) continue;
+        const auto row = std::find_if(runs_.begin(), runs_.end(), [&](const RunCost& cost) { return cost.run == run.name; });
+        ordered.push_back(row != runs_.end() ? *row : RunCost{run.name, run.cost_s, recorded->cpu_s});
+        ordered.back().wall_s = recorded->wall_s;
+    }
+    runs_ = ordered;
+}
+
 void StudyCosts::write() const
 {
-    analysis::CsvTable table({"run", "expected_cpu_s", "cpu_s"});
-    for (const RunCost& cost : runs_) table.add_row({cost.run, cost.expected_s, cost.cpu_s});
+    analysis::CsvTable table({"run", "expected_cpu_s", "cpu_s", "wall_s"});
+    for (const RunCost& cost : runs_)
+        table.add_row({cost.run, cost.expected_s, cost.cpu_s, cost.wall_s ? analysis::CsvTable::Cell(*cost.wall_s) : std::nullopt});
     table.write(file_);
 }
 

@@ -6,6 +6,7 @@
 
 #include "experiments/studies/study.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace experiments {
 struct RunCost {
     std::string run;
     double expected_s = 0.0, cpu_s = 0.0;  // of one core
+    std::optional<double> wall_s = {};     // by the clock on the wall; older records have none
 };
 
 class StudyCosts {
@@ -21,6 +23,9 @@ public:
     explicit StudyCosts(const std::string& folder);  // with the rows of runs that are kept from before, if any
 
     void add(const std::string& run, double expected_s, double cpu_s);
+    // A run that ended without a row, because its reproduce was killed, gets what its run.json says; rows of the runs that
+    // ended, in the order of the plan.
+    void complete(const std::string& folder, const StudyPlan& plan);
     void write() const;
 
     double expected_s() const;

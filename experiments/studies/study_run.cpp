@@ -2,8 +2,10 @@
 
 #include "analysis/atomic_file.hpp"
 #include "analysis/provenance.hpp"
+#include "experiments/bench/cpu_clock.hpp"
 #include "experiments/library_versions.hpp"
 #include "experiments/run.hpp"
+#include "experiments/run_end.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
@@ -38,12 +40,14 @@ std::string carry_out_work(const StudyRun& run, const std::string& folder)
     const fs::path record = fs::path(folder) / "run.json";
     fs::remove(record);
     const pbs::Stopwatch stopwatch;
+    const double cpu_start_s = process_cpu_s();
     const std::string breakdown = run.work(folder);
 
     analysis::Provenance provenance = analysis::collect_provenance(1);
     for (const auto& [library, version] : library_versions()) provenance.libraries[library] = version;
     const auto [key, value] = identity(run);
-    const nlohmann::json outcome = {{"finished", true}, {"breakdown", breakdown}, {"seconds", stopwatch.seconds()}};
+    nlohmann::json outcome = {{"finished", true}, {"breakdown", breakdown}, {"cpu_seconds", process_cpu_s() - cpu_start_s}};
+    outcome.update(run_end(stopwatch.seconds()));
     const nlohmann::json json = {{"schema", 1}, {key, value}, {"provenance", provenance}, {"outcome", outcome}};
     analysis::write_text_atomically(record.string(), json.dump(2) + "\n");
     return breakdown;

@@ -1,9 +1,14 @@
 // Truth: sums and maxima by hand.
 #include "experiments/study_costs.hpp"
 
+#include "analysis/atomic_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 namespace {
 
@@ -38,6 +43,34 @@ TEST(StudyCosts, StayOverResumedRuns)
     resumed.add("human", 30.0, 28.0);  // done again
     EXPECT_EQ(resumed.expected_s(), 40.0);
     EXPECT_EQ(resumed.cpu_s(), 40.0);
+}
+
+TEST(StudyCosts, RecordsWithoutWallTimeAreRead)
+{
+    const ScratchFolder folder;
+    analysis::write_text_atomically(folder / "costs.csv", "run,expected_cpu_s,cpu_s\nlimb,10,12\n");
+    const StudyCosts costs(folder.path().string());
+    EXPECT_EQ(costs.cpu_s(), 12.0);
+    costs.write();
+    EXPECT_EQ(analysis::read_text(folder / "costs.csv"), "run,expected_cpu_s,cpu_s,wall_s\nlimb,10,12,\n");
+}
+
+// Killed before the table was written: each run's own record tells.
+TEST(StudyCosts, AreCompletedFromTheRunsThatEndedInTheOrderOfThePlan)
+{
+    const ScratchFolder folder;
+    for (const char* run : {"scene", "work", "lost"}) std::filesystem::create_directories(folder.path() / run);
+    folder.file("scene/run.json", R"({"cost": {"cpu_seconds": {"total": 3.5}}, "outcome": {}})");
+    folder.file("work/run.json", R"({"outcome": {"wall_s": 9.0, "cpu_seconds": 8.0}})");
+    StudyPlan plan;
+    for (const char* run : {"scene", "lost", "work"}) plan.runs.push_back({.name = run, .cost_s = 2.0});
+    StudyCosts costs(folder.path().string());
+    costs.add("lost", 2.0, 100.0);  // of an earlier time; it did not end again
+    costs.add("work", 2.0, 8.5);    // as the parent saw it
+    costs.complete(folder.path().string(), plan);
+    costs.write();
+    std::ifstream file(folder / "costs.csv");
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "run,expected_cpu_s,cpu_s,wall_s\nscene,2,3.5,\nwork,2,8.5,9\n");
 }
 
 TEST(StudyCosts, PointAtWhatIsNotWithinAFactorOfTwo)
