@@ -21,7 +21,9 @@ std::size_t terminal_width()
 
 bool terminal_has_colours()
 {
-    return isatty(STDOUT_FILENO) && !std::getenv("NO_COLOR");
+    if (std::getenv("NO_COLOR")) return false;
+    const char* forced = std::getenv("CLICOLOR_FORCE");
+    return forced ? std::strcmp(forced, "0") != 0 : isatty(STDOUT_FILENO) != 0;
 }
 
 }  // namespace experiments
