@@ -1,0 +1,15 @@
+// The edge that is stretched or pressed most: largest |l / l0 - 1| over the edges of a tet mesh.
+//   double strain = largest_edge_strain(mesh.rest, pbs::edges_of(mesh.tets), positions);
+#pragma once
+
+#include "pbs/geometry/types.hpp"
+
+namespace analysis {
+
+// 0 without edges; NaN where a position is. Throws InputError for a frame with another number of points.
+double largest_edge_strain(const pbs::Positions& rest, const pbs::Edges& edges, const pbs::Positions& positions);
+
+// Median over the edges of l / l0: near 1 for whatever a body does, near a power of ten for one in other units. 1 without edges.
+double median_edge_ratio(const pbs::Positions& rest, const pbs::Edges& edges, const pbs::Positions& positions);
+
+}  // namespace analysis
