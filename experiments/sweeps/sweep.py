@@ -12,6 +12,7 @@ import argparse
 import fcntl
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -53,8 +54,12 @@ def check(sweep):
 
 def run(sweep, options, more):
     """Snakemake's own status, but 2 where a run was refused, whose message is shown again."""
+    if not shutil.which("snakemake") or not options.pbskin.is_file():
+        wanted = "snakemake is not installed" if options.pbskin.is_file() else f"{options.pbskin}: no such program"
+        print(f"sweep: {wanted}", file=sys.stderr)
+        return 2
     options.output.mkdir(parents=True, exist_ok=True)
-    lock = os.open(options.output / ".lock", os.O_CREAT | os.O_RDWR)  # unlike snakemake's own, it ends with who holds it, however that ends
+    lock = os.open(options.output / ".lock", os.O_CREAT | os.O_RDWR)  # unlike snakemake's own, it ends with who holds it
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
@@ -62,7 +67,7 @@ def run(sweep, options, more):
         return 2
     for old in options.output.glob("refused/*.txt"):
         old.unlink()
-    where = ["--profile", str(HERE / "slurm")] if options.slurm else ["--cores", str(options.jobs), "--quiet", "rules"]
+    where = ["--profile", str(HERE / "slurm")] if options.slurm else ["--cores", str(options.jobs), "--quiet", "rules", "--scheduler", "greedy"]
     command = ["snakemake", "-s", str(HERE / "Snakefile"), "-d", str(options.output), "--nolock", "--rerun-incomplete",
                *where, *more,
                "--config", f"sweep={pathlib.Path(options.sweep).resolve()}", f"pbskin={options.pbskin.resolve()}"]

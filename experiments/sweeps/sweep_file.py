@@ -1,4 +1,4 @@
-"""A sweep: one scene, some of its keys with several values, and the runs that this makes. Read from a TOML file, whose keys are the scene's:
+"""A sweep: one scene, some of its keys with several values, and the runs that this makes. From a TOML file, whose keys are the scene's:
 
     schema = 1
     scene = "human_01_01"               # built in, or a scene file beside this one

@@ -1,7 +1,8 @@
 """One table of all runs, in the order of the sweep whatever order they ended in:
 
-sweep.csv    a row a run and deformer (or a frame as well): the keys that vary, the outcome, mean, least and largest of every metric over the
-             frames, units in the metrics' names, and the state's hash. No times: the same runs make the same bytes, on any machine of one kind.
+sweep.csv    a row a run and deformer (or a frame as well): the keys that vary, the outcome, mean, least and largest of every metric over
+             the frames, units in the metrics' names, and the state's hash. No times: the same runs make the same bytes, on any machine
+             of one kind.
 costs.csv    a row a run: seconds, processor seconds, memory, files and bytes.
 sweep.json   where all of it comes from; written last.
 
@@ -108,7 +109,8 @@ class Provenance:
         self.statuses[status] = self.statuses.get(status, 0) + 1
 
     def record(self, sweep, digest):
-        return {"schema": 1, "sweep": sweep.file.name, "sweep_text": sweep.text, "sweep_sha256": hashlib.sha256(sweep.text.encode()).hexdigest(),
+        return {"schema": 1, "sweep": sweep.file.name, "sweep_text": sweep.text,
+                "sweep_sha256": hashlib.sha256(sweep.text.encode()).hexdigest(),
                 "scene": os.path.basename(sweep.scene), "scene_sha256_or_name": sweep.scene_hash,
                 "runs": len(sweep.runs), "exit_statuses": self.statuses, "sweep_csv_sha256": digest,
                 "provenance": {key: [json.loads(text) for text in sorted(texts)] for key, texts in sorted(self.said.items())}}

@@ -1,8 +1,8 @@
 """The runs of one job, one after the other, each in its own folder `runs/NAME` with `pbskin run`'s records.
 
-A run's folder is there when the run is finished, with an outcome.json: how it ended (0, or 3: a numerical breakdown, which is a result), and
-what it cost. It is never run again. Bad input (2), an interruption or a crash is no outcome: it stops the job with the program's message,
-which also lies in `refused/NAME.txt`."""
+A run's folder is there when the run is finished, with an outcome.json: how it ended (0, or 3: a numerical breakdown, which is a result),
+and what it cost. It is never run again. Bad input (2), an interruption or a crash is no outcome: it stops the job with the program's
+message, which also lies in `refused/NAME.txt`."""
 import json
 import os
 import pathlib
@@ -87,7 +87,8 @@ def start(sweep, run, place, pbskin):
     for override in run.overrides:
         command += ["--set", override]
     begin, before = time.monotonic(), children_seconds()
-    process = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace")
+    process = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                             errors="replace")
     seconds, cpu_seconds = time.monotonic() - begin, children_seconds() - before
     if process.returncode not in OUTCOMES:
         raise RunFailed(process.returncode, process.stderr.strip() or f"{pbskin} ended with status {process.returncode}")

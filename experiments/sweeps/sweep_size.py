@@ -4,9 +4,12 @@
     wall hours = core-hours / cores, where the jobs are many more than the cores; at least one job's time
     storage = runs x bytes a run, in whole blocks; files = runs x files a run + jobs
 
-Means over the measured runs, with the dearest beside. A job's start is snakemake's own, twice on Slurm (measured: --job-start-s)."""
+Means over the measured runs, with the dearest beside. A job's start (--job-start-s) is
+snakemake's own, twice on Slurm: 3 to 5 s were seen."""
 import math
 import pathlib
+import random
+import sys
 import tempfile
 
 import sweep_runs
@@ -16,7 +19,7 @@ def add_options(parser):
     parser.add_argument("--runs", type=int, default=10_000)
     parser.add_argument("--cores", type=int, default=64, help="of all nodes together")
     parser.add_argument("--batch", type=int, help="runs a job; output.batch by default")
-    parser.add_argument("--sample", type=int, default=3, help="runs that are measured, spread over the sweep; into DIR/runs, or thrown away")
+    parser.add_argument("--sample", type=int, default=5, help="runs measured, picked at random; kept in DIR/runs, if any")
     parser.add_argument("--job-start-s", type=float, default=5.0)
 
 
@@ -40,8 +43,8 @@ def heaviest(folder):
 
 
 def measured(sweep, options, folder):
-    step = max(len(sweep.runs) // max(options.sample, 1), 1)
-    for run in sweep.runs[::step][:max(options.sample, 1)]:
+    sample = random.Random(1).sample(range(len(sweep.runs)), min(options.sample, len(sweep.runs)))  # no stride, which a grid could share
+    for run in (sweep.runs[i] for i in sorted(sample)):
         outcome = sweep_runs.finish(sweep, run, folder, options.pbskin)
         print("%s: %.2f processor seconds, %.3f MB, %d files: %s" % (
             run.name, outcome["cpu_seconds"], outcome["stored_bytes"] / 1e6, outcome["files"],
@@ -51,16 +54,17 @@ def measured(sweep, options, folder):
 
 def size(sweep, options):
     batch = options.batch or sweep.batch
-    if min(options.runs, options.cores, batch) < 1 or options.job_start_s < 0:
-        print("sweep: --runs, --cores, --batch: expected at least 1")
+    if min(options.runs, options.cores, batch, options.sample) < 1 or not options.job_start_s >= 0:
+        print("sweep: --runs, --cores, --batch, --sample: expected at least 1; --job-start-s: at least 0", file=sys.stderr)
         return 2
     with tempfile.TemporaryDirectory() as scratch:
         costs = list(measured(sweep, options, options.output or scratch))
     total = paper(costs, options.runs, batch, options.cores, options.job_start_s)
     print("a run: %(mean_s).2f processor seconds (the dearest %(most_s).2f), %(mean_mb).3f MB, %(mean_files).1f files" % total)
-    print("%d runs in %d jobs: %.1f core-hours, %.2f hours on %d cores, %.2f GB, %d files" % (
-        options.runs, total["jobs"], total["core_hours"], total["wall_hours"], options.cores, total["storage_gb"], total["files"]))
+    print("%d runs in %d jobs: %.1f core-hours, %.1f minutes on %d cores, %.2f GB, %d files" % (
+        options.runs, total["jobs"], total["core_hours"], 60 * total["wall_hours"], options.cores, total["storage_gb"], total["files"]))
     print("starts of jobs: %.1f core-hours of these; more runs a job (output.batch) make them fewer" % (
         total["jobs"] * options.job_start_s / 3600))
-    print('to switch off: frames/ by `output.frames_every = 0`, `output.frames = []`, `output.frame_names = []`; columns by `output.metrics`')
+    print("to switch off: frames/ by `output.frames_every = 0`, `output.frames = []`, `output.frame_names = []`; "
+          "columns by `output.metrics`")
     return 0

@@ -1,5 +1,5 @@
-"""A Slurm cluster of one node in a folder of its own: munged, slurmctld and slurmd on free ports of the loopback, with their own key, socket,
-configuration and state; no accounting, no cgroups. Nothing of a system's Slurm is read or touched, and root is not needed.
+"""A Slurm cluster of one node in a folder of its own: munged, slurmctld and slurmd on free ports of the loopback, with their own key,
+socket, configuration and state; no accounting, no cgroups. Nothing of a system's Slurm is read or touched, and root is not needed.
 
     with slurm_cluster.SlurmCluster() as cluster:
         subprocess.run(["sbatch", ...], env=cluster.environment)
@@ -108,7 +108,8 @@ class SlurmCluster:
             (self.folder / name).chmod(mode)
         controller_port, node_port = free_ports(2)
         configuration = self.folder / "slurm.conf"
-        configuration.write_text(CONFIGURATION.format(folder=self.folder, user=getpass.getuser(), controller_port=controller_port, node_port=node_port))
+        configuration.write_text(CONFIGURATION.format(folder=self.folder, user=getpass.getuser(), controller_port=controller_port,
+                                                      node_port=node_port))
         self.environment = {name: value for name, value in os.environ.items() if not name.startswith(("SLURM", "SBATCH", "SRUN"))}
         self.environment.update(PATH=PATH, SLURM_CONF=str(configuration), USER=getpass.getuser())
         munge = self.folder / "munge"
@@ -122,8 +123,9 @@ class SlurmCluster:
 
     def daemon(self, *command):
         with open(self.folder / f"{command[0]}.out", "w", encoding="utf-8") as log:
-            self.daemons.append(subprocess.Popen([str(part) for part in command], stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,
-                                                 env=self.environment, preexec_fn=lambda: _prctl(DEATH_SIGNAL, signal.SIGTERM, 0, 0, 0)))
+            self.daemons.append(subprocess.Popen([str(part) for part in command], stdin=subprocess.DEVNULL, stdout=log, stderr=log,
+                                                 start_new_session=True, env=self.environment,
+                                                 preexec_fn=lambda: _prctl(DEATH_SIGNAL, signal.SIGTERM, 0, 0, 0)))
 
     def told(self, *command):
         return subprocess.run(command, capture_output=True, text=True, env=self.environment, timeout=60).stdout

@@ -1,8 +1,9 @@
 """Sweeps here and on a Slurm cluster of one node, which the test starts and stops. Run by `./check --long`, which sets PBS_LONG=1: then a
 program that is missing fails the test.
 
-Truth: the other engine. The same sweep makes the same bytes of sweep.csv, also where it was killed and begun again while its jobs were still
-queued; the reference on two tasks of a Slurm job is that of one process to within both residuals (see verification/experiments/distributed)."""
+Truth: the other engine. The same sweep makes the same bytes of sweep.csv, also where it was killed and begun again while its jobs were
+still queued; the reference on two tasks of a Slurm job is that of one process to within both residuals (see
+verification/experiments/distributed)."""
 import csv
 import json
 import os
@@ -21,7 +22,15 @@ import slurm_cluster
 
 SWEEPS = pathlib.Path(program.SOURCE, "experiments/sweeps")
 MODE_SHARE = 0.78  # of a uniform transverse load in a cantilever's first mode
-BAD = 'schema = 1\nscene = "limb_bend"\n[set]\nmotion.frames = 2\n[grid]\npbs.k_volume = [0.5, 1.4]\n'
+BAD = """schema = 1
+scene = "limb_bend"
+[set]
+motion.frames = 2
+reference.name = ""
+deformers.use = ["pbs"]
+[grid]
+pbs.k_volume = [0.5, 1.4]
+"""
 
 
 class Sweeps(program.ProgramTest):
@@ -35,11 +44,13 @@ class Sweeps(program.ProgramTest):
         cls.addClassCleanup(cls.cluster.stop)
 
     def command(self, sweep, name, *options):
-        return [sys.executable, "-B", str(SWEEPS / "sweep.py"), "run", str(sweep), "-o", self.path(name), "--pbskin", program.PBSKIN, *options]
+        start = [sys.executable, "-B", str(SWEEPS / "sweep.py"), "run", str(sweep)]
+        return [*start, "-o", self.path(name), "--pbskin", program.PBSKIN, *options]
 
     def sweep(self, sweep, name, *options, status=0):
         start = time.monotonic()
-        process = subprocess.run(self.command(sweep, name, *options), env=self.cluster.environment, capture_output=True, text=True, timeout=600)
+        process = subprocess.run(self.command(sweep, name, *options), env=self.cluster.environment, capture_output=True, text=True,
+                                 timeout=600)
         print(f"{name}: {time.monotonic() - start:.1f} s", flush=True)
         self.assertEqual(process.returncode, status, process.stderr[-4000:])
         return process
@@ -47,7 +58,8 @@ class Sweeps(program.ProgramTest):
     def assert_same_tables(self, first, second, rows):
         self.assertEqual(self.read(first, "sweep.csv"), self.read(second, "sweep.csv"))
         self.assertEqual(self.read(first, "sweep.csv").count("\n"), 1 + rows)
-        self.assertEqual(json.loads(self.read(first, "sweep.json"))["exit_statuses"], json.loads(self.read(second, "sweep.json"))["exit_statuses"])
+        told = [json.loads(self.read(name, "sweep.json")) for name in (first, second)]
+        self.assertEqual(told[0]["exit_statuses"], told[1]["exit_statuses"])
 
     def jobs_of(self, name):
         return list(pathlib.Path(self.path(name), ".snakemake/slurm_logs").rglob("*.log"))

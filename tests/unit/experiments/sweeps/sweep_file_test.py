@@ -41,7 +41,8 @@ REFUSED = {  # name: (replaced, by, line, what the message holds)
     "nothing varies": (GOOD[GOOD.index("[grid]"):], "", 1, "expected a [grid] or [[run]] tables"),
     "grid no table": (GOOD[GOOD.index("[set]"):], "grid = 3\n", 3, "grid = 3: expected a table"),
     "run no tables": ("[grid]", "[run]", 6, "expected [[run]] tables"),
-    "runs of other keys": ("[grid]", "[[run]]\na.b = 1\n[[run]]\na.c = 1\n[grid]", 8, 'run = "a.c": expected the keys of the first [[run]]: a.b'),
+    "runs of other keys": ("[grid]", "[[run]]\na.b = 1\n[[run]]\na.c = 1\n[grid]", 8,
+                           'run = "a.c": expected the keys of the first [[run]]: a.b'),
     "run twice": ("[grid]", "[[run]]\na.b = 1\n[[run]]\na.b = 1\n[grid]", 8, "expected every run once"),
     "run of a key of the grid": ("[grid]", "[[run]]\npbs.iterations = 1\n[grid]", 7, "run.pbs.iterations = 1: is set for all runs"),
     "too many": ("[1, 2, 3]", str(list(range(500_001))), 6, "expected at most 1000000"),
@@ -67,7 +68,8 @@ class SweepFile(unittest.TestCase):
         expected = list(itertools.product(["0.1", "0.2"], ["1", "2", "3"]))
         self.assertEqual([tuple(run.varied.values()) for run in sweep.runs], expected)
         self.assertEqual(sweep.keys, ["pbs.k_stretch", "pbs.iterations"])
-        self.assertEqual(sweep.runs[4].overrides, ["motion.frames=3", 'deformers.use=["lbs", "pbs"]', "pbs.k_stretch=0.2", "pbs.iterations=2"])
+        self.assertEqual(sweep.runs[4].overrides,
+                         ["motion.frames=3", 'deformers.use=["lbs", "pbs"]', "pbs.k_stretch=0.2", "pbs.iterations=2"])
         self.assertEqual(len({run.name for run in sweep.runs}), 6)
 
     def test_listed_runs_each_over_the_grid(self):
@@ -79,8 +81,9 @@ class SweepFile(unittest.TestCase):
     def test_names_are_of_what_runs_not_of_the_file(self):
         names = {tuple(run.varied.values()): run.name for run in self.read(GOOD).runs}
         grown = self.read("# a note\n" + GOOD.replace("0.2]", "0.2, 0.3]").replace("[grid]", "[output]\nbatch = 2\n[grid]")).runs
-        self.assertEqual({key: name for key, name in names.items()}, {key: run.name for run in grown if (key := tuple(run.varied.values())) in names})
-        others = {run.name for change in (("frames = 3", "frames = 4"), ("limb_bend", "limb_twist")) for run in self.read(GOOD.replace(*change)).runs}
+        self.assertEqual(names, {key: run.name for run in grown if (key := tuple(run.varied.values())) in names})
+        changes = ("frames = 3", "frames = 4"), ("limb_bend", "limb_twist")
+        others = {run.name for change in changes for run in self.read(GOOD.replace(*change)).runs}
         self.assertFalse(others & set(names.values()))
 
     def test_scene_file_counts_by_what_is_in_it(self):

@@ -1,5 +1,5 @@
-"""Truth: the definition, with a program that stands for pbskin. A run that ended is never started again; a numerical breakdown is an outcome;
-bad input and crashes are none, and their message is kept. The sizes on paper are arithmetic."""
+"""Truth: the definition, with a program that stands for pbskin. A run that ended is never started again; a numerical breakdown is an
+outcome; bad input and crashes are none, and their message is kept. The sizes on paper are arithmetic."""
 import json
 import os
 import pathlib
@@ -53,6 +53,31 @@ class SweepRuns(unittest.TestCase):
         self.finish(self.sweep(1, 2))
         self.finish(self.sweep(1, 2, 3))
         self.assertEqual(self.starts(), ["1", "2", "3"])
+
+    def test_of_two_that_do_one_run_the_first_to_end_counts(self):
+        sweep = self.sweep(1)
+        place = self.folder / "runs" / sweep.runs[0].name
+        real_start = sweep_runs.start
+
+        def overtaken(*arguments):
+            outcome = real_start(*arguments)
+            with mock.patch.object(sweep_runs, "start", real_start):
+                self.finish(sweep)
+            return outcome
+
+        with mock.patch.object(sweep_runs, "start", overtaken):
+            self.assertEqual(list(self.finish(sweep).values()), [0])
+        self.assertEqual(self.starts(), ["1", "1"])
+        self.assertEqual([path.name for path in place.parent.iterdir()], [place.name])
+
+    def test_a_folder_that_is_no_run_is_told(self):
+        sweep = self.sweep(1)
+        place = self.folder / "runs" / sweep.runs[0].name
+        place.mkdir(parents=True)
+        (place / "notes").write_text("")
+        with self.assertRaises(sweep_runs.RunFailed) as caught:
+            self.finish(sweep)
+        self.assertIn("not a finished run", str(caught.exception))
 
     def test_bad_input_stops_the_job_with_its_message(self):
         sweep = self.sweep(1, 100, 2)

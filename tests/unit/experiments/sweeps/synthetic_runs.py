@@ -1,5 +1,6 @@
-"""Stands for pbskin: what a sweep starts, with metrics that are known. As a program: `run SCENE --quiet -o DIR --set k=v...`; pbs.iterations
-tells the metrics (100: refused, 101: a breakdown, 102: killed), and every start leaves a line in the file that STARTS names."""
+"""Stands for pbskin: what a sweep starts, with metrics that are known. As a program: `run SCENE --quiet -o DIR --set k=v...`;
+pbs.iterations tells the metrics (100: refused, 101: a breakdown, 102: killed), and every start leaves a line in the file that STARTS
+names."""
 import json
 import os
 import pathlib
