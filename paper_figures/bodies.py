@@ -62,7 +62,7 @@ def skin(file, color=rendering.skin_color):
     return _actor(surface(rendering.read(file)), color)
 
 
-def glass(data, color=rendering.skin_color, opacity=0.18):
+def glass(data, color=rendering.skin_color, opacity=0.3):
     """The skin to look through."""
     actor = _actor(surface(data), color, ambient=0.6)
     actor.GetProperty().SetOpacity(opacity)

@@ -1,21 +1,23 @@
-"""The paper's Fig. 9: the human walking under PBS with its jiggling zone, the skin coloured by its distance from PBS without one; a
-camera that turns with the hips, in front and behind."""
+"""The paper's Fig. 9: the human walking under PBS with its jiggling zone, the skin coloured by its distance from PBS
+as stiff without one; a camera that turns with the hips, in front and behind."""
 import matplotlib
 import numpy
 
 import bodies
+import recorded_distances
 import recorded_frames
 import rendering
 import style
 
 scene, shown = "human_walk", (0, 12, 24, 36, 48, 60)
+compared = ("pbs_jiggle", "pbs_no_zone")
 sides = {"front": 1, "back": -1}
 scale, colors = matplotlib.colors.Normalize(0, 60), matplotlib.colormaps["YlGnBu"]  # [mm]
 
 
 def distances_mm(frames, frame):
     """Of each point of the rendered surface."""
-    jiggling, still = (bodies.points_of(frames.skin(label, frame)) for label in ("pbs_jiggle", "pbs"))
+    jiggling, still = (bodies.points_of(frames.skin(label, frame)) for label in compared)
     return 1000 * numpy.linalg.norm(jiggling - still, axis=1)
 
 
@@ -29,9 +31,9 @@ def draw_pose(panels, frames, frame, stage):
         style.show(panel, stage.shot([actor], rendering.Camera((low + high) / 2, 0.88, sign * (forward + 0.5 * left) + (0, 0.12, 0))))
     time_s = float(frames.row("pbs_jiggle", frame)["time_s"])
     panels[0].set_title(f"{time_s:.2f} s")
-    panels[-1].set_xlabel(f"largest {away_mm.max():.0f} mm")
-    return {"scene": scene, "frame": frame, "time_s": time_s, "points": len(away_mm), "largest_mm": away_mm.max(),
-            "rms_mm": numpy.sqrt((away_mm ** 2).mean())}
+    apart = recorded_distances.between(frames, frame, *compared)
+    panels[-1].set_xlabel(f"largest {apart['largest_mm']:.0f} mm")
+    return {"scene": scene, "frame": frame, "time_s": time_s, **apart}
 
 
 def draw(results, figures):
@@ -41,5 +43,5 @@ def draw(results, figures):
     behind = [draw_pose(panels, frames, frame, stage) for panels, frame in zip(axes.T, shown)]
     for panels, side in zip(axes, sides):
         panels[0].set_ylabel(side)
-    style.bar(figure, axes, scale, colors, "distance of the jiggling skin from the same without a jiggling zone [mm]", "max")
+    style.bar(figure, axes, scale, colors, "distance of the jiggling skin from the same, as stiff, without a jiggling zone [mm]", "max")
     style.save(figure, figures / "fig_09_jiggle", recorded_frames.origin_of(frames), behind)

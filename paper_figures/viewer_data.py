@@ -118,8 +118,8 @@ def pack_surface(recorded, block):
     tets, shares = recorded.embedding()
     if triangles.max() >= len(tets):
         raise records.RecordsMissing(f"{recorded.folder / 'embedding.csv'}: {len(tets)} points, but {file.name} has more")
-    return {"points": len(tets), "triangles": len(triangles), "corners": block.put(triangles.astype("<u4")),
-            "tets": block.put(tets.astype("<u4")), "shares": block.put(shares.astype("<f4"))}
+    return {"points": len(tets), "triangles": len(triangles), "largest_sum": float(abs(shares).sum(axis=1).max()),
+            "corners": block.put(triangles.astype("<u4")), "tets": block.put(tets.astype("<u4")), "shares": block.put(shares.astype("<f4"))}
 
 
 def facts_of(recorded, every):

@@ -102,6 +102,6 @@ export class Run {
 
 function surface_of(header, block) {
     const { points, triangles } = header;
-    return { points, corners: new Uint32Array(block, header.corners, 3 * triangles), tets: new Uint32Array(block, header.tets, points),
-             shares: new Float32Array(block, header.shares, 4 * points) };
+    return { points, largest_sum: header.largest_sum, corners: new Uint32Array(block, header.corners, 3 * triangles),
+             tets: new Uint32Array(block, header.tets, points), shares: new Float32Array(block, header.shares, 4 * points) };
 }

@@ -176,7 +176,9 @@ function note_of(run, every, at) {
     const mark = run.reference_intersects(at) ? "* In this frame the FEM reference passes through itself: distances to it say less. " : "";
     const kept = every === 1 ? "every recorded frame" : `one of ${every} recorded frames`;
     const step_um = (1e6 * run.step_m).toFixed(1);
-    const surface = run.surface ? `, which carry the ${run.surface.points} points of the rendered surface` : "";
+    const carried_um = run.surface ? Math.ceil(0.5e6 * run.step_m * run.surface.largest_sum) : 0;
+    const surface = run.surface
+        ? `, which carry the ${run.surface.points} points of the rendered surface within ${carried_um} \u00b5m` : "";
     const rounding = `Positions are rounded to steps of ${step_um} \u00b5m: each `;
     return `${mark}${run.vertices} vertices, ${run.tets} tets${surface}; ${kept}. ${rounding}`
         + "coordinate is within half of that of the record; volume ratios to 1/127 up to 2; the numbers are the records' own. A cut goes "
