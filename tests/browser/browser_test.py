@@ -27,6 +27,7 @@ columns = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "er
 
 def what_is_missing():
     found = {"node": shutil.which("node"), "npm": shutil.which("npm"), "chromium": pathlib.Path("/usr/bin/chromium").exists(),
+             "xvfb-run": shutil.which("xvfb-run"),
              "paper_figures/viewer/node_modules (npm ci there)": (root / "paper_figures/viewer/node_modules/playwright-core").exists()}
     return [name for name, there in found.items() if not there]
 

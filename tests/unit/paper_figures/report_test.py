@@ -141,6 +141,11 @@ class Report(unittest.TestCase):
         self.assertEqual((len(shown), len(left_out)), (len(whole) - 1, 1))
         self.assertIn(f"left out: {left_out[0]}.", answers.how_far(found))
 
+    def test_runs_are_named_in_words(self):
+        names = ("limb_twist", "human_01_01", "frankie_01_01 (jiggle)", "lady_01_03 (printed)", "ring")
+        self.assertEqual([verdicts.in_words(name) for name in names],
+                         ["limb twisted", "human, clip 01_01", "frankie, clip 01_01, jiggling flesh", "lady, clip 01_03, printed", "ring"])
+
     def test_what_fails_says_by_how_much(self):
         claim = {"verdict": "not reproduced", "cases": [], "expected": "share of steps: 0.5 to 1; ratio of rates: 0.9 to 1.1",
                  "text": "not reproduced: limb, man; farthest: ratio of rates of man, at 10 ms is 2; beside it: all else"}
