@@ -65,7 +65,7 @@ std::vector<SceneKey> pbs_keys()
 {
     return {
         within(key("pbs", "iterations", integer, "24", "", "N_iterations of Algorithm 1"), 0, 1e6),
-        within(key("pbs", "time_step_s", number, "0.01", "s", "time step of Algorithm 1"), above_zero, 1e3),
+        within(key("pbs", "time_step_s", number, "0.01", "s", "time step of Algorithm 1"), 1e-9, 1e3),
         within(key("pbs", "k_stretch", number, "", "",
                    "stiffness of Eq. 10; the paper leaves it unstated outside the jiggling zone; 0 leaves the class out"),
                0, 1),

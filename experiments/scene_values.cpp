@@ -3,6 +3,7 @@
 #include "experiments/scene_schema.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/nearest_name.hpp"
+#include "pbs/geometry/toml_text.hpp"
 
 #include <toml++/toml.h>
 
@@ -91,6 +92,7 @@ bool is_table_name(const std::string& path)
 
 toml::table parse(const std::string& text, const std::string& file)
 {
+    pbs::check_toml_keys(text, file);
     try {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
@@ -101,6 +103,7 @@ toml::table parse(const std::string& text, const std::string& file)
 // VALUE of --set as TOML, or as a bare text.
 toml::table parse_override(const std::string& value)
 {
+    pbs::check_toml_keys(value, "--set");
     try {
         toml::table table = toml::parse("value = " + value);
         if (table.size() == 1) return table;

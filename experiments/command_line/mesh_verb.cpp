@@ -1,5 +1,8 @@
 // pbskin mesh SURFACE -o TETS [--vertices N]: closed or nearly closed surface -> tets of about the wanted size.
 #include "experiments/command_line/verbs.hpp"
+#include "experiments/warnings.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/mesh_remarks.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/quality.hpp"
 
@@ -13,10 +16,22 @@ struct MeshArguments {
     pbs::SurfaceMeshing meshing;
 };
 
+// The mesher knows no file.
+pbs::TetMesh meshed(const MeshArguments& arguments, const pbs::SurfaceMesh& surface)
+{
+    try {
+        return pbs::mesh_surface(surface, arguments.meshing);
+    } catch (const pbs::InputError& error) {
+        throw pbs::InputError(arguments.surface, 0, "", "", error.what());
+    }
+}
+
 int mesh(const MeshArguments& arguments)
 {
-    const pbs::SurfaceMesh surface = pbs::read_surface(arguments.surface);
-    const pbs::TetMesh mesh = pbs::mesh_surface(surface, arguments.meshing);
+    std::vector<std::string> remarks;
+    const pbs::SurfaceMesh surface = pbs::read_surface(arguments.surface, remarks);
+    warn(remarks);
+    const pbs::TetMesh mesh = meshed(arguments, surface);
     pbs::write_tet_mesh(arguments.tets, mesh);
     fmt::print("{}", pbs::describe(pbs::quality_of(mesh)));
     return exit_finished;

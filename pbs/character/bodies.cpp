@@ -18,6 +18,7 @@ namespace pbs {
 namespace {
 
 constexpr int limb_vertices = 1775, bar_vertices = 1800;
+constexpr double most_in_size = 25.0;
 constexpr int mesher_version = 2;  // raised whenever mesh_limb or mesh_bar makes something else
 
 Skeleton limb_skeleton()
@@ -67,6 +68,18 @@ void require_bones_at_the_mesh(const Character& character, const std::string& sk
                      "no bone reaches the mesh's bounding box: other units (skeleton_scale), or another character?");
 }
 
+// Both in the same unit: metres and millimetres, centimetres or inches are 25 times or more apart, a mesh and its bones are not.
+void require_bones_of_the_meshs_size(const Character& character, const std::string& skeleton_file)
+{
+    Eigen::AlignedBox3d bones;
+    for (const Bone& bone : character.skeleton.bones) bones.extend(bone.head).extend(bone.tail);
+    const Positions& rest = character.mesh.rest;
+    const double mesh_m = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm(), ratio = bones.diagonal().norm() / mesh_m;
+    if (ratio < most_in_size && ratio > 1.0 / most_in_size) return;
+    throw InputError(skeleton_file, 0, "extent over the mesh's", std::to_string(ratio),
+                     "expected 1/25 to 25: mesh and skeleton in different units (skeleton_scale)?");
+}
+
 Character make_from_files(const CharacterSource& source)
 {
     if (source.mesh_file.empty()) throw InputError("", 0, "character.mesh", "", "missing: expected a body, or a mesh and a skeleton");
@@ -76,6 +89,7 @@ Character make_from_files(const CharacterSource& source)
     character.mesh = read_tet_mesh(source.mesh_file).mesh;
     character.skeleton = read_skeleton_of(source);
     require_bones_at_the_mesh(character, source.skeleton_file);
+    require_bones_of_the_meshs_size(character, source.skeleton_file);
     character.inputs = {{file_name(source.mesh_file), hash_of_file(source.mesh_file)},
                         {file_name(source.skeleton_file), hash_of_file(source.skeleton_file)}};
     return character;

@@ -10,6 +10,7 @@ namespace pbs {
 namespace {
 
 constexpr int deepest_nesting = 500;
+constexpr double shortest_frame_s = 1e-6, longest_frame_s = 1e3;
 
 int line_at(const std::string& text, std::size_t place)
 {
@@ -44,6 +45,23 @@ void check_nesting(const std::string& text, std::size_t header_end, const std::s
     }
 }
 
+// Words after the frame time's line: the numbers of all frames, so many channels each. Fewer is assimp's to refuse; of more it reads a
+// part.
+void check_rows(const std::string& text, std::size_t place, double frames, const std::string& path)
+{
+    double channels = 0.0, words = 0.0;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::string count = word_after(text, "CHANNELS", at);
+        if (count.empty()) break;
+        channels += number_of(count);
+    }
+    std::istringstream rest(text.substr(std::min(text.find('\n', place), text.size())));
+    for (std::string word; rest >> word;) ++words;
+    if (words > frames * channels)
+        throw InputError(path, line_at(text, place) + 1, "motion", std::to_string(static_cast<long long>(words)) + " numbers",
+                         "expected Frames times channels: " + std::to_string(static_cast<long long>(frames * channels)));
+}
+
 }  // namespace
 
 void check_bvh_header(const std::string& text, const std::string& path)
@@ -60,8 +78,9 @@ void check_bvh_header(const std::string& text, const std::string& path)
 
     const std::string frame_time = word_after(text, "Time:", place);
     const double seconds = number_of(frame_time);
-    if (!frame_time.empty() && !(seconds > 0.0 && std::isfinite(seconds)))
-        throw InputError(path, line_at(text, place), "Frame Time", frame_time, "expected a time > 0 [s]");
+    if (!frame_time.empty() && !(seconds >= shortest_frame_s && seconds <= longest_frame_s))
+        throw InputError(path, line_at(text, place), "Frame Time", frame_time, "expected a time from 1e-6 to 1000 s");
+    check_rows(text, place, number, path);
 }
 
 }  // namespace pbs

@@ -9,6 +9,7 @@ namespace {
 
 using Rotations = std::vector<Eigen::Quaterniond>;
 
+constexpr double most_steps_per_frame = 1e5;
 constexpr double rounding = 1e-6;  // of a step or frame: times given in decimal are not refused for their last digit
 
 // Local rotations and root position of the clip at `frame`, which may lie between two.
@@ -64,6 +65,8 @@ int steps_per_frame(const ClipSampling& sampling)
     const double steps = 1.0 / (sampling.rate_hz * sampling.time_step_s);
     if (!(std::round(steps) >= 1.0 && std::abs(steps - std::round(steps)) <= rounding * steps))
         throw InputError("", 0, "rate_hz * time_step_s", std::to_string(1.0 / steps), "expected 1 / n: n steps a frame");
+    if (steps > most_steps_per_frame)
+        throw InputError("", 0, "rate_hz * time_step_s", std::to_string(1.0 / steps), "expected at most 100000 steps a frame");
     return static_cast<int>(std::round(steps));
 }
 

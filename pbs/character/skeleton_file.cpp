@@ -4,6 +4,7 @@
 #include "pbs/character/text_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/nearest_name.hpp"
+#include "pbs/geometry/toml_text.hpp"
 
 #include <toml++/toml.h>
 
@@ -78,6 +79,7 @@ NamedJoint read_joint(const toml::node& node, const std::string& file)
 
 toml::table parse_toml(const std::string& text, const std::string& name)
 {
+    check_toml_keys(text, name);
     try {
         return toml::parse(text, name);
     } catch (const toml::parse_error& error) {

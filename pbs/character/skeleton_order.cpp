@@ -11,6 +11,8 @@ namespace pbs {
 namespace {
 
 constexpr double shortest_bone = 1e-9;  // of the diagonal of the skeleton's bounding box
+constexpr std::size_t most_joints = 2000;
+constexpr double farthest_m = 1e9;
 
 std::map<std::string, int> index_of_names(const std::vector<NamedJoint>& joints, const std::string& file)
 {
@@ -30,6 +32,8 @@ void check_lengths(const std::vector<NamedJoint>& joints, const std::string& fil
     Eigen::AlignedBox3d box;
     for (const NamedJoint& joint : joints) box.extend(joint.head).extend(joint.tail);
     for (const NamedJoint& joint : joints) {
+        if (!(joint.head.cwiseAbs().maxCoeff() <= farthest_m && joint.tail.cwiseAbs().maxCoeff() <= farthest_m))
+            throw InputError(file, joint.line, joint.name, "", "expected a bone within 1e9 m of the origin");
         const double length = (joint.tail - joint.head).norm();
         if (length > shortest_bone * box.diagonal().norm()) continue;
         std::ostringstream value;
@@ -62,6 +66,9 @@ std::vector<int> parents_of(const std::vector<NamedJoint>& joints, const std::st
 Skeleton order_skeleton(const std::vector<NamedJoint>& joints, const std::string& file)
 {
     if (joints.empty()) throw InputError(file, 0, "joint", "", "expected at least one [[joint]]");
+    if (joints.size() > most_joints)
+        throw InputError(file, joints[most_joints].line, "joints", std::to_string(joints.size()),
+                         "expected at most " + std::to_string(most_joints));
     check_lengths(joints, file);
     const std::vector<int> parent = parents_of(joints, file);
 

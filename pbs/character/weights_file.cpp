@@ -56,10 +56,16 @@ Row read_row(const std::vector<std::string>& fields, const Skeleton& skeleton, i
     return row;
 }
 
-std::vector<std::vector<Entry>> read_rows(const std::string& path, const Skeleton& skeleton, int vertices)
+// The entries of each vertex and the last line that has one, 0 where none has.
+struct Rows {
+    std::vector<std::vector<Entry>> entries;
+    std::vector<int> line;
+};
+
+Rows read_rows(const std::string& path, const Skeleton& skeleton, int vertices)
 {
     std::istringstream text(read_text_file(path));
-    std::vector<std::vector<Entry>> entries(vertices);
+    Rows rows{std::vector<std::vector<Entry>>(vertices), std::vector<int>(vertices, 0)};
     int number = 0;
     for (std::string line; std::getline(text, line);) {
         ++number;
@@ -67,34 +73,35 @@ std::vector<std::vector<Entry>> read_rows(const std::string& path, const Skeleto
         if (number == 1 && line != "vertex,joint,weight") throw InputError(path, 1, "", "", "expected the header vertex,joint,weight");
         if (number == 1 || line.empty()) continue;
         const Row row = read_row(split(line), skeleton, vertices, path, number);
-        for (const Entry& entry : entries[row.vertex])
+        for (const Entry& entry : rows.entries[row.vertex])
             if (entry.bone == row.entry.bone)
                 throw InputError(path, number, "joint", skeleton.bones[entry.bone].name,
                                  "vertex " + std::to_string(row.vertex) + " has this joint already");
-        entries[row.vertex].push_back(row.entry);
+        rows.entries[row.vertex].push_back(row.entry);
+        rows.line[row.vertex] = number;
     }
     if (number == 0) throw InputError(path, 1, "", "", "expected the header vertex,joint,weight");
-    return entries;
+    return rows;
 }
 
-void check_sum(const std::vector<Entry>& entries, std::size_t vertex, const std::string& path)
+void check_sum(const std::vector<Entry>& entries, std::size_t vertex, int line, const std::string& path)
 {
     if (entries.empty()) throw InputError(path, 0, "vertex", std::to_string(vertex), "has no weights");
     double sum = 0.0;
     for (const Entry& entry : entries) sum += entry.weight;
     if (std::abs(sum - 1.0) > sum_tolerance)
-        throw InputError(path, 0, "vertex " + std::to_string(vertex), std::to_string(sum), "its weights must sum to one within 1e-6");
+        throw InputError(path, line, "vertex " + std::to_string(vertex), std::to_string(sum), "its weights must sum to one within 1e-6");
 }
 
 }  // namespace
 
 Weights read_weights(const std::string& path, const Skeleton& skeleton, int vertices)
 {
-    const std::vector<std::vector<Entry>> entries = read_rows(path, skeleton, vertices);
+    const auto [entries, line] = read_rows(path, skeleton, vertices);
     Weights weights;
     weights.first.push_back(0);
     for (std::size_t vertex = 0; vertex < entries.size(); ++vertex) {
-        check_sum(entries[vertex], vertex, path);
+        check_sum(entries[vertex], vertex, line[vertex], path);
         for (const Entry& entry : entries[vertex]) {
             if (entry.weight == 0.0) continue;
             weights.bone.push_back(entry.bone);

@@ -20,6 +20,7 @@ namespace {
 // |V| / (longest edge)^3 is 0.118 for the regular tet. Rounding of the coordinates alone leaves some 1e-16 D / l of it, D the distance
 // from the origin: 1e-10 keeps clear of that for every mesh with D / l < 1e5.
 constexpr double flat_tet = 1e-10;
+constexpr double farthest_m = 1e9;  // beyond, and far below its inverse, products of three lengths leave the range of a double
 
 std::string numbered(const char* what, Eigen::Index i)
 {
@@ -107,6 +108,15 @@ std::vector<Face> sorted_faces(const Tets& tets)
     return faces;
 }
 
+void check_extent(const std::string& path, const Positions& points)
+{
+    for (Eigen::Index i = 0; i < points.rows(); ++i)
+        if (!(points.row(i).cwiseAbs().maxCoeff() <= farthest_m))
+            throw InputError(path, 0, numbered("vertex", i), listed(points.row(i)), "expected within 1e9 m of the origin");
+    const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+    if (!(size >= 1.0 / farthest_m)) throw InputError(path, 0, "extent", std::to_string(size), "expected at least 1e-9 m");
+}
+
 // Two tets that share a face lie on either side of it; both positively oriented, they list it in opposite order.
 void check_faces(const std::string& path, const TetMesh& mesh)
 {
@@ -148,6 +158,7 @@ void check_frame(const std::string& path, const TetMesh& mesh)
 MeshReading check_rest(const std::string& path, TetMesh mesh)
 {
     check_frame(path, mesh);
+    check_extent(path, mesh.rest);
     const int flipped = normalise_orientation(path, mesh);
     check_used(path, mesh);
     check_distinct(path, mesh.rest);

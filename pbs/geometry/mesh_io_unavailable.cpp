@@ -2,6 +2,7 @@
 #include "pbs/geometry/mesh_io.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/mesh_remarks.hpp"
 
 namespace pbs {
 namespace {
@@ -22,6 +23,10 @@ TetMesh read_tet_frame(const std::string& path)
     refuse(path);
 }
 void write_tet_mesh(const std::string& path, const TetMesh&)
+{
+    refuse(path);
+}
+SurfaceMesh read_surface(const std::string& path, std::vector<std::string>&)
 {
     refuse(path);
 }

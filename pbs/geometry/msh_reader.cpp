@@ -5,9 +5,11 @@
 #include "pbs/geometry/module.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <locale>
 #include <sstream>
 
 namespace pbs {
@@ -33,6 +35,29 @@ void check_msh(const std::string& path, const std::string& text)
     }
 }
 
+bool is_number(const std::string& word)
+{
+    char* end = nullptr;
+    std::strtod(word.c_str(), &end);
+    return end != word.c_str() && *end == '\0';
+}
+
+// Gmsh takes what is no number for the number before it: a line holds a keyword and numbers, or numbers alone.
+void check_medit_words(const std::string& path, const std::string& text)
+{
+    std::istringstream lines(text);
+    int number = 0;
+    for (std::string line; std::getline(lines, line);) {
+        ++number;
+        std::istringstream words(line.substr(0, line.find('#')));
+        std::string word;
+        if (words >> word && !is_number(word) && !(word[0] >= 'A' && word[0] <= 'Z'))
+            throw InputError(path, number, "word", word.substr(0, 40), "expected a number or a keyword");
+        while (words >> word)
+            if (!is_number(word)) throw InputError(path, number, "word", word.substr(0, 40), "expected a number");
+    }
+}
+
 void check_medit(const std::string& path, const std::string& text)
 {
     if (first_word(text) != "MeshVersionFormatted")
@@ -40,6 +65,7 @@ void check_medit(const std::string& path, const std::string& text)
     for (const char* section : {"Vertices", "Tetrahedra"})
         if (text.find(section) == std::string::npos)
             throw InputError(path, 0, "", "", std::string("the section ") + section + " is missing");
+    check_medit_words(path, text);
 }
 
 // "$Nodes\n4\n" (2.2), "$Nodes\n1 4 1 4\n" (4.1: blocks, nodes, ...; binary: the same as size_t).
@@ -48,6 +74,7 @@ long long nodes_in_msh(const std::string& text)
     std::istringstream header(text.substr(text.find('\n')));
     double version = 0.0;
     int binary = 0;
+    header.imbue(std::locale::classic());
     header >> version >> binary;
     const std::size_t nodes = text.find('\n', text.find("\n$Nodes") + 1) + 1;
     std::size_t numbers[2] = {};

@@ -4,6 +4,7 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
+#include "pbs/geometry/mesh_remarks.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@
 namespace pbs {
 namespace {
 
+constexpr double farthest_m = 1e9;
 constexpr std::array<std::string_view, 8> extensions = {".obj", ".ply", ".off", ".stl", ".gltf", ".glb", ".dae", ".zae"};
 
 IndexedPoints read_by_library(const std::string& path, const std::string& mesh_name)
@@ -32,13 +34,20 @@ void check_raw(const std::string& path, const IndexedPoints& mesh)
 {
     if (mesh.cells.rows() == 0) throw InputError(path, 0, "triangles", "0", "expected at least one triangle");
     for (Eigen::Index i = 0; i < mesh.points.rows(); ++i)
-        if (!mesh.points.row(i).allFinite())
-            throw InputError(path, 0, "vertex " + std::to_string(i), "", "expected finite coordinates [m]");
+        if (!(mesh.points.row(i).cwiseAbs().maxCoeff() <= farthest_m && mesh.points.row(i).allFinite()))
+            throw InputError(path, 0, "vertex " + std::to_string(i), "", "expected finite coordinates within 1e9 m of the origin");
     for (Eigen::Index f = 0; f < mesh.cells.rows(); ++f)
         for (Eigen::Index k = 0; k < 3; ++k)
             if (mesh.cells(f, k) < 0 || mesh.cells(f, k) >= mesh.points.rows())
                 throw InputError(path, 0, "triangle " + std::to_string(f) + " vertex", std::to_string(mesh.cells(f, k)),
                                  "expected an index from 0 to " + std::to_string(mesh.points.rows() - 1));
+}
+
+int unused_points(const IndexedPoints& mesh)
+{
+    std::vector<bool> used(static_cast<std::size_t>(mesh.points.rows()));
+    for (const int point : mesh.cells.reshaped()) used[static_cast<std::size_t>(point)] = true;
+    return static_cast<int>(std::count(used.begin(), used.end(), false));
 }
 
 // The points that triangles use, in the order of first use; triangles that joining makes a line or a point are left out.
@@ -63,17 +72,30 @@ SurfaceMesh joined(const IndexedPoints& mesh)
     return surface;
 }
 
-}  // namespace
-
-SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name)
+IndexedPoints checked_points(const std::string& path, const std::string& mesh_name)
 {
     require_readable(path);
     const std::string extension = lower_extension(path);
     if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
         throw InputError(path, 0, "extension", extension, "expected a surface: .obj, .ply, .off, .stl, .gltf, .glb, .dae or .zae");
-    const IndexedPoints read = read_guarded(path, [&](const std::string& file) { return read_by_library(file, mesh_name); });
+    IndexedPoints read = read_guarded(path, [&](const std::string& file) { return read_by_library(file, mesh_name); });
     check_raw(path, read);
-    return joined(read);
+    return read;
+}
+
+}  // namespace
+
+SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name)
+{
+    return joined(checked_points(path, mesh_name));
+}
+
+SurfaceMesh read_surface(const std::string& path, std::vector<std::string>& remarks)
+{
+    const IndexedPoints read = checked_points(path, "");
+    const SurfaceMesh surface = joined(read);
+    remarks = remarks_on(path, surface, unused_points(read), static_cast<int>(read.cells.rows() - surface.triangles.rows()));
+    return surface;
 }
 
 }  // namespace pbs

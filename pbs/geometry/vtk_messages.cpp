@@ -32,6 +32,7 @@ std::string words_of(const std::string& message)
     std::string words = message.substr(begin, end == std::string::npos ? end : end - begin);
     for (char& c : words)
         if (c == '\n') c = ' ';
+    if (words.starts_with("Algorithm ")) return "the file is damaged";  // what follows are addresses in memory
     return words;
 }
 
