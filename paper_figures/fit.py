@@ -25,7 +25,7 @@ def draw_young(axes, rows):
     axes.set_xlabel("k_stretch [1]")
     axes.set_ylabel("Young's modulus [kPa]")
     axes.set_title("by sag: k_volume 1, time step 10 ms, 1000 kg/m\u00b3")
-    axes.legend(fontsize=5.5)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncol=2, fontsize=6, handlelength=3.4)
     return [{"shown": "young_kpa", "of": f"{row['vertices']} vertices, {row['iterations']} iterations", "at": row["k_stretch"],
              "value": float(row["young_pa"]) / 1e3} for row in rows]
 
@@ -44,14 +44,14 @@ def draw_valley(axes, rows):
     axes.set_xlabel("Poisson's ratio of the finite elements")
     axes.set_ylabel("distance to PBS at the joint [%]")
     axes.set_title("twist and bend, 30\u00b0 to 90\u00b0")
-    axes.legend(fontsize=5.5)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncol=2, fontsize=6, handlelength=3.4)
     return [{"shown": "misfit_pct", "of": f"{row['body']}, k_stretch {row['k_stretch']}", "at": row["poisson"], "value": row["misfit_pct"]}
             for row in chosen]
 
 
 def draw(results, figures):
     folder = results / "fit"
-    figure, axes = style.panels(1, 2, height_in=2.6)
+    figure, axes = style.panels(1, 2, height_in=3.1)
     behind = draw_young(axes[0][0], records.table(folder / "sag.csv", sag_columns))
     behind += draw_valley(axes[0][1], records.table(folder / "valley.csv", valley_columns))
     style.save(figure, figures / "fit", records.provenance(results / "fit"), behind)
