@@ -48,6 +48,7 @@ def text(program):
             if option["names"] and option["value"]:
                 patterns = "|".join(f"{verb['name']}:{name}" for name in option["names"])
                 choices = " ".join(option["choices"])
-                values.append(f"        {patterns}) words='{choices}'; files={'no' if choices else 'yes'} ;;")
+                files = "yes" if option["value"] == "TEXT" and not choices else "no"
+                values.append(f"        {patterns}) words='{choices}'; files={files} ;;")
     return frame.format(options=" ".join(names_of(program["options"])), verbs=" ".join(verb["name"] for verb in program["verbs"]),
                         cases="\n".join(cases), values="\n".join(values))

@@ -1,4 +1,7 @@
-"""pbskin(1) in the man macros (man(7))."""
+"""pbskin(1) in the man macros (man(7)), dated today, or by SOURCE_DATE_EPOCH where a build has to repeat to the bit."""
+import datetime
+import os
+import time
 
 statuses = (("0", "finished, whatever the verdicts"),
             ("1", "a bound does not hold (measure), or a verdict could not be computed (reproduce)"),
@@ -36,7 +39,8 @@ def synopsis(program, verb):
 
 
 def text(program, version):
-    lines = [f'.TH PBSKIN 1 "" "pbskin {version}" "User Commands"', ".SH NAME",
+    date = datetime.datetime.fromtimestamp(int(os.environ.get("SOURCE_DATE_EPOCH", time.time())), datetime.timezone.utc).date()
+    lines = [f'.TH PBSKIN 1 "{date}" "pbskin {version}" "User Commands"', ".SH NAME",
              f"pbskin \\- {escaped(program['meaning'].removeprefix('pbskin: '))}", ".SH SYNOPSIS"]
     for number, verb in enumerate(program["verbs"]):
         lines += ([".br"] if number else []) + [synopsis(program, verb)]

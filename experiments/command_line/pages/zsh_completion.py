@@ -14,7 +14,7 @@ def action(option):
     if option.get("listed"):
         names = f"$(pbskin list {option['listed']} 2>/dev/null | awk '\\''/^  / {{ print $1 }}'\\'')"
         return "{_alternative \"names\\:name\\:($names)\" \"files\\:file\\:_files\"}".replace("$names", names)
-    return "_files"
+    return "_files" if option["value"] == "TEXT" else " "
 
 
 def specifications(option):

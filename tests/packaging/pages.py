@@ -1,0 +1,105 @@
+"""Manual page and completions: every verb and option is in them, and the shells take them.
+
+Truth: `pbskin --help` and `pbskin VERB --help`, which CLI11 writes, not the description that the pages were written from; mandoc, man's
+own reader, and bash and zsh themselves.
+"""
+import os
+import re
+import shutil
+import subprocess
+import unittest
+
+from installation import BUILD, folder, run
+
+PBSKIN = BUILD / "bin/pbskin"
+pages = BUILD / "pages"
+
+
+def help_of(*verb):
+    return run(PBSKIN, *verb, "--help").stdout
+
+
+def verbs():
+    return re.findall(r"^  ([a-z]\w*) ", help_of().split("Subcommands:")[1], re.MULTILINE)
+
+
+def options(*verb):
+    lines = re.findall(r"^  (-[^ ]+)", help_of(*verb), re.MULTILINE)
+    return [name for line in lines for name in line.split(",")]
+
+
+def completed(*words):
+    """COMPREPLY after `pbskin WORDS` and the tabulator key."""
+    script = f'source "{pages / "pbskin"}"; COMP_WORDS=(pbskin "$@"); COMP_CWORD=$#; _pbskin; printf "%s\\n" "${{#COMPREPLY[@]}}" "${{COMPREPLY[@]}}"'
+    environment = {**os.environ, "PATH": f"{PBSKIN.parent}:{os.environ['PATH']}"}
+    number, *replies = run("bash", "-c", script, "bash", *words, env=environment, cwd=folder).stdout.splitlines()
+    return replies[:int(number)]
+
+
+class ManPage(unittest.TestCase):
+    def setUp(self):
+        self.text = (pages / "pbskin.1").read_text(encoding="utf-8").replace("\\-", "-")
+
+    def test_every_verb_and_option(self):
+        self.assertGreaterEqual(len(verbs()), 9)
+        for verb in verbs():
+            self.assertIn(f".SS {verb}\n", self.text)
+            section = self.text.split(f".SS {verb}\n")[1].split(".SS ")[0]
+            for name in options(verb):
+                self.assertIn(f"\\fB{name}\\fR", section, f"{verb} {name}")
+
+    def test_hidden_options_are_not_there(self):
+        self.assertNotIn("--describe", self.text)
+
+    @unittest.skipUnless(shutil.which("mandoc"), "mandoc is not there")
+    def test_readers_take_it(self):
+        checked = run("mandoc", "-Tlint", "-Wwarning", pages / "pbskin.1")
+        self.assertEqual(checked.stdout + checked.stderr, "")
+        shown = re.sub(".\b", "", run("mandoc", "-Tascii", pages / "pbskin.1").stdout)  # struck twice is bold
+        self.assertIn("pbskin measure REST FRAMES ...", shown)
+
+
+class Bash(unittest.TestCase):
+    def test_verbs(self):
+        self.assertEqual(sorted(completed("")), sorted(verbs()))
+        self.assertEqual(completed("rep"), [verb for verb in verbs() if verb.startswith("rep")])
+
+    def test_options_of_each_verb(self):
+        for verb in verbs():
+            self.assertEqual(sorted(completed(verb, "-")), sorted(options(verb)), verb)
+
+    def test_choices(self):
+        self.assertEqual(completed("list", "sc"), ["scenes"])
+
+    def test_names_that_the_program_lists(self):
+        self.assertEqual(completed("run", "limb_t"), ["limb_twist"])
+        self.assertEqual(completed("explain", "C0")[0], "C01")
+
+    def test_files(self):
+        (folder / "own scene.toml").write_text("")
+        self.assertEqual(completed("run", "own"), ["own scene.toml"])
+        self.assertEqual(completed("measure", "own"), ["own scene.toml"])
+        self.assertEqual(completed("run", "limb_twist", "-o", "own"), ["own scene.toml"])
+
+    def test_no_files_for_a_number(self):
+        self.assertEqual(completed("run", "limb_twist", "--threads", ""), [])
+
+
+@unittest.skipUnless(shutil.which("zsh"), "zsh is not there")
+class Zsh(unittest.TestCase):
+    def test_every_verb_and_option(self):
+        text = (pages / "_pbskin").read_text(encoding="utf-8")
+        for verb in verbs():
+            self.assertIn(f"'{verb}:", text)
+            line = next(line for line in text.split("\n") if line.strip().startswith(f"{verb}) "))
+            for name in options(verb):
+                self.assertRegex(line, rf"'\*?{re.escape(name)}\[", f"{verb} {name}")
+
+    def test_it_is_loaded_as_the_completion_of_pbskin(self):
+        script = f"fpath=({pages} $fpath); autoload -Uz compinit; compinit -u -D; autoload +X _pbskin; print -r -- $_comps[pbskin]"
+        loaded = subprocess.run(["zsh", "-f", "-c", script], capture_output=True, text=True, timeout=60)
+        self.assertEqual((loaded.stdout.strip(), loaded.stderr), ("_pbskin", ""))
+
+
+if __name__ == "__main__":
+    unittest.main()
