@@ -42,7 +42,7 @@ def draw(results, figures):
         style.paper_band(panel, signed=measure == "volume_change_pct")
         style.per_cent_scale(panel, signed=measure == "volume_change_pct")
         panel.set_xscale("log", base=2)
-        panel.set_xticks(human.pbs_iterations(), human.pbs_iterations())
+        panel.set_xticks(human.pbs_iterations(), [str(iterations) for iterations in human.pbs_iterations()])
         panel.set_xlabel("iterations per step")
         panel.set_ylabel(label)
     style.legend_above(figure)
