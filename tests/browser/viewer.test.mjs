@@ -77,8 +77,8 @@ for (const sample of truth.samples) {
     });
     test(`inverted tets are as many as on record: ${name}`, async () => {
         await show_sample(sample, "inverted");
-        const faces = await page.evaluate(() => window.viewer.viewer.panels[0].inverted.faces.length);
-        assert.equal(faces / 4, Number(sample.figures.inverted_tets));
+        const behind = await page.evaluate(() => window.viewer.viewer.panels[0].inverted.tets.length);
+        assert.equal(behind / 4, Number(sample.figures.inverted_tets));
     });
 }
 
