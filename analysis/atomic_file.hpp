@@ -10,6 +10,10 @@ namespace analysis {
 // InputError with the system's reason where the folder is missing, cannot be written or is full; nothing is left behind then.
 void write_text_atomically(const std::string& path, const std::string& text);
 
+// Removes what writers that were killed left half-written in a folder, and in those below it: temporary files of this and of
+// pbs::write_atomically whose process is gone. A folder that is not there holds none.
+void remove_abandoned_files(const std::string& folder, bool and_below = true);
+
 // InputError where the file cannot be read.
 std::string read_text(const std::string& path);
 

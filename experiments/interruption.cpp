@@ -21,6 +21,7 @@ void watch_interrupts()
     action.sa_flags = SA_RESETHAND;  // the second signal ends the program at once
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit (ulimit -f) is an error of its writer, as on a full disk
 }
 
 bool interrupted()

@@ -55,7 +55,7 @@ void refuse_unknown(const std::vector<std::string>& names)
 
 struct StudyOutcome {
     std::vector<std::string> folders = {};  // of runs that ended; a failed one is said and left out, so that its verdict cannot be computed
-    bool broke_down = false;
+    bool broke_down = false, failed = false, refused = false;
     StudyCosts costs;
 };
 
@@ -88,7 +88,10 @@ std::vector<StudyRun> runs_to_do(const PlannedStudy& planned, bool resume)
 // then_s: expected of the studies after this one, wall time.
 StudyOutcome run_study(const PlannedStudy& planned, const std::vector<StudyRun>& runs, int jobs, double then_s)
 {
-    fs::create_directories(planned.folder);
+    std::error_code error;
+    fs::create_directories(planned.folder, error);
+    if (error) throw pbs::InputError(planned.folder, 0, "", "", "the output folder cannot be made: " + error.message());
+    analysis::remove_abandoned_files(planned.folder);
     for (const StudyRun& run : runs) fs::remove(fs::path(planned.folder) / run.name / "run.json");  // an earlier run's
     write_study_plan(planned.folder, planned.plan);
     std::vector<PooledWork> work;
@@ -101,6 +104,8 @@ StudyOutcome run_study(const PlannedStudy& planned, const std::vector<StudyRun>&
         if (!result.finished) spdlog::error("pbskin: {}: {}", result.name, result.failure);
         if (!result.breakdown.empty()) spdlog::error("pbskin: {}: numerical breakdown: {}", result.name, result.breakdown);
         outcome.broke_down |= !result.breakdown.empty();
+        outcome.failed |= !result.finished;
+        outcome.refused |= result.refused;
         const auto run = std::find_if(runs.begin(), runs.end(), [&](const StudyRun& of) { return of.name == result.name; });
         if (result.finished) outcome.costs.add(result.name, run->cost_s, result.cpu_s);
     }
@@ -167,10 +172,11 @@ int reproduce(const ReproduceArguments& arguments)
     if (arguments.cost_only) return fmt::print("{}", expected_cost_table(expected)), exit_finished;
     if (planned.size() > 1) spdlog::info("what this will take:\n{}", expected_cost_table(expected));
 
+    analysis::remove_abandoned_files(arguments.folder, false);
     std::vector<analysis::Verdict> verdicts;
     std::vector<std::pair<std::string, StudyCosts>> costs;
     std::string beside;  // what stands below the table of claims
-    bool broke_down = false, all_hold = true;
+    bool broke_down = false, refused = false, all_hold = true;
     for (std::size_t i = 0; i < planned.size(); ++i) {
         const auto& [study, plan, folder] = planned[i];
         spdlog::info("study {}: {}", study->name, study->meaning);
@@ -180,6 +186,8 @@ int reproduce(const ReproduceArguments& arguments)
         const StudyOutcome outcome = run_study(planned[i], to_do[i], arguments.jobs, then_s);
         costs.emplace_back(study->name, outcome.costs);
         broke_down |= outcome.broke_down;
+        refused |= outcome.refused;
+        all_hold &= !outcome.failed;
         beside += frames_to_mark(outcome.folders);
         for (auto& verdict : verdicts_of(*study, folder, arguments.folder)) verdicts.push_back(std::move(verdict));
         if (!study->conclude) continue;
@@ -191,6 +199,7 @@ int reproduce(const ReproduceArguments& arguments)
     fmt::print("{}", beside);
     const bool all_computed = verdicts.empty() || tell_verdicts(verdicts, arguments.folder);
     spdlog::info("what it took:\n{}", cost_table(costs));
+    if (refused) return exit_input;
     if (broke_down) return exit_breakdown;
     return all_computed && all_hold ? exit_finished : exit_bound;
 }

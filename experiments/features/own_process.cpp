@@ -2,6 +2,7 @@
 
 #include "experiments/interruption.hpp"
 #include "experiments/progress.hpp"
+#include "pbs/geometry/process.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <sys/wait.h>
@@ -63,9 +64,10 @@ nlohmann::json in_own_process(const std::function<nlohmann::json()>& work)
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error("no pipe for a process");
     std::fflush(nullptr);
-    const pid_t process = fork();
+    const pid_t parent = getpid(), process = fork();
     if (process < 0) throw std::runtime_error("no process for a measurement");
     if (process == 0) {
+        pbs::end_with_parent(parent);
         close(ends[0]);
         act_and_tell(work, ends[1]);
     }

@@ -4,8 +4,10 @@
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/makehuman.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/process.hpp"
 
 #include <unistd.h>
+#include <cstdlib>
 #include <filesystem>
 
 namespace experiments {
@@ -35,7 +37,7 @@ class Workplace {
 public:
     explicit Workplace(const fs::path& beside) : path_(beside.string() + "-fetching-" + std::to_string(::getpid()))
     {
-        fs::remove_all(path_);
+        remove_abandoned(beside);
         std::error_code error;
         fs::create_directories(path_ / "whole", error);
         if (error) throw pbs::InputError(path_.string(), 0, "", "", "cannot be made: " + error.message());
@@ -51,6 +53,19 @@ public:
     const fs::path& path() const { return path_; }
 
 private:
+    // Of fetches that were killed, by the process in their names.
+    static void remove_abandoned(const fs::path& beside)
+    {
+        const std::string begin = beside.filename().string() + "-fetching-";
+        std::error_code ignored;
+        for (const auto& entry : fs::directory_iterator(beside.parent_path(), ignored)) {
+            const std::string name = entry.path().filename().string();
+            if (!name.starts_with(begin)) continue;
+            const pid_t process = std::atoi(name.c_str() + begin.size());
+            if (process > 0 && (process == ::getpid() || pbs::process_is_gone(process))) fs::remove_all(entry.path(), ignored);
+        }
+    }
+
     fs::path path_;
 };
 

@@ -2,11 +2,14 @@
 
 #include "experiments/interruption.hpp"
 #include "experiments/progress.hpp"
+#include "pbs/geometry/process.hpp"
+#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,6 +20,7 @@
 #include <cstdio>
 #include <map>
 #include <numeric>
+#include <utility>
 
 namespace experiments {
 namespace {
@@ -24,9 +28,11 @@ namespace {
 struct Worker {
     std::size_t work = 0;
     int failure_pipe = -1;
+    bool told_to_stop = false;
 };
 
 constexpr int failed = 1;
+constexpr int refused = 2;
 constexpr int broken_down = 3;
 constexpr int stopped = 130;
 
@@ -40,6 +46,9 @@ constexpr int stopped = 130;
         if (!text.empty()) status = broken_down;
     } catch (const Interrupted&) {
         status = stopped;
+    } catch (const pbs::InputError& error) {
+        text = error.what();
+        status = refused;
     } catch (const std::exception& error) {
         text = error.what();
         status = failed;
@@ -54,9 +63,11 @@ Worker start(const PooledWork& work, std::size_t index, pid_t& process)
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error("no pipe for a worker");
     std::fflush(nullptr);
+    const pid_t parent = getpid();
     process = fork();
     if (process < 0) throw std::runtime_error("no process for a worker");
     if (process == 0) {
+        pbs::end_with_parent(parent);
         close(ends[0]);
         act_as_worker(work, ends[1]);
     }
@@ -84,20 +95,25 @@ PooledResult outcome_of(const PooledWork& work, const Worker& worker, int status
     const std::string text = read_all(worker.failure_pipe);
     PooledResult result{work.name, exit == 0 || exit == broken_down, exit == broken_down ? text : "",
                         exit == 0 || exit == broken_down ? "" : text};
+    result.refused = exit == refused;
     if (WIFSIGNALED(status)) result.failure = fmt::format("ended by signal {}", WTERMSIG(status));
     if (exit == stopped) result.failure = "interrupted";
     return result;
 }
 
-// The process that ended; an interruption is passed on to all of them.
-pid_t wait_for_any(const std::map<pid_t, Worker>& workers, int& status, rusage& usage)
+// The process that ended; an interruption is passed on to each of them, once: a second signal would end it in the middle of its work.
+// A signal between the question and a wait without end would be seen when a worker ends; hence the short waits.
+pid_t wait_for_any(std::map<pid_t, Worker>& workers, int& status, rusage& usage)
 {
+    constexpr int moment_ms = 20;
     for (;;) {
         if (interrupted())
-            for (const auto& [process, worker] : workers) kill(process, SIGTERM);
-        const pid_t process = wait4(-1, &status, 0, &usage);
+            for (auto& [process, worker] : workers)
+                if (!std::exchange(worker.told_to_stop, true)) kill(process, SIGTERM);
+        const pid_t process = wait4(-1, &status, WNOHANG, &usage);
         if (process > 0) return process;
-        if (errno != EINTR) throw std::runtime_error("the workers are gone");
+        if (process < 0 && errno != EINTR) throw std::runtime_error("the workers are gone");
+        poll(nullptr, 0, moment_ms);
     }
 }
 

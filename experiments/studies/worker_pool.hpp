@@ -1,4 +1,5 @@
-// Runs side by side, each in a process of its own: a breakdown of a library stays in its run, and memory is given back.
+// Runs side by side, each in a process of its own: a breakdown of a library stays in its run, and memory is given back. Workers end with
+// this process, however it ends.
 #pragma once
 
 #include <functional>
@@ -18,6 +19,7 @@ struct PooledResult {
     bool finished = false;
     std::string breakdown;  // numerical, of a run that is finished and recorded all the same
     std::string failure;    // what the worker said, or how it died
+    bool refused = false;   // the failure is an InputError: bad input, or a file that cannot be written
     double cpu_s = 0.0;     // that it took, of one core
 };
 

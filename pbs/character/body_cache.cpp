@@ -3,6 +3,7 @@
 #include "pbs/character/text_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
+#include "pbs/geometry/process.hpp"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -12,6 +13,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <regex>
 #include <vector>
 
 namespace fs = std::filesystem;
@@ -56,6 +58,20 @@ std::optional<TetMesh> read_cached(const std::string& key)
     return std::nullopt;
 }
 
+// making-KEY-PROCESS.vtu and the writer's own .making-..., of processes that were killed.
+void remove_abandoned(const fs::path& folder)
+{
+    static const std::regex made(R"(\.?making-.*-([0-9]{1,9})(\.[0-9]+)?\.vtu)");
+    std::error_code ignored;
+    std::vector<fs::path> abandoned;
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+        std::smatch match;
+        const std::string name = entry.path().filename().string();
+        if (std::regex_match(name, match, made) && process_is_gone(std::stoi(match[1]))) abandoned.push_back(entry.path());
+    }
+    for (const fs::path& file : abandoned) fs::remove(file, ignored);
+}
+
 void store(const std::string& key, const TetMesh& mesh)
 {
     std::error_code ignored;
@@ -63,6 +79,7 @@ void store(const std::string& key, const TetMesh& mesh)
     const fs::path made = folder / ("making-" + key + "-" + std::to_string(::getpid()) + format);
     try {
         fs::create_directories(folder);
+        remove_abandoned(folder);
         write_tet_mesh(made.string(), mesh);
         fs::rename(made, folder / (key + "-" + hash_of_file(made.string()) + format));
     } catch (const std::exception&) {

@@ -1,6 +1,7 @@
 #include "pbs/geometry/isolated_reader.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/process.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -146,8 +147,11 @@ std::string read_isolated(const std::string& path, const std::function<std::stri
 {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw InputError(path, 0, "", "", std::string("cannot be read: ") + std::strerror(errno));
-    const pid_t child = fork();
-    if (child == 0) answer_as_child(ends[1], path, read);
+    const pid_t parent = getpid(), child = fork();
+    if (child == 0) {
+        end_with_parent(parent);
+        answer_as_child(ends[1], path, read);
+    }
     close(ends[1]);
     std::string bytes;
     const bool in_time = child > 0 && collect(ends[0], limit_s(path), bytes);

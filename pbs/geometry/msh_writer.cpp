@@ -2,36 +2,34 @@
 // Formats: Gmsh reference manual 4.8, "MSH file format"; MEDIT, Frey, "MEDIT: an interactive mesh visualization software" (INRIA, 2001).
 #include "pbs/geometry/mesh_io_formats.hpp"
 
-#include "pbs/geometry/input_error.hpp"
-
-#include <fstream>
+#include <functional>
+#include <locale>
+#include <sstream>
 
 namespace pbs {
 namespace {
 
-// 17 significant digits name a double exactly.
-void write_text(const std::string& path, const std::function<void(std::ofstream&)>& write)
+// 17 significant digits name a double exactly. Whatever the locale of the program that uses this library.
+void write_text(const std::string& path, const std::function<void(std::ostringstream&)>& write)
 {
-    write_atomically(path, [&](const std::string& temporary) {
-        std::ofstream file(temporary);
-        file.precision(17);
-        write(file);
-        file.close();
-        if (!file) throw InputError(path, 0, "", "", "cannot be written");
-    });
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text.precision(17);
+    write(text);
+    write_atomically(path, text.str());
 }
 
-void write_point(std::ofstream& file, const Positions& points, Eigen::Index i)
+void write_point(std::ostringstream& file, const Positions& points, Eigen::Index i)
 {
     file << points(i, 0) << ' ' << points(i, 1) << ' ' << points(i, 2);
 }
 
-void write_corners(std::ofstream& file, const Tets& tets, Eigen::Index t)
+void write_corners(std::ostringstream& file, const Tets& tets, Eigen::Index t)
 {
     for (int corner = 0; corner < 4; ++corner) file << tets(t, corner) + 1 << ' ';
 }
 
-void write_msh_entities(std::ofstream& file, const Positions& points)
+void write_msh_entities(std::ostringstream& file, const Positions& points)
 {
     Vec3 low = Vec3::Zero(), high = Vec3::Zero();
     if (points.rows() > 0) {
@@ -45,7 +43,7 @@ void write_msh_entities(std::ofstream& file, const Positions& points)
 
 void write_msh(const std::string& path, const TetMesh& mesh)
 {
-    write_text(path, [&](std::ofstream& file) {
+    write_text(path, [&](std::ostringstream& file) {
         const Eigen::Index points = mesh.rest.rows(), tets = mesh.tets.rows();
         file << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
         write_msh_entities(file, mesh.rest);
@@ -67,7 +65,7 @@ void write_msh(const std::string& path, const TetMesh& mesh)
 
 void write_medit(const std::string& path, const TetMesh& mesh)
 {
-    write_text(path, [&](std::ofstream& file) {
+    write_text(path, [&](std::ostringstream& file) {
         file << "MeshVersionFormatted 2\nDimension 3\nVertices\n" << mesh.rest.rows() << '\n';
         for (Eigen::Index i = 0; i < mesh.rest.rows(); ++i) {
             write_point(file, mesh.rest, i);

@@ -16,7 +16,8 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
-#include <fstream>
+#include <locale>
+#include <sstream>
 
 namespace pbs {
 namespace {
@@ -80,17 +81,17 @@ void add_fields(const std::string& path, const FrameFields& fields, vtkUnstructu
     }
 }
 
+// Into memory: VTK does not say what a file system refuses.
 void write_xml(const std::string& path, vtkXMLWriter& writer)
 {
-    write_atomically(path, [&](const std::string& temporary) {
-        const VtkMessages messages;
-        writer.SetFileName(temporary.c_str());
-        writer.SetDataModeToAppended();
-        writer.SetCompressorTypeToZLib();
-        const int written = writer.Write();
-        messages.throw_if_any(path);
-        if (!written) throw InputError(path, 0, "", "", "cannot be written");
-    });
+    const VtkMessages messages;
+    writer.WriteToOutputStringOn();
+    writer.SetDataModeToAppended();
+    writer.SetCompressorTypeToZLib();
+    const int written = writer.Write();
+    messages.throw_if_any(path);
+    if (!written) throw InputError(path, 0, "", "", "cannot be written");
+    write_atomically(path, writer.GetOutputString());
 }
 
 }  // namespace
@@ -118,16 +119,13 @@ void write_vtp(const std::string& path, const Positions& points, const Triangles
 
 void write_pvd(const std::string& path, const std::vector<std::pair<double, std::string>>& frames)
 {
-    write_atomically(path, [&](const std::string& temporary) {
-        std::ofstream file(temporary);
-        file.precision(17);
-        file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
-        for (const auto& [time_s, name] : frames)
-            file << "    <DataSet timestep=\"" << time_s << "\" part=\"0\" file=\"" << name << "\"/>\n";
-        file << "  </Collection>\n</VTKFile>\n";
-        file.close();
-        if (!file) throw InputError(path, 0, "", "", "cannot be written");
-    });
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text.precision(17);
+    text << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
+    for (const auto& [time_s, name] : frames) text << "    <DataSet timestep=\"" << time_s << "\" part=\"0\" file=\"" << name << "\"/>\n";
+    text << "  </Collection>\n</VTKFile>\n";
+    write_atomically(path, text.str());
 }
 
 }  // namespace pbs
