@@ -1,12 +1,15 @@
 #include "experiments/run.hpp"
 
+#include "experiments/broken_frame.hpp"
 #include "experiments/cases/motion_case.hpp"
 #include "experiments/interruption.hpp"
 #include "experiments/progress.hpp"
 #include "experiments/reference_error_bar.hpp"
 #include "experiments/run_end.hpp"
 #include "experiments/run_folder.hpp"
+#include "experiments/warnings.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/mesh_remarks.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <fmt/format.h>
@@ -62,6 +65,13 @@ void refuse_frames_beyond(const pbs::Motion& motion, const Scene& scene)
                                   fmt::format("expected less than the motion's {} frames", motion.frames()));
 }
 
+// The printed forms, and linear elasticity at large rotations: their breakdown is on record, no failure.
+bool is_negative_control(const DeformerSpec& spec)
+{
+    const bool linear = spec.kind == "fem" && spec.fem.model == reference_fem::Model::linear;
+    return linear || spec.pbs.volume_form != pbs::VolumeForm::derived;
+}
+
 // Without a reference there are no errors to be measured.
 OutputSpec measured_output(const Scene& scene)
 {
@@ -89,6 +99,7 @@ public:
               cost_.time("ruler_set_up", [&] { return FrameMeasurer(character_, measured_output(scene), prescribed_by_any(runners_)); })),
           folder_((refuse_frames_beyond(motion_, scene), scene), character_, folder)
     {
+        if (const std::string& file = scene.character.mesh_file; !file.empty()) warn(pbs::remarks_on(file, {character_.mesh, 0}));
         if (scene.error_bar != ErrorBar::none)
             cost_.time("error_bar_set_up", [&] { error_bar_.emplace(scene.error_bar, runners_.front().spec, character_); });
     }
@@ -163,17 +174,23 @@ private:
         if (measured.error_below_reference_error() && runner.spec.name != scene_.reference)
             ++frames_below_reference_error_[runner.spec.label];
         if (runner.step.outcome == pbs::Outcome::not_converged) not_converged_[runner.spec.label].push_back(frame);
-        if (runner.step.outcome == pbs::Outcome::not_finite) {
-            // Negative controls: the printed forms, and linear elasticity at large rotations. Their breakdown is on record, no failure.
-            const bool expected = runner.spec.pbs.volume_form != pbs::VolumeForm::derived || runner.spec.kind == "fem";
-            if (breakdown_.empty() && !expected) breakdown_ = fmt::format("{} is not finite in frame {}", runner.spec.label, frame);
-            breakdowns_[runner.spec.label].push_back(frame);
-        }
+        if (runner.step.outcome == pbs::Outcome::not_finite) breakdowns_[runner.spec.label].push_back(frame);
+        if (runner.step.outcome != pbs::Outcome::finished || (runner.spec.kind == "fem" && measured.metrics.inverted_tets > 0))
+            record_breakdown(runner, frame);
         if (scene_.output.writes(frame))
             cost_.time("frames", [&] {
                 folder_.write_frame(runner.spec, frame, time_s, character_, positions, measurer_.volume_ratios(positions),
                                     runner.deformer->prescribed());
             });
+    }
+
+    void record_breakdown(const Runner& runner, int frame)
+    {
+        const pbs::Positions& positions = runner.deformer->positions();
+        const BrokenFrame broken = broken_frame(frame, runner.step.outcome, positions, measurer_.volume_ratios(positions));
+        broken_frames_[runner.spec.label].push_back(broken);
+        std::string& first = runner.step.outcome == pbs::Outcome::not_finite ? breakdown_ : unreached_;
+        if (first.empty() && !is_negative_control(runner.spec)) first = fmt::format("{} is {}", runner.spec.label, text_of(broken));
     }
 
     // A reference that has not reached its pose stands in another one: it has no error.
@@ -189,12 +206,13 @@ private:
         for (const Runner& runner : runners_)
             if (const auto record = runner.deformer->record(); !record.is_null()) records[runner.spec.label] = record;
         nlohmann::json outcome = {{"finished", true}, {"frames", frames_}, {"breakdowns", breakdowns_}, {"not_converged", not_converged_}};
+        outcome["broken_frames"] = broken_frames_;
         if (!scene_.reference.empty()) outcome["self_intersecting_reference_frames"] = self_intersecting_frames_;
         if (error_bar_) outcome["frames_below_reference_error"] = frames_below_reference_error_;
         outcome.update(run_end(stopwatch_.seconds()));
         folder_.finish(character_, records, outcome, cost_, error_bar_ ? error_bar_->method() : nlohmann::json());
 
-        RunResult result{frames_, stopwatch_.seconds(), breakdown_, {}};
+        RunResult result{frames_, stopwatch_.seconds(), breakdown_, unreached_, {}};
         for (const Runner& runner : runners_)
             result.lines.push_back(fmt::format("  {:<12} volume change {:8.3f} to {:7.3f} %, at most {} inverted tets", runner.spec.label,
                                                runner.lowest_change_pct, runner.highest_change_pct, runner.most_inverted));
@@ -214,8 +232,9 @@ private:
     std::optional<ReferenceErrorBar> error_bar_;
     RunFolder folder_;  // made when all else stands: it clears an earlier run's records
     int frames_ = 0, self_intersecting_frames_ = 0;
-    std::string breakdown_;
+    std::string breakdown_, unreached_;
     std::map<std::string, std::vector<int>> breakdowns_, not_converged_;  // label -> frames
+    std::map<std::string, std::vector<BrokenFrame>> broken_frames_;       // label -> frames with their worst elements
     std::map<std::string, int> frames_below_reference_error_ = {};        // label -> how many
 };
 

@@ -22,9 +22,9 @@ int run(const RunArguments& arguments, const CommonOptions& common)
     const RunResult result = run_scene(scene, folder);
     for (const auto& line : result.lines) spdlog::info("{}", line);
     spdlog::info("{}: {} frames, {:.1f} s, records in {}", scene.name, result.frames, result.seconds, folder);
-    if (result.breakdown.empty()) return exit_finished;
-    spdlog::error("pbskin: numerical breakdown: {}", result.breakdown);
-    return exit_breakdown;
+    for (const std::string& breakdown : {result.breakdown, result.unreached})
+        if (!breakdown.empty()) spdlog::error("pbskin: numerical breakdown: {}", breakdown);
+    return result.breakdown.empty() && result.unreached.empty() ? exit_finished : exit_breakdown;
 }
 
 }  // namespace
