@@ -136,13 +136,13 @@ test("keys: a frame on, colours, bones, cut, turn; the focus is seen", async () 
 
 test("a cut shows fewer tets, cut open", async () => {
     await show({ cut: null });
-    const whole = await page.evaluate(() => window.viewer.viewer.panels.map((panel) => panel.body.faces.length));
+    const whole = await page.evaluate(() => window.viewer.viewer.panels.map((panel) => panel.body.tets.length));
     await page.locator('#frame-viewer select[aria-label="cut the tets by a plane"]').selectOption("y");
     await settle(page);
     const { faces, kept, tets } = await page.evaluate(() => {
         const { viewer } = window.viewer;
         const kept = viewer.meshes.mesh.kept.reduce((a, b) => a + b, 0);
-        return { faces: viewer.panels.map((panel) => panel.body.faces.length), kept, tets: viewer.run.tets };
+        return { faces: viewer.panels.map((panel) => panel.body.tets.length), kept, tets: viewer.run.tets };
     });
     assert.ok(kept > 0 && kept < tets);
     assert.ok(faces.every((count) => count === faces[0]) && faces[0] !== whole[0]);
