@@ -10,6 +10,7 @@
 Exit status: 0 finished (runs that broke down numerically are in the table), 1 snakemake or a program failed, 2 bad input or usage."""
 import argparse
 import fcntl
+import json
 import os
 import pathlib
 import shutil
@@ -65,19 +66,19 @@ def run(sweep, options, more):
     except BlockingIOError:
         print(f"sweep: {options.output}: another sweep runs there", file=sys.stderr)
         return 2
-    for old in options.output.glob("refused/*.txt"):
+    for old in options.output.glob("failed/*.json"):
         old.unlink()
     where = ["--profile", str(HERE / "slurm")] if options.slurm else ["--cores", str(options.jobs), "--quiet", "rules", "--scheduler", "greedy"]
     command = ["snakemake", "-s", str(HERE / "Snakefile"), "-d", str(options.output), "--nolock", "--rerun-incomplete",
                *where, *more,
                "--config", f"sweep={pathlib.Path(options.sweep).resolve()}", f"pbskin={options.pbskin.resolve()}"]
     status = subprocess.run(command, pass_fds=[lock]).returncode
-    refused = sorted(options.output.glob("refused/*.txt"))
-    for path in refused[:10]:
-        print(f"sweep: run {path.stem}: {path.read_text().strip()}", file=sys.stderr)
+    failed = {path.stem: json.loads(path.read_text()) for path in sorted(options.output.glob("failed/*.json"))}
+    for name, told in list(failed.items())[:10]:
+        print(f"sweep: run {name}: {told['message']}", file=sys.stderr)
     if status == 0:
         print(f"{len(sweep.runs)} runs: {options.output / 'sweep.csv'}")
-    return 2 if refused else min(status, 1)
+    return 2 if any(told["status"] == 2 for told in failed.values()) else min(status, 1)
 
 
 def act(options, more):

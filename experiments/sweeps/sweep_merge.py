@@ -20,7 +20,7 @@ from sweep_runs import write_atomically
 
 IDENTITY = ["scene", "deformer", "variant", "order", "precision", "iterations", "threads", "frame", "time_s", "outcome"]
 TIMES = ["step_ms"]
-BREAKDOWN = ("breakdowns", "not_converged")
+BROKEN = {"frames_not_finite": "breakdowns", "frames_not_converged": "not_converged", "frames_broken": "broken_frames"}
 
 
 class MergeError(Exception):
@@ -67,7 +67,7 @@ class Table:
         return ["frame", "time_s", "outcome", *self.metrics]
 
     def summary_head(self):
-        return ["frames", "frames_broken_down", "frames_not_converged", "state_hash",
+        return ["frames", *BROKEN, "state_hash",
                 *(f"{kind}_{metric}" for metric in self.metrics for kind in ("mean", "least", "largest"))]
 
     def add(self, run, outcome, record, rows):
@@ -84,7 +84,7 @@ class Table:
                 self.writer.writerow(head + self.summary_of(label, record, own))
 
     def summary_of(self, label, record, rows):
-        counts = [len(record["outcome"].get(kind, {}).get(label, [])) for kind in BREAKDOWN]
+        counts = [len(record["outcome"].get(kind, {}).get(label, [])) for kind in BROKEN.values()]
         summaries = (summary(row.get(metric, "") for row in rows) for metric in self.metrics)
         return [len(rows), *counts, record["state_hash"][label], *(text for three in summaries for text in three)]
 

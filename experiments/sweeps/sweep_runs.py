@@ -2,7 +2,7 @@
 
 A run's folder is there when the run is finished, with an outcome.json: how it ended (0, or 3: a numerical breakdown, which is a result),
 and what it cost. It is never run again. Bad input (2), an interruption or a crash is no outcome: it stops the job with the program's
-message, which also lies in `refused/NAME.txt`."""
+message, which also lies in `failed/NAME.json`."""
 import json
 import os
 import pathlib
@@ -59,7 +59,7 @@ def outcome_of(place):
 def finish(sweep, run, folder, pbskin):
     """The run's outcome, of before or of now. It runs beside and its folder is renamed: of two jobs that do the same run, as where a killed
     sweep's jobs are still queued, the first to end counts."""
-    place, refused = pathlib.Path(folder, "runs", run.name), pathlib.Path(folder, "refused", run.name + ".txt")
+    place, failed = pathlib.Path(folder, "runs", run.name), pathlib.Path(folder, "failed", run.name + ".json")
     outcome = outcome_of(place)
     if outcome:
         return outcome
@@ -69,7 +69,7 @@ def finish(sweep, run, folder, pbskin):
         try:
             outcome = start(sweep, run, made, pbskin)
         except RunFailed as error:
-            write_atomically(refused, f"{error}\n")
+            write_atomically(failed, json.dumps({"status": error.status, "message": str(error)}) + "\n")
             raise
         try:
             os.rename(made, place)
@@ -77,7 +77,7 @@ def finish(sweep, run, folder, pbskin):
             outcome = outcome_of(place)
     if not outcome:
         raise RunFailed(1, f"{place}: not a finished run, in the way of one; remove the folder and run the sweep again")
-    refused.unlink(missing_ok=True)
+    failed.unlink(missing_ok=True)
     return outcome
 
 
@@ -87,8 +87,11 @@ def start(sweep, run, place, pbskin):
     for override in run.overrides:
         command += ["--set", override]
     begin, before = time.monotonic(), children_seconds()
-    process = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                             errors="replace")
+    try:
+        process = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                                 errors="replace")
+    except OSError as error:
+        raise RunFailed(127, f"{pbskin}: {error.strerror}") from None
     seconds, cpu_seconds = time.monotonic() - begin, children_seconds() - before
     if process.returncode not in OUTCOMES:
         raise RunFailed(process.returncode, process.stderr.strip() or f"{pbskin} ended with status {process.returncode}")

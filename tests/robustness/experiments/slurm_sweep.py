@@ -5,6 +5,7 @@ Truth: the other engine. The same sweep makes the same bytes of sweep.csv, also 
 still queued; the reference on two tasks of a Slurm job is that of one process to within both residuals (see
 verification/experiments/distributed)."""
 import csv
+import fcntl
 import json
 import os
 import pathlib
@@ -30,6 +31,17 @@ reference.name = ""
 deformers.use = ["pbs"]
 [grid]
 pbs.k_volume = [0.5, 1.4]
+"""
+BREAKING = """schema = 1
+scene = "limb_bend"
+[set]
+motion.frames = 2
+character.vertices = 300
+reference.name = ""
+deformers.use = ["snh_p1"]
+output.frames_every = 0
+[grid]
+motion.angle_deg = [20.0, 150.0]
 """
 
 
@@ -93,6 +105,20 @@ class Sweeps(program.ProgramTest):
         process = self.sweep(self.write("bad.toml", BAD), "bad", "--slurm", status=2)
         self.assertIn("pbs.k_volume = 1.4", process.stderr)
         self.assertFalse(pathlib.Path(self.path("bad", "sweep.csv")).exists())
+
+    def test_a_breakdown_is_a_row_of_the_table(self):
+        """One step to 150 degrees folds the crease's tets over."""
+        sweep = self.write("breaking.toml", BREAKING)
+        self.sweep(sweep, "breaking_here")
+        self.sweep(sweep, "breaking_slurm", "--slurm")
+        self.assert_same_tables("breaking_here", "breaking_slurm", rows=2)
+        self.assertEqual(json.loads(self.read("breaking_slurm", "sweep.json"))["exit_statuses"], {"0": 1, "3": 1})
+
+    def test_two_sweeps_in_one_folder_are_refused(self):
+        with open(self.write(".lock", ""), "w", encoding="utf-8") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            process = self.sweep(self.write("bad.toml", BAD), ".", status=2)
+        self.assertIn("another sweep runs there", process.stderr)
 
     def solve(self, command, name, status=0):
         body = ["--bar", "6000", "--gravity", "0", "0", "-9.81", "--nodes", "-o", self.path(name)]

@@ -54,6 +54,13 @@ class SweepRuns(unittest.TestCase):
         self.finish(self.sweep(1, 2, 3))
         self.assertEqual(self.starts(), ["1", "2", "3"])
 
+    def test_a_program_that_is_not_there_is_told(self):
+        self.program.unlink()
+        with self.assertRaises(sweep_runs.RunFailed) as caught:
+            self.finish(self.sweep(1))
+        self.assertEqual((caught.exception.status, str(caught.exception)), (127, f"{self.program}: No such file or directory"))
+        self.assertEqual(len(list((self.folder / "failed").iterdir())), 1)
+
     def test_of_two_that_do_one_run_the_first_to_end_counts(self):
         sweep = self.sweep(1)
         place = self.folder / "runs" / sweep.runs[0].name
@@ -84,8 +91,8 @@ class SweepRuns(unittest.TestCase):
         with self.assertRaises(sweep_runs.RunFailed) as caught:
             self.finish(sweep)
         self.assertEqual((caught.exception.status, str(caught.exception)), (2, "pbskin: --set: pbs.iterations = 100: refused"))
-        refused = self.folder / "refused" / f"{sweep.runs[1].name}.txt"
-        self.assertEqual(refused.read_text(), str(caught.exception) + "\n")
+        failed = json.loads((self.folder / "failed" / f"{sweep.runs[1].name}.json").read_text())
+        self.assertEqual(failed, {"status": 2, "message": str(caught.exception)})
         self.assertFalse((self.folder / "batches").exists())
         self.assertEqual(self.starts(), ["1", "100"])
 

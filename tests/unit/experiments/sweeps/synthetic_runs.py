@@ -22,7 +22,8 @@ def write(folder, iterations, step_ms=1.0, status=0, volumes=(0.1, 0.2, 0.6)):
     (folder / "metrics.csv").write_text("\n".join(lines) + "\n")
     runs = [{"name": name, "label": name, "variant": "default", "kind": name} for name in ("lbs", "pbs")]
     record = {"scene": {"runs": runs}, "state_hash": {"lbs": "aa", "pbs": f"{iterations:04d}"}, "cost": {"peak_memory_mb": 10 * step_ms},
-              "outcome": {"breakdowns": {"pbs": [1, 2]} if status == 3 else {}, "not_converged": {}, "frames": len(volumes)},
+              "outcome": {"breakdowns": {"pbs": [1, 2]} if status == 3 else {}, "not_converged": {},
+                          "broken_frames": {"pbs": [{"frame": 1, "what": "inverted"}]} if status == 3 else {}},
               "provenance": {"git_revision": "abc", "threads": 1}}
     (folder / "run.json").write_text(json.dumps(record))
 
