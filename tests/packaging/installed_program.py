@@ -1,0 +1,54 @@
+"""The installed program runs in any folder, moved, and without the source tree: what it needs lies beside it.
+
+Truth: the folders as the file system tells them; the records' own fields.
+"""
+import json
+import unittest
+
+import installation
+from installation import SOURCE, folder, run
+
+
+def setUpModule():
+    global prefix
+    prefix = installation.install("program")
+
+
+class InstalledProgram(unittest.TestCase):
+    def pbskin(self, *arguments):
+        elsewhere = folder / "elsewhere"
+        elsewhere.mkdir(exist_ok=True)
+        process = run(prefix / "bin/pbskin", *arguments, cwd=elsewhere, env={"PATH": "/usr/bin:/bin", "HOME": str(elsewhere)})
+        self.assertEqual(process.returncode, 0, process.stderr)
+        return process
+
+    # Whoever names the source tree needs it.
+    def test_nothing_names_the_source_tree(self):
+        self.assertEqual(installation.files_naming(prefix, SOURCE), [])
+
+    def test_list(self):
+        self.assertIn("limb_twist", self.pbskin("list", "scenes").stdout)
+
+    def test_a_scene_with_its_modules(self):
+        self.pbskin("run", "limb_twist", "-o", "twist", "--quiet", "--set", "motion.frames=2", "--set", "motion.angle_deg=20",
+                    "--set", "character.vertices=500")
+        record = json.loads((folder / "elsewhere/twist/run.json").read_text())
+        self.assertIn("fem", json.dumps(record["scene"]))
+
+    def test_audit_and_its_report(self):
+        self.pbskin("reproduce", "audit", "-o", "audit", "--quiet")
+        self.pbskin("report", "audit", "--quiet")
+        page = (folder / "elsewhere/audit/report.html").read_text(encoding="utf-8")
+        self.assertIn("C13", page)
+
+    def test_what_it_reads_is_there(self):
+        for name in ("share/pbskin/paper_figures/make_all.py", "share/pbskin/CITATION.cff", "share/pbskin/claims.toml",
+                     "share/pbskin/scenes/limb_twist.toml", "share/man/man1/pbskin.1", "share/bash-completion/completions/pbskin",
+                     "share/zsh/site-functions/_pbskin", "lib/pbskin/libpbskin_native_plain.so"):
+            self.assertTrue((prefix / name).is_file(), name)
+        left_behind = [str(file) for file in prefix.rglob("*") if file.name in ("node_modules", "__pycache__", "src", "package.json")]
+        self.assertEqual(left_behind, [])
+
+
+if __name__ == "__main__":
+    unittest.main()
