@@ -26,7 +26,7 @@ class CommandLine(program.ProgramTest):
         return process
 
     def test_every_verb_has_help(self):
-        for verb in ("list", "explain", "run", "reproduce", "measure", "mesh", "fetch", "report"):
+        for verb in ("list", "explain", "run", "reproduce", "check", "measure", "mesh", "fetch", "report"):
             self.assertIn("--quiet", self.succeeds(verb, "--help").stdout)
 
     def test_version(self):

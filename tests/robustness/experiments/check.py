@@ -1,0 +1,187 @@
+"""`pbskin check` as a CI server meets it: exit status, JUnit (read back by Python's own parser), GitHub's annotations and summary, the
+baseline. Truth: the contract in README; what a bound allows is decided here, from the figures of the frames."""
+import csv
+import json
+import os
+import re
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+import foreign_arm
+import program
+
+BOUNDS = """schema = 1
+[[check.scene]]
+scene = "arm.toml"
+name = "arm"
+[[check.bound]]
+name = "volume, 100 %% <of> & \\"rest\\""
+scene = "arm"
+deformer = "lbs"
+metric = "volume_change_pct"
+low = %s
+why = "a test"
+"""
+
+
+class Check(program.ProgramTest):
+    def setUp(self):
+        super().setUp()
+        foreign_arm.write_msh(self.path("arm.msh"), *foreign_arm.mesh((10, 2, 2)))
+        self.write("arm.skeleton.toml", foreign_arm.SKELETON)
+        self.write("arm.toml", foreign_arm.SCENE)
+        self.bounds = self.write("check.toml", BOUNDS % "-60.0")
+        self.baseline = self.path("baseline.csv")
+        self.environment = {name: value for name, value in os.environ.items() if not name.startswith("GITHUB_")}
+
+    def check(self, *arguments, **environment):
+        return program.run("check", "--bounds", self.bounds, "-o", self.path("out"), *arguments, env={**self.environment, **environment})
+
+    def frames(self):
+        with open(self.path("out", "arm", "metrics.csv"), encoding="utf-8", newline="") as file:
+            return [float(row["volume_change_pct"]) for row in csv.DictReader(file) if row["deformer"] == "lbs"]
+
+    def cases(self, path):
+        return {case.get("name"): case for case in ElementTree.parse(path).getroot().iter("testcase")}
+
+    def altered_baseline(self, column, change):
+        """The row of pbs in frame 3 with another value; the text of the file as it was."""
+        with open(self.baseline, encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        for row in rows:
+            if (row["deformer"], row["frame"]) == ("pbs", "3"):
+                row[column] = repr(change(float(row[column])))
+        with open(self.baseline, "w", encoding="utf-8", newline="") as file:
+            writer = csv.DictWriter(file, rows[0], lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(rows)
+
+    def test_own_bounds_hold_in_seconds(self):
+        process = program.run("check", "-o", self.path("own"), "--junit", self.path("own.xml"), env=self.environment)
+        self.assertIn(process.returncode, (0, 1), process.stderr)
+        failed = [case for case in self.cases(self.path("own.xml")).values() if case.find("failure") is not None]
+        bounds = [case.get("name") for case in failed if not case.get("name").startswith("baseline")]
+        self.assertEqual(bounds, [], process.stderr)  # another mesh of another CGAL is the baseline's to tell
+        with open(self.path("own", "check.json"), encoding="utf-8") as file:
+            record = json.load(file)
+        self.assertEqual(record["outcome"]["FAILS"], len(failed))
+        self.assertEqual(process.returncode, 1 if failed else 0)
+
+    def test_a_bound_that_holds(self):
+        process = self.check("--junit", self.path("volume.xml"))
+        self.assertEqual((process.returncode, process.stderr.count("pbskin:")), (0, 0), process.stderr)
+        case = self.cases(self.path("volume.xml"))['volume, 100 % <of> & "rest"']
+        self.assertEqual((case.get("classname"), case.find("failure")), ("arm", None))
+        root = ElementTree.parse(self.path("volume.xml")).getroot()
+        self.assertEqual([root.get(key) for key in ("tests", "failures", "errors", "skipped")], ["2", "0", "0", "0"])
+        self.assertGreater(float(root.get("time")), 0.0)
+
+    def test_a_bound_tightened_until_it_fails_names_the_frame(self):
+        self.check()
+        change = self.frames()
+        worst = change.index(min(change))
+        self.assertGreater(worst, 0)
+        self.write("check.toml", BOUNDS % (change[worst] + 1e-3))
+        process = self.check("--junit", self.path("volume.xml"), "--github", GITHUB_STEP_SUMMARY=self.path("summary.md"))
+        self.assertEqual(process.returncode, 1, process.stderr)
+        failure = self.cases(self.path("volume.xml"))['volume, 100 % <of> & "rest"'].find("failure").get("message")
+        found = re.match(r"frame (\d+): volume_change_pct of lbs = (\S+) %, expected at least", failure)
+        self.assertEqual(int(found[1]), worst)
+        self.assertAlmostEqual(float(found[2]), change[worst], places=3)
+        self.assertIn(failure, process.stderr)
+        annotation = "::error file=%s,line=5,title=arm volume%%2C 100 %%25 <of> & \"rest\"::%s" % (self.bounds, failure.replace("%", "%25"))
+        self.assertIn(annotation, process.stdout.splitlines())
+        self.assertIn("| FAILS | arm |", self.read("summary.md"))
+
+    def test_a_bound_holds_up_to_its_very_value_and_in_its_frames_alone(self):
+        self.check()
+        change = self.frames()
+        self.write("check.toml", BOUNDS % repr(min(change)))
+        self.assertEqual(self.check().returncode, 0)
+        self.write("check.toml", BOUNDS % "-1e-9" + "frames = [0, 0]\n")
+        self.assertEqual(self.check().returncode, 0)
+
+    def test_on_github_annotations_come_by_themselves(self):
+        self.write("check.toml", BOUNDS % "0.5")
+        self.assertNotIn("::error", self.check().stdout)
+        self.assertIn("::error", self.check(GITHUB_ACTIONS="true").stdout)
+
+    def test_a_baseline_of_the_same_figures_holds(self):
+        self.assertEqual(self.check("--write-baseline", self.baseline).returncode, 0)
+        process = self.check("--baseline", self.baseline)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertIn("baseline of pbs", process.stdout)
+
+    def test_another_accuracy_or_count_fails_and_wall_time_does_not(self):
+        self.check("--write-baseline", self.baseline)
+        kept = self.read("baseline.csv")
+        for column, change in (("volume_change_pct", lambda v: v + 2e-4), ("tets", lambda v: v + 1), ("inverted_tets", lambda v: v + 1),
+                               ("j_min", lambda v: float("nan"))):
+            self.altered_baseline(column, change)
+            process = self.check("--baseline", self.baseline, "--junit", self.path("volume.xml"))
+            self.assertEqual(process.returncode, 1, column)
+            failure = self.cases(self.path("volume.xml"))["baseline of pbs"].find("failure").get("message")
+            self.assertRegex(failure, r"^frame 3: %s was .*, is " % column)
+            self.write("baseline.csv", kept)
+        self.altered_baseline("volume_change_pct", lambda v: v + 5e-5)  # half its tolerance
+        self.assertEqual(self.check("--baseline", self.baseline).returncode, 0)
+        self.altered_baseline("step_ms", lambda v: 1e3 * v)
+        process = self.check("--baseline", self.baseline)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertRegex(process.stdout, r"wall time of pbs +\S+ ms a step, \S+ of the baseline's")
+
+    def test_a_deformer_or_frame_that_is_gone_fails(self):
+        self.check("--write-baseline", self.baseline)
+        for change in ('deformers.use=["lbs"]', "motion.frames=4"):
+            self.write("check.toml", (BOUNDS % "-60.0").replace('name = "arm"', "name = \"arm\"\nset = ['%s']" % change))
+            self.assertEqual(self.check("--baseline", self.baseline).returncode, 1, change)
+
+    def test_bad_baselines_and_bounds(self):
+        self.check("--write-baseline", self.baseline)
+        kept, good = self.read("baseline.csv"), BOUNDS % "-60.0"
+        for text, message in (("", "the file is empty"), ("a,b\n1,2\n", "missing: expected a file of `pbskin check --write-baseline`"),
+                              (kept[:-20], "cut off"), (kept.replace("arm,pbs,3,", "arm,pbs,three,"), "three")):
+            self.write("baseline.csv", text)
+            process = self.check("--baseline", self.baseline)
+            self.assertEqual(process.returncode, 2, process.stderr)
+            self.assertRegex(process.stderr, r"pbskin: \S*baseline\.csv.*" + re.escape(message))
+        self.assertEqual(self.check("--baseline", self.path("none.csv")).returncode, 2)
+        for old, new, message in (("volume_change_pct", "volume_chnage_pct", r":9: metric = volume_chnage_pct: unknown metric; the nearest"),
+                                  ("volume_change_pct", "step_ms", ":9: metric = step_ms: wall time is tracked, never judged"),
+                                  ("volume_change_pct", "error_l2_pct", ":5: metric = error_l2_pct: the scene does not measure it"),
+                                  ('deformer = "lbs"', 'deformer = "xpbd"', ":5: deformer = xpbd: expected one that the scene uses"),
+                                  ('scene = "arm"\n', 'scene = "leg"\n', ":7: scene = leg: expected a scene of this file; the nearest known one is arm"),
+                                  ("low = -60.0", "", ":5: low: expected low, high or both"),
+                                  ("low = -60.0", "low = 2.0\nhigh = 1.0", ":10: low = 2.0: expected low <= high"),
+                                  ("low = -60.0", "low = nan", ":10: low = nan: expected low <= high"),
+                                  ("low = -60.0", "low = 0\nframes = [0, 99]", ":5: frames = \\[0, 99\\]: expected at most 4"),
+                                  ("low = -60.0", "low = 0\nframes = [3]", ":11: frames: expected \\[first, last\\]"),
+                                  ("why =", "because =", ":5: why: missing"), ("schema = 1", "schema = 2", ": schema: expected 1"),
+                                  ("[[check.bound]]", "[[check.bond]]", ":5: bond: unknown key"), ("[[check.scene]]", "[[", ":2"),
+                                  ('"arm.toml"', '"leg.toml"', "leg.toml: cannot be read")):
+            self.write("check.toml", good.replace(old, new))
+            process = self.check()
+            self.assertEqual(process.returncode, 2, (new, process.stderr))
+            self.assertRegex(process.stderr, message)
+
+    def test_a_scene_without_its_body_is_left_out_and_said_so(self):
+        self.write("check.toml", BOUNDS % "-60.0" + '[[check.scene]]\nscene = "man_01_01"\nneeds = "man"\n')
+        empty = {"PBSKIN_CACHE": self.path("cache")}  # fetched bodies lie in the cache
+        process = self.check("--junit", self.path("volume.xml"), "--github", "--require-all", **empty)
+        self.assertEqual(process.returncode, 2, process.stderr)
+        process = self.check("--junit", self.path("volume.xml"), "--github", **empty)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        skipped = [case.get("classname") for case in self.cases(self.path("volume.xml")).values() if case.find("skipped") is not None]
+        self.assertEqual(skipped, ["man_01_01"])
+        self.assertIn("::warning file=", process.stdout)
+
+    def test_breakdown_is_exit_3_and_an_error_in_junit(self):
+        change = "set = ['pbs.gravity_m_s2=[0.0,-1e300,0.0]', 'pbs.jiggle.k_stretch=0.9']"
+        self.write("check.toml", (BOUNDS % "-60.0").replace('name = "arm"', 'name = "arm"\n' + change))
+        process = self.check("--junit", self.path("volume.xml"))
+        self.assertEqual(process.returncode, 3, process.stderr)
+        self.assertIn("not finite", self.cases(self.path("volume.xml"))["runs"].find("error").get("message"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,127 @@
+"""`pbskin measure` on frames that other programs have written: VTK's Python (.vtu, .vtk), Gmsh's own library (.msh 4.1, binary). Truth: a body
+stretched by s along one axis has 1 + s times its volume."""
+import ctypes.util
+import csv
+import os
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+import vtk
+
+import foreign_arm
+import program
+
+POINTS, TETS = foreign_arm.mesh((6, 2, 2))
+
+
+def stretched(percent, scale=1.0):
+    return [(scale * x * (1.0 + percent / 100.0), scale * y, scale * z) for x, y, z in POINTS]
+
+
+def write_vtk(path, points, tets):
+    grid, cloud = vtk.vtkUnstructuredGrid(), vtk.vtkPoints()
+    cloud.SetDataTypeToDouble()
+    for point in points:
+        cloud.InsertNextPoint(point)
+    grid.SetPoints(cloud)
+    for tet in tets:
+        grid.InsertNextCell(vtk.VTK_TETRA, 4, tet)
+    writer = vtk.vtkXMLUnstructuredGridWriter() if path.endswith(".vtu") else vtk.vtkUnstructuredGridWriter()
+    writer.SetFileName(path)
+    writer.SetInputData(grid)
+    writer.Write()
+
+
+class ForeignFrames(program.ProgramTest):
+    def setUp(self):
+        super().setUp()
+        foreign_arm.write_msh(self.path("rest.msh"), POINTS, TETS)
+
+    def frames(self, percents, pattern="arm_%04d.vtu"):
+        for number, percent in percents.items():
+            write_vtk(self.path(pattern % number), stretched(percent), TETS)
+
+    def measure(self, *arguments):
+        return program.run("measure", "rest.msh", *arguments, cwd=self.folder,
+                           env={name: value for name, value in os.environ.items() if not name.startswith("GITHUB_")})
+
+    def refuses(self, message, *arguments):
+        process = self.measure(*arguments)
+        self.assertEqual(process.returncode, 2, process.stderr)
+        self.assertIn(message, process.stderr)
+
+    def test_a_numbered_sequence_a_glob_and_a_folder(self):
+        self.frames({number: 0.1 * number for number in range(8, 12)})
+        os.mkdir(self.path("out"))
+        self.frames({number: 0.1 * number for number in range(8, 12)}, os.path.join("out", "arm_%d.vtk"))
+        for frames in ("arm_%04d.vtu", "arm_*.vtu", "out"):
+            process = self.measure(frames, "--csv", "volume.csv")
+            self.assertEqual(process.returncode, 0, process.stderr)
+            with open(self.path("volume.csv"), encoding="utf-8", newline="") as file:
+                change = [float(row["volume_change_pct"]) for row in csv.DictReader(file)]
+            self.assertEqual([round(value, 5) for value in change], [0.8, 0.9, 1.0, 1.1])  # float in the .vtu of 1e-7
+
+    def test_a_bound_that_fails_names_the_frame(self):
+        self.frames({1: 0.2, 2: -0.9, 3: 0.6})
+        process = self.measure("arm_%04d.vtu", "--max-volume-change", "0.5", "--max-inverted", "0", "--junit", "volume.xml", "--github")
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("pbskin: arm_0002.vtu: |volume_change_pct| = 0.9 > 0.5", process.stderr)
+        message = "frame arm_0002.vtu: |volume_change_pct| = 0.9, expected at most 0.5 (2 of 3 frames outside)"
+        cases = {case.get("name"): case for case in ElementTree.parse(self.path("volume.xml")).getroot().iter("testcase")}
+        self.assertEqual(cases["--max-volume-change 0.5"].find("failure").get("message"), message)
+        self.assertIsNone(cases["--max-inverted 0"].find("failure"))
+        self.assertIn("::error title=rest.msh --max-volume-change 0.5::" + message, process.stdout)
+
+    def test_every_bound_holds_at_its_value_and_fails_beyond(self):
+        write_vtk(self.path("arm.vtk"), stretched(10.0), TETS)
+        for bound, holds, fails in (("--max-volume-change", 10.001, 9.999), ("--max-volume-abs-change", 10.001, 9.999), ("--min-j", 1.099, 1.101),
+                                    ("--max-j", 1.101, 1.099), ("--max-edge-strain", 0.1001, 0.0999), ("--max-stretch-rms", 0.1, 0.01)):
+            self.assertEqual(self.measure("arm.vtk", bound, str(holds)).returncode, 0, bound)
+            self.assertEqual(self.measure("arm.vtk", bound, str(fails)).returncode, 1, bound)
+        write_vtk(self.path("folded.vtk"), [(-x, y, z) if x == 1.0 else (x, y, z) for x, y, z in POINTS], TETS)
+        self.assertEqual(self.measure("folded.vtk", "--max-inverted", "0").returncode, 1)
+
+    def test_a_gap_in_a_sequence(self):
+        self.frames({1: 0.1, 2: 0.1, 3: 0.1, 5: 0.1})
+        for frames in ("arm_%04d.vtu", "arm_*.vtu"):
+            self.refuses("arm_0004.vtu: frame = 4: missing: the sequence goes from 1 to 5 by 1", frames)
+        self.refuses("no such frames", "leg_%04d.vtu")
+
+    def test_a_folder_with_two_sequences(self):
+        os.mkdir(self.path("out"))
+        self.frames({1: 0.1, 2: 0.1}, os.path.join("out", "lbs_%04d.vtu"))
+        self.frames({1: 0.1, 2: 0.1}, os.path.join("out", "pbs_%04d.vtu"))
+        self.refuses("expected one sequence of frames", "out")
+
+    def test_other_vertices_order_and_units(self):
+        write_vtk(self.path("fewer.vtu"), *foreign_arm.mesh((5, 2, 2)))
+        self.refuses("fewer.vtu: vertices = 54: expected the rest mesh's 63", "fewer.vtu")
+        turned = list(reversed(range(len(POINTS))))
+        turned[0], turned[1] = turned[1], turned[0]  # the whole turned about would be the same body
+        write_vtk(self.path("order.vtu"), [POINTS[v] for v in turned], [[turned.index(v) for v in tet] for tet in TETS])
+        self.refuses("was the order of the vertices kept on export?", "order.vtu")
+        write_vtk(self.path("tets.vtu"), POINTS, TETS[::-1])
+        self.assertEqual(self.measure("tets.vtu", "--max-volume-change", "1e-9").returncode, 0)
+        for scale, factor in ((1000.0, "factor of 1000, as of millimetres against metres"), (0.01, "factor of 0.01, as of centimetres against")):
+            write_vtk(self.path("units.vtu"), stretched(1.0, scale), TETS)
+            self.refuses(factor, "units.vtu")
+
+    def test_gmsh_writes_the_frame(self):
+        library = ctypes.util.find_library("gmsh")
+        if not library:
+            self.skipTest("no libgmsh")
+        foreign_arm.write_msh(self.path("arm22.msh"), stretched(0.4), TETS)
+        gmsh, error = ctypes.CDLL(library), ctypes.c_int(0)
+        gmsh.gmshInitialize(0, None, 0, ctypes.byref(error))
+        gmsh.gmshOptionSetNumber(b"General.Terminal", ctypes.c_double(0.0), ctypes.byref(error))
+        gmsh.gmshOptionSetNumber(b"Mesh.Binary", ctypes.c_double(1.0), ctypes.byref(error))
+        gmsh.gmshOpen(self.path("arm22.msh").encode(), ctypes.byref(error))
+        gmsh.gmshWrite(self.path("arm.msh").encode(), ctypes.byref(error))
+        gmsh.gmshFinalize(ctypes.byref(error))
+        self.assertEqual(error.value, 0)
+        self.assertEqual(self.measure("arm.msh", "--max-volume-change", "0.41").returncode, 0)
+        self.assertEqual(self.measure("arm.msh", "--max-volume-change", "0.39").returncode, 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
