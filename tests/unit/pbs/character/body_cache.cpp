@@ -5,8 +5,12 @@
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -105,6 +109,22 @@ TEST_F(BodyCache, LeavesNoHalfMadeFilesBehind)
 {
     get();
     EXPECT_TRUE(stored().filename().string().starts_with("two-"));
+}
+
+TEST_F(BodyCache, WhatAKilledMakerLeftIsRemovedAndWhatALivingOneMakesIsNot)
+{
+    const pid_t gone = fork();
+    if (gone == 0) _exit(0);
+    waitpid(gone, nullptr, 0);
+    const fs::path folder = cache_folder();
+    fs::create_directories(folder);
+    const std::string dead = "making-other-" + std::to_string(gone), living = "making-other-" + std::to_string(getpid());
+    for (const std::string& name : {dead + ".vtu", "." + dead + "." + std::to_string(gone) + ".vtu", living + ".vtu"})
+        std::ofstream(folder / name) << "half";
+    get();
+    EXPECT_FALSE(fs::exists(folder / (dead + ".vtu")));
+    EXPECT_FALSE(fs::exists(folder / ("." + dead + "." + std::to_string(gone) + ".vtu")));
+    EXPECT_TRUE(fs::exists(folder / (living + ".vtu")));
 }
 
 TEST_F(BodyCache, WhereTheFolderCannotBeWrittenTheMeshIsMadeEveryTime)

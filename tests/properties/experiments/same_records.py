@@ -1,0 +1,96 @@
+"""Runs repeat to the bit: state hashes and records do not depend on threads, on what is in the environment, on where the program starts, on
+where memory lies, on how many runs go side by side. Truth: the same run, once more. Meshes: a foreign arm, as small as a test wants it
+and large enough to be shared among threads; the human, where it is installed."""
+import itertools
+import json
+import os
+import pathlib
+import subprocess
+import unittest
+
+import foreign_arm
+import program
+import reliability
+import run_records
+
+LONG = bool(os.environ.get("PBS_LONG"))
+ALL = '["lbs", "dqs", "delta_mush", "pbs", "xpbd", "xpbd_small_steps"]'
+FEM = '[[fem]]\nname = "p1"\nmodel = "linear"\n[[fem]]\nname = "snh"\nmodel = "stable_neo_hookean"\n'
+ORDERS, PRECISIONS = ["plain", "ordered", "grouped", "poses"], ["f32", "f64"]
+BLAS_THREADS = [{"OPENBLAS_NUM_THREADS": n, "OMP_NUM_THREADS": n} for n in "124"]
+ENVIRONMENTS = [{"LC_ALL": "de_DE.UTF-8", "LANG": "de_DE.UTF-8"}, {"LC_ALL": "C"}, {"TZ": "Asia/Kathmandu"},
+                {"HOME": None, "XDG_CACHE_HOME": None}, {"MALLOC_PERTURB_": "170"}, *BLAS_THREADS]
+
+
+class SameRecords(program.ProgramTest):
+    compared = 0  # hashes
+
+    @classmethod
+    def tearDownClass(cls):
+        reliability.tell("hashes", "state hashes compared with those of another run and found equal", cls.compared, cls.compared)
+
+    def write_arm(self, cells, use, frames=3, more=""):
+        foreign_arm.write_msh(self.path("arm.msh"), *foreign_arm.mesh(cells))
+        self.write("arm.skeleton.toml", foreign_arm.SKELETON)
+        text = foreign_arm.SCENE.replace('["lbs", "dqs", "pbs"]', use).replace("frames = 5", f"frames = {frames}")
+        text = text.replace("angle_deg = 120.0", "angle_deg = 60.0")
+        return self.write("arm.toml", text + "[output]\nframes_every = 2\n" + more)
+
+    def run_once(self, *arguments, before=(), **options):
+        """What the run says; with its folder cleared, so that nothing is left of the last."""
+        folder = pathlib.Path(self.path("out"))
+        command = [*before, program.PBSKIN, "run", *map(str, arguments), "-o", str(folder), "--quiet"]
+        process = subprocess.run(command, capture_output=True, text=True, **options)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        return run_records.records(folder)
+
+    def hashes(self, records):
+        return json.loads(json.dumps(records["run.json"]["state_hash"]))
+
+    def expect_same(self, one, other, but_threads=False):
+        type(self).compared += len(self.hashes(other))
+        self.assertEqual(self.hashes(one), self.hashes(other))
+        if not but_threads:
+            self.assertEqual(one, other)
+
+    def test_environments_places_and_addresses(self):
+        scene = self.write_arm((10, 2, 2), '["lbs", "dqs", "delta_mush", "pbs", "xpbd", "p1", "snh"]', more=FEM)
+        first = self.run_once(scene)
+        self.assertEqual(len(set(self.hashes(first).values())), 7)  # no two of them are the same deformer
+        for change in ENVIRONMENTS:
+            environment = {name: value for name, value in {**os.environ, **change}.items() if value is not None}
+            with self.subTest(change):
+                self.expect_same(first, self.run_once(scene, env=environment))
+        self.expect_same(first, self.run_once(os.path.basename(scene), cwd=self.folder))
+        self.expect_same(first, self.run_once(scene, before=["setarch", "-R"]))  # no address-space randomisation
+
+    def test_threads_on_a_mesh_that_is_shared_among_them(self):
+        scene = self.write_arm((60, 15, 15), ALL)  # 15,616 vertices
+        settings = list(itertools.product(ORDERS, PRECISIONS)) if LONG else [("ordered", "f32"), ("grouped", "f64")]
+        for order, precision in settings:
+            sets = ["--set", f'pbs.order="{order}"', "--set", f'pbs.precision="{precision}"']
+            alone = self.run_once(scene, *sets, "--threads", 1)
+            for threads in (2, 4) if LONG else (4,):
+                with self.subTest(order=order, precision=precision, threads=threads):
+                    self.expect_same(alone, self.run_once(scene, *sets, "--threads", threads), but_threads=True)
+
+    def test_the_human(self):
+        overrides = [f"motion.duration_s={1.0 if LONG else 0.05}", "output.frames=[]", "output.frame_names=[]"]
+        short = ["human_01_01", *(word for override in overrides for word in ("--set", override))]
+        if "not installed" in program.run("run", *short, "-o", self.path("out")).stderr:
+            self.skipTest("the human is not installed")
+        first = self.run_once(*short)
+        self.expect_same(first, self.run_once(*short))
+        self.expect_same(first, self.run_once(*short, "--threads", 4), but_threads=True)
+
+    def test_runs_side_by_side(self):
+        records = {}
+        for jobs in (1, 2, 4) if LONG else (1, 4):
+            self.succeeds("reproduce", "momentum", "-j", jobs, "-o", self.path(f"j{jobs}"))
+            records[jobs] = run_records.records(self.path(f"j{jobs}"))
+        for jobs, of in records.items():
+            self.assertEqual(of, records[1], jobs)
+
+
+if __name__ == "__main__":
+    unittest.main()

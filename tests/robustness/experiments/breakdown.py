@@ -1,0 +1,99 @@
+"""Numerical breakdown is an outcome: the frame and the worst element are on record and said, and the exit status is 3 where the run was
+expected to finish. Truth: the contract in README; the worst tet, found again in the frame that was written."""
+import json
+import unittest
+
+import foreign_arm
+import program
+
+SOLID = '[[fem]]\nname = "snh"\nmodel = "stable_neo_hookean"\n'
+LINEAR = '[[fem]]\nname = "linear"\nmodel = "linear"\n'
+
+
+def volume(points, tet):
+    (ax, ay, az), (bx, by, bz), (cx, cy, cz) = ([points[tet[k]][i] - points[tet[0]][i] for i in range(3)] for k in (1, 2, 3))
+    return ax * (by * cz - bz * cy) - ay * (bx * cz - bz * cx) + az * (bx * cy - by * cx)
+
+
+class Breakdown(program.ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.points, self.tets = foreign_arm.mesh((10, 2, 2))
+        foreign_arm.write_msh(self.path("arm.msh"), self.points, self.tets)
+        self.write("arm.skeleton.toml", foreign_arm.SKELETON)
+
+    def run_scene(self, *overrides, fem="", use='["pbs"]'):
+        scene = self.write("arm.toml", foreign_arm.SCENE.replace('["lbs", "dqs", "pbs"]', use) + fem)
+        sets = [word for override in overrides for word in ("--set", override)]
+        return program.run("run", scene, "-o", self.path("out"), *sets)
+
+    def outcome(self):
+        return json.loads(self.read("out", "run.json"))["outcome"]
+
+    def test_positions_that_are_not_finite(self):
+        process = self.run_scene("pbs.gravity_m_s2=[0.0,-1e300,0.0]", "pbs.jiggle.k_stretch=0.9")
+        self.assertEqual(process.returncode, 3, process.stderr)
+        first = self.outcome()["broken_frames"]["pbs"][0]
+        self.assertEqual((first["what"], first["frame"]), ("not_finite", self.outcome()["breakdowns"]["pbs"][0]))
+        self.assertIn(f"pbs is not finite in frame {first['frame']}: first at vertex {first['first_vertex']}, "
+                      f"{first['vertices_not_finite']} not finite", process.stderr)
+        self.assertLess(first["first_vertex"], len(self.points))
+
+    def test_inverted_tets_of_a_nonlinear_reference(self):
+        process = self.run_scene("motion.frames=2", "motion.angle_deg=170.0", fem=SOLID, use='["snh"]')
+        self.assertEqual(process.returncode, 3, process.stderr)
+        first = self.outcome()["broken_frames"]["snh"][0]
+        self.assertEqual((first["what"], first["frame"]), ("inverted", 1))
+        self.assertLess(first["volume_ratio"], 0.0)
+        self.assertIn(f"snh is inverted in frame 1: worst tet {first['worst_tet']} of volume ratio", process.stderr)
+
+    def test_a_frame_that_newton_does_not_reach(self):
+        process = self.run_scene("fem.0.most_newton_steps=1", "motion.frames=2", "motion.angle_deg=170.0", 'fem.0.model="neo_hookean"',
+                                 fem=SOLID, use='["snh"]')
+        self.assertEqual(process.returncode, 3, process.stderr)
+        outcome = self.outcome()
+        first = outcome["broken_frames"]["snh"][0]
+        self.assertEqual((first["what"], first["frame"]), ("not_converged", outcome["not_converged"]["snh"][0]))
+        self.assertIn(f"snh is not converged in frame {first['frame']}: worst tet {first['worst_tet']} of volume ratio", process.stderr)
+
+    def test_pbs_above_its_stop_residual(self):
+        process = self.run_scene("pbs.stop_residual=1e-12", "pbs.iterations=2")
+        self.assertEqual(process.returncode, 3, process.stderr)
+        self.assertIn("pbs is not converged in frame 0: worst tet", process.stderr)
+
+    def test_inverted_tets_of_the_linear_reference_are_on_record_and_no_failure(self):
+        process = self.run_scene("motion.axis=[1.0,0.0,0.0]", "motion.angle_deg=180.0", "output.frames=[4]", fem=LINEAR, use='["linear"]')
+        self.assertEqual(process.returncode, 0, process.stderr)  # a negative control
+        last = self.outcome()["broken_frames"]["linear"][-1]
+        self.assertEqual((last["what"], last["frame"]), ("inverted", 4))
+        process = program.run("measure", self.path("arm.msh"), self.path("out", "frames", "linear_000004.vtu"))
+        self.assertIn(f"worst tet {last['worst_tet']} of volume ratio {last['volume_ratio']:.3g}, {last['inverted_tets']} inverted",
+                      process.stderr)
+
+    def test_a_run_that_holds_names_nothing(self):
+        self.assertEqual(self.run_scene(use='["lbs", "pbs"]').returncode, 0)
+        self.assertEqual(self.outcome()["broken_frames"], {})
+
+    def test_measure_names_the_worst_tet(self):
+        points = [list(point) for point in self.points]
+        vertex = self.tets[7][3]
+        points[vertex] = [10.0, 10.0, 10.0]
+        foreign_arm.write_msh(self.path("torn.msh"), points, self.tets)
+        ratios = [volume(points, tet) / volume(self.points, tet) for tet in self.tets]
+        process = program.run("measure", self.path("arm.msh"), self.path("torn.msh"))
+        self.assertEqual(process.returncode, 0)
+        self.assertIn(f"worst tet {ratios.index(min(ratios))} of volume ratio {min(ratios):.3g}, {sum(r <= 0 for r in ratios)} inverted",
+                      process.stderr)
+
+    def test_measure_refuses_a_frame_that_is_not_finite_and_names_the_vertex(self):
+        points = [list(point) for point in self.points]
+        points[17][1] = float("nan")
+        points[20][0] = float("inf")
+        foreign_arm.write_msh(self.path("broken.msh"), points, self.tets)
+        process = program.run("measure", self.path("arm.msh"), self.path("broken.msh"))
+        self.assertEqual(process.returncode, 2, process.stdout)
+        self.assertRegex(process.stderr, r"broken\.msh: vertex 17 = .*nan.*: expected finite coordinates")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,146 @@
+"""Killed at any moment, by any signal, once or several times: what lies there is whole, nothing of the program goes on, and --resume ends
+with the records of a run that nobody killed. Truth: those records; the exit status in README; /proc. Moments come from PBS_KILL_SEED."""
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+import program
+import reliability
+import run_records
+
+LONG = bool(os.environ.get("PBS_LONG"))
+SEED = int(os.environ.get("PBS_KILL_SEED", "2014"))
+STUDIES = ["momentum", "jiggle"] if LONG else ["momentum"]  # the limb and the human, in both
+KILLS = 20 if LONG else 3
+SIGNALS = [signal.SIGKILL, signal.SIGINT, signal.SIGTERM]
+AIMS = ["parent", "child", "group"]
+QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+
+
+def statuses():
+    """Process -> (state, parent, session) of all there are."""
+    found = {}
+    for entry in os.listdir("/proc"):
+        try:
+            fields = pathlib.Path("/proc", entry, "stat").read_text().rsplit(")", 1)[1].split() if entry.isdigit() else None
+        except OSError:  # it ended meanwhile
+            continue
+        if fields:
+            found[int(entry)] = (fields[0], int(fields[1]), int(fields[3]))
+    return found
+
+
+def of_session(session):
+    return [process for process, (state, _, its_session) in statuses().items() if its_session == session and state != "Z"]
+
+
+def children(of):
+    return [process for process, (state, parent, _) in statuses().items() if parent == of and state != "Z"]
+
+
+def send(process, kill, aim, chance):
+    """Sends it and says to whom it went: a parent without children is hit itself."""
+    targets = children(process.pid) if aim == "child" else []
+    try:
+        if aim == "group":
+            os.killpg(process.pid, kill)
+            return aim
+        if targets:
+            os.kill(chance.choice(targets), kill)
+            return aim
+    except ProcessLookupError:  # it ended just now
+        pass
+    process.send_signal(kill)
+    return "parent"
+
+
+class Kills(program.ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.chance, self.survived = random.Random(SEED), 0
+
+    def command(self, folder, *more):
+        return [program.PBSKIN, "reproduce", *STUDIES, "-o", str(folder), "-j", "2", *more]
+
+    def expect_nothing_goes_on(self, session):
+        deadline = time.monotonic() + 5
+        while (left := of_session(session)) and time.monotonic() < deadline:
+            time.sleep(0.01)
+        self.assertEqual(left, [], "processes that go on")
+
+    def expect_whole(self, folder, temporaries_allowed):
+        for path in run_records.files(folder):
+            if run_records.is_temporary(path):
+                self.assertTrue(temporaries_allowed, path)
+            else:
+                self.assertIsNone(run_records.what_is_torn(path))
+
+    def expect_status(self, status, kill, aim, folder):
+        if status == 0:  # it was done before the signal came, or a child was
+            self.assertTrue((folder / "claims.json").exists())
+        elif aim == "child":  # the run is lost, and a verdict with it
+            self.assertEqual(status, 1)
+        elif kill == signal.SIGKILL or not list(folder.glob("*/plan.json")):  # or before it watched for signals
+            self.assertEqual(status, -kill)
+        else:
+            self.assertEqual(status, 130)
+
+    def kill_once(self, folder, seconds):
+        """Whether it was still at work then; a resumed run keeps what the last one finished."""
+        kill, aim, moment = self.chance.choice(SIGNALS), self.chance.choice(AIMS), self.chance.uniform(0.02, seconds)
+        process = subprocess.Popen(self.command(folder, "--resume"), start_new_session=True, **QUIET)
+        try:
+            process.wait(moment)
+        except subprocess.TimeoutExpired:
+            hit = send(process, kill, aim, self.chance)
+            with self.subTest(kill=kill.name, hit=hit, moment_s=round(moment, 3), seed=SEED):
+                self.expect_status(process.wait(60), kill, hit, folder)
+                self.expect_nothing_goes_on(process.pid)
+                self.expect_whole(folder, temporaries_allowed=kill == signal.SIGKILL)
+                self.survived += 1
+            return True
+        return False
+
+    def test_killed_and_resumed(self):
+        whole = pathlib.Path(self.path("whole"))
+        start = time.monotonic()
+        subprocess.run(self.command(whole), check=True, **QUIET)
+        seconds = time.monotonic() - start
+        undisturbed = run_records.records(whole)
+        self.assertGreater(len(undisturbed), 5)
+        folder, kills = pathlib.Path(self.path("killed")), 0
+        while kills < KILLS:
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir()
+            kills += sum(self.kill_once(folder, seconds) for _ in range(self.chance.choice([1, 2, 3])))
+            subprocess.run(self.command(folder, "--resume"), check=True, **QUIET)
+            self.assertEqual(run_records.records(folder), undisturbed)
+        reliability.tell("kills", "kills survived: whole files, no process left, the same records after --resume", self.survived, kills,
+                         note=f"seed {SEED}")
+
+
+class KilledReport(program.ProgramTest):
+    def test_the_page_is_whole_or_not_there(self):
+        results, chance = pathlib.Path(self.path("results")), random.Random(SEED)
+        self.succeeds("reproduce", "momentum", "-o", results)
+        start = time.monotonic()
+        self.succeeds("report", results)
+        seconds, page = time.monotonic() - start, results / "report.html"
+        for _ in range(5 if LONG else 1):
+            page.unlink()
+            process = subprocess.Popen([program.PBSKIN, "report", str(results)], start_new_session=True, **QUIET)
+            time.sleep(chance.uniform(0.0, seconds))
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+            self.assertTrue(not page.exists() or page.read_text(encoding="utf-8").rstrip().endswith("</html>"))
+            self.succeeds("report", results)
+            self.assertEqual([path.name for path in results.iterdir() if path.name.startswith(".")], [])
+
+
+if __name__ == "__main__":
+    unittest.main()

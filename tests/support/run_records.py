@@ -1,0 +1,68 @@
+"""The files below a folder of records: whether each is whole, and what they say beside time and provenance."""
+import csv
+import io
+import json
+import pathlib
+import re
+from xml.etree import ElementTree
+
+TIME_COLUMNS = re.compile(r"step_ms|.*cpu_s|.*wall_s|.*seconds|.*_ns|ms_.*|ns_.*")
+TIME_KEYS = re.compile(r"provenance|cost|.*seconds|.*_utc|.*_s")
+MOTION_KEYS = {"time_step_s", "time_s", "start_s", "duration_s"}  # of what is simulated
+TEMPORARY = re.compile(r"\..+\.\d+\.([A-Za-z0-9]{6}|vtu|vtp|pvd|msh|mesh)")
+
+
+def files(folder):
+    return sorted(path for path in pathlib.Path(folder).rglob("*") if path.is_file())
+
+
+def is_temporary(path):
+    return TEMPORARY.fullmatch(path.name) is not None
+
+
+def rows(path):
+    text = path.read_text(encoding="utf-8")
+    if not text.endswith("\n"):
+        raise ValueError("the last line has no end")
+    table = list(csv.reader(io.StringIO(text)))
+    if {len(row) for row in table} != {len(table[0])}:
+        raise ValueError("lines of unequal length")
+    return table
+
+
+def what_is_torn(path):
+    """Why a file is not whole; nothing where it is."""
+    try:
+        if path.suffix == ".csv":
+            rows(path)
+        elif path.suffix == ".json":
+            json.loads(path.read_text(encoding="utf-8"))
+        elif path.suffix in (".vtu", ".vtp", ".pvd"):
+            ElementTree.parse(path)
+        elif not path.read_bytes():
+            raise ValueError("empty")
+    except (ValueError, ElementTree.ParseError) as error:
+        return f"{path}: {error}"
+    return None
+
+
+def without_time(value):
+    if isinstance(value, dict):
+        return {key: without_time(of) for key, of in value.items() if key in MOTION_KEYS or not TIME_KEYS.fullmatch(key)}
+    return [without_time(of) for of in value] if isinstance(value, list) else value
+
+
+def said(path):
+    if path.suffix == ".json":
+        return without_time(json.loads(path.read_text(encoding="utf-8")))
+    if path.suffix == ".csv":
+        table = rows(path)
+        kept = [column for column, name in enumerate(table[0]) if not TIME_COLUMNS.fullmatch(name)]
+        return [[row[column] for column in kept] for row in table]
+    return path.read_bytes()
+
+
+def records(folder, left_out=()):
+    """Name below the folder -> what the file says."""
+    named = ((str(path.relative_to(folder)), path) for path in files(folder))
+    return {name: said(path) for name, path in named if not name.endswith(tuple(left_out))}
