@@ -1,0 +1,87 @@
+// Truth: tables written here, whose worst frame and differences are seen by eye.
+#include "analysis/check/check_judgement.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <gtest/gtest.h>
+
+using analysis::CheckBound;
+using analysis::CheckCase;
+using analysis::CheckRules;
+using analysis::CheckState;
+
+namespace {
+
+analysis::CsvTable metrics(const std::string& second, const std::string& last = "0.1")
+{
+    return analysis::parse_csv("scene,deformer,frame,iterations,loss,step_ms\ns,pbs,0,24,0,1\ns,pbs,1,24," + second + ",1\ns,pbs,2,24," +
+                                   last + ",1\ns,lbs,0,,-9,1\n",
+                               "metrics.csv");
+}
+
+CheckBound within(double low, double high, std::vector<int> frames = {})
+{
+    return {"b", "s", "pbs", "loss", low, high, frames, "", 3};
+}
+
+CheckCase judged(const CheckBound& bound, const std::string& second)
+{
+    return judge_bound(bound, "%", metrics(second), "check.toml");
+}
+
+CheckRules rules()
+{
+    return {"check.toml", {}, {}, {{"loss", 0.01, 0.0, "", 0}}};
+}
+
+analysis::CsvTable baseline_of(const analysis::CsvTable& table, int tets = 20)
+{
+    analysis::CsvTable baseline = analysis::baseline_columns(rules());
+    add_baseline_rows(baseline, rules(), "s", table, 10, tets);
+    return analysis::parse_csv(baseline.text(), "baseline.csv");
+}
+
+CheckCase compared(const analysis::CsvTable& now, const analysis::CsvTable& before)
+{
+    return compare_with_baseline(rules(), "s", baseline_of(now), before, "baseline.csv").at(1);  // after lbs
+}
+
+}  // namespace
+
+TEST(CheckJudgement, TheFrameFarthestOutIsNamed)
+{
+    const CheckCase check = judged(within(-0.5, 0.5), "-0.7");
+    EXPECT_EQ(check.state, CheckState::failed);
+    EXPECT_EQ(check.frame, 1);
+    EXPECT_EQ(check.message, "frame 1: loss of pbs = -0.7 %, expected -0.5 to 0.5 %");
+    EXPECT_EQ(judged(within(-0.5, 0.05), "-0.7").message,
+              "frame 1: loss of pbs = -0.7 %, expected -0.5 to 0.05 % (2 of 3 frames outside, the first is 1)");
+}
+
+TEST(CheckJudgement, TheBoundItselfHoldsAndNotANumberDoesNot)
+{
+    EXPECT_EQ(judged(within(-0.5, 0.5), "-0.5").state, CheckState::held);
+    EXPECT_EQ(judged(within(-0.5, 0.5), "nan").state, CheckState::failed);
+    EXPECT_EQ(judged(within(-0.5, 0.5), "inf").state, CheckState::failed);
+    EXPECT_EQ(judged(within(-0.5, 0.5, {2, 2}), "9").state, CheckState::held);
+}
+
+TEST(CheckJudgement, WhatTheSceneHasNotIsRefused)
+{
+    CheckBound bound = within(0, 1);
+    bound.deformer = "dqs";
+    EXPECT_THROW(judged(bound, "0"), pbs::InputError);
+    EXPECT_THROW(judged(within(0, 1, {0, 3}), "0"), pbs::InputError);
+}
+
+TEST(CheckBaseline, WithinTheToleranceHolds)
+{
+    EXPECT_EQ(compared(metrics("0.2"), baseline_of(metrics("0.209"))).state, CheckState::held);
+    const CheckCase check = compared(metrics("0.2"), baseline_of(metrics("0.25")));
+    EXPECT_EQ(check.state, CheckState::failed);
+    EXPECT_EQ(check.message, "frame 1: loss was 0.25, is 0.2, tolerance 0.01 (1 of 3 frames differ)");
+}
+
+TEST(CheckBaseline, CountsMustBeTheSame)
+{
+    EXPECT_EQ(compared(metrics("0.2"), baseline_of(metrics("0.2"), 21)).message, "frame 0: tets was 21, is 20, tolerance 0 (3 of 3 frames differ)");
+}
