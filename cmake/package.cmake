@@ -24,7 +24,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
     "assimp-testmodels, python3, python3-numpy, python3-matplotlib, python3-vtk9, xvfb, xauth, openmpi-bin")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "libpbs-dev, calculix-ccx, cube2-data, npm")
-set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "position based skinning, judged beside LBS, DQS and finite elements")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Static libraries, headers and the CMake package pbs.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpbs-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libtbb-dev")

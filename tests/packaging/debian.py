@@ -1,0 +1,87 @@
+"""The Debian packages: built, looked into, unpacked elsewhere and run. Long: a build of its own without this machine's instructions.
+
+Truth: dpkg's own tools, and the packages' contents as a user gets them.
+"""
+import os
+import re
+import sys
+import unittest
+
+import installation
+from installation import CMAKE, SOURCE, folder, run
+
+packages = SOURCE / "build/package/packages"
+root = folder / "root"
+
+
+class Debian(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        for file in packages.glob("*.deb"):
+            file.unlink()
+        made = run(CMAKE, "--workflow", "--preset", "package", cwd=SOURCE)
+        if made.returncode != 0:
+            raise RuntimeError(made.stdout[-3000:] + made.stderr[-3000:])
+        cls.debs = {file.name.split("_")[0]: file for file in packages.glob("*.deb")}
+        for deb in cls.debs.values():
+            run("dpkg-deb", "-x", deb, root, check=True)
+
+    def field(self, package, name):
+        return run("dpkg-deb", "-f", self.debs[package], name).stdout.strip()
+
+    def test_two_packages(self):
+        self.assertEqual(sorted(self.debs), ["libpbs-dev", "pbskin"])
+
+    def test_what_they_depend_on(self):
+        needs = re.findall(r"[\w.+-]+", re.sub(r"\([^)]*\)", "", self.field("pbskin", "Depends")))
+        for name in ("libc6", "libstdc++6", "libdeal.ii-9.4.1", "libgsl27", "libfmt9", "libspdlog1.10-fmt9"):
+            self.assertIn(name, needs)
+        self.assertFalse([name for name in needs if name.endswith("-dev")])
+        self.assertEqual(self.field("libpbs-dev", "Depends"), "libeigen3-dev, libtbb-dev")
+
+    def test_all_under_usr_and_owned_by_root(self):
+        for deb in self.debs.values():
+            for line in run("dpkg-deb", "-c", deb).stdout.splitlines():
+                self.assertRegex(line, r"^[-dl][rwx-]{9} root/root +\d+ \S+ \S+ \./(usr/?.*)?$")
+
+    def test_the_program_runs_where_it_was_unpacked(self):
+        shown = run(root / "usr/bin/pbskin", "list", "scenes", cwd=folder)
+        self.assertEqual(shown.returncode, 0, shown.stderr)
+        small = ("--set", "motion.frames=2", "--set", "motion.angle_deg=20", "--set", "character.vertices=500")
+        ran = run(root / "usr/bin/pbskin", "run", "limb_twist", "-o", "twist", *small, cwd=folder)
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+
+    def test_libraries_are_found_by_a_consumer(self):
+        configured = run(CMAKE, "-S", SOURCE / "tests/packaging/method_consumer", "-B", folder / "consumer", "-G", "Ninja",
+                         f"-DCMAKE_PREFIX_PATH={root / 'usr'}")
+        self.assertEqual(configured.returncode, 0, configured.stderr)
+        self.assertEqual(run(CMAKE, "--build", folder / "consumer").returncode, 0)
+        self.assertIn("tets 1920", run(folder / "consumer/bent_bar").stdout)
+
+    def test_every_component_is_found(self):
+        source = folder / "all"
+        source.mkdir()
+        (source / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.25)\nproject(every LANGUAGES C CXX)\n"
+                                               "find_package(pbs REQUIRED COMPONENTS method mesh_io character analysis fem)\n"
+                                               "file(WRITE main.cpp \"#include <pbs/character/bodies.hpp>\\nint main() {}\\n\")\n"
+                                               "add_executable(every main.cpp)\n"
+                                               "target_link_libraries(every pbs::character pbs::analysis pbs::fem)\n")
+        configured = run(CMAKE, "-S", source, "-B", folder / "all_build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={root / 'usr'}")
+        self.assertEqual(configured.returncode, 0, configured.stderr)
+        built = run(CMAKE, "--build", folder / "all_build")
+        self.assertEqual(built.returncode, 0, built.stdout)
+
+    def test_nothing_names_the_source_tree(self):
+        self.assertEqual(installation.files_naming(root, SOURCE), [])
+
+    def test_a_native_build_is_refused(self):
+        script = (SOURCE / "cmake/package/portable_only.cmake").resolve()
+        refused = run(CMAKE, "-DCPACK_PBS_NATIVE=ON", "-P", script)
+        self.assertNotEqual(refused.returncode, 0)
+        self.assertIn("PBS_NATIVE = ON", refused.stderr)
+
+
+if __name__ == "__main__":
+    if os.environ.get("PBS_LONG") != "1":
+        sys.exit(77)
+    unittest.main()
