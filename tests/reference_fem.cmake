@@ -31,7 +31,6 @@ foreach(name hanging_bar linear_response manufactured_solution patch_test potent
 endforeach()
 
 if(TARGET fem_deformer)
-    find_package(nlohmann_json REQUIRED)
     foreach(name bone_attachment bone_capsules harmonic_weights linear_fem_deformer newton_record pose_path root_frame)
         pbs_test(unit experiments/deformers/fem/${name} fem_deformer)
     endforeach()
