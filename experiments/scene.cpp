@@ -291,8 +291,10 @@ ErrorBar read_error_bar(const SceneValues& values, const std::string& reference,
 
 std::string read_text(const std::string& path)
 {
-    std::ifstream file(path);
-    if (!file || fs::is_directory(path))
+    std::error_code code;  // a named pipe would be waited for without end
+    std::ifstream file;
+    if (fs::is_regular_file(path, code)) file.open(path);
+    if (!file.is_open())
         throw pbs::InputError(path, 0, "", "", "cannot be read: expected a scene file, or a name of `pbskin list scenes`");
     std::ostringstream text;
     text << file.rdbuf();

@@ -33,6 +33,7 @@ json to_json(const toml::node& node)
 std::string shown(const toml::node& node)
 {
     const json value = to_json(node);
+    if (node.is_floating_point() && !std::isfinite(value.get<double>())) return std::to_string(value.get<double>());  // JSON knows no nan
     return value.is_null() ? "(a table)" : value.is_string() ? value.get<std::string>() : value.dump();
 }
 

@@ -30,10 +30,11 @@ std::map<std::string, int> index_of_names(const std::vector<NamedJoint>& joints,
 void check_lengths(const std::vector<NamedJoint>& joints, const std::string& file)
 {
     Eigen::AlignedBox3d box;
-    for (const NamedJoint& joint : joints) box.extend(joint.head).extend(joint.tail);
-    for (const NamedJoint& joint : joints) {
+    for (const NamedJoint& joint : joints)
         if (!(joint.head.cwiseAbs().maxCoeff() <= farthest_m && joint.tail.cwiseAbs().maxCoeff() <= farthest_m))
             throw InputError(file, joint.line, joint.name, "", "expected a bone within 1e9 m of the origin");
+    for (const NamedJoint& joint : joints) box.extend(joint.head).extend(joint.tail);
+    for (const NamedJoint& joint : joints) {
         const double length = (joint.tail - joint.head).norm();
         if (length > shortest_bone * box.diagonal().norm()) continue;
         std::ostringstream value;

@@ -10,8 +10,10 @@ namespace pbs {
 
 std::string read_text_file(const std::string& path)
 {
+    std::error_code code;  // a named pipe would be waited for without end
+    if (!std::filesystem::is_regular_file(path, code)) throw InputError(path, 0, "", "", "cannot be opened: expected a file");
     std::ifstream file(path, std::ios::binary);
-    if (!file || std::filesystem::is_directory(path)) throw InputError(path, 0, "", "", "cannot be opened");
+    if (!file) throw InputError(path, 0, "", "", "cannot be opened");
     std::ostringstream text;
     text << file.rdbuf();
     return text.str();

@@ -1,0 +1,65 @@
+"""Every bad input by name, through the program itself: exit status 2 and one line with file, line, field, value and rule, within seconds and a
+gigabyte, and nothing left behind. Truth: the contract in README. The sound files that the bad ones are made of are accepted."""
+import concurrent.futures
+import json
+import os
+import unittest
+
+import bad_case
+import bad_characters
+import bad_scenes_and_files
+import bad_surfaces
+import bad_tets
+import foreign_arm
+import tet_texts
+
+COMMON = {"arm.vtu": tet_texts.vtu(bad_tets.POINTS, bad_tets.TETS), "arm.skeleton.toml": foreign_arm.SKELETON, "arm.toml": bad_characters.SCENE,
+          "clip.toml": bad_scenes_and_files.CLIP_SCENE, "good.bvh": bad_scenes_and_files.COMMON_CLIP}
+TABLES = (bad_tets, bad_surfaces, bad_characters, bad_scenes_and_files)
+
+
+def accepted(name, files, command, *says):
+    return bad_case.Case(name, files, command, says, status=0, leaves=("tets.vtu",))
+
+
+def turned(tets):
+    return [[tets[0][1], tets[0][0], *tets[0][2:]], *tets[1:]]
+
+
+def two_parts():
+    points = [*bad_tets.POINTS, *[(x + 3.0, y, z) for x, y, z in bad_tets.POINTS]]
+    return points, [*bad_tets.TETS, *[[vertex + len(bad_tets.POINTS) for vertex in tet] for tet in bad_tets.TETS]]
+
+
+def told():
+    """Accepted, and said so."""
+    points, tets = bad_tets.POINTS, bad_tets.TETS
+    measured = ["measure", "x.vtu", "x.vtu"]
+    yield accepted("turned tet", {"x.vtu": tet_texts.vtu(points, turned(tets))}, measured, "warning: x.vtu: inverted tets = 1: turned")
+    yield accepted("two parts", {"x.vtu": tet_texts.vtu(*two_parts())}, measured, "warning: x.vtu: parts = 2: kept")
+    yield accepted("1,700 m", {"x.vtu": tet_texts.vtu([[1700.0 * x for x in point] for point in points], tets)}, measured,
+                   "warning: x.vtu: extent [m] = 1700: taken as it is")
+
+
+class BadInput(unittest.TestCase):
+    def run_all(self, cases):
+        with concurrent.futures.ThreadPoolExecutor(max_workers=2) as pool:
+            wrong = [problem for found in pool.map(lambda case: bad_case.problems(case, COMMON), cases) for problem in found]
+        self.assertEqual(wrong, [], "\n" + "\n".join(wrong))
+
+    def test_each_is_refused(self):
+        cases = [case for table in TABLES for case in table.cases()]
+        self.assertEqual(len({case.name for case in cases}), len(cases))
+        self.run_all(cases)
+        print(f"{len(cases)} bad inputs refused")
+        if folder := os.environ.get("PBS_RESULTS"):
+            with open(os.path.join(folder, "bad_input.json"), "w", encoding="utf-8") as file:
+                json.dump({"refused": len(cases)}, file)
+
+    def test_what_is_accepted_with_a_treatment_is_told(self):
+        self.run_all(list(told()))
+
+
+if __name__ == "__main__":
+    bad_case.limit_address_space()
+    unittest.main()
