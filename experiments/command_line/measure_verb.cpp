@@ -3,6 +3,7 @@
 #include "analysis/csv_table.hpp"
 #include "analysis/edge_strain.hpp"
 #include "analysis/frame_metrics.hpp"
+#include "experiments/broken_frame.hpp"
 #include "experiments/check/check_reports.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/measure/foreign_frame.hpp"
@@ -24,6 +25,12 @@ struct MeasureArguments {
     std::vector<FrameBound> bounds = known_frame_bounds();
     CheckReports reports;
 };
+
+// What is said of a frame with inverted tets beside its figures; one that is not finite is refused by the reader.
+std::string worst_of(const analysis::Ruler& ruler, const pbs::Positions& positions)
+{
+    return worst_element(broken_frame(0, pbs::Outcome::finished, positions, ruler.volume_ratios(positions)));
+}
 
 FrameFigures figures_of(const RestMesh& rest, const analysis::Ruler& ruler, const pbs::Positions& positions)
 {
@@ -59,6 +66,7 @@ int measure(const MeasureArguments& arguments)
         const pbs::Positions positions = rest.read_frame(path);
         frames.push_back({std::filesystem::path(path).filename().string(), figures_of(rest, ruler, positions)});
         add_frame(table, frames.back());
+        if (frames.back().figures.metrics.inverted_tets > 0) fmt::print(stderr, "pbskin: {}: {}\n", path, worst_of(ruler, positions));
         for (const FrameBound& bound : arguments.bounds) {
             const std::string broken = broken_text(bound, frames.back().figures);
             if (broken.empty()) continue;
