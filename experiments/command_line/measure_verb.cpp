@@ -9,7 +9,9 @@
 #include "experiments/measure/foreign_frame.hpp"
 #include "experiments/measure/frame_bounds.hpp"
 #include "experiments/measure/frame_files.hpp"
+#include "experiments/warnings.hpp"
 #include "pbs/geometry/mesh_io.hpp"
+#include "pbs/geometry/mesh_remarks.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <fmt/format.h>
@@ -55,7 +57,9 @@ int measure(const MeasureArguments& arguments)
 {
     const pbs::Stopwatch stopwatch;
     const std::vector<std::string> paths = frame_files(arguments.frames);
-    const RestMesh rest(pbs::read_tet_mesh(arguments.rest).mesh);
+    const pbs::MeshReading reading = pbs::read_tet_mesh(arguments.rest);
+    warn(pbs::remarks_on(arguments.rest, reading));
+    const RestMesh rest(reading.mesh);
     const analysis::Ruler ruler(rest.mesh().rest, rest.mesh().tets);
     analysis::CsvTable table(columns);
     std::vector<MeasuredFrame> frames;
