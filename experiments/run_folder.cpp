@@ -164,6 +164,8 @@ RunFolder::RunFolder(const Scene& scene, const pbs::Character& character, const 
     for (const char* old : {"run.json", "metrics.csv", "frame_statistics.csv", "distances.csv", "iterations.csv", "regions.csv",
                             "bones.csv", "bones_rest.csv", "binding.csv", "surface_rest.vtp", "embedding.csv"})
         fs::remove(fs::path(folder) / old);
+    analysis::remove_abandoned_files(folder, false);
+    analysis::remove_abandoned_files((fs::path(folder) / "frames").string(), false);
     for (const auto& entry : fs::directory_iterator(fs::path(folder) / "frames"))
         if (is_own_frame(entry.path())) fs::remove(entry.path());
 }

@@ -2,7 +2,6 @@
 does not need. Truth: the contract in README."""
 import json
 import os
-import re
 import signal
 import subprocess
 import time
@@ -10,6 +9,7 @@ import unittest
 
 import foreign_arm
 import program
+import run_records
 
 
 class CommandLine(program.ProgramTest):
@@ -148,10 +148,18 @@ class CommandLine(program.ProgramTest):
         _, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, errors)
         self.assertFalse(os.path.exists(self.path("out", "run.json")))
-        whole = r"frames|(metrics|iterations|regions|bones|binding)\.csv|run\.json|[a-z0-9_]+\.(vtu|vtp|pvd)"  # a temporary's name begins with a dot or ends otherwise
-        names = [name for _, folders, files in os.walk(self.path("out")) for name in folders + files]
-        self.assertIn("frames", names)
-        self.assertEqual([name for name in names if not re.fullmatch(whole, name)], [])
+        left = run_records.files(self.path("out"))
+        self.assertIn("metrics.csv", [path.name for path in left])
+        self.assertEqual([path for path in left if run_records.is_temporary(path) or run_records.what_is_torn(path)], [])
+
+    def test_a_rerun_after_a_kill_leaves_no_half_of_a_file(self):
+        gone = subprocess.Popen(["true"])
+        gone.wait()
+        os.makedirs(self.path("out", "frames"))
+        names = f".run.json.{gone.pid}.aB3xYz", f"frames/.pbs_000001.{gone.pid}.vtu"
+        halves = [self.write(os.path.join("out", name), "half") for name in names]
+        self.succeeds("run", self.scene, "-o", self.path("out"))
+        self.assertEqual([half for half in halves if os.path.exists(half)], [])
 
     def test_a_rerun_leaves_no_frames_of_the_last(self):
         self.succeeds("run", self.scene, "-o", self.path("out"))
