@@ -104,11 +104,12 @@ toml::table parse(const std::string& text, const std::string& file)
 // VALUE of --set as TOML, or as a bare text.
 toml::table parse_override(const std::string& value)
 {
-    pbs::check_toml_keys(value, "--set");
     try {
+        pbs::check_toml_keys(value, "--set");
         toml::table table = toml::parse("value = " + value);
         if (table.size() == 1) return table;
     } catch (const toml::parse_error&) {
+    } catch (const pbs::InputError&) {
     }
     return toml::table{{"value", value}};
 }

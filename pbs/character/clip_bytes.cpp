@@ -9,6 +9,7 @@ namespace pbs {
 namespace {
 
 constexpr double shortest_frame_s = 1e-6, longest_frame_s = 1e3;
+constexpr double farthest = 1e9;  // [clip's units]
 
 [[noreturn]] void refuse(const std::string& path)
 {
@@ -20,7 +21,8 @@ Positions taken_points(TakenBytes& taken, std::size_t rows, const std::string& p
     const std::vector<double> numbers = taken.take_array<double>();
     if (!taken.sound() || numbers.size() != 3 * rows) refuse(path);
     const Positions points = Eigen::Map<const Positions>(numbers.data(), static_cast<Eigen::Index>(rows), 3);
-    if (!points.allFinite()) refuse(path);
+    if (!points.allFinite() || (rows > 0 && points.cwiseAbs().maxCoeff() > farthest))
+        throw InputError(path, 0, "positions", "", "expected finite numbers of at most 1e9");
     return points;
 }
 

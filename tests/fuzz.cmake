@@ -1,0 +1,43 @@
+# Our own parsing, and the validation behind the readers' processes, on any bytes. In every build the corpus and past findings are replayed
+# (robustness); with PBS_WITH_FUZZ, by clang, libFuzzer looks for new ones: `cmake --preset fuzz`, then `ctest -L fuzz`, 60 s a target.
+if(NOT PBS_WITH_RIG_IMPORT OR NOT PBS_WITH_EXPERIMENTS)
+    return()
+endif()
+find_package(fmt REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(nlohmann_json REQUIRED)
+
+# fuzz_target(NAME SOURCE...): tests/fuzz/NAME.cpp and what it tries, compiled for it alone, so that all of it is instrumented.
+function(fuzz_target name)
+    list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/)
+    set(kinds replay)
+    if(PBS_WITH_FUZZ)
+        list(APPEND kinds fuzz)
+    endif()
+    foreach(kind IN LISTS kinds)
+        add_executable(${kind}_${name} fuzz/${name}.cpp ${ARGN})
+        target_link_libraries(${kind}_${name} PRIVATE pbs_settings fmt::fmt tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json)
+        set_target_properties(${kind}_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+    endforeach()
+    set(folders ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${name} ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/findings/${name})
+    target_sources(replay_${name} PRIVATE fuzz/replay.cpp)
+    add_test(NAME robustness/fuzz/replay_${name} COMMAND replay_${name} ${folders})
+    set_tests_properties(robustness/fuzz/replay_${name} PROPERTIES LABELS robustness TIMEOUT 60)
+    if(PBS_WITH_FUZZ)
+        target_compile_options(fuzz_${name} PRIVATE -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined)
+        target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer,address,undefined)
+        file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/fuzz/${name})
+        add_test(NAME fuzz/${name} COMMAND fuzz_${name} -max_total_time=60 -max_len=65536 -timeout=10 -rss_limit_mb=2048
+            -artifact_prefix=${CMAKE_BINARY_DIR}/fuzz/${name}/ ${CMAKE_BINARY_DIR}/fuzz/${name} ${folders})
+        set_tests_properties(fuzz/${name} PROPERTIES LABELS fuzz TIMEOUT 120)
+    endif()
+endfunction()
+
+fuzz_target(scene experiments/scene_values.cpp experiments/scene_schema.cpp pbs/geometry/toml_text.cpp pbs/geometry/nearest_name.cpp
+    pbs/geometry/input_error.cpp)
+fuzz_target(mesh pbs/geometry/guarded_reading.cpp pbs/geometry/isolated_reader.cpp pbs/geometry/mesh_io_checks.cpp
+    pbs/geometry/mesh_io_files.cpp pbs/geometry/tet_volume.cpp pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
+fuzz_target(skeleton pbs/character/skeleton_file.cpp pbs/character/skeleton_order.cpp pbs/character/text_file.cpp pbs/geometry/toml_text.cpp
+    pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
+fuzz_target(clip pbs/character/clip_bytes.cpp pbs/character/retarget.cpp pbs/character/retarget_plan.cpp pbs/character/joint_map.cpp
+    pbs/skinning/pose.cpp pbs/skinning/skeleton.cpp pbs/geometry/input_error.cpp)

@@ -1,0 +1,16 @@
+// Any text as a scene: a scene or an InputError, nothing else.
+#include "experiments/scene_values.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    try {
+        const experiments::SceneValues values(std::string(reinterpret_cast<const char*>(data), size), "scene.toml", {});
+        values.resolved();
+    } catch (const pbs::InputError&) {
+    }
+    return 0;
+}
