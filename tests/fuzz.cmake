@@ -7,15 +7,15 @@ find_package(fmt REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json REQUIRED)
 
-# fuzz_target(NAME SOURCE...): tests/fuzz/NAME.cpp and what it tries, compiled for it alone, so that all of it is instrumented.
-function(fuzz_target name)
+# fuzz_target(NAME TARGET SOURCE...): the target and what it tries, compiled for it alone, so that all of it is instrumented.
+function(fuzz_target name target)
     list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/)
     set(kinds replay)
     if(PBS_WITH_FUZZ)
         list(APPEND kinds fuzz)
     endif()
     foreach(kind IN LISTS kinds)
-        add_executable(${kind}_${name} fuzz/${name}.cpp ${ARGN})
+        add_executable(${kind}_${name} ${target} ${ARGN})
         target_link_libraries(${kind}_${name} PRIVATE pbs_settings fmt::fmt tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json)
         set_target_properties(${kind}_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
     endforeach()
@@ -33,11 +33,11 @@ function(fuzz_target name)
     endif()
 endfunction()
 
-fuzz_target(scene experiments/scene_values.cpp experiments/scene_schema.cpp pbs/geometry/toml_text.cpp pbs/geometry/nearest_name.cpp
+fuzz_target(scene fuzz/scene.cpp experiments/scene_values.cpp experiments/scene_schema.cpp pbs/geometry/toml_text.cpp pbs/geometry/nearest_name.cpp
     pbs/geometry/input_error.cpp)
-fuzz_target(mesh pbs/geometry/guarded_reading.cpp pbs/geometry/isolated_reader.cpp pbs/geometry/mesh_io_checks.cpp
+fuzz_target(mesh fuzz/mesh.cpp pbs/geometry/guarded_reading.cpp pbs/geometry/isolated_reader.cpp pbs/geometry/mesh_io_checks.cpp
     pbs/geometry/mesh_io_files.cpp pbs/geometry/tet_volume.cpp pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
-fuzz_target(skeleton pbs/character/skeleton_file.cpp pbs/character/skeleton_order.cpp pbs/character/text_file.cpp pbs/geometry/toml_text.cpp
+fuzz_target(skeleton fuzz/skeleton.cpp pbs/character/skeleton_file.cpp pbs/character/skeleton_order.cpp pbs/character/text_file.cpp pbs/geometry/toml_text.cpp
     pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
-fuzz_target(clip pbs/character/clip_bytes.cpp pbs/character/retarget.cpp pbs/character/retarget_plan.cpp pbs/character/joint_map.cpp
+fuzz_target(clip fuzz/clip.cpp pbs/character/clip_bytes.cpp pbs/character/retarget.cpp pbs/character/retarget_plan.cpp pbs/character/joint_map.cpp
     pbs/skinning/pose.cpp pbs/skinning/skeleton.cpp pbs/geometry/input_error.cpp)
