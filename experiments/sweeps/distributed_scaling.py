@@ -4,7 +4,8 @@
     experiments/sweeps/distributed_scaling.py -o results/distributed_scaling.csv
     experiments/sweeps/distributed_scaling.py --tets 1000000 10000000 --ranks 16 64 --launch "srun -n {ranks}"     on a cluster
 
-One row a run: the fastest of `--repeats`. On a machine that others use, the columns of processor time (a waiting rank counts) tell more. Some 5 minutes for the default sizes (10,000, 100,000 and 1,000,000 tets, 2 ranks) on 2 cores."""
+One row a run: the fastest of `--repeats`. On a machine that others use, the columns of processor time (a waiting rank counts) tell more.
+Some 5 minutes for the default sizes (10,000, 100,000 and 1,000,000 tets, 2 ranks) on 2 cores."""
 import argparse
 import csv
 import json
@@ -12,7 +13,8 @@ import os
 import shlex
 import subprocess
 import sys
-import tempfile
+
+from atomic_text import atomic_text
 
 FROM_RECORD = ["element_order", "tets", "vertices", "dofs", "ranks", "iterations", "mesh_s", "assembly_s", "setup_s", "solve_s",
                "mesh_cpu_s", "assembly_cpu_s", "setup_cpu_s", "solve_cpu_s",
@@ -68,12 +70,10 @@ def sweep(options):
 
 
 def write(path, rows):
-    os.makedirs(os.path.dirname(path) or ".", exist_ok=True)
-    with tempfile.NamedTemporaryFile("w", dir=os.path.dirname(path) or ".", delete=False, newline="", encoding="utf-8") as file:
+    with atomic_text(path) as file:
         writer = csv.DictWriter(file, COLUMNS)
         writer.writeheader()
         writer.writerows(rows)
-    os.replace(file.name, path)
 
 
 def main():
@@ -84,8 +84,8 @@ def main():
             return 1
         rows.append(row)
         write(options.output, rows)
-        print("P%(element_order)d %(tets)8d tets %(dofs)8d dofs %(solver)8s %(ranks)d ranks: %(iterations)3d iterations, mesh %(mesh_s).2f, "
-              "assembly %(assembly_s).2f, setup %(setup_s).2f, solve %(solve_s).2f s (processor %(mesh_cpu_s).2f, %(assembly_cpu_s).2f, "
+        print("P%(element_order)d %(tets)8d tets %(dofs)8d dofs %(solver)8s %(ranks)d ranks: %(iterations)3d iterations, "
+              "mesh %(mesh_s).2f, assembly %(assembly_s).2f, setup %(setup_s).2f, solve %(solve_s).2f s (processor %(mesh_cpu_s).2f, %(assembly_cpu_s).2f, "
               "%(setup_cpu_s).2f, %(solve_cpu_s).2f), %(peak_mb_of_rank_max).0f MB a rank" % row, flush=True)
     return 0
 

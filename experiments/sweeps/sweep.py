@@ -7,20 +7,17 @@
     experiments/sweeps/sweep.py run SWEEP.toml -o results/stiffness --slurm
 
 `run` goes on where it was stopped. More options of snakemake follow after `--`. What a sweep file holds: sweep_file.py.
-Exit status: 0 finished (runs that broke down numerically are in the table), 1 snakemake or a program failed, 2 bad input or usage."""
+Exit status: 0 finished (runs that broke down numerically are in the table), 1 snakemake or a program failed, 2 bad input or usage,
+130 interrupted."""
 import argparse
-import fcntl
-import json
-import os
 import pathlib
-import shutil
-import subprocess
 import sys
 
 import sweep_file
 import sweep_merge
 import sweep_runs
 import sweep_size
+import sweep_start
 
 HERE = pathlib.Path(__file__).resolve().parent
 
@@ -53,40 +50,12 @@ def check(sweep):
     print(f"{len(sweep.runs)} runs in {len(sweep.batches())} jobs")
 
 
-def run(sweep, options, more):
-    """Snakemake's own status, but 2 where a run was refused, whose message is shown again."""
-    if not shutil.which("snakemake") or not options.pbskin.is_file():
-        wanted = "snakemake is not installed" if options.pbskin.is_file() else f"{options.pbskin}: no such program"
-        print(f"sweep: {wanted}", file=sys.stderr)
-        return 2
-    options.output.mkdir(parents=True, exist_ok=True)
-    lock = os.open(options.output / ".lock", os.O_CREAT | os.O_RDWR)  # unlike snakemake's own, it ends with who holds it
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        print(f"sweep: {options.output}: another sweep runs there", file=sys.stderr)
-        return 2
-    for old in options.output.glob("failed/*.json"):
-        old.unlink()
-    where = ["--profile", str(HERE / "slurm")] if options.slurm else ["--cores", str(options.jobs), "--quiet", "rules", "--scheduler", "greedy"]
-    command = ["snakemake", "-s", str(HERE / "Snakefile"), "-d", str(options.output), "--nolock", "--rerun-incomplete",
-               *where, *more,
-               "--config", f"sweep={pathlib.Path(options.sweep).resolve()}", f"pbskin={options.pbskin.resolve()}"]
-    status = subprocess.run(command, pass_fds=[lock]).returncode
-    failed = {path.stem: json.loads(path.read_text()) for path in sorted(options.output.glob("failed/*.json"))}
-    for name, told in list(failed.items())[:10]:
-        print(f"sweep: run {name}: {told['message']}", file=sys.stderr)
-    if status == 0:
-        print(f"{len(sweep.runs)} runs: {options.output / 'sweep.csv'}")
-    return 2 if any(told["status"] == 2 for told in failed.values()) else min(status, 1)
-
-
 def act(options, more):
     sweep = sweep_file.read(options.sweep)
     if options.verb == "check":
         check(sweep)
     elif options.verb == "run":
-        return run(sweep, options, more)
+        return sweep_start.run(sweep, options, more)
     elif options.verb == "size":
         return sweep_size.size(sweep, options)
     elif options.verb == "batch":
@@ -101,7 +70,7 @@ def act(options, more):
 def main():
     try:
         return act(*arguments(sys.argv[1:]))
-    except sweep_file.SweepError as error:
+    except (sweep_file.SweepError, sweep_start.StartError) as error:
         print(f"sweep: {error}", file=sys.stderr)
         return 2
     except sweep_runs.RunFailed as error:
@@ -110,6 +79,8 @@ def main():
     except (sweep_merge.MergeError, OSError) as error:
         print(f"sweep: {error}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        return sweep_start.INTERRUPTED
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@
     rows = "deformers"                  # of sweep.csv: one a run and deformer (default), or "frames": one a frame as well
     batch = 1                           # runs a job
 
-A run's name is the hash of its scene and keys: a sweep that grows keeps the runs that it has."""
+A run's name is the hash of its scene, its keys and the files that these name: a sweep that grows keeps the runs that it has."""
 import dataclasses
 import hashlib
 import itertools
@@ -22,6 +22,8 @@ import math
 import pathlib
 import re
 import tomllib
+
+import scene_files
 
 MOST_RUNS = 1_000_000
 KEY = re.compile(r"[A-Za-z_]\w*(\.\w+)+")
@@ -50,6 +52,7 @@ class Sweep:
     scene_hash: str  # of a scene file; of a built-in scene its name
     rows: str
     batch: int
+    files: dict      # that the scene or the runs name -> hash
     keys: list       # those that vary
     runs: list
 
@@ -190,7 +193,8 @@ class _Reader:
             return self.refuse("", "scene", scene, error.strerror)
 
 
-def _expand(reader, scene_hash):
+def _expand(reader, scene, scene_hash):
+    """The runs, and the files that scene and runs name with their hashes."""
     fixed = reader.flat("set", reader.document.get("set", {}))
     grid = reader.grid()
     for key in set(grid) & set(fixed):
@@ -201,13 +205,19 @@ def _expand(reader, scene_hash):
     count = math.prod(map(len, grid.values())) * max(len(listed), 1)
     if count > MOST_RUNS:
         reader.refuse("grid", "", f"{count} runs", f"expected at most {MOST_RUNS}")
-    runs = []
+    folder, runs = pathlib.Path(scene).parent if scene.endswith(".toml") else None, []
+    of_all = scene_files.files_of([scene_files.scene_values(scene) if folder else {}, fixed], folder)
+    files = dict(of_all)
     for row in listed or [{}]:
         for values in itertools.product(*grid.values()):
-            varied = {key: toml_of(value) for key, value in {**row, **dict(zip(grid, values))}.items()}
+            own = {**row, **dict(zip(grid, values))}
+            named = of_all | scene_files.files_of(own, folder)
+            files |= named
+            varied = {key: toml_of(value) for key, value in own.items()}
             every = {key: toml_of(value) for key, value in fixed.items()} | varied
-            runs.append(Run(short_hash([scene_hash, sorted(every.items())]), varied, [f"{key}={value}" for key, value in every.items()]))
-    return runs
+            identity = [scene_hash, sorted(every.items()), *([sorted(named.items())] if named else [])]
+            runs.append(Run(short_hash(identity), varied, [f"{key}={value}" for key, value in every.items()]))
+    return runs, files
 
 
 def read(file):
@@ -218,5 +228,8 @@ def read(file):
         reader.refuse("", "schema", reader.document.get("schema"), "expected 1")
     scene, scene_hash = reader.scene()
     rows, batch = reader.output()
-    runs = _expand(reader, scene_hash)
-    return Sweep(reader.file, reader.text, scene, scene_hash, rows, batch, list(runs[0].varied), runs)
+    try:
+        runs, files = _expand(reader, scene, scene_hash)
+    except OSError as error:
+        raise SweepError(error.filename, 0, "", "", f"{error.strerror}; named by {reader.file} or its scene") from None
+    return Sweep(reader.file, reader.text, scene, scene_hash, rows, batch, files, list(runs[0].varied), runs)

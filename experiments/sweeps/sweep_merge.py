@@ -14,9 +14,8 @@ import math
 import os
 import pathlib
 import shutil
-import tempfile
 
-from sweep_runs import write_atomically
+from atomic_text import atomic_text, write_atomically
 
 IDENTITY = ["scene", "deformer", "variant", "order", "precision", "iterations", "threads", "frame", "time_s", "outcome"]
 TIMES = ["step_ms"]
@@ -112,6 +111,7 @@ class Provenance:
         return {"schema": 1, "sweep": sweep.file.name, "sweep_text": sweep.text,
                 "sweep_sha256": hashlib.sha256(sweep.text.encode()).hexdigest(),
                 "scene": os.path.basename(sweep.scene), "scene_sha256_or_name": sweep.scene_hash,
+                "files_sha256": sweep.files,
                 "runs": len(sweep.runs), "exit_statuses": self.statuses, "sweep_csv_sha256": digest,
                 "provenance": {key: [json.loads(text) for text in sorted(texts)] for key, texts in sorted(self.said.items())}}
 
@@ -120,21 +120,13 @@ def merge(sweep, folder):
     """Writes the three files; a MergeError where a run is missing or broken. Returns what sweep.json says."""
     folder, provenance, costs = pathlib.Path(folder), Provenance(), []
     metrics = metrics_of(read_run(folder, sweep.runs[0].name)[2][0])
-    with tempfile.NamedTemporaryFile("w", dir=folder, prefix=".sweep.csv.", newline="", encoding="utf-8", delete=False) as file:
-        try:
-            table = Table(sweep, metrics, file)
-            for run in sweep.runs:
-                outcome, record, rows = read_run(folder, run.name)
-                table.add(run, outcome, record, rows)
-                provenance.add(outcome, record)
-                costs.append(cost_row(run, outcome, record))
-            file.flush()
-            os.fsync(file.fileno())
-        except BaseException:
-            os.unlink(file.name)
-            raise
-    os.chmod(file.name, 0o644)
-    os.replace(file.name, folder / "sweep.csv")
+    with atomic_text(folder / "sweep.csv") as file:
+        table = Table(sweep, metrics, file)
+        for run in sweep.runs:
+            outcome, record, rows = read_run(folder, run.name)
+            table.add(run, outcome, record, rows)
+            provenance.add(outcome, record)
+            costs.append(cost_row(run, outcome, record))
     head = "run,exit_status,seconds,cpu_seconds,peak_memory_mb,files,stored_bytes\n"
     write_atomically(folder / "costs.csv", head + "".join(costs))
     with open(folder / "sweep.csv", "rb") as file:

@@ -11,6 +11,8 @@ import subprocess
 import tempfile
 import time
 
+from atomic_text import write_atomically
+
 OUTCOMES = (0, 3)
 
 
@@ -18,22 +20,6 @@ class RunFailed(Exception):
     def __init__(self, status, message):
         super().__init__(message)
         self.status = status
-
-
-def write_atomically(path, text):
-    """Beside and renamed: a reader finds the whole file or none."""
-    path = pathlib.Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.NamedTemporaryFile("w", dir=path.parent, prefix=f".{path.name}.", delete=False, newline="", encoding="utf-8") as file:
-        try:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        except BaseException:
-            os.unlink(file.name)
-            raise
-    os.chmod(file.name, 0o644)
-    os.replace(file.name, path)
 
 
 def children_seconds():
@@ -104,6 +90,8 @@ def start(sweep, run, place, pbskin):
 
 def finish_batch(sweep, name, folder, pbskin):
     """All runs of a job, and its mark."""
-    runs = sweep.batches()[name]
+    runs = sweep.batches().get(name)
+    if not runs:
+        raise RunFailed(1, f"sweep: {sweep.file}: no job {name}: the sweep, or a file that it names, has changed; run the sweep again")
     outcomes = {run.name: finish(sweep, run, folder, pbskin)["exit_status"] for run in runs}
     write_atomically(pathlib.Path(folder, "batches", name + ".json"), json.dumps(outcomes, indent=2) + "\n")

@@ -9,6 +9,7 @@ import unittest
 root = pathlib.Path(__file__).resolve().parents[4]
 sys.path.insert(0, str(root / "experiments/sweeps"))
 
+import scene_files  # noqa: E402
 import sweep_file  # noqa: E402
 
 GOOD = """schema = 1
@@ -71,6 +72,43 @@ class SweepFile(unittest.TestCase):
         self.assertEqual(sweep.runs[4].overrides,
                          ["motion.frames=3", 'deformers.use=["lbs", "pbs"]', "pbs.k_stretch=0.2", "pbs.iterations=2"])
         self.assertEqual(len({run.name for run in sweep.runs}), 6)
+
+    def names(self, text):
+        scene_files.sha256.cache_clear()
+        sweep = self.read(text)
+        return [run.name for run in sweep.runs], sweep.files
+
+    def test_files_that_the_scene_names_are_in_the_names(self):
+        folder = self.file.parent
+        (folder / "arm.toml").write_text('[character]\nmesh = "arm.ele"\nbody = "none"\n[[list]]\nclip = "absent.bvh"\n')
+        (folder / "arm.ele").write_text("1")
+        (folder / "arm.node").write_text("1")
+        (folder / "other.csv").write_text("1")
+        before, files = self.names(GOOD.replace('"limb_bend"', '"arm.toml"'))
+        self.assertEqual(sorted(files), ["arm.ele", "arm.node"])
+        for changed, same in (("arm.ele", False), ("arm.node", False), ("other.csv", True)):
+            (folder / changed).write_text("2")
+            after, _ = self.names(GOOD.replace('"limb_bend"', '"arm.toml"'))
+            self.assertEqual(after == before, same, changed)
+            before = after
+
+    def test_files_that_a_run_names_are_in_its_name(self):
+        folder = self.file.parent
+        (folder / "arm.toml").write_text("")
+        (folder / "arm.csv").write_text("1")
+        text = GOOD.replace('"limb_bend"', '"arm.toml"').replace("pbs.k_stretch = [0.1, 0.2]", 'skinning.weights = ["paper", "arm.csv"]')
+        before, _ = self.names(text)
+        (folder / "arm.csv").write_text("2")
+        after, files = self.names(text)
+        self.assertEqual((list(files), after[:3]), (["arm.csv"], before[:3]))
+        self.assertFalse(set(after[3:]) & set(before[3:]))
+
+    def test_a_built_in_scene_has_no_folder(self):
+        (self.file.parent / "lbs").write_text("1")
+        absolute = self.file.parent / "arm.csv"
+        absolute.write_text("1")
+        _, files = self.names(GOOD.replace("motion.frames = 3", f'skinning.weights = "{absolute}"'))
+        self.assertEqual(list(files), [str(absolute)])
 
     def test_listed_runs_each_over_the_grid(self):
         sweep = self.read(GOOD + "[[run]]\nmotion.joint = 'a'\n[[run]]\nmotion.joint = 'b'\n")

@@ -1,11 +1,12 @@
 """Stands for pbskin: what a sweep starts, with metrics that are known. As a program: `run SCENE --quiet -o DIR --set k=v...`;
-pbs.iterations tells the metrics (100: refused, 101: a breakdown, 102: killed), and every start leaves a line in the file that STARTS
-names."""
+pbs.iterations tells the metrics (100: refused, 101: a breakdown, 102: killed, 103: a minute, with the process in `slow` beside STARTS), and
+every start leaves a line in the file that STARTS names."""
 import json
 import os
 import pathlib
 import signal
 import sys
+import time
 
 COLUMNS = "scene,deformer,variant,order,precision,iterations,threads,frame,time_s,volume_change_pct,bind_rms_m,step_ms,outcome"
 
@@ -29,6 +30,9 @@ def write(folder, iterations, step_ms=1.0, status=0, volumes=(0.1, 0.2, 0.6)):
 
 
 def main(arguments):
+    if arguments == ["--version"]:
+        print("pbskin 0.1.0 (git abc; none)")
+        return 0
     folder = arguments[arguments.index("-o") + 1]
     iterations = next(int(part.split("=")[1]) for part in arguments if part.startswith("pbs.iterations="))
     with open(os.environ["STARTS"], "a", encoding="utf-8") as file:
@@ -38,6 +42,11 @@ def main(arguments):
         return 2
     if iterations == 102:
         os.kill(os.getpid(), signal.SIGKILL)
+    if iterations == 103:
+        slow = pathlib.Path(os.environ["STARTS"]).parent / "slow"
+        slow.with_suffix(".new").write_text(str(os.getpid()))
+        slow.with_suffix(".new").rename(slow)
+        time.sleep(60)
     status = 3 if iterations == 101 else 0
     write(folder, iterations, status=status)
     return status
