@@ -1,5 +1,7 @@
 #include "analysis/toml_keys.hpp"
 
+#include "pbs/geometry/toml_text.hpp"
+
 #include <fmt/ranges.h>
 
 #include <sstream>
@@ -11,6 +13,12 @@ namespace {
 std::string value_text(const toml::node& node)
 {
     if (node.is_string()) return *node.value<std::string>();
+    if (node.is_table()) return "(a table)";
+    if (const toml::array* array = node.as_array()) {
+        std::vector<std::string> values;
+        for (const toml::node& value : *array) values.push_back(value_text(value));
+        return fmt::format("[{}]", fmt::join(values, ", "));
+    }
     std::ostringstream text;
     node.visit([&](const auto& value) { text << value; });
     return text.str();
@@ -20,6 +28,7 @@ std::string value_text(const toml::node& node)
 
 toml::table parse_toml_document(const std::string& text, const std::string& file, const std::set<std::string>& known)
 {
+    pbs::check_toml_keys(text, file);
     toml::table document;
     try {
         document = toml::parse(text, file);
@@ -30,7 +39,10 @@ toml::table parse_toml_document(const std::string& text, const std::string& file
         if (key.str() != "schema" && !known.contains(std::string(key.str())))
             throw pbs::InputError(file, static_cast<int>(node.source().begin.line), std::string(key.str()), "",
                                   fmt::format("unknown key: expected schema or {}", fmt::join(known, " or ")));
-    if (document["schema"].value_or(0) != 1) throw pbs::InputError(file, 0, "schema", "", "expected 1");
+    const toml::node* schema = document.get("schema");
+    if (!schema) throw pbs::InputError(file, 0, "schema", "", "missing: expected schema = 1");
+    if (schema->value_or(0) != 1)
+        throw pbs::InputError(file, static_cast<int>(schema->source().begin.line), "schema", value_text(*schema), "expected 1");
     return document;
 }
 
@@ -56,7 +68,7 @@ void TomlKeys::require_nothing_unknown() const
 void TomlKeys::refuse(const char* key, const std::string& rule) const
 {
     const toml::node* node = table_.get(key);
-    throw pbs::InputError(file_, node ? line_of(*node) : line(), key, node && node->is_value() ? value_text(*node) : "", rule);
+    throw pbs::InputError(file_, node ? line_of(*node) : line(), key, node ? value_text(*node) : "", rule);
 }
 
 }  // namespace analysis

@@ -2,6 +2,7 @@
 
 #include "analysis/atomic_file.hpp"
 #include "analysis/measurement.hpp"
+#include "pbs/character/json_file.hpp"
 
 #include <filesystem>
 
@@ -15,9 +16,42 @@ std::string plan_file(const std::string& folder)
     return (fs::path(folder) / "plan.json").string();
 }
 
-nlohmann::json read_plan(const std::string& folder)
+// What lies in plan.json, of which somebody else may have made something else.
+class KeptPlan {
+public:
+    explicit KeptPlan(const std::string& folder) : file_(plan_file(folder)) {}
+
+    const nlohmann::json& runs() const { return list("runs"); }
+    const nlohmann::json& left_out() const { return list("left_out"); }
+
+    std::string text(const nlohmann::json& part, const std::string& key) const
+    {
+        const nlohmann::json& value = file_.at(part, key);
+        if (!value.is_string()) file_.refuse(key, "expected a text");
+        return value;
+    }
+
+    bool is_set(const nlohmann::json& part, const std::string& key) const
+    {
+        if (!part.contains(key)) return false;
+        if (!part.at(key).is_boolean()) file_.refuse(key, "expected true or false");
+        return part.at(key);
+    }
+
+private:
+    const nlohmann::json& list(const std::string& key) const
+    {
+        const nlohmann::json& value = file_.at(key);
+        if (!value.is_array()) file_.refuse(key, "expected a list, as reproduce writes it");
+        return value;
+    }
+
+    pbs::JsonFile file_;
+};
+
+void require_record(const fs::path& run_json)
 {
-    return nlohmann::json::parse(analysis::read_text(plan_file(folder)));
+    pbs::JsonFile(run_json.string()).at("schema");
 }
 
 void add_run(analysis::Records& records, const fs::path& folder, const std::string& name, bool beside)
@@ -62,9 +96,9 @@ bool has_study_plan(const std::string& folder)
 std::vector<std::string> finished_runs(const std::string& folder)
 {
     std::vector<std::string> finished;
-    const nlohmann::json plan = read_plan(folder);
-    for (const auto& run : plan.at("runs")) {
-        const fs::path of_run = fs::path(folder) / run.at("name").get<std::string>();
+    const KeptPlan plan(folder);
+    for (const auto& run : plan.runs()) {
+        const fs::path of_run = fs::path(folder) / plan.text(run, "name");
         if (fs::exists(of_run / "run.json")) finished.push_back(of_run.string());
     }
     return finished;
@@ -73,17 +107,20 @@ std::vector<std::string> finished_runs(const std::string& folder)
 analysis::Records read_study_records(const std::string& folder, const std::string& root)
 {
     analysis::Records records;
-    const nlohmann::json plan = read_plan(folder);
-    for (const auto& out : plan.at("left_out")) records.left_out.push_back({out.at("scene"), out.at("reason")});
-    for (const auto& run : plan.at("runs"))
-        if (run.contains("scene")) records.planned_scenes.push_back(run.at("scene"));
+    const KeptPlan plan(folder);
+    for (const auto& out : plan.left_out()) records.left_out.push_back({plan.text(out, "scene"), plan.text(out, "reason")});
+    for (const auto& run : plan.runs())
+        if (run.contains("scene")) records.planned_scenes.push_back(plan.text(run, "scene"));
     for (const auto& out : records.left_out) records.planned_scenes.push_back(out.scene);
-    for (const auto& run : plan.at("runs")) {
-        const fs::path of_run = fs::path(folder) / run.at("name").get<std::string>();
-        if (fs::exists(of_run / "run.json"))
-            add_run(records, of_run, of_run.lexically_relative(root).string(), run.value("beside", false));
-        else
-            records.missing_runs.push_back(run.at("name"));
+    for (const auto& run : plan.runs()) {
+        const std::string name = plan.text(run, "name");
+        const fs::path of_run = fs::path(folder) / name;
+        if (!fs::exists(of_run / "run.json")) {
+            records.missing_runs.push_back(name);
+            continue;
+        }
+        require_record(of_run / "run.json");
+        add_run(records, of_run, of_run.lexically_relative(root).string(), plan.is_set(run, "beside"));
     }
     return records;
 }

@@ -1,6 +1,7 @@
 # Tests of mesh files and meshing.
 if(PBS_WITH_MESH_IO)
     pbs_test(unit pbs/geometry/module pbs_module)
+    pbs_test(unit pbs/geometry/isolated_reader pbs_module)
     foreach(name IN ITEMS mesh_io mesh_io_checks surface_reader)
         pbs_test(unit pbs/geometry/${name} pbs_mesh_io)
     endforeach()

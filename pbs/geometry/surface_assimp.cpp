@@ -8,11 +8,28 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <array>
+#include <fstream>
+#include <iterator>
 #include <vector>
 
 namespace pbs {
 namespace {
+
+// assimp takes a negative index of COLLADA's <p> for 0 and goes on with a torn surface.
+void refuse_negative_indices(const std::string& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    for (std::size_t open = text.find("<p>"); open != std::string::npos; open = text.find("<p>", open + 1)) {
+        const std::size_t close = std::min(text.find('<', open + 1), text.size()), minus = text.find('-', open);
+        if (minus >= close) continue;
+        const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(minus), '\n');
+        throw InputError(path, static_cast<int>(line), "p", text.substr(minus, text.find_first_of(" \t\r\n<", minus) - minus),
+                         "expected indices from 0");
+    }
+}
 
 struct Collected {
     std::vector<Vec3> points;
@@ -52,6 +69,7 @@ void add_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& paren
 
 IndexedPoints read_assimp(const std::string& path, const std::string& mesh_name)
 {
+    if (lower_extension(path) == ".dae") refuse_negative_indices(path);
     Assimp::Importer importer;
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
     const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);

@@ -59,8 +59,11 @@ TEST(Claims, WholeNumbersServeAsReals)
 TEST(Claims, BrokenFilesAreNamedWithTheirLine)
 {
     EXPECT_EQ(message_of(head + body), "accepted");
+    EXPECT_EQ(message_of(""), "claims.toml: schema: expected 1");
+    EXPECT_EQ(message_of(std::string("\1\2", 2)).substr(0, 14), "claims.toml:1:");
+    EXPECT_EQ(message_of("[" + std::string(100, '.') + "]\n").substr(0, 21), "claims.toml:1: key = ");
     EXPECT_EQ(message_of(head + body + "bound = 3\n"), "claims.toml:13: bound: unknown key of a claim");
-    EXPECT_EQ(message_of(head + body + "share = \"most\"\n"), "claims.toml:13: share = most: has the wrong type");
+    EXPECT_EQ(message_of(head + body + "share = \"most\"\n"), "claims.toml:13: share = most: expected a number");
     EXPECT_EQ(message_of(head + body + "share = 1.5\n"), "claims.toml:13: share = 1.5: expected 0 < share <= 1");
     EXPECT_EQ(message_of(head + body + "level = 1.0\n"), "claims.toml:13: level = 1.0: expected 0 < level < 1");
     EXPECT_EQ(message_of(head + body + "iterations = -1\n"), "claims.toml:13: iterations = -1: expected >= 0");
@@ -69,14 +72,19 @@ TEST(Claims, BrokenFilesAreNamedWithTheirLine)
               "claims.toml:8: rule = guess: expected share_within, mean_within, measured, printed or untestable");
     EXPECT_EQ(message_of(head + "rule = \"untestable\"\n"), "claims.toml:2: reason: missing in this claim");
     EXPECT_EQ(message_of(head + "rule = \"mean_within\"\n"), "claims.toml:2: metrics: expected at least one");
-    EXPECT_EQ(message_of(head + "rule = \"mean_within\"\nmetrics = [\"beauty\"]\n").substr(0, 30), "claims.toml:9: metrics: beauty");
+    EXPECT_EQ(message_of(head + "rule = \"mean_within\"\nmetrics = [\"beauty\"]\n").substr(0, 41),
+              "claims.toml:9: metrics = [beauty]: beauty");
     EXPECT_EQ(message_of(head + "rule = \"mean_within\"\nmetrics = \"volume_loss_pct\"\n"),
               "claims.toml:9: metrics = volume_loss_pct: expected a list");
     EXPECT_EQ(message_of(head + "rule = \"mean_within\"\nmetrics = [\"volume_loss_pct\"]\ndeformer = \"lbs\"\n"),
               "claims.toml:2: low_pct: expected low_pct < high_pct");
+    EXPECT_EQ(message_of(head + "rule = \"mean_within\"\nmetrics = [\"volume_loss_pct\", 1.5]\n"),
+              "claims.toml:9: metrics = [volume_loss_pct, 1.5]: expected a text at each place of the list");
     EXPECT_EQ(message_of("schema = 1\nverdict = \"reproduced\"\n"),
               "claims.toml:2: verdict: unknown key: expected schema or check or claim");
-    EXPECT_EQ(message_of("schema = 2\n"), "claims.toml: schema: expected 1");
+    EXPECT_EQ(message_of("schema = 2\n"), "claims.toml:1: schema = 2: expected 1");
+    EXPECT_EQ(message_of("schema = \"1\"\n"), "claims.toml:1: schema = 1: expected 1");
+    EXPECT_EQ(message_of("[[claim]]\n"), "claims.toml: schema: missing: expected schema = 1");
     EXPECT_EQ(message_of("schema = 1\n"), "claims.toml: claim: expected [[claim]] tables");
     EXPECT_EQ(message_of("schema = \n").substr(0, 14), "claims.toml:1:");
 }

@@ -1,0 +1,80 @@
+// Truth: what a reader gives back, or the way that it was made to die.
+#include "pbs/geometry/isolated_reader.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <new>
+#include <stdexcept>
+
+namespace {
+
+using Reader = std::function<std::string(const std::string&)>;
+
+std::string message_of(const Reader& read, const std::string& path = "x.vtu")
+{
+    try {
+        return "read: " + pbs::read_isolated(path, read);
+    } catch (const pbs::InputError& error) {
+        return error.what();
+    }
+}
+
+TEST(IsolatedReader, GivesBackEveryByte)
+{
+    EXPECT_EQ(pbs::read_isolated("x", [](const std::string&) { return std::string("a\0b", 3); }), std::string("a\0b", 3));
+    EXPECT_EQ(pbs::read_isolated("x", [](const std::string&) { return std::string(); }), "");
+    const std::string large(5'000'000, 'x');  // many times what a pipe holds
+    EXPECT_EQ(pbs::read_isolated("x", [&](const std::string&) { return large; }), large);
+}
+
+TEST(IsolatedReader, WhatTheReaderThrowsComesBack)
+{
+    EXPECT_EQ(message_of([](const std::string& path) -> std::string { throw pbs::InputError(path, 3, "tet", "-1", "expected 0 or more"); }),
+              "x.vtu:3: tet = -1: expected 0 or more");
+    EXPECT_EQ(message_of([](const std::string&) -> std::string { throw std::runtime_error("no header"); }), "x.vtu: no header");
+    EXPECT_EQ(message_of([](const std::string&) -> std::string { throw std::bad_alloc(); }),
+              "x.vtu: damaged: asks for more memory than such a file can need");
+}
+
+TEST(IsolatedReader, ADeathIsAnErrorThatNamesIt)
+{
+    const auto dying = [](int signal) {
+        return [signal](const std::string&) {
+            std::raise(signal);
+            return std::string();
+        };
+    };
+    EXPECT_EQ(message_of(dying(SIGSEGV)), "x.vtu: damaged: the reader broke down on it: Segmentation fault");
+    EXPECT_EQ(message_of(dying(SIGABRT)), "x.vtu: damaged: the reader broke down on it: Aborted");
+    EXPECT_EQ(message_of([](const std::string&) -> std::string { _exit(7); }),
+              "x.vtu: damaged: the reader ended in the middle, with exit status 7");
+    EXPECT_EQ(message_of([](const std::string&) -> std::string { _exit(0); }),
+              "x.vtu: damaged: the reader ended in the middle, with exit status 0");
+}
+
+TEST(IsolatedReader, AFileThatShrinksWhileItIsMapped)
+{
+    const test_support::ScratchFolder folder;
+    const std::string path = folder / "shrinking.vtu";
+    std::ofstream(path) << std::string(100'000, 'x');
+    const Reader read = [](const std::string& file) {
+        const int descriptor = open(file.c_str(), O_RDONLY);
+        const void* bytes = mmap(nullptr, 100'000, PROT_READ, MAP_PRIVATE, descriptor, 0);
+        std::filesystem::resize_file(file, 10);
+        return std::string(static_cast<const char*>(bytes), 100'000);
+    };
+    EXPECT_EQ(message_of(read, path), path + ": damaged: the reader broke down on it: Bus error");
+}
+
+}  // namespace

@@ -1,0 +1,53 @@
+// Truth: TOML's grammar, https://toml.io/en/v1.0.0: bare keys are ASCII; texts, comments and lists hold any number of dots.
+#include "pbs/geometry/toml_text.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+std::string times(int count, const std::string& text)
+{
+    std::string all;
+    for (int i = 0; i < count; ++i) all += text;
+    return all;
+}
+
+std::string message_of(const std::string& text)
+{
+    try {
+        pbs::check_toml_keys(text, "x.toml");
+    } catch (const pbs::InputError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(TomlText, KeysOfManyPartsAreNamedWithTheirLine)
+{
+    const std::string told = "x.toml:2: key = ";
+    for (const std::string part : {"a.", "\"a\".", "'a'.", "a . ", "\"a\\\".\"."})
+        for (const std::string before : {"", "[", "[["}) {
+            const std::string text = "# a key\n" + before + times(64, part) + "a = 1\n";
+            EXPECT_EQ(message_of(text).substr(0, told.size()), told) << text;
+        }
+    EXPECT_EQ(message_of(times(63, "a.") + "a = 1\n"), "accepted");
+}
+
+TEST(TomlText, DotsElsewhereAreNoParts)
+{
+    EXPECT_EQ(message_of("x = \"" + times(100, "a.") + "\"\n"), "accepted");
+    EXPECT_EQ(message_of("# " + times(100, "a.") + "\n"), "accepted");
+    EXPECT_EQ(message_of("x = [\n" + times(100, "0.5, ") + "\n]\n"), "accepted");
+    EXPECT_EQ(message_of("\"" + times(100, "a.") + "\" = 1\n"), "accepted");  // one part, whose name has dots
+}
+
+TEST(TomlText, BareWordsAreAscii)
+{
+    EXPECT_EQ(message_of("x = 1\nt\xc3\xa9te = 2\n"), "x.toml:2: byte = 195: expected ASCII outside of texts");
+    EXPECT_EQ(message_of(std::string("x\0y = 2\n", 8)), "x.toml:1: byte = 0: expected ASCII outside of texts");
+    EXPECT_EQ(message_of("x = \"t\xc3\xa9te\"  # t\xc3\xa9te\r\n\ty = 2\r\n"), "accepted");
+}
+
+}  // namespace
