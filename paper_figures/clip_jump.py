@@ -1,6 +1,5 @@
 """The human jumping under LBS, PBS and FEM side by side, as an animated WebP that plays at the clip's own speed, and one still of it."""
 import matplotlib
-import numpy
 from PIL import Image, ImageDraw, ImageFont
 
 import bodies
@@ -44,7 +43,6 @@ def draw_clip(file, frames, origin):
     font = ImageFont.truetype(matplotlib.font_manager.findfont("DejaVu Sans"), 13)
     stage, times_s = rendering.Stage(*pixels, background=rendering.paper), frames.times_s()
     pages = [picture(frames, frame, stage, font) for frame in range(len(times_s))]
-    file.parent.mkdir(parents=True, exist_ok=True)
     step_ms = round(1000 * (times_s[-1] - times_s[0]) / (len(times_s) - 1))
     with whole_file.beside(file) as path:
         pages[0].save(path, save_all=True, append_images=pages[1:], duration=step_ms, loop=0, quality=80,
@@ -60,6 +58,13 @@ def draw_still(frames):
         name, facts = words(frames, label, still).split("\n")
         style.show(panel, stage.shot([bodies.skin(frames.skin(label, still))], view), name, facts)
     return figure
+
+
+def facts(rows):
+    """The most inverted tets of each over the clip, and whether the elements have some in every frame."""
+    inverted = {label: [int(row["inverted_tets"]) for row in rows if row["deformer"] == label] for label in deformers}
+    fem = inverted["snh_p1"]
+    return {label: max(found) for label, found in inverted.items()} | {"fem_frames": f"{sum(map(bool, fem))} of {len(fem)}"}
 
 
 def draw(results, figures):

@@ -5,6 +5,7 @@ import math
 
 import records
 import style
+from report.markup import figure, span
 
 ladders = {"ladder_twist": "twist 90\u00b0", "ladder_bend": "bend 90\u00b0"}
 panels = [("residual_24", "last_residual", "combined residual [1]"),
@@ -58,9 +59,33 @@ def draw_band(axes):
     axes.set_ylim(min(low, 0.4), high)
 
 
+def facts(rows):
+    """What the coarsest and the finest mesh of each ladder leave, and how many keep volumes within 0.5 %."""
+    vertices = [int(row["vertices"]) for row in rows]
+    told = {"vertices": span(vertices), "last": rows[0]["iterations"]}
+    for ladder in ladders:
+        shown = sorted((row for row in rows if row["ladder"] == ladder), key=lambda row: int(row["vertices"]))
+        name, ends = ladder.removeprefix("ladder_"), (shown[0], shown[-1])
+        for column, of in (("residual_24", "residual"), ("last_residual", "last_residual"), ("volume_abs_change_24_pct", "volume"),
+                           ("last_volume_abs_change_pct", "last_volume")):
+            told[f"{name}_{of}"] = " and ".join(figure(float(row[column])) for row in ends)
+        told[f"{name}_reached"] = f"{sum(float(row['volume_reached']) == 1.0 for row in shown)} of {len(shown)}"
+        told[f"{name}_error"] = errors_of([row for row in shown if is_measured(row, "error_24_pct")])
+    return told
+
+
+def errors_of(measured):
+    """Of the coarsest and the finest mesh with a reference beside it, early and late."""
+    if not measured:
+        return "no reference on record"
+    ends = measured[:1] if len(measured) == 1 else [measured[0], measured[-1]]
+    return ", ".join(f"{figure(float(row['error_24_pct']))} % after 24 and {figure(float(row['last_error_pct']))} % after "
+                     f"{row['iterations']} on {row['vertices']} vertices" for row in ends)
+
+
 def draw(results, figures):
     folder = results / "convergence"
-    figure, axes = style.panels(2, 2, height_in=1.75, sharex=True)
+    drawing, axes = style.panels(2, 2, height_in=1.75, sharex=True)
     behind = []
     for number, (ladder, name) in enumerate(ladders.items()):
         rows = of_ladder(folder / ladder / "rates.csv")
@@ -77,5 +102,5 @@ def draw(results, figures):
     for panel in axes[1]:
         style.decades(panel.xaxis)
         panel.set_xlabel("vertices of the limb")
-    style.legend_above(figure, columns=4)
-    style.save(figure, figures / "convergence_mesh", records.provenance(folder), behind)
+    style.legend_above(drawing, columns=4)
+    style.save(drawing, figures / "convergence_mesh", records.provenance(folder), behind)

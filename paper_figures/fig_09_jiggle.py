@@ -1,13 +1,13 @@
 """The paper's Fig. 9: the human walking under PBS with its jiggling zone, the skin coloured by its distance from PBS
 as stiff without one; a camera that turns with the hips, in front and behind."""
 import matplotlib
-import numpy
 
 import bodies
 import recorded_distances
 import recorded_frames
 import rendering
 import style
+import viewer_data
 
 scene, shown = "human_walk", (0, 12, 24, 36, 48, 60)
 compared = ("pbs_jiggle", "pbs_no_zone")
@@ -15,14 +15,8 @@ sides = {"front": 1, "back": -1}
 scale, colors = matplotlib.colors.Normalize(0, 60), matplotlib.colormaps["YlGnBu"]  # [mm]
 
 
-def distances_mm(frames, frame):
-    """Of each point of the rendered surface."""
-    jiggling, still = (bodies.points_of(frames.skin(label, frame)) for label in compared)
-    return 1000 * numpy.linalg.norm(jiggling - still, axis=1)
-
-
 def draw_pose(panels, frames, frame, stage):
-    away_mm = distances_mm(frames, frame)
+    away_mm = recorded_distances.of_points_mm(frames, frame, *compared)
     file = frames.skin("pbs_jiggle", frame)
     low, high = rendering.bounds_of(file)
     forward, left = recorded_frames.heading_of(frames.bones(frame))
@@ -33,7 +27,16 @@ def draw_pose(panels, frames, frame, stage):
     panels[0].set_title(f"{time_s:.2f} s")
     apart = recorded_distances.between(frames, frame, *compared)
     panels[-1].set_xlabel(f"largest {apart['largest_mm']:.0f} mm")
-    return {"scene": scene, "frame": frame, "time_s": time_s, **apart}
+    bone = recorded_distances.bone_under(frames, int(away_mm.argmax()), frames.tets("pbs_jiggle", frame))
+    return {"scene": scene, "frame": frame, "time_s": time_s, **apart, "farthest_bone": bone}
+
+
+def facts(rows):
+    """Where the two are farthest apart, frame by frame."""
+    def told(row):
+        return f"{float(row['largest_mm']):.0f} mm at {row['farthest_bone']} ({float(row['time_s']):.2f} s)"
+
+    return {"farthest": ", ".join(map(told, rows)), "first": told(rows[0])}
 
 
 def draw(results, figures):
@@ -43,5 +46,6 @@ def draw(results, figures):
     behind = [draw_pose(panels, frames, frame, stage) for panels, frame in zip(axes.T, shown)]
     for panels, side in zip(axes, sides):
         panels[0].set_ylabel(side)
-    style.bar(figure, axes, scale, colors, "distance of the jiggling skin from the same, as stiff, without a jiggling zone [mm]", "max")
+    jiggling, still = (viewer_data.title_of(frames, label) for label in compared)
+    style.bar(figure, axes, scale, colors, f"distance of the skin under {jiggling}, from that under {still} [mm]", "max")
     style.save(figure, figures / "fig_09_jiggle", recorded_frames.origin_of(frames), behind)

@@ -1,6 +1,5 @@
 """The paper's Fig. 10: poses with and without the start from LBS. No kicking clip can be had by package name: the poses are of a jump."""
 import matplotlib
-import numpy
 
 import bodies
 import recorded_distances
@@ -18,18 +17,14 @@ def facts(row):
     return style.signed(f"volume {float(row['volume_change_pct']):+.2f} %\nsmallest section {float(row['min_section_pct']):.0f} %")
 
 
-def away_mm(frames, frame):
-    with_start, without = (bodies.points_of(frames.skin(label, frame)) for label in deformers)
-    return 1000 * numpy.linalg.norm(without - with_start, axis=1)
-
-
 def draw_pose(panels, frames, frame, stage):
     low, high = rendering.bounds_of(frames.skin("pbs", frame))
     view = rendering.Camera((low + high) / 2, 0.87, direction)
     rows = [frames.row(label, frame) for label in deformers]
     for panel, label, row in zip(panels, deformers, rows):
         style.show(panel, stage.shot([bodies.skin(frames.skin(label, frame))], view), below=facts(row))
-    actor = bodies.skin_by(frames.skin("pbs_increment", frame), away_mm(frames, frame), scale, colors)
+    away_mm = recorded_distances.of_points_mm(frames, frame, *deformers)
+    actor = bodies.skin_by(frames.skin("pbs_increment", frame), away_mm, scale, colors)
     apart = recorded_distances.between(frames, frame, *deformers)
     style.show(panels[2], stage.shot([actor], view), below=f"largest {apart['largest_mm']:.0f} mm")
     panels[0].set_title(f"{float(rows[0]['time_s']):.2f} s")

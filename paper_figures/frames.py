@@ -6,6 +6,7 @@ import recorded_frames
 import records
 import rendering
 import style
+from report.markup import span
 
 pixels = (560, 800)  # of a still
 most_stills = 4
@@ -63,6 +64,15 @@ def draw_stills(rows, files, frames, file_of, colour_bar):
     if colour_bar:
         style.ratio_bar(figure, axes, rendering.ratio_scale, rendering.ratio_colors)
     return figure
+
+
+def facts(rows):
+    """The range of inverted tets of each deformer over the stills."""
+    inverted = {}
+    for row in rows:
+        inverted.setdefault(row["deformer"], []).append(int(row["inverted_tets"]))
+    lbs, pbs, reference = inverted.values()
+    return {"lbs": span(lbs), "pbs": span(pbs), "reference": span(reference)}
 
 
 def draw(results, figures):

@@ -3,6 +3,7 @@ bodies. k_stretch moves Frankie's frequency far, the others' little; time step a
 parameter at all; the elements beside swing almost undamped."""
 import records
 import style
+from report.markup import figure, listed
 
 columns = {"deformer", "k_stretch", "time_step_ms", "iterations", "masses", "k_bind", "outcome", "frequency_hz", "frequency_low_hz",
            "frequency_high_hz", "damping_ratio", "damping_low", "damping_high"}
@@ -48,11 +49,20 @@ def draw_reference(axes, rows):
     return [{"body": "limb_reference", "varied": ""} | {name: row[name] for name in sorted(columns)} for row in found]
 
 
+def facts(rows):
+    """How many-fold each factor moves each body's frequency over the values shown."""
+    def folds(factor):
+        hz = {body: [float(row["frequency_hz"]) for row in rows if (row["body"], row["varied"]) == (body, factor)] for body in bodies}
+        return listed([f"{figure(max(found) / min(found))}-fold ({body})" for body, found in hz.items() if len(found) > 1])
+
+    return {factor: folds(factor) for factor in names}
+
+
 def draw(results, figures):
     folder = results / "jiggle"
     found = {body: folder / f"{body}_jolt" / "responses.csv" for body in bodies}
     found = {body: records.table(file, columns) for body, file in found.items() if file.is_file()}
-    figure, axes = style.panels(2, 3, height_in=1.9, sharex="col", sharey="row")
+    drawing, axes = style.panels(2, 3, height_in=1.9, sharex="col", sharey="row")
     behind = [row for number, (body, rows) in enumerate(found.items()) for row in draw_body(axes, rows, body, number)]
     behind += draw_reference(axes, records.table(folder / "limb_reference" / "responses.csv", columns))
     for column, (factor, name) in enumerate(names.items()):
@@ -65,5 +75,5 @@ def draw(results, figures):
     style.log_scale(axes[0][0].yaxis)
     axes[1][0].set_ylim(bottom=-0.02)
     axes[1][0].set_xticks([0, 0.2, 0.4, 0.6, 0.8, 1.0])
-    style.legend_above(figure)
-    style.save(figure, figures / "jiggle_response", records.provenance(folder), behind)
+    style.legend_above(drawing)
+    style.save(drawing, figures / "jiggle_response", records.provenance(folder), behind)

@@ -11,11 +11,12 @@ import pathlib
 import shutil
 import sys
 
+import captions
 import entries
 import records
 import whole_file
 
-endings = ("pdf", "png", "svg", "csv", "tex", "webp", "mp4", "values.json")
+endings = ("pdf", "png", "svg", "csv", "tex", "webp", "mp4", "caption.txt")
 
 
 def delete(name, folder):
@@ -33,6 +34,8 @@ def draw(script, group, results, folder):
         for entry in group:
             entry.check(results)
         importlib.import_module(script).draw(results, folder)
+        for entry in group:
+            captions.write(entry, folder)
     except records.RecordsMissing as error:
         for entry in group:
             delete(entry.name, folder)

@@ -4,7 +4,6 @@ figures behind a line stand in DIR/claims.md.
     python3 paper_figures/readme_claims.py results/reproduce
 """
 import pathlib
-import re
 import sys
 
 import records
@@ -22,19 +21,25 @@ def line(*cells):
 
 
 def measured(claim):
-    """From the least to the most, of each bound's quantities, and how much of it is as expected."""
-    cases = verdicts.own_cases(claim)
+    """What its runs are judged by, or of each bound's quantities from the least to the most, and how much of it is as expected."""
+    cases = claim["cases"] and verdicts.own_cases(claim)
     if cases:
         held = [sum(case["holds"] == how for case in cases) for how in ("whole", "part")]
-        reach = verdicts.per_cent_span([end for case in cases for end in (case["least"], case["most"])])
-        return f"{reach}; {held[0]} of {counted(len(cases), 'run')} within, {held[1]} in part"
+        return "; ".join([*verdicts.sweeps_and_clips(claim), f"{held[0]} of {counted(len(cases), 'run')} within, {held[1]} in part"])
     bounds = claim["expected"].split("; ")
     if len(bounds) > most_quantities:
-        name, value = re.search(r"; farthest: (.*?) of .*? is ([^; ]+)", claim["text"]).groups()
-        return f"{claim['measured']}; farthest: {name} {value}"
+        return claim["measured"] + farthest(claim)
     names = [bound.rsplit(": ", 1)[0] for bound in bounds] if len(bounds) > 1 else [None]  # one bound: of all quantities
     ranges = [range_of([entry for entry in claim["measurements"] if name in (None, entry["quantity"])]) for name in names]
     return "; ".join(filter(None, [*ranges, claim["measured"]]))
+
+
+def farthest(claim):
+    told = verdicts.farthest(claim, of_quantity=True)
+    if not told and claim["verdict"] != "reproduced":
+        raise records.RecordsMissing(f"claim {claim['id']}: text = {claim['text']}: expected `; farthest: QUANTITY of CASE is VALUE` in it, "
+                                     "for not all holds")
+    return told
 
 
 def range_of(entries):
@@ -53,10 +58,17 @@ def table_lines(results):
     file = results / "claims.json"
     if not file.is_file():
         raise records.RecordsMissing(f"{file}: not there: `pbskin reproduce --judge -o {results}` writes it")
-    rows = [line(claim["id"], f"{claim['statement']} ({claim['place']})", expected(claim), measured(claim),
-                 claim["verdict"].removesuffix(" only for") + (" in part" if claim["verdict"].endswith(" only for") else ""))
-            for claim in records.read_json(file)["claims"]]
+    claims = records.read_json(file)["claims"]
+    try:
+        rows = [row_of(claim) for claim in claims]
+    except records.RecordsMissing as error:
+        raise records.RecordsMissing(f"{file}: {error}") from None
     return [line(*columns), "|---" * len(columns) + "|", *rows]
+
+
+def row_of(claim):
+    verdict = claim["verdict"].removesuffix(" only for") + (" in part" if claim["verdict"].endswith(" only for") else "")
+    return line(claim["id"], f"{claim['statement']} ({claim['place']})", expected(claim), measured(claim), verdict)
 
 
 def revisions(results):

@@ -38,8 +38,9 @@ class Run:
         rows = frame_statistics(self.folder, deformer, variant)
         if iterations is not None:
             rows = [row for row in rows if row["iterations"] and int(row["iterations"]) == iterations]
-        if not rows:
-            raise RecordsMissing(f"{self.folder / 'frame_statistics.csv'}: no row of deformer {deformer}, {iterations} iterations")
+        if len(rows) != 1:
+            wanted = f"deformer {deformer}, variant {variant}" + (f", {iterations} iterations" if iterations is not None else "")
+            raise RecordsMissing(f"{self.folder / 'frame_statistics.csv'}: {len(rows)} rows of {wanted}, expected one")
         return rows[0]
 
     def reference(self):

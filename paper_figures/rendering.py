@@ -117,6 +117,11 @@ def _skin(file):
     return actor
 
 
+def corners_of(file):
+    """Of each tet its vertices, #T x 4."""
+    return vtk_to_numpy(read(file).GetCells().GetConnectivityArray()).reshape(-1, 4)
+
+
 def tets(file):
     surface = vtkDataSetSurfaceFilter()
     surface.SetInputData(read(file))

@@ -1,14 +1,16 @@
 """Every disturbance of the limb by every method: what comes of it. A row is a quantity driven to its extremes, its marks go from the
 least to the greatest value. See which methods come to rest as if undisturbed, which leave tets inverted, and whether any but the printed
 form of PBS diverges."""
-import records
 import outcomes
+import records
 import style
+from report.markup import listed
 
 models = {"pbs": "PBS", "pbs_no_memory": "PBS, no\nmemory", "pbs_jiggle": "PBS,\njiggle", "xpbd": "XPBD",
           "xpbd_small_steps": "XPBD, small\nsteps", "fem_linear": "linear\nFEM", "fem_corotational": "corotat.\nFEM",
           "fem_stable_neo_hookean": "neo-Hook.\nFEM",
           "fem_stable_neo_hookean_in_time": "neo-Hook.\nin time"}
+spelled = {"corotat.": "corotational", "neo-Hook.": "neo-Hookean"}
 columns = {"body", "model", "factor", "value", "unit", "named", "second_factor", "precision", "outcome"}
 
 
@@ -38,6 +40,31 @@ def draw_factor(axes, rows, place):
         worst = max((cell["outcome"] for cell in cells), key=list(outcomes.looks).index)
         axes.fill_between([across - 0.48, across + 0.48], place - 0.42, place + 0.42, color=outcomes.looks[worst][0], linewidth=0)
         outcomes.draw_marks(axes, places, [cell["outcome"] for cell in cells], size=9 if len(cells) < 6 else 4)
+
+
+def named(model):
+    return " ".join(spelled.get(word, word) for word in models[model].split())
+
+
+def factors_with(rows, model, outcome):
+    return list(dict.fromkeys(row["factor"] for row in rows if (row["model"], row["outcome"]) == (model, outcome)))
+
+
+def facts(rows):
+    """Of each method the cells that come to rest; which factors end otherwise."""
+    present = [model for model in models if any(row["model"] == model for row in rows)]
+
+    def at_rest(model):
+        ends = [row["outcome"] for row in rows if row["model"] == model]
+        return f"{named(model)} in {ends.count('converged')} of {len(ends)}"
+
+    def by_method(outcome):
+        found = {model: factors_with(rows, model, outcome) for model in present}
+        return listed([f"{named(model)} ({' and '.join(factors)})" for model, factors in found.items() if factors], "; ")
+
+    return {"at_rest": listed([at_rest(model) for model in present], "; "), "diverged": by_method("diverged"),
+            "not_finite": by_method("not_finite"), "inverted_pbs": listed(factors_with(rows, "pbs", "inverted"), "; "),
+            "inverted_jiggle": listed(factors_with(rows, "pbs_jiggle", "inverted"), "; ")}
 
 
 def draw(results, figures):

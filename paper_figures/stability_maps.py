@@ -1,7 +1,7 @@
 """Jiggling PBS on the limb, disturbed and then held still, as two settings change together: what comes of it, cell by cell. See
 which settings leave tets inverted, which keep the body from coming to rest, and whether any lets it grow without bound."""
-import records
 import outcomes
+import records
 import style
 
 maps = {"map_time_step_k_stretch.csv": "24 iterations", "map_iterations_twist.csv": "time step 10 ms"}
@@ -25,6 +25,20 @@ def draw_map(axes, rows, title):
     axes.set_xlabel(named(rows[0]["factor"], rows[0]["unit"]))
     axes.set_ylabel(named(rows[0]["second_factor"], rows[0]["second_unit"]))
     axes.grid(False)
+
+
+ends = {"converged": "at rest as if undisturbed", "bounded": "bounded", "inverted": "with inverted tets", "diverged": "diverged",
+        "not_finite": "not finite"}
+
+
+def facts(rows):
+    """How many cells of each map end how; the steps of the longest run."""
+    def counts(file):
+        found = [row["outcome"] for row in rows if row["map"] == file]
+        return f"of {len(found)} cells " + ", ".join(f"{found.count(outcome)} {words}" for outcome, words in ends.items())
+
+    left, right = map(counts, maps)
+    return {"left": left, "right": right, "steps": max(int(row["steps"]) for row in rows)}
 
 
 def draw(results, figures):

@@ -5,6 +5,7 @@ import sys
 
 import records
 import style
+from report.markup import figure, listed
 
 bodies = [("bar", "cantilever", "bar, held at one end"), ("limb", "zone on held", "limb, flesh on a held core"),
           ("human", "zone on held", "human, flesh on a held core")]
@@ -60,9 +61,23 @@ def draw_factor_axis(axis, factor, values):
         style.decades(axis)
 
 
+def facts(rows):
+    """How many-fold XPBD stiffens over the iterations shown, plain and in small steps."""
+    def folds(method):
+        parts = []
+        for body, _, _ in bodies:
+            shown = [row for row in rows if (row["body"], row["varied"], row["method"]) == (body, "iterations", method)]
+            counts, found = ([float(row[name]) for row in shown] for name in ("iterations", "stiffness_n_m"))
+            if len(shown) > 1:
+                parts.append(f"{figure(max(found) / min(found))}-fold ({body}, {figure(min(counts))} to {figure(max(counts))})")
+        return listed(parts)
+
+    return {"xpbd": folds("xpbd"), "small_steps": folds("xpbd_small_steps")}
+
+
 def draw(results, figures):
     folder = results / "stiffness"
-    figure, axes = style.panels(3, 3, height_in=1.6)
+    drawing, axes = style.panels(3, 3, height_in=1.6)
     behind = []
     for panels, (body, load, title) in zip(axes, bodies):
         for panel, (factor, name) in zip(panels, factors.items()):
@@ -70,5 +85,5 @@ def draw(results, figures):
             panel.set_title(title)
             panel.set_xlabel(name)
         panels[0].set_ylabel("stiffness [N/m]")
-    style.legend_above(figure)
-    style.save(figure, figures / "stiffness", records.provenance(folder), behind)
+    style.legend_above(drawing)
+    style.save(drawing, figures / "stiffness", records.provenance(folder), behind)

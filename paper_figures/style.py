@@ -168,7 +168,6 @@ def source_of(provenance):
 def save(figure, stem, provenance, table, formats=("pdf", "png", "svg")):
     """stem.pdf, stem.png and stem.svg with the revision in their metadata, and stem.csv: the rows (dicts) behind the figure. Every point
     drawn has its label and numbers as a title in the SVG, which a browser shows under the pointer."""
-    stem.parent.mkdir(parents=True, exist_ok=True)
     source, rights = source_of(provenance), provenance.get("rights", "")
     metadata = {"pdf": {"Title": stem.name, "Subject": source, "Keywords": rights, "CreationDate": None},
                 "png": {"Title": stem.name, "Source": source, "Copyright": rights, "Software": "pbskin paper_figures"},

@@ -2,6 +2,7 @@
 human, single poses for the limb."""
 import records
 import style
+from report.markup import figure
 
 poses = [("limb_twist", 90, "limb, twist 90\u00b0"), ("limb_twist", 180, "limb, twist 180\u00b0"), ("limb_bend", 90, "limb, bend 90\u00b0"),
          ("limb_bend", 150, "limb, bend 150\u00b0")]
@@ -30,10 +31,24 @@ def draw_pose(axes, run, angle_deg, label, measure, look):
              "q90": ""} for iterations, value in zip(run.pbs_iterations(), values)]
 
 
+def facts(rows):
+    """What 24 iterations and the most leave of the human's median and of the limb's bend by 90 degrees [%]."""
+    def left(measure, scene, pose):
+        found = {int(row["iterations"]): float(row["median"]) for row in rows
+                 if (row["measure"], row["scene"], row["pose"]) == (measure, scene, pose)}
+        return figure(found[24]), figure(found[max(found)])
+
+    told = {"most": max(int(row["iterations"]) for row in rows)}
+    for name, of in (("human", ("volume_change_pct", "human_01_01", "all frames")), ("bend", ("volume_change_pct", "limb_bend", "90 degrees")),
+                     ("absolute", ("volume_abs_change_pct", "human_01_01", "all frames"))):
+        told[f"{name}_24"], told[f"{name}_most"] = left(*of)
+    return told
+
+
 def draw(results, figures):
     human = records.Run(results / "volume" / "human_01_01")
     limbs = {scene: records.Run(results / "volume" / scene) for scene, _, _ in poses}
-    figure, axes = style.panels(1, 2, height_in=2.7)
+    drawing, axes = style.panels(1, 2, height_in=2.7)
     behind = []
     for panel, (measure, label) in zip(axes[0], measures):
         behind += draw_human(panel, human, measure, style.blue)
@@ -45,5 +60,5 @@ def draw(results, figures):
         panel.set_xticks(human.pbs_iterations(), [str(iterations) for iterations in human.pbs_iterations()])
         panel.set_xlabel("iterations per step")
         panel.set_ylabel(label)
-    style.legend_above(figure)
-    style.save(figure, figures / "volume_over_iterations", records.provenance(results / "volume"), behind)
+    style.legend_above(drawing)
+    style.save(drawing, figures / "volume_over_iterations", records.provenance(results / "volume"), behind)

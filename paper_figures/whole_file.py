@@ -5,6 +5,7 @@
 """
 import contextlib
 import os
+import pathlib
 
 
 class CannotBeWritten(Exception):
@@ -29,15 +30,24 @@ def remove_halves(path):
             half.unlink(missing_ok=True)
 
 
+def is_of(error, drawn, path):
+    """Of the file that is written; the system names none where a write fails, and another where the block could not read that."""
+    return error.filename is None or pathlib.Path(os.fsdecode(error.filename)) in (drawn, path, *path.parents)
+
+
 @contextlib.contextmanager
 def beside(path):
     """A path with the same ending in the same folder; renamed to `path` where the block ends well, else removed."""
     drawn = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
-    remove_halves(path)
     try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        remove_halves(path)
         yield drawn
         drawn.replace(path)
     except OSError as error:
-        raise CannotBeWritten(f"{path}: cannot be written: {error.strerror}") from error
+        if not is_of(error, drawn, path):
+            raise
+        raise CannotBeWritten(f"{path}: cannot be written: {error.strerror or error}") from error
     finally:
-        drawn.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            drawn.unlink(missing_ok=True)

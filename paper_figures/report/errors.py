@@ -1,5 +1,6 @@
 """How far the deformers are from nonlinear finite elements over whole sweeps and clips, from frame_statistics.csv."""
-from report.markup import element, escaped, figure, folder_link, span, table
+import records
+from report.markup import element, escaped, figure, folder_link, items, joined, span, table
 from report.record_set import not_run, number
 
 shown = (("lbs", "LBS"), ("dqs", "DQS"), ("pbs", "PBS, 24 iterations"), ("snh_p1", "neo-Hookean FEM, P1"))
@@ -13,9 +14,9 @@ def reference_of(run):
     return fem if fem and fem["model"] != "linear" else None
 
 
-def error_of(rows, deformer):
+def error_of(folder, deformer):
     """Median and range over the frames, as recorded."""
-    chosen = [row for row in rows if row["deformer"] == deformer and row["variant"] in ("", "default") and row["iterations"] in ("", "24")]
+    chosen = [row for row in records.frame_statistics(folder, deformer) if row["iterations"] in ("", "24")]
     if not chosen or number(chosen[0], "error_joint_median_pct") is None:
         return "\u2013"
     least, median, most = (number(chosen[0], f"error_joint_{share}_pct") for share in ("least", "median", "most"))
@@ -23,8 +24,7 @@ def error_of(rows, deformer):
 
 
 def row_of(found, name, fem):
-    rows = found.rows(f"{name}/frame_statistics.csv")
-    cells = ["\u2013" if deformer == fem["name"] else error_of(rows, deformer) for deformer, _ in shown]
+    cells = ["\u2013" if deformer == fem["name"] else error_of(found.results / name, deformer) for deformer, _ in shown]
     outcome = found.runs[name]["outcome"]
     meets = outcome.get("self_intersecting_reference_frames", 0)
     model = f"{fem['model'].replace('_', ' ')}, P{fem['element_order']}"
@@ -32,9 +32,19 @@ def row_of(found, name, fem):
 
 
 def section(found):
+    """The table's HTML, and which runs are missing in it."""
     runs = [(name, reference_of(run)) for name, run in found.runs.items() if name.startswith("volume/")]
-    rows = [row_of(found, name, fem) for name, fem in runs if fem and found.rows(f"{name}/frame_statistics.csv")]
+    rows, missing = [], []
+    for name, fem in runs:
+        try:
+            rows += [row_of(found, name, fem)] if fem else []
+        except records.RecordsMissing as error:
+            missing.append(str(error).replace(f"{found.results}/", ""))
+    left_out = items(missing, "not-drawn") if missing else ""
     if not rows:
-        return element("p", f"The distance over whole sweeps and clips is {not_run(found, 'volume')}.", class_="missing")
+        reason = "not on record:" if missing else f"{not_run(found, 'volume')}."
+        told = element("p", f"The distance over whole sweeps and clips is {reason}", class_="missing")
+        return joined([told, left_out], "\n"), missing
     header = ["run", "reference", *(label for _, label in shown), "frames in which the reference meets itself"]
-    return table("Error at the joints [% of the mean distance to the bone]: median over the frames (least to most)", header, rows)
+    caption = "Error at the joints [% of the mean distance to the bone]: median over the frames (least to most)"
+    return joined([table(caption, header, rows), left_out], "\n"), missing

@@ -1,8 +1,10 @@
 """Every figure that was drawn, inline as SVG; of the others, why not."""
 import base64
+import dataclasses
 import html
 import re
 
+import captions
 import entries
 import records
 from report import record_set
@@ -48,6 +50,14 @@ def drawn(found, entry):
                 raise NotDrawn("stale: its records are newer; draw it anew (paper_figures/make_all.py)")
             return file
     raise NotDrawn("not there yet: paper_figures/make_all.py draws it")
+
+
+def as_drawn(found, entry):
+    """With the numbers of the figure that is shown in its caption."""
+    try:
+        return dataclasses.replace(entry, caption=captions.read(entry, found.results / "figures"))
+    except records.RecordsMissing as error:
+        raise NotDrawn(str(error).replace(f"{found.results}/", "")) from None
 
 
 def picture(file, entry):
@@ -110,7 +120,7 @@ def section(found):
     for number, entry in enumerate(entries.read(), 1):  # the paper's come first: no number stands twice, whichever are missing
         try:
             file = drawn(found, entry)
-            parts.append(drawn_figure(found, entry, number, file))
+            parts.append(drawn_figure(found, as_drawn(found, entry), number, file))
             parts += conclusions(found, entry, told)
         except NotDrawn as reason:
             missing.append(f"figure {entry.name}: {reason}")

@@ -74,5 +74,10 @@ def span(values):
     return low if low == high else f"{low} to {high}"
 
 
+def listed(parts, between=", "):
+    """In one line, or that there is none."""
+    return between.join(parts) or "none"
+
+
 def counted(number, one, many=None):
     return f"{number} {one if number == 1 else many or one + 's'}"

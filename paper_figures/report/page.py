@@ -53,10 +53,11 @@ def page(found):
     """The page's text, and what is missing in it."""
     shown, not_shown, poses = viewer.section(found)
     drawn, not_drawn = figures.section(found)
-    missing = not_shown + not_drawn + ([] if found.claims else ["verdicts: claims.json is not there (pbskin reproduce --judge)"])
+    distances, not_told = errors.section(found)
+    missing = not_shown + not_drawn + not_told + ([] if found.claims else ["verdicts: claims.json is not there (pbskin reproduce --judge)"])
     missing += [f"{study}: {scene} left out: {reason}" for study, scene, reason in found.left_out()]
     sections = [("verdicts", "Verdicts", verdicts.section(found, poses)), ("viewer", "Viewer", shown),
-                ("errors", "Distance from the finite elements", errors.section(found)), ("figures", "Figures", drawn),
+                ("errors", "Distance from the finite elements", distances), ("figures", "Figures", drawn),
                 ("reference", "Is the reference right?", reference.section(found)), ("costs", "What it cost", costs.section(found)),
                 ("origin", "Where the records come from", origin.section(found, with_viewer=not not_shown)),
                 ("cite", "How to cite", citation.section(found))]

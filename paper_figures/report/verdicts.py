@@ -104,14 +104,23 @@ def words_of(claim):
     return before.get(claim["verdict"], "") + words
 
 
-def farthest(claim):
-    """The figure that is farthest from what is expected of it."""
-    said = re.search(r"; farthest: (.*?) is (\S+)(?:; |$)", claim["text"])
+def farthest(claim, of_quantity=False):
+    """The figure that is farthest from what is expected of it; of which quantity it is alone, or of whom as well."""
+    said = re.search(r"; farthest: (.*?) is ([^\s;]+)(?:; |$)", claim["text"])
     if not said:
         return ""
     bounds = dict(part.rsplit(": ", 1) for part in claim["expected"].split("; ") if ": " in part)
-    asked = next((bound for quantity, bound in bounds.items() if said[1].startswith(f"{quantity} of ")), claim["expected"])
-    return f"; farthest: {said[1]} is {said[2]}, expected {asked}"
+    quantity = next((quantity for quantity in bounds if said[1].startswith(f"{quantity} of ")), None)
+    return (f"; farthest: {quantity if of_quantity and quantity else said[1]} is {said[2]}, "
+            f"expected {bounds.get(quantity, claim['expected'])}")
+
+
+def sweeps_and_clips(claim):
+    """Of a sweep its range, of clips what they are judged by: their means or shares of frames."""
+    cases = own_cases(claim)
+    clips = [case for case in cases if not is_sweep(case)]
+    told = [case_text(claim, case) for case in cases if is_sweep(case)]
+    return told + ([f"{counted(len(clips), 'clip')}: {clip_figures(claim, clips)}"] if clips else [])
 
 
 def clip_figures(claim, clips):
