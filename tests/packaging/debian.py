@@ -82,6 +82,6 @@ class Debian(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if os.environ.get("PBS_LONG") != "1":
+    if not os.environ.get("PBS_LONG"):
         sys.exit(77)
     unittest.main()

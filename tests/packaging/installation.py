@@ -1,6 +1,7 @@
 """Installs components of the build under test into a folder of its own, and moves them before they are used."""
 import os
 import pathlib
+import signal
 import subprocess
 import tempfile
 import unittest
@@ -13,8 +14,19 @@ folder = pathlib.Path(scratch.name)
 unittest.addModuleCleanup(scratch.cleanup)
 
 
-def run(*words, **options):
-    return subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=1800, **options)
+def run(*words, timeout=1800, check=False, **options):
+    """As subprocess.run, with the texts; past its time the compilers that it started end with it."""
+    words = [str(word) for word in words]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True, **options) as process:
+        try:
+            out, err = process.communicate(timeout=timeout)
+        except BaseException:
+            os.killpg(process.pid, signal.SIGKILL)
+            raise
+    ended = subprocess.CompletedProcess(words, process.returncode, out, err)
+    if check:
+        ended.check_returncode()
+    return ended
 
 
 def install(component):

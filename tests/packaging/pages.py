@@ -30,7 +30,8 @@ def options(*verb):
 
 def completed(*words):
     """COMPREPLY after `pbskin WORDS` and the tabulator key."""
-    script = f'source "{pages / "pbskin"}"; COMP_WORDS=(pbskin "$@"); COMP_CWORD=$#; _pbskin; printf "%s\\n" "${{#COMPREPLY[@]}}" "${{COMPREPLY[@]}}"'
+    script = (f'source "{pages / "pbskin"}"; COMP_WORDS=(pbskin "$@"); COMP_CWORD=$#; _pbskin; '
+              'printf "%s\\n" "${#COMPREPLY[@]}" "${COMPREPLY[@]}"')
     environment = {**os.environ, "PATH": f"{PBSKIN.parent}:{os.environ['PATH']}"}
     number, *replies = run("bash", "-c", script, "bash", *words, env=environment, cwd=folder).stdout.splitlines()
     return replies[:int(number)]

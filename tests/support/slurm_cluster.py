@@ -4,7 +4,8 @@ socket, configuration and state; no accounting, no cgroups. Nothing of a system'
     with slurm_cluster.SlurmCluster() as cluster:
         subprocess.run(["sbatch", ...], env=cluster.environment)
 
-Whatever happens, it ends what it started: orphans come to this process, which knows its children; daemons die with it."""
+It ends what it started, also after an error or ^C: orphans come to this process, which knows its children. Where this process itself is
+killed by SIGKILL, the daemons end with it, but jobs that run then go on to their end, and the folder stays."""
 import ctypes
 import getpass
 import os
@@ -15,7 +16,7 @@ import subprocess
 import tempfile
 import time
 
-PROGRAMS = ("munged", "mungekey", "slurmctld", "slurmd", "sbatch", "srun", "sinfo", "squeue", "scontrol")
+PROGRAMS = ("munged", "mungekey", "slurmctld", "slurmd", "sbatch", "scancel", "srun", "sinfo", "squeue", "scontrol")
 PATH = os.environ["PATH"] + ":/usr/sbin:/sbin"
 CONFIGURATION = """ClusterName=own
 SlurmctldHost=localhost(127.0.0.1)
@@ -82,12 +83,18 @@ def children():
 
 
 class SlurmCluster:
-    def __init__(self):
-        self.daemons = []
-
     def __enter__(self):
         _prctl(SUBREAPER, 1, 0, 0, 0)
         self.before = children()
+        try:
+            self.begin()
+        except (OSError, RuntimeError):  # a port was taken between asking and listening
+            self.begin()
+        return self
+
+    def begin(self):
+        """Started, or stopped again with an error that shows the logs."""
+        self.daemons = []
         self.temporary = tempfile.TemporaryDirectory(prefix="slurm_")
         self.folder = pathlib.Path(self.temporary.name)
         try:
@@ -95,8 +102,9 @@ class SlurmCluster:
         except BaseException as error:
             told = self.logs()
             self.stop()
+            if not isinstance(error, Exception):
+                raise
             raise RuntimeError(f"no Slurm cluster: {error}\n{told}") from error
-        return self
 
     def __exit__(self, *_):
         self.stop()
@@ -119,7 +127,13 @@ class SlurmCluster:
         wait_for("munged's socket", (munge / "socket").exists)
         self.daemon("slurmctld", "-D", "-f", configuration)
         self.daemon("slurmd", "-D", "-N", "localhost", "-f", configuration)
-        wait_for("an idle node", lambda: self.told("sinfo", "-h", "-o", "%T").strip() == "idle")
+        wait_for("an idle node", self.is_idle)
+
+    def is_idle(self):
+        ended = [daemon.args[0] for daemon in self.daemons if daemon.poll() is not None]
+        if ended:
+            raise RuntimeError(f"{ended[0]} ended")
+        return self.told("sinfo", "-h", "-o", "%T").strip() == "idle"
 
     def daemon(self, *command):
         with open(self.folder / f"{command[0]}.out", "w", encoding="utf-8") as log:

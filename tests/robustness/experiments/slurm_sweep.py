@@ -15,6 +15,7 @@ import subprocess
 import sys
 import time
 import unittest
+import unittest.mock
 
 import numpy
 
@@ -141,6 +142,30 @@ class Sweeps(program.ProgramTest):
         print(f"two tasks of Slurm against one process: {error:.1e} relative, tolerance {tolerance:.1e}", flush=True)
         self.assertLess(error, tolerance)
         self.assertAlmostEqual(found["compliance_j"] / expected["compliance_j"], 1.0, delta=tolerance)
+
+
+class Cluster(unittest.TestCase):
+    """Its start, without Slurm: a port can be taken between asking for it and listening."""
+
+    def begin(self, *outcomes):
+        cluster = slurm_cluster.SlurmCluster()
+        with unittest.mock.patch.object(cluster, "start", side_effect=outcomes) as started:
+            try:
+                cluster.__enter__()
+            finally:
+                cluster.stop()
+                self.assertFalse(cluster.folder.exists())
+        return started.call_count
+
+    def test_begun_again_once(self):
+        self.assertEqual(self.begin(None), 1)
+        self.assertEqual(self.begin(TimeoutError("an idle node"), None), 2)
+        with self.assertRaisesRegex(RuntimeError, "no Slurm cluster: slurmd ended"):
+            self.begin(TimeoutError("an idle node"), RuntimeError("slurmd ended"), None)
+
+    def test_an_interruption_is_none(self):
+        with self.assertRaises(KeyboardInterrupt):
+            self.begin(KeyboardInterrupt(), None)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,28 @@
+"""A command past its time ends with all that it started, as cmake with ninja and the compilers. Truth: the processes that there are."""
+import pathlib
+import subprocess
+import time
+import unittest
+
+from installation import folder, run
+
+
+class Timeouts(unittest.TestCase):
+    def test_what_it_started_ends_with_it(self):
+        begin = time.monotonic()
+        with self.assertRaises(subprocess.TimeoutExpired):
+            run("sh", "-c", "sleep 60 & echo $! >started; wait", cwd=folder, timeout=1)
+        self.assertLess(time.monotonic() - begin, 30)
+        stat = pathlib.Path("/proc", (folder / "started").read_text().strip(), "stat")
+        state = stat.read_text().rsplit(")", 1)[1].split()[0] if stat.exists() else "gone"
+        self.assertIn(state, ("gone", "Z", "X"))
+
+    def test_what_it_said_and_how_it_ended(self):
+        ended = run("sh", "-c", "echo out; echo err >&2; exit 3")
+        self.assertEqual((ended.returncode, ended.stdout, ended.stderr), (3, "out\n", "err\n"))
+        with self.assertRaises(subprocess.CalledProcessError):
+            run("false", check=True)
+
+
+if __name__ == "__main__":
+    unittest.main()
