@@ -40,7 +40,7 @@ public:
         const toml::node* node = table_.get(key);
         if (!node) return;
         const auto found = node->value<Value>();
-        if (!found) refuse(key, "has the wrong type");
+        if (!found) refuse(key, expected<Value>());
         value = *found;
     }
 
@@ -53,7 +53,7 @@ public:
         if (!node->is_array()) refuse(key, "expected a list");
         for (const toml::node& entry : *node->as_array()) {
             const auto found = entry.value<Value>();
-            if (!found) refuse(key, std::is_same_v<Value, std::string> ? "expected texts" : "expected whole numbers");
+            if (!found) refuse(key, expected<Value>() + " at each place of the list");
             values.push_back(*found);
         }
     }
@@ -66,6 +66,13 @@ public:
     [[noreturn]] void refuse(const char* key, const std::string& rule) const;  // an InputError at the key's place
 
 private:
+    template <typename Value>
+    static std::string expected()
+    {
+        if (std::is_same_v<Value, bool>) return "expected true or false";
+        if (std::is_same_v<Value, std::string>) return "expected a text";
+        return std::is_integral_v<Value> ? "expected a whole number" : "expected a number";
+    }
     static int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
     const toml::table& table_;
