@@ -21,7 +21,7 @@ import rendering
 
 titles = {"limb_twist": "limb, twist", "limb_bend": "limb, bend", "human_jump": "human, jumping", "human_walk": "human, walking"}
 deformers = {"lbs": "LBS", "dqs": "DQS", "pbs": "PBS", "snh_p1": "FEM", "pbs_jiggle": "PBS, jiggling flesh",
-             "pbs_no_zone": "PBS, as stiff, no jiggling", "pbs_increment": "PBS, no start from LBS"}
+             "pbs_no_zone": "PBS, no zone", "pbs_increment": "PBS, no start from LBS"}
 figures = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "error_linf_m", "min_section_pct", "angle_deg",
            "reference_self_intersects")
 ratio_steps, position_steps = 127, 65535
@@ -95,6 +95,16 @@ def figures_of(rows):
     return {column: [float(row[column]) if row.get(column) else None for row in rows] for column in figures}
 
 
+def title_of(recorded, label):
+    """Of PBS with a stiffness other than plain PBS has in the same scene, that and its jiggling zone's, as recorded."""
+    options = {run["label"]: run.get("options", {}) for run in recorded.run.record["scene"]["runs"]}
+    own, plain = options[label], options.get("pbs", {})
+    if "k_stretch" not in own or own["k_stretch"] == plain.get("k_stretch"):
+        return deformers[label]
+    zone = f"zone {own['jiggle']['k_stretch']:g}" if own.get("jiggle") else "no zone"
+    return f"PBS, k_stretch {own['k_stretch']:g}, {zone}"
+
+
 def pack_bones(recorded, frames, block):
     """Names, and where the posed ends lie: float32, frame by frame, head and tail [m] of every bone."""
     rows = records.table(recorded.folder / "bones.csv", {"frame", "bone", *recorded_frames.bone_ends})
@@ -126,7 +136,7 @@ def facts_of(recorded, every):
     """What the run's tables say, without its frames."""
     rows = {label: kept[::every] for label, kept in rows_of(recorded).items()}
     first = next(iter(rows.values()))
-    shown = [{"label": label, "title": deformers[label], "figures": figures_of(rows[label])} for label in rows]
+    shown = [{"label": label, "title": title_of(recorded, label), "figures": figures_of(rows[label])} for label in rows]
     return {"name": recorded.run.name, "title": titles[recorded.run.name], "reference": recorded.run.reference(),
             "rights": "; ".join(recorded_frames.licences_of(recorded)), "frames": [int(row["frame"]) for row in first],
             "times_s": [float(row["time_s"]) for row in first], "deformers": shown}

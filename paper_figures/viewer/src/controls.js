@@ -1,10 +1,11 @@
 // The bars above the panels: run, time, colouring, cut, skeleton.
 import { colourings } from "./link.js";
-import { draws_surface } from "./state.js";
+import { draws_surface, no_surface_because } from "./state.js";
 import { button, element, group, select, slider } from "./page.js";
 
 const colour_names = { skin: "skin", ratio: "volume ratio", error: "distance to FEM", inverted: "inverted tets" };
 
+const what_rendered_does = "show the rendered surface in place of the tets' boundary";
 const cut_names = [["", "no cut"], ["x", "across x"], ["y", "across y"], ["z", "across z"]];
 
 export class Controls {
@@ -14,7 +15,7 @@ export class Controls {
         this.time = slider("frame", actions.at);
         this.clock = element("output", { class: "vw-time" });
         this.colours = colourings.map((name) => button(colour_names[name], `colour by ${colour_names[name]}`, () => actions.colour(name)));
-        this.rendered = button("rendered skin", "show the rendered surface in place of the tets' boundary", actions.rendered);
+        this.rendered = button("rendered skin", what_rendered_does, actions.rendered);
         this.bones = button("bones", "show the skeleton", actions.bones);
         this.follow = button("follow", "the camera follows the body", actions.follow);
         this.axis = select("cut the tets by a plane", cut_names, actions.cut_axis);
@@ -45,7 +46,9 @@ export class Controls {
             made.setAttribute("aria-pressed", String(colourings[at] === now.colour));
         });
         this.rendered.setAttribute("aria-pressed", String(draws_surface(run, now)));
-        this.rendered.disabled = !run.surface || Boolean(now.cut);
+        const refused = no_surface_because(run, now);
+        this.rendered.disabled = refused !== null;
+        this.rendered.title = refused ?? what_rendered_does;
         this.bones.setAttribute("aria-pressed", String(now.bones));
         this.follow.setAttribute("aria-pressed", String(now.follow));
         this.update_cut(run, now.cut);
@@ -65,5 +68,5 @@ export class Controls {
 function clock_of(run, at) {
     const angle = run.figure(run.labels[0], "angle_deg", at);
     const time = angle === null ? `${run.times_s[at].toFixed(2)} s` : `${Math.round(angle)}\u00b0`;
-    return `frame ${run.frames[at]} of ${run.frames.at(-1)}, ${time}`;
+    return `frame ${run.frames[at]}${at === run.frames.length - 1 ? " (last)" : ""}, ${time}`;
 }

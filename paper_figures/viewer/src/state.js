@@ -26,9 +26,15 @@ export class State {
     }
 }
 
+// Why the rendered surface cannot be shown; null where it can.
+export function no_surface_because(run, now) {
+    if (!run.surface) return "this body has no rendered surface but its tets' boundary";
+    return now.cut ? "no rendered surface while the tets are cut" : null;
+}
+
 // Whether the rendered surface is what is drawn.
 export function draws_surface(run, now) {
-    return Boolean(run.surface && now.rendered && !now.cut);
+    return now.rendered && no_surface_because(run, now) === null;
 }
 
 // The panels that a run can show: those wanted where it has them, filled up to four with its own in order.

@@ -10,7 +10,7 @@ import { element, select } from "./page.js";
 import { Panel } from "./panel.js";
 import { Player } from "./player.js";
 import { Sight, is_wide } from "./sight.js";
-import { State, panels_for } from "./state.js";
+import { State, no_surface_because, panels_for } from "./state.js";
 import { Views } from "./views.js";
 
 export class Viewer {
@@ -137,7 +137,7 @@ export class Viewer {
             at: go, step: (by) => go(now().at + by), first: () => go(0), last: () => go(last()),
             play: () => this.user({ playing: !now().playing }),
             colour: (colour) => this.user({ colour }),
-            rendered: () => this.run.surface && this.user({ rendered: !now().rendered }),
+            rendered: () => no_surface_because(this.run, now()) === null && this.user({ rendered: !now().rendered }),
             bones: () => this.user({ bones: !now().bones }),
             follow: () => this.user({ follow: !now().follow }),
             cut: () => this.cut_axis(now().cut ? "" : "z"),
@@ -176,11 +176,15 @@ function note_of(run, every, at) {
     const mark = run.reference_intersects(at) ? "* In this frame the FEM reference passes through itself: distances to it say less. " : "";
     const kept = every === 1 ? "every recorded frame" : `one of ${every} recorded frames`;
     const step_um = (1e6 * run.step_m).toFixed(1);
-    const carried_um = run.surface ? Math.ceil(0.5e6 * run.step_m * run.surface.largest_sum) : 0;
-    const surface = run.surface
-        ? `, which carry the ${run.surface.points} points of the rendered surface within ${carried_um} \u00b5m` : "";
-    const rounding = `Positions are rounded to steps of ${step_um} \u00b5m: each `;
-    return `${mark}${run.vertices} vertices, ${run.tets} tets${surface}; ${kept}. ${rounding}`
-        + "coordinate is within half of that of the record; volume ratios to 1/127 up to 2; the numbers are the records' own. A cut goes "
-        + `through the body at rest, so that every panel and frame shows the same tets. ${run.rights}`;
+    return `${mark}${run.vertices} vertices, ${run.tets} tets${carried_by(run)}; ${kept}. Positions are rounded to steps of ${step_um} `
+        + "\u00b5m: each coordinate of a vertex is within half of that of the record's; volume ratios to 1/127 up to 2; the numbers are "
+        + "the records' own. A cut goes through the body at rest, so that every panel and frame shows the same tets. "
+        + run.rights;
+}
+
+function carried_by({ surface, step_m }) {
+    if (!surface) return "";
+    const within_um = Math.ceil(0.5e6 * step_m * surface.largest_sum);
+    const points = `, which carry the ${surface.points} points of the rendered surface`;
+    return `${points}, each coordinate within ${within_um} \u00b5m of the record's`;
 }

@@ -8,6 +8,7 @@ import pathlib
 import re
 import sys
 import tempfile
+import types
 import unittest
 
 import numpy
@@ -74,6 +75,15 @@ class Viewer(unittest.TestCase):
                 recorded = synthetic_frames.skin_of(synthetic_frames.positions_of(deformer["label"], frame))
                 apart = abs(packed[frame] - recorded).max(axis=1)
                 self.assertTrue((apart <= abs(shares).sum(axis=1) * run["step_m"] / 2 * (1 + 1e-6)).all())
+
+    def test_pbs_of_another_stiffness_says_which_and_which_its_zone(self):
+        plain = {"k_stretch": 0.2}
+        options = {"pbs": plain, "pbs_jiggle": {"k_stretch": 1.0, "jiggle": {"k_stretch": 0.1}}, "pbs_no_zone": {"k_stretch": 1.0},
+                   "pbs_increment": {**plain, "lbs_entry": "increment"}, "snh_p1": {"poisson": 0.45}}
+        runs = [{"label": label, "options": set_to} for label, set_to in options.items()] + [{"label": "lbs"}]
+        recorded = types.SimpleNamespace(run=types.SimpleNamespace(record={"scene": {"runs": runs}}))
+        self.assertEqual([viewer_data.title_of(recorded, label) for label in ("lbs", *options)],
+                         ["LBS", "PBS", "PBS, k_stretch 1, zone 0.1", "PBS, k_stretch 1, no zone", "PBS, no start from LBS", "FEM"])
 
     def test_the_limb_has_no_surface_but_its_tets(self):
         self.assertIsNone(self.unpacked()[0]["surface"])

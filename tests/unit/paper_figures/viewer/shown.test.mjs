@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { distance_shade, palette_of, ratio_shades, rgb_of, shade_of } from "../../../../paper_figures/viewer/src/colours.js";
 import { shown, signed } from "../../../../paper_figures/viewer/src/numbers.js";
-import { State, panels_for } from "../../../../paper_figures/viewer/src/state.js";
+import { State, draws_surface, no_surface_because, panels_for } from "../../../../paper_figures/viewer/src/state.js";
 
 test("shades lie evenly between low and high and end there", () => {
     const shades = ["a", "b", "c"];
@@ -27,6 +27,16 @@ test("a run shows four panels, those asked for first", () => {
     const run = { reference: "snh_p1", labels: ["lbs", "dqs", "pbs", "snh_p1", "pbs_jiggle"] };
     assert.deepEqual(panels_for(run), ["lbs", "dqs", "pbs", "snh_p1"]);
     assert.deepEqual(panels_for(run, ["pbs_jiggle", "unheard_of"]), ["pbs_jiggle", "lbs", "dqs", "pbs"]);
+});
+
+test("the rendered surface is drawn where the body has one and nothing is cut", () => {
+    const human = { surface: {} }, limb = { surface: null }, cut = { axis: "z", at_m: 0, above: false };
+    assert.equal(draws_surface(human, { rendered: true, cut: null }), true);
+    assert.equal(draws_surface(human, { rendered: false, cut: null }), false);
+    for (const [run, asked, why] of [[limb, null, /surface but/], [limb, cut, /surface but/], [human, cut, /while the tets are cut/]]) {
+        assert.equal(draws_surface(run, { rendered: true, cut: asked }), false);
+        assert.match(no_surface_because(run, { cut: asked }), why);
+    }
 });
 
 test("listeners hear what changed, and nothing when nothing did", () => {
