@@ -39,7 +39,8 @@ def facts(rows):
         return figure(found[24]), figure(found[max(found)])
 
     told = {"most": max(int(row["iterations"]) for row in rows)}
-    for name, of in (("human", ("volume_change_pct", "human_01_01", "all frames")), ("bend", ("volume_change_pct", "limb_bend", "90 degrees")),
+    for name, of in (("human", ("volume_change_pct", "human_01_01", "all frames")),
+                     ("bend", ("volume_change_pct", "limb_bend", "90 degrees")),
                      ("absolute", ("volume_abs_change_pct", "human_01_01", "all frames"))):
         told[f"{name}_24"], told[f"{name}_most"] = left(*of)
     return told

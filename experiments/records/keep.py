@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Keeps what the verdicts rest on: from the records of `pbskin reproduce --full -o DIR` the figures that claims are judged by, studies' own
-tables and the provenance, below 5 MB, in experiments/records/full. `pbskin reproduce --judge -o experiments/records/full` judges them again.
+tables and the provenance, below 5 MB, in experiments/records/full. `pbskin reproduce --judge -o experiments/records/full` judges them
+again.
 
     python3 experiments/records/keep.py results/full [FOLDER]
 """

@@ -85,8 +85,9 @@ def main():
         rows.append(row)
         write(options.output, rows)
         print("P%(element_order)d %(tets)8d tets %(dofs)8d dofs %(solver)8s %(ranks)d ranks: %(iterations)3d iterations, "
-              "mesh %(mesh_s).2f, assembly %(assembly_s).2f, setup %(setup_s).2f, solve %(solve_s).2f s (processor %(mesh_cpu_s).2f, %(assembly_cpu_s).2f, "
-              "%(setup_cpu_s).2f, %(solve_cpu_s).2f), %(peak_mb_of_rank_max).0f MB a rank" % row, flush=True)
+              "mesh %(mesh_s).2f, assembly %(assembly_s).2f, setup %(setup_s).2f, solve %(solve_s).2f s "
+              "(processor %(mesh_cpu_s).2f, %(assembly_cpu_s).2f, %(setup_cpu_s).2f, %(solve_cpu_s).2f), "
+              "%(peak_mb_of_rank_max).0f MB a rank" % row, flush=True)
     return 0
 
 

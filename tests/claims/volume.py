@@ -38,8 +38,10 @@ class VolumeClaims(program.ProgramTest):
         derived = self.last_frame("limb_bend", 90.0)
         for form in ("labels_relative", "labels_absolute", "as_printed"):
             printed = self.last_frame("limb_bend", 90.0, "--set", "pbs.variant.volume_form=" + form)
-            self.assertGreater(self.change(printed["pbs"], "volume_abs_change_pct"), self.change(derived["lbs"], "volume_abs_change_pct"), form)
-            self.assertGreater(self.change(printed["pbs"], "volume_abs_change_pct"), 2.0 * self.change(derived["pbs"], "volume_abs_change_pct"), form)
+            self.assertGreater(self.change(printed["pbs"], "volume_abs_change_pct"), self.change(derived["lbs"], "volume_abs_change_pct"),
+                               form)
+            self.assertGreater(self.change(printed["pbs"], "volume_abs_change_pct"),
+                               2.0 * self.change(derived["pbs"], "volume_abs_change_pct"), form)
 
     def test_the_printed_sign_blows_up(self):
         frame = self.last_frame("limb_bend", 90.0, "--set", "pbs.variant.volume_form=sign")["pbs"]

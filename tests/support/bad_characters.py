@@ -20,9 +20,11 @@ def skeletons():
     yield "truncated", SKELETON[:60], ":4: "
     yield "zero_length", SKELETON.replace("tail_m = [0.5", "tail_m = [0.0"), ":1: shoulder.tail_m = [0 0 0]: a bone needs a length"
     yield "no_root", SKELETON.replace('parent = ""', 'parent = "elbow"'), "no root"
-    yield "cyclic_parents", SKELETON + joint("a", "b", [0, 0, 0], [1, 0, 0]) + joint("b", "a", [0, 0, 0], [1, 0, 0]), ":11: a.parent = b: its parents form a cycle"
+    yield ("cyclic_parents", SKELETON + joint("a", "b", [0, 0, 0], [1, 0, 0]) + joint("b", "a", [0, 0, 0], [1, 0, 0]),
+           ":11: a.parent = b: its parents form a cycle")
     yield "own_parent", SKELETON.replace('parent = "shoulder"', 'parent = "elbow"'), ":6: elbow.parent = elbow: its parents form a cycle"
-    yield "unknown_parent", SKELETON.replace('parent = "shoulder"', 'parent = "sholder"'), ":6: elbow.parent = sholder: no such joint; the nearest is 'shoulder'"
+    yield ("unknown_parent", SKELETON.replace('parent = "shoulder"', 'parent = "sholder"'),
+           ":6: elbow.parent = sholder: no such joint; the nearest is 'shoulder'")
     yield "name_twice", SKELETON.replace('"elbow"', '"shoulder"'), ":6: name = shoulder: already used in line 1"
     yield "nan", SKELETON.replace("[1.0,", "[nan,"), ":10: tail_m = [ nan, 0.0, 0.0 ]: expected three finite numbers"
     yield "infinity", SKELETON.replace("[1.0,", "[inf,"), ":10: tail_m"
@@ -36,7 +38,8 @@ def skeletons():
     yield "nested_keys", "[" + "a." * 50000 + "a]\nx = 1\n", ":1: key = [a.a."
     yield "not_utf8", SKELETON.encode().replace(b"elbow", b"\xff\xfe"), ":7: "
     yield "no_joint", "x = 1\n", ":1: x: unknown key"
-    yield "thousands_of_joints", "".join(joint(f"j{i}", "", [i, 0, 0], [i + 1, 0, 0]) for i in range(2500)), "joints = 2500: expected at most 2000"
+    yield ("thousands_of_joints", "".join(joint(f"j{i}", "", [i, 0, 0], [i + 1, 0, 0]) for i in range(2500)),
+           "joints = 2500: expected at most 2000")
 
 
 def weights():
@@ -57,8 +60,9 @@ def weights():
 
 
 def bvh(frames="2", time="0.01", motion=2 * ROW, root="shoulder", child="elbow", offset="1 0 0"):
-    return (f"HIERARCHY\nROOT {root}\n{{\n OFFSET 0 0 0\n CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation\n JOINT {child}\n {{\n"
-            f"  OFFSET {offset}\n  CHANNELS 3 Zrotation Yrotation Xrotation\n  End Site\n  {{\n   OFFSET 1 0 0\n  }}\n }}\n}}\n"
+    return (f"HIERARCHY\nROOT {root}\n{{\n OFFSET 0 0 0\n CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation\n"
+            f" JOINT {child}\n {{\n  OFFSET {offset}\n  CHANNELS 3 Zrotation Yrotation Xrotation\n"
+            f"  End Site\n  {{\n   OFFSET 1 0 0\n  }}\n }}\n}}\n"
             f"MOTION\nFrames: {frames}\nFrame Time: {time}\n{motion}")
 
 
@@ -87,7 +91,8 @@ def clips():
     yield "nan_offset", bvh(offset="nan 0 0"), "OFFSET: expected finite numbers"
     yield "channels_of_other_number", bvh().replace("CHANNELS 6", "CHANNELS 60"), ""
     yield "unknown_channel", bvh().replace("Xposition", "Qposition"), "Qposition"
-    yield "nested_joints", "HIERARCHY\nROOT a\n{\n OFFSET 0 0 0\n CHANNELS 3 Zrotation Yrotation Xrotation\n" + "JOINT b\n{\n" * 100000, "nested deeper than 500 joints"
+    yield ("nested_joints", "HIERARCHY\nROOT a\n{\n OFFSET 0 0 0\n CHANNELS 3 Zrotation Yrotation Xrotation\n" + "JOINT b\n{\n" * 100000,
+           "nested deeper than 500 joints")
     yield "wrong_magic", b"\x89PNG\r\n\x1a\n" + NOISE, "no clip that assimp can read"
 
 
@@ -98,8 +103,11 @@ def cases():
     for name, content, words in weights():
         yield Case(f"weights {name}", {"bad.csv": content}, [*run, "skinning.weights=bad.csv"], ("bad.csv", words))
     for name, content, words in clips():
-        yield Case(f"clip {name}", {"bad.bvh": content}, ["run", "clip.toml", "-o", "out", "--set", "motion.clip=bad.bvh"], ("bad.bvh", words))
-    for name, setting, words in (("start_after_the_end", "motion.start_s=99", "start_s = 99"), ("duration_beyond_the_end", "motion.duration_s=99", "duration_s = 99"),
+        yield Case(f"clip {name}", {"bad.bvh": content}, ["run", "clip.toml", "-o", "out", "--set", "motion.clip=bad.bvh"],
+                   ("bad.bvh", words))
+    for name, setting, words in (("start_after_the_end", "motion.start_s=99", "start_s = 99"),
+                                 ("duration_beyond_the_end", "motion.duration_s=99", "duration_s = 99"),
                                  ("rate_that_does_not_divide", "motion.rate_hz=33", "expected rate_hz * pbs.time_step_s = 1/n"),
                                  ("rate_of_a_million_steps", "motion.rate_hz=0.001", "")):
-        yield Case(f"clip {name}", {}, ["run", "clip.toml", "-o", "out", "--set", setting, *(["--set", "pbs.time_step_s=1e-9"] if "million" in name else [])], (words,))
+        yield Case(f"clip {name}", {}, ["run", "clip.toml", "-o", "out", "--set", setting,
+                                        *(["--set", "pbs.time_step_s=1e-9"] if "million" in name else [])], (words,))

@@ -39,19 +39,26 @@ DEFECTS = {
     "infinity": (set_point(3, "inf"), {}, {".vtk": "inf", ".vtu": "expected finite coordinates"}),
     "a_word": (set_point(3, "east"), {}, {".vtk": "east", ".vtu": "VTK: ", ".mesh": ":8: word = east: expected a number"}),
     "negative_index": (set_corner(-5), {}, {".vtk": "tet 2 vertex = -5: expected an index from 0 to 44", ".vtu": "tet 2 vertex = -5"}),
-    "index_out_of_range": (set_corner(4000), {}, {".vtk": "tet 2 vertex = 4000", ".vtu": "tet 2 vertex = 4000", ".mesh": "Wrong node index 4000"}),
+    "index_out_of_range": (set_corner(4000), {},
+                           {".vtk": "tet 2 vertex = 4000", ".vtu": "tet 2 vertex = 4000", ".mesh": "Wrong node index 4000"}),
     "index_beyond_int": (set_corner(99999999999), {}, {".vtk": "VTK: ", ".vtu": "tet 2 vertex = 99999999999"}),
-    "huge_vertex_count": (lambda points, tets: None, {"vertices": 4000000000}, {".vtk": "Unable to allocate", ".vtu": "damaged: asks for more memory"}),
-    "impossible_vertex_count": (lambda points, tets: None, {"vertices": 4 * 10**18}, {".vtk": "damaged: the reader broke down on it: ", ".vtu": "VTK: "}),
+    "huge_vertex_count": (lambda points, tets: None, {"vertices": 4000000000},
+                          {".vtk": "Unable to allocate", ".vtu": "damaged: asks for more memory"}),
+    "impossible_vertex_count": (lambda points, tets: None, {"vertices": 4 * 10**18},
+                                {".vtk": "damaged: the reader broke down on it: ", ".vtu": "VTK: "}),
     "huge_tet_count": (lambda points, tets: None, {"tets_told": 4000000000}, {".vtk": "VTK: ", ".vtu": "damaged: asks for more memory"}),
     "fewer_vertices_told": (lambda points, tets: None, {"vertices": 44}, {".vtk": "", ".vtu": ""}),
-    "duplicate_vertex": (lambda points, tets: points.__setitem__(7, list(points[6])), {}, {".vtk": "expected a volume", ".vtu": "expected a volume"}),
-    "unused_vertex": (lambda points, tets: points.append([9, 9, 9]), {}, {".vtk": "vertex 45: expected in a tet", ".vtu": "vertex 45: expected in a tet"}),
-    "flat_tet": (lambda points, tets: tets.append([0, 1, 2, 3]), {}, {".vtk": "tet 96 = (0, 1, 2, 3): expected a volume", ".vtu": "tet 96 = "}),
+    "duplicate_vertex": (lambda points, tets: points.__setitem__(7, list(points[6])), {},
+                         {".vtk": "expected a volume", ".vtu": "expected a volume"}),
+    "unused_vertex": (lambda points, tets: points.append([9, 9, 9]), {},
+                      {".vtk": "vertex 45: expected in a tet", ".vtu": "vertex 45: expected in a tet"}),
+    "flat_tet": (lambda points, tets: tets.append([0, 1, 2, 3]), {},
+                 {".vtk": "tet 96 = (0, 1, 2, 3): expected a volume", ".vtu": "tet 96 = "}),
     "corner_twice": (lambda points, tets: tets[2].__setitem__(1, tets[2][0]), {}, {".vtk": "expected a volume", ".vtu": "tet 2 = "}),
     "tet_twice": (lambda points, tets: tets.append(list(tets[0])), {}, {".vtk": "tet 96 = ", ".vtu": "they overlap"}),
     "beyond_range": (lambda points, tets: scaled(points, 1e300), {}, {".vtk": "expected within 1e9 m", ".vtu": "expected within 1e9 m"}),
-    "below_range": (lambda points, tets: scaled(points, 1e-300), {}, {".vtk": "expected at least 1e-9 m", ".vtu": "expected at least 1e-9 m"}),
+    "below_range": (lambda points, tets: scaled(points, 1e-300), {},
+                    {".vtk": "expected at least 1e-9 m", ".vtu": "expected at least 1e-9 m"}),
     "no_tets": (lambda points, tets: tets.clear(), {}, {".vtk": "tets = 0: expected at least one", ".vtu": "tets = 0"}),
     "no_points": (lambda points, tets: points.clear(), {}, {".vtk": "expected an index", ".vtu": "expected an index"}),
     "a_number_of_100000_digits": (set_point(3, "1" * 100000), {}, {".vtk": "", ".vtu": ""}),
@@ -83,9 +90,11 @@ def cases():
     yield from tetgen_cases()
     yield Case("frame of other vertices", {"other.vtu": tet_texts.vtu(*foreign_arm.mesh((5, 2, 2)))}, ["measure", "arm.vtu", "other.vtu"],
                ("other.vtu: vertices = 54: expected the rest mesh's 45",))
-    yield Case("frame of other tets", {"other.vtu": tet_texts.vtu(POINTS, [[7 - vertex if vertex in (0, 7) else vertex for vertex in tet] for tet in TETS])}, ["measure", "arm.vtu", "other.vtu"],
+    yield Case("frame of other tets", {"other.vtu": tet_texts.vtu(POINTS, [[7 - vertex if vertex in (0, 7) else vertex for vertex in tet]
+                                                                           for tet in TETS])}, ["measure", "arm.vtu", "other.vtu"],
                ("other.vtu: ",))
-    yield Case("frame after a good one", {"bad.vtu": "<VTKFile>"}, ["measure", "arm.vtu", "arm.vtu", "bad.vtu", "--csv", "figures.csv"], ("bad.vtu",))
+    yield Case("frame after a good one", {"bad.vtu": "<VTKFile>"}, ["measure", "arm.vtu", "arm.vtu", "bad.vtu", "--csv", "figures.csv"],
+               ("bad.vtu",))
     yield Case("tets of an unknown kind", {"arm.step": "ISO-10303-21;"}, ["measure", "arm.step", "arm.step"],
                ("arm.step: extension = .step: expected a tet mesh",))
     yield Case("bench on a damaged mesh", {"bad.vtu": NOISE}, ["bench", "--quick", "--mesh", "bad.vtu"], ("bad.vtu",))
@@ -95,8 +104,10 @@ def tetgen_cases():
     node = "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
     element = "1 4 0\n1 1 2 3 4\n"
     for name, nodes, elements, words in (
-            ("noise", "\x01\x02 noise", element, "bad.node:1"), ("huge_count", node.replace("4 3", "4000000000 3", 1), element, "bad.node:1: #points"),
+            ("noise", "\x01\x02 noise", element, "bad.node:1"),
+            ("huge_count", node.replace("4 3", "4000000000 3", 1), element, "bad.node:1: #points"),
             ("nan", node.replace("1 0 0 0", "1 nan 0 0"), element, "expected finite"), ("truncated", node[:20], element, "bad.node:"),
-            ("index", node, element.replace("3 4\n", "3 9\n"), "bad.ele:2: tet vertex = 9"), ("two_dimensional", node.replace("4 3", "4 2", 1), element, "dimension")):
+            ("index", node, element.replace("3 4\n", "3 9\n"), "bad.ele:2: tet vertex = 9"),
+            ("two_dimensional", node.replace("4 3", "4 2", 1), element, "dimension")):
         yield Case(f"tets {name}.node", {"bad.node": nodes, "bad.ele": elements}, ["measure", "bad.ele", "bad.ele"], ("bad.", words))
     yield Case("tets without .ele", {"bad.node": node}, ["measure", "bad.node", "bad.node"], ("bad.ele: no such file",))

@@ -19,8 +19,8 @@ struct VertexOrder {
     std::vector<int> slab_of_new() const;  // #V
 };
 
-// A slab has at least `vertices_a_slab` vertices, the first of several half as many, so that where the middle of a body is, where its joint often is,
-// no slab ends; a last one of less than a third joins the one before.
+// A slab has at least `vertices_a_slab` vertices, the first of several half as many, so that where the middle of a body is,
+// where its joint often is, no slab ends; a last one of less than a third joins the one before.
 VertexOrder order_vertices(const Tets& tets, int vertices, int vertices_a_slab);
 
 }  // namespace pbs

@@ -33,7 +33,8 @@ class CommandLine(program.ProgramTest):
         self.assertRegex(self.succeeds("--version").stdout, r"^pbskin \d+\.\d+\.\d+ \(git ")
 
     def test_lists_every_kind(self):
-        for kind, name in (("cases", "sweep"), ("scenes", "limb_twist"), ("deformers", "dqs"), ("studies", "volume"), ("claims", "C02"), ("metrics", "j_min")):
+        for kind, name in (("cases", "sweep"), ("scenes", "limb_twist"), ("deformers", "dqs"), ("studies", "volume"), ("claims", "C02"),
+                           ("metrics", "j_min")):
             self.assertIn(name, self.succeeds("list", kind).stdout)
 
     def test_explains_every_name_it_lists(self):
@@ -72,12 +73,14 @@ class CommandLine(program.ProgramTest):
         self.refuses("nowhere.toml: cannot be read", "run", "nowhere.toml")
 
     def test_unknown_joint(self):
-        self.refuses("motion.joint = knee: expected one of shoulder, elbow", "run", self.scene, "--set", "motion.joint=knee", "-o", self.path("out"))
+        self.refuses("motion.joint = knee: expected one of shoulder, elbow", "run", self.scene, "--set", "motion.joint=knee", "-o",
+                     self.path("out"))
 
     def test_skeleton_in_other_units(self):
         points, tets = foreign_arm.mesh((10, 2, 2))
         foreign_arm.write_msh(self.path("moved.msh"), [(x + 2.0, y, z) for x, y, z in points], tets)
-        self.refuses("no bone reaches the mesh's bounding box", "run", self.scene, "--set", "character.mesh=moved.msh", "-o", self.path("out"))
+        self.refuses("no bone reaches the mesh's bounding box", "run", self.scene, "--set", "character.mesh=moved.msh", "-o",
+                     self.path("out"))
 
     def test_frames_of_other_tets_are_refused(self):
         points, tets = foreign_arm.mesh((10, 2, 2))
@@ -87,7 +90,8 @@ class CommandLine(program.ProgramTest):
         self.refuses("tets: expected the rest mesh's", "measure", self.path("arm.msh"), self.path("renumbered.msh"))
 
     def test_frames_beyond_the_motion(self):
-        self.refuses("output.frames = 99: expected less than the motion's 5 frames", "run", self.scene, "--set", "output.frames=[99]", "-o", self.path("out"))
+        self.refuses("output.frames = 99: expected less than the motion's 5 frames", "run", self.scene, "--set", "output.frames=[99]", "-o",
+                     self.path("out"))
 
     def test_a_reference_cannot_name_files_elsewhere(self):
         self.refuses("it names files", "run", "limb_twist", "--set", "fem.0.name=../x", "-o", self.path("out"))
@@ -127,7 +131,8 @@ class CommandLine(program.ProgramTest):
 
     def test_breakdown_is_exit_3(self):
         # Gravity beyond what a float can hold drives the jiggling particles out of range.
-        process = program.run("run", self.scene, "-o", self.path("out"), "--set", "pbs.gravity_m_s2=[0.0,-1e300,0.0]", "--set", "pbs.jiggle.k_stretch=0.9")
+        process = program.run("run", self.scene, "-o", self.path("out"), "--set", "pbs.gravity_m_s2=[0.0,-1e300,0.0]", "--set",
+                              "pbs.jiggle.k_stretch=0.9")
         self.assertEqual(process.returncode, 3, process.stderr)
         self.assertIn("numerical breakdown: pbs is not finite in frame", process.stderr)
         with open(self.path("out", "run.json"), encoding="utf-8") as file:
@@ -142,7 +147,8 @@ class CommandLine(program.ProgramTest):
         self.assertNotIn("libpbskin_fem", loaded)
 
     def test_interrupt_keeps_whole_files(self):
-        process = subprocess.Popen([program.PBSKIN, "run", self.scene, "-o", self.path("out"), "--set", "motion.frames=100000"], stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen([program.PBSKIN, "run", self.scene, "-o", self.path("out"), "--set", "motion.frames=100000"],
+                                   stderr=subprocess.PIPE, text=True)
         time.sleep(1.0)
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)

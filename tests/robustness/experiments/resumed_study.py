@@ -1,5 +1,5 @@
-"""A study that is killed goes on where it was: runs that ended are kept as they are, the others are done, and the records are those of a study
-that nobody killed. Truth: files' own times, and the records of an undisturbed run."""
+"""A study that is killed goes on where it was: runs that ended are kept as they are, the others are done, and the records are those of a
+study that nobody killed. Truth: files' own times, and the records of an undisturbed run."""
 import os
 import pathlib
 import signal

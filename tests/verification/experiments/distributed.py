@@ -16,7 +16,8 @@ import program
 
 PROGRAM = os.environ["PBSKIN_DISTRIBUTED"]
 MPIRUN = [os.environ["MPIEXEC"], "--oversubscribe", "-n"]
-ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_btl_vader_single_copy_mechanism="none",
+ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                   OMPI_MCA_btl_vader_single_copy_mechanism="none",
                    OMPI_MCA_mpi_yield_when_idle="1", OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
 MODE_SHARE = 0.78  # of a uniform transverse load in a cantilever's first mode
 ACROSS = ("--gravity", 0, 0, -9.81, "--traction", 0, 0, -1000)

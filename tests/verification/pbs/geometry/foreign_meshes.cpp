@@ -95,7 +95,8 @@ out = open(sys.argv[2], "w")
 def put(array):
     assert array.GetDataTypeAsString() in ("double", "int")
     for i in range(array.GetNumberOfTuples()): out.write(" ".join(float(x).hex() for x in array.GetTuple(i)) + "\n")
-put(grid.GetPoints().GetData()); put(points.GetArray("displacement")); put(points.GetArray("prescribed")); put(cells.GetArray("volume_ratio"))
+put(grid.GetPoints().GetData()); put(points.GetArray("displacement")); put(points.GetArray("prescribed"))
+put(cells.GetArray("volume_ratio"))
 assert all(grid.GetCellType(c) == vtk.VTK_TETRA for c in range(grid.GetNumberOfCells()))
 )",
                      (folder / "frame.vtu") + " " + (folder / "numbers")),
