@@ -21,7 +21,7 @@ def line(*cells):
 
 
 def measured(claim):
-    """What its runs are judged by, or of each bound's quantities from the least to the most, and how much of it is as expected."""
+    """What its runs are judged by, or each bound's quantities from the least to the most; how much of it is as expected."""
     cases = claim["cases"] and verdicts.own_cases(claim)
     if cases:
         held = [sum(case["holds"] == how for case in cases) for how in ("whole", "part")]
@@ -37,8 +37,8 @@ def measured(claim):
 def farthest(claim):
     told = verdicts.farthest(claim, of_quantity=True)
     if not told and claim["verdict"] != "reproduced":
-        raise records.RecordsMissing(f"claim {claim['id']}: text = {claim['text']}: expected `; farthest: QUANTITY of CASE is VALUE` in it, "
-                                     "for not all holds")
+        raise records.RecordsMissing(f"claim {claim['id']}: text = {claim['text']}: expected `; farthest: QUANTITY of CASE is VALUE` "
+                                     "in it, for not all holds")
     return told
 
 

@@ -2,6 +2,7 @@
 import contextlib
 import csv
 import io
+import json
 import pathlib
 import sys
 import tempfile
@@ -79,6 +80,12 @@ class Figures(unittest.TestCase):
         (human / "frame_statistics.csv").unlink()
         self.assert_missing("of an earlier version and has to be made again", lambda: records.Run(human).statistics("pbs", 24))
 
+    def test_order_statistics_are_of_one_setting(self):
+        human = records.Run(self.results / "volume" / "human_01_01")
+        self.assert_missing("3 rows of deformer pbs, variant default, expected one", lambda: human.statistics("pbs"))
+        self.assert_missing("0 rows of deformer pbs, variant jiggle, 24 iterations, expected one",
+                            lambda: human.statistics("pbs", 24, "jiggle"))
+
     def test_table_of_claims(self):
         header, _, row = claims_table.table_lines(self.results)
         self.assertEqual(claims_table.cells(header), ["id", "measured"])
@@ -154,7 +161,8 @@ class Figures(unittest.TestCase):
                 self.assertIn(synthetic_records.revision.encode(), (results / "figures" / f"{name}.png").read_bytes())
             with open(results / "figures" / "scaling.csv", newline="") as stream:
                 rows = list(csv.DictReader(stream))
-            cost = {(row["order"], row["precision"], row["tets"]): float(row["value"]) for row in rows if row["shown"] == "ns_per_constraint"}
+            cost = {(row["order"], row["precision"], row["tets"]): float(row["value"]) for row in rows
+                    if row["shown"] == "ns_per_constraint"}
             self.assertEqual(len(cost), 8)
             self.assertAlmostEqual(cost["plain", "f32", "400"], 1000.0)  # 24 us a constraint and step of 24 iterations
             self.assertAlmostEqual(cost["ordered", "f64", "5000"], 250.0)
@@ -174,17 +182,30 @@ class Figures(unittest.TestCase):
         readme_claims.main(self.results, readme)
         text = readme.read_text()
         self.assertTrue(text.startswith("before\n") and text.endswith("\nafter\n"))
-        self.assertIn("| C02 | Volume is kept. (Sec. 4) | 0.5 % (-0.5 to 0.5 %) | -0.9 to 0 %; 1 of 3 runs within, 1 in part "
-                      "| reproduced in part |\n", text)
+        self.assertIn("| C02 | Volume is kept. (Sec. 4) | 0.5 % (-0.5 to 0.5 %) | limb twisted: -0.9 to 0 % over the angle; "
+                      "2 clips: 40 to 97.5 % of the frames within; 1 of 3 runs within, 1 in part | reproduced in part |\n", text)
         self.assertIn("| 107 to 233 1/s; 2 of 2 figures within | reproduced |\n", text)
         self.assertNotIn("old", text)
 
     def test_readme_tells_the_farthest_of_many_quantities_and_each_range_of_few(self):
         rows = [{"quantity": name, "value": value, "unit": "1"} for name, value in (("a", 1.0), ("a", 2.0), ("b", 5.0))]
-        claim = {"cases": [], "measurements": rows, "measured": "2 of 3 figures within", "text": "x; farthest: b of limb, 10 ms is 5; beside it: c"}
+        claim = {"id": "C09", "verdict": "not reproduced", "cases": [], "measurements": rows, "measured": "2 of 3 figures within",
+                 "text": "x; farthest: b of limb, 10 ms is 5; beside it: c"}
         self.assertEqual(readme_claims.measured({**claim, "expected": "0 to 1"}), "1 to 5; 2 of 3 figures within")
         self.assertEqual(readme_claims.measured({**claim, "expected": "b: 0 to 1; a: 3 or more"}), "5; 1 to 2; 2 of 3 figures within")
-        self.assertEqual(readme_claims.measured({**claim, "expected": "a: 1; b: 1; c: 1; d: 1"}), "2 of 3 figures within; farthest: b 5")
+        many = {**claim, "expected": "a: 1; b: 2; c: 1; d: 1"}
+        self.assertEqual(readme_claims.measured(many), "2 of 3 figures within; farthest: b is 5, expected 2")
+        self.assertEqual(readme_claims.measured({**many, "verdict": "reproduced", "text": "reproduced: limb"}), "2 of 3 figures within")
+
+    def test_readme_refuses_a_verdict_whose_wording_it_does_not_know(self):
+        synthetic_records.write_claims(self.results)
+        file = self.results / "claims.json"
+        judged = json.loads(file.read_text())
+        judged["claims"][1] |= {"verdict": "not reproduced", "text": "not reproduced: limb; worst is b",
+                                "expected": "a: 1; b: 2; c: 1; d: 1"}
+        file.write_text(json.dumps(judged))
+        self.assert_missing(f"{file}: claim C10: text = not reproduced: limb; worst is b: expected", lambda:
+                            readme_claims.table_lines(self.results))
 
     def test_readme_of_features_is_changed_between_its_markers_alone(self):
         folder = self.results / "features" / "human"

@@ -1,4 +1,5 @@
-"""Truth: the definition. The paper's own figures show what the frames on record hold, say whose body and motion it is, and refuse without."""
+"""Truth: the definition. The paper's own figures show what the frames on record hold, say whose body and motion it is, and refuse
+without."""
 import csv
 import importlib
 import json
@@ -14,6 +15,7 @@ sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
 import entries  # noqa: E402
 import fig_06_constraints  # noqa: E402
+import recorded_distances  # noqa: E402
 import recorded_frames  # noqa: E402
 import records  # noqa: E402
 import synthetic_frames  # noqa: E402
@@ -71,6 +73,23 @@ class OwnFigures(unittest.TestCase):
         self.assert_missing("lbs_surface_000002.vtp: not there", lambda: frames.skin("lbs", 2))
         self.assert_missing("surface_rest.vtp: not there", frames.skin_at_rest)
 
+    def test_distances_and_bones_of_points_of_the_skin(self):
+        synthetic_frames.write_frames(self.results, "human_walk", body="human")
+        folder = self.results / "frames" / "human_walk"
+        (folder / "binding.csv").write_text("vertex,bone,parameter,rest_distance_m,blended,jiggles\n"
+                                            + "".join(f"{vertex},bone {vertex},0.5,0.2,0,0\n" for vertex in range(5)))
+        frames = recorded_frames.Frames(self.results, "human_walk")
+        for label in ("lbs", "pbs"):
+            points = synthetic_frames.skin_of(synthetic_frames.positions_of(label, 3))
+            text = synthetic_frames.skin.format(positions=synthetic_frames.text(points))
+            (folder / "frames" / f"{label}_surface_000003.vtp").write_text(text)
+        away_mm = recorded_distances.of_points_mm(frames, 3, "lbs", "pbs")
+        at_rest = numpy.array(synthetic_frames.skin_of(synthetic_frames.rest))
+        numpy.testing.assert_allclose(away_mm, 1000 * 0.1 * (1.1 - 1.05) * 3 * numpy.linalg.norm(at_rest, axis=1), atol=1e-9)
+        tets = frames.tets("pbs", 3)
+        self.assertEqual(recorded_distances.bone_under(frames, 2, tets), "bone 0")  # the first tet's first corner carries it alone
+        self.assertEqual(recorded_distances.bone_under(frames, 1, tets), "bone 2")  # -1/2 of vertex 1, equal halves of 2, 3 and 4
+
     def test_heading_is_forward_along_the_floor(self):
         tails = {"hip.L": [0, 1, -1.0], "hip.R": [0, 0.5, 1.0]}
         bones = [recorded_frames.Bone(name, None, numpy.array(tail)) for name, tail in tails.items()]
@@ -126,7 +145,8 @@ class OwnFigures(unittest.TestCase):
         with open(figures / "table_1_timing.csv", newline="") as stream:
             row, = csv.DictReader(stream)
         self.assertEqual((row["mesh"], row["vertices"], row["edges"], row["tets"]), ("man", "400 / 200", "800 / 600", "500 / 400"))
-        self.assertEqual((row["paper_ms"], row["paper_ct_ms"], row["plain_f64_ms"], row["ordered_f32_ms"]), ("11.1", "0.52", "4.00", "0.50"))
+        self.assertEqual((row["paper_ms"], row["paper_ct_ms"], row["plain_f64_ms"], row["ordered_f32_ms"]),
+                         ("11.1", "0.52", "4.00", "0.50"))
         text = (figures / "table_1_timing.tex").read_text()
         self.assertIn("Man & man & 400 / 200 & 800 / 600 & 500 / 400 & 90.5 ", text)
         self.assertIn("a processor", text)

@@ -5,6 +5,7 @@ import json
 columns = ["scene", "deformer", "variant", "iterations", "frame", "time_s", "volume_change_pct", "volume_abs_change_pct", "inverted_tets",
            "min_section_pct", "angle_deg"]
 revision = "0123456789abcdef0123456789abcdef01234567"
+origin = {"provenance": {"version": "0.1.0", "git_revision": revision, "git_dirty": False}}
 
 
 def write_run(folder, frames=37, last_angle_deg=180.0):
@@ -21,14 +22,16 @@ def write_run(folder, frames=37, last_angle_deg=180.0):
             specs += [("pbs", count, "default", -angle / 1000 / count) for count in (1, 24, 96)] + [("pbs", 24, "jiggle", -angle / 500)]
             for deformer, iterations, variant, change in specs:
                 writer.writerow({"scene": folder.name, "deformer": deformer, "variant": variant, "iterations": iterations, "frame": frame,
-                                 "time_s": frame / 100, "volume_change_pct": change, "volume_abs_change_pct": abs(change), "inverted_tets": 0,
-                                 "min_section_pct": 100 + change, "angle_deg": angle if last_angle_deg else ""})
+                                 "time_s": frame / 100, "volume_change_pct": change, "volume_abs_change_pct": abs(change),
+                                 "inverted_tets": 0, "min_section_pct": 100 + change, "angle_deg": angle if last_angle_deg else ""})
 
 
 def write_frame_statistics(folder, deformer, iterations, **figures):
     """One more row; p10, median and p90 of the volume's change are -3, -2 and -1 %, unless told."""
-    shown = {"volume_change_p10_pct": -3.0, "volume_change_median_pct": -2.0, "volume_change_p90_pct": -1.0, "volume_abs_change_p10_pct": 1.0,
-             "volume_abs_change_median_pct": 2.0, "volume_abs_change_p90_pct": 3.0, "error_joint_least_pct": "", "error_joint_median_pct": "",
+    shown = {"volume_change_p10_pct": -3.0, "volume_change_median_pct": -2.0, "volume_change_p90_pct": -1.0,
+             "volume_abs_change_p10_pct": 1.0, "volume_abs_change_median_pct": 2.0, "volume_abs_change_p90_pct": 3.0,
+             "error_joint_least_pct": "",
+             "error_joint_median_pct": "",
              "error_joint_most_pct": ""} | figures
     row = {"deformer": deformer, "variant": "default", "iterations": iterations, "frames": 50} | shown
     file = folder / "frame_statistics.csv"
@@ -62,14 +65,15 @@ def write_regions(results):
                                  "change_pct": change, "own_change_pct": 10 * change})
 
 
-verification_columns = ["problem", "quantity", "elements", "material", "mesh", "h_m", "dofs", "value", "reference", "unit", "difference_pct"]
+verification_columns = ["problem", "quantity", "elements", "material", "mesh", "h_m", "dofs", "value", "reference", "unit",
+                        "difference_pct"]
 
 
 def write_verification(results):
     """Errors h^(p + 1) and h^p of P1 and P2, and one benchmark, coarse and fine, of each."""
     folder = results / "verification"
     (folder / "beam").mkdir(parents=True)
-    (folder / "beam" / "run.json").write_text(json.dumps({"provenance": {"version": "0.1.0", "git_revision": revision, "git_dirty": False}}))
+    (folder / "beam" / "run.json").write_text(json.dumps(origin))
     with open(folder / "verification.csv", "w", newline="") as stream:
         writer = csv.DictWriter(stream, verification_columns)
         writer.writeheader()
@@ -88,7 +92,7 @@ def write_fit(results):
     """E = 100 kPa k_stretch * iterations; the misfit is 20 % + |nu - 0.3|."""
     folder = results / "fit"
     (folder / "sag_300").mkdir(parents=True)
-    (folder / "sag_300" / "run.json").write_text(json.dumps({"provenance": {"version": "0.1.0", "git_revision": revision, "git_dirty": False}}))
+    (folder / "sag_300" / "run.json").write_text(json.dumps(origin))
     with open(folder / "sag.csv", "w", newline="") as stream:
         writer = csv.DictWriter(stream, ["vertices", "k_stretch", "k_volume", "iterations", "young_pa", "settled"])
         writer.writeheader()
@@ -107,10 +111,11 @@ def write_fit(results):
 
 
 def write_work_precision(results):
-    """PBS: an error of 40 % / n after n iterations of a millisecond each; the reference's own is 15 % at most, the second solution 3 % away."""
+    """PBS: an error of 40 % / n after n iterations of a millisecond each; the reference's own is 15 % at most, the second solution 3 %
+    away."""
     folder = results / "work_precision"
     (folder / "limb").mkdir(parents=True)
-    (folder / "limb" / "run.json").write_text(json.dumps({"provenance": {"version": "0.1.0", "git_revision": revision, "git_dirty": False}}))
+    (folder / "limb" / "run.json").write_text(json.dumps(origin))
     of_point = ["deformer", "setting", "ms_median", "error_joint_pct"]
     points = [("lbs", "", 0.1, 50.0), *(("pbs", f"{n} iterations", float(n), 40.0 / n) for n in (1, 2, 4))]
     with open(folder / "limb" / "points.csv", "w", newline="") as stream:
@@ -133,7 +138,7 @@ def write_bench(results):
     """A step of c microseconds a constraint, c = 24 for plain, 3 for ordered in f32, twice that in f64; two threads bring 1.5."""
     folder = results / "bench"
     (folder / "timings").mkdir(parents=True)
-    (folder / "timings" / "run.json").write_text(json.dumps({"provenance": {"version": "0.1.0", "git_revision": revision, "git_dirty": False}}))
+    (folder / "timings" / "run.json").write_text(json.dumps(origin))
     point = {"flops_per_byte": 2.0, "gflops": 10.0, "attainable_gflops": 40.0, "share_of_limit": 0.25}
 
     def timing(variant, precision, threads, ms_step):
@@ -150,7 +155,8 @@ def write_bench(results):
 
     copy = [{"bytes": 1e4, "gb_s": 400.0}, {"bytes": 1e8, "gb_s": 20.0}]
     (folder / "bench.json").write_text(json.dumps(
-        {"context": {"threads": 2, "iterations": 24, "limits_of_one_core": {"fma_gflops_f32": 200.0, "fma_gflops_f64": 100.0, "copy": copy}},
+        {"context": {"threads": 2, "iterations": 24,
+                     "limits_of_one_core": {"fma_gflops_f32": 200.0, "fma_gflops_f64": 100.0, "copy": copy}},
          "meshes": [mesh(100, 500, 400), mesh(1000, 6000, 5000)],
          "scaling": [{"variant": "ordered", "precision": "f32", "threads": 1, "exponent": 1.0, "interval": [None, None]}]}))
 
@@ -168,36 +174,44 @@ def write_claims(results, statement="Volume is kept."):
         return {"estimate": estimate, "low": low, "high": high, "level": 0.95, "n": 50, "block": 1}
 
     def case(scene, holds, mean, share, angles=()):
-        return {"scene": scene, "deformer": "pbs", "variant": "default", "iterations": 24, "metric": "volume_change_pct", "run": "volume/limb_twist",
-                "frames": 50, "holds": holds, "mean": mean, "share_of_frames": share, "angles_deg": list(angles), "least": -0.9, "most": 0.0,
-                "holding_with_inverted_tets": 0, "text": f"{scene}: as told", "deepest": [{"frame": 3, "time_s": 0.1, "angle_deg": None, "value": -0.9,
+        return {"scene": scene, "deformer": "pbs", "variant": "default", "iterations": 24, "metric": "volume_change_pct",
+                "run": "volume/limb_twist",
+                "frames": 50, "holds": holds, "mean": mean, "share_of_frames": share, "angles_deg": list(angles), "least": -0.9,
+                "most": 0.0,
+                "holding_with_inverted_tets": 0, "text": f"{scene}: as told",
+                "deepest": [{"frame": 3, "time_s": 0.1, "angle_deg": None, "value": -0.9,
                                                                                         "inverted_tets": 0}]}
 
     def claim(name, verdict, **others):
-        empty = {"place": "Sec. 4", "study": "volume", "expected": "0.5 % (-0.5 to 0.5 %)", "text": verdict, "measured": "", "interval": None,
+        empty = {"place": "Sec. 4", "study": "volume", "expected": "0.5 % (-0.5 to 0.5 %)", "text": verdict, "measured": "",
+                 "interval": None,
                  "interval_of": "", "runs": [], "cases": [], "beside": [], "orders": [], "measurements": [], "measured_beside": []}
         return {**empty, "id": name, "statement": statement, "verdict": verdict, **others}
 
     cases = [case("limb_twist", "part", interval(-0.2), interval(0.9), [[0.0, 175.0]]),
              case("walk", "none", interval(-0.6, -0.7, -0.5), interval(0.4, 0.3, 0.5)),
              case("jump", "whole", interval(-0.1, -0.2, 0.0), interval(0.975, 0.96, 0.99))]
-    rates = [{"quantity": "frames a second", "of": f"{body}, plain", "value": value, "low": low, "high": high, "unit": "1/s", "run": "timing/man"}
+    rates = [{"quantity": "frames a second", "of": f"{body}, plain", "value": value, "low": low, "high": high, "unit": "1/s",
+              "run": "timing/man"}
              for body, value, low, high in (("man", 233.0, 230.0, 240.0), ("frankie", 107.0, 100.0, 110.0))]
     judged = [claim("C02", "reproduced only for", cases=cases, runs=["volume/limb_twist"], interval=interval(0.4, 0.3, 0.5),
                     interval_of="share of frames, walk"),
-              claim("C10", "reproduced", text="reproduced: man, frankie; beside it: much", measured="2 of 2 figures within", measurements=rates),
+              claim("C10", "reproduced", text="reproduced: man, frankie; beside it: much", measured="2 of 2 figures within",
+                    measurements=rates),
               claim("C13", "inconsistent in print", measured="2 of 3 figures consistent"), claim("C16", "cannot be tested here")]
     (results / "claims.json").write_text(json.dumps({"schema": 1, "claims": judged}))
 
 
 def write_poses(results):
-    """Two poses of work_precision with PBS at 24 iterations, at another k_stretch and on a coarser mesh; in one the reference meets itself."""
+    """Two poses of work_precision with PBS at 24 iterations, at another k_stretch and on a coarser mesh; in one the reference meets
+    itself."""
     for pose, lbs, pbs, bar, meets in (("twist", 50.0, 20.0, 10.0, 0), ("crouch", 30.0, 8.0, 15.0, 1)):
         folder = results / "work_precision" / pose
         folder.mkdir(parents=True)
         (folder / "run.json").write_text(json.dumps({"work": {"settings": {"scene": {"pbs": {"k_stretch": 0.2}}}}, "provenance":
                                                      {"version": "0.1.0", "git_revision": revision, "git_dirty": False}}))
-        common = {"body": "limb", "pose": pose, "iterations": "", "k_stretch": "", "order": "", "precision": "", "substeps": "", "vertices": 1000,
+        common = {"body": "limb", "pose": pose, "iterations": "", "k_stretch": "", "order": "", "precision": "", "substeps": "",
+                  "vertices": 1000,
                   "outcome": "finished", "reference_error_joint_pct": bar, "reference_self_intersects": meets}
         paper = {"deformer": "pbs", "iterations": 24, "k_stretch": 0.2, "order": "ordered", "precision": "f32", "ms_median": 0.7,
                  "error_joint_pct": pbs, "error_joint_beside_pct": pbs, "below_reference_error": int(pbs < bar)}

@@ -56,9 +56,29 @@ class WholeFile(unittest.TestCase):
         usual = resource.getrlimit(resource.RLIMIT_FSIZE)
         resource.setrlimit(resource.RLIMIT_FSIZE, (1000, usual[1]))  # Python ignores SIGXFSZ: write() fails
         self.addCleanup(resource.setrlimit, resource.RLIMIT_FSIZE, usual)
-        with self.assertRaisesRegex(whole_file.CannotBeWritten, "volume.png: cannot be written: File too large"), whole_file.beside(self.file) as path:
+        with self.assertRaisesRegex(whole_file.CannotBeWritten,
+                                    "volume.png: cannot be written: File too large"), whole_file.beside(self.file) as path:
             path.write_bytes(bytes(5000))
         self.assertEqual((self.file.read_text(), self.names()), ("old", ["volume.png"]))
+
+    def test_a_reason_that_is_not_the_systems_is_told_in_its_own_words(self):
+        expected = "volume.png: cannot be written: encoder error -2 when writing image file"  # as an image library words it
+        with self.assertRaisesRegex(whole_file.CannotBeWritten, expected), whole_file.beside(self.file):
+            raise OSError("encoder error -2 when writing image file")
+
+    def test_what_the_block_cannot_read_is_not_called_unwritable(self):
+        with self.assertRaises(FileNotFoundError), whole_file.beside(self.file):
+            (self.folder / "elsewhere" / "records.csv").read_text()
+        self.assertEqual((self.file.read_text(), self.names()), ("old", ["volume.png"]))
+
+    def test_the_folder_is_made_or_why_it_cannot_be_is_told(self):
+        with whole_file.beside(self.folder / "figures" / "new" / "a.png") as path:
+            path.write_text("new")
+        self.assertEqual((self.folder / "figures" / "new" / "a.png").read_text(), "new")
+        for below in ("volume.png/a.png", "volume.png/figures/a.png"):  # a file where the folder is to be
+            with self.subTest(below), self.assertRaisesRegex(whole_file.CannotBeWritten, "a.png: cannot be written: "):
+                with whole_file.beside(self.folder / below) as path:
+                    path.write_text("new")
 
 
 if __name__ == "__main__":
