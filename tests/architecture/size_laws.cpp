@@ -1,11 +1,12 @@
 #include "tests/architecture/size_laws.hpp"
 
+#include <algorithm>
 #include <regex>
 
 namespace architecture {
 namespace {
 
-constexpr int longest_file = 500, usual_file = 200, longest_function = 120, usual_function = 60;
+constexpr int longest_file = 500, usual_file = 200, longest_function = 120, usual_function = 60, longest_line = 140;
 
 struct Sized {
     std::string path;
@@ -16,6 +17,17 @@ struct Sized {
 bool is_source(const std::string& path)
 {
     return is_cpp(path) || is_cmake_file(path) || ends_with_any(path, {".py", ".sh"});
+}
+
+bool is_line_of_source(const std::string& path)
+{
+    return is_source(path) || is_command(path) || ends_with_any(path, {".js", ".mjs", ".css", "Snakefile"});
+}
+
+// Of UTF-8 text: bytes that do not continue a character.
+int columns_of(const std::string& line)
+{
+    return static_cast<int>(std::ranges::count_if(line, [](char byte) { return (byte & 0xC0) != 0x80; }));
 }
 
 // Too long, or more than one in ten above the usual size.
@@ -69,6 +81,21 @@ Violations function_sizes(const SourceTree& tree)
             functions.insert(functions.end(), found.begin(), found.end());
         }
     return judge(functions, longest_function, usual_function, "function");
+}
+
+Violations line_lengths(const SourceTree& tree)
+{
+    Violations violations;
+    for (const auto& [path, text] : tree) {
+        int number = 0;
+        for (const std::string& line : is_line_of_source(path) ? lines_of(text) : std::vector<std::string>{}) {
+            ++number;
+            const int columns = columns_of(line);
+            if (columns > longest_line)
+                violations.push_back(at(path, number, std::to_string(columns) + " columns, at most " + std::to_string(longest_line)));
+        }
+    }
+    return violations;
 }
 
 }  // namespace architecture

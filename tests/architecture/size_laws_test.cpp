@@ -24,6 +24,11 @@ TEST(SizeLaws, Functions)
     expect_lawful(function_sizes);
 }
 
+TEST(SizeLaws, Lines)
+{
+    expect_lawful(line_lengths);
+}
+
 TEST(SizeLawsBite, FileOver500Lines)
 {
     SourceTree planted = {{"analysis/long.cpp", lines(501)}};
@@ -45,6 +50,21 @@ TEST(SizeLawsBite, MethodInAClass)
 {
     expect_found(function_sizes, {{"analysis/x.hpp", "class A {\n    int f()\n    {\n" + lines(60) + "    }\n};\n"}},
                  "function of 62 lines");
+}
+
+TEST(SizeLawsBite, LineOver140Columns)
+{
+    for (const char* path : {"analysis/x.cpp", "analysis/x.hpp", "tests/x.py", "cmake/x.cmake", "pbs/CMakeLists.txt", "cmake/x.sh", "check",
+                             "paper_figures/x.js", "tests/x.mjs", "paper_figures/x.css", "experiments/sweeps/Snakefile"})
+        expect_found(line_lengths, {{path, "\n" + std::string(141, 'x') + "\n"}}, std::string(path) + ":2: 141 columns, at most 140");
+}
+
+TEST(SizeLawsBite, LineOf140ColumnsPasses)
+{
+    std::string umlauts;
+    for (int i = 0; i < 140; ++i) umlauts += "\u00fc";
+    EXPECT_TRUE(line_lengths({{"analysis/x.cpp", std::string(140, 'x') + "\n" + umlauts + "\n"}}).empty());
+    EXPECT_TRUE(line_lengths({{"README.md", std::string(141, 'x')}, {"package-lock.json", std::string(141, 'x')}}).empty());
 }
 
 TEST(SizeLawsBite, ShortFunctionPasses)

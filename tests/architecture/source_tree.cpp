@@ -10,7 +10,8 @@
 namespace architecture {
 namespace {
 
-const std::vector<std::string> text_files = {".cpp", ".hpp", ".py", ".cmake", ".sh", ".toml", ".md", ".txt", ".cff", ".json"};
+const std::vector<std::string> text_files = {".cpp", ".hpp", ".py",   ".cmake", ".sh",  ".toml", ".md",
+                                             ".txt", ".cff", ".json", ".js",    ".mjs", ".css",  "Snakefile"};
 const std::vector<std::string> left_out = {"build/", "results/", ".git/", ".cache/", ".vscode/"};
 const std::vector<std::string> commands = {"reproduce", "check", ".ci/run"};
 
@@ -18,7 +19,7 @@ bool belongs(const std::string& path)
 {
     if (starts_with_any(path, left_out) || path.find("__pycache__") != std::string::npos) return false;
     if (path.find("node_modules") != std::string::npos || path.starts_with("paper_figures/viewer/dist/")) return false;
-    return ends_with_any(path, text_files) || std::ranges::count(commands, path);
+    return ends_with_any(path, text_files) || is_command(path);
 }
 
 std::string read(const std::filesystem::path& file)
@@ -74,6 +75,11 @@ bool is_cpp(const std::string& path)
 bool is_cmake_file(const std::string& path)
 {
     return ends_with_any(path, {"CMakeLists.txt", ".cmake"});
+}
+
+bool is_command(const std::string& path)
+{
+    return std::ranges::count(commands, path) > 0;
 }
 
 std::vector<Include> includes_of(const std::string& text)

@@ -23,6 +23,7 @@ bool starts_with_any(std::string_view text, const std::vector<std::string>& pref
 bool ends_with_any(std::string_view text, const std::vector<std::string>& suffixes);
 bool is_cpp(const std::string& path);         // .cpp or .hpp
 bool is_cmake_file(const std::string& path);  // CMakeLists.txt or .cmake
+bool is_command(const std::string& path);     // a script that users start, without a suffix
 
 struct Include {
     int line;
