@@ -57,8 +57,8 @@ class Captions(unittest.TestCase):
 
     def test_cells_are_counted_by_method_and_their_ends_named(self):
         rows = [{"model": model, "factor": factor, "outcome": outcome} for model, factor, outcome in (
-            ("pbs", "gravity", "converged"), ("pbs", "gravity", "inverted"), ("pbs", "twist", "converged"), ("pbs_jiggle", "start", "bounded"),
-            ("fem_linear", "gravity", "diverged"), ("fem_linear", "slivers, height kept", "diverged"))]
+            ("pbs", "gravity", "converged"), ("pbs", "gravity", "inverted"), ("pbs", "twist", "converged"),
+            ("pbs_jiggle", "start", "bounded"), ("fem_linear", "gravity", "diverged"), ("fem_linear", "slivers, height kept", "diverged"))]
         text = self.told("stability_cells", rows)
         self.assertIn("undisturbed: PBS in 2 of 3; PBS, jiggle in 0 of 1; linear FEM in 0 of 2 (", text)
         self.assertIn("in PBS by: gravity; in the jiggling PBS by: none. ", text)
@@ -78,7 +78,8 @@ class Captions(unittest.TestCase):
             ("limb", "k_stretch", 10), ("limb", "k_stretch", 5), ("limb", "k_stretch", 8), ("man", "k_stretch", 7),
             ("limb", "iterations", 4), ("limb", "iterations", 6), ("limb_reference", "", 99))]
         text = self.told("jiggle_response", rows)
-        self.assertIn("moves with k_stretch 2-fold (limb); with the time step, which is no material, none; with iterations 1.5-fold (limb).", text)
+        self.assertIn("moves with k_stretch 2-fold (limb); with the time step, which is no material, none; "
+                      "with iterations 1.5-fold (limb).", text)
 
     def test_folds_of_stiffness_are_of_xpbd_over_iterations(self):
         rows = [{"body": body, "varied": varied, "method": method, "iterations": count, "stiffness_n_m": stiffness}
@@ -99,7 +100,8 @@ class Captions(unittest.TestCase):
                 row("twist", 900, 0.75, "nan")]
         text = self.told("convergence_mesh", rows)
         self.assertIn("limb, 300 to 900 vertices, after 24 iterations (filled) and after 1000 (hollow)", text)
-        self.assertIn("Bent, the residual on the coarsest and on the finest mesh is 0.25 and 0.5 after 24 iterations, 0.01 and 0.01 after", text)
+        self.assertIn("Bent, the residual on the coarsest and on the finest mesh is 0.25 and 0.5 after 24 iterations, 0.01 and 0.01",
+                      text)
         self.assertIn("reached on 1 of 2 meshes bent, on 2 of 3 twisted", text)
         self.assertIn("twisted 23 % after 24 and 40 % after 1000 on 300 vertices, 21 % after 24 and 40 % after 1000 on 600 vertices; "
                       "bent no reference on record.", text)
