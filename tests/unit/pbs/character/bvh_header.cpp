@@ -9,7 +9,8 @@ using namespace pbs;
 
 std::string bvh(const std::string& frames, const std::string& time)
 {
-    return "HIERARCHY\nROOT a\n{\n}\nMOTION\nFrames: " + frames + "\nFrame Time: " + time + "\n0 0 0\n0 0 0\n";  // Frames in line 6
+    return "HIERARCHY\nROOT a { CHANNELS 3 Xrotation Yrotation Zrotation\n}\n\nMOTION\nFrames: " + frames + "\nFrame Time: " + time +
+           "\n0 0 0\n0 0 0\n";  // Frames in line 6
 }
 
 TEST(BvhHeader, AWholeOnePasses)
@@ -35,10 +36,15 @@ TEST(BvhHeader, FramesMustFitTheFile)
     expect_input_error([] { check_bvh_header(bvh("2000000000", "0.01"), "a.bvh"); }, "a.bvh:6: Frames = 2000000000", "too short");
 }
 
+TEST(BvhHeader, RowsBeyondFramesAreRefused)
+{
+    expect_input_error([] { check_bvh_header(bvh("1", "0.01"), "a.bvh"); }, "a.bvh:8: motion = 6 numbers", "Frames times channels: 3");
+}
+
 TEST(BvhHeader, FrameTimeMustBePositiveAndFinite)
 {
     for (const std::string time : {"0", "-0.01", "nan", "inf", "soon"})
-        expect_input_error([&] { check_bvh_header(bvh("2", time), "a.bvh"); }, "a.bvh:7: Frame Time = " + time, "> 0 [s]");
+        expect_input_error([&] { check_bvh_header(bvh("2", time), "a.bvh"); }, "a.bvh:7: Frame Time = " + time, "from 1e-6 to 1000 s");
 }
 
 TEST(BvhHeader, NestingHasAnEnd)

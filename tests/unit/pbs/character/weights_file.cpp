@@ -63,7 +63,7 @@ const BadWeights bad_weights[] = {
     {"weight_nan", header + "0,upper,nan\n", ":2: weight = nan: ", "0 <= weight <= 1"},
     {"weight_is_text", header + "0,upper,1x\n", ":2: weight = 1x: ", "0 <= weight <= 1"},
     {"joint_twice", header + "0,upper,0.5\n0,upper,0.5\n", ":3: joint = upper: ", "already"},
-    {"sum_below_one", header + "0,upper,1\n1,upper,0.999998\n", ": vertex 1 = 0.99999", "sum to one"},
+    {"sum_below_one", header + "0,upper,1\n1,upper,0.999998\n", ":3: vertex 1 = 0.99999", "sum to one"},
     {"vertex_without_weights", header + "0,upper,1\n", ": vertex = 1: ", "has no weights"},
 };
 
