@@ -75,8 +75,11 @@ def runs_behind(file, results):
 def is_planned(run):
     """A run's folder, or a part of it, named in the plan of its study; a study without a plan names none."""
     for folder in run.parents:
-        if (folder.parent / "plan.json").is_file():
-            return folder.name in {planned["name"] for planned in records.read_json(folder.parent / "plan.json")["runs"]}
+        if (plan := folder.parent / "plan.json").is_file():
+            try:
+                return folder.name in {planned["name"] for planned in records.read_json(plan)["runs"]}
+            except (KeyError, TypeError):
+                raise records.RecordsMissing(f"{plan}: runs: expected a list of runs with their names") from None
     return True
 
 

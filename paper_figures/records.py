@@ -103,21 +103,34 @@ def provenance(results):
 
 
 def read_json(file):
+    """An object: what every record is."""
     try:
-        return json.loads(file.read_text())
+        record = json.loads(file.read_text())
     except OSError:
         raise RecordsMissing(f"{file}: not there") from None
     except json.JSONDecodeError as error:
         raise RecordsMissing(f"{file}:{error.lineno}: not JSON: {error.msg}") from None
+    except (UnicodeDecodeError, RecursionError) as error:
+        raise RecordsMissing(f"{file}: not JSON: {error}") from None
+    if not isinstance(record, dict):
+        raise RecordsMissing(f"{file}: expected an object")
+    return record
+
+
+def read_rows(file):
+    """Of a CSV file, one dictionary each."""
+    try:
+        with open(file, newline="") as stream:
+            return list(csv.DictReader(stream))
+    except OSError:
+        raise RecordsMissing(f"{file}: not there") from None
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise RecordsMissing(f"{file}: not a table: {error}") from None
 
 
 def table(file, columns):
     """The rows of a CSV file that has these columns."""
-    try:
-        with open(file, newline="") as stream:
-            rows = list(csv.DictReader(stream))
-    except OSError:
-        raise RecordsMissing(f"{file}: not there") from None
+    rows = read_rows(file)
     if not rows:
         raise RecordsMissing(f"{file}: no rows")
     absent = columns - rows[0].keys()

@@ -1,5 +1,6 @@
 # Our own parsing, and the validation behind the readers' processes, on any bytes. In every build the corpus and past findings are replayed
-# (robustness); with PBS_WITH_FUZZ, by clang, libFuzzer looks for new ones: `cmake --preset fuzz`, then `ctest -L fuzz`, 60 s a target.
+# (robustness); with PBS_WITH_FUZZ, by clang, libFuzzer looks for new ones: `cmake --preset fuzz`, then `ctest -L fuzz`, 60 s a
+# target (fuzz/targets.py).
 if(NOT PBS_WITH_RIG_IMPORT OR NOT PBS_WITH_EXPERIMENTS)
     return()
 endif()
@@ -26,10 +27,6 @@ function(fuzz_target name target)
     if(PBS_WITH_FUZZ)
         target_compile_options(fuzz_${name} PRIVATE -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined)
         target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer,address,undefined)
-        file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/fuzz/${name})
-        add_test(NAME fuzz/${name} COMMAND fuzz_${name} -max_total_time=60 -max_len=65536 -timeout=10 -rss_limit_mb=2048
-            -artifact_prefix=${CMAKE_BINARY_DIR}/fuzz/${name}/ ${CMAKE_BINARY_DIR}/fuzz/${name} ${folders})
-        set_tests_properties(fuzz/${name} PROPERTIES LABELS fuzz TIMEOUT 120)
     endif()
 endfunction()
 
@@ -45,3 +42,9 @@ fuzz_target(skeleton fuzz/skeleton.cpp pbs/character/skeleton_file.cpp pbs/chara
 fuzz_target(clip fuzz/clip.cpp pbs/character/clip_bytes.cpp pbs/character/retarget.cpp pbs/character/retarget_plan.cpp
     pbs/character/joint_map.cpp
     pbs/skinning/pose.cpp pbs/skinning/skeleton.cpp pbs/geometry/input_error.cpp)
+if(PBS_WITH_FUZZ)
+    set(settings PBS_SOURCE=${PROJECT_SOURCE_DIR} PBS_FUZZ_PROGRAMS=${CMAKE_BINARY_DIR}/tests PBS_FUZZ_FOLDER=${CMAKE_BINARY_DIR}/fuzz
+        PYTHONPATH=${CMAKE_CURRENT_SOURCE_DIR}/support)
+    add_test(NAME fuzz/targets COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/targets.py)
+    set_tests_properties(fuzz/targets PROPERTIES LABELS fuzz TIMEOUT 400 ENVIRONMENT "${settings}")
+endif()

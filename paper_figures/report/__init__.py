@@ -13,13 +13,12 @@ usual_most_mb = 25
 
 
 def main(results, quiet=False):
-    """The exit status: 2 where there are no records, or the page cannot be written."""
+    """The exit status: 2 where there are no records, or damaged ones, or the page cannot be written."""
     try:
-        found = record_set.RecordSet(results)
+        text, missing = page.page(record_set.RecordSet(results))
     except records.RecordsMissing as error:
         print(f"pbskin: {error}", file=sys.stderr)
         return 2
-    text, missing = page.page(found)
     file = results / "report.html"
     try:
         with whole_file.beside(file) as part:

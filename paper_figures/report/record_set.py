@@ -3,8 +3,6 @@
     found = record_set.RecordSet(results)
     for claim in found.claims: ...
 """
-import csv
-
 import records
 
 
@@ -22,15 +20,12 @@ class RecordSet:
     def _claims(self):
         """None where no claim was judged."""
         file = self.results / "claims.json"
-        return records.read_json(file)["claims"] if file.is_file() else None
+        return records.read_json(file).get("claims") if file.is_file() else None
 
     def rows(self, name):
         """Of a CSV file, or none where it is not there."""
         file = self.results / name
-        if not file.is_file():
-            return []
-        with open(file, newline="") as stream:
-            return list(csv.DictReader(stream))
+        return records.read_rows(file) if file.is_file() else []
 
     def files(self, pattern):
         return sorted(self.results.glob(pattern))

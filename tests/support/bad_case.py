@@ -10,6 +10,7 @@ import threading
 PBSKIN = os.environ["PBSKIN"]
 MOST_SECONDS, MOST_BYTES = 5.0, 1 << 30  # of processor time: other work on the machine must not fail a case
 MOST_WAITING_SECONDS = 25.0  # then it hangs
+NOBODY = {"user": 65534, "group": 65534, "extra_groups": []}
 
 
 @dataclasses.dataclass
@@ -21,6 +22,7 @@ class Case:
     says: tuple
     status: int = 2
     leaves: tuple = ()  # names that may be there afterwards
+    as_nobody: bool = False  # where root runs the tests, whom no mode stops
 
 
 def make(folder, files):
@@ -38,16 +40,29 @@ def listing(folder):
     return {str(path.relative_to(folder)) for path in folder.rglob("*")}
 
 
+def someone_else(case):
+    return NOBODY if case.as_nobody and os.geteuid() == 0 else {}
+
+
+def nobody_can_run_it():
+    try:
+        return os.geteuid() != 0 or subprocess.run([PBSKIN, "--version"], capture_output=True, cwd="/", **NOBODY).returncode == 0
+    except PermissionError:
+        return False
+
+
 def problems(case, common):
     """What is wrong with the answer to `case`; empty where all is well. `common` files are there in every case."""
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary)
+        folder.chmod(0o755)
         make(folder, common | case.files)
         before, found = listing(folder), []
         errors = folder.parent / (folder.name + ".errors")
         with open(errors, "wb") as file:
-            process = subprocess.Popen([PBSKIN, *case.command], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=file,
-                                       env={**os.environ, "PBSKIN_CACHE": temporary + "/cache", "NO_COLOR": "1"})
+            process = subprocess.Popen([PBSKIN, *case.command], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                       stderr=file,
+                                       env={**os.environ, "PBSKIN_CACHE": temporary + "/cache", "NO_COLOR": "1"}, **someone_else(case))
             stop = threading.Timer(MOST_WAITING_SECONDS, process.kill)
             stop.start()
             _, status, used = os.wait4(process.pid, 0)

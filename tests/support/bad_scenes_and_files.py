@@ -1,4 +1,5 @@
-"""Scenes and records that are refused, and files that are none: folders, pipes, loops, names without end, places that cannot be written."""
+"""Scenes and commands that are refused, and files that are none: folders, pipes, loops, names without end, places that cannot be
+written."""
 import os
 import threading
 
@@ -38,10 +39,13 @@ def scenes():
 
 
 def settings():
-    for setting, words in (("pbs.iterations=-1", "--set: pbs.iterations = -1"), ("pbs.time_step_s=1e-300", "pbs.time_step_s = 1e-300: expected a number from"),
-                           ("pbs.time_step_s=0", "pbs.time_step_s = 0"), ("motion.frames=99999999999", "motion.frames"), ("nonsense", "expected key=value"),
+    for setting, words in (("pbs.iterations=-1", "--set: pbs.iterations = -1"),
+                           ("pbs.time_step_s=1e-300", "pbs.time_step_s = 1e-300: expected a number from"),
+                           ("pbs.time_step_s=0", "pbs.time_step_s = 0"), ("motion.frames=99999999999", "motion.frames"),
+                           ("nonsense", "expected key=value"),
                            ("pbs.k_bind=" + "[" * 50000, "--set: pbs.k_bind"), ("pbs.k_bind=" + "a." * 50000 + "=1", "--set: pbs.k_bind"),
-                           ("output.frames=[99]", "output.frames = 99: expected less than the motion's 5 frames"), ("fem.0.name=../x", "the scene has no such [[fem]] table")):
+                           ("output.frames=[99]", "output.frames = 99: expected less than the motion's 5 frames"),
+                           ("fem.0.name=../x", "the scene has no such [[fem]] table")):
         yield Case(f"setting {setting[:30]}", {}, ["run", "arm.toml", "-o", "out", "--set", setting], (words,))
 
 
@@ -55,20 +59,29 @@ def loop(path):
 
 
 def locked(path):
+    """A folder that is read-only."""
     path.mkdir(mode=0o555)
 
 
+def secret(path):
+    path.write_text(SCENE)
+    path.chmod(0)
+
+
 def strange_files():
-    kinds = (("folder", os.mkdir), ("named_pipe", vanishing), ("symlink_loop", loop), ("link_to_nothing", lambda path: path.symlink_to("nowhere")))
+    kinds = (("folder", os.mkdir), ("named_pipe", vanishing), ("symlink_loop", loop),
+             ("link_to_nothing", lambda path: path.symlink_to("nowhere")))
     for kind, make in kinds:
-        for what, file, command in (("mesh", "x.vtu", ["measure", "x.vtu", "x.vtu"]), ("surface", "x.obj", ["mesh", "x.obj", "-o", "t.vtu"]),
+        for what, file, command in (("mesh", "x.vtu", ["measure", "x.vtu", "x.vtu"]),
+                                    ("surface", "x.obj", ["mesh", "x.obj", "-o", "t.vtu"]),
                                     ("scene", "x.toml", ["run", "x.toml", "-o", "out"]),
                                     ("skeleton", "x.skeleton", ["run", "arm.toml", "-o", "out", "--set", "character.skeleton=x.skeleton"]),
                                     ("weights", "x.csv", ["run", "arm.toml", "-o", "out", "--set", "skinning.weights=x.csv"]),
                                     ("clip", "x.bvh", ["run", "clip.toml", "-o", "out", "--set", "motion.clip=x.bvh"])):
             yield Case(f"{kind} as a {what}", {file: make}, command, ("x.",) if what != "clip" else ("motion.clip",))
     long = "x" * 5000
-    for number, command in enumerate((["measure", long + ".vtu", "arm.vtu"], ["mesh", long + ".obj", "-o", "t.vtu"], ["run", long + ".toml", "-o", "out"], ["report", long],
+    for number, command in enumerate((["measure", long + ".vtu", "arm.vtu"], ["mesh", long + ".obj", "-o", "t.vtu"],
+                                      ["run", long + ".toml", "-o", "out"], ["report", long],
                     ["reproduce", "--judge", "-o", long], ["run", "arm.toml", "-o", long])):
         yield Case(f"name of 5000 characters {number}", {}, command, (long[:100],))
 
@@ -77,20 +90,30 @@ def places():
     yield Case("output folder that is a file", {"out": "text"}, ["run", "arm.toml", "-o", "out"], ("out", "cannot be made"))
     yield Case("output folder under a file", {"out": "text"}, ["run", "arm.toml", "-o", "out/deeper"], ("out/deeper", "cannot be made"))
     yield Case("output in /proc", {}, ["run", "arm.toml", "-o", "/proc/pbskin"], ("/proc/pbskin", "cannot be made"))
+    yield from read_only_places()
     yield Case("figures onto a full disk", {}, ["measure", "arm.vtu", "arm.vtu", "--csv", "/dev/full/x.csv"], ("/dev/full/x.csv",))
     yield Case("figures into a folder that is not there", {}, ["measure", "arm.vtu", "arm.vtu", "--csv", "none/x.csv"], ("none/x.csv",))
     yield Case("bench into a file", {"out": "text"}, ["bench", "--quick", "-o", "out"], ("out", "cannot be made"))
 
 
-def records():
-    yield Case("report of nothing", {}, ["report", "none"], ("none", "no such folder"))
-    yield Case("report of a file", {"out": "text"}, ["report", "out"], ("out", "no such folder"))
-    yield Case("judge nothing", {}, ["reproduce", "--judge", "-o", "none"], ("none", "no records"))
-    yield Case("unknown study", {}, ["reproduce", "alchemy", "-o", "out"], ("reproduce = alchemy: unknown claim or study",))
-    yield Case("fetch an unknown body", {}, ["fetch", "dragon"], ("dragon",))
+def read_only_places():
+    for number, (place, command) in enumerate((("locked", ["run", "arm.toml", "-o"]), ("locked/deeper", ["run", "arm.toml", "-o"]),
+                                               ("locked/x.csv", ["measure", "arm.vtu", "arm.vtu", "--csv"]),
+                                               ("locked/x.xml", ["measure", "arm.vtu", "arm.vtu", "--junit"]),
+                                               ("locked", ["bench", "--quick", "-o"]), ("locked", ["reproduce", "momentum", "-o"]))):
+        yield Case(f"read-only folder {number}", {"locked": locked}, [*command, place], (place, "ermission denied"), as_nobody=True)
+    for file, command in (("x.toml", ["run", "x.toml", "-o", "out"]), ("x.vtu", ["measure", "x.vtu", "arm.vtu"]),
+                          ("y.vtu", ["measure", "arm.vtu", "y.vtu"]), ("x.obj", ["mesh", "x.obj", "-o", "tets.vtu"]),
+                          ("x.csv", ["run", "arm.toml", "-o", "out", "--set", "skinning.weights=x.csv"])):
+        yield Case(f"{file} that must not be read", {file: secret}, command, (file,), as_nobody=True)
+
+
+def command_lines():
     yield Case("no verb", {}, [], ("pbskin",))
     yield Case("unknown verb", {}, ["dance"], ("A subcommand is required",))
     yield Case("threads out of range", {}, ["run", "arm.toml", "--threads", "0"], ("--threads",))
+    yield Case("unknown study", {}, ["reproduce", "alchemy", "-o", "out"], ("reproduce = alchemy: unknown claim or study",))
+    yield Case("fetch an unknown body", {}, ["fetch", "dragon"], ("dragon",))
 
 
 def cases():
@@ -99,4 +122,4 @@ def cases():
     yield from settings()
     yield from strange_files()
     yield from places()
-    yield from records()
+    yield from command_lines()

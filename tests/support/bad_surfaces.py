@@ -37,12 +37,16 @@ def stl(points=POINTS, faces=FACES):
 
 def dae(points="0 0 0 1 0 0 0 1 0 0 0 1", faces="0 2 1 0 1 3 0 3 2 1 2 3", count=12):
     axes = "".join(f'<param name="{axis}" type="float"/>' for axis in "XYZ")
-    return ('<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset><unit meter="1"/></asset>'
-            f'<library_geometries><geometry id="g" name="g"><mesh><source id="p"><float_array id="pa" count="{count}">{points}</float_array>'
-            f'<technique_common><accessor source="#pa" count="{count // 3}" stride="3">{axes}</accessor></technique_common></source>'
-            '<vertices id="v"><input semantic="POSITION" source="#p"/></vertices><triangles count="4"><input semantic="VERTEX" source="#v" offset="0"/>'
+    return ('<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">'
+            '<asset><unit meter="1"/></asset>'
+            f'<library_geometries><geometry id="g" name="g"><mesh><source id="p">'
+            f'<float_array id="pa" count="{count}">{points}</float_array><technique_common>'
+            f'<accessor source="#pa" count="{count // 3}" stride="3">{axes}</accessor></technique_common></source>'
+            '<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>'
+            '<triangles count="4"><input semantic="VERTEX" source="#v" offset="0"/>'
             f'<p>{faces}</p></triangles></mesh></geometry></library_geometries><library_visual_scenes><visual_scene id="s"><node id="n">'
-            '<instance_geometry url="#g"/></node></visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>')
+            '<instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>'
+            '<scene><instance_visual_scene url="#s"/></scene></COLLADA>')
 
 
 def zae(content, name="a.dae"):
@@ -59,7 +63,8 @@ def gltf(points=4, indices=12, uri=None, bytes_of_indices=24, component=5123):
                  {"bufferView": 1, "componentType": component, "count": indices, "type": "SCALAR"}]
     uri = uri or "data:application/octet-stream;base64," + base64.b64encode(data).decode()
     return json.dumps({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-                       "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}], "accessors": accessors, "bufferViews": views,
+                       "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}], "accessors": accessors,
+                       "bufferViews": views,
                        "buffers": [{"byteLength": len(data), "uri": uri}]})
 
 
@@ -88,6 +93,8 @@ def scenes():
     yield "truncated.dae", dae()[:700], "malformed XML"
     yield "nan.dae", dae(points="nan 0 0 1 0 0 0 1 0 0 0 1"), "vertex 0: expected finite coordinates"
     yield "index_out_of_range.dae", dae(faces="0 2 1 0 1 3 0 3 2 1 2 99"), "Invalid data index (99/4)"
+    yield "negative_index.dae", dae(faces="0 2 1 0 1 3 0 3 2 1 2 -5"), "p = -5: expected indices from 0"
+    yield "a_word_for_an_index.dae", dae(faces="0 2 1 0 1 3 0 3 2 1 2 x"), "assimp: "
     yield "huge_count.dae", dae(count=3000000000), "assimp: "
     yield "too_few_indices.dae", dae(faces="0 2 1"), "Expected different index count"
     yield "noise.zae", NOISE, "assimp: "
@@ -110,5 +117,7 @@ def cases():
     for name, content, words in [*soups(), *scenes()]:
         file = "bad." + name.split(".")[1]
         yield Case(f"surface {name}", {file: content}, ["mesh", file, "-o", "tets.vtu", "--vertices", "200"], (file + ": ", words))
-    yield Case("surface of an unknown kind", {"bad.step": "ISO-10303-21;"}, ["mesh", "bad.step", "-o", "tets.vtu"], ("bad.step: extension = .step",))
-    yield Case("surface into an unknown kind", {"good.off": off()}, ["mesh", "good.off", "-o", "tets.vtu", "--vertices", "3"], ("--vertices",))
+    yield Case("surface of an unknown kind", {"bad.step": "ISO-10303-21;"}, ["mesh", "bad.step", "-o", "tets.vtu"],
+               ("bad.step: extension = .step",))
+    yield Case("surface into an unknown kind", {"good.off": off()}, ["mesh", "good.off", "-o", "tets.vtu", "--vertices", "3"],
+               ("--vertices",))

@@ -1,0 +1,65 @@
+"""Records of a study that are refused: as `reproduce` writes them, of two runs with one figure each, and then damaged."""
+import json
+
+from bad_case import Case
+from bad_tets import NOISE
+
+PLAN = {"schema": 1, "extent": "quick", "runs": [{"name": "limb", "cost_s": 1}, {"name": "human", "cost_s": 1}], "left_out": []}
+MEASUREMENTS = "claim,quantity,of,value,low,high,unit\nC07,linear drift,limb,1e-6,1e-6,1e-6,1\nC07,linear drift,bar,2e-6,2e-6,2e-6,1\n"
+RUN = json.dumps({"schema": 1, "provenance": {}})
+FILES = {"plan.json": json.dumps(PLAN), "limb/run.json": RUN, "limb/measurements.csv": MEASUREMENTS,
+         "human/run.json": RUN, "human/measurements.csv": MEASUREMENTS}
+
+
+def study(files):
+    """A maker of the folder: name -> text or bytes in DIR/momentum."""
+    def make(folder):
+        for name, content in files.items():
+            path = folder / "momentum" / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return make
+
+
+def plan(**changes):
+    return json.dumps(PLAN | changes)
+
+
+def damaged():
+    """(name, file, what it holds, what `--judge` says, what `report` says; None: it has nothing to say)"""
+    table, run = "limb/measurements.csv", "limb/run.json"
+    yield "empty_table", table, "", "the file is empty", None
+    yield "noise_table", table, NOISE, ":1:1: ", None
+    yield "truncated_table", table, MEASUREMENTS[:70], ":2:6: the file ends within a line", None
+    yield "missing_column", table, MEASUREMENTS.replace("value", "worth"), ":1: columns = ", None
+    yield "column_twice", table, MEASUREMENTS.replace("low", "value"), "expected each column once", None
+    yield "a_word_for_a_number", table, MEASUREMENTS.replace("2e-6,2e-6", "east,2e-6", 1), ":3:4: value = east: expected a number", None
+    yield "too_many_fields", table, MEASUREMENTS.replace("bar", "bar,bar"), ":3:8: 8 fields: expected 7", None
+    yield "an_open_quote", table, MEASUREMENTS.replace("bar", '"bar'), "", None
+    yield "empty_run", run, "", "no JSON, or cut short", None
+    yield "noise_run", run, NOISE, "no JSON, or cut short", "not JSON"
+    yield "truncated_run", run, RUN[:20], "no JSON, or cut short", None
+    yield "run_without_a_schema", run, "{}", "schema: missing", None
+    yield "run_that_is_a_list", run, "[]", "schema: missing", None
+    yield "nested_run", run, "[" * 100000, "no JSON, or cut short", "not JSON"
+    yield "empty_plan", "plan.json", "", "no JSON, or cut short", None
+    yield "noise_plan", "plan.json", NOISE, "no JSON, or cut short", None
+    yield "plan_without_runs", "plan.json", "{}", ": left_out: missing", None
+    yield "plan_that_is_a_list", "plan.json", "[]", ": left_out: missing", "expected an object"
+    yield "runs_that_are_a_number", "plan.json", plan(runs=3), "runs: expected a list", None
+    yield "run_without_a_name", "plan.json", plan(runs=[{}]), "name: missing", None
+    yield "name_that_is_a_number", "plan.json", plan(runs=[{"name": 3}]), "name: expected a text", None
+    yield "left_out_without_a_reason", "plan.json", plan(left_out=[{"scene": "walk"}]), "reason: missing", None
+
+
+def cases():
+    for name, file, content, judged, reported in damaged():
+        records = {"records": study(FILES | {file: content})}
+        yield Case(f"judge {name}", records, ["reproduce", "--judge", "-o", "records"], (f"records/momentum/{file}", judged))
+        if reported is not None:
+            yield Case(f"report {name}", records, ["report", "records"], (f"records/momentum/{file}", reported))
+    yield Case("report of nothing", {}, ["report", "none"], ("none", "no such folder"))
+    yield Case("report of a file", {"out": "text"}, ["report", "out"], ("out", "no such folder"))
+    yield Case("report of no records", {"out": lambda path: path.mkdir()}, ["report", "out"], ("out", "no records"))
+    yield Case("judge nothing", {}, ["reproduce", "--judge", "-o", "none"], ("none", "no records"))
+    yield Case("judge records below a file", {"out": "text"}, ["reproduce", "--judge", "-o", "out"], ("out", "no records"))
