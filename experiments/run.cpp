@@ -189,8 +189,13 @@ private:
         const pbs::Positions& positions = runner.deformer->positions();
         const BrokenFrame broken = broken_frame(frame, runner.step.outcome, positions, measurer_.volume_ratios(positions));
         broken_frames_[runner.spec.label].push_back(broken);
-        std::string& first = runner.step.outcome == pbs::Outcome::not_finite ? breakdown_ : unreached_;
-        if (first.empty() && !is_negative_control(runner.spec)) first = fmt::format("{} is {}", runner.spec.label, text_of(broken));
+        if (is_negative_control(runner.spec)) return;
+        const std::string text = fmt::format("{} is {}", runner.spec.label, text_of(broken));
+        if (runner.step.outcome == pbs::Outcome::not_finite) {
+            if (breakdown_.empty()) breakdown_ = text;
+        } else if (bad_frame_.empty()) {
+            bad_frame_ = fmt::format("{}: {}", runner.step.outcome == pbs::Outcome::finished ? "inverted tets" : "pose not reached", text);
+        }
     }
 
     // A reference that has not reached its pose stands in another one: it has no error.
@@ -212,7 +217,7 @@ private:
         outcome.update(run_end(stopwatch_.seconds()));
         folder_.finish(character_, records, outcome, cost_, error_bar_ ? error_bar_->method() : nlohmann::json());
 
-        RunResult result{frames_, stopwatch_.seconds(), breakdown_, unreached_, {}};
+        RunResult result{frames_, stopwatch_.seconds(), breakdown_, bad_frame_, {}};
         for (const Runner& runner : runners_)
             result.lines.push_back(fmt::format("  {:<12} volume change {:8.3f} to {:7.3f} %, at most {} inverted tets", runner.spec.label,
                                                runner.lowest_change_pct, runner.highest_change_pct, runner.most_inverted));
@@ -232,7 +237,7 @@ private:
     std::optional<ReferenceErrorBar> error_bar_;
     RunFolder folder_;  // made when all else stands: it clears an earlier run's records
     int frames_ = 0, self_intersecting_frames_ = 0;
-    std::string breakdown_, unreached_;
+    std::string breakdown_, bad_frame_;
     std::map<std::string, std::vector<int>> breakdowns_, not_converged_;  // label -> frames
     std::map<std::string, std::vector<BrokenFrame>> broken_frames_;       // label -> frames with their worst elements
     std::map<std::string, int> frames_below_reference_error_ = {};        // label -> how many

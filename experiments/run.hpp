@@ -8,12 +8,14 @@
 
 namespace experiments {
 
+// A bad frame was not reached (the step did not converge; as a reference it is compared with nothing) or is a converged reference's with
+// inverted tets (it is compared, and marked by its count). Both are on record. `run` ends with exit status 3 for either and for a
+// breakdown; studies go on over bad frames and count breakdowns alone.
 struct RunResult {
     int frames = 0;
     double seconds = 0.0;
     std::string breakdown;           // the first deformer and frame that were not finite, with the first such vertex; empty: none
-    std::string unreached;           // the first step that did not converge, or reference with inverted tets, and the worst tet. It is on
-                                     // record, its frame is marked and, where it was not reached, compared with nothing
+    std::string bad_frame;           // the first finite frame that is not to be trusted, what is wrong and the worst tet; empty: none
     std::vector<std::string> lines;  // a summary for the terminal, one line a deformer
 };
 

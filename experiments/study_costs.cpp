@@ -15,20 +15,23 @@ namespace experiments {
 namespace {
 
 struct RecordedCost {
-    double cpu_s = 0.0;  // of its own process, all its threads
+    std::optional<double> cpu_s;  // of its own process, all its threads; not told by records of every version
     std::optional<double> wall_s;
 };
+
+std::optional<double> number_at(const nlohmann::json& run, const char* pointer)
+{
+    const nlohmann::json::json_pointer place(pointer);
+    return run.contains(place) && run.at(place).is_number() ? std::optional(run.at(place).get<double>()) : std::nullopt;
+}
 
 // Nothing where the run did not end.
 std::optional<RecordedCost> recorded_cost(const std::filesystem::path& folder)
 {
     if (!std::filesystem::exists(folder / "run.json")) return std::nullopt;
-    const auto run = nlohmann::json::parse(analysis::read_text((folder / "run.json").string()));
-    const auto& outcome = run.at("outcome");
-    RecordedCost cost;
-    cost.cpu_s = (run.contains("cost") ? run.at("cost").at("cpu_seconds").at("total") : outcome.at("cpu_seconds")).get<double>();
-    if (outcome.contains("wall_s")) cost.wall_s = outcome.at("wall_s").get<double>();
-    return cost;
+    const auto run = nlohmann::json::parse(analysis::read_text((folder / "run.json").string()), nullptr, false);
+    const char* cpu_s = run.contains("cost") ? "/cost/cpu_seconds/total" : "/outcome/cpu_seconds";
+    return RecordedCost{number_at(run, cpu_s), number_at(run, "/outcome/wall_s")};
 }
 
 }  // namespace
@@ -55,7 +58,8 @@ void StudyCosts::complete(const std::string& folder, const StudyPlan& plan)
         const auto recorded = recorded_cost(std::filesystem::path(folder) / run.name);
         if (!recorded) continue;
         const auto row = std::find_if(runs_.begin(), runs_.end(), [&](const RunCost& cost) { return cost.run == run.name; });
-        ordered.push_back(row != runs_.end() ? *row : RunCost{run.name, run.cost_s, recorded->cpu_s});
+        if (row == runs_.end() && !recorded->cpu_s) continue;
+        ordered.push_back(row != runs_.end() ? *row : RunCost{run.name, run.cost_s, *recorded->cpu_s});
         ordered.back().wall_s = recorded->wall_s;
     }
     runs_ = ordered;

@@ -1,8 +1,8 @@
 // The rendered surface of a run's frames and what carries it, for whoever moves it by the tets:
 //   surface_rest.vtp   the surface at rest [m]
-//   embedding.csv      point, tet, barycentric_0 ... barycentric_3   of each of its points: the tet that carries it and the share of each
-//   of
-//                      its corners, in the order of the frames' .vtu; they sum to one and are negative for a point outside its tet
+//   embedding.csv      point, tet, barycentric_0 ... barycentric_3   of each of its points: the tet that carries it and
+//                      the share of each of the tet's corners, in the order of the frames' .vtu. Shares sum to one; for a
+//                      point outside its tet some are negative
 #pragma once
 
 #include "analysis/csv_table.hpp"

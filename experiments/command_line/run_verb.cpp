@@ -22,9 +22,9 @@ int run(const RunArguments& arguments, const CommonOptions& common)
     const RunResult result = run_scene(scene, folder);
     for (const auto& line : result.lines) spdlog::info("{}", line);
     spdlog::info("{}: {} frames, {:.1f} s, records in {}", scene.name, result.frames, result.seconds, folder);
-    for (const std::string& breakdown : {result.breakdown, result.unreached})
-        if (!breakdown.empty()) spdlog::error("pbskin: numerical breakdown: {}", breakdown);
-    return result.breakdown.empty() && result.unreached.empty() ? exit_finished : exit_breakdown;
+    if (!result.breakdown.empty()) spdlog::error("pbskin: numerical breakdown: {}", result.breakdown);
+    if (!result.bad_frame.empty()) spdlog::error("pbskin: {}", result.bad_frame);
+    return result.breakdown.empty() && result.bad_frame.empty() ? exit_finished : exit_breakdown;
 }
 
 }  // namespace

@@ -73,6 +73,28 @@ TEST(StudyCosts, AreCompletedFromTheRunsThatEndedInTheOrderOfThePlan)
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "run,expected_cpu_s,cpu_s,wall_s\nscene,2,3.5,\nwork,2,8.5,9\n");
 }
 
+// Records of another version, or a file that is none: their cost is not known, and that ends nothing.
+TEST(StudyCosts, RunsThatDoNotTellTheirCostAreLeftOutButForWhatTheParentSaw)
+{
+    const ScratchFolder folder;
+    StudyPlan plan;
+    for (const char* run : {"seen", "bare", "words", "list", "torn", "told"}) {
+        std::filesystem::create_directories(folder.path() / run);
+        plan.runs.push_back({.name = run, .cost_s = 2.0});
+    }
+    folder.file("seen/run.json", R"({"outcome": {"wall_s": 9.0}})");
+    folder.file("bare/run.json", R"({"cost": {}, "outcome": {"cpu_seconds": 8.0}})");
+    folder.file("words/run.json", R"({"outcome": {"cpu_seconds": "8"}})");
+    folder.file("list/run.json", "[1, 2]");
+    folder.file("torn/run.json", R"({"outcome": {"cpu_)");
+    folder.file("told/run.json", R"({"outcome": {"cpu_seconds": 3.0, "wall_s": "4"}})");
+    StudyCosts costs(folder.path().string());
+    costs.add("seen", 2.0, 8.5);
+    costs.complete(folder.path().string(), plan);
+    costs.write();
+    EXPECT_EQ(analysis::read_text(folder / "costs.csv"), "run,expected_cpu_s,cpu_s,wall_s\nseen,2,8.5,9\ntold,2,3,\n");
+}
+
 TEST(StudyCosts, PointAtWhatIsNotWithinAFactorOfTwo)
 {
     const ScratchFolder folder;

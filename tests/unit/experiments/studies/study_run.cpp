@@ -1,6 +1,7 @@
 // Pieces of work in their folders. Truth: the contract of the header: run.json comes last and only of a run that ended.
 #include "experiments/studies/study_run.hpp"
 
+#include "experiments/run.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -47,6 +48,19 @@ TEST_F(StudyRunTest, ABreakdownIsOnRecordAndTheRunEnded)
     EXPECT_TRUE(is_finished(run, folder));
     std::ifstream record(fs::path(folder) / "run.json");
     EXPECT_EQ(nlohmann::json::parse(record).at("outcome").at("breakdown"), "step 7 diverged");
+}
+
+// Two iterations do not come within 1e-12 of anything.
+TEST_F(StudyRunTest, ASceneWithAFrameThatWasNotReachedEndsWithoutABreakdown)
+{
+    const StudyRun run = {.name = "limb",
+                          .scene = read_scene("limb_bend", {"pbs.iterations=2", "pbs.stop_residual=1e-12", "motion.frames=2",
+                                                            "deformers.use=[\"pbs\"]", "reference.name=\"\""})};
+    const RunResult result = run_scene(run.scene, scratch / "alone");
+    EXPECT_EQ(result.breakdown, "");
+    EXPECT_EQ(result.bad_frame.rfind("pose not reached: pbs is not converged in frame 0: worst tet ", 0), 0u) << result.bad_frame;
+    EXPECT_EQ(carry_out(run, folder), "");
+    EXPECT_TRUE(is_finished(run, folder));
 }
 
 TEST_F(StudyRunTest, WorkThatFailsLeavesNoRecordOfAnEarlierRun)
