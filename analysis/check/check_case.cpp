@@ -26,6 +26,8 @@ const char* to_string(CheckState state)
             return "left out";
         case CheckState::broke_down:
             return "BREAKDOWN";
+        case CheckState::refused:
+            return "REFUSED";
     }
     return "";
 }

@@ -7,7 +7,7 @@
 
 namespace analysis {
 
-enum class CheckState { held, failed, left_out, broke_down };
+enum class CheckState { held, failed, left_out, broke_down, refused };  // refused: bad input
 
 struct CheckCase {
     std::string suite;  // the scene, or the rest mesh
@@ -32,7 +32,7 @@ struct CheckSuite {
 int count(const std::vector<CheckSuite>& suites, CheckState state);
 const char* to_string(CheckState state);
 
-// For the terminal: one line a case, the message below those that do not hold.
+// For the terminal: one line a case, with its message.
 std::string check_table(const std::vector<CheckSuite>& suites);
 
 }  // namespace analysis

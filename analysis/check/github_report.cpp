@@ -47,7 +47,8 @@ std::string github_summary(const std::vector<CheckSuite>& suites)
 {
     std::string text = fmt::format(
         "### pbskin: {} hold, {} fail, {} left out\n\n| | scene | bound | measured |\n|---|---|---|---|\n", count(suites, CheckState::held),
-        count(suites, CheckState::failed) + count(suites, CheckState::broke_down), count(suites, CheckState::left_out));
+        count(suites, CheckState::failed) + count(suites, CheckState::broke_down) + count(suites, CheckState::refused),
+        count(suites, CheckState::left_out));
     for (const CheckSuite& suite : suites) {
         for (const CheckCase& check : suite.cases)
             text += fmt::format("| {} | {} | {} | {} |\n", to_string(check.state), table_cell(suite.name), table_cell(check.name),

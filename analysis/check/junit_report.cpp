@@ -23,7 +23,7 @@ void set_counts(pugi::xml_node node, const std::vector<CheckSuite>& suites)
     }
     set(node, "tests", std::to_string(tests));
     set(node, "failures", std::to_string(count(suites, CheckState::failed)));
-    set(node, "errors", std::to_string(count(suites, CheckState::broke_down)));
+    set(node, "errors", std::to_string(count(suites, CheckState::broke_down) + count(suites, CheckState::refused)));
     set(node, "skipped", std::to_string(count(suites, CheckState::left_out)));
     set(node, "time", fmt::format("{:.3f}", seconds));
 }

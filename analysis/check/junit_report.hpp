@@ -1,5 +1,5 @@
 // JUnit XML as CI servers read it: a testsuite a suite, a testcase a case (classname: the suite's name), its wall time; <failure> for what
-// does not hold, <error> for a breakdown, <skipped> for what was left out.
+// does not hold, <error> for a breakdown or a refused frame, <skipped> for what was left out.
 //   write_text_atomically(path, junit_report(suites));
 #pragma once
 

@@ -8,12 +8,19 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <system_error>
 
 namespace experiments {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::string_view environment(const char* name)
 {
@@ -25,6 +32,20 @@ std::string place_of(const analysis::CheckCase& check)
 {
     if (check.file.empty()) return "";
     return check.line > 0 ? fmt::format("{}:{}: ", check.file, check.line) : check.file + ": ";
+}
+
+bool is_for_github(const CheckReports& reports)
+{
+    return reports.github || environment("GITHUB_ACTIONS") == "true";
+}
+
+// GitHub's own file, to which each step of a job adds.
+void add_to_summary(const std::string& text)
+{
+    const std::string summary(environment("GITHUB_STEP_SUMMARY"));
+    if (summary.empty()) return;
+    std::ofstream file(summary, std::ios::app);
+    if (!(file << text << std::flush)) throw pbs::InputError(summary, 0, "GITHUB_STEP_SUMMARY", "", "cannot be written");
 }
 
 }  // namespace
@@ -41,16 +62,28 @@ void tell_failures(const std::vector<analysis::CheckSuite>& suites)
         }
 }
 
+void require_writable(const std::string& path)
+{
+    const fs::path parent = fs::path(path).parent_path(), folder = parent.empty() ? "." : parent;
+    std::error_code error;
+    int reason = fs::is_directory(path, error) ? EISDIR : 0;
+    if (reason == 0 && fs::exists(folder, error) && !fs::is_directory(folder, error)) reason = ENOTDIR;
+    if (reason == 0 && ::access(folder.c_str(), W_OK | X_OK) != 0) reason = errno;
+    if (reason != 0) throw pbs::InputError(path, 0, "", "", "cannot be written: " + std::generic_category().message(reason));
+}
+
+void require_writable(const CheckReports& reports)
+{
+    if (!reports.junit.empty()) require_writable(reports.junit);
+    if (is_for_github(reports)) add_to_summary("");
+}
+
 void write_reports(const CheckReports& reports, const std::vector<analysis::CheckSuite>& suites)
 {
     if (!reports.junit.empty()) analysis::write_text_atomically(reports.junit, analysis::junit_report(suites));
-    if (!reports.github && environment("GITHUB_ACTIONS") != "true") return;
+    if (!is_for_github(reports)) return;
     fmt::print("{}", analysis::github_annotations(suites));
-    const std::string summary(environment("GITHUB_STEP_SUMMARY"));
-    if (summary.empty()) return;
-    std::ofstream file(summary, std::ios::app);
-    if (!(file << analysis::github_summary(suites) << std::flush))
-        throw pbs::InputError(summary, 0, "GITHUB_STEP_SUMMARY", "", "cannot be written");
+    add_to_summary(analysis::github_summary(suites));
 }
 
 }  // namespace experiments

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <filesystem>
+
 namespace experiments {
 namespace {
 
@@ -14,6 +16,10 @@ int check(CheckArguments arguments, const CheckReports& reports, const CommonOpt
 {
     if (common.quiet) hide_progress();
     arguments.threads = common.threads;
+    std::error_code told_by_the_run;
+    if (!reports.junit.empty()) std::filesystem::create_directories(arguments.folder, told_by_the_run);  // a report may lie there
+    require_writable(reports);
+    if (!arguments.write_baseline.empty()) require_writable(arguments.write_baseline);
     const CheckResult result = run_check(arguments);
     if (!common.quiet) fmt::print("{}", analysis::check_table(result.suites));
     tell_failures(result.suites);

@@ -10,12 +10,14 @@
 #include "experiments/measure/frame_bounds.hpp"
 #include "experiments/measure/frame_files.hpp"
 #include "experiments/warnings.hpp"
+#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/mesh_remarks.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace experiments {
@@ -26,6 +28,7 @@ struct MeasureArguments {
     std::vector<std::string> frames;
     std::vector<FrameBound> bounds = known_frame_bounds();
     CheckReports reports;
+    bool quiet = false;
 };
 
 // What is said of a frame with inverted tets beside its figures; one that is not finite is refused by the reader.
@@ -44,44 +47,79 @@ const std::vector<std::string> columns = {
     "frame", "volume_change_pct", "volume_abs_change_pct", "inverted_tets", "mean_abs_j_minus_1", "j_min", "stretch_rms",
     "j_max", "edge_strain_max"};
 
-void add_frame(analysis::CsvTable& table, const MeasuredFrame& frame)
+void add_row(analysis::CsvTable& table, const MeasuredFrame& frame)
 {
     const analysis::FrameMetrics& m = frame.figures.metrics;
     table.add_row({frame.name, m.volume_change_pct, m.volume_abs_change_pct, m.inverted_tets, m.mean_abs_j_minus_1, m.j_min, m.stretch_rms,
                    frame.figures.j_max, frame.figures.edge_strain_max});
+}
+
+void print_head()
+{
+    fmt::print("{:<32} {:>14} {:>14} {:>9} {:>10} {:>10} {:>12} {:>12}\n", "frame", "volume %", "volume abs %", "inverted", "j_min",
+               "j_max", "stretch rms", "edge strain");
+}
+
+void print_row(const MeasuredFrame& frame)
+{
+    const analysis::FrameMetrics& m = frame.figures.metrics;
     fmt::print("{:<32} {:>14.6f} {:>14.6f} {:>9} {:>10.4f} {:>10.4f} {:>12.6f} {:>12.6f}\n", frame.name, m.volume_change_pct,
                m.volume_abs_change_pct, m.inverted_tets, m.j_min, frame.figures.j_max, m.stretch_rms, frame.figures.edge_strain_max);
 }
 
+// What does not hold in a frame, on stderr; whether all holds.
+bool tell_broken(const std::vector<FrameBound>& bounds, const std::string& path, const MeasuredFrame& frame)
+{
+    bool all_hold = true;
+    for (const FrameBound& bound : bounds) {
+        const std::string broken = broken_text(bound, frame.figures);
+        if (!broken.empty()) fmt::print(stderr, "pbskin: {}: {}\n", path, broken);
+        all_hold = all_hold && broken.empty();
+    }
+    return all_hold;
+}
+
+void require_usable(const MeasureArguments& arguments)
+{
+    std::for_each(arguments.bounds.begin(), arguments.bounds.end(), require_meaningful);
+    if (!arguments.csv.empty()) require_writable(arguments.csv);
+    require_writable(arguments.reports);
+}
+
+// A frame that cannot be read or does not fit is told and reported; the others are measured.
 int measure(const MeasureArguments& arguments)
 {
     const pbs::Stopwatch stopwatch;
-    const std::vector<std::string> paths = frame_files(arguments.frames);
+    require_usable(arguments);
+    const std::vector<std::string> paths = frame_files(arguments.frames), names = frame_names(paths);
     const pbs::MeshReading reading = pbs::read_tet_mesh(arguments.rest);
     warn(pbs::remarks_on(arguments.rest, reading));
     const RestMesh rest(reading.mesh);
     const analysis::Ruler ruler(rest.mesh().rest, rest.mesh().tets);
     analysis::CsvTable table(columns);
     std::vector<MeasuredFrame> frames;
-    int status = exit_finished;
-    fmt::print("{:<32} {:>14} {:>14} {:>9} {:>10} {:>10} {:>12} {:>12}\n", "frame", "volume %", "volume abs %", "inverted", "j_min",
-               "j_max", "stretch rms", "edge strain");
-    for (const std::string& path : paths) {
-        const pbs::Positions positions = rest.read_frame(path);
-        frames.push_back({std::filesystem::path(path).filename().string(), figures_of(rest, ruler, positions)});
-        add_frame(table, frames.back());
-        if (frames.back().figures.metrics.inverted_tets > 0) fmt::print(stderr, "pbskin: {}: {}\n", path, worst_of(ruler, positions));
-        for (const FrameBound& bound : arguments.bounds) {
-            const std::string broken = broken_text(bound, frames.back().figures);
-            if (broken.empty()) continue;
-            fmt::print(stderr, "pbskin: {}: {}\n", path, broken);
-            status = exit_bound;
+    std::vector<RefusedFrame> refused;
+    bool all_hold = true;
+    if (!arguments.quiet) print_head();
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        try {
+            const pbs::Positions positions = rest.read_frame(paths[i]);
+            frames.push_back({names[i], figures_of(rest, ruler, positions)});
+            add_row(table, frames.back());
+            if (!arguments.quiet) print_row(frames.back());
+            if (frames.back().figures.metrics.inverted_tets > 0)
+                fmt::print(stderr, "pbskin: {}: {}\n", paths[i], worst_of(ruler, positions));
+            all_hold = tell_broken(arguments.bounds, paths[i], frames.back()) && all_hold;
+        } catch (const pbs::InputError& error) {
+            fmt::print(stderr, "pbskin: {}\n", error.what());
+            refused.push_back({names[i], error.what()});
         }
     }
     if (!arguments.csv.empty()) table.write(arguments.csv);
     const std::string suite = std::filesystem::path(arguments.rest).filename().string();
-    write_reports(arguments.reports, {frame_suite(suite, arguments.bounds, frames, stopwatch.seconds())});
-    return status;
+    write_reports(arguments.reports, {frame_suite(suite, arguments.bounds, frames, refused, stopwatch.seconds())});
+    if (!refused.empty()) return exit_input;
+    return all_hold ? exit_finished : exit_bound;
 }
 
 }  // namespace
@@ -101,7 +139,12 @@ void add_measure_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
     for (FrameBound& bound : arguments->bounds) verb->add_option(bound.option, bound.value, bound.meaning);
     verb->add_option("--junit", arguments->reports.junit, "write a JUnit report, one test case a bound");
     verb->add_flag("--github", arguments->reports.github, "annotations for GitHub on stdout (by itself where GITHUB_ACTIONS is true)");
-    verb->callback([&action, arguments] { action = [arguments] { return measure(*arguments); }; });
+    verb->callback([&action, &common, arguments] {
+        action = [&common, arguments] {
+            arguments->quiet = common.quiet;
+            return measure(*arguments);
+        };
+    });
 }
 
 }  // namespace experiments

@@ -1,8 +1,12 @@
 #include "experiments/measure/frame_bounds.hpp"
 
+#include "analysis/csv_table.hpp"
+#include "pbs/geometry/input_error.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 namespace experiments {
 namespace {
@@ -49,18 +53,26 @@ CheckCase judged(const std::string& suite, const FrameBound& bound, const std::v
 std::vector<FrameBound> known_frame_bounds()
 {
     using Figures = const FrameFigures&;
-    return {{"--max-volume-change", "|volume_change_pct|", "bound on |volume_change_pct| [%]", true,
+    constexpr double any = std::numeric_limits<double>::lowest();
+    return {{"--max-volume-change", "|volume_change_pct|", "bound on |volume_change_pct| [%]", true, 0.0,
              [](Figures f) { return std::abs(f.metrics.volume_change_pct); }},
-            {"--max-volume-abs-change", "volume_abs_change_pct", "bound on volume_abs_change_pct [%]", true,
+            {"--max-volume-abs-change", "volume_abs_change_pct", "bound on volume_abs_change_pct [%]", true, 0.0,
              [](Figures f) { return f.metrics.volume_abs_change_pct; }},
-            {"--max-inverted", "inverted_tets", "bound on inverted_tets", true,
+            {"--max-inverted", "inverted_tets", "bound on inverted_tets", true, 0.0,
              [](Figures f) { return static_cast<double>(f.metrics.inverted_tets); }},
-            {"--min-j", "j_min", "bound on the smallest V / V0 of a tet", false, [](Figures f) { return f.metrics.j_min; }},
-            {"--max-j", "j_max", "bound on the largest V / V0 of a tet", true, [](Figures f) { return f.j_max; }},
-            {"--max-edge-strain", "edge_strain_max", "bound on the largest |l / l0 - 1| of an edge", true,
+            {"--min-j", "j_min", "bound on the smallest V / V0 of a tet", false, any, [](Figures f) { return f.metrics.j_min; }},
+            {"--max-j", "j_max", "bound on the largest V / V0 of a tet", true, any, [](Figures f) { return f.j_max; }},
+            {"--max-edge-strain", "edge_strain_max", "bound on the largest |l / l0 - 1| of an edge", true, 0.0,
              [](Figures f) { return f.edge_strain_max; }},
-            {"--max-stretch-rms", "stretch_rms", "bound on the root mean square of l / l0 - 1 over the edges", true,
+            {"--max-stretch-rms", "stretch_rms", "bound on the root mean square of l / l0 - 1 over the edges", true, 0.0,
              [](Figures f) { return f.metrics.stretch_rms; }}};
+}
+
+void require_meaningful(const FrameBound& bound)
+{
+    if (!bound.value || (std::isfinite(*bound.value) && *bound.value >= bound.lowest)) return;
+    throw pbs::InputError("", 0, bound.option, analysis::number_text(*bound.value),
+                          bound.lowest == 0.0 ? "expected a finite number >= 0" : "expected a finite number");
 }
 
 std::string broken_text(const FrameBound& bound, const FrameFigures& figures)
@@ -70,14 +82,16 @@ std::string broken_text(const FrameBound& bound, const FrameFigures& figures)
 }
 
 analysis::CheckSuite frame_suite(const std::string& name, const std::vector<FrameBound>& bounds, const std::vector<MeasuredFrame>& frames,
-                                 double seconds)
+                                 const std::vector<RefusedFrame>& refused, double seconds)
 {
     analysis::CheckSuite suite{name, seconds, {}, {}};
     for (const FrameBound& bound : bounds)
-        if (bound.value) suite.cases.push_back(judged(name, bound, frames));
-    if (suite.cases.empty())
+        if (bound.value && !frames.empty()) suite.cases.push_back(judged(name, bound, frames));
+    if (suite.cases.empty() && !frames.empty())
         suite.cases.push_back(
             {name, "measured", CheckState::held, fmt::format("{} frames, no bounds", frames.size()), std::nullopt, {}, "", 0});
+    for (const RefusedFrame& frame : refused)
+        suite.cases.push_back({name, "frame " + frame.name, CheckState::refused, frame.reason, std::nullopt, {}, "", 0});
     return suite;
 }
 

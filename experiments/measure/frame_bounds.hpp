@@ -21,10 +21,14 @@ struct FrameBound {
     std::string figure;  // |volume_change_pct|
     std::string meaning;
     bool is_upper = true;
+    double lowest = 0.0;  // that makes sense as a value
     double (*of)(const FrameFigures&) = nullptr;
     std::optional<double> value = {};  // not given: not asked
 };
 std::vector<FrameBound> known_frame_bounds();
+
+// InputError for a value that nothing or everything meets: not finite, or below the least that the figure can be.
+void require_meaningful(const FrameBound& bound);
 
 // A bound that does not hold, e.g. "|volume_change_pct| = 0.62 > 0.5"; empty where it holds or was not asked. What is not a number breaks
 // every bound.
@@ -35,8 +39,12 @@ struct MeasuredFrame {
     FrameFigures figures;
 };
 
-// One case a bound, which names the worst frame and counts the others; a case "measured" where no bound was asked.
+struct RefusedFrame {
+    std::string name, reason;
+};
+
+// One case a bound, which names the worst frame and counts the others; a case "measured" where no bound was asked; one a refused frame.
 analysis::CheckSuite frame_suite(const std::string& name, const std::vector<FrameBound>& bounds, const std::vector<MeasuredFrame>& frames,
-                                 double seconds);
+                                 const std::vector<RefusedFrame>& refused, double seconds);
 
 }  // namespace experiments

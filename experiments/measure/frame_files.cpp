@@ -1,5 +1,6 @@
 #include "experiments/measure/frame_files.hpp"
 
+#include "experiments/measure/frame_numbers.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include <glob.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -20,26 +22,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// frames_0007.vtu: the last number in the name counts.
 struct Sequence {
     std::string before, after;
     std::size_t width = 0;                   // of its shortest number
     std::map<long long, std::string> files;  // by number
 };
-
-struct NumberedName {
-    std::string before, digits, after;
-};
-
-std::optional<NumberedName> numbered(const std::string& path)
-{
-    static const std::regex form("(.*?)([0-9]{1,15})([^0-9]*)");
-    const fs::path file(path);
-    const std::string name = file.filename().string();
-    std::smatch match;
-    if (!std::regex_match(name, match, form)) return std::nullopt;
-    return NumberedName{(file.parent_path() / match[1].str()).string(), match[2].str(), match[3].str()};
-}
 
 void require_no_gap(const Sequence& sequence)
 {
@@ -56,22 +43,21 @@ void require_no_gap(const Sequence& sequence)
 }
 
 // In the order of their numbers, one sequence after the other; those without a number first.
-std::vector<std::string> ordered(const std::string& argument, const std::vector<std::string>& found, bool one_sequence)
+std::vector<std::string> ordered(const std::string& argument, const std::vector<NumberedFile>& found, bool one_sequence)
 {
     std::map<std::pair<std::string, std::string>, Sequence> sequences;
     std::vector<std::string> files;
-    for (const std::string& path : found) {
-        const auto name = numbered(path);
-        if (!name) {
-            files.push_back(path);
+    for (const NumberedFile& file : found) {
+        if (file.digits.empty()) {
+            files.push_back(file.path);
             continue;
         }
-        Sequence& sequence = sequences[{name->before, name->after}];
-        sequence.before = name->before;
-        sequence.after = name->after;
-        sequence.width = sequence.files.empty() ? name->digits.size() : std::min(sequence.width, name->digits.size());
-        const auto [at, is_new] = sequence.files.emplace(std::stoll(name->digits), path);
-        if (!is_new) throw pbs::InputError(path, 0, "frame", name->digits, "the same number as " + at->second);
+        Sequence& sequence = sequences[{file.before, file.after}];
+        sequence.before = file.before;
+        sequence.after = file.after;
+        sequence.width = sequence.files.empty() ? file.digits.size() : std::min(sequence.width, file.digits.size());
+        const auto [at, is_new] = sequence.files.emplace(std::stoll(file.digits), file.path);
+        if (!is_new) throw pbs::InputError(file.path, 0, "frame", file.digits, "the same number as " + at->second);
     }
     if (one_sequence && sequences.size() + files.size() > 1 && !(sequences.empty())) {
         std::vector<std::string> names;
@@ -113,22 +99,25 @@ std::vector<std::string> globbed(const std::string& pattern)
 }
 
 // frames_%04d.vtu as C's printf writes it: the files whose number is written just so.
-std::optional<std::vector<std::string>> of_number_pattern(const std::string& pattern)
+std::optional<std::vector<NumberedFile>> of_number_pattern(const std::string& pattern)
 {
     static const std::regex form("(.*)%(0?)([0-9]{0,2})d(.*)");
+    const fs::path folder = fs::path(pattern).parent_path();
+    const std::string wanted = fs::path(pattern).filename().string();
     std::smatch match;
-    if (!std::regex_match(pattern, match, form)) return std::nullopt;
+    if (!std::regex_match(wanted, match, form)) return std::nullopt;
     const std::string before = match[1], after = match[4];
     const std::size_t width = match[3].length() ? std::stoul(match[3]) : 1;
-    std::vector<std::string> files;
-    const fs::path folder = fs::path(pattern).parent_path();
+    std::vector<NumberedFile> files;
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {
-        const std::string path = (folder / entry.path().filename()).string();
-        if (path.size() < before.size() + after.size() + width || !path.starts_with(before) || !path.ends_with(after)) continue;
-        const std::string digits = path.substr(before.size(), path.size() - before.size() - after.size());
-        const bool is_number = std::all_of(digits.begin(), digits.end(), [](unsigned char c) { return std::isdigit(c); });
-        if (is_number && (digits.size() == width || digits[0] != '0')) files.push_back(path);
+        const std::string name = entry.path().filename().string();
+        if (name.size() < before.size() + after.size() + width || !name.starts_with(before) || !name.ends_with(after)) continue;
+        const std::string digits = name.substr(before.size(), name.size() - before.size() - after.size());
+        const bool is_number =
+            digits.size() <= longest_number && std::all_of(digits.begin(), digits.end(), [](unsigned char c) { return std::isdigit(c); });
+        if (is_number && (digits.size() == width || digits[0] != '0'))
+            files.push_back({(folder / name).string(), (folder / before).string(), digits, after});
     }
     return files;
 }
@@ -137,14 +126,14 @@ std::vector<std::string> files_of(const std::string& argument)
 {
     std::error_code error;
     if (fs::is_regular_file(argument, error)) return {argument};
-    std::vector<std::string> files;
+    std::vector<NumberedFile> files;
     const bool is_folder = fs::is_directory(argument, error);
     if (is_folder)
-        files = in_folder(argument);
+        files = numbered(argument, in_folder(argument));
     else if (const auto numbers = of_number_pattern(argument))
         files = *numbers;
     else if (argument.find_first_of("*?[") != std::string::npos)
-        files = globbed(argument);
+        files = numbered(argument, globbed(argument));
     else
         return {argument};
     if (files.empty())
@@ -160,6 +149,18 @@ std::vector<std::string> frame_files(const std::vector<std::string>& arguments)
     for (const std::string& argument : arguments)
         for (std::string& file : files_of(argument)) files.push_back(std::move(file));
     return files;
+}
+
+std::vector<std::string> frame_names(const std::vector<std::string>& paths)
+{
+    std::map<std::string, int> times;
+    for (const std::string& path : paths) ++times[fs::path(path).filename().string()];
+    std::vector<std::string> names;
+    for (const std::string& path : paths) {
+        const std::string name = fs::path(path).filename().string();
+        names.push_back(times[name] > 1 ? path : name);
+    }
+    return names;
 }
 
 }  // namespace experiments

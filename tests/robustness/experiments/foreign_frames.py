@@ -1,5 +1,5 @@
-"""`pbskin measure` on frames that other programs have written: VTK's Python (.vtu, .vtk), Gmsh's own library (.msh 4.1, binary). Truth: a body
-stretched by s along one axis has 1 + s times its volume."""
+"""`pbskin measure` on frames that other programs have written: VTK's Python (.vtu, .vtk), Gmsh's own library (.msh 4.1, binary).
+Truth: a body stretched by s along one axis has 1 + s times its volume."""
 import ctypes.util
 import csv
 import os
@@ -8,6 +8,7 @@ import xml.etree.ElementTree as ElementTree
 
 import vtk
 
+import check_records
 import foreign_arm
 import program
 
@@ -41,6 +42,10 @@ class ForeignFrames(program.ProgramTest):
         for number, percent in percents.items():
             write_vtk(self.path(pattern % number), stretched(percent), TETS)
 
+    def rows(self):
+        with open(self.path("volume.csv"), encoding="utf-8", newline="") as file:
+            return list(csv.DictReader(file))
+
     def measure(self, *arguments):
         return program.run("measure", "rest.msh", *arguments, cwd=self.folder,
                            env={name: value for name, value in os.environ.items() if not name.startswith("GITHUB_")})
@@ -57,8 +62,7 @@ class ForeignFrames(program.ProgramTest):
         for frames in ("arm_%04d.vtu", "arm_*.vtu", "out"):
             process = self.measure(frames, "--csv", "volume.csv")
             self.assertEqual(process.returncode, 0, process.stderr)
-            with open(self.path("volume.csv"), encoding="utf-8", newline="") as file:
-                change = [float(row["volume_change_pct"]) for row in csv.DictReader(file)]
+            change = [float(row["volume_change_pct"]) for row in self.rows()]
             self.assertEqual([round(value, 5) for value in change], [0.8, 0.9, 1.0, 1.1])  # float in the .vtu of 1e-7
 
     def test_a_bound_that_fails_names_the_frame(self):
@@ -74,8 +78,9 @@ class ForeignFrames(program.ProgramTest):
 
     def test_every_bound_holds_at_its_value_and_fails_beyond(self):
         write_vtk(self.path("arm.vtk"), stretched(10.0), TETS)
-        for bound, holds, fails in (("--max-volume-change", 10.001, 9.999), ("--max-volume-abs-change", 10.001, 9.999), ("--min-j", 1.099, 1.101),
-                                    ("--max-j", 1.101, 1.099), ("--max-edge-strain", 0.1001, 0.0999), ("--max-stretch-rms", 0.1, 0.01)):
+        for bound, holds, fails in (("--max-volume-change", 10.001, 9.999), ("--max-volume-abs-change", 10.001, 9.999),
+                                    ("--min-j", 1.099, 1.101), ("--max-j", 1.101, 1.099), ("--max-edge-strain", 0.1001, 0.0999),
+                                    ("--max-stretch-rms", 0.1, 0.01)):
             self.assertEqual(self.measure("arm.vtk", bound, str(holds)).returncode, 0, bound)
             self.assertEqual(self.measure("arm.vtk", bound, str(fails)).returncode, 1, bound)
         write_vtk(self.path("folded.vtk"), [(-x, y, z) if x == 1.0 else (x, y, z) for x, y, z in POINTS], TETS)
@@ -86,6 +91,73 @@ class ForeignFrames(program.ProgramTest):
         for frames in ("arm_%04d.vtu", "arm_*.vtu"):
             self.refuses("arm_0004.vtu: frame = 4: missing: the sequence goes from 1 to 5 by 1", frames)
         self.refuses("no such frames", "leg_%04d.vtu")
+
+    def test_a_number_that_is_not_the_last_of_the_name(self):
+        os.mkdir(self.path("s"))
+        numbers = [1, 2, 3, 5, 10]
+        self.frames({number: 0.1 * number for number in numbers}, os.path.join("s", "f_%d_v2.vtu"))
+        for frames in ("s/f_%d_v2.vtu", "s/f_*.vtu", "s"):
+            self.refuses("f_4_v2.vtu: frame = 4: missing: the sequence goes from 1 to 10 by 1", frames)
+        self.frames({number: 0.1 * number for number in range(1, 11)}, os.path.join("s", "f_%d_v2.vtu"))
+        for frames in ("s/f_%d_v2.vtu", "./s//f_%d_v2.vtu", "s/f_*.vtu", "s"):
+            self.assertEqual(self.measure(frames, "--csv", "volume.csv").returncode, 0, frames)
+            self.assertEqual([row["frame"] for row in self.rows()], ["f_%d_v2.vtu" % number for number in range(1, 11)])
+
+    def test_two_numbers_that_differ(self):
+        os.mkdir(self.path("s"))
+        for number in (1, 2, 3):
+            self.frames({number: 0.1}, os.path.join("s", "f_%%d_t0.%d.vtu" % (4 - number)))
+        for frames in ("s/f_*.vtu", "s"):
+            self.refuses("expected frames that differ in one number", frames)
+
+    def test_one_name_in_two_folders(self):
+        for folder in ("a", "b"):
+            os.mkdir(self.path(folder))
+            self.frames({1: 0.1, 2: 0.9}, os.path.join(folder, "f_%d.vtu"))
+        self.frames({3: 0.1}, "f_%d.vtu")
+        process = self.measure("a", "b/f_%d.vtu", "f_3.vtu", "--csv", "volume.csv", "--max-volume-change", "0.5", "--github")
+        self.assertEqual(process.returncode, 1, process.stderr)
+        self.assertEqual([row["frame"] for row in self.rows()], ["a/f_1.vtu", "a/f_2.vtu", "b/f_1.vtu", "b/f_2.vtu", "f_3.vtu"])
+        self.assertIn("frame a/f_2.vtu: |volume_change_pct|", process.stdout)
+
+    def test_a_frame_that_cannot_be_read_hides_no_other(self):
+        self.frames({1: 0.1, 2: 0.9, 3: 0.9, 4: 0.1})
+        self.write("arm_0003.vtu", "no VTK")
+        process = self.measure("arm_%04d.vtu", "--csv", "volume.csv", "--max-volume-change", "0.5", "--junit", "volume.xml")
+        self.assertEqual(process.returncode, 2, process.stderr)
+        self.assertIn("pbskin: arm_0003.vtu", process.stderr)
+        self.assertEqual([row["frame"] for row in self.rows()], ["arm_0001.vtu", "arm_0002.vtu", "arm_0004.vtu"])
+        cases = {case.get("name"): case for case in ElementTree.parse(self.path("volume.xml")).getroot().iter("testcase")}
+        self.assertEqual(list(cases), ["--max-volume-change 0.5", "frame arm_0003.vtu"])
+        self.assertIn("frame arm_0002.vtu", cases["--max-volume-change 0.5"].find("failure").get("message"))
+        self.assertIn("arm_0003.vtu", cases["frame arm_0003.vtu"].find("error").get("message"))
+        process = self.measure("arm_0003.vtu", "--max-volume-change", "0.5", "--junit", "volume.xml")
+        self.assertEqual(process.returncode, 2, process.stderr)
+        self.assertEqual(check_records.failed(self.path("volume.xml")), {("rest.msh", "frame arm_0003.vtu")})
+
+    def test_reports_that_cannot_be_written_are_refused_before_the_work(self):
+        self.frames({1: 0.1})
+        for option in ("--junit", "--csv"):
+            process = self.measure("arm_0001.vtu", option, "none/report")
+            self.assertEqual((process.returncode, process.stdout), (2, ""))
+            self.assertIn("none/report: cannot be written", process.stderr)
+
+    def test_quiet_is_quiet(self):
+        self.frames({1: 0.9})
+        self.assertEqual(self.measure("arm_0001.vtu", "--quiet").stdout, "")
+        process = self.measure("arm_0001.vtu", "--quiet", "--max-volume-change", "0.5")
+        self.assertEqual((process.returncode, process.stdout), (1, ""))
+        self.assertIn("|volume_change_pct| = 0.9 > 0.5", process.stderr)
+
+    def test_bounds_that_all_or_nothing_meets(self):
+        self.frames({1: 0.1})
+        for bound in ("--max-volume-change", "--max-volume-abs-change", "--max-inverted", "--max-edge-strain", "--max-stretch-rms"):
+            for value in ("nan", "inf", "-1"):
+                self.refuses("%s = %s: expected a finite number >= 0" % (bound, value), "arm_0001.vtu", bound + "=" + value)
+        for bound in ("--min-j", "--max-j"):
+            for value in ("nan", "inf", "-inf"):
+                self.refuses("%s = %s: expected a finite number" % (bound, value), "arm_0001.vtu", bound + "=" + value)
+        self.assertEqual(self.measure("arm_0001.vtu", "--min-j=-1").returncode, 0)
 
     def test_a_folder_with_two_sequences(self):
         os.mkdir(self.path("out"))
@@ -102,7 +174,8 @@ class ForeignFrames(program.ProgramTest):
         self.refuses("was the order of the vertices kept on export?", "order.vtu")
         write_vtk(self.path("tets.vtu"), POINTS, TETS[::-1])
         self.assertEqual(self.measure("tets.vtu", "--max-volume-change", "1e-9").returncode, 0)
-        for scale, factor in ((1000.0, "factor of 1000, as of millimetres against metres"), (0.01, "factor of 0.01, as of centimetres against")):
+        for scale, factor in ((1000.0, "factor of 1000, as of millimetres against metres"),
+                              (0.01, "factor of 0.01, as of centimetres against")):
             write_vtk(self.path("units.vtu"), stretched(1.0, scale), TETS)
             self.refuses(factor, "units.vtu")
 
