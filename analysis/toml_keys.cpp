@@ -9,11 +9,11 @@
 namespace analysis {
 namespace {
 
-// What stands in the file there; a text without its quotes.
+// What stands in the file there; a text without its quotes, nothing of tables.
 std::string value_text(const toml::node& node)
 {
     if (node.is_string()) return *node.value<std::string>();
-    if (node.is_table()) return "(a table)";
+    if (node.is_table() || node.is_array_of_tables()) return "";
     if (const toml::array* array = node.as_array()) {
         std::vector<std::string> values;
         for (const toml::node& value : *array) values.push_back(value_text(value));

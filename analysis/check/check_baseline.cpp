@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <tuple>
 
 namespace analysis {
 namespace {
@@ -30,6 +32,32 @@ Rows rows_of(const CsvTable& table, const std::string& scene)
     for (int row = 0; row < table.rows(); ++row)
         if (table.text_at(row, "scene") == scene) rows[table.text_at(row, "deformer")][static_cast<int>(table.integer(row, "frame"))] = row;
     return rows;
+}
+
+// Below the head: a baseline has no line breaks in its fields.
+int line_of(int row)
+{
+    return row + 2;
+}
+
+void require_columns(const CheckRules& rules, const CsvTable& baseline, const std::string& file)
+{
+    for (const std::string& column : columns_of(rules))
+        if (!baseline.has_column(column))
+            throw pbs::InputError(file, 1, "column", column, "missing: expected a file of `pbskin check --write-baseline`");
+}
+
+void require_each_frame_once(const CsvTable& baseline, const std::string& file)
+{
+    std::map<std::tuple<std::string, std::string, long long>, int> lines;
+    for (int row = 0; row < baseline.rows(); ++row) {
+        const long long frame = baseline.integer(row, "frame");
+        const auto [at, is_new] =
+            lines.emplace(std::tuple(baseline.text_at(row, "scene"), baseline.text_at(row, "deformer"), frame), line_of(row));
+        if (!is_new)
+            throw pbs::InputError(file, line_of(row), "frame", std::to_string(frame),
+                                  fmt::format("expected each frame of a scene's deformer once: it is in line {} too", at->second));
+    }
 }
 
 // What differs in a frame, with how many times its tolerance; nothing where all is as before.
@@ -126,12 +154,27 @@ void add_baseline_rows(CsvTable& baseline, const CheckRules& rules, const std::s
     }
 }
 
+void require_baseline(const CheckRules& rules, const CsvTable& baseline, const std::string& baseline_file)
+{
+    require_columns(rules, baseline, baseline_file);
+    require_each_frame_once(baseline, baseline_file);
+}
+
+std::vector<CheckCase> scenes_gone(const CheckRules& rules, const CsvTable& baseline, const std::string& baseline_file)
+{
+    std::vector<CheckCase> cases;
+    std::set<std::string> known;
+    for (const CheckScene& scene : rules.scenes) known.insert(scene.name);
+    for (int row = 0; row < baseline.rows(); ++row)
+        if (const std::string& scene = baseline.text_at(row, "scene"); known.insert(scene).second)
+            cases.push_back({scene, "baseline", CheckState::failed, "in the baseline, but no longer among the scenes", std::nullopt,
+                             std::nullopt, baseline_file, line_of(row)});
+    return cases;
+}
+
 std::vector<CheckCase> compare_with_baseline(const CheckRules& rules, const std::string& scene, const CsvTable& now,
                                              const CsvTable& baseline, const std::string& baseline_file)
 {
-    for (const std::string& column : columns_of(rules))
-        if (!baseline.has_column(column))
-            throw pbs::InputError(baseline_file, 1, "column", column, "missing: expected a file of `pbskin check --write-baseline`");
     const Rows now_rows = rows_of(now, scene), baseline_rows = rows_of(baseline, scene);
     std::vector<CheckCase> cases;
     for (const auto& [deformer, rows] : now_rows) {

@@ -30,9 +30,14 @@ double excess(const CheckBound& bound, double value)
     throw pbs::InputError(file, bound.line, field, value, rule);
 }
 
+struct FrameValue {
+    int frame = -1;
+    double value = 0.0;
+};
+
 struct Seen {
-    int frames = 0, outside = 0, last_frame = -1, first_outside = -1, worst_frame = -1;
-    double worst = 0.0;
+    int frames = 0, outside = 0, last_frame = -1, first_outside = -1;
+    FrameValue worst, least, largest;
 };
 
 Seen look_at(const CheckBound& bound, const CsvTable& metrics, const std::string& file)
@@ -49,16 +54,29 @@ Seen look_at(const CheckBound& bound, const CsvTable& metrics, const std::string
         if (!value) refuse(bound, file, "metric", bound.metric, fmt::format("{} has no such figure in frame {}", bound.deformer, frame));
         const bool outside = excess(bound, *value) > 0.0;
         if (outside && seen.outside++ == 0) seen.first_outside = frame;
-        if (seen.frames++ == 0 || excess(bound, *value) > excess(bound, seen.worst)) {
-            seen.worst = *value;
-            seen.worst_frame = frame;
-        }
+        const bool is_first = seen.frames++ == 0;
+        if (is_first || excess(bound, *value) > excess(bound, seen.worst.value)) seen.worst = {frame, *value};
+        if (is_first || *value < seen.least.value) seen.least = {frame, *value};
+        if (is_first || *value > seen.largest.value) seen.largest = {frame, *value};
     }
     if (!has_deformer) refuse(bound, file, "deformer", bound.deformer, "expected one that the scene uses");
     if (!bound.frames.empty() && bound.frames[1] > seen.last_frame)
         refuse(bound, file, "frames", fmt::format("[{}, {}]", bound.frames[0], bound.frames[1]),
                fmt::format("expected at most {}, the last of the scene", seen.last_frame));
     return seen;
+}
+
+bool holds_between(const CheckBound& bound, const Seen& seen)
+{
+    return seen.outside == 0 && std::isfinite(bound.low) && std::isfinite(bound.high) && seen.least.value < seen.largest.value;
+}
+
+std::string figures_text(const CheckBound& bound, const Seen& seen, const std::string& unit)
+{
+    if (holds_between(bound, seen))
+        return fmt::format("frames {} and {}: {} of {} = {:.6g} to {:.6g}{}", seen.least.frame, seen.largest.frame, bound.metric,
+                           bound.deformer, seen.least.value, seen.largest.value, unit);
+    return fmt::format("frame {}: {} of {} = {:.6g}{}", seen.worst.frame, bound.metric, bound.deformer, seen.worst.value, unit);
 }
 
 }  // namespace
@@ -68,10 +86,10 @@ CheckCase judge_bound(const CheckBound& bound, const std::string& unit, const Cs
     if (!metrics.has_column(bound.metric)) refuse(bound, rules_file, "metric", bound.metric, "the scene does not measure it");
     const Seen seen = look_at(bound, metrics, rules_file);
     const std::string of_unit = unit.empty() ? "" : " " + unit;
-    CheckCase check{bound.scene, bound.name, seen.outside > 0 ? CheckState::failed : CheckState::held, "", seen.worst_frame, seen.worst,
+    CheckCase check{bound.scene, bound.name,       seen.outside > 0 ? CheckState::failed : CheckState::held,
+                    "",          seen.worst.frame, seen.worst.value,
                     rules_file,  bound.line};
-    check.message = fmt::format("frame {}: {} of {} = {:.6g}{}, expected {}{}", seen.worst_frame, bound.metric, bound.deformer, seen.worst,
-                                of_unit, interval_text(bound), of_unit);
+    check.message = fmt::format("{}, expected {}{}", figures_text(bound, seen, of_unit), interval_text(bound), of_unit);
     if (seen.outside > 1)
         check.message += fmt::format(" ({} of {} frames outside, the first is {})", seen.outside, seen.frames, seen.first_outside);
     return check;

@@ -58,7 +58,9 @@ CheckBound read_bound(const toml::table& table, const std::string& file, const N
     require_known(keys, "scene", bound.scene, scenes, "expected a scene of this file");
     require_metric(keys, bound.metric, metrics);
     if (!keys.has("low") && !keys.has("high")) keys.refuse("low", "expected low, high or both");
-    if (!(bound.low <= bound.high)) keys.refuse("low", "expected low <= high");
+    for (const auto& [key, value] : {std::pair("low", bound.low), std::pair("high", bound.high)})
+        if (keys.has(key) && !std::isfinite(value)) keys.refuse(key, "expected a finite number: all or nothing would hold");
+    if (bound.low > bound.high) keys.refuse("low", "expected low <= high");
     const std::vector<int>& frames = bound.frames;
     if (keys.has("frames") && (frames.size() != 2 || frames[0] < 0 || frames[0] > frames[1]))
         keys.refuse("frames", "expected [first, last], 0 <= first <= last");

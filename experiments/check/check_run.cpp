@@ -59,14 +59,23 @@ std::string unit_of(const std::string& metric)
     return "";
 }
 
-// A file beside the bounds, or a built-in scene.
-Scene scene_of(const CheckScene& check, const CheckRules& rules, int threads)
+// A file beside the user's bounds, or a built-in scene.
+std::string file_or_name(const CheckScene& check, const std::string& bounds)
 {
-    const fs::path beside = fs::path(rules.file).parent_path() / check.scene;
+    const fs::path beside = fs::path(bounds).parent_path() / check.scene;
     std::error_code error;
-    Scene scene = read_scene(fs::is_regular_file(beside, error) ? beside.string() : check.scene, check.set);
-    for (DeformerSpec& spec : scene.deformers) spec.pbs.threads = threads;
-    return scene;
+    return !bounds.empty() && fs::is_regular_file(beside, error) ? beside.string() : check.scene;
+}
+
+Scene scene_of(const CheckScene& check, const CheckRules& rules, const CheckArguments& arguments)
+{
+    try {
+        Scene scene = read_scene(file_or_name(check, arguments.bounds), check.set);
+        for (DeformerSpec& spec : scene.deformers) spec.pbs.threads = arguments.threads;
+        return scene;
+    } catch (const pbs::InputError& error) {
+        throw pbs::InputError(rules.file, check.line, "scene", check.scene, error.what());
+    }
 }
 
 CheckSuite suite_left_out(const CheckScene& check, const CheckRules& rules)
@@ -81,14 +90,15 @@ CheckSuite suite_left_out(const CheckScene& check, const CheckRules& rules)
 
 class SceneCheck {
 public:
-    SceneCheck(const CheckRules& rules, const std::optional<Baseline>& baseline, CsvTable& measured)
-        : rules_(rules), baseline_(baseline), measured_(measured)
+    SceneCheck(const CheckArguments& arguments, const CheckRules& rules, const std::optional<Baseline>& baseline, CsvTable& measured)
+        : arguments_(arguments), rules_(rules), baseline_(baseline), measured_(measured)
     {
     }
 
-    CheckSuite suite(const CheckScene& check, const std::string& folder, int threads, std::vector<std::string>& breakdowns)
+    CheckSuite suite(const CheckScene& check, std::vector<std::string>& breakdowns)
     {
-        const RunResult result = run_scene(scene_of(check, rules_, threads), folder);
+        const std::string folder = (fs::path(arguments_.folder) / check.name).string();
+        const RunResult result = run_scene(scene_of(check, rules_, arguments_), folder);
         CheckSuite suite{check.name, result.seconds, {}, {}};
         suite.cases.push_back({check.name, "runs", result.breakdown.empty() ? CheckState::held : CheckState::broke_down,
                                result.breakdown.empty() ? fmt::format("{} frames", result.frames) : result.breakdown, std::nullopt,
@@ -115,6 +125,7 @@ private:
         suite.properties = analysis::step_times(suite.name, now, baseline_ ? &baseline_->table : nullptr);
     }
 
+    const CheckArguments& arguments_;
     const CheckRules& rules_;
     const std::optional<Baseline>& baseline_;
     CsvTable& measured_;
@@ -162,15 +173,17 @@ CheckResult run_check(const CheckArguments& arguments)
 {
     const CheckRules rules = rules_of(arguments);
     const std::optional<Baseline> baseline = baseline_of(arguments);
+    if (baseline) analysis::require_baseline(rules, baseline->table, baseline->file);
     require_scenes(rules, arguments.require_all);
 
     CsvTable measured = analysis::baseline_columns(rules);
-    SceneCheck scenes(rules, baseline, measured);
+    SceneCheck scenes(arguments, rules, baseline, measured);
     CheckResult result;
     for (const CheckScene& check : rules.scenes)
-        result.suites.push_back(is_left_out(check) ? suite_left_out(check, rules)
-                                                   : scenes.suite(check, (fs::path(arguments.folder) / check.name).string(),
-                                                                  arguments.threads, result.breakdowns));
+        result.suites.push_back(is_left_out(check) ? suite_left_out(check, rules) : scenes.suite(check, result.breakdowns));
+    if (baseline)
+        for (const CheckCase& gone : scenes_gone(rules, baseline->table, baseline->file))
+            result.suites.push_back({gone.suite, 0.0, {}, {gone}});
     if (!arguments.write_baseline.empty()) measured.write(arguments.write_baseline);
     write_record(arguments.folder, result.suites, arguments.threads);
     return result;

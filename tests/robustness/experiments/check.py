@@ -7,6 +7,7 @@ import re
 import unittest
 import xml.etree.ElementTree as ElementTree
 
+import check_records
 import foreign_arm
 import program
 
@@ -22,6 +23,7 @@ metric = "volume_change_pct"
 low = %s
 why = "a test"
 """
+VOLUME = ("arm", 'volume, 100 % <of> & "rest"')
 
 
 class Check(program.ProgramTest):
@@ -41,8 +43,8 @@ class Check(program.ProgramTest):
         with open(self.path("out", "arm", "metrics.csv"), encoding="utf-8", newline="") as file:
             return [float(row["volume_change_pct"]) for row in csv.DictReader(file) if row["deformer"] == "lbs"]
 
-    def cases(self, path):
-        return {case.get("name"): case for case in ElementTree.parse(path).getroot().iter("testcase")}
+    def volume_case(self):
+        return check_records.cases(self.path("volume.xml"))[VOLUME]
 
     def altered_baseline(self, column, change):
         """The row of pbs in frame 3 with another value; the text of the file as it was."""
@@ -56,21 +58,27 @@ class Check(program.ProgramTest):
             writer.writeheader()
             writer.writerows(rows)
 
-    def test_own_bounds_hold_in_seconds(self):
-        process = program.run("check", "-o", self.path("own"), "--junit", self.path("own.xml"), env=self.environment)
-        self.assertIn(process.returncode, (0, 1), process.stderr)
-        failed = [case for case in self.cases(self.path("own.xml")).values() if case.find("failure") is not None]
-        bounds = [case.get("name") for case in failed if not case.get("name").startswith("baseline")]
-        self.assertEqual(bounds, [], process.stderr)  # another mesh of another CGAL is the baseline's to tell
+    def test_own_bounds_and_baseline_hold_whatever_lies_in_the_folder(self):
+        os.mkdir(self.path("experiments"))
+        self.write(os.path.join("experiments", "limb_twist"), "no scene")
+        process = program.run("check", "-o", "own", "--junit", "own.xml", "--require-all", env=self.environment, cwd=self.folder)
+        other_meshes = check_records.scenes_of_another_mesh(self.path("own"))  # another CGAL's: their baselines must tell
+        failed = check_records.failed(self.path("own.xml"))
+        self.assertEqual(failed, check_records.baselines_of(other_meshes, self.path("own.xml")), process.stderr)
+        self.assertEqual(process.returncode, 1 if failed else 0, process.stderr)
         with open(self.path("own", "check.json"), encoding="utf-8") as file:
-            record = json.load(file)
-        self.assertEqual(record["outcome"]["FAILS"], len(failed))
-        self.assertEqual(process.returncode, 1 if failed else 0)
+            self.assertEqual(json.load(file)["outcome"]["FAILS"], len(failed))
+        volume = check_records.cases(self.path("own.xml"))["human_01_01", "volume kept in the jump"].find("system-out").text
+        least, largest = map(float, re.search(r"volume_change_pct of pbs = (\S+) to (\S+) %", volume).groups())
+        with open(self.path("own", "human_01_01", "metrics.csv"), encoding="utf-8", newline="") as file:
+            change = [float(row["volume_change_pct"]) for row in csv.DictReader(file) if row["deformer"] == "pbs"]
+        self.assertAlmostEqual(least, min(change), places=4)
+        self.assertAlmostEqual(largest, max(change), places=4)
 
     def test_a_bound_that_holds(self):
         process = self.check("--junit", self.path("volume.xml"))
         self.assertEqual((process.returncode, process.stderr.count("pbskin:")), (0, 0), process.stderr)
-        case = self.cases(self.path("volume.xml"))['volume, 100 % <of> & "rest"']
+        case = self.volume_case()
         self.assertEqual((case.get("classname"), case.find("failure")), ("arm", None))
         root = ElementTree.parse(self.path("volume.xml")).getroot()
         self.assertEqual([root.get(key) for key in ("tests", "failures", "errors", "skipped")], ["2", "0", "0", "0"])
@@ -84,7 +92,7 @@ class Check(program.ProgramTest):
         self.write("check.toml", BOUNDS % (change[worst] + 1e-3))
         process = self.check("--junit", self.path("volume.xml"), "--github", GITHUB_STEP_SUMMARY=self.path("summary.md"))
         self.assertEqual(process.returncode, 1, process.stderr)
-        failure = self.cases(self.path("volume.xml"))['volume, 100 % <of> & "rest"'].find("failure").get("message")
+        failure = self.volume_case().find("failure").get("message")
         found = re.match(r"frame (\d+): volume_change_pct of lbs = (\S+) %, expected at least", failure)
         self.assertEqual(int(found[1]), worst)
         self.assertAlmostEqual(float(found[2]), change[worst], places=3)
@@ -120,7 +128,7 @@ class Check(program.ProgramTest):
             self.altered_baseline(column, change)
             process = self.check("--baseline", self.baseline, "--junit", self.path("volume.xml"))
             self.assertEqual(process.returncode, 1, column)
-            failure = self.cases(self.path("volume.xml"))["baseline of pbs"].find("failure").get("message")
+            failure = check_records.cases(self.path("volume.xml"))["arm", "baseline of pbs"].find("failure").get("message")
             self.assertRegex(failure, r"^frame 3: %s was .*, is " % column)
             self.write("baseline.csv", kept)
         self.altered_baseline("volume_change_pct", lambda v: v + 5e-5)  # half its tolerance
@@ -129,6 +137,24 @@ class Check(program.ProgramTest):
         process = self.check("--baseline", self.baseline)
         self.assertEqual(process.returncode, 0, process.stderr)
         self.assertRegex(process.stdout, r"wall time of pbs +\S+ ms a step, \S+ of the baseline's")
+
+    def test_a_scene_of_the_baseline_that_is_gone_fails(self):
+        self.check("--write-baseline", self.baseline)
+        row = self.read("baseline.csv").splitlines()[-1]
+        self.write("baseline.csv", self.read("baseline.csv") + row.replace("arm,", "leg,", 1) + "\n")
+        process = self.check("--baseline", self.baseline, "--junit", self.path("volume.xml"))
+        self.assertEqual(process.returncode, 1, process.stderr)
+        self.assertEqual(check_records.failed(self.path("volume.xml")), {("leg", "baseline")})
+
+    def test_a_report_that_cannot_be_written_is_refused_before_the_work(self):
+        for arguments, environment in ((("--junit", self.path("none", "x.xml")), {}),
+                                       (("--write-baseline", self.path("none", "x.csv")), {}),
+                                       (("--github",), {"GITHUB_STEP_SUMMARY": self.path("none", "summary.md")})):
+            process = self.check(*arguments, **environment)
+            self.assertEqual(process.returncode, 2, arguments)
+            self.assertIn("cannot be written", process.stderr)
+            self.assertFalse(os.path.exists(self.path("out", "arm")), arguments)
+        self.assertEqual(self.check("--junit", self.path("out", "volume.xml")).returncode, 0)  # in the folder that the check makes
 
     def test_a_deformer_or_frame_that_is_gone_fails(self):
         self.check("--write-baseline", self.baseline)
@@ -140,25 +166,35 @@ class Check(program.ProgramTest):
         self.check("--write-baseline", self.baseline)
         kept, good = self.read("baseline.csv"), BOUNDS % "-60.0"
         for text, message in (("", "the file is empty"), ("a,b\n1,2\n", "missing: expected a file of `pbskin check --write-baseline`"),
-                              (kept[:-20], "cut off"), (kept.replace("arm,pbs,3,", "arm,pbs,three,"), "three")):
+                              (kept[:-20], "cut off"), (kept.replace("arm,pbs,3,", "arm,pbs,three,"), "three"),
+                              (kept + kept.splitlines()[1] + "\n", "expected each frame of a scene's deformer once: it is in line 2 too")):
             self.write("baseline.csv", text)
             process = self.check("--baseline", self.baseline)
             self.assertEqual(process.returncode, 2, process.stderr)
             self.assertRegex(process.stderr, r"pbskin: \S*baseline\.csv.*" + re.escape(message))
         self.assertEqual(self.check("--baseline", self.path("none.csv")).returncode, 2)
-        for old, new, message in (("volume_change_pct", "volume_chnage_pct", r":9: metric = volume_chnage_pct: unknown metric; the nearest"),
+        for old, new, message in (("volume_change_pct", "volume_chnage_pct", ":9: metric = volume_chnage_pct: unknown metric; the nearest"),
                                   ("volume_change_pct", "step_ms", ":9: metric = step_ms: wall time is tracked, never judged"),
                                   ("volume_change_pct", "error_l2_pct", ":5: metric = error_l2_pct: the scene does not measure it"),
                                   ('deformer = "lbs"', 'deformer = "xpbd"', ":5: deformer = xpbd: expected one that the scene uses"),
-                                  ('scene = "arm"\n', 'scene = "leg"\n', ":7: scene = leg: expected a scene of this file; the nearest known one is arm"),
+                                  ('scene = "arm"\n', 'scene = "leg"\n', 
+                                   ":7: scene = leg: expected a scene of this file; the nearest known one is arm"),
                                   ("low = -60.0", "", ":5: low: expected low, high or both"),
                                   ("low = -60.0", "low = 2.0\nhigh = 1.0", ":10: low = 2.0: expected low <= high"),
-                                  ("low = -60.0", "low = nan", ":10: low = nan: expected low <= high"),
+                                  ("low = -60.0", "low = nan", ":10: low = nan: expected a finite number"),
+                                  ("low = -60.0", "low = inf", ":10: low = inf: expected a finite number"),
+                                  ("low = -60.0", "high = inf", ":10: high = inf: expected a finite number"),
+                                  ("low = -60.0", "low = true", ":10: low = true: expected a number"),
+                                  ("low = -60.0", 'low = "-60"', ":10: low = -60: expected a number"),
                                   ("low = -60.0", "low = 0\nframes = [0, 99]", ":5: frames = \\[0, 99\\]: expected at most 4"),
-                                  ("low = -60.0", "low = 0\nframes = [3]", ":11: frames: expected \\[first, last\\]"),
-                                  ("why =", "because =", ":5: why: missing"), ("schema = 1", "schema = 2", ": schema: expected 1"),
+                                  ("low = -60.0", "low = 0\nframes = [3]", r":11: frames = \[3\]: expected \[first, last\]"),
+                                  ("low = -60.0", "low = 0\nframes = [0, 1.5]", r":11: frames = \[0, 1\.5\]: expected a whole number"),
+                                  ('name = "arm"', "name = \"arm\"\nset = ['motion.framez=6']",
+                                   "check.toml:2: scene = arm.toml: --set: motion.framez = 6: unknown key"),
+                                  ("why =", "because =", ":5: why: missing"),
+                                  ("schema = 1", "schema = 2", ":1: schema = 2: expected 1"), ("schema = 1", "", ": schema: missing"),
                                   ("[[check.bound]]", "[[check.bond]]", ":5: bond: unknown key"), ("[[check.scene]]", "[[", ":2"),
-                                  ('"arm.toml"', '"leg.toml"', "leg.toml: cannot be read")):
+                                  ('"arm.toml"', '"leg.toml"', "check.toml:2: scene = leg.toml: leg.toml: cannot be read")):
             self.write("check.toml", good.replace(old, new))
             process = self.check()
             self.assertEqual(process.returncode, 2, (new, process.stderr))
@@ -171,8 +207,8 @@ class Check(program.ProgramTest):
         self.assertEqual(process.returncode, 2, process.stderr)
         process = self.check("--junit", self.path("volume.xml"), "--github", **empty)
         self.assertEqual(process.returncode, 0, process.stderr)
-        skipped = [case.get("classname") for case in self.cases(self.path("volume.xml")).values() if case.find("skipped") is not None]
-        self.assertEqual(skipped, ["man_01_01"])
+        cases = check_records.cases(self.path("volume.xml"))
+        self.assertEqual([key for key, case in cases.items() if case.find("skipped") is not None], [("man_01_01", "runs")])
         self.assertIn("::warning file=", process.stdout)
 
     def test_breakdown_is_exit_3_and_an_error_in_junit(self):
@@ -180,7 +216,7 @@ class Check(program.ProgramTest):
         self.write("check.toml", (BOUNDS % "-60.0").replace('name = "arm"', 'name = "arm"\n' + change))
         process = self.check("--junit", self.path("volume.xml"))
         self.assertEqual(process.returncode, 3, process.stderr)
-        self.assertIn("not finite", self.cases(self.path("volume.xml"))["runs"].find("error").get("message"))
+        self.assertIn("not finite", check_records.cases(self.path("volume.xml"))["arm", "runs"].find("error").get("message"))
 
 
 if __name__ == "__main__":

@@ -59,7 +59,7 @@ TEST(Claims, WholeNumbersServeAsReals)
 TEST(Claims, BrokenFilesAreNamedWithTheirLine)
 {
     EXPECT_EQ(message_of(head + body), "accepted");
-    EXPECT_EQ(message_of(""), "claims.toml: schema: expected 1");
+    EXPECT_EQ(message_of(""), "claims.toml: schema: missing: expected schema = 1");
     EXPECT_EQ(message_of(std::string("\1\2", 2)).substr(0, 14), "claims.toml:1:");
     EXPECT_EQ(message_of("[" + std::string(100, '.') + "]\n").substr(0, 21), "claims.toml:1: key = ");
     EXPECT_EQ(message_of(head + body + "bound = 3\n"), "claims.toml:13: bound: unknown key of a claim");
@@ -107,7 +107,7 @@ TEST(Claims, AMeasuredClaimBoundsEachOfItsQuantities)
     EXPECT_EQ(message_of(measured + "bounds = [{ quantity = \"beauty\" }]\n"),
               "claims.toml:10: bounds: beauty: expected one of this claim's metrics");
     EXPECT_EQ(message_of(measured + "bounds = [{ low = 1.0 }]\n"), "claims.toml:10: quantity: missing in this claim");
-    EXPECT_EQ(message_of(measured + "bounds = [3]\n"), "claims.toml:10: bounds: expected { quantity, low, high }");
+    EXPECT_EQ(message_of(measured + "bounds = [3]\n"), "claims.toml:10: bounds = [3]: expected { quantity, low, high }");
     EXPECT_EQ(message_of(measured + "bounds = 3\n"), "claims.toml:10: bounds = 3: expected a list");
 }
 

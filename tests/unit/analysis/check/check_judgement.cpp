@@ -65,6 +65,14 @@ TEST(CheckJudgement, TheBoundItselfHoldsAndNotANumberDoesNot)
     EXPECT_EQ(judged(within(-0.5, 0.5, {2, 2}), "9").state, CheckState::held);
 }
 
+TEST(CheckJudgement, OfABoundOnBothSidesThatHoldsTheExtremesAreNamed)
+{
+    const CheckCase check = judged(within(-3.5, 0.5), "-2");
+    EXPECT_EQ(check.state, CheckState::held);
+    EXPECT_EQ(check.message, "frames 1 and 2: loss of pbs = -2 to 0.1 %, expected -3.5 to 0.5 %");
+    EXPECT_EQ(judged(within(-3.5, 0.5, {1, 1}), "-2").message, "frame 1: loss of pbs = -2 %, expected -3.5 to 0.5 %");
+}
+
 TEST(CheckJudgement, WhatTheSceneHasNotIsRefused)
 {
     CheckBound bound = within(0, 1);
@@ -83,5 +91,30 @@ TEST(CheckBaseline, WithinTheToleranceHolds)
 
 TEST(CheckBaseline, CountsMustBeTheSame)
 {
-    EXPECT_EQ(compared(metrics("0.2"), baseline_of(metrics("0.2"), 21)).message, "frame 0: tets was 21, is 20, tolerance 0 (3 of 3 frames differ)");
+    EXPECT_EQ(compared(metrics("0.2"), baseline_of(metrics("0.2"), 21)).message,
+              "frame 0: tets was 21, is 20, tolerance 0 (3 of 3 frames differ)");
+}
+
+TEST(CheckBaseline, ASceneThatTheRulesNoLongerHaveFails)
+{
+    const CheckRules known = {"check.toml", {{"s", "s", {}, "", 0}}, {}, {}};
+    EXPECT_TRUE(scenes_gone(known, baseline_of(metrics("0.2")), "baseline.csv").empty());
+    const std::vector<CheckCase> gone = scenes_gone(rules(), baseline_of(metrics("0.2")), "baseline.csv");
+    ASSERT_EQ(gone.size(), 1u);
+    EXPECT_EQ(gone[0].suite, "s");
+    EXPECT_EQ(gone[0].state, CheckState::failed);
+    EXPECT_EQ(gone[0].line, 2);
+}
+
+TEST(CheckBaseline, AFrameTwiceIsRefusedWithItsLine)
+{
+    analysis::CsvTable table = baseline_of(metrics("0.2"));
+    require_baseline(rules(), table, "baseline.csv");
+    const std::string text = table.text(), last = text.substr(text.rfind('\n', text.size() - 2) + 1);
+    try {
+        require_baseline(rules(), analysis::parse_csv(text + last, "baseline.csv"), "baseline.csv");
+        FAIL();
+    } catch (const pbs::InputError& error) {
+        EXPECT_STREQ(error.what(), "baseline.csv:6: frame = 0: expected each frame of a scene's deformer once: it is in line 5 too");
+    }
 }
