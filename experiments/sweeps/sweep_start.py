@@ -109,6 +109,14 @@ def until_ended(words, lock):
     return INTERRUPTED if caught else status
 
 
+def cancel_jobs(folder):
+    """Slurm jobs of this folder that are left in the queue: snakemake cancels those that it knows of, less those it is just asking about."""
+    queued = subprocess.run(["squeue", "--me", "-h", "-o", "%i %Z"], capture_output=True, text=True).stdout.splitlines()
+    jobs = [job for job, place in (line.split(" ", 1) for line in queued) if pathlib.Path(place) == folder.resolve()]
+    if jobs:
+        subprocess.run(["scancel", *jobs], capture_output=True)
+
+
 def run(sweep, options, more):
     """0 finished, 1 failed, 2 where a run was refused, whose message is shown again, 130 interrupted."""
     ready(options)
@@ -122,6 +130,8 @@ def run(sweep, options, more):
               "kept; remove them, or give another -o, to run them again", file=sys.stderr)
     status = until_ended(command(options, more), lock)
     if status == INTERRUPTED:
+        if options.slurm and shutil.which("squeue"):
+            cancel_jobs(options.output)
         print("sweep: interrupted; what is finished is kept, and the same command goes on", file=sys.stderr)
         return status
     failed = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in sorted(options.output.glob("failed/*.json"))}

@@ -33,6 +33,15 @@ deformers.use = ["pbs"]
 [grid]
 pbs.k_volume = [0.5, 1.4]
 """
+LONG = """schema = 1
+scene = "limb_bend"
+[set]
+reference.name = ""
+deformers.use = ["pbs"]
+output.frames_every = 0
+[grid]
+motion.frames = [1000000, 1000001]
+"""  # hours
 BREAKING = """schema = 1
 scene = "limb_bend"
 [set]
@@ -101,6 +110,15 @@ class Sweeps(program.ProgramTest):
         self.sweep(example, "human_slurm", "--slurm")
         self.assert_same_tables("human_here", "human_slurm", rows=12 * 2)
         self.assertEqual({path: path.stat().st_ino for path in first}, first)
+
+    def test_told_to_end_its_jobs_leave_the_queue(self):
+        process = subprocess.Popen(self.command(self.write("long.toml", LONG), "ended", "--slurm"), text=True,
+                                   env=self.cluster.environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        slurm_cluster.wait_for("a job that runs", lambda: self.cluster.told("squeue", "-h", "-t", "R").strip(), 120)
+        process.terminate()
+        told = process.communicate(timeout=120)[1]
+        self.assertEqual(process.returncode, 130, told)
+        slurm_cluster.wait_for("an empty queue", lambda: not self.cluster.told("squeue", "-h").strip(), 60)
 
     def test_bad_input_stops_the_sweep_and_is_told_from_the_job(self):
         process = self.sweep(self.write("bad.toml", BAD), "bad", "--slurm", status=2)
