@@ -110,7 +110,8 @@ def until_ended(words, lock):
 
 
 def cancel_jobs(folder):
-    """Slurm jobs of this folder that are left in the queue: snakemake cancels those that it knows of, less those it is just asking about."""
+    """Slurm jobs of this folder that are left in the queue: snakemake cancels those that it knows of, but not those that it just asks
+    about."""
     queued = subprocess.run(["squeue", "--me", "-h", "-o", "%i %Z"], capture_output=True, text=True).stdout.splitlines()
     jobs = [job for job, place in (line.split(" ", 1) for line in queued) if pathlib.Path(place) == folder.resolve()]
     if jobs:
