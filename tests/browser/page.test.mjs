@@ -3,7 +3,8 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { open_viewer, settle } from "./browser.mjs";
-import { claims, drawn_figures, file, pictures, table_of } from "./records.mjs";
+import { claims, file, pictures, rows_of, undrawn } from "./records.mjs";
+import { stand_in } from "./standing.mjs";
 
 const said = { "reproduced": "hold", "reproduced only for": "hold in part", "not reproduced": "do", "inconsistent in print": "contradict",
                "cannot be tested here": "cannot be tested", "not computable": "cannot be computed" };
@@ -42,38 +43,55 @@ test("every claim has its mark and its row, with the verdict on record", async (
     assert.equal(claims.length, 17);
 });
 
-test("every drawn figure is there, inline", async () => {
+test("every drawn figure is there, inline; of the others, and of no more, why not", async () => {
     const there = await page.locator("#figures figure").evaluateAll((all) => all.map((one) => one.id.replace("figure-", "")));
-    const refused = await page.locator("#figures .not-drawn").count() ? await page.locator("#figures .not-drawn").textContent() : "";
-    for (const name of drawn_figures()) {
-        assert.ok(there.includes(name) || refused.includes(name), name);
-        if (there.includes(name)) assert.equal(await page.locator(`#figure-${name} svg.plot`).count(), 1, name);
-    }
+    for (const name of there) assert.equal(await page.locator(`#figure-${name} svg.plot`).count(), 1, name);
+    const reasons = await page.locator("#figures .not-drawn li").allTextContents();
+    const refused = reasons.map((reason) => reason.match(/^figure (\w+): .{10}/)?.[1] ?? reason);
+    assert.deepEqual(refused.sort(), undrawn);
+    assert.deepEqual(there.filter((name) => undrawn.includes(name)), []);
     assert.ok(there.length >= 8, `${there.length} figures`);
 });
 
-// As it stands or in another unit: the CSV keeps the record's. A name of a place on an axis is one of the CSV's columns.
-function stands_in({ numbers, header }, said) {
-    const value = Number(said);
-    return header.includes(`_${said}_`) || [1, 1000, 0.001, 100, 0.01].some((unit) => numbers.some((number) =>
-        Math.abs(unit * number - value) <= 2e-5 * Math.abs(value) + 1e-15));
+// Lines of a plot: their points' numbers, names of places left out.
+function lines_of(values) {
+    const lines = new Map();
+    for (const value of values) {
+        const [, label, said] = value.match(/^(?:(.*): )?(.*)$/);
+        const numbers = said.split(", ").filter((part) => part.trim() !== "").map(Number).filter((number) => !Number.isNaN(number));
+        if (numbers.length) lines.set(label, [...(lines.get(label) ?? []), numbers]);
+    }
+    return lines;
 }
 
 test("the values under the pointer are the figure's CSV's", async () => {
     const plots = page.locator("svg.plot:has(.values circle)");
     assert.ok(await plots.count() >= 5, `${await plots.count()} plots with values`);
     for (let at = 0; at < await plots.count(); ++at) {
+        const plot = plots.nth(at), name = await plot.evaluate((one) => one.closest("figure").id.replace("figure-", ""));
+        const panels = await plot.locator(".values").evaluateAll((all) => all.map((panel) =>
+            [...panel.querySelectorAll("circle")].map((circle) => circle.dataset.value)));
+        const rows = rows_of(name), lines = panels.flatMap((values) => [...lines_of(values)]);
+        assert.ok(lines.length > 0, `${name}: no number to be checked`);
+        for (const [label, points] of lines) {
+            assert.ok(stand_in(rows, points), `${name}: "${label}" is not in its CSV: ${JSON.stringify(points.slice(0, 3))}`);
+            const wrong = points.map((numbers) => numbers.map((number) => 1.0137 * number + 0.0137));
+            assert.ok(!stand_in(rows, wrong), `${name}: "${label}" would be found in its CSV with any numbers`);
+        }
+    }
+});
+
+test("a value is shown under the pointer, with the names of its axes", async () => {
+    const plots = page.locator("svg.plot:has(.values circle)");
+    for (let at = 0; at < await plots.count(); ++at) {
         const plot = plots.nth(at), circles = plot.locator(".values circle"), count = await circles.count();
-        const name = await plot.evaluate((one) => one.closest("figure").id.replace("figure-", ""));
-        const table = table_of(name);
-        await plot.scrollIntoViewIfNeeded();
         for (const place of new Set([0, count >> 1, count - 1])) {
+            await circles.nth(place).scrollIntoViewIfNeeded();
+            await settle(page);  // scrolling hides what is shown
             await circles.nth(place).hover({ force: true });
-            assert.ok(await page.locator("#readout").isVisible(), `${name}: nothing shown`);
+            assert.ok(await page.locator("#readout").isVisible(), `plot ${at}: nothing shown`);
             const value = await page.locator(".values circle.shown").getAttribute("data-value");
-            assert.ok((await page.locator("#readout").textContent()).startsWith(`${value} (`), name);
-            const numbers = value.split(": ").at(-1).split(", ").filter((part) => part !== "" && !Number.isNaN(Number(part)));
-            for (const said of numbers) assert.ok(stands_in(table, said), `${name}: ${said} of "${value}" is not in its CSV`);
+            assert.ok((await page.locator("#readout").textContent()).startsWith(`${value} (`), `plot ${at}: ${value}`);
         }
     }
 });

@@ -6,14 +6,20 @@ export const file = process.env.PBS_REPORT_PAGE, pictures = process.env.PBS_VIEW
 export const results = path.dirname(file);
 export const claims = JSON.parse(fs.readFileSync(path.join(results, "claims.json"), "utf8")).claims;
 
-// A figure's CSV: its header and all its numbers.
-export function table_of(name) {
-    const text = fs.readFileSync(path.join(results, "figures", `${name}.csv`), "utf8");
-    const cells = text.split(/[\n,"]/).filter((cell) => cell.trim() !== "");
-    return { header: text.split("\n")[0], numbers: cells.map(Number).filter((value) => !Number.isNaN(value)) };
+export const undrawn = JSON.parse(fs.readFileSync(process.env.PBS_VIEWER_TRUTH)).undrawn;  // figures that are not there
+
+// A figure's CSV: of each row its cells, an array of [column, number] pairs; "1654 / 1716" is two numbers of one column.
+export function rows_of(name) {
+    const [header, ...rows] = cells_of(fs.readFileSync(path.join(results, "figures", `${name}.csv`), "utf8"));
+    return rows.map((row) => row.flatMap((cell, at) => numbers_in(cell).map((number) => [header[at], number])));
 }
 
-export function drawn_figures() {
-    const folder = path.join(results, "figures");
-    return fs.existsSync(folder) ? fs.readdirSync(folder).filter((name) => name.endsWith(".svg")).map((name) => name.slice(0, -4)) : [];
+function numbers_in(cell) {
+    return cell.split(" / ").filter((part) => part.trim() !== "").map(Number).filter((number) => !Number.isNaN(number));
+}
+
+// Lines of cells; a cell in quotes may hold commas.
+function cells_of(text) {
+    return text.trim().split("\n").map((line) => [...line.matchAll(/(?:^|,)(?:"((?:[^"]|"")*)"|([^,]*))/g)]
+        .map(([, quoted, plain]) => (quoted ?? plain).replaceAll('""', '"')));
 }

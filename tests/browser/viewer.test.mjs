@@ -38,12 +38,26 @@ function drawn_positions() {
     return page.evaluate(() => [...window.viewer.drawn_positions(0)]);
 }
 
-async function show_sample({ run, frame, label }, colour = "skin") {
-    await page.evaluate((hash) => { location.hash = hash; }, `run=${run}&frame=${frame}&colour=${colour}&panels=${label}`);
-    await page.waitForFunction((wanted) => window.viewer.state.now.run === wanted.run
-        && window.viewer.state.now.panels[0] === wanted.label && window.viewer.state.now.colour === wanted.colour
-        && window.viewer.viewer.run.frames[window.viewer.state.now.at] === wanted.frame, { run, frame, label, colour });
+async function show_sample({ run, frame, label }, colour = "skin", { rendered = false, cut = null } = {}) {
+    const also = (rendered ? "&surface=rendered" : "") + (cut ? `&cut=${cut},0.01,below` : "");
+    await page.evaluate((hash) => { location.hash = hash; }, `run=${run}&frame=${frame}&colour=${colour}&panels=${label}${also}`);
+    await page.waitForFunction((wanted) => {
+        const { viewer, state: { now } } = window.viewer;
+        return now.run === wanted.run && now.panels[0] === wanted.label && now.colour === wanted.colour
+            && viewer.run.frames[now.at] === wanted.frame && now.rendered === wanted.rendered && (now.cut?.axis ?? null) === wanted.cut;
+    }, { run, frame, label, colour, rendered, cut });
     await settle(page);
+}
+
+// Largest distance of a coordinate that is drawn to the record's [m], and how many there are.
+function apart(drawn, recorded) {
+    const known = drawn.map((value, i) => Math.abs(value - recorded[i])).filter((value) => !Number.isNaN(value));
+    return { count: known.length, largest_m: Math.max(...known) };
+}
+
+// What single precision may take, relative to 2 ** -24 of the largest coordinate [m].
+function roundings(recorded, many) {
+    return many * Math.max(...recorded.map(Math.abs)) * 2 ** -24;
 }
 
 test("the page opens from disk, alone and without a word on the console", () => assert.deepEqual(opened.problems, []));
@@ -63,10 +77,10 @@ for (const sample of truth.samples) {
     test(`drawn vertices are the record's: ${name}`, async () => {
         await show_sample(sample);
         const drawn = await drawn_positions(), step_m = await page.evaluate(() => window.viewer.viewer.run.step_m);
-        const apart = drawn.map((value, i) => Math.abs(value - sample.positions_m[i])).filter((value) => !Number.isNaN(value));
-        assert.ok(apart.length > sample.positions_m.length / 3, `${apart.length} coordinates drawn`);
-        const rounding = Math.max(...sample.positions_m.map(Math.abs)) * 2 ** -23;  // single precision on the way to the card
-        assert.ok(Math.max(...apart) <= step_m / 2 + rounding, `${Math.max(...apart)} m apart, half a step is ${step_m / 2} m`);
+        const { count, largest_m } = apart(drawn, sample.positions_m);
+        assert.ok(count > sample.positions_m.length / 3, `${count} coordinates drawn`);
+        const most_m = step_m / 2 + roundings(sample.positions_m, 2);  // the record's own, and that on the way to the card
+        assert.ok(largest_m <= most_m, `${largest_m} m apart, half a step is ${step_m / 2} m`);
     });
     test(`numbers under the panel are the record's: ${name}`, async () => {
         await show_sample(sample);
@@ -81,6 +95,73 @@ for (const sample of truth.samples) {
         assert.equal(behind / 4, Number(sample.figures.inverted_tets));
     });
 }
+
+function rendered_button() {
+    return page.locator("#frame-viewer button", { hasText: "rendered skin" });
+}
+
+function legend_words() {
+    return page.locator("#frame-viewer .vw-caption").textContent();
+}
+
+// The same bound as in surface.js: half a step of each corner by the sizes of its shares. Rounded are the record, the shares, the corners,
+// four products and four sums.
+for (const sample of truth.skins) {
+    const name = `${sample.run}, ${sample.label}, frame ${sample.frame}`;
+    test(`points of the rendered surface are the record's: ${name}`, async () => {
+        await show_sample(sample, "skin", { rendered: true });
+        const { step_m, surface } = await page.evaluate(() => {
+            const { step_m, surface: { points, largest_sum } } = window.viewer.viewer.run;
+            return { step_m, surface: { points, largest_sum } };
+        });
+        const drawn = await drawn_positions(), { count, largest_m } = apart(drawn, sample.skin_m);
+        assert.deepEqual([drawn.length, count], [sample.skin_m.length, 3 * surface.points]);
+        const most_m = surface.largest_sum * (step_m / 2 + roundings(sample.positions_m, 12));
+        assert.ok(largest_m <= most_m, `${largest_m} m apart, expected within ${most_m} m`);
+        assert.match(await legend_words(), /^the rendered surface, carried by the tets/);
+        if (pictures) await page.locator("#frame-viewer").screenshot({ path: `${pictures}/viewer_${sample.run}_${sample.label}.png` });
+    });
+    test(`a cut shows the tets in place of the rendered surface: ${name}`, async () => {
+        await show_sample(sample, "error", { rendered: true, cut: "z" });
+        const drawn = await drawn_positions(), step_m = await page.evaluate(() => window.viewer.viewer.run.step_m);
+        assert.equal(drawn.length, sample.positions_m.length);
+        const { count, largest_m } = apart(drawn, sample.positions_m);
+        assert.ok(count > 300 && count < drawn.length, `${count} coordinates drawn`);
+        assert.ok(largest_m <= step_m / 2 + roundings(sample.positions_m, 2), `${largest_m} m apart`);
+        assert.match(await legend_words(), /^distance of a vertex to FEM/);
+    });
+}
+
+test("k and the button show the rendered surface or the tets; legend and address follow", async () => {
+    await show_sample(truth.skins[0], "ratio", { rendered: true });
+    const button = rendered_button();
+    const told = async () => [await button.getAttribute("aria-pressed"), /surface=rendered/.test(page.url()),
+                              /carries the skin/.test(await legend_words())];
+    assert.deepEqual(await told(), ["true", true, true]);
+    await page.locator("#frame-viewer .vw-view").first().focus();
+    await page.keyboard.press("k");
+    await settle(page);
+    assert.deepEqual(await told(), ["false", false, false]);
+    await button.click();
+    await settle(page);
+    assert.deepEqual(await told(), ["true", true, true]);
+});
+
+test("the button is dead, looks dead and says why under a cut and on a body without a rendered surface", async () => {
+    const button = rendered_button();
+    const told = async () => [await button.isDisabled(), await button.getAttribute("aria-pressed"), await button.getAttribute("title"),
+                              await button.evaluate((one) => Number(getComputedStyle(one).opacity))];
+    const [skin] = truth.skins, [limb] = truth.samples.filter(({ run }) => run.startsWith("limb"));
+    await show_sample(skin, "skin", { rendered: true });
+    assert.deepEqual(await told(), [false, "true", "show the rendered surface in place of the tets' boundary", 1]);
+    await show_sample(skin, "skin", { rendered: true, cut: "z" });
+    assert.deepEqual(await told(), [true, "false", "no rendered surface while the tets are cut", 0.45]);
+    await page.locator("#frame-viewer .vw-view").first().focus();
+    await page.keyboard.press("k");
+    assert.equal(await page.evaluate(() => window.viewer.state.now.rendered), true);
+    await show_sample(limb, "skin", { rendered: true });
+    assert.deepEqual(await told(), [true, "false", "this body has no rendered surface but its tets' boundary", 0.45]);
+});
 
 test("the legend's numbers are the record's", async () => {
     for (const [run, largest_m] of Object.entries(truth.largest_error_m)) {
@@ -103,7 +184,7 @@ test("the slider moves the vertices, the clock and the address", async () => {
     const moved_m = Math.max(...after_move.map((value, i) => Math.abs(value - before_move[i])).filter((value) => !Number.isNaN(value)));
     assert.ok(moved_m > 0.05, `${moved_m} m`);
     const last = await page.evaluate(() => window.viewer.viewer.run.frames.at(-1));
-    assert.match(await page.locator("#frame-viewer .vw-time").textContent(), new RegExp(`^frame ${last} of ${last},`));
+    assert.match(await page.locator("#frame-viewer .vw-time").textContent(), new RegExp(`^frame ${last} \\(last\\),`));
     assert.match(await page.evaluate(() => location.hash), new RegExp(`frame=${last}&`));
 });
 

@@ -177,7 +177,7 @@ function note_of(run, every, at) {
     const kept = every === 1 ? "every recorded frame" : `one of ${every} recorded frames`;
     const step_um = (1e6 * run.step_m).toFixed(1);
     return `${mark}${run.vertices} vertices, ${run.tets} tets${carried_by(run)}; ${kept}. Positions are rounded to steps of ${step_um} `
-        + "\u00b5m: each coordinate of a vertex is within half of that of the record's; volume ratios to 1/127 up to 2; the numbers are "
+        + "\u00b5m: each coordinate of a vertex is within half a step of the record's; volume ratios to 1/127 up to 2; the numbers are "
         + "the records' own. A cut goes through the body at rest, so that every panel and frame shows the same tets. "
         + run.rights;
 }

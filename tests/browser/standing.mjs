@@ -1,0 +1,40 @@
+// Whether a line's points stand in its figure's CSV: each point's numbers in one row, each axis in one column and one unit. A number on
+// an axis may also be part of the name of the column that the other one stands in ("change_24_pct").
+
+const units = [1, 1000, 0.001, 100, 0.01];  // the CSV keeps the record's
+const digits = 2e-5;  // values are said to six
+
+function same(number, said) {
+    return Math.abs(number - said) <= digits * Math.abs(said) + 1e-15;
+}
+
+// Of each point the rows where it stands, for every column and unit that has all of them.
+function readings(rows, said) {
+    const columns = new Set(rows.flatMap((row) => row.map(([column]) => column)));
+    return [...columns].flatMap((column) => units.map((unit) => rows_with(rows, said, column, unit))).filter(Boolean);
+}
+
+function rows_with(rows, said, column, unit) {
+    const found = [];
+    for (const value of said) {
+        const standing = new Set(rows.filter((row) => row.some(([of, number]) => of === column && same(unit * number, value))));
+        if (standing.size === 0) return null;
+        found.push(standing);
+    }
+    return found;
+}
+
+// names: of each point the number that is part of the column's name, values: what stands there.
+function stand_under_names(rows, names, values) {
+    return units.some((unit) => values.every((value, at) => rows.some((row) => row.some(([column, number]) =>
+        column.includes(`_${names[at]}_`) && same(unit * number, value)))));
+}
+
+// rows: see records.mjs; points: of each the numbers said of it, as many for all.
+export function stand_in(rows, points) {
+    const axes = points[0].map((_, axis) => points.map((point) => point[axis]));
+    if (axes.length === 1) return readings(rows, axes[0]).length > 0;
+    const [across, up] = axes.map((said) => readings(rows, said));
+    return across.some((of_x) => up.some((of_y) => of_x.every((standing, at) => [...standing].some((row) => of_y[at].has(row)))))
+        || stand_under_names(rows, axes[0], axes[1]) || stand_under_names(rows, axes[1], axes[0]);
+}
