@@ -77,7 +77,8 @@ class Check(program.ProgramTest):
 
     def test_a_bound_that_holds(self):
         process = self.check("--junit", self.path("volume.xml"))
-        self.assertEqual((process.returncode, process.stderr.count("pbskin:")), (0, 0), process.stderr)
+        errors = process.stderr.count("pbskin:") - process.stderr.count("pbskin: warning:")  # the arm's tets are turned, which is told
+        self.assertEqual((process.returncode, errors), (0, 0), process.stderr)
         case = self.volume_case()
         self.assertEqual((case.get("classname"), case.find("failure")), ("arm", None))
         root = ElementTree.parse(self.path("volume.xml")).getroot()
@@ -177,7 +178,7 @@ class Check(program.ProgramTest):
                                   ("volume_change_pct", "step_ms", ":9: metric = step_ms: wall time is tracked, never judged"),
                                   ("volume_change_pct", "error_l2_pct", ":5: metric = error_l2_pct: the scene does not measure it"),
                                   ('deformer = "lbs"', 'deformer = "xpbd"', ":5: deformer = xpbd: expected one that the scene uses"),
-                                  ('scene = "arm"\n', 'scene = "leg"\n', 
+                                  ('scene = "arm"\n', 'scene = "leg"\n',
                                    ":7: scene = leg: expected a scene of this file; the nearest known one is arm"),
                                   ("low = -60.0", "", ":5: low: expected low, high or both"),
                                   ("low = -60.0", "low = 2.0\nhigh = 1.0", ":10: low = 2.0: expected low <= high"),
