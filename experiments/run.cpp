@@ -8,8 +8,8 @@
 #include "experiments/run_end.hpp"
 #include "experiments/run_folder.hpp"
 #include "experiments/warnings.hpp"
+#include "pbs/character/body_remarks.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_remarks.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <fmt/format.h>
@@ -88,18 +88,25 @@ pbs::CharacterSource needed_character(const Scene& scene)
     return source;
 }
 
+pbs::Character told_character(const Scene& scene)
+{
+    std::vector<std::string> remarks;
+    pbs::Character character = pbs::make_character(needed_character(scene), remarks);
+    warn(remarks);
+    return character;
+}
+
 class SceneRun {
 public:
     SceneRun(const Scene& scene, const std::string& folder)
         : scene_(scene),
-          character_(cost_.time("character", [&] { return pbs::make_character(needed_character(scene)); })),
+          character_(cost_.time("character", [&] { return told_character(scene); })),
           motion_(cost_.time("motion", [&] { return make_motion(scene.motion, character_.skeleton, scene.file); })),
           runners_(make_runners(scene, character_, cost_)),
           measurer_(
               cost_.time("ruler_set_up", [&] { return FrameMeasurer(character_, measured_output(scene), prescribed_by_any(runners_)); })),
           folder_((refuse_frames_beyond(motion_, scene), scene), character_, folder)
     {
-        if (const std::string& file = scene.character.mesh_file; !file.empty()) warn(pbs::remarks_on(file, {character_.mesh, 0}));
         if (scene.error_bar != ErrorBar::none)
             cost_.time("error_bar_set_up", [&] { error_bar_.emplace(scene.error_bar, runners_.front().spec, character_); });
     }

@@ -1,6 +1,7 @@
 #include "pbs/character/bodies.hpp"
 
 #include "pbs/character/body_cache.hpp"
+#include "pbs/character/body_remarks.hpp"
 #include "pbs/character/frankie.hpp"
 #include "pbs/character/human.hpp"
 #include "pbs/character/makehuman.hpp"
@@ -10,6 +11,7 @@
 #include "pbs/character/skeleton_from_clip.hpp"
 #include "pbs/character/weights_file.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/mesh_remarks.hpp"
 #include "pbs/geometry/meshing.hpp"
 
 #include <filesystem>
@@ -80,13 +82,15 @@ void require_bones_of_the_meshs_size(const Character& character, const std::stri
                      "expected 1/25 to 25: mesh and skeleton in different units (skeleton_scale)?");
 }
 
-Character make_from_files(const CharacterSource& source)
+Character make_from_files(const CharacterSource& source, std::vector<std::string>& remarks)
 {
     if (source.mesh_file.empty()) throw InputError("", 0, "character.mesh", "", "missing: expected a body, or a mesh and a skeleton");
     if (source.skeleton_file.empty()) throw InputError("", 0, "character.skeleton", "", "missing: a mesh from a file needs a skeleton");
     Character character;
     character.name = file_name(source.mesh_file);
-    character.mesh = read_tet_mesh(source.mesh_file).mesh;
+    MeshReading reading = read_tet_mesh(source.mesh_file);
+    remarks = remarks_on(source.mesh_file, reading);
+    character.mesh = std::move(reading.mesh);
     character.skeleton = read_skeleton_of(source);
     require_bones_at_the_mesh(character, source.skeleton_file);
     require_bones_of_the_meshs_size(character, source.skeleton_file);
@@ -95,10 +99,10 @@ Character make_from_files(const CharacterSource& source)
     return character;
 }
 
-Character make_body(const CharacterSource& source)
+Character make_body(const CharacterSource& source, std::vector<std::string>& remarks)
 {
     const auto wanted = [&](int otherwise) { return source.vertices > 0 ? source.vertices : otherwise; };
-    if (source.body.empty()) return make_from_files(source);
+    if (source.body.empty()) return make_from_files(source, remarks);
     if (source.body == "limb") return make_beam("limb", wanted(limb_vertices), mesh_limb);
     if (source.body == "bar") return make_beam("bar", wanted(bar_vertices), mesh_bar);
     if (source.body == "human") return make_human(source.vertices, source.surface);
@@ -136,8 +140,14 @@ bool body_is_installed(const std::string& body)
 
 Character make_character(const CharacterSource& source)
 {
+    std::vector<std::string> remarks;
+    return make_character(source, remarks);
+}
+
+Character make_character(const CharacterSource& source, std::vector<std::string>& remarks)
+{
     if (source.vertices < 0) throw InputError("", 0, "character.vertices", std::to_string(source.vertices), "expected 0 or more");
-    Character character = make_body(source);
+    Character character = make_body(source, remarks);
     character.inputs.emplace_back("tets", content_hash(character.mesh));
     character.binding = bind_to_nearest_bone(character.mesh.rest, character.skeleton);
     const Weights paper = paper_weights(character.binding, character.skeleton);

@@ -21,7 +21,7 @@ class Case:
     command: list
     says: tuple
     status: int = 2
-    leaves: tuple = ()  # names that may be there afterwards
+    leaves: tuple = ()  # what names may begin with that are there afterwards
     as_nobody: bool = False  # where root runs the tests, whom no mode stops
 
 
@@ -80,7 +80,7 @@ def problems(case, common):
             found.append(f"took {used.ru_utime + used.ru_stime:.1f} s of processor time")
         if used.ru_maxrss * 1024 > MOST_BYTES:
             found.append(f"took {used.ru_maxrss >> 10} MB")
-        left = {name for name in listing(folder) - before if not name.startswith("cache") and name not in case.leaves}
+        left = {name for name in listing(folder) - before if not name.startswith(("cache", *case.leaves))}
         if left:
             found.append(f"left behind: {sorted(left)[:5]}")
         return [f"{case.name}: {problem}\n    {told.strip()[:300]}" for problem in found]

@@ -39,7 +39,7 @@ def dae(points="0 0 0 1 0 0 0 1 0 0 0 1", faces="0 2 1 0 1 3 0 3 2 1 2 3", count
     axes = "".join(f'<param name="{axis}" type="float"/>' for axis in "XYZ")
     return ('<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">'
             '<asset><unit meter="1"/></asset>'
-            f'<library_geometries><geometry id="g" name="g"><mesh><source id="p">'
+            '<library_geometries><geometry id="g" name="g"><mesh><source id="p">'
             f'<float_array id="pa" count="{count}">{points}</float_array><technique_common>'
             f'<accessor source="#pa" count="{count // 3}" stride="3">{axes}</accessor></technique_common></source>'
             '<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>'
@@ -116,7 +116,7 @@ def scenes():
 def cases():
     for name, content, words in [*soups(), *scenes()]:
         file = "bad." + name.split(".")[1]
-        yield Case(f"surface {name}", {file: content}, ["mesh", file, "-o", "tets.vtu", "--vertices", "200"], (file + ": ", words))
+        yield Case(f"surface {name}", {file: content}, ["mesh", file, "-o", "tets.vtu", "--vertices", "200"], (file + ":", words))
     yield Case("surface of an unknown kind", {"bad.step": "ISO-10303-21;"}, ["mesh", "bad.step", "-o", "tets.vtu"],
                ("bad.step: extension = .step",))
     yield Case("surface into an unknown kind", {"good.off": off()}, ["mesh", "good.off", "-o", "tets.vtu", "--vertices", "3"],

@@ -7,11 +7,11 @@
 
 namespace {
 
-std::string times(int count, const std::string& text)
+std::string repeated(const std::string& before, int count, const std::string& text, const std::string& after)
 {
-    std::string all;
+    std::string all = before;
     for (int i = 0; i < count; ++i) all += text;
-    return all;
+    return all += after;
 }
 
 std::string message_of(const std::string& text)
@@ -26,21 +26,21 @@ std::string message_of(const std::string& text)
 
 TEST(TomlText, KeysOfManyPartsAreNamedWithTheirLine)
 {
-    const std::string told = "x.toml:2: key = ";
+    const std::string head = "# a key\n", told = "x.toml:2: key = ";
     for (const std::string part : {"a.", "\"a\".", "'a'.", "a . ", "\"a\\\".\"."})
         for (const std::string before : {"", "[", "[["}) {
-            const std::string text = "# a key\n" + before + times(64, part) + "a = 1\n";
+            const std::string text = repeated(head + before, 64, part, "a = 1\n");
             EXPECT_EQ(message_of(text).substr(0, told.size()), told) << text;
         }
-    EXPECT_EQ(message_of(times(63, "a.") + "a = 1\n"), "accepted");
+    EXPECT_EQ(message_of(repeated("", 63, "a.", "a = 1\n")), "accepted");
 }
 
 TEST(TomlText, DotsElsewhereAreNoParts)
 {
-    EXPECT_EQ(message_of("x = \"" + times(100, "a.") + "\"\n"), "accepted");
-    EXPECT_EQ(message_of("# " + times(100, "a.") + "\n"), "accepted");
-    EXPECT_EQ(message_of("x = [\n" + times(100, "0.5, ") + "\n]\n"), "accepted");
-    EXPECT_EQ(message_of("\"" + times(100, "a.") + "\" = 1\n"), "accepted");  // one part, whose name has dots
+    EXPECT_EQ(message_of(repeated("x = \"", 100, "a.", "\"\n")), "accepted");
+    EXPECT_EQ(message_of(repeated("# ", 100, "a.", "\n")), "accepted");
+    EXPECT_EQ(message_of(repeated("x = [\n", 100, "0.5, ", "\n]\n")), "accepted");
+    EXPECT_EQ(message_of(repeated("\"", 100, "a.", "\" = 1\n")), "accepted");  // one part, whose name has dots
 }
 
 TEST(TomlText, BareWordsAreAscii)
