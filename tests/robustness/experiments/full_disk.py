@@ -2,6 +2,7 @@
 room again the same command, or --resume, ends with the records of an undisturbed run. A limit on the size of a file (ulimit -f) stands for
 the disk at every file's own size; a small tmpfs is one, where it can be mounted. Truth: what an undisturbed run leaves."""
 import pathlib
+import re
 import resource
 import shutil
 import subprocess
@@ -26,7 +27,8 @@ class FullDisk(program.ProgramTest):
         """The file that could not be written, by what is said."""
         self.assertEqual(process.returncode, 2, process.stderr)
         self.assertRegex(process.stderr, FULL)
-        named = pathlib.Path(next(word for word in process.stderr.split() if str(folder) in word).rstrip(":"))
+        refusal = next(line for line in process.stderr.splitlines() if re.search(FULL, line))
+        named = pathlib.Path(next(word for word in refusal.split() if str(folder) in word).rstrip(":"))
         self.assertFalse(named.exists(), named)
         for path in run_records.files(folder):
             self.assertFalse(run_records.is_temporary(path), path)
