@@ -63,8 +63,8 @@ bool is_finished(const StudyRun& run, const std::string& folder)
     const auto [key, value] = identity(run);
     if (!json.is_object() || json.value(key, nlohmann::json()) != value) return false;
     const analysis::Provenance now = analysis::collect_provenance(1);
-    const auto then = json.value("provenance", nlohmann::json::object());
-    return then.value("git_revision", "") == now.git_revision && then.value("git_dirty", true) == now.git_dirty;
+    const nlohmann::json then = json.value("provenance", nlohmann::json()), none;
+    return then.is_object() && then.value("git_revision", none) == now.git_revision && then.value("git_dirty", none) == now.git_dirty;
 }
 
 std::string carry_out(const StudyRun& run, const std::string& folder)

@@ -41,6 +41,25 @@ TEST_F(StudyRunTest, WorkThatEndedIsFinishedUnderItsOwnSettings)
     EXPECT_FALSE(is_finished(counting_run(4, write_a_record), folder));
 }
 
+TEST_F(StudyRunTest, AnAlteredRecordIsNotFinished)
+{
+    const StudyRun run = counting_run(3, write_a_record);
+    carry_out(run, folder);
+    const fs::path record = fs::path(folder) / "run.json";
+    const nlohmann::json whole = nlohmann::json::parse(std::ifstream(record));
+    const auto finished_with = [&](const std::string& text) {
+        std::ofstream(record) << text;
+        return is_finished(run, folder);
+    };
+    for (const nlohmann::json& provenance : {nlohmann::json(3), nlohmann::json::array(), nlohmann::json{{"git_revision", 3}}}) {
+        nlohmann::json altered = whole;
+        altered["provenance"] = provenance;
+        EXPECT_FALSE(finished_with(altered.dump())) << provenance;
+    }
+    for (const char* text : {"", "[]", "{}", "{\"settings\": "}) EXPECT_FALSE(finished_with(text)) << text;
+    EXPECT_TRUE(finished_with(whole.dump()));
+}
+
 TEST_F(StudyRunTest, ABreakdownIsOnRecordAndTheRunEnded)
 {
     const StudyRun run = counting_run(3, [](const std::string&) { return std::string("step 7 diverged"); });
