@@ -8,10 +8,11 @@ export const claims = JSON.parse(fs.readFileSync(path.join(results, "claims.json
 
 export const undrawn = JSON.parse(fs.readFileSync(process.env.PBS_VIEWER_TRUTH)).undrawn;  // figures that are not there
 
-// A figure's CSV: of each row its cells, an array of [column, number] pairs; "1654 / 1716" is two numbers of one column.
+// A figure's CSV: of each row its numbers, an array of [column, number] pairs, and its texts; "1654 / 1716" is two numbers of one column.
 export function rows_of(name) {
     const [header, ...rows] = cells_of(fs.readFileSync(path.join(results, "figures", `${name}.csv`), "utf8"));
-    return rows.map((row) => row.flatMap((cell, at) => numbers_in(cell).map((number) => [header[at], number])));
+    const numbers_of = (row) => row.flatMap((cell, at) => numbers_in(cell).map((number) => [header[at], number]));
+    return rows.map((row) => ({ texts: new Set(row), numbers: numbers_of(row) }));
 }
 
 function numbers_in(cell) {

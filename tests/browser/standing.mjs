@@ -10,14 +10,14 @@ function same(number, said) {
 
 // Of each point the rows where it stands, for every column and unit that has all of them.
 function readings(rows, said) {
-    const columns = new Set(rows.flatMap((row) => row.map(([column]) => column)));
+    const columns = new Set(rows.flatMap(({ numbers }) => numbers.map(([column]) => column)));
     return [...columns].flatMap((column) => units.map((unit) => rows_with(rows, said, column, unit))).filter(Boolean);
 }
 
 function rows_with(rows, said, column, unit) {
     const found = [];
     for (const value of said) {
-        const standing = new Set(rows.filter((row) => row.some(([of, number]) => of === column && same(unit * number, value))));
+        const standing = new Set(rows.filter(({ numbers }) => numbers.some(([of, number]) => of === column && same(unit * number, value))));
         if (standing.size === 0) return null;
         found.push(standing);
     }
@@ -26,8 +26,15 @@ function rows_with(rows, said, column, unit) {
 
 // names: of each point the number that is part of the column's name, values: what stands there.
 function stand_under_names(rows, names, values) {
-    return units.some((unit) => values.every((value, at) => rows.some((row) => row.some(([column, number]) =>
+    return units.some((unit) => values.every((value, at) => rows.some(({ numbers }) => numbers.some(([column, number]) =>
         column.includes(`_${names[at]}_`) && same(unit * number, value)))));
+}
+
+// The rows that hold all of these words, of those that any row holds; all rows where none does.
+export function rows_about(rows, words) {
+    const known = words.filter((word) => rows.some(({ texts }) => texts.has(word)));
+    const about = rows.filter(({ texts }) => known.every((word) => texts.has(word)));
+    return about.length ? about : rows;
 }
 
 // rows: see records.mjs; points: of each the numbers said of it, as many for all.
