@@ -20,6 +20,7 @@ import unittest.mock
 import numpy
 
 import program
+import reliability
 import slurm_cluster
 
 SWEEPS = pathlib.Path(program.SOURCE, "experiments/sweeps")
@@ -56,6 +57,8 @@ motion.angle_deg = [20.0, 150.0]
 
 
 class Sweeps(program.ProgramTest):
+    compared = equal = 0
+
     @classmethod
     def setUpClass(cls):
         missing = slurm_cluster.missing() + [name for name in ("snakemake",) if not shutil.which(name)]
@@ -64,6 +67,10 @@ class Sweeps(program.ProgramTest):
         cls.cluster = slurm_cluster.SlurmCluster()
         cls.cluster.__enter__()
         cls.addClassCleanup(cls.cluster.stop)
+
+    @classmethod
+    def tearDownClass(cls):
+        reliability.tell("slurm_sweeps", "sweeps on Slurm equal to local ones, byte for byte", Sweeps.equal, Sweeps.compared)
 
     def command(self, sweep, name, *options):
         start = [sys.executable, "-B", str(SWEEPS / "sweep.py"), "run", str(sweep)]
@@ -78,10 +85,12 @@ class Sweeps(program.ProgramTest):
         return process
 
     def assert_same_tables(self, first, second, rows):
+        Sweeps.compared += 1
         self.assertEqual(self.read(first, "sweep.csv"), self.read(second, "sweep.csv"))
         self.assertEqual(self.read(first, "sweep.csv").count("\n"), 1 + rows)
         told = [json.loads(self.read(name, "sweep.json")) for name in (first, second)]
         self.assertEqual(told[0]["exit_statuses"], told[1]["exit_statuses"])
+        Sweeps.equal += 1
 
     def jobs_of(self, name):
         return list(pathlib.Path(self.path(name), ".snakemake/slurm_logs").rglob("*.log"))
