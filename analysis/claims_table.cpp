@@ -74,8 +74,7 @@ std::string found_text(const Verdict& verdict)
     if (text.starts_with(label(verdict.kind))) text.erase(0, label(verdict.kind).size());
     text.erase(0, std::min(text.find_first_not_of(": "), text.size()));
     for (const char* part : {"; not for ", "; farthest: ", "; beside it: "})
-        if (const std::size_t place = text.find(part); place != std::string::npos)
-            text = text.substr(0, place) + '\n' + text.substr(place + 2);
+        if (const std::size_t place = text.find(part); place != std::string::npos) text.replace(place, 2, "\n");
     return verdict.measured.empty() ? text : verdict.measured + "\n" + text;
 }
 

@@ -20,11 +20,13 @@ Eigen::VectorXd edge_lengths(const pbs::Positions& positions, const pbs::Edges& 
 
 }  // namespace
 
-Ruler::Ruler(const pbs::Positions& rest, const pbs::Tets& tets) : tets_(tets), vertices_(rest.rows())
+Ruler::Ruler(const pbs::Positions& rest, const pbs::Tets& tets)
+    : tets_(tets),
+      rest_volumes_(checked_rest_volumes(rest, tets)),
+      edges_(pbs::edges_of(tets)),
+      rest_lengths_(edge_lengths(rest, edges_)),
+      vertices_(rest.rows())
 {
-    rest_volumes_ = checked_rest_volumes(rest, tets);
-    edges_ = pbs::edges_of(tets);
-    rest_lengths_ = edge_lengths(rest, edges_);
     CompensatedSum total;
     for (double volume : rest_volumes_) total += volume;
     rest_volume_ = total.value();

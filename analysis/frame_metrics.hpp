@@ -28,8 +28,9 @@ private:
     double stretch_rms(const pbs::Positions& positions) const;
 
     pbs::Tets tets_;
+    Eigen::VectorXd rest_volumes_;
     pbs::Edges edges_;
-    Eigen::VectorXd rest_volumes_, rest_lengths_;
+    Eigen::VectorXd rest_lengths_;
     double rest_volume_ = 0.0;
     Eigen::Index vertices_ = 0;
 };

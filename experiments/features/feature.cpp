@@ -52,6 +52,12 @@ std::vector<Feature> features_of_the_solver()
     };
 }
 
+Feature with_surface(Feature feature)
+{
+    feature.needs_surface = true;
+    return feature;
+}
+
 std::vector<Feature> features_of_the_scene()
 {
     const std::vector<std::string> blend = {R"(deformers.use=["lbs","pbs"])"};
@@ -62,7 +68,7 @@ std::vector<Feature> features_of_the_scene()
         added("DQS beside", {R"(deformers.use=["dqs","pbs"])"}),
         on_top_of("errors against LBS", blend, {R"(reference.name="lbs")", R"(output.metrics=["errors"])"}),
         added("smallest cross-sections", {R"(output.metrics=["sections"])"}),
-        added("volume of the rendered surface", {R"(output.metrics=["surface"])"}),
+        with_surface(added("volume of the rendered surface", {R"(output.metrics=["surface"])"})),
         added("every frame written", {"output.frames_every=1"}),
         added("linear reference, order 1",
               {R"(deformers.use=["pbs","fem_p1"])", R"(reference.name="fem_p1")", R"(output.metrics=["errors"])"}),
@@ -70,7 +76,6 @@ std::vector<Feature> features_of_the_scene()
         on_top_of("error bar of the reference (orders)", order_2, {R"(reference.error_bar="orders")"}),
         {.name = "progress bar on a terminal", .without = {}, .with = {.overrides = {}, .progress = true}},
     };
-    features[4].needs_surface = true;
     return features;
 }
 

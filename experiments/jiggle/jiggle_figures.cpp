@@ -143,7 +143,8 @@ std::vector<Measurement> jiggle_figures(const std::string& body, const std::vect
     add_correlation(figures, body, by_k_stretch(measured));
     add_range(figures, body, by_k_stretch(measured));
     add_half_step(figures, body, measured);
-    for (const auto& [from, ratio] : ratios(measured, [](JiggleSetting& setting) { setting.iterations *= 2; }))
+    const std::vector<FrequencyRatio> doublings = ratios(measured, [](JiggleSetting& setting) { setting.iterations *= 2; });
+    for (const auto& [from, ratio] : doublings)
         figures.push_back(figure("frequency at twice the iterations over at the once", body + ", from " + text_of(from), ratio, "1"));
     return figures;
 }

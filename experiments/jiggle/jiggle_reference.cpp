@@ -15,8 +15,8 @@ JoltResponse at_frequency(const pbs::Character& character, const DeformerSpec& f
 
 }  // namespace
 
-std::optional<JiggleReference> match_reference(const pbs::Character& character, DeformerSpec fem, const std::vector<int>& probe, Jolt jolt,
-                                               double frequency_hz)
+std::optional<JiggleReference> match_reference(const pbs::Character& character, DeformerSpec fem, const std::vector<int>& probe,
+                                               const Jolt& jolt, double frequency_hz)
 {
     const JoltResponse first = at_frequency(character, fem, probe, jolt, frequency_hz);
     if (!first.finished || !first.swing.found()) return std::nullopt;

@@ -18,8 +18,8 @@ struct JiggleReference {
 };
 
 // fem: dynamic, of any Young's modulus to begin with. Nothing where the first modulus does not swing.
-std::optional<JiggleReference> match_reference(const pbs::Character& character, DeformerSpec fem, const std::vector<int>& probe, Jolt jolt,
-                                               double frequency_hz);
+std::optional<JiggleReference> match_reference(const pbs::Character& character, DeformerSpec fem, const std::vector<int>& probe,
+                                               const Jolt& jolt, double frequency_hz);
 
 // Stable neo-Hookean, linear elements, generalised alpha.
 DeformerSpec dynamic_reference(double young_pa);

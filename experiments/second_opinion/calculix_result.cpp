@@ -22,7 +22,7 @@ constexpr double last_digit = 5.01e-7;  // half a unit of the 7th digit over the
 std::optional<double> number(std::string text)
 {
     const std::size_t sign = text.find_first_of("+-", 1);
-    if (sign != std::string::npos && std::toupper(text[sign - 1]) != 'E') text = text.substr(0, sign) + "E" + text.substr(sign);
+    if (sign != std::string::npos && std::toupper(text[sign - 1]) != 'E') text.insert(sign, "E");
     double value = 0.0;
     const char* const begin = text.c_str() + (text.starts_with('+') ? 1 : 0);
     const char* const end = text.c_str() + text.size();

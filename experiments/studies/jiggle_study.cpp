@@ -42,8 +42,8 @@ void plan_limb(bool full, StudyPlan& plan)
     const Scene limb = read_scene("limb_twist", {});
     plan.runs.push_back(jolt_run("limb_jolt", {limb, along_the_bones, jiggle_settings()}, 2.5));
     const Scene small = read_scene("limb_twist", {"character.vertices=400"});
-    const std::vector<JiggleSetting> beside =
-        full ? std::vector<JiggleSetting>{{.k_stretch = 0.05}, {}, {.k_stretch = 0.2}, {.iterations = 6}} : std::vector<JiggleSetting>{{}};
+    std::vector<JiggleSetting> beside = {JiggleSetting{}};
+    if (full) beside = {{.k_stretch = 0.05}, {}, {.k_stretch = 0.2}, {.iterations = 6}};
     plan.runs.push_back(jolt_run("limb_reference", {small, along_the_bones, beside, true}, full ? 10.0 : 4.0));
 }
 

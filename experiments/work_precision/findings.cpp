@@ -97,7 +97,7 @@ std::string is_physics_worth_it(const Diagram& diagram, double budget_ms, const 
     std::string text =
         fmt::format("within the {} of {}: delta mush {}, PBS {}, XPBD {}", ms_text(budget_ms), whose, told(mush), told(pbs), told(xpbd));
     if (!mush || (!pbs && !xpbd)) return text;
-    const DiagramPoint& physics = !xpbd || (pbs && pbs->error_pct <= xpbd->error_pct) ? *pbs : *xpbd;
+    const DiagramPoint& physics = pbs && (!xpbd || pbs->error_pct <= xpbd->error_pct) ? *pbs : *xpbd;
     const double gain_pct = 100.0 * (1.0 - physics.error_pct / mush->error_pct);
     text += fmt::format("; the physics {} {:.0f} % {} the error of geometry alone", gain_pct > 0.0 ? "takes" : "adds", std::abs(gain_pct),
                         gain_pct > 0.0 ? "off" : "to");

@@ -4,6 +4,7 @@
 
 #include "pbs/geometry/input_error.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -46,7 +47,7 @@ private:
     {
         if (!std::getline(file_, text_)) fail(field, "", "truncated: the file ends here");
         ++line_;
-        text_ = text_.substr(0, text_.find('#'));
+        text_.erase(std::min(text_.find('#'), text_.size()));
         numbers_.clear();
         const char* at = text_.c_str();
         for (char* end = nullptr;; at = end) {

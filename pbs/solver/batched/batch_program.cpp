@@ -74,7 +74,7 @@ void BatchProgram<Scalar>::append(const std::vector<ConstraintGroup>& groups, co
     lanes_ += batches.size() * batch_size;
     auto* to = lines_.data() + runs_[slab].back().first_line;
     for (const std::vector<int>& members : batches) {
-        auto& batch = *new (to) Batch<Scalar, kind>{};
+        auto& batch = *new (to) Batch<Scalar, kind>();
         for (int lane = 0; lane < batch_size; ++lane) {
             const ConstraintGroup* group = lane < static_cast<int>(members.size()) ? &groups[members[lane]] : nullptr;
             for (int v = 0; v < Shape::vertices; ++v)

@@ -68,20 +68,20 @@ template <typename Scalar>
 template <typename F>
 void BatchProgram<Scalar>::for_each_constraint(F&& f) const
 {
-    const auto of_run = [&]<GroupKind kind>(const Batch<Scalar, kind>* all, int count) {
-        for (int b = 0; b < count; ++b)
-            for (int c = 0; c < GroupShape<kind>::constraints; ++c)
+    const auto of_run = [&](auto kind, const BatchRun& run) {
+        const auto* all = static_cast<const Batch<Scalar, kind()>*>(batches(run));
+        for (int b = 0; b < run.count; ++b)
+            for (int c = 0; c < GroupShape<kind()>::constraints; ++c)
                 for (int lane = 0; lane < batch_size; ++lane) {
                     if (all[b].stiffness[c][lane] == Scalar(0)) continue;
-                    auto vertex = GroupShape<kind>::joins[c];
+                    auto vertex = GroupShape<kind()>::joins[c];
                     for (int& v : vertex) v = static_cast<int>(all[b].offset[v][lane] / 4);
                     f(vertex, all[b].rest[c][lane], all[b].stiffness[c][lane]);
                 }
     };
     for (const int parity : {0, 1})
         for (int slab = parity; slab < slabs(); slab += 2)
-            for (const BatchRun& run : runs_[slab])
-                with_kind(run.kind, [&](auto kind) { of_run(static_cast<const Batch<Scalar, kind()>*>(batches(run)), run.count); });
+            for (const BatchRun& run : runs_[slab]) with_kind(run.kind, [&](auto kind) { of_run(kind, run); });
 }
 
 }  // namespace pbs

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace pbs {
 
@@ -20,7 +21,7 @@ std::vector<std::vector<int>> BatchScheduler::schedule(const std::vector<Constra
         const int now = static_cast<int>(batches.size());
         const bool last_quarter = 4 * left.size() < groups.size();
         if (last_quarter && now % batches_a_ranking == 0) rank_by_use(groups, left);
-        std::vector<int>& batch = batches.emplace_back();
+        std::vector<int> batch;
         for (int since = now - 2; since < now && batch.empty(); ++since)
             std::erase_if(left, [&](int g) {
                 if (static_cast<int>(batch.size()) == batch_size || touched_since(groups[g], since)) return false;
@@ -28,6 +29,7 @@ std::vector<std::vector<int>> BatchScheduler::schedule(const std::vector<Constra
                 batch.push_back(g);
                 return true;
             });
+        batches.push_back(std::move(batch));
     }
     for (const ConstraintGroup& group : groups)
         for (int v = 0; v < vertices_of_group_; ++v) last_batch_[group.vertex[v]] = never;
