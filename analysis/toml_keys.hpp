@@ -71,7 +71,8 @@ private:
     {
         if (std::is_same_v<Value, bool>) return "expected true or false";
         if (std::is_same_v<Value, std::string>) return "expected a text";
-        return std::is_integral_v<Value> ? "expected a whole number" : "expected a number";
+        constexpr bool whole = std::is_integral_v<Value>;
+        return whole ? "expected a whole number" : "expected a number";
     }
     static int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 

@@ -61,7 +61,7 @@ public:
         refactor();
     }
 
-    void refactor() override
+    void refactor() final
     {
         usable_ = false;
         if (!factor_) return;

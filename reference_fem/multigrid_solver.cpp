@@ -159,7 +159,7 @@ public:
         refactor();
     }
 
-    void refactor() override
+    void refactor() final
     {
         usable_ = matrix_.rows() == 0;
         if (usable_) return;

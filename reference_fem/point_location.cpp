@@ -21,9 +21,8 @@ pbs::Vec3 barycentric_in(const pbs::TetMesh& mesh, Eigen::Index tet, const pbs::
 
 }  // namespace
 
-PointLocation::PointLocation(const pbs::TetMesh& mesh) : mesh_(mesh)
+PointLocation::PointLocation(const pbs::TetMesh& mesh) : mesh_(mesh), low_(mesh.rest.colwise().minCoeff())
 {
-    low_ = mesh.rest.colwise().minCoeff();
     const pbs::Vec3 size = mesh.rest.colwise().maxCoeff().transpose() - low_;
     const double cell_m = std::cbrt(size.prod() / static_cast<double>(mesh.tets.rows()));  // about one cell a tet
     for (int axis = 0; axis < 3; ++axis) cells_(axis) = std::clamp(static_cast<int>(size(axis) / cell_m), 1, 1000);

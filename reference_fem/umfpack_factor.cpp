@@ -23,7 +23,7 @@ public:
         refactor();
     }
 
-    void refactor() override
+    void refactor() final
     {
         usable_ = false;
         if (!symbolic_) return;

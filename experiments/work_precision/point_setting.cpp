@@ -23,9 +23,8 @@ const DeformerSpec& first_fem(const Scene& scene)
 
 class SettingList {
 public:
-    explicit SettingList(const Scene& scene) : scene_(scene)
+    explicit SettingList(const Scene& scene) : scene_(scene), base_(spec_of(scene, "pbs"))
     {
-        base_ = spec_of(scene, "pbs");
         base_.pbs.jiggle.reset();
         base_.pbs.threads = 1;
     }

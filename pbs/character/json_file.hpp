@@ -33,12 +33,12 @@ public:
     std::vector<Number> numbers(const nlohmann::json& array, const std::string& field) const
     {
         if (!array.is_array()) refuse(field, "expected an array of numbers");
+        constexpr bool whole = std::is_integral_v<Number>;
         std::vector<Number> values;
         values.reserve(array.size());
         for (const auto& value : array) {
-            if (!(std::is_integral_v<Number> ? value.is_number_integer() : value.is_number()))
-                refuse(field + "[" + std::to_string(values.size()) + "]",
-                       std::is_integral_v<Number> ? "expected a whole number" : "expected a number");
+            if (!(whole ? value.is_number_integer() : value.is_number()))
+                refuse(field + "[" + std::to_string(values.size()) + "]", whole ? "expected a whole number" : "expected a number");
             values.push_back(value.template get<Number>());
         }
         return values;
