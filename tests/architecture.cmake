@@ -10,3 +10,12 @@ pbs_test(architecture size_laws_test architecture_laws)
 pbs_test(architecture build_laws_test architecture_laws)
 pbs_test(architecture kernel_laws_test architecture_laws)
 pbs_test(architecture text_laws_test architecture_laws)
+
+find_program(PBS_CPPCHECK NAMES cppcheck)
+if(PBS_CPPCHECK)
+    add_test(NAME architecture/static_analysis
+        COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/architecture/static_analysis_test.py)
+    set_tests_properties(architecture/static_analysis PROPERTIES LABELS architecture TIMEOUT 600 ENVIRONMENT PBS_CPPCHECK=${PBS_CPPCHECK})
+else()
+    message(STATUS "cppcheck is not there: its test is left out")
+endif()
