@@ -87,7 +87,7 @@ void project_bind_batches(const BindBatch<Scalar>* batches, int count, Scalar* v
     for (int lane = 0; lane < batch_size; ++lane) offset[lane] = 4 * lane;
     for (int i = 0; i < count; ++i) {
         const BindBatch<Scalar>& batch = batches[i];
-        Scalar* first_vertex = vertices + 4 * batch_size * static_cast<std::size_t>(i);
+        Scalar* first_vertex = vertices + static_cast<std::size_t>(i) * 4 * batch_size;
         for (int first = 0; first < batch_size; first += lanes<Scalar>) {
             Vertices<Scalar> p = gather(first_vertex, offset + first);
             const Vertices<Scalar> q{load(batch.x + first), load(batch.y + first), load(batch.z + first), Scalar(0)};
@@ -148,7 +148,8 @@ double sum_squared_bind_errors(const BindBatch<Scalar>* batches, int count, cons
     for (int i = 0; i < count * batch_size; ++i) {
         const BindBatch<Scalar>& batch = batches[i / batch_size];
         const int lane = i % batch_size;
-        const Scalar x = vertices[4 * i] - batch.x[lane], y = vertices[4 * i + 1] - batch.y[lane], z = vertices[4 * i + 2] - batch.z[lane];
+        const Scalar* vertex = vertices + 4 * static_cast<std::size_t>(i);
+        const Scalar x = vertex[0] - batch.x[lane], y = vertex[1] - batch.y[lane], z = vertex[2] - batch.z[lane];
         const double error = __builtin_sqrt(double(x * x + y * y + z * z)) - double(batch.rest_distance[lane]);
         sum += error * error;
     }

@@ -8,7 +8,7 @@ namespace {
 template <typename Scalar>
 [[gnu::always_inline]] inline Vertices<Scalar> vertex(const Scalar* poses, std::size_t i, int first, Scalar w)
 {
-    const Scalar* xyz = poses + 3 * poses_a_block * i + first;
+    const Scalar* xyz = poses + i * 3 * poses_a_block + first;
     return {load(xyz), load(xyz + poses_a_block), load(xyz + 2 * poses_a_block), w};
 }
 
@@ -16,7 +16,7 @@ template <typename Scalar>
 [[gnu::always_inline]] inline void store(const Vertices<Scalar>& p, Scalar* poses, std::size_t i, int first)
 {
     using std::experimental::vector_aligned;
-    Scalar* xyz = poses + 3 * poses_a_block * i + first;
+    Scalar* xyz = poses + i * 3 * poses_a_block + first;
     p.x.copy_to(xyz, vector_aligned);
     p.y.copy_to(xyz + poses_a_block, vector_aligned);
     p.z.copy_to(xyz + 2 * poses_a_block, vector_aligned);
