@@ -58,6 +58,8 @@ def main(results, only=None, folder=None):
         sys.exit(f"{results}: no such folder; run ./reproduce first")
     listed = entries.read()
     if not any((results / study).is_dir() for entry in listed for study in entry.studies()):
+        for entry in listed:  # of records that are gone
+            delete(entry.name, results / "figures")
         sys.exit(f"{results}: no study in it; run ./reproduce first")
     if only and only not in {entry.name for entry in listed}:
         sys.exit(f"{only}: no such figure; there are {', '.join(entry.name for entry in listed)}")

@@ -99,6 +99,16 @@ class Figures(unittest.TestCase):
         with self.assertRaises(SystemExit):
             make_all.main(self.results / "figures")
 
+    def test_figures_of_records_that_are_gone_are_deleted(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            figures = pathlib.Path(scratch, "figures")
+            figures.mkdir()
+            for name in ("work_precision.svg", "work_precision.csv", "somebody's.svg"):
+                (figures / name).write_text("")
+            with self.assertRaisesRegex(SystemExit, "no study in it"):
+                make_all.main(pathlib.Path(scratch))
+            self.assertEqual([path.name for path in figures.iterdir()], ["somebody's.svg"])
+
     def test_verification_shows_the_finest_mesh_of_each_benchmark(self):
         with tempfile.TemporaryDirectory() as folder:
             results = pathlib.Path(folder)
