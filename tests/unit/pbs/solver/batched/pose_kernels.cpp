@@ -247,9 +247,10 @@ TYPED_TEST(PoseKernels, NotANumberStaysInItsPose)
         pbs::project_pose_tets(&tet, 1, k[0], block);
     }
     EXPECT_TRUE(std::isnan(sick[1][0][5]));
-    for (int i = 0; i < 4 * 3 * poses; ++i) {
-        if (i % poses != 5) EXPECT_EQ(sick[0][0][i], clean[0][0][i]) << "pose " << i % poses;
-    }
+    for (int v = 0; v < 4; ++v)
+        for (int axis = 0; axis < 3; ++axis)
+            for (int pose = 0; pose < poses; ++pose)
+                if (pose != 5) EXPECT_EQ(sick[v][axis][pose], clean[v][axis][pose]) << "pose " << pose;
 }
 
 }  // namespace
