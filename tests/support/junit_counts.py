@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Tells README's table what a run of ctest counted, from its JUnit report.
 
     PBS_RELIABILITY_DIR=DIR junit_counts.py results/check/asan.xml asan "tests under the address sanitizer without a report"
