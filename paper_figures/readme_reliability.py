@@ -23,9 +23,9 @@ def read(path):
 
 
 def line(record):
-    of = f" of {record['of']}" if record["of"] is not None else ""
+    of = f" of {record['of']}"
     note = f" ({record['note']})" if record.get("note") else ""
-    return f"| {record['name']} | {record['count']}{of}{record.get('unit', '')}{note} | `{record['command']}` | {record['revision'][:12]} |"
+    return f"| {record['name']} | {record['count']}{of}{note} | `{record['command']}` | {record['revision'][:12]} |"
 
 
 def main(folder, readme):

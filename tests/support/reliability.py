@@ -21,7 +21,7 @@ def tell(file, name, count, of, **facts):
     told = pathlib.Path(folder, f"{file}.json")
     told.parent.mkdir(parents=True, exist_ok=True)
     command = ("PBS_LONG=1 " if os.environ.get("PBS_LONG") else "") + os.path.relpath(sys.argv[0], os.environ["PBS_SOURCE"])
-    record = {"name": name, "count": count, "of": of, **facts, "command": command, "revision": revision()}
+    record = {"name": name, "count": count, "of": of, "command": command, "revision": revision(), **facts}
     beside = told.with_suffix(".part")
     beside.write_text(json.dumps(record, indent=2) + "\n")
     beside.replace(told)

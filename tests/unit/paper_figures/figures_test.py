@@ -15,6 +15,7 @@ import claims_table  # noqa: E402
 import make_all  # noqa: E402
 import readme_claims  # noqa: E402
 import readme_features  # noqa: E402
+import readme_reliability  # noqa: E402
 import records  # noqa: E402
 import synthetic_records  # noqa: E402
 
@@ -196,6 +197,19 @@ class Figures(unittest.TestCase):
                       "2 clips: 40 to 97.5 % of the frames within; 1 of 3 runs within, 1 in part | reproduced in part |\n", text)
         self.assertIn("| 107 to 233 1/s; 2 of 2 figures within | reproduced |\n", text)
         self.assertNotIn("old", text)
+
+    def test_readme_of_reliability_is_changed_between_its_markers_alone(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            readme, told = pathlib.Path(scratch, "README.md"), pathlib.Path(scratch, "kills.json")
+            readme.write_text(f"before\n{readme_reliability.begin}\nold\n{readme_reliability.end}\nafter\n")
+            told.write_text(json.dumps({"name": "kills survived", "count": 19, "of": 20, "command": "kills.py", "revision": "0123456789abcdef"}))
+            readme_reliability.main(pathlib.Path(scratch), readme)
+            self.assertIn("| kills survived | 19 of 20 | `kills.py` | 0123456789ab |", readme.read_text())
+            self.assertNotIn("old", readme.read_text())
+            self.assertTrue(readme.read_text().startswith("before\n") and readme.read_text().endswith("\nafter\n"))
+            told.write_text("{}")
+            with self.assertRaisesRegex(SystemExit, "kills.json: name"):
+                readme_reliability.main(pathlib.Path(scratch), readme)
 
     def test_readme_tells_the_farthest_of_many_quantities_and_each_range_of_few(self):
         rows = [{"quantity": name, "value": value, "unit": "1"} for name, value in (("a", 1.0), ("a", 2.0), ("b", 5.0))]
