@@ -202,7 +202,8 @@ class Figures(unittest.TestCase):
         with tempfile.TemporaryDirectory() as scratch:
             readme, told = pathlib.Path(scratch, "README.md"), pathlib.Path(scratch, "kills.json")
             readme.write_text(f"before\n{readme_reliability.begin}\nold\n{readme_reliability.end}\nafter\n")
-            told.write_text(json.dumps({"name": "kills survived", "count": 19, "of": 20, "command": "kills.py", "revision": "0123456789abcdef"}))
+            record = {"name": "kills survived", "count": 19, "of": 20, "command": "kills.py", "revision": "0123456789abcdef"}
+            told.write_text(json.dumps(record))
             readme_reliability.main(pathlib.Path(scratch), readme)
             self.assertIn("| kills survived | 19 of 20 | `kills.py` | 0123456789ab |", readme.read_text())
             self.assertNotIn("old", readme.read_text())
