@@ -7,6 +7,13 @@ import unittest
 from installation import folder, run
 
 
+def state(stat):
+    try:
+        return stat.read_text().rsplit(")", 1)[1].split()[0]
+    except (FileNotFoundError, ProcessLookupError):
+        return "gone"
+
+
 class Timeouts(unittest.TestCase):
     def test_what_it_started_ends_with_it(self):
         begin = time.monotonic()
@@ -14,8 +21,9 @@ class Timeouts(unittest.TestCase):
             run("sh", "-c", "sleep 60 & echo $! >started; wait", cwd=folder, timeout=1)
         self.assertLess(time.monotonic() - begin, 30)
         stat = pathlib.Path("/proc", (folder / "started").read_text().strip(), "stat")
-        state = stat.read_text().rsplit(")", 1)[1].split()[0] if stat.exists() else "gone"
-        self.assertIn(state, ("gone", "Z", "X"))
+        while state(stat) not in ("gone", "Z", "X"):  # a busy machine takes its time to carry a signal out
+            self.assertLess(time.monotonic() - begin, 30)
+            time.sleep(0.05)
 
     def test_what_it_said_and_how_it_ended(self):
         ended = run("sh", "-c", "echo out; echo err >&2; exit 3")
