@@ -26,3 +26,10 @@ target_compile_options(pbs_settings INTERFACE
 target_compile_features(pbs_settings INTERFACE cxx_std_20)
 target_compile_options(pbs_settings INTERFACE "$<INSTALL_INTERFACE:SHELL:-include pbs/geometry/installed_eigen.hpp>")
 target_link_libraries(pbs_settings INTERFACE Eigen3::Eigen)
+
+if(PBS_WITH_COVERAGE)
+    target_compile_options(pbs_settings INTERFACE --coverage)
+    target_link_options(pbs_settings INTERFACE --coverage -Wl,--wrap=_exit)
+    add_library(pbs_coverage STATIC tests/support/counted_exit.cpp)
+    target_link_libraries(pbs_settings INTERFACE $<BUILD_INTERFACE:pbs_coverage>)
+endif()

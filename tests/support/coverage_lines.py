@@ -1,0 +1,28 @@
+#!/usr/bin/env python3
+"""Tells README's table how many lines of our own code the tests ran, from gcovr's summary; exit status 1 where that is too few.
+
+    PBS_RELIABILITY_DIR=DIR coverage_lines.py results/check/coverage.json
+"""
+import json
+import os
+import pathlib
+import sys
+
+import reliability
+
+least_percent = 85.0
+
+
+def main(summary):
+    lines = json.loads(pathlib.Path(summary).read_text())
+    covered, total = lines["line_covered"], lines["line_total"]
+    percent = 100.0 * covered / total
+    reliability.tell("coverage", "lines of our own code that the tests run (gcovr)", covered, total, command="./check --long",
+                     note=f"{percent:.1f} %")
+    if percent < least_percent:
+        sys.exit(f"{percent:.2f} % of the lines: expected at least {least_percent:g} %")
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("PBS_SOURCE", str(pathlib.Path(__file__).resolve().parents[2]))
+    main(*sys.argv[1:])
