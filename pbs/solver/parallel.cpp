@@ -1,5 +1,7 @@
 #include "pbs/solver/parallel.hpp"
 
+#include "pbs/solver/hand_over.hpp"
+
 #include <algorithm>
 
 #ifdef PBS_WITH_THREADS
@@ -18,10 +20,12 @@ public:
 
     void for_each(int count, const std::function<void(int)>& task)
     {
+        HandOver call;
         arena_.execute([&] {
             tbb::parallel_for(
                 tbb::blocked_range<int>(0, count, 1),
                 [&](const auto& range) {
+                    const HandOver::Task handed(call);
                     for (int i = range.begin(); i < range.end(); ++i) task(i);
                 },
                 tbb::simple_partitioner());
