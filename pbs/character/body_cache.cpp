@@ -1,5 +1,6 @@
 #include "pbs/character/body_cache.hpp"
 
+#include "pbs/character/making_lock.hpp"
 #include "pbs/character/text_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
@@ -121,6 +122,10 @@ std::string cache_folder()
 TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make)
 {
     if (const std::optional<TetMesh> mesh = read_cached(key)) return *mesh;
+    std::error_code ignored;
+    fs::create_directories(cache_folder(), ignored);
+    const MakingLock lock(cache_folder(), key);
+    if (const std::optional<TetMesh> mesh = read_cached(key)) return *mesh;  // made while this process waited
     const TetMesh mesh = make();
     store(key, mesh);
     return mesh;

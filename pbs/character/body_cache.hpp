@@ -17,7 +17,7 @@ std::string hash_of_file(const std::string& path);
 // Where tet meshes are cached: $PBSKIN_CACHE, else $XDG_CACHE_HOME/pbskin, else ~/.cache/pbskin.
 std::string cache_folder();
 
-// From the cache, else made and stored. Where the folder cannot be written the mesh is made every time.
+// From the cache, else made and stored, by one process while others wait. Where the folder cannot be written the mesh is made every time.
 TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make);
 
 }  // namespace pbs

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -43,7 +44,9 @@ protected:
     }
     fs::path stored() const
     {
-        std::vector<fs::path> files(fs::directory_iterator(folder.path()), {});
+        std::vector<fs::path> files;
+        for (const auto& entry : fs::directory_iterator(folder.path()))
+            if (entry.path().filename() != "making.lock") files.push_back(entry.path());
         EXPECT_EQ(files.size(), 1u);
         return files.at(0);
     }
@@ -125,6 +128,43 @@ TEST_F(BodyCache, WhatAKilledMakerLeftIsRemovedAndWhatALivingOneMakesIsNot)
     EXPECT_FALSE(fs::exists(folder / (dead + ".vtu")));
     EXPECT_FALSE(fs::exists(folder / ("." + dead + "." + std::to_string(gone) + ".vtu")));
     EXPECT_TRUE(fs::exists(folder / (living + ".vtu")));
+}
+
+// Each maker adds a byte; the second process begins while the first one still makes.
+TEST_F(BodyCache, OneProcessMakesWhileAnotherWaits)
+{
+    const std::string makers = folder.path() + "/makers";
+    const auto slowly = [&] {
+        std::ofstream(makers, std::ios::app) << '+';
+        usleep(300'000);
+        return two_tets();
+    };
+    const pid_t other = fork();
+    if (other == 0) {
+        cached_mesh("two", slowly);
+        _exit(0);
+    }
+    while (!fs::exists(makers)) usleep(1'000);
+    EXPECT_EQ(content_hash(cached_mesh("two", slowly)), content_hash(two_tets()));
+    waitpid(other, nullptr, 0);
+    EXPECT_EQ(fs::file_size(makers), 1u);
+}
+
+TEST_F(BodyCache, WhatAKilledMakerLockedIsFree)
+{
+    const std::string makers = folder.path() + "/makers";
+    const pid_t other = fork();
+    if (other == 0)
+        cached_mesh("two", [&] {
+            std::ofstream(makers) << '+';
+            for (;;) pause();
+            return two_tets();
+        });
+    while (!fs::exists(makers)) usleep(1'000);
+    kill(other, SIGKILL);
+    waitpid(other, nullptr, 0);
+    get();
+    EXPECT_EQ(made, 1);
 }
 
 TEST_F(BodyCache, WhereTheFolderCannotBeWrittenTheMeshIsMadeEveryTime)
