@@ -133,7 +133,7 @@ TEST_F(BodyCache, WhatAKilledMakerLeftIsRemovedAndWhatALivingOneMakesIsNot)
 // Each maker adds a byte; the second process begins while the first one still makes.
 TEST_F(BodyCache, OneProcessMakesWhileAnotherWaits)
 {
-    const std::string makers = folder.path() + "/makers";
+    const fs::path makers = folder.path() / "makers";
     const auto slowly = [&] {
         std::ofstream(makers, std::ios::app) << '+';
         usleep(300'000);
@@ -152,7 +152,7 @@ TEST_F(BodyCache, OneProcessMakesWhileAnotherWaits)
 
 TEST_F(BodyCache, WhatAKilledMakerLockedIsFree)
 {
-    const std::string makers = folder.path() + "/makers";
+    const fs::path makers = folder.path() / "makers";
     const pid_t other = fork();
     if (other == 0)
         cached_mesh("two", [&] {
