@@ -36,6 +36,7 @@ def skeletons():
     yield "beyond_range", SKELETON.replace("[1.0,", "[1e300,"), ":6: elbow: expected a bone within 1e9 m"
     yield "nested_arrays", "a=" + "[" * 100000, ":1: "
     yield "nested_keys", "[" + "a." * 50000 + "a]\nx = 1\n", ":1: key = [a.a."
+    yield "nested_keys_of_an_inline_table", "x = {" + "a." * 1_500_000 + "a = 1}\n", ":1: key = x = {a.a."
     yield "not_utf8", SKELETON.encode().replace(b"elbow", b"\xff\xfe"), ":7: "
     yield "no_joint", "x = 1\n", ":1: x: unknown key"
     yield ("thousands_of_joints", "".join(joint(f"j{i}", "", [i, 0, 0], [i + 1, 0, 0]) for i in range(2500)),
