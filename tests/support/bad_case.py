@@ -1,21 +1,30 @@
-"""One bad input through the real program: exit status, what stderr names, time, memory, and that nothing is left behind."""
+"""One bad input through the real program: exit status, the one line on stderr, time, memory, and that nothing is left behind."""
 import dataclasses
 import os
 import pathlib
+import re
 import resource
 import subprocess
 import tempfile
 import threading
 
+import run_records
+
 PBSKIN = os.environ["PBSKIN"]
-MOST_SECONDS, MOST_BYTES = 5.0, 1 << 30  # of processor time: other work on the machine must not fail a case
+MOST_SECONDS, MOST_BYTES = 5.0, 1 << 30  # of processor time, as other work on the machine must not fail a case; of each process
 MOST_WAITING_SECONDS = 25.0  # then it hangs
 NOBODY = {"user": 65534, "group": 65534, "extra_groups": []}
+WORDS = r"\b(?:missing\b|[A-Za-z]\w+ \S)"  # that a rule has at least
+RULE = rf"(?=.*?{WORDS}).+"
+LINE = re.compile(rf"pbskin: (?:(?P<place>[^:=\n]+)(?::\d+){{0,2}}: )?(?:(?P<field>[^:=\n]+) = (?P<value>.*?): )?(?P<rule>{RULE})")
+USAGE = re.compile(r"pbskin: .+; `pbskin --help` tells the verbs, `pbskin VERB --help` their options")
+WORDS_OF_NO_USER = ("json.exception", "basic_string", "std::", "vector::", "filesystem error", "terminate called", "Traceback")
 
 
 @dataclasses.dataclass
 class Case:
-    """`files` (name -> text, bytes, or a function that makes it from its path) beside `command`'s arguments; stderr must hold `says`."""
+    """`files` (name -> text, bytes, or a function that makes it from its path) beside `command`'s arguments; stderr must hold `says`: the
+    place where its name is not among the files or the command's words, and the rule that is broken."""
     name: str
     files: dict
     command: list
@@ -23,6 +32,22 @@ class Case:
     status: int = 2
     leaves: tuple = ()  # what names may begin with that are there afterwards
     as_nobody: bool = False  # where root runs the tests, whom no mode stops
+
+
+@dataclasses.dataclass
+class Answer:
+    status: int
+    told: str
+    seconds: float  # of processor time, of all its processes
+    bytes: int  # of the largest of them
+    left: list
+
+
+def demands_a_rule(case):
+    """Whether one of the words that stderr must hold is a rule, not a name of the command or of a file, a line, a field, or a value."""
+    names = {*case.files, *map(str, case.command)}
+    behind = (re.sub(r"^[^=]* = [^:]*(: |$)", "", word) for word in case.says if not any(word in name for name in names))
+    return any(re.search(WORDS, re.sub(r"\S+\.\w+:(\d+:)*", "", rule)) for rule in behind)
 
 
 def make(folder, files):
@@ -33,7 +58,7 @@ def make(folder, files):
         elif isinstance(content, bytes):
             path.write_bytes(content)
         else:
-            path.write_text(content, encoding="utf-8")
+            path.write_bytes(content.encode())  # with the ends of lines that it has
 
 
 def listing(folder):
@@ -51,39 +76,78 @@ def nobody_can_run_it():
         return False
 
 
-def problems(case, common):
-    """What is wrong with the answer to `case`; empty where all is well. `common` files are there in every case."""
+def finished(case, folder):
+    """(exit status, stderr, use of resources) of the program in `folder`, which is killed where it hangs."""
+    environment = {**os.environ, "PBSKIN_CACHE": f"{folder}/cache", "TMPDIR": f"{folder}/tmp", "NO_COLOR": "1"}
+    with tempfile.TemporaryFile() as errors:
+        process = subprocess.Popen([PBSKIN, *case.command], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors,
+                                   env=environment, **someone_else(case))
+        stop = threading.Timer(MOST_WAITING_SECONDS, process.kill)
+        stop.start()
+        _, status, used = os.wait4(process.pid, 0)
+        stop.cancel()
+        process.returncode = os.waitstatus_to_exitcode(status)
+        errors.seek(0)
+        return process.returncode, errors.read().decode(errors="replace"), used
+
+
+def answer(case, common):
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary)
         folder.chmod(0o755)
         make(folder, common | case.files)
-        before, found = listing(folder), []
-        errors = folder.parent / (folder.name + ".errors")
-        with open(errors, "wb") as file:
-            process = subprocess.Popen([PBSKIN, *case.command], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                       stderr=file,
-                                       env={**os.environ, "PBSKIN_CACHE": temporary + "/cache", "NO_COLOR": "1"}, **someone_else(case))
-            stop = threading.Timer(MOST_WAITING_SECONDS, process.kill)
-            stop.start()
-            _, status, used = os.wait4(process.pid, 0)
-            stop.cancel()
-        process.returncode = os.waitstatus_to_exitcode(status)
-        told = errors.read_text(encoding="utf-8", errors="replace")
-        errors.unlink()
-        if process.returncode != case.status:
-            found.append(f"exit status {process.returncode}, expected {case.status}")
-        ours = [line.startswith("pbskin: ") for line in told.splitlines()]
-        if case.status == 2 and (sum(ours) != 1 or not ours[-1]):
-            found.append("expected one line that begins with `pbskin: `, and that the last")
-        found += [f"does not say {word!r}" for word in case.says if word not in told]
-        if used.ru_utime + used.ru_stime > MOST_SECONDS:
-            found.append(f"took {used.ru_utime + used.ru_stime:.1f} s of processor time")
-        if used.ru_maxrss * 1024 > MOST_BYTES:
-            found.append(f"took {used.ru_maxrss >> 10} MB")
-        left = {name for name in listing(folder) - before if not name.startswith(("cache", *case.leaves))}
-        if left:
-            found.append(f"left behind: {sorted(left)[:5]}")
-        return [f"{case.name}: {problem}\n    {told.strip()[:300]}" for problem in found]
+        (folder / "tmp").mkdir()
+        (folder / "tmp").chmod(0o1777)
+        before = listing(folder)
+        status, told, used = finished(case, folder)
+        left = [name for name in sorted(listing(folder) - before) if not is_allowed(name, case.leaves)]
+        return Answer(status, told, used.ru_utime + used.ru_stime, used.ru_maxrss * 1024, left)
+
+
+def is_allowed(name, leaves):
+    in_the_cache = name == "cache" or name.startswith("cache/")
+    return in_the_cache and not run_records.is_temporary(pathlib.Path(name)) or name.startswith(leaves or ("/",))
+
+
+def names_of(case, common):
+    """What the line may call the place of the fault."""
+    return {*common, *case.files, *map(str, case.command), *(word.split(":")[0] for word in case.says if ": " in word)}
+
+
+def is_well_formed(line, names):
+    """FILE[:LINE[:COLUMN]]: [FIELD = VALUE: ]RULE; without a file, of a word of the command: FIELD = VALUE: RULE; or how to use it."""
+    if USAGE.fullmatch(line):
+        return True
+    match = LINE.fullmatch(line)
+    if not match or not match["place"]:
+        return bool(match and match["field"])
+    return any(match["place"] == name or match["place"].startswith(name + "/") for name in names) or match["place"].startswith("--")
+
+
+def what_is_wrong_with(told, case, common):
+    lines = told.splitlines()
+    ours = [line.startswith("pbskin: ") for line in lines]
+    if sum(ours) != 1 or not ours[-1]:
+        yield "expected one line that begins with `pbskin: `, and that the last"
+    elif not is_well_formed(lines[-1], names_of(case, common)):
+        yield "expected the form `FILE[:LINE]: FIELD = VALUE: RULE`"
+
+
+def problems(case, common):
+    """What is wrong with the answer to `case`; empty where all is well. `common` files are there in every case."""
+    given = answer(case, common)
+    found = [f"exit status {given.status}, expected {case.status}"] if given.status != case.status else []
+    if case.status == 2:
+        found += what_is_wrong_with(given.told, case, common)
+    found += [f"does not say {word!r}" for word in case.says if word not in given.told]
+    found += [f"says {word!r}" for word in WORDS_OF_NO_USER if word in given.told]
+    if given.seconds > MOST_SECONDS:
+        found.append(f"took {given.seconds:.1f} s of processor time")
+    if given.bytes > MOST_BYTES:
+        found.append(f"took {given.bytes >> 20} MB")
+    if given.left:
+        found.append(f"left behind: {given.left[:5]}")
+    return [f"{case.name}: {problem}\n    {given.told.strip()[:300]}" for problem in found]
 
 
 def limit_address_space():

@@ -1,12 +1,12 @@
 """Tet meshes that are refused, in every format; .msh and .mesh go through Gmsh, which takes a second to load, so that few of them do."""
 import copy
+import os
 
 import numpy as np
 
 import foreign_arm
 import tet_texts
 from bad_case import Case
-
 
 
 def turned_outward(points, tets):
@@ -33,36 +33,48 @@ def scaled(points, factor):
     points[:] = [[factor * x for x in point] for point in points]
 
 
+def both(words):
+    return {".vtk": words, ".vtu": words}
+
+
+TOO_SHORT = "Cannot read points array from Points in piece 0"
+INDEX, VOLUME = "expected an index from 0 to ", "expected a volume; its four vertices are in one plane"
+NAN, INFINITY = (f"vertex 3 = (0.75, {word}, -0.069999999999999993): expected finite coordinates" for word in ("nan", "inf"))
 # name: (what is done to points and tets, counts told, words by format)
 DEFECTS = {
-    "nan": (set_point(3, "nan"), {}, {".vtk": "nan", ".vtu": "vertex 3 = ", ".msh": "vertex 3 = "}),
-    "infinity": (set_point(3, "inf"), {}, {".vtk": "inf", ".vtu": "expected finite coordinates"}),
-    "a_word": (set_point(3, "east"), {}, {".vtk": "east", ".vtu": "VTK: ", ".mesh": ":8: word = east: expected a number"}),
-    "negative_index": (set_corner(-5), {}, {".vtk": "tet 2 vertex = -5: expected an index from 0 to 44", ".vtu": "tet 2 vertex = -5"}),
-    "index_out_of_range": (set_corner(4000), {},
-                           {".vtk": "tet 2 vertex = 4000", ".vtu": "tet 2 vertex = 4000", ".mesh": "Wrong node index 4000"}),
-    "index_beyond_int": (set_corner(99999999999), {}, {".vtk": "VTK: ", ".vtu": "tet 2 vertex = 99999999999"}),
+    "nan": (set_point(3, "nan"), {}, {".vtk": "Unrecognized keyword: nan", ".vtu": NAN, ".msh": NAN}),
+    "infinity": (set_point(3, "inf"), {}, {".vtk": "Unrecognized keyword: inf", ".vtu": INFINITY}),
+    "a_word": (set_point(3, "east"), {},
+               {".vtk": "Unrecognized keyword: east", ".vtu": TOO_SHORT, ".mesh": ":8: word = east: expected a number"}),
+    "negative_index": (set_corner(-5), {}, both("tet 2 vertex = -5: " + INDEX + "44")),
+    "index_out_of_range": (set_corner(4000), {}, both("tet 2 vertex = 4000: " + INDEX + "44") | {".mesh": "Wrong node index 4000"}),
+    "index_beyond_int": (set_corner(99999999999), {},
+                         {".vtk": "Error reading ascii cell data", ".vtu": "tet 2 vertex = 99999999999: " + INDEX + "44"}),
     "huge_vertex_count": (lambda points, tets: None, {"vertices": 4000000000},
                           {".vtk": "Unable to allocate", ".vtu": "damaged: asks for more memory"}),
     "impossible_vertex_count": (lambda points, tets: None, {"vertices": 4 * 10**18},
-                                {".vtk": "damaged: the reader broke down on it: ", ".vtu": "VTK: "}),
-    "huge_tet_count": (lambda points, tets: None, {"tets_told": 4000000000}, {".vtk": "VTK: ", ".vtu": "damaged: asks for more memory"}),
-    "fewer_vertices_told": (lambda points, tets: None, {"vertices": 44}, {".vtk": "", ".vtu": ""}),
-    "duplicate_vertex": (lambda points, tets: points.__setitem__(7, list(points[6])), {},
-                         {".vtk": "expected a volume", ".vtu": "expected a volume"}),
-    "unused_vertex": (lambda points, tets: points.append([9, 9, 9]), {},
-                      {".vtk": "vertex 45: expected in a tet", ".vtu": "vertex 45: expected in a tet"}),
-    "flat_tet": (lambda points, tets: tets.append([0, 1, 2, 3]), {},
-                 {".vtk": "tet 96 = (0, 1, 2, 3): expected a volume", ".vtu": "tet 96 = "}),
-    "corner_twice": (lambda points, tets: tets[2].__setitem__(1, tets[2][0]), {}, {".vtk": "expected a volume", ".vtu": "tet 2 = "}),
-    "tet_twice": (lambda points, tets: tets.append(list(tets[0])), {}, {".vtk": "tet 96 = ", ".vtu": "they overlap"}),
-    "beyond_range": (lambda points, tets: scaled(points, 1e300), {}, {".vtk": "expected within 1e9 m", ".vtu": "expected within 1e9 m"}),
-    "below_range": (lambda points, tets: scaled(points, 1e-300), {},
-                    {".vtk": "expected at least 1e-9 m", ".vtu": "expected at least 1e-9 m"}),
-    "no_tets": (lambda points, tets: tets.clear(), {}, {".vtk": "tets = 0: expected at least one", ".vtu": "tets = 0"}),
-    "no_points": (lambda points, tets: points.clear(), {}, {".vtk": "expected an index", ".vtu": "expected an index"}),
-    "a_number_of_100000_digits": (set_point(3, "1" * 100000), {}, {".vtk": "", ".vtu": ""}),
+                                {".vtk": "damaged: the reader broke down on it: ", ".vtu": TOO_SHORT}),
+    "huge_tet_count": (lambda points, tets: None, {"tets_told": 4000000000},
+                       {".vtk": "the file is damaged", ".vtu": "damaged: asks for more memory"}),
+    "fewer_vertices_told": (lambda points, tets: None, {"vertices": 44},
+                            {".vtk": "Unrecognized keyword: 1.0", ".vtu": "tet 90 vertex = 44: " + INDEX + "43"}),
+    "duplicate_vertex": (lambda points, tets: points.__setitem__(7, list(points[6])), {}, both("tet 26 = (6, 1, 7, 22): " + VOLUME)),
+    "unused_vertex": (lambda points, tets: points.append([9, 9, 9]), {}, both("vertex 45: expected in a tet")),
+    "flat_tet": (lambda points, tets: tets.append([0, 1, 2, 3]), {}, both("tet 96 = (0, 1, 2, 3): " + VOLUME)),
+    "corner_twice": (lambda points, tets: tets[2].__setitem__(1, tets[2][0]), {}, both("tet 2 = (5, 5, 6, 21): " + VOLUME)),
+    "tet_twice": (lambda points, tets: tets.append(list(tets[0])), {}, both("tet 96 = (0, 1, 6, 21): expected to lie beside tet 0")),
+    "beyond_range": (lambda points, tets: scaled(points, 1e300), {}, both("expected within 1e9 m")),
+    "below_range": (lambda points, tets: scaled(points, 1e-300), {}, both("expected at least 1e-9 m")),
+    "no_tets": (lambda points, tets: tets.clear(), {}, both("tets = 0: expected at least one tetrahedron")),
+    "no_points": (lambda points, tets: points.clear(), {}, both("expected an index")),
+    "a_number_of_100000_digits": (set_point(3, "1" * 100000), {},
+                                  {".vtk": "Unrecognized keyword: -0.06999999999999999", ".vtu": TOO_SHORT}),
 }
+# name: words by format, where the whole file is wrong
+MAGIC = {".msh": ":1: expected a Gmsh file beginning with $MeshFormat",
+         ".mesh": ":1: expected a MEDIT file beginning with MeshVersionFormatted",
+         ".vtk": "Unrecognized file type: ", ".vtu": "Error parsing XML in stream at line 1, column 0"}
+HALF = {".msh": "truncated: $EndElements is missing", ".vtk": "Error reading ascii cell data", ".vtu": "no element found"}
 
 
 def text_with(defect, extension):
@@ -83,31 +95,39 @@ def cases():
     for extension, write in tet_texts.FORMATS.items():
         whole, file = write(POINTS, TETS), "bad" + extension
         yield measured(f"tets empty{extension}", file, "", "the file is empty")
-        yield measured(f"tets noise{extension}", file, NOISE, "")
-        yield measured(f"tets wrong_magic{extension}", file, "solid x\n" + whole, "")
-        if extension != ".mesh":  # where Gmsh itself has to find out
-            yield measured(f"tets truncated{extension}", file, whole[: len(whole) // 2], "")
+        yield measured(f"tets noise{extension}", file, NOISE, MAGIC[extension])
+        yield measured(f"tets wrong_magic{extension}", file, "solid x\n" + whole, MAGIC[extension])
+        if extension in HALF:  # of .mesh Gmsh itself has to find out
+            yield measured(f"tets truncated{extension}", file, whole[: len(whole) // 2], HALF[extension])
     yield from tetgen_cases()
     yield Case("frame of other vertices", {"other.vtu": tet_texts.vtu(*foreign_arm.mesh((5, 2, 2)))}, ["measure", "arm.vtu", "other.vtu"],
                ("other.vtu: vertices = 54: expected the rest mesh's 45",))
-    yield Case("frame of other tets", {"other.vtu": tet_texts.vtu(POINTS, [[7 - vertex if vertex in (0, 7) else vertex for vertex in tet]
-                                                                           for tet in TETS])}, ["measure", "arm.vtu", "other.vtu"],
-               ("other.vtu: ",))
+    swapped = [[7 - vertex if vertex in (0, 7) else vertex for vertex in tet] for tet in TETS]
+    yield Case("frame of other tets", {"other.vtu": tet_texts.vtu(POINTS, swapped)}, ["measure", "arm.vtu", "other.vtu"],
+               ("other.vtu: tets: expected the rest mesh's, on the same vertices",))
     yield Case("frame after a good one", {"bad.vtu": "<VTKFile>"},
-               ["measure", "arm.vtu", "arm.vtu", "bad.vtu", "--csv", "figures.csv"], ("bad.vtu",), leaves=("figures.csv",))
+               ["measure", "arm.vtu", "arm.vtu", "bad.vtu", "--csv", "figures.csv"], ("bad.vtu: ", "no element found"),
+               leaves=("figures.csv",))
     yield Case("tets of an unknown kind", {"arm.step": "ISO-10303-21;"}, ["measure", "arm.step", "arm.step"],
                ("arm.step: extension = .step: expected a tet mesh",))
-    yield Case("bench on a damaged mesh", {"bad.vtu": NOISE}, ["bench", "--quick", "--mesh", "bad.vtu"], ("bad.vtu",))
+    yield Case("bench on a damaged mesh", {"bad.vtu": NOISE}, ["bench", "--quick", "--mesh", "bad.vtu"], ("bad.vtu: ", "not well-formed"))
 
 
 def tetgen_cases():
     node = "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
     element = "1 4 0\n1 1 2 3 4\n"
     for name, nodes, elements, words in (
-            ("noise", "\x01\x02 noise", element, "bad.node:1"),
-            ("huge_count", node.replace("4 3", "4000000000 3", 1), element, "bad.node:1: #points"),
-            ("nan", node.replace("1 0 0 0", "1 nan 0 0"), element, "expected finite"), ("truncated", node[:20], element, "bad.node:"),
-            ("index", node, element.replace("3 4\n", "3 9\n"), "bad.ele:2: tet vertex = 9"),
-            ("two_dimensional", node.replace("4 3", "4 2", 1), element, "dimension")):
-        yield Case(f"tets {name}.node", {"bad.node": nodes, "bad.ele": elements}, ["measure", "bad.ele", "bad.ele"], ("bad.", words))
+            ("noise", "\x01\x02 noise", element, ("bad.node:1: header = ", "expected numbers")),
+            ("huge_count", node.replace("4 3", "4000000000 3", 1), element,
+             ("bad.node:1: #points = ", "expected a whole number from 0 to 49")),
+            ("nan", node.replace("1 0 0 0", "1 nan 0 0"), element, ("bad.ele: ", "vertex 0 = (nan, 0, 0): expected finite")),
+            ("truncated", node[:20], element, ("bad.node:3: point = ", "expected at least 4 numbers")),
+            ("index", node, element.replace("3 4\n", "3 9\n"), ("bad.ele:2: tet vertex = 9", "expected a whole number from 1 to 4")),
+            ("two_dimensional", node.replace("4 3", "4 2", 1), element, ("bad.node:1: dimension = 2", "expected a whole number from 3 to 3"))):
+        yield Case(f"tets {name}.node", {"bad.node": nodes, "bad.ele": elements}, ["measure", "bad.ele", "bad.ele"], words)
+    for kind, make, words in (("folder", os.mkdir, "expected a file"), ("named pipe", os.mkfifo, "expected a file"),
+                              ("symlink loop", lambda path: path.symlink_to(path.name), "no such file"),
+                              ("device", lambda path: path.symlink_to("/dev/zero"), "expected a file")):
+        yield Case(f"{kind} as .node", {"bad.node": make, "bad.ele": element}, ["measure", "bad.ele", "bad.ele"], (f"bad.node: {words}",))
+        yield Case(f"{kind} as .ele", {"bad.node": node, "bad.ele": make}, ["measure", "bad.node", "bad.node"], (f"bad.ele: {words}",))
     yield Case("tets without .ele", {"bad.node": node}, ["measure", "bad.node", "bad.node"], ("bad.ele: no such file",))
