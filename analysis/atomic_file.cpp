@@ -2,18 +2,17 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/process.hpp"
+#include "pbs/geometry/text_file.hpp"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <string>
 #include <system_error>
@@ -94,14 +93,7 @@ void remove_abandoned_files(const std::string& folder, bool and_below)
 
 std::string read_text(const std::string& path)
 {
-    std::ifstream file(path, std::ios::binary);
-    std::string text;
-    for (std::array<char, 1 << 16> buffer; file;) {
-        file.read(buffer.data(), buffer.size());
-        text.append(buffer.data(), static_cast<std::size_t>(file.gcount()));
-    }
-    if (!file.eof()) throw pbs::InputError(path, 0, "", "", "cannot be read");
-    return text;
+    return pbs::read_text_file(path);
 }
 
 }  // namespace analysis

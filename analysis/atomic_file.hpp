@@ -14,7 +14,7 @@ void write_text_atomically(const std::string& path, const std::string& text);
 // pbs::write_atomically whose process is gone. A folder that is not there holds none.
 void remove_abandoned_files(const std::string& folder, bool and_below = true);
 
-// InputError where the file cannot be read.
+// pbs::read_text_file: an InputError where the file cannot be read.
 std::string read_text(const std::string& path);
 
 }  // namespace analysis

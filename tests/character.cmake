@@ -1,5 +1,5 @@
 # Tests of characters and clips. Those of the human and of CMU's clips need Debian's assimp-testmodels and fail without it.
-foreach(name IN ITEMS embedding weights_file text_file character folded_skeleton iqm refined_character retarget)
+foreach(name IN ITEMS embedding weights_file character folded_skeleton iqm refined_character retarget)
     pbs_test(unit pbs/character/${name} pbs_character)
 endforeach()
 if(PBS_WITH_CGAL)

@@ -1,10 +1,10 @@
 #include "pbs/character/body_cache.hpp"
 
 #include "pbs/character/making_lock.hpp"
-#include "pbs/character/text_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/process.hpp"
+#include "pbs/geometry/text_file.hpp"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>

@@ -2,7 +2,7 @@
 
 #include "pbs/character/bvh_header.hpp"
 #include "pbs/character/clip_bytes.hpp"
-#include "pbs/character/text_file.hpp"
+#include "pbs/geometry/text_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/isolated_reader.hpp"
 

@@ -1,6 +1,6 @@
 #include "pbs/character/iqm.hpp"
 
-#include "pbs/character/text_file.hpp"
+#include "pbs/geometry/text_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <Eigen/Geometry>

@@ -1,6 +1,6 @@
 #include "pbs/character/weights_file.hpp"
 
-#include "pbs/character/text_file.hpp"
+#include "pbs/geometry/text_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/nearest_name.hpp"
 

@@ -16,7 +16,11 @@ namespace {
 // The lines of numbers of one file, one at a time.
 class NumberLines {
 public:
-    explicit NumberLines(const std::string& path) : path_(path), file_(path) { require_readable(path); }
+    explicit NumberLines(const std::string& path) : path_(path)
+    {
+        require_readable(path);
+        file_.open(path);
+    }
 
     // The next line that holds numbers; at least `least` of them.
     const std::vector<double>& next(const char* field, std::size_t least)

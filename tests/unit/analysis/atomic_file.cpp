@@ -161,6 +161,8 @@ TEST_F(AtomicFile, ReadingWhatIsNotThereIsRefused)
 {
     EXPECT_THROW(read_text(folder / "missing"), pbs::InputError);
     EXPECT_THROW(read_text(folder), pbs::InputError);
+    ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+    EXPECT_THROW(read_text(folder / "pipe"), pbs::InputError);
 }
 
 }  // namespace

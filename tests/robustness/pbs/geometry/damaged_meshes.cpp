@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 #include <chrono>
 #include <fstream>
 #include <functional>
@@ -194,7 +196,9 @@ TEST(DamagedMesh, TetGenErrorsNameFileLineFieldAndValue)
     read(replaced(node, "4 3 0 0", "4 2 0 0"), ele, "a.node:1: dimension = 2");
     read(replaced(node, "1 1 0 0", "7 1 0 0"), ele, "a.node:3: point = 7");
     std::filesystem::remove(folder.path() / "a.node");
-    expect_refused(folder / "a.ele", "no such file");
+    expect_refused(folder / "a.ele", "a.node: no such file");
+    ASSERT_EQ(mkfifo((folder / "a.node").c_str(), 0600), 0);
+    expect_refused(folder / "a.ele", "a.node: expected a file");
 }
 
 TEST(DamagedSurface, EmptyMissingNoiseAndTruncated)

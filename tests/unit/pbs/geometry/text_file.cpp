@@ -1,8 +1,10 @@
 // Truth: the bytes that were written.
-#include "pbs/character/text_file.hpp"
+#include "pbs/geometry/text_file.hpp"
 
-#include "tests/unit/pbs/character/expect_input_error.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/unit/pbs/character/expect_input_error.hpp"
+
+#include <sys/stat.h>
 
 namespace {
 
@@ -19,8 +21,16 @@ TEST(ReadTextFile, RefusesWhatCannotBeOpened)
 {
     const test_support::ScratchFolder folder;
     const std::string none = (folder.path() / "none").string();
-    expect_input_error([&] { read_text_file(none); }, none + ": ", "cannot be opened");
-    expect_input_error([&] { read_text_file(folder.path().string()); }, folder.path().string(), "cannot be opened");
+    expect_input_error([&] { read_text_file(none); }, none + ": ", "cannot be opened: No such file or directory");
+    expect_input_error([&] { read_text_file(folder.path().string()); }, folder.path().string(), "cannot be opened: expected a file");
+}
+
+TEST(ReadTextFile, WaitsForNoPipeAndReadsNoDevice)
+{
+    const test_support::ScratchFolder folder;
+    ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+    for (const std::string& endless : {folder / "pipe", std::string("/dev/zero")})
+        expect_input_error([&] { read_text_file(endless); }, endless + ": ", "cannot be opened: expected a file");
 }
 
 }  // namespace
