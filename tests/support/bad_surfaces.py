@@ -2,6 +2,7 @@
 import base64
 import io
 import json
+import os
 import struct
 import zipfile
 
@@ -68,56 +69,83 @@ def gltf(points=4, indices=12, uri=None, bytes_of_indices=24, component=5123):
                        "buffers": [{"byteLength": len(data), "uri": uri}]})
 
 
+# words of a defect by format, in the order of soups(); CGAL reads OFF, PLY and STL until it cannot
+NO_FURTHER = "damaged: CGAL read {} points and {} faces, and no further"
+NO_TRIANGLES, INDEX = "triangles = 0: expected at least one triangle", "assimp: OBJ: vertex index out of range"
+NOISY = {".obj": NO_TRIANGLES, ".off": NO_FURTHER.format(0, 0), ".ply": NO_FURTHER.format(0, 0), ".stl": ", and no further"}
+CUT = {".obj": NO_TRIANGLES, ".off": NO_FURTHER.format(4, 4), ".ply": NO_FURTHER.format(0, 0), ".stl": NO_FURTHER.format(11, 4)}
+NOT_FINITE = {".obj": "vertex 0: expected finite coordinates", ".off": NO_FURTHER.format(4, 4), ".ply": NO_FURTHER.format(0, 0),
+              ".stl": NO_FURTHER.format(12, 5)}
+BEYOND = {".obj": INDEX, ".off": NO_FURTHER.format(4, 4), ".ply": "face 3 vertex = 9: expected an index from 0 to 3"}
+BELOW = BEYOND | {".ply": "face 3 vertex = 18446744073709551607: expected an index from 0 to 3"}
+
+
 def soups():
     nan, vast = [("nan", 0, 0), *POINTS[1:]], [[1e300 * x for x in point] for point in POINTS]
     for extension, write in ((".obj", obj), (".off", off), (".ply", ply), (".stl", stl)):
         whole = write()
         yield "empty" + extension, "", "the file is empty"
-        yield "noise" + extension, NOISE, ""
-        yield "truncated" + extension, whole[: len(whole) * 3 // 5], ""
-        yield "nan" + extension, write(nan), ""
+        yield "noise" + extension, NOISE, NOISY[extension]
+        yield "truncated" + extension, whole[: len(whole) * 3 // 5], CUT[extension]
+        yield "nan" + extension, write(nan), NOT_FINITE[extension]
         yield "open" + extension, write(POINTS, FACES[:3]), "expected a closed surface"
-        yield "no_faces" + extension, write(POINTS, []), "triangles = 0: expected at least one triangle"
+        yield "no_faces" + extension, write(POINTS, []), NO_TRIANGLES
         yield "beyond_range" + extension, write(vast), "expected finite coordinates within 1e9 m"
-        if extension != ".stl":
-            yield "index_out_of_range" + extension, write(POINTS, OUT), ""
-            yield "negative_index" + extension, write(POINTS, NEGATIVE), ""
-    yield "huge_count.off", off(count=4000000000), "damaged: "
-    yield "huge_count.ply", ply(count=4000000000), "damaged: "
-    yield "huge_count.stl", b"\0" * 80 + struct.pack("<I", 4000000000) + b"\0" * 50, "damaged: "
+        if extension in BEYOND:
+            yield "index_out_of_range" + extension, write(POINTS, OUT), BEYOND[extension]
+            yield "negative_index" + extension, write(POINTS, NEGATIVE), BELOW[extension]
+    yield "huge_count.off", off(count=4000000000), NO_FURTHER.format(0, 0)
+    yield "huge_count.ply", ply(count=4000000000), NO_FURTHER.format(9, 0)
+    yield "huge_count.stl", b"\0" * 80 + struct.pack("<I", 4000000000) + b"\0" * 50, NO_FURTHER.format(1, 1)
+
+
+MALFORMED, NO_READER, MEMORY = "assimp: Unable to read file, malformed XML", "assimp: No suitable reader found", "asks for more memory"
 
 
 def scenes():
     yield "empty.dae", "", "the file is empty"
-    yield "noise.dae", NOISE, "assimp: "
-    yield "truncated.dae", dae()[:700], "malformed XML"
+    yield "noise.dae", NOISE, MALFORMED
+    yield "truncated.dae", dae()[:700], MALFORMED
     yield "nan.dae", dae(points="nan 0 0 1 0 0 0 1 0 0 0 1"), "vertex 0: expected finite coordinates"
     yield "index_out_of_range.dae", dae(faces="0 2 1 0 1 3 0 3 2 1 2 99"), "Invalid data index (99/4)"
     yield "negative_index.dae", dae(faces="0 2 1 0 1 3 0 3 2 1 2 -5"), "p = -5: expected indices from 0"
-    yield "a_word_for_an_index.dae", dae(faces="0 2 1 0 1 3 0 3 2 1 2 x"), "assimp: "
-    yield "huge_count.dae", dae(count=3000000000), "assimp: "
+    yield "a_word_for_an_index.dae", dae(faces="0 2 1 0 1 3 0 3 2 1 2 x"), MEMORY
+    yield "huge_count.dae", dae(count=3000000000), MEMORY
     yield "too_few_indices.dae", dae(faces="0 2 1"), "Expected different index count"
-    yield "noise.zae", NOISE, "assimp: "
-    yield "truncated.zae", zae(dae())[:200], "assimp: "
+    yield "noise.zae", NOISE, MALFORMED
+    yield "truncated.zae", zae(dae())[:200], MALFORMED
     yield "without_a_dae.zae", zae("text", "a.txt"), "Invalid ZAE"
-    yield "noise.gltf", NOISE, "assimp: "
-    yield "empty_object.gltf", "{}", "assimp: "
-    yield "truncated.gltf", gltf()[:300], "assimp: "
-    yield "huge_count.gltf", gltf(points=4000000000), "out of range"
-    yield "huge_index_count.gltf", gltf(indices=4000000000), "out of range"
-    yield "view_beyond_its_buffer.gltf", gltf(bytes_of_indices=4000000), "out of range"
-    yield "buffer_that_is_not_there.gltf", gltf(uri="none.bin"), "none.bin"
-    yield "buffer_without_end.gltf", gltf(uri="/dev/zero"), "assimp: "
+    yield "noise.gltf", NOISE, NO_READER
+    yield "empty_object.gltf", "{}", NO_READER
+    yield "truncated.gltf", gltf()[:300], NO_READER
+    yield "huge_count.gltf", gltf(points=4000000000), "(0/16000000000) is out of range"
+    yield "huge_index_count.gltf", gltf(indices=4000000000), "(0/8000000000) is out of range"
+    yield "view_beyond_its_buffer.gltf", gltf(bytes_of_indices=4000000), "(48/4000000) is out of range"
+    yield "buffer_that_is_not_there.gltf", gltf(uri="none.bin"), 'could not open referenced file "none.bin"'
+    yield "buffer_without_end.gltf", gltf(uri="/dev/zero"), "byteLength exceeds size of actual data"
     yield "unknown_component.gltf", gltf(component=1), "Unsupported Component Type 1"
-    yield "wrong_magic.glb", NOISE, "assimp: "
-    yield "huge_chunk.glb", b"glTF" + struct.pack("<III", 2, 4000000000, 4000000000) + b"JSON{}", "assimp: "
+    yield "wrong_magic.glb", NOISE, NO_READER
+    yield "huge_chunk.glb", b"glTF" + struct.pack("<III", 2, 4000000000, 4000000000) + b"JSON{}", NO_READER
+
+
+def places():
+    """Refused before the minutes that so many vertices take."""
+    for name, output, words, others in (("a folder that is not there", "none/tets.vtu", "cannot be written: No such file or directory", {}),
+                                        ("a folder's place", "tets.vtu", "cannot be written: Is a directory", {"tets.vtu": os.mkdir}),
+                                        ("a folder under a file", "file/tets.vtu", "cannot be written: Not a directory", {"file": "text"}),
+                                        ("a read-only folder", "locked/tets.vtu", "cannot be written: Permission denied",
+                                         {"locked": lambda path: path.mkdir(mode=0o555)}),
+                                        ("an unknown kind", "tets.step", "extension = .step: expected .msh, .vtu or .mesh", {})):
+        yield Case(f"surface into {name}", {"good.off": off(), **others}, ["mesh", "good.off", "-o", output, "--vertices", "1000000"],
+                   (f"{output}: {words}",), as_nobody=name == "a read-only folder")
 
 
 def cases():
+    yield from places()
     for name, content, words in [*soups(), *scenes()]:
         file = "bad." + name.split(".")[1]
         yield Case(f"surface {name}", {file: content}, ["mesh", file, "-o", "tets.vtu", "--vertices", "200"], (file + ":", words))
     yield Case("surface of an unknown kind", {"bad.step": "ISO-10303-21;"}, ["mesh", "bad.step", "-o", "tets.vtu"],
-               ("bad.step: extension = .step",))
-    yield Case("surface into an unknown kind", {"good.off": off()}, ["mesh", "good.off", "-o", "tets.vtu", "--vertices", "3"],
-               ("--vertices",))
+               ("bad.step: extension = .step: expected a surface",))
+    yield Case("surface into too few vertices", {"good.off": off()}, ["mesh", "good.off", "-o", "tets.vtu", "--vertices", "3"],
+               ("--vertices: Value 3 not in range",))
