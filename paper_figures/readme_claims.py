@@ -3,14 +3,12 @@ figures behind a line stand in DIR/claims.md.
 
     python3 paper_figures/readme_claims.py results/reproduce
 """
-import pathlib
 import sys
 
+import readme_part
 import records
 from report import verdicts
 from report.markup import counted, span
-
-begin, end = "<!-- claims:begin -->", "<!-- claims:end -->"
 
 columns = ("id", "statement", "expected", "measured", "verdict")
 most_quantities = 3  # that are told one by one
@@ -84,19 +82,9 @@ def revisions(results):
     return [most] + [f"{revision} ({', '.join(studies[revision])})" for revision in others]
 
 
-def main(results, readme):
-    try:
-        table = "\n".join(table_lines(results))
-        measured = ", ".join(revisions(results))
-    except records.RecordsMissing as error:
-        sys.exit(f"readme_claims: {error}")
-    text = readme.read_text()
-    before, rest = text.split(begin)
-    after = rest.split(end)[1]
-    readme.write_text(f"{before}{begin}\n{table}\n\nMeasured at revision {measured}.\n{end}{after}")
+def lines_of(results):
+    return [*table_lines(results), "", f"Measured at revision {', '.join(revisions(results))}."]
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    main(pathlib.Path(sys.argv[1]), pathlib.Path(__file__).resolve().parent.parent / "README.md")
+    sys.exit(readme_part.main("claims", lines_of, sys.argv, __doc__))

@@ -2,12 +2,11 @@
 
     python3 paper_figures/readme_features.py results/features
 """
-import pathlib
 import sys
 
+import readme_part
 import records
 
-begin, end = "<!-- features:begin -->", "<!-- features:end -->"
 head = ["| feature | ms of processor a frame without | with | ratio [quartiles] | start [s] without | with | peak [MB] without | with "
         "| the answer moves |", "|---|---|---|---|---|---|---|---|---|"]
 
@@ -22,20 +21,12 @@ def line(row):
     return f"| {row['feature']} | {pair('frame_cpu_ms', 2)} | {ratio} | {pair('start_s', 2)} | {pair('peak_mb', 0)} | {moves} |"
 
 
-def main(results, readme):
-    folder = results / "features" / "human"
-    try:
-        table = head + [line(row) for row in records.table(folder / "features.csv", {"feature", "frame_cpu_ms_ratio"})]
-        facts = records.provenance(results)
-    except records.RecordsMissing as error:
-        sys.exit(f"readme_features: {error}")
-    before, rest = readme.read_text().split(begin)
+def lines_of(results):
+    rows = records.table(results / "features" / "human" / "features.csv", {"feature", "frame_cpu_ms_ratio"})
+    facts = records.provenance(results)
     revision = facts.get("git_revision", "unknown")[:12] + (" with local changes" if facts.get("git_dirty") else "")
-    text = "\n".join(table)
-    readme.write_text(f"{before}{begin}\n{text}\n\nMeasured at revision {revision}.\n{end}{rest.split(end)[1]}")
+    return [*head, *map(line, rows), "", f"Measured at revision {revision}."]
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    main(pathlib.Path(sys.argv[1]), pathlib.Path(__file__).resolve().parent.parent / "README.md")
+    sys.exit(readme_part.main("features", lines_of, sys.argv, __doc__))

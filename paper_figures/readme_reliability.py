@@ -3,22 +3,19 @@
     PBS_RELIABILITY_DIR=DIR ./check --long      # each test writes DIR/NAME.json: name, count, of, command, revision
     python3 paper_figures/readme_reliability.py DIR
 """
-import json
-import pathlib
 import sys
 
-begin, end = "<!-- reliability:begin -->", "<!-- reliability:end -->"
+import readme_part
+import records
+
 fields = ("name", "count", "of", "command", "revision")
 
 
 def read(path):
-    try:
-        record = json.loads(path.read_text())
-    except ValueError as error:
-        sys.exit(f"readme_reliability: {path}: not JSON: {error}")
+    record = records.read_json(path)
     for field in fields:
         if field not in record:
-            sys.exit(f"readme_reliability: {path}: {field} =: expected all of {', '.join(fields)}")
+            raise records.RecordsMissing(f"{path}: {field} =: expected all of {', '.join(fields)}")
     return record
 
 
@@ -28,17 +25,12 @@ def line(record):
     return f"| {record['name']} | {record['count']}{of}{note} | `{record['command']}` | {record['revision'][:12]} |"
 
 
-def main(folder, readme):
-    records = [read(path) for path in sorted(folder.glob("*.json"))]
-    if not records:
-        sys.exit(f"readme_reliability: {folder}: no record of a test")
-    table = ["| what | measured | by | revision |", "|---|---|---|---|"] + [line(record) for record in records]
-    before, rest = readme.read_text().split(begin)
-    text = "\n".join(table)
-    readme.write_text(f"{before}{begin}\n{text}\n{end}{rest.split(end)[1]}")
+def lines_of(folder):
+    files = sorted(folder.glob("*.json"))
+    if not files:
+        raise records.RecordsMissing(f"{folder}: no record of a test")
+    return ["| what | measured | by | revision |", "|---|---|---|---|", *(line(read(path)) for path in files)]
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    main(pathlib.Path(sys.argv[1]), pathlib.Path(__file__).resolve().parent.parent / "README.md")
+    sys.exit(readme_part.main("reliability", lines_of, sys.argv, __doc__))

@@ -34,5 +34,8 @@ add_test(NAME unit/paper_figures/stills
 set_tests_properties(unit/paper_figures/stills PROPERTIES LABELS unit TIMEOUT 300)
 add_test(NAME unit/paper_figures/captions COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/captions_test.py)
 set_tests_properties(unit/paper_figures/captions PROPERTIES LABELS unit TIMEOUT 120)
+add_test(NAME unit/paper_figures/readme_part
+    COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/readme_part_test.py)
+set_tests_properties(unit/paper_figures/readme_part PROPERTIES LABELS unit TIMEOUT 120)
 add_test(NAME unit/paper_figures/whole_file COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/whole_file_test.py)
 set_tests_properties(unit/paper_figures/whole_file PROPERTIES LABELS unit TIMEOUT 120)

@@ -12,6 +12,7 @@ KEPT = SOURCE / "experiments" / "records" / "full"
 sys.path.insert(0, str(SOURCE / "paper_figures"))
 import claims_table  # noqa: E402
 import readme_claims  # noqa: E402
+import readme_part  # noqa: E402
 
 
 class KeptVerdicts(program.ProgramTest):
@@ -30,7 +31,7 @@ class KeptVerdicts(program.ProgramTest):
         self.assertEqual([text.strip("*` ")[:3] for text in verdicts], [f"C{number:02d}" for number in range(1, 18)])
 
     def test_readme_tells_the_same_in_a_line_a_claim(self):
-        told = (SOURCE / "README.md").read_text().split(readme_claims.begin)[1].split(readme_claims.end)[0]
+        _, told, _ = readme_part.cut(SOURCE / "README.md", "claims")
         self.assertEqual(told.split("\n\n")[0].splitlines()[1:], readme_claims.table_lines(self.judged()))
 
 

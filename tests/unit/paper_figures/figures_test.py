@@ -2,7 +2,6 @@
 import contextlib
 import csv
 import io
-import json
 import pathlib
 import sys
 import tempfile
@@ -13,9 +12,6 @@ sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
 import claims_table  # noqa: E402
 import make_all  # noqa: E402
-import readme_claims  # noqa: E402
-import readme_features  # noqa: E402
-import readme_reliability  # noqa: E402
 import records  # noqa: E402
 import synthetic_records  # noqa: E402
 
@@ -185,67 +181,6 @@ class Figures(unittest.TestCase):
                 with contextlib.redirect_stdout(io.StringIO()):
                     self.assertEqual(make_all.main(results), 1)
             self.assertIn("bench.json: not there", said.getvalue())
-
-    def test_readme_is_changed_between_its_markers_alone(self):
-        readme = self.results / "README.md"
-        readme.write_text(f"before\n{readme_claims.begin}\nold\n{readme_claims.end}\nafter\n")
-        synthetic_records.write_claims(self.results)
-        readme_claims.main(self.results, readme)
-        text = readme.read_text()
-        self.assertTrue(text.startswith("before\n") and text.endswith("\nafter\n"))
-        self.assertIn("| C02 | Volume is kept. (Sec. 4) | 0.5 % (-0.5 to 0.5 %) | limb twisted: -0.9 to 0 % over the angle; "
-                      "2 clips: 40 to 97.5 % of the frames within; 1 of 3 runs within, 1 in part | reproduced in part |\n", text)
-        self.assertIn("| 107 to 233 1/s; 2 of 2 figures within | reproduced |\n", text)
-        self.assertNotIn("old", text)
-
-    def test_readme_of_reliability_is_changed_between_its_markers_alone(self):
-        with tempfile.TemporaryDirectory() as scratch:
-            readme, told = pathlib.Path(scratch, "README.md"), pathlib.Path(scratch, "kills.json")
-            readme.write_text(f"before\n{readme_reliability.begin}\nold\n{readme_reliability.end}\nafter\n")
-            record = {"name": "kills survived", "count": 19, "of": 20, "command": "kills.py", "revision": "0123456789abcdef"}
-            told.write_text(json.dumps(record))
-            readme_reliability.main(pathlib.Path(scratch), readme)
-            self.assertIn("| kills survived | 19 of 20 | `kills.py` | 0123456789ab |", readme.read_text())
-            self.assertNotIn("old", readme.read_text())
-            self.assertTrue(readme.read_text().startswith("before\n") and readme.read_text().endswith("\nafter\n"))
-            told.write_text("{}")
-            with self.assertRaisesRegex(SystemExit, "kills.json: name"):
-                readme_reliability.main(pathlib.Path(scratch), readme)
-
-    def test_readme_tells_the_farthest_of_many_quantities_and_each_range_of_few(self):
-        rows = [{"quantity": name, "value": value, "unit": "1"} for name, value in (("a", 1.0), ("a", 2.0), ("b", 5.0))]
-        claim = {"id": "C09", "verdict": "not reproduced", "cases": [], "measurements": rows, "measured": "2 of 3 figures within",
-                 "text": "x; farthest: b of limb, 10 ms is 5; beside it: c"}
-        self.assertEqual(readme_claims.measured({**claim, "expected": "0 to 1"}), "1 to 5; 2 of 3 figures within")
-        self.assertEqual(readme_claims.measured({**claim, "expected": "b: 0 to 1; a: 3 or more"}), "5; 1 to 2; 2 of 3 figures within")
-        many = {**claim, "expected": "a: 1; b: 2; c: 1; d: 1"}
-        self.assertEqual(readme_claims.measured(many), "2 of 3 figures within; farthest: b is 5, expected 2")
-        self.assertEqual(readme_claims.measured({**many, "verdict": "reproduced", "text": "reproduced: limb"}), "2 of 3 figures within")
-
-    def test_readme_refuses_a_verdict_whose_wording_it_does_not_know(self):
-        synthetic_records.write_claims(self.results)
-        file = self.results / "claims.json"
-        judged = json.loads(file.read_text())
-        judged["claims"][1] |= {"verdict": "not reproduced", "text": "not reproduced: limb; worst is b",
-                                "expected": "a: 1; b: 2; c: 1; d: 1"}
-        file.write_text(json.dumps(judged))
-        self.assert_missing(f"{file}: claim C10: text = not reproduced: limb; worst is b: expected", lambda:
-                            readme_claims.table_lines(self.results))
-
-    def test_readme_of_features_is_changed_between_its_markers_alone(self):
-        folder = self.results / "features" / "human"
-        folder.mkdir(parents=True)
-        columns = {name + side: "1.5" for name in ("frame_cpu_ms", "start_s", "peak_mb") for side in ("_without", "_with")}
-        columns |= {"frame_cpu_ms_ratio" + part: "1.25" for part in ("", "_lower", "_upper")}
-        columns |= {"feature": "sleep", "largest_distance_m": "0.002"}
-        (folder / "features.csv").write_text(",".join(columns) + "\n" + ",".join(columns.values()) + "\n")
-        readme = self.results / "README.md"
-        readme.write_text(f"before\n{readme_features.begin}\nold\n{readme_features.end}\nafter\n")
-        readme_features.main(self.results, readme)
-        text = readme.read_text()
-        self.assertTrue(text.startswith("before\n") and text.endswith("\nafter\n"))
-        self.assertIn("| sleep | 1.50 | 1.50 | 1.25 [1.25, 1.25] | 1.50 | 1.50 | 2 | 2 | 2 mm |", text)
-        self.assertNotIn("old", text)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,50 @@
+"""The parts of README.md that scripts write, each between two markers of its own. Nobody types them.
+
+    sys.exit(readme_part.main("claims", lines_of, sys.argv, __doc__))  # lines_of(DIR): what is to stand between the markers
+"""
+import pathlib
+import sys
+
+import records
+import whole_file
+
+own_readme = pathlib.Path(__file__).resolve().parent.parent / "README.md"
+
+
+def markers(name):
+    return f"<!-- {name}:begin -->", f"<!-- {name}:end -->"
+
+
+def cut(readme, name):
+    """README's text up to the first marker and with it, between the two, and from the second on."""
+    try:
+        text = readme.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise records.RecordsMissing(f"{readme}: cannot be read: {error}") from None
+    begin, end = markers(name)
+    for marker in (begin, end):
+        if text.count(marker) != 1:
+            raise records.RecordsMissing(f"{readme}: {marker} stands there {text.count(marker)} times: expected once")
+    if text.index(end) < text.index(begin):
+        raise records.RecordsMissing(f"{readme}: {end} stands before {begin}: expected after it")
+    first, last = text.index(begin) + len(begin), text.index(end)
+    return text[:first], text[first:last], text[last:]
+
+
+def write(readme, name, lines):
+    before, _, after = cut(readme, name)
+    with whole_file.beside(readme) as path:
+        path.write_text("\n".join([before, *lines, after]), encoding="utf-8")
+
+
+def main(name, lines_of, arguments, usage, readme=own_readme):
+    """The exit status: 2 where the one argument, the records or README are not as expected; nothing is written then."""
+    if len(arguments) != 2:
+        print(usage, file=sys.stderr)
+        return 2
+    try:
+        write(readme, name, lines_of(pathlib.Path(arguments[1])))
+    except (records.RecordsMissing, whole_file.CannotBeWritten) as error:
+        print(f"readme_{name}: {error}", file=sys.stderr)
+        return 2
+    return 0

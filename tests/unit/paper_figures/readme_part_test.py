@@ -1,0 +1,142 @@
+"""README's tables are the records': what stands between two markers is written anew, the rest stays, and a README without the markers is
+refused. Truth: the definition."""
+import contextlib
+import io
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+root = pathlib.Path(__file__).resolve().parents[3]
+sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
+
+import readme_claims  # noqa: E402
+import readme_features  # noqa: E402
+import readme_part  # noqa: E402
+import readme_reliability  # noqa: E402
+import records  # noqa: E402
+import synthetic_records  # noqa: E402
+
+begin, end = readme_part.markers("claims")
+
+
+class ReadmeTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.results = pathlib.Path(folder.name)
+        self.readme = self.results / "README.md"
+
+    def written(self, name, lines_of, text=None):
+        """Exit status and complaints of the script of this name, README being `text`, if not as usual."""
+        self.readme.write_text(text if text is not None else "before\n{}\nold\n{}\nafter\n".format(*readme_part.markers(name)))
+        with contextlib.redirect_stderr(io.StringIO()) as said:
+            status = readme_part.main(name, lines_of, ["script", str(self.results)], "usage", self.readme)
+        return status, said.getvalue()
+
+
+class Markers(ReadmeTest):
+    def test_what_stands_between_is_replaced_and_nothing_else(self):
+        self.assertEqual(self.written("claims", lambda folder: ["new", "", str(folder)]), (0, ""))
+        self.assertEqual(self.readme.read_text(), f"before\n{begin}\nnew\n\n{self.results}\n{end}\nafter\n")
+        self.assertEqual(readme_part.cut(self.readme, "claims")[1], f"\nnew\n\n{self.results}\n")
+        self.assertEqual([path.name for path in self.results.iterdir()], ["README.md"])
+
+    def test_a_readme_without_its_markers_in_order_is_refused_and_stays(self):
+        for text, words in (("", f"{begin} stands there 0 times: expected once"),
+                            (f"{end}", f"{begin} stands there 0 times"),
+                            (f"{begin}\n", f"{end} stands there 0 times: expected once"),
+                            (f"{begin}\n{begin}\n{end}", f"{begin} stands there 2 times"),
+                            (f"{begin}\n{end}\n{end}", f"{end} stands there 2 times"),
+                            (f"{end}\n{begin}", f"{end} stands before {begin}: expected after it"),
+                            ("<!-- features:begin -->\n<!-- features:end -->", f"{begin} stands there 0 times")):
+            with self.subTest(text):
+                self.assertEqual(self.written("claims", lambda folder: ["new"], text)[0], 2)
+                self.assertIn(f"readme_claims: {self.readme}: {words}", self.written("claims", lambda folder: ["new"], text)[1])
+                self.assertEqual(self.readme.read_text(), text)
+
+    def test_a_readme_that_is_not_there_is_refused(self):
+        with self.assertRaisesRegex(records.RecordsMissing, "README.md: cannot be read"):
+            readme_part.write(self.readme, "claims", ["new"])
+        self.assertEqual(list(self.results.iterdir()), [])
+
+    def test_refused_records_leave_readme_as_it_is(self):
+        status, said = self.written("claims", readme_claims.lines_of)
+        self.assertEqual(status, 2)
+        self.assertIn("claims.json: not there", said)
+        self.assertIn("\nold\n", self.readme.read_text())
+
+    def test_one_folder_is_asked_for(self):
+        with contextlib.redirect_stderr(io.StringIO()) as said:
+            self.assertEqual(readme_part.main("claims", readme_claims.lines_of, ["script"], "usage"), 2)
+        self.assertEqual(said.getvalue(), "usage\n")
+
+    def test_the_projects_own_readme_has_each_pair_once(self):
+        for name in ("claims", "features", "reliability"):
+            self.assertTrue(readme_part.cut(readme_part.own_readme, name)[1].startswith("\n| "), name)
+
+
+class Tables(ReadmeTest):
+    def assert_written(self, name, lines_of, *lines):
+        self.assertEqual(self.written(name, lines_of), (0, ""))
+        text = self.readme.read_text()
+        for line in lines:
+            self.assertIn(line + "\n", text)
+        self.assertTrue(text.startswith("before\n") and text.endswith("\nafter\n"))
+        self.assertNotIn("old", text)
+
+    def test_claims(self):
+        synthetic_records.write_study(self.results)
+        synthetic_records.write_claims(self.results)
+        self.assert_written("claims", readme_claims.lines_of,
+                            "| C02 | Volume is kept. (Sec. 4) | 0.5 % (-0.5 to 0.5 %) | limb twisted: -0.9 to 0 % over the angle; "
+                            "2 clips: 40 to 97.5 % of the frames within; 1 of 3 runs within, 1 in part | reproduced in part |",
+                            "| 107 to 233 1/s; 2 of 2 figures within | reproduced |",
+                            f"\nMeasured at revision {synthetic_records.revision[:12]}.")
+
+    def test_claims_of_many_quantities_tell_the_farthest_and_those_of_few_each_range(self):
+        rows = [{"quantity": name, "value": value, "unit": "1"} for name, value in (("a", 1.0), ("a", 2.0), ("b", 5.0))]
+        claim = {"id": "C09", "verdict": "not reproduced", "cases": [], "measurements": rows, "measured": "2 of 3 figures within",
+                 "text": "x; farthest: b of limb, 10 ms is 5; beside it: c"}
+        self.assertEqual(readme_claims.measured({**claim, "expected": "0 to 1"}), "1 to 5; 2 of 3 figures within")
+        self.assertEqual(readme_claims.measured({**claim, "expected": "b: 0 to 1; a: 3 or more"}), "5; 1 to 2; 2 of 3 figures within")
+        many = {**claim, "expected": "a: 1; b: 2; c: 1; d: 1"}
+        self.assertEqual(readme_claims.measured(many), "2 of 3 figures within; farthest: b is 5, expected 2")
+        self.assertEqual(readme_claims.measured({**many, "verdict": "reproduced", "text": "reproduced: limb"}), "2 of 3 figures within")
+
+    def test_a_verdict_whose_wording_is_not_known_is_refused(self):
+        synthetic_records.write_claims(self.results)
+        file = self.results / "claims.json"
+        judged = json.loads(file.read_text())
+        judged["claims"][1] |= {"verdict": "not reproduced", "text": "not reproduced: limb; worst is b",
+                                "expected": "a: 1; b: 2; c: 1; d: 1"}
+        file.write_text(json.dumps(judged))
+        with self.assertRaises(records.RecordsMissing) as caught:
+            readme_claims.table_lines(self.results)
+        self.assertIn(f"{file}: claim C10: text = not reproduced: limb; worst is b: expected", str(caught.exception))
+
+    def test_features(self):
+        synthetic_records.write_study(self.results)
+        folder = self.results / "features" / "human"
+        folder.mkdir(parents=True)
+        columns = {name + side: "1.5" for name in ("frame_cpu_ms", "start_s", "peak_mb") for side in ("_without", "_with")}
+        columns |= {"frame_cpu_ms_ratio" + part: "1.25" for part in ("", "_lower", "_upper")}
+        columns |= {"feature": "sleep", "largest_distance_m": "0.002"}
+        (folder / "features.csv").write_text(",".join(columns) + "\n" + ",".join(columns.values()) + "\n")
+        self.assert_written("features", readme_features.lines_of,
+                            "| sleep | 1.50 | 1.50 | 1.25 [1.25, 1.25] | 1.50 | 1.50 | 2 | 2 | 2 mm |")
+
+    def test_reliability(self):
+        told = self.results / "kills.json"
+        record = {"name": "kills survived", "count": 19, "of": 20, "command": "kills.py", "revision": "0123456789abcdef"}
+        told.write_text(json.dumps(record))
+        self.assert_written("reliability", readme_reliability.lines_of, "| kills survived | 19 of 20 | `kills.py` | 0123456789ab |")
+        told.write_text("{}")
+        status, said = self.written("reliability", readme_reliability.lines_of)
+        self.assertEqual(status, 2)
+        self.assertIn("kills.json: name", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
