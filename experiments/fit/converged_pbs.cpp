@@ -1,5 +1,6 @@
 #include "experiments/fit/converged_pbs.hpp"
 
+#include "experiments/interruption.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
@@ -31,6 +32,7 @@ ConvergedPbs converge(const pbs::Character& character, const pbs::Pose& pose, pb
     ConvergedPbs limit;
     limit.positions = lbs_positions(character, pose);
     while (limit.iterations < most_iterations && !limit.converged) {
+        stop_if_interrupted();
         solver.advance(limit.positions, bind_points, 1.0);
         limit.iterations += chunk;
         limit.last_change_m = (solver.positions() - limit.positions).rowwise().norm().maxCoeff();

@@ -1,5 +1,6 @@
 #include "experiments/fit/release_test.hpp"
 
+#include "experiments/interruption.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
 #include <algorithm>
@@ -98,6 +99,7 @@ ReleaseTest release(const ReleasedBody& body, double dt_s, int half_periods, int
     std::vector<double> signal = {mean_along(body.displacement, body)};
     int crossings = 0;
     for (int step = 0; step < most_steps && crossings <= half_periods; ++step) {
+        stop_if_interrupted();
         // Line (3): the first step puts the particles where they are let go, at rest.
         solver.advance(step == 0 ? start : body.mesh.rest, body.mesh.rest, dt_s);
         signal.push_back(mean_along(solver.positions() - body.mesh.rest, body));

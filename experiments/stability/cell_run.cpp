@@ -1,6 +1,7 @@
 #include "experiments/stability/cell_run.hpp"
 
 #include "experiments/bench/cpu_clock.hpp"
+#include "experiments/interruption.hpp"
 #include "experiments/stability/driven_body.hpp"
 
 #include <fmt/format.h>
@@ -45,6 +46,7 @@ Course follow(const StabilityCell& cell, const pbs::Positions* undisturbed)
     const auto driven = make_driven_body(cell, character);
     Course course{{}, body.drive(0).blended, body.disturbed_steps(), {}};
     for (int step = 0; step < body.steps(); ++step) {
+        stop_if_interrupted();
         const Drive drive = body.drive(step);
         const pbs::StepSummary step_summary = driven->advance(drive, cell.time_step_s);
         course.steps.push_back(analysis::stability_step(course.last, driven->positions(), {drive.bind_points, character.binding.distance},

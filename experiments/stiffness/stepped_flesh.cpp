@@ -1,5 +1,6 @@
 #include "experiments/stiffness/stepped_flesh.hpp"
 
+#include "experiments/interruption.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
 #include <cmath>
@@ -17,6 +18,7 @@ SteppedFlesh step(Solver& solver, const LoadedFlesh& flesh, double time_step_s, 
     SteppedFlesh result;
     double before_m = 0.0;
     for (int quiet = 0; result.steps < most_steps && quiet < still_steps; ++result.steps) {
+        stop_if_interrupted();
         solver.advance(flesh.mesh.rest, bind_point, time_step_s);
         const double now_m = mean_displacement_m(flesh, solver.positions() - flesh.mesh.rest);
         if (!std::isfinite(now_m)) break;
