@@ -3,8 +3,11 @@
 #include "pbs/geometry/input_error.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <sstream>
+#include <string_view>
 
 namespace pbs {
 namespace {
@@ -63,6 +66,15 @@ void check_rows(const std::string& text, std::size_t place, double frames, const
 }
 
 }  // namespace
+
+bool is_bvh(const std::string& text, const std::string& path)
+{
+    constexpr std::string_view mark = "\xef\xbb\xbf", first_word = "HIERARCHY";
+    std::string extension = std::filesystem::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::size_t word = text.find_first_not_of(" \t\r\n\v\f", text.starts_with(mark) ? mark.size() : 0);
+    return extension == ".bvh" || (word != std::string::npos && text.compare(word, first_word.size(), first_word) == 0);
+}
 
 void check_bvh_header(const std::string& text, const std::string& path)
 {

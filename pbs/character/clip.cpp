@@ -37,12 +37,6 @@ struct Node {
     const aiNodeAnim* channel = nullptr;
 };
 
-// assimp knows it by this word too.
-bool is_bvh(const std::string& text)
-{
-    return text.starts_with("HIERARCHY");
-}
-
 Eigen::Isometry3d rigid_part(const aiMatrix4x4& transformation)
 {
     aiVector3D scale, position;
@@ -175,7 +169,7 @@ Clip clip_by_assimp(const std::string& path, bool bvh)
 Clip read_clip(const std::string& path)
 {
     const std::string text = read_text_file(path);
-    const bool bvh = is_bvh(text);
+    const bool bvh = is_bvh(text, path);
     if (bvh) check_bvh_header(text, path);
     return unpacked_clip(read_isolated(path, [&](const std::string& file) { return packed(clip_by_assimp(file, bvh)); }), path);
 }

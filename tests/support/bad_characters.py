@@ -86,6 +86,8 @@ def clips():
     yield "huge_frames", bvh("4000000000"), ":17: Frames = 4000000000: the file is too short"
     yield "more_rows_than_frames", bvh(motion=50 * ROW), ":19: motion = 450 numbers: expected Frames times channels: 18"
     yield "one_frame", bvh("1", motion=ROW), "no frame is left after the first"
+    yield "no_frames_behind_a_blank_line", "\n" + bvh("0", motion=""), ":18: Frames = 0: expected a whole number of frames"
+    yield "frame_time_zero_behind_a_byte_order_mark", "\ufeff" + bvh(time="0"), ":18: Frame Time = 0: " + FRAME_TIME
     yield "frame_time_zero", bvh(time="0"), ":18: Frame Time = 0: " + FRAME_TIME
     yield "frame_time_nan", bvh(time="nan"), ":18: Frame Time = nan: " + FRAME_TIME
     yield "frame_time_negative", bvh(time="-0.1"), ":18: Frame Time = -0.1: " + FRAME_TIME

@@ -29,6 +29,13 @@ std::string noise(int bytes)
     return text;
 }
 
+std::string nested_joints(int deep)
+{
+    std::string text;
+    for (int joint = 0; joint < deep; ++joint) text += "JOINT a\n{\n";
+    return text;
+}
+
 struct BadClip {
     const char* name;
     std::string file, text, holds;
@@ -55,6 +62,9 @@ const BadClip bad_clips[] = {
     {"zero_frames", "a.bvh", bvh("0", "0.01", ""), ":17: Frames = 0"},
     {"negative_frames", "a.bvh", bvh("-2", "0.01", row), ":17: Frames = -2"},
     {"more_frames_than_bytes", "a.bvh", bvh("4000000000", "0.01", row), ":17: Frames = 4000000000"},
+    {"zero_frames_behind_a_blank_line", "a.bvh", "\n" + bvh("0", "0.01", ""), ":18: Frames = 0"},
+    {"frame_time_zero_behind_blanks", "a.clip", " \t\r\n" + bvh("1", "0", row), ":19: Frame Time = 0"},
+    {"frame_time_zero_behind_a_byte_order_mark", "a.clip", "\xef\xbb\xbf" + bvh("1", "0", row), ":18: Frame Time = 0"},
     {"frame_time_zero", "a.bvh", bvh("1", "0", row), ":18: Frame Time = 0"},
     {"frame_time_nan", "a.bvh", bvh("1", "nan", row), ":18: Frame Time = nan"},
     {"nan_rotation", "a.bvh", bvh("2", "0.01", row + "0 0 0 0 0 0 10 nan 30\n"), "frame 1 = forearm"},
@@ -68,14 +78,8 @@ const BadClip bad_clips[] = {
     {"text_among_the_numbers", "a.bvh", bvh("1", "0.01", "0 0 0 0 zero 0 10 20 30\n"), "assimp"},
     {"unknown_channel", "a.bvh", "HIERARCHY\nROOT a\n{\n OFFSET 0 0 0\n CHANNELS 1 Wrotation\n}\nMOTION\nFrames: 1\nFrame Time: 0.01\n0\n",
      "assimp"},
-    {"bottomless_nesting", "a.bvh",
-     "HIERARCHY\n" +
-         [] {
-             std::string text;
-             for (int d = 0; d < 200000; ++d) text += "JOINT a\n{\n";
-             return text;
-         }(),
-     "deeper than 500"},
+    {"bottomless_nesting", "a.bvh", "HIERARCHY\n" + nested_joints(200'000), "deeper than 500"},
+    {"bottomless_nesting_behind_a_blank_line", "a.bvh", "\nHIERARCHY\n" + nested_joints(200'000), "deeper than 500"},
     {"surface_without_motion", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "no motion"},
 };
 
@@ -101,6 +105,18 @@ TEST(Clip, TruncatedAtEveryEighthByteItIsRefusedOrWhole)
         } catch (const InputError&) {
         }
     }
+}
+
+TEST(Clip, BlankLinesBeforeItChangeNothing)
+{
+    const test_support::ScratchFolder folder;
+    const std::string text = bvh("3", "0.02", row + "0 0 0 0 0 0 20 40 60\n" + row);
+    const Clip clip = read_clip(folder.file("a.bvh", text)), later = read_clip(folder.file("b.bvh", "\n \n" + text));
+    EXPECT_EQ(later.frame_time_s, clip.frame_time_s);
+    ASSERT_EQ(later.frames(), 3);
+    for (int frame = 0; frame < 3; ++frame)
+        for (std::size_t joint = 0; joint < clip.joints.size(); ++joint)
+            EXPECT_EQ(later.local[frame][joint].coeffs(), clip.local[frame][joint].coeffs()) << frame << ' ' << joint;
 }
 
 TEST(Clip, FindClipLooksInTheFolderAndSaysWhereItLooked)

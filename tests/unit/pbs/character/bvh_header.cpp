@@ -19,6 +19,15 @@ TEST(BvhHeader, AWholeOnePasses)
     EXPECT_NO_THROW(check_bvh_header(bvh("\t2", " .01"), "a.bvh"));
 }
 
+TEST(BvhHeader, ABvhIsKnownByItsExtensionOrItsFirstWord)
+{
+    for (const std::string before : {"", "\n", " \t\r\n\v\f\n", "\xef\xbb\xbf", "\xef\xbb\xbf\n"})
+        EXPECT_TRUE(is_bvh(before + bvh("2", "0.01"), "a.clip")) << before;
+    EXPECT_TRUE(is_bvh("noise", "folder/a.BVH"));
+    for (const std::string text : {"", " \n", "\xef\xbb\xbf", "solid HIERARCHY", "HIERARCH"})
+        EXPECT_FALSE(is_bvh(text, "a.bvh.clip")) << text;
+}
+
 TEST(BvhHeader, WhatIsNotThereIsLeftToTheReader)
 {
     EXPECT_NO_THROW(check_bvh_header("", "a.bvh"));
