@@ -108,11 +108,18 @@ std::vector<Face> sorted_faces(const Tets& tets)
     return faces;
 }
 
-void check_extent(const std::string& path, const Positions& points)
+void check_places(const std::string& path, const Positions& points)
 {
-    for (Eigen::Index i = 0; i < points.rows(); ++i)
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+        if (!points.row(i).allFinite())
+            throw InputError(path, 0, numbered("vertex", i), listed(points.row(i)), "expected finite coordinates [m]");
         if (!(points.row(i).cwiseAbs().maxCoeff() <= farthest_m))
             throw InputError(path, 0, numbered("vertex", i), listed(points.row(i)), "expected within 1e9 m of the origin");
+    }
+}
+
+void check_size(const std::string& path, const Positions& points)
+{
     const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
     if (!(size >= 1.0 / farthest_m)) throw InputError(path, 0, "extent", std::to_string(size), "expected at least 1e-9 m");
 }
@@ -150,15 +157,13 @@ void check_frame(const std::string& path, const TetMesh& mesh)
     if (mesh.tets.rows() == 0) throw InputError(path, 0, "tets", "0", "expected at least one tetrahedron");
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
         for (int corner = 0; corner < 4; ++corner) checked_index(path, t, mesh.tets(t, corner), mesh.rest.rows());
-    for (Eigen::Index i = 0; i < mesh.rest.rows(); ++i)
-        if (!mesh.rest.row(i).allFinite())
-            throw InputError(path, 0, numbered("vertex", i), listed(mesh.rest.row(i)), "expected finite coordinates [m]");
+    check_places(path, mesh.rest);
 }
 
 MeshReading check_rest(const std::string& path, TetMesh mesh)
 {
     check_frame(path, mesh);
-    check_extent(path, mesh.rest);
+    check_size(path, mesh.rest);
     const int flipped = normalise_orientation(path, mesh);
     check_used(path, mesh);
     check_distinct(path, mesh.rest);

@@ -105,6 +105,8 @@ def cases():
     swapped = [[7 - vertex if vertex in (0, 7) else vertex for vertex in tet] for tet in TETS]
     yield Case("frame of other tets", {"other.vtu": tet_texts.vtu(POINTS, swapped)}, ["measure", "arm.vtu", "other.vtu"],
                ("other.vtu: tets: expected the rest mesh's, on the same vertices",))
+    yield Case("frame of 1e200 m", {"far.vtu": tet_texts.vtu([[1e200 * x for x in point] for point in POINTS], TETS)},
+               ["measure", "arm.vtu", "far.vtu"], ("far.vtu: vertex ", "expected within 1e9 m of the origin"))
     yield Case("frame after a good one", {"bad.vtu": "<VTKFile>"},
                ["measure", "arm.vtu", "arm.vtu", "bad.vtu", "--csv", "figures.csv"], ("bad.vtu: ", "no element found"),
                leaves=("figures.csv",))

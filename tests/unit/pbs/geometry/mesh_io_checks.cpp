@@ -144,7 +144,18 @@ TEST(RestMesh, BodiesThroughEachOtherAreRefused)
 }
 #endif
 
-TEST(Frame, AsksForIndicesAndFiniteCoordinatesAlone)
+TEST(Frame, CoordinatesWhoseVolumesOverflowAreRefused)
+{
+    for (const double bad : {1e200, -2e9, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+        pbs::TetMesh frame = test_support::structured_bar({-1, -1, -1}, {1, 1, 1}, {2, 2, 2});
+        frame.rest(1, 2) = bad;
+        EXPECT_THROW(pbs::check_frame("m.vtu", frame), pbs::InputError) << bad;
+        frame.rest(1, 2) = 1e9;
+        EXPECT_NO_THROW(pbs::check_frame("m.vtu", frame));
+    }
+}
+
+TEST(Frame, AsksForIndicesAndPlacesAlone)
 {
     EXPECT_NO_THROW(pbs::check_frame("m.vtu", with(one_tet(), {{0.2, 0.2, 0.5}}, {0, 1, 2, 2})));
 }
