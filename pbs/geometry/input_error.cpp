@@ -3,15 +3,53 @@
 namespace pbs {
 namespace {
 
+constexpr std::size_t longest = 80;
+
+bool continues_a_character(char c)  // UTF-8
+{
+    return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
+}
+
+std::string shortened(const std::string& text)
+{
+    if (text.size() <= longest) return text;
+    std::size_t end = longest;
+    while (end > 0 && continues_a_character(text[end])) --end;
+    return text.substr(0, end) + "...";
+}
+
+std::string code_of(unsigned char c)
+{
+    if (c == '\n') return "\\n";
+    constexpr const char* digits = "0123456789abcdef";
+    return std::string("\\x") + digits[c >> 4] + digits[c & 15];
+}
+
+// Control characters by their codes, those that UTF-8 has beyond ASCII (U+0080 to U+009F) among them.
+std::string escaped(const std::string& text)
+{
+    std::string shown;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto byte = [&](std::size_t at) { return at < text.size() ? static_cast<unsigned char>(text[at]) : 0; };
+        if (byte(i) == 0xC2 && byte(i + 1) >= 0x80 && byte(i + 1) < 0xA0)
+            shown += code_of(static_cast<unsigned char>(byte(++i)));
+        else if (byte(i) < ' ' || byte(i) == 0x7F)
+            shown += code_of(static_cast<unsigned char>(byte(i)));
+        else
+            shown += text[i];
+    }
+    return shown;
+}
+
 std::string message(const std::string& file, int line, const std::string& field, const std::string& value, const std::string& rule)
 {
     std::string text = file;
     if (line > 0) text.append(":").append(std::to_string(line));
     if (!text.empty()) text += ": ";
-    if (!field.empty()) text += field;
-    if (!value.empty()) text.append(" = ").append(value);
+    if (!field.empty()) text += shortened(field);
+    if (!value.empty()) text.append(" = ").append(shortened(value));
     if (!field.empty() || !value.empty()) text += ": ";
-    return text + rule;
+    return escaped(text + rule);
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 namespace pbs {
 namespace {
 
+constexpr std::size_t most_letters = 200;  // of a name that is looked for; a file may hold one of megabytes
+
 int edit_distance(const std::string& a, const std::string& b)
 {
     std::vector<int> row(b.size() + 1);
@@ -27,8 +29,9 @@ int edit_distance(const std::string& a, const std::string& b)
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known)
 {
     if (known.empty()) return {};
+    const std::string beginning = name.substr(0, most_letters);
     return *std::min_element(known.begin(), known.end(),
-                             [&](const auto& a, const auto& b) { return edit_distance(name, a) < edit_distance(name, b); });
+                             [&](const auto& a, const auto& b) { return edit_distance(beginning, a) < edit_distance(beginning, b); });
 }
 
 }  // namespace pbs

@@ -56,6 +56,10 @@ def weights():
     yield "negative", WEIGHTS.replace("3,elbow,0.5", "3,elbow,-0.5", 1), ":9: weight = -0.5: expected 0 <= weight <= 1"
     yield "nan", WEIGHTS.replace("3,elbow,0.5", "3,elbow,nan", 1), ":9: weight = nan: expected 0 <= weight <= 1"
     yield "unknown_joint", WEIGHTS.replace("3,elbow", "3,elbo", 1), ":9: joint = elbo: no such joint; the nearest is 'elbow'"
+    yield ("unknown_joint_of_ten_million_letters", WEIGHTS.replace("3,elbow", "3," + 2_000_000 * "elbow", 1),
+           ":9: joint = " + 16 * "elbow" + "...: no such joint; the nearest is 'elbow'")
+    yield ("control_characters", WEIGHTS.replace("3,elbow", "3,el\x1b[2Jbow\a", 1),
+           ":9: joint = el\\x1b[2Jbow\\x07: no such joint; the nearest is 'elbow'")
     yield "vertex_out_of_range", WEIGHTS.replace("\n3,elbow", "\n99,elbow", 1), ":9: vertex = 99: expected a vertex, 0 to 44"
     yield "negative_vertex", WEIGHTS.replace("\n3,elbow", "\n-3,elbow", 1), ":9: vertex = -3: expected a vertex, 0 to 44"
     yield "vertex_beyond_int", WEIGHTS.replace("\n3,elbow", "\n99999999999999,elbow", 1), ":9: vertex = 99999999999999: expected a vertex"

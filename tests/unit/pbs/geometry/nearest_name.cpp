@@ -16,6 +16,14 @@ TEST(NearestName, TakesTheLeastEditDistanceAndTheFirstOfEquals)
     EXPECT_EQ(nearest_name("k_volum", {"k_stretch", "k_volume", "k_bind"}), "k_volume");
 }
 
+TEST(NearestName, ANameOfMegabytesTakesNoTime)
+{
+    std::string endless;
+    for (int i = 0; i < 2'000'000; ++i) endless += "elbow";
+    EXPECT_EQ(nearest_name(endless, std::vector<std::string>(1000, "shoulder")), "shoulder");  // half an hour, letter by letter
+    EXPECT_EQ(nearest_name(endless, {"shoulder", "elbow", "wrist"}), "elbow");
+}
+
 TEST(NearestName, IsEmptyWhereNoneIsKnown)
 {
     EXPECT_EQ(nearest_name("anything", {}), "");

@@ -1,0 +1,44 @@
+// Truth: the form that the header tells. What a file holds neither breaks the one line nor reaches the terminal as a command.
+#include "pbs/geometry/input_error.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+std::string told(const std::string& file, int line, const std::string& field, const std::string& value, const std::string& rule)
+{
+    return pbs::InputError(file, line, field, value, rule).what();
+}
+
+TEST(InputError, IsFileLineFieldValueAndRule)
+{
+    EXPECT_EQ(told("limb.toml", 12, "k_volume", "1.4", "expected 0 <= k <= 1"), "limb.toml:12: k_volume = 1.4: expected 0 <= k <= 1");
+    EXPECT_EQ(told("limb.toml", 0, "k_volume", "", "missing"), "limb.toml: k_volume: missing");
+    EXPECT_EQ(told("", 0, "", "", "expected a verb"), "expected a verb");
+    EXPECT_EQ(told("t\xc3\xa9te.toml", 0, "", "", "no such file"), "t\xc3\xa9te.toml: no such file");
+}
+
+TEST(InputError, ControlCharactersStandByTheirCodes)
+{
+    EXPECT_EQ(told("a\nb.toml", 1, "joint\t", "a\npbskin: all is well\x1b[2J", "no such joint: \x7f\r"),
+              "a\\nb.toml:1: joint\\x09 = a\\npbskin: all is well\\x1b[2J: no such joint: \\x7f\\x0d");
+    EXPECT_EQ(told("", 0, "joint",
+                   "\xc2\x9b"
+                   "2J \xc2\xa0\xc3\x9b\xc2",
+                   "no such joint"),
+              "joint = \\x9b"
+              "2J \xc2\xa0\xc3\x9b\xc2: no such joint");
+    EXPECT_EQ(told("", 0, "", "", told("a\n", 0, "", "", "no such file")), "a\\n: no such file");  // told once more
+}
+
+TEST(InputError, LongFieldsAndValuesAreCut)
+{
+    const std::string most(80, 'a');
+    EXPECT_EQ(told("x.csv", 2, most, most, "expected a number"), "x.csv:2: " + most + " = " + most + ": expected a number");
+    EXPECT_EQ(told("x.csv", 2, most + "b", std::string(5'000'000, 'a'), "expected a number"),
+              "x.csv:2: " + most + "... = " + most + "...: expected a number");
+    const std::string letters = std::string(79, 'a') + "\xc3\xa9t\xc3\xa9";
+    EXPECT_EQ(told("", 0, "joint", letters, "no such joint"), "joint = " + letters.substr(0, 79) + "...: no such joint");
+}
+
+}  // namespace
