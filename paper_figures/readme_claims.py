@@ -6,6 +6,7 @@ figures behind a line stand in DIR/claims.md.
 import sys
 
 import readme_part
+import record_shapes
 import records
 from report import verdicts
 from report.markup import counted, span
@@ -56,7 +57,7 @@ def table_lines(results):
     file = results / "claims.json"
     if not file.is_file():
         raise records.RecordsMissing(f"{file}: not there: `pbskin reproduce --judge -o {results}` writes it")
-    claims = records.read_json(file)["claims"]
+    claims = record_shapes.read(file, record_shapes.claims)["claims"]
     try:
         rows = [row_of(claim) for claim in claims]
     except records.RecordsMissing as error:
@@ -73,7 +74,7 @@ def revisions(results):
     """Each revision and the studies that were run at it, most studies first."""
     studies = {}
     for file in sorted(results.glob("*/*/run.json")):
-        facts = records.read_json(file).get("provenance", {})
+        facts = record_shapes.read(file, record_shapes.run).get("provenance", {})
         revision = facts.get("git_revision", "unknown")[:12] + (" with local changes" if facts.get("git_dirty") else "")
         studies.setdefault(revision, {})[file.parent.parent.name] = True
     if not studies:

@@ -6,17 +6,8 @@
 import sys
 
 import readme_part
+import record_shapes
 import records
-
-fields = ("name", "count", "of", "command", "revision")
-
-
-def read(path):
-    record = records.read_json(path)
-    for field in fields:
-        if field not in record:
-            raise records.RecordsMissing(f"{path}: {field} =: expected all of {', '.join(fields)}")
-    return record
 
 
 def line(record):
@@ -29,7 +20,8 @@ def lines_of(folder):
     files = sorted(folder.glob("*.json"))
     if not files:
         raise records.RecordsMissing(f"{folder}: no record of a test")
-    return ["| what | measured | by | revision |", "|---|---|---|---|", *(line(read(path)) for path in files)]
+    told = [record_shapes.read(file, record_shapes.reliability) for file in files]
+    return ["| what | measured | by | revision |", "|---|---|---|---|", *map(line, told)]
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy
 
+import record_shapes
 import records
 
 
@@ -21,6 +22,7 @@ class Frames:
     def __init__(self, results, scene):
         self.folder = results / "frames" / scene
         self.run = records.Run(self.folder)
+        record_shapes.check(self.folder / "run.json", self.run.record, record_shapes.shown_run)
         self.body = self.run.record["scene"]["character"]["body"]
         self.deformers = {run["label"]: (run["name"], run["variant"]) for run in self.run.record["scene"]["runs"]}
 

@@ -110,18 +110,37 @@ def read_json(file):
         raise RecordsMissing(f"{file}: not there") from None
     except json.JSONDecodeError as error:
         raise RecordsMissing(f"{file}:{error.lineno}: not JSON: {error.msg}") from None
-    except (UnicodeDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:
         raise RecordsMissing(f"{file}: not JSON: {error}") from None
     if not isinstance(record, dict):
         raise RecordsMissing(f"{file}: expected an object")
     return record
 
 
+class Row(dict):
+    """Of a table: column -> text. A column that is not there is said so."""
+
+    def __init__(self, cells, place):
+        super().__init__(cells)
+        self.place = place  # file and line
+
+    def __missing__(self, column):
+        raise RecordsMissing(f"{self.place}: no column {column}")
+
+    def number(self, column):
+        """None where the cell is empty."""
+        try:
+            return float(self[column]) if self[column] else None
+        except ValueError:
+            raise RecordsMissing(f"{self.place}: {column} = {self[column]}: expected a number") from None
+
+
 def read_rows(file):
-    """Of a CSV file, one dictionary each."""
+    """Of a CSV file."""
     try:
         with open(file, newline="") as stream:
-            return list(csv.DictReader(stream))
+            reader = csv.DictReader(stream)
+            return [Row(cells, f"{file}:{reader.line_num}") for cells in reader]
     except OSError:
         raise RecordsMissing(f"{file}: not there") from None
     except (UnicodeDecodeError, csv.Error) as error:

@@ -27,6 +27,9 @@ if(TARGET pbskin)
 endif()
 add_test(NAME unit/paper_figures/report COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/report_test.py)
 set_tests_properties(unit/paper_figures/report PROPERTIES LABELS unit TIMEOUT 120)
+add_test(NAME unit/paper_figures/report_records
+    COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/report_records_test.py)
+set_tests_properties(unit/paper_figures/report_records PROPERTIES LABELS unit TIMEOUT 300)
 add_test(NAME unit/paper_figures/own COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/own_figures_test.py)
 set_tests_properties(unit/paper_figures/own PROPERTIES LABELS unit TIMEOUT 120)
 add_test(NAME unit/paper_figures/stills

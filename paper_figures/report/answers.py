@@ -1,5 +1,6 @@
 """The first screen: do the claims hold, when not, how far from the finite elements, at what cost. Every sentence is put together from
 claims.json, work_precision/*/points.csv, timing/timing.csv and the studies' costs."""
+import record_shapes
 from report import costs, verdicts
 from report.markup import Markup, counted, element, escaped, figure, items, joined, span, table
 from report.record_set import not_run, number
@@ -60,7 +61,8 @@ def poses(found):
     all_poses = []
     for file in found.files("work_precision/*/points.csv"):
         name = file.parent.relative_to(found.results).as_posix()
-        scene = found.runs.get(name, {}).get("work", {}).get("settings", {}).get("scene", {})
+        run = found.run(name, record_shapes.posed_run) if name in found.runs else {}
+        scene = run.get("work", {}).get("settings", {}).get("scene", {})
         rows = found.rows(f"{name}/points.csv")
         if rows:
             all_poses.append(Pose(rows, scene.get("pbs", {}).get("k_stretch", 0.2)))

@@ -1,5 +1,5 @@
 """What a verdict rests on: every run's figures with their intervals, and where its records lie."""
-from report.markup import counted, details, element, figure, folder_link, items, joined, span, table
+from report.markup import counted, details, element, figure, folder_link, items, joined, span_of_thousandths, table
 
 holds = {"whole": "\u2714 yes", "part": "\u25d0 in part", "none": "\u2718 no"}
 most_rows = 400  # of one table; the rest stands in claims.json
@@ -9,7 +9,7 @@ def with_interval(interval, scale=1):
     if interval["estimate"] is None:
         return "\u2013"
     text = figure(scale * interval["estimate"])
-    if interval["low"] is None:
+    if None in (interval["low"], interval["high"]):
         return text
     return f"{text} [{figure(scale * interval['low'])}, {figure(scale * interval['high'])}]"
 
@@ -24,7 +24,7 @@ def worst(case):
 def case_row(case, found):
     variant = "" if case["variant"] == "default" else f" ({case['variant']})"
     return [folder_link(found.results, case["run"]), case["deformer"] + variant, case["metric"], with_interval(case["mean"]),
-            with_interval(case["share_of_frames"], 100), span([round(case["least"], 3), round(case["most"], 3)]),
+            with_interval(case["share_of_frames"], 100), span_of_thousandths([case["least"], case["most"]]),
             holds[case["holds"]], worst(case), str(case["holding_with_inverted_tets"])]
 
 

@@ -1,5 +1,4 @@
 """What the studies cost: processor time expected beforehand and taken, and wall time, from each study's costs.csv."""
-import records
 from report.markup import counted, details, element, figure, joined, table
 from report.record_set import number
 
@@ -16,8 +15,7 @@ def total(rows, column):
 
 def size(found, study):
     """Quick or full, as its plan has it; older plans say nothing."""
-    plan = found.results / study / "plan.json"
-    return records.read_json(plan).get("extent", "\u2013") if plan.is_file() else "\u2013"
+    return found.plans.get(study, {}).get("extent", "\u2013")
 
 
 def totals(rows):

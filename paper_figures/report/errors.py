@@ -1,6 +1,7 @@
 """How far the deformers are from nonlinear finite elements over whole sweeps and clips, from frame_statistics.csv."""
+import record_shapes
 import records
-from report.markup import element, escaped, figure, folder_link, items, joined, span, table
+from report.markup import element, escaped, figure, folder_link, items, joined, span_of_thousandths, table
 from report.record_set import not_run, number
 
 shown = (("lbs", "LBS"), ("dqs", "DQS"), ("pbs", "PBS, 24 iterations"), ("snh_p1", "neo-Hookean FEM, P1"))
@@ -20,12 +21,12 @@ def error_of(folder, deformer):
     if not chosen or number(chosen[0], "error_joint_median_pct") is None:
         return "\u2013"
     least, median, most = (number(chosen[0], f"error_joint_{share}_pct") for share in ("least", "median", "most"))
-    return f"{figure(median)} ({span([round(least, 3), round(most, 3)])})"
+    return f"{figure(median)} ({span_of_thousandths([least, most])})"
 
 
 def row_of(found, name, fem):
+    outcome = found.run(name, record_shapes.judged_run)["outcome"]
     cells = ["\u2013" if deformer == fem["name"] else error_of(found.results / name, deformer) for deformer, _ in shown]
-    outcome = found.runs[name]["outcome"]
     meets = outcome.get("self_intersecting_reference_frames", 0)
     model = f"{fem['model'].replace('_', ' ')}, P{fem['element_order']}"
     return [folder_link(found.results, name), escaped(model), *cells, f"{meets} of {outcome['frames']}"]

@@ -68,10 +68,15 @@ def figure(value):
     return digits.replace("-", "\u2212")
 
 
-def span(values):
-    """6.44 to 13, or the one figure."""
-    low, high = figure(min(values)), figure(max(values))
+def span(values, scale=1):
+    """6.44 to 13, or the one figure; None, which is not finite, is left out."""
+    known = [scale * value for value in values if value is not None]
+    low, high = figure(min(known, default=None)), figure(max(known, default=None))
     return low if low == high else f"{low} to {high}"
+
+
+def span_of_thousandths(values):
+    return span([round(value, 3) for value in values if value is not None])
 
 
 def listed(parts, between=", "):

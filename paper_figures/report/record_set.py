@@ -3,6 +3,7 @@
     found = record_set.RecordSet(results)
     for claim in found.claims: ...
 """
+import record_shapes
 import records
 
 
@@ -11,16 +12,23 @@ class RecordSet:
         if not results.is_dir():
             raise records.RecordsMissing(f"{results}: no such folder")
         self.results = results
-        self.runs = {file.parent.relative_to(results).as_posix(): records.read_json(file) for file in sorted(results.glob("**/run.json"))}
+        self.runs = {file.parent.relative_to(results).as_posix(): record_shapes.read(file, record_shapes.run)
+                     for file in self.files("**/run.json")}
         if not self.runs:
             raise records.RecordsMissing(f"{results}: no records: no run.json in it or below; run `pbskin reproduce -o` into it first")
         self.studies = sorted({name.split("/")[0] for name in self.runs})
+        self.plans = {file.parent.name: record_shapes.read(file, record_shapes.plan) for file in self.files("*/plan.json")}
         self.claims = self._claims()
 
     def _claims(self):
         """None where no claim was judged."""
         file = self.results / "claims.json"
-        return records.read_json(file).get("claims") if file.is_file() else None
+        return record_shapes.read(file, record_shapes.claims)["claims"] if file.is_file() else None
+
+    def run(self, name, shape):
+        """The record of a run from which more is read than of all."""
+        record_shapes.check(self.results / name / "run.json", self.runs[name], shape)
+        return self.runs[name]
 
     def rows(self, name):
         """Of a CSV file, or none where it is not there."""
@@ -32,8 +40,7 @@ class RecordSet:
 
     def left_out(self):
         """(study, scene, why): what could not be run on that machine."""
-        plans = ((file.parent.name, records.read_json(file)) for file in self.files("*/plan.json"))
-        return [(study, left["scene"], left["reason"]) for study, plan in plans for left in plan.get("left_out", [])]
+        return [(study, left["scene"], left["reason"]) for study, plan in self.plans.items() for left in plan.get("left_out", [])]
 
 
 def not_run(found, study):
@@ -48,4 +55,5 @@ def why_absent(found, study):
 
 
 def number(row, column):
-    return float(row[column]) if row.get(column) else None
+    """None where the cell is empty or its column not there, as in records of an earlier version."""
+    return row.number(column) if column in row else None

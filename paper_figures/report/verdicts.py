@@ -2,7 +2,7 @@
 import re
 
 from report import behind
-from report.markup import Markup, counted, element, escaped, figure, items, joined, span
+from report.markup import Markup, counted, element, escaped, figure, items, joined, span, span_of_thousandths
 
 # Of each verdict: symbol, class of its colour, how many are said to be so.
 marks = {
@@ -125,7 +125,7 @@ def sweeps_and_clips(claim):
 
 def clip_figures(claim, clips):
     if is_share(claim):
-        return f"{span([100 * case['share_of_frames']['estimate'] for case in clips])} % of the frames within"
+        return f"{span([case['share_of_frames']['estimate'] for case in clips], 100)} % of the frames within"
     return f"means of {span([case['mean']['estimate'] for case in clips])} %"
 
 
@@ -145,7 +145,7 @@ def measured(claim):
 def case_text(claim, case):
     name = in_words(case["text"].split(":")[0])
     if is_sweep(case):
-        return f"{name}: {per_cent_span([case['least'], case['most']])} over the angle"
+        return f"{name}: {span_of_thousandths([case['least'], case['most']])} % over the angle"
     share = is_share(claim)
     return f"{name}: " + behind.with_interval(case["share_of_frames" if share else "mean"], 100 if share else 1)
 
@@ -155,10 +155,6 @@ def is_share(claim):
     return claim["interval_of"].startswith("share")
 
 
-def per_cent_span(values):
-    return span([round(value, 3) for value in values]) + " %"
-
-
 def range_text(claim, quantity):
     """From the least to the most of its figures, in brackets from the lowest to the highest end of their intervals."""
     entries = [entry for entry in claim["measurements"] if entry["quantity"] == quantity]
@@ -166,8 +162,8 @@ def range_text(claim, quantity):
     known = [entry for entry in entries if entry["value"] is not None]
     if not known:
         return f"{quantity}: no figure"
-    ends = [end for entry in known for end in (entry["low"], entry["high"]) if end is not None]
     values = [entry["value"] for entry in known]
+    ends = [end for entry in known for end in (entry["low"], entry["high"]) if end is not None] or values
     interval = f" [{figure(min(ends))}, {figure(max(ends))}]" if (min(ends), max(ends)) != (min(values), max(values)) else ""
     return f"{quantity}: {span(values)}{interval}{unit}"
 

@@ -104,7 +104,7 @@ std::string content_hash(const TetMesh& mesh)
 
 std::string hash_of_file(const std::string& path)
 {
-    return content_hash(read_text_file(path));
+    return content_hash(read_text_file(path, most_mesh_bytes));
 }
 
 std::string cache_folder()

@@ -103,7 +103,7 @@ Skeleton parse_skeleton(const std::string& text, const std::string& name)
 
 Skeleton read_skeleton(const std::string& path)
 {
-    return parse_skeleton(read_text_file(path), path);
+    return parse_skeleton(read_text_file(path, most_settings_bytes), path);
 }
 
 }  // namespace pbs

@@ -18,7 +18,9 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 
 namespace pbs {
@@ -51,6 +53,19 @@ double limit_s(const std::string& path)
     return base_limit_s + limit_s_per_megabyte * 1e-6 * static_cast<double>(bytes_of(path));
 }
 
+// Half of what the machine could give now: the parent holds the answer too.
+std::uintmax_t most_bytes_now()
+{
+    std::ifstream file("/proc/meminfo");
+    for (std::string line; std::getline(file, line);) {
+        std::istringstream words(line);
+        std::string word;
+        std::uintmax_t kilobytes = 0;
+        if (words >> word >> kilobytes && word == "MemAvailable:") return kilobytes * 1024 / 2;
+    }
+    return std::numeric_limits<std::uintmax_t>::max();
+}
+
 void limit(int resource, std::uintmax_t most)
 {
     rlimit now{};
@@ -67,7 +82,7 @@ void limit_child(std::uintmax_t file_bytes)
     std::uintmax_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     const std::uintmax_t own = pages * static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE));
-    limit(RLIMIT_AS, own + base_limit_bytes + limit_bytes_per_byte * file_bytes);
+    limit(RLIMIT_AS, own + std::min(base_limit_bytes + limit_bytes_per_byte * file_bytes, most_bytes_now()));
 }
 
 void silence()

@@ -15,7 +15,7 @@ TetMesh read_by_extension(const std::string& path)
     const bool tetgen = extension == ".node" || extension == ".ele";
     if (!vtk && !gmsh && !tetgen)
         throw InputError(path, 0, "extension", extension, "expected a tet mesh: .msh, .vtu, .vtk, .mesh, .node or .ele");
-    require_readable(path);
+    require_readable(path, vtk ? most_mesh_bytes : most_text_bytes);
     if (tetgen) return read_tetgen(path);
     const long long named = gmsh ? check_gmsh_file(path) : -1;
     const IndexedPoints read = read_guarded(path, vtk ? read_vtk : read_gmsh);

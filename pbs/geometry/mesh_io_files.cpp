@@ -25,13 +25,15 @@ std::string lower_extension(const std::string& path)
     return extension;
 }
 
-void require_readable(const std::string& path)
+void require_readable(const std::string& path, std::uintmax_t most_bytes)
 {
     std::error_code code;
     if (!fs::exists(path, code)) throw InputError(path, 0, "", "", "no such file");
     if (!fs::is_regular_file(path, code)) throw InputError(path, 0, "", "", "expected a file");
     if (!std::ifstream(path)) throw InputError(path, 0, "", "", "cannot be read");
-    if (fs::file_size(path, code) == 0) throw InputError(path, 0, "", "", "the file is empty");
+    const std::uintmax_t bytes = fs::file_size(path, code);
+    if (code || bytes == 0) throw InputError(path, 0, "", "", "the file is empty");
+    require_size(path, bytes, most_bytes);
 }
 
 int checked_index(const std::string& path, long long tet, long long index, long long points)

@@ -2,6 +2,7 @@
 // unchecked. Cells of lower dimension are left out; volume cells that are not four-node tets are InputErrors.
 #pragma once
 
+#include "pbs/geometry/file_limits.hpp"
 #include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 
@@ -32,8 +33,8 @@ void write_atomically(const std::string& path, const std::string& bytes);
 // ".msh" of "a/B.MSH".
 std::string lower_extension(const std::string& path);
 
-// An InputError unless the file is there, can be read and is not empty.
-void require_readable(const std::string& path);
+// An InputError unless the file is there, can be read, is not empty and not larger.
+void require_readable(const std::string& path, std::uintmax_t most_bytes);
 
 // The index as int, or an InputError: vertex indices begin at 0 and stay below the number of points.
 int checked_index(const std::string& path, long long tet, long long index, long long points);

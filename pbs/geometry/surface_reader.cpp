@@ -74,7 +74,7 @@ SurfaceMesh joined(const IndexedPoints& mesh)
 
 IndexedPoints checked_points(const std::string& path, const std::string& mesh_name)
 {
-    require_readable(path);
+    require_readable(path, most_mesh_bytes);
     const std::string extension = lower_extension(path);
     if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
         throw InputError(path, 0, "extension", extension, "expected a surface: .obj, .ply, .off, .stl, .gltf, .glb, .dae or .zae");

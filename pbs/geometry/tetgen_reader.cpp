@@ -18,7 +18,7 @@ class NumberLines {
 public:
     explicit NumberLines(const std::string& path) : path_(path)
     {
-        require_readable(path);
+        require_readable(path, most_text_bytes);
         file_.open(path);
     }
 
@@ -68,10 +68,11 @@ private:
     std::vector<double> numbers_;
 };
 
-// A file of n bytes holds fewer than n entries: a count above that is damage and must not be allocated.
+// "0 0 0 0" and the end of its line are the shortest entry: a count above what the file can hold is damage and must not be allocated.
 long long most_entries(const std::string& path)
 {
-    return static_cast<long long>(std::filesystem::file_size(path));
+    constexpr std::uintmax_t shortest_bytes = 8;
+    return static_cast<long long>((std::filesystem::file_size(path) + 1) / shortest_bytes);
 }
 
 Positions read_nodes(const std::string& path, long long& first)

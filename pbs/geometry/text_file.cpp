@@ -24,10 +24,11 @@ public:
     OpenFile(const OpenFile&) = delete;
     OpenFile& operator=(const OpenFile&) = delete;
 
-    void require_regular() const
+    std::uintmax_t bytes() const
     {
         struct stat status = {};
         if (::fstat(file_, &status) != 0 || !S_ISREG(status.st_mode)) refuse("cannot be opened: expected a file");
+        return static_cast<std::uintmax_t>(status.st_size);
     }
 
     // False at the end of the file.
@@ -49,13 +50,17 @@ private:
 
 }  // namespace
 
-std::string read_text_file(const std::string& path)
+void require_size(const std::string& path, std::uintmax_t bytes, std::uintmax_t most_bytes)
+{
+    if (bytes > most_bytes) throw InputError(path, 0, "bytes", std::to_string(bytes), "expected at most " + std::to_string(most_bytes));
+}
+
+std::string read_text_file(const std::string& path, std::uintmax_t most_bytes)
 {
     const OpenFile file(path);
-    file.require_regular();
+    require_size(path, file.bytes(), most_bytes);
     std::string text;
-    while (file.append_to(text)) {
-    }
+    while (file.append_to(text)) require_size(path, text.size(), most_bytes);  // it may grow
     return text;
 }
 

@@ -36,20 +36,22 @@ def damaged():
     yield "a_word_for_a_number", table, MEASUREMENTS.replace("2e-6,2e-6", "east,2e-6", 1), ":3:4: value = east: expected a number", None
     yield "too_many_fields", table, MEASUREMENTS.replace("bar", "bar,bar"), ":3:8: 8 fields: expected 7", None
     yield "an_open_quote", table, MEASUREMENTS.replace("bar", '"bar'), "", None
-    yield "empty_run", run, "", "no JSON, or cut short", None
+    yield "empty_run", run, "", "no JSON, or cut short", "not JSON"
     yield "noise_run", run, NOISE, "no JSON, or cut short", "not JSON"
-    yield "truncated_run", run, RUN[:20], "no JSON, or cut short", None
+    yield "truncated_run", run, RUN[:20], "no JSON, or cut short", "not JSON"
     yield "run_without_a_schema", run, "{}", "schema: missing", None
-    yield "run_that_is_a_list", run, "[]", "schema: missing", None
+    yield "run_that_is_a_list", run, "[]", "schema: missing", "expected an object"
+    numbered = json.dumps({"provenance": {"git_revision": 7}})
+    yield "revision_that_is_a_number", run, numbered, "schema: missing", "provenance.git_revision = 7: expected a text"
     yield "nested_run", run, "[" * 100000, "no JSON, or cut short", "not JSON"
-    yield "empty_plan", "plan.json", "", "no JSON, or cut short", None
-    yield "noise_plan", "plan.json", NOISE, "no JSON, or cut short", None
-    yield "plan_without_runs", "plan.json", "{}", ": left_out: missing", None
+    yield "empty_plan", "plan.json", "", "no JSON, or cut short", "not JSON"
+    yield "noise_plan", "plan.json", NOISE, "no JSON, or cut short", "not JSON"
+    yield "plan_without_runs", "plan.json", "{}", ": left_out: missing", ": runs: missing"
     yield "plan_that_is_a_list", "plan.json", "[]", ": left_out: missing", "expected an object"
-    yield "runs_that_are_a_number", "plan.json", plan(runs=3), "runs: expected a list", None
-    yield "run_without_a_name", "plan.json", plan(runs=[{}]), "name: missing", None
-    yield "name_that_is_a_number", "plan.json", plan(runs=[{"name": 3}]), "name: expected a text", None
-    yield "left_out_without_a_reason", "plan.json", plan(left_out=[{"scene": "walk"}]), "reason: missing", None
+    yield "runs_that_are_a_number", "plan.json", plan(runs=3), "runs: expected a list", "runs = 3: expected a list"
+    yield "run_without_a_name", "plan.json", plan(runs=[{}]), "name: missing", "runs[0].name: missing"
+    yield "name_that_is_a_number", "plan.json", plan(runs=[{"name": 3}]), "name: expected a text", "runs[0].name = 3: expected a text"
+    yield "left_out_without_a_reason", "plan.json", plan(left_out=[{"scene": "walk"}]), "reason: missing", "left_out[0].reason: missing"
 
 
 def cases():
@@ -58,6 +60,9 @@ def cases():
         yield Case(f"judge {name}", records, ["reproduce", "--judge", "-o", "records"], (f"records/momentum/{file}", judged))
         if reported is not None:
             yield Case(f"report {name}", records, ["report", "records"], (f"records/momentum/{file}", reported))
+    verdicts = {"records": study(FILES | {"../claims.json": json.dumps({"claims": "all hold"})})}
+    yield Case("report verdicts that are a text", verdicts, ["report", "records"],
+               ('records/claims.json: claims = "all hold": expected a list',))
     yield Case("report of nothing", {}, ["report", "none"], ("none", "no such folder"))
     yield Case("report of a file", {"out": "text"}, ["report", "out"], ("out", "no such folder"))
     yield Case("report of no records", {"out": lambda path: path.mkdir()}, ["report", "out"], ("out", "no records"))

@@ -126,6 +126,15 @@ class Viewer(unittest.TestCase):
         self.run.rename(self.results / "frames" / "another")
         assert_missing("no frames on record")
 
+    def test_a_run_that_tells_no_scene_or_another_kind_of_one_is_refused_by_field(self):
+        for scene, words in (({}, "scene.character: missing"), ([], "scene = []: expected an object"),
+                             ({"character": {"body": "limb"}, "motion": {}, "runs": ["pbs"]},
+                              'scene.runs[0] = "pbs": expected an object')):
+            (self.run / "run.json").write_text(json.dumps({"scene": scene}))
+            with self.subTest(words), self.assertRaises(records.RecordsMissing) as caught:
+                viewer_html.claim_links(self.results)
+            self.assertEqual(str(caught.exception), f"{self.run / 'run.json'}: {words}")
+
     def test_frames_left_from_an_earlier_plan_or_changed_since_are_refused(self):
         (self.results / "frames" / "plan.json").write_text(json.dumps({"runs": [{"name": "limb_twist"}]}))
         viewer_data.recorded_runs(self.results)

@@ -1,0 +1,106 @@
+"""What is read of the JSON records, and how it has to be: a record that is otherwise is refused by file, field, value and rule.
+
+    run = record_shapes.read(folder / "run.json", record_shapes.run)
+
+A shape is a Rule for a single value; {"key": shape, "other?": shape} for an object, of which `other` may be missing and what is not named
+here is not looked at; {"*": shape} for an object of any keys; [shape] for a list; (shape, shape) for a list of so many.
+"""
+import json
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import records
+
+most_shown = 60  # characters of a value
+
+
+@dataclass(frozen=True)
+class Rule:
+    words: str
+    holds: Callable
+
+
+def one_of(*words):
+    return Rule(f"one of {', '.join(words)}", lambda value: value in words)
+
+
+def is_number(value):
+    return type(value) in (int, float) and abs(value) <= sys.float_info.max
+
+
+text = Rule("a text", lambda value: isinstance(value, str) and not any("\ud800" <= letter <= "\udfff" for letter in value))
+truth = Rule("true or false", lambda value: isinstance(value, bool))
+number = Rule("a number", is_number)
+figure = Rule("a number or null", lambda value: value is None or is_number(value))  # null: not finite
+whole = Rule("a whole number", lambda value: is_number(value) and isinstance(value, int))
+
+
+def refuse(file, field, value, words):
+    shown = json.dumps(value)
+    shown = shown if len(shown) <= most_shown else shown[:most_shown] + "..."
+    raise records.RecordsMissing(f"{file}: {field + ' = ' if field else ''}{shown}: expected {words}")
+
+
+def check(file, value, shape, field=""):
+    """RecordsMissing where a record's value, or one in it, is not of this shape."""
+    if isinstance(shape, Rule):
+        if not shape.holds(value):
+            refuse(file, field, value, shape.words)
+    elif isinstance(shape, dict):
+        if not isinstance(value, dict):
+            refuse(file, field, value, "an object")
+        for key, inner in members(file, value, shape, field):
+            check(file, value[key], inner, f"{field}.{key}" if field else key)
+    else:
+        if not isinstance(value, list):
+            refuse(file, field, value, "a list")
+        if isinstance(shape, tuple) and len(value) != len(shape):
+            refuse(file, field, value, f"a list of {len(shape)}")
+        for place, one in enumerate(value):
+            check(file, one, shape[place] if isinstance(shape, tuple) else shape[0], f"{field}[{place}]")
+
+
+def members(file, value, shape, field):
+    """(key, its shape) of what is there; RecordsMissing where one is missing that must not be."""
+    for name, inner in shape.items():
+        if name == "*":
+            yield from ((key, inner) for key in value)
+        elif (key := name.removesuffix("?")) in value:
+            yield key, inner
+        elif key == name:
+            raise records.RecordsMissing(f"{file}: {field + '.' if field else ''}{key}: missing")
+
+
+def read(file, shape):
+    record = records.read_json(file)
+    check(file, record, shape)
+    return record
+
+
+provenance = {"version?": text, "git_revision?": text, "git_dirty?": truth, "compiler?": text, "flags?": text, "build_type?": text,
+              "cpu_model?": text, "logical_cpus?": whole, "threads?": whole, "libraries?": {"*": text}, "input_hashes?": {"*": text}}
+deformer = {"label": text, "name": text, "variant": text, "options?": {"k_stretch?": number, "jiggle?": {"k_stretch": number}}}
+scene = {"reference?": {"name?": text}, "fem?": [{"name": text, "model": text, "element_order": whole}],
+         "character?": {"body?": text}, "motion?": {"clip?": text}, "runs?": [deformer]}
+run = {"provenance?": provenance, "scene?": scene, "work?": {},
+       "outcome?": {"frames?": whole, "self_intersecting_reference_frames?": whole}}
+shown_run = {"scene": {"character": {"body": text}, "motion": {}, "runs": [deformer]}}  # frame by frame
+judged_run = {"outcome": {"frames": whole}}  # against a reference
+posed_run = {"work?": {"settings?": {"scene?": {"pbs?": {"k_stretch?": number}}}}}  # of error against run time
+
+plan = {"extent?": text, "runs": [{"name": text}], "left_out?": [{"scene": text, "reason": text}]}
+
+interval = {"estimate": figure, "low": figure, "high": figure}
+case = {"deformer": text, "variant": text, "metric": text, "run": text, "holds": one_of("whole", "part", "none"), "mean": interval,
+        "share_of_frames": interval, "angles_deg": [(number, number)], "least": figure, "most": figure, "text": text,
+        "holding_with_inverted_tets": whole, "deepest": [{"time_s": figure, "angle_deg": figure, "value": figure}]}
+measurement = {"quantity": text, "of": text, "value": figure, "low": figure, "high": figure, "unit": text, "run": text,
+               "holds?": one_of("whole", "part", "none")}
+order = {"order": text, "precision": text, "verdict": text, "same": truth, "differing": [text]}
+claim = {"id": text, "statement": text, "place": text, "study": text, "expected": text, "verdict": text, "text": text, "measured": text,
+         "interval_of": text, "runs": [text], "cases": [case], "beside": [case], "orders": [order], "measurements": [measurement],
+         "measured_beside": [measurement]}
+claims = {"claims": [claim]}
+
+reliability = {"name": text, "count": number, "of": number, "command": text, "revision": text, "note?": text}

@@ -1,0 +1,187 @@
+"""Records of another shape are refused by the report: file, field, value and rule, exit status 2, no page. Truth: the contract in README.
+Every value of small records takes every other kind in turn, and no answer is a traceback."""
+import contextlib
+import io
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+import unittest.mock
+
+root = pathlib.Path(__file__).resolve().parents[3]
+sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
+
+import record_shapes  # noqa: E402
+import records  # noqa: E402
+import report  # noqa: E402
+import synthetic_records  # noqa: E402
+
+RUN, POSE, PLAN, CLAIMS = "volume/limb_twist/run.json", "work_precision/twist/run.json", "volume/plan.json", "claims.json"
+ANYTHING = (None, True, 3, -1e300, "x", "", [], [3], ["x"], {}, {"x": 3})
+
+# file, where in it, what stands there, what is said of it
+REFUSED = (
+    (RUN, (), [], "expected an object"),
+    (RUN, (), 3, "expected an object"),
+    (RUN, ("provenance",), 3, "provenance = 3: expected an object"),
+    (RUN, ("provenance", "git_revision"), 7, "provenance.git_revision = 7: expected a text"),
+    (RUN, ("provenance", "git_revision"), "\ud800", 'provenance.git_revision = "\\ud800": expected a text'),
+    (RUN, ("provenance", "git_dirty"), "no", 'provenance.git_dirty = "no": expected true or false'),
+    (RUN, ("provenance", "threads"), [1], "provenance.threads = [1]: expected a whole number"),
+    (RUN, ("provenance", "libraries"), ["Eigen"], 'provenance.libraries = ["Eigen"]: expected an object'),
+    (RUN, ("provenance", "libraries"), {"Eigen": 3.4}, "provenance.libraries.Eigen = 3.4: expected a text"),
+    (RUN, ("provenance", "input_hashes"), {"a": None}, "provenance.input_hashes.a = null: expected a text"),
+    (RUN, ("scene",), "limb", 'scene = "limb": expected an object'),
+    (RUN, ("scene", "reference"), [], "scene.reference = []: expected an object"),
+    (RUN, ("scene", "fem"), {}, "scene.fem = {}: expected a list"),
+    (RUN, ("scene", "fem", 0), "snh", 'scene.fem[0] = "snh": expected an object'),
+    (RUN, ("scene", "fem", 0), {"name": "snh", "model": "linear"}, "scene.fem[0].element_order: missing"),
+    (RUN, ("outcome",), [37], "outcome = [37]: expected an object"),
+    (RUN, ("outcome", "frames"), "all", 'outcome.frames = "all": expected a whole number'),
+    (RUN, ("work",), [], "work = []: expected an object"),
+    (POSE, ("work", "settings"), "x" * 99, 'work.settings = "' + "x" * 59 + "...: expected an object"),
+    (POSE, ("work", "settings", "scene", "pbs", "k_stretch"), "soft", 'work.settings.scene.pbs.k_stretch = "soft": expected a number'),
+    (POSE, ("work", "settings", "scene", "pbs", "k_stretch"), 10 ** 400, "work.settings.scene.pbs.k_stretch = 1000"),
+    (PLAN, (), 3, "expected an object"),
+    (PLAN, ("runs",), "limb", 'runs = "limb": expected a list'),
+    (PLAN, ("runs", 0), {}, "runs[0].name: missing"),
+    (PLAN, ("left_out",), {"walk": "long"}, 'left_out = {"walk": "long"}: expected a list'),
+    (PLAN, ("left_out", 0, "reason"), 3, "left_out[0].reason = 3: expected a text"),
+    (PLAN, ("extent",), True, "extent = true: expected a text"),
+    (CLAIMS, (), {}, "claims: missing"),
+    (CLAIMS, ("claims",), {}, "claims = {}: expected a list"),
+    (CLAIMS, ("claims", 1), "C10", 'claims[1] = "C10": expected an object'),
+    (CLAIMS, ("claims", 1, "verdict"), None, "claims[1].verdict = null: expected a text"),
+    (CLAIMS, ("claims", 1, "runs"), "limb", 'claims[1].runs = "limb": expected a list'),
+    (CLAIMS, ("claims", 0, "cases"), "limb", 'claims[0].cases = "limb": expected a list'),
+    (CLAIMS, ("claims", 0, "cases", 2, "holds"), "maybe", 'claims[0].cases[2].holds = "maybe": expected one of whole, part, none'),
+    (CLAIMS, ("claims", 0, "cases", 1, "mean"), 3, "claims[0].cases[1].mean = 3: expected an object"),
+    (CLAIMS, ("claims", 0, "cases", 1, "mean", "low"), "3", 'claims[0].cases[1].mean.low = "3": expected a number or null'),
+    (CLAIMS, ("claims", 0, "cases", 0, "angles_deg"), [[1, 2, 3]], "claims[0].cases[0].angles_deg[0] = [1, 2, 3]: expected a list of 2"),
+    (CLAIMS, ("claims", 1, "measurements", 0, "value"), True, "claims[1].measurements[0].value = true: expected a number or null"),
+)
+
+
+def parts(value, place=()):
+    """Each place in a record; of a list the first and the last."""
+    yield place
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield from parts(inner, (*place, key))
+    elif isinstance(value, list):
+        for at in sorted({0, len(value) - 1} if value else ()):
+            yield from parts(value[at], (*place, at))
+
+
+def changed(record, place, value):
+    if not place:
+        return value
+    record = json.loads(json.dumps(record))
+    inner = record
+    for key in place[:-1]:
+        inner = inner[key]
+    inner[place[-1]] = value
+    return record
+
+
+class ReportRecords(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.results = pathlib.Path(folder.name)
+        without_viewer = unittest.mock.patch.dict(sys.modules, {"viewer_html": None})
+        without_viewer.start()
+        self.addCleanup(without_viewer.stop)
+        synthetic_records.write_study(self.results)
+        synthetic_records.write_claims(self.results)
+        synthetic_records.write_poses(self.results)
+        run = {**json.loads((self.results / RUN).read_text()), "outcome": {"frames": 37, "self_intersecting_reference_frames": 0},
+               "scene": {"reference": {"name": "snh"}, "fem": [{"name": "snh", "model": "stable_neo_hookean", "element_order": 1}]},
+               "work": {"settings": {}}}
+        run["provenance"] |= {"libraries": {"Eigen": "3.4.0"}, "input_hashes": {"limb": "0123"}, "threads": 1}
+        self.put(RUN, run)
+        self.put(PLAN, {"extent": "quick", "runs": [{"name": "limb_twist"}], "left_out": [{"scene": "walk", "reason": "no clip"}]})
+
+    def put(self, name, record):
+        (self.results / name).write_text(json.dumps(record))
+
+    def record(self, name):
+        return json.loads((self.results / name).read_text())
+
+    def made(self):
+        """Exit status, what was complained of, whether there is a page."""
+        complaints = io.StringIO()
+        with contextlib.redirect_stderr(complaints), contextlib.redirect_stdout(io.StringIO()):
+            status = report.main(self.results)
+        page = self.results / "report.html"
+        there = page.is_file()
+        page.unlink(missing_ok=True)
+        return status, complaints.getvalue(), there
+
+    def test_what_the_cases_are_made_of_is_accepted(self):
+        self.assertEqual(self.made(), (0, "", True))
+
+    def test_a_value_of_another_kind_is_refused_by_file_field_value_and_rule(self):
+        for name, place, value, words in REFUSED:
+            with self.subTest(f"{name} {place} {str(value)[:40]}"):
+                whole = self.record(name)
+                self.put(name, changed(whole, place, value))
+                status, said, there = self.made()
+                self.put(name, whole)
+                self.assertEqual((status, there), (2, False))
+                self.assertIn(f"pbskin: {self.results / name}: {words}", said)
+
+    def test_no_value_of_any_kind_ends_in_a_traceback(self):
+        for name in (RUN, POSE, PLAN, CLAIMS):
+            whole = self.record(name)
+            for place in parts(whole):
+                for value in ANYTHING:
+                    with self.subTest(f"{name} {place} {value}"):
+                        self.put(name, changed(whole, place, value))
+                        status, said, there = self.made()
+                        self.assertEqual((status, there), (2, False) if said else (0, True))
+                        self.assertTrue(not said or f"pbskin: {self.results / name}: " in said, said)
+            self.put(name, whole)
+
+    def test_numbers_without_an_end_and_text_without_one_are_no_json(self):
+        for content in ("9" * 5000, "[" * 100000, '{"scene": NaN'):
+            (self.results / RUN).write_text(content)
+            status, said, there = self.made()
+            self.assertEqual((status, there), (2, False))
+            self.assertIn("not JSON", said)
+
+    def test_a_run_against_a_reference_without_its_outcome_is_named_in_the_page(self):
+        run = self.record(RUN)
+        del run["outcome"]
+        self.put(RUN, run)
+        self.made()
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            report.main(self.results)
+        self.assertIn("volume/limb_twist/run.json: outcome: missing", said.getvalue())
+
+    def test_cells_of_tables_are_refused_alike(self):
+        points = self.results / "work_precision/twist/points.csv"
+        whole = points.read_text()
+        points.write_text(whole.replace("50.0", "east"))
+        status, said, there = self.made()
+        self.assertEqual((status, there), (2, False))
+        self.assertIn(f"pbskin: {points}:2: error_joint_pct = east: expected a number", said)
+        points.write_text(whole.replace("pose", "place", 1))
+        self.assertIn(f"pbskin: {points}:2: no column pose", self.made()[1])
+
+
+class RecordShapes(unittest.TestCase):
+    def test_what_is_not_named_is_not_looked_at(self):
+        record_shapes.check("a.json", {"a": 1, "b": object()}, {"a": record_shapes.number, "c?": record_shapes.text})
+
+    def test_a_number_is_one_that_can_be_shown(self):
+        for value in (0, -1.5, 10 ** 300):
+            record_shapes.check("a.json", value, record_shapes.number)
+        for value in (True, float("nan"), float("inf"), 10 ** 400, "1", None):
+            with self.subTest(value), self.assertRaisesRegex(records.RecordsMissing, "^a.json: .*: expected a number$"):
+                record_shapes.check("a.json", value, record_shapes.number)
+
+
+if __name__ == "__main__":
+    unittest.main()
