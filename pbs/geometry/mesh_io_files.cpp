@@ -32,7 +32,8 @@ void require_readable(const std::string& path, std::uintmax_t most_bytes)
     if (!fs::is_regular_file(path, code)) throw InputError(path, 0, "", "", "expected a file");
     if (!std::ifstream(path)) throw InputError(path, 0, "", "", "cannot be read");
     const std::uintmax_t bytes = fs::file_size(path, code);
-    if (code || bytes == 0) throw InputError(path, 0, "", "", "the file is empty");
+    if (code) throw InputError(path, 0, "", "", "cannot be read: " + code.message());
+    if (bytes == 0) throw InputError(path, 0, "", "", "the file is empty");
     require_size(path, bytes, most_bytes);
 }
 

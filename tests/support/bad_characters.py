@@ -1,7 +1,7 @@
 """Skeletons, weights and clips that are refused, of an arm that is sound."""
 import foreign_arm
 from bad_case import Case
-from bad_tets import NOISE, POINTS
+from bad_tets import NOISE, POINTS, sparse
 
 SKELETON = foreign_arm.SKELETON
 SCENE = foreign_arm.SCENE.replace("arm.msh", "arm.vtu")
@@ -42,6 +42,7 @@ def skeletons():
     yield "nested_keys", "[" + "a." * 50000 + "a]\nx = 1\n", "nested too deep: expected at most 64 parts"
     yield "nested_keys_of_an_inline_table", "x = {" + "a." * 1_500_000 + "a = 1}\n", "nested too deep: expected at most 64 parts"
     yield "not_utf8", SKELETON.encode().replace(b"elbow", b"\xff\xfe"), ":7: Encountered invalid utf-8 sequence"
+    yield "sparse", sparse, "bytes = 68719476736: expected at most 16777216"
     yield "no_joint", "x = 1\n", ":1: x: unknown key"
     yield ("thousands_of_joints", "".join(joint(f"j{i}", "", [i, 0, 0], [i + 1, 0, 0]) for i in range(2500)),
            "joints = 2500: expected at most 2000")
@@ -51,6 +52,7 @@ def weights():
     yield "empty", "", ":1: expected the header"
     yield "noise", NOISE, ":1: expected the header"
     yield "no_header", WEIGHTS[len(HEADER):], ":1: expected the header"
+    yield "sparse", sparse, "bytes = 68719476736: expected at most 268435456"
     yield "truncated", WEIGHTS[:100], "has no weights"
     yield "sum_not_one", WEIGHTS.replace("3,elbow,0.5", "3,elbow,0.4", 1), ":9: vertex 3 = 0.900000: its weights must sum to one"
     yield "negative", WEIGHTS.replace("3,elbow,0.5", "3,elbow,-0.5", 1), ":9: weight = -0.5: expected 0 <= weight <= 1"
@@ -81,6 +83,7 @@ FRAME_TIME, NO_CLIP = "expected a time from 1e-6 to 1000 s", "no clip that assim
 def clips():
     yield "empty", "", NO_CLIP + "File is too small"
     yield "noise", NOISE, 'Expected header string "HIERARCHY"'
+    yield "sparse", sparse, "bytes = 68719476736: expected at most 268435456"
     yield "noise_in_the_hierarchy", b"HIERARCHY\n" + NOISE, 'Expected root node "ROOT"'
     yield "truncated_hierarchy", bvh()[:120], 'Expected opening brace "{"'
     yield "truncated_motion", bvh(motion=ROW + "0 0 0"), "Unexpected end of file"

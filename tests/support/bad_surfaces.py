@@ -7,7 +7,7 @@ import struct
 import zipfile
 
 from bad_case import Case
-from bad_tets import NOISE
+from bad_tets import NOISE, sparse
 
 POINTS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
 FACES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
@@ -94,6 +94,8 @@ def soups():
         if extension in BEYOND:
             yield "index_out_of_range" + extension, write(POINTS, OUT), BEYOND[extension]
             yield "negative_index" + extension, write(POINTS, NEGATIVE), BELOW[extension]
+    for extension in (".obj", ".off", ".gltf"):
+        yield "sparse" + extension, sparse, "bytes = 68719476736: expected at most 1073741824"
     yield "huge_count.off", off(count=4000000000), NO_FURTHER.format(0, 0)
     yield "huge_count.ply", ply(count=4000000000), NO_FURTHER.format(9, 0)
     yield "huge_count.stl", b"\0" * 80 + struct.pack("<I", 4000000000) + b"\0" * 50, NO_FURTHER.format(1, 1)

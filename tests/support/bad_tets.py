@@ -21,6 +21,12 @@ TETS = turned_outward(POINTS, TETS)
 NOISE = bytes((i * i * 7919 + i * 31) % 256 for i in range(4000))
 
 
+def sparse(path):
+    """64 GB of zeros that take no room."""
+    path.touch()
+    os.truncate(path, 1 << 36)
+
+
 def set_point(vertex, value):
     return lambda points, tets: points[vertex].__setitem__(1, value)
 
@@ -95,6 +101,7 @@ def cases():
     for extension, write in tet_texts.FORMATS.items():
         whole, file = write(POINTS, TETS), "bad" + extension
         yield measured(f"tets empty{extension}", file, "", "the file is empty")
+        yield measured(f"tets sparse{extension}", file, sparse, "bytes = 68719476736: expected at most ")
         yield measured(f"tets noise{extension}", file, NOISE, MAGIC[extension])
         yield measured(f"tets wrong_magic{extension}", file, "solid x\n" + whole, MAGIC[extension])
         if extension in HALF:  # of .mesh Gmsh itself has to find out
@@ -129,7 +136,8 @@ def tetgen_cases():
         yield Case(f"tets {name}.node", {"bad.node": nodes, "bad.ele": elements}, ["measure", "bad.ele", "bad.ele"], words)
     for kind, make, words in (("folder", os.mkdir, "expected a file"), ("named pipe", os.mkfifo, "expected a file"),
                               ("symlink loop", lambda path: path.symlink_to(path.name), "no such file"),
-                              ("device", lambda path: path.symlink_to("/dev/zero"), "expected a file")):
+                              ("device", lambda path: path.symlink_to("/dev/zero"), "expected a file"),
+                              ("sparse file", sparse, "bytes = 68719476736: expected at most ")):
         yield Case(f"{kind} as .node", {"bad.node": make, "bad.ele": element}, ["measure", "bad.ele", "bad.ele"], (f"bad.node: {words}",))
         yield Case(f"{kind} as .ele", {"bad.node": node, "bad.ele": make}, ["measure", "bad.node", "bad.node"], (f"bad.ele: {words}",))
     yield Case("tets without .ele", {"bad.node": node}, ["measure", "bad.node", "bad.node"], ("bad.ele: no such file",))

@@ -63,6 +63,35 @@ TEST(IsolatedReader, ADeathIsAnErrorThatNamesIt)
               "x.vtu: damaged: the reader ended in the middle, with exit status 0");
 }
 
+std::uintmax_t available_bytes()
+{
+    std::ifstream file("/proc/meminfo");
+    std::uintmax_t kilobytes = 0;
+    for (std::string word; file >> word;)
+        if (word == "MemAvailable:" && file >> kilobytes) break;
+    return 1024 * kilobytes;
+}
+
+// However large the file: a sparse one has any size at no cost.
+TEST(IsolatedReader, MoreThanHalfOfTheMemoryIsNotGiven)
+{
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "no limit on addresses";
+#endif
+    const test_support::ScratchFolder folder;
+    const std::string path = folder.file("sparse.vtu", "");
+    std::filesystem::resize_file(path, std::uintmax_t(1) << 36);
+    const auto taking = [](std::uintmax_t bytes) {
+        return [bytes](const std::string&) {
+            std::string room;
+            room.reserve(bytes);
+            return std::string("taken");
+        };
+    };
+    EXPECT_EQ(message_of(taking(available_bytes() / 3), path), "read: taken");
+    EXPECT_EQ(message_of(taking(available_bytes() * 2 / 3), path), path + ": damaged: asks for more memory than such a file can need");
+}
+
 TEST(IsolatedReader, AFileThatShrinksWhileItIsMapped)
 {
     const test_support::ScratchFolder folder;

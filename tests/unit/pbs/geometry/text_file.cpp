@@ -33,4 +33,14 @@ TEST(ReadTextFile, WaitsForNoPipeAndReadsNoDevice)
         expect_input_error([&] { read_text_file(endless); }, endless + ": ", "cannot be opened: expected a file");
 }
 
+TEST(ReadTextFile, RefusesTooLargeAFileByItsSize)
+{
+    const test_support::ScratchFolder folder;
+    const std::string path = folder.file("text", "four");
+    EXPECT_EQ(read_text_file(path, 4), "four");
+    expect_input_error([&] { read_text_file(path, 3); }, path + ": bytes = 4: ", "expected at most 3");
+    std::filesystem::resize_file(path, std::uintmax_t(1) << 36);  // a hole, which is read as so many zeros
+    expect_input_error([&] { read_text_file(path); }, path + ": bytes = 68719476736: ", "expected at most 268435456");
+}
+
 }  // namespace
