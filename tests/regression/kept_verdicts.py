@@ -30,6 +30,12 @@ class KeptVerdicts(program.ProgramTest):
         verdicts = [claims_table.cells(line)[0] for line in claims_table.table_lines(KEPT)[2:]]
         self.assertEqual([text.strip("*` ")[:3] for text in verdicts], [f"C{number:02d}" for number in range(1, 18)])
 
+    def test_judging_them_where_they_lie_leaves_nothing_that_git_would_see(self):
+        ignored = (SOURCE / ".gitignore").read_text().splitlines()
+        kept, judged = ({file.relative_to(folder) for file in folder.rglob("*")} for folder in (KEPT, self.judged()))
+        for file in judged - kept:
+            self.assertIn(f"/experiments/records/full/{file}", ignored)
+
     def test_readme_tells_the_same_in_a_line_a_claim(self):
         _, told, _ = readme_part.cut(SOURCE / "README.md", "claims")
         self.assertEqual(told.split("\n\n")[0].splitlines()[1:], readme_claims.table_lines(self.judged()))
