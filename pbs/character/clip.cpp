@@ -3,6 +3,7 @@
 #include "pbs/character/bvh_header.hpp"
 #include "pbs/character/clip_bytes.hpp"
 #include "pbs/geometry/text_file.hpp"
+#include "pbs/geometry/assimp_files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/isolated_reader.hpp"
 
@@ -120,7 +121,9 @@ const aiScene& import(Assimp::Importer& importer, const std::string& path)
 {
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+    const OwnFolder& files = only_own_folder(importer, path);
     const aiScene* scene = importer.ReadFile(path, 0);
+    if (!scene) files.refuse_what_was_referred_to();
     if (!scene) throw InputError(path, 0, "", "", std::string("no clip that assimp can read: ") + importer.GetErrorString());
     if (!scene->mRootNode || scene->mNumAnimations == 0 || scene->mAnimations[0]->mNumChannels == 0)
         throw InputError(path, 0, "", "", "holds no motion");

@@ -1,6 +1,7 @@
 // Surfaces by assimp, in its single precision.
 #include "pbs/geometry/mesh_io_formats.hpp"
 
+#include "pbs/geometry/assimp_files.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <assimp/Importer.hpp>
@@ -71,8 +72,10 @@ IndexedPoints read_assimp(const std::string& path, const std::string& mesh_name)
 {
     if (lower_extension(path) == ".dae") refuse_negative_indices(path);
     Assimp::Importer importer;
+    const OwnFolder& files = only_own_folder(importer, path);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
     const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+    if (!scene) files.refuse_what_was_referred_to();
     if (!scene || !scene->mRootNode) throw InputError(path, 0, "", "", std::string("assimp: ") + importer.GetErrorString());
 
     Collected collected;

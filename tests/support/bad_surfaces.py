@@ -124,10 +124,16 @@ def scenes():
     yield "huge_index_count.gltf", gltf(indices=4000000000), "(0/8000000000) is out of range"
     yield "view_beyond_its_buffer.gltf", gltf(bytes_of_indices=4000000), "(48/4000000) is out of range"
     yield "buffer_that_is_not_there.gltf", gltf(uri="none.bin"), 'could not open referenced file "none.bin"'
-    yield "buffer_without_end.gltf", gltf(uri="/dev/zero"), "byteLength exceeds size of actual data"
+    for name, uri in (("without_end", "/dev/zero"), ("elsewhere", "/etc/passwd")):
+        yield f"buffer_{name}.gltf", gltf(uri=uri), f"referred file = {uri}: expected a regular file below the folder"
     yield "unknown_component.gltf", gltf(component=1), "Unsupported Component Type 1"
     yield "wrong_magic.glb", NOISE, NO_READER
     yield "huge_chunk.glb", b"glTF" + struct.pack("<III", 2, 4000000000, 4000000000) + b"JSON{}", NO_READER
+
+
+def waited_for():
+    yield Case("surface whose buffer is a pipe", {"bad.gltf": gltf(uri="pipe"), "pipe": os.mkfifo}, ["mesh", "bad.gltf", "-o", "tets.vtu"],
+               ("bad.gltf: referred file = pipe: expected a regular file below the folder",))
 
 
 def places():
@@ -144,6 +150,7 @@ def places():
 
 def cases():
     yield from places()
+    yield from waited_for()
     for name, content, words in [*soups(), *scenes()]:
         file = "bad." + name.split(".")[1]
         yield Case(f"surface {name}", {file: content}, ["mesh", file, "-o", "tets.vtu", "--vertices", "200"], (file + ":", words))
