@@ -4,6 +4,7 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/structured_bar.hpp"
+#include "tests/support/unit_tet.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,16 +16,7 @@ namespace {
 using analysis::FrameMetrics;
 using analysis::Ruler;
 using pbs::Positions;
-
-pbs::TetMesh unit_corner()  // edges of length 1 along the axes, three of sqrt 2
-{
-    pbs::TetMesh mesh;
-    mesh.rest.resize(4, 3);
-    mesh.rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
-    mesh.tets.resize(1, 4);
-    mesh.tets << 0, 1, 2, 3;
-    return mesh;
-}
+using test_support::unit_tet;
 
 // Two tets on the triangle 0 1 2, of rest volume 1/6 each.
 pbs::TetMesh two_tets()
@@ -75,7 +67,7 @@ TEST(FrameMetrics, ShearKeepsVolumeAndStretchesByTheClosedForm)
     const double g = 0.7;
     Eigen::Matrix3d shear = Eigen::Matrix3d::Identity();
     shear(0, 1) = g;
-    const FrameMetrics metrics = measured(unit_corner(), shear);
+    const FrameMetrics metrics = measured(unit_tet(), shear);
     const double a = std::sqrt(1.0 + g * g) - 1.0, b = std::sqrt(((1.0 - g) * (1.0 - g) + 1.0) / 2.0) - 1.0,
                  c = std::sqrt((g * g + 2.0) / 2.0) - 1.0;
     EXPECT_NEAR(metrics.volume_change_pct, 0.0, 1e-12);
@@ -110,7 +102,7 @@ TEST(FrameMetrics, InvertedTetThatCancelsShowsInTheAbsoluteMeasure)
 
 TEST(FrameMetrics, FlatTetCountsAsInverted)
 {
-    auto mesh = unit_corner();
+    auto mesh = unit_tet();
     Positions frame = mesh.rest;
     frame.row(3).setZero();
     EXPECT_EQ(Ruler(mesh.rest, mesh.tets).measure(frame).inverted_tets, 1);
@@ -144,7 +136,7 @@ TEST(FrameMetrics, BrokenFrameIsMeasuredNotRefused)
 
 TEST(FrameMetrics, RefusesWhatCannotBeMeasured)
 {
-    const auto mesh = unit_corner();
+    const auto mesh = unit_tet();
     EXPECT_THROW(Ruler(mesh.rest, pbs::Tets(0, 4)), pbs::InputError);
     EXPECT_THROW(Ruler(mesh.rest.topRows(3), mesh.tets), pbs::InputError);
     EXPECT_THROW(Ruler(-mesh.rest, mesh.tets), pbs::InputError);

@@ -2,6 +2,7 @@
 #include "experiments/surface_record.hpp"
 
 #include "experiments/scratch_folder.hpp"
+#include "tests/support/unit_tet.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,16 +11,6 @@
 namespace {
 
 using namespace experiments;
-
-pbs::TetMesh tet()
-{
-    pbs::TetMesh mesh;
-    mesh.rest.resize(4, 3);
-    mesh.rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
-    mesh.tets.resize(1, 4);
-    mesh.tets << 0, 1, 2, 3;
-    return mesh;
-}
 
 pbs::EmbeddedSurface triangle(const pbs::TetMesh& mesh)
 {
@@ -32,7 +23,7 @@ pbs::EmbeddedSurface triangle(const pbs::TetMesh& mesh)
 
 TEST(SurfaceRecord, ItsSharesCarryThePointsAlong)
 {
-    const pbs::TetMesh mesh = tet();
+    const pbs::TetMesh mesh = test_support::unit_tet();
     const pbs::EmbeddedSurface surface = triangle(mesh);
     const analysis::CsvTable table = embedding_table(surface);
     const Eigen::RowVector3d shift(0.5, -2.0, 0.25);
@@ -51,7 +42,7 @@ TEST(SurfaceRecord, ItsSharesCarryThePointsAlong)
 TEST(SurfaceRecord, BothFilesStandInTheFolder)
 {
     const ScratchFolder folder;
-    const pbs::TetMesh mesh = tet();
+    const pbs::TetMesh mesh = test_support::unit_tet();
     write_surface(triangle(mesh), mesh, folder.path());
     EXPECT_GT(std::filesystem::file_size(folder.path() + "/surface_rest.vtp"), 0U);
     EXPECT_EQ(analysis::read_csv(folder.path() + "/embedding.csv").rows(), 3);

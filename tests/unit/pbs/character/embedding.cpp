@@ -2,6 +2,7 @@
 #include "pbs/character/embedding.hpp"
 
 #include "tests/support/structured_bar.hpp"
+#include "tests/support/unit_tet.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,16 +13,7 @@
 namespace {
 
 using namespace pbs;
-
-TetMesh unit_tet()
-{
-    TetMesh mesh;
-    mesh.rest.resize(4, 3);
-    mesh.rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
-    mesh.tets.resize(1, 4);
-    mesh.tets << 0, 1, 2, 3;
-    return mesh;
-}
+using test_support::unit_tet;
 
 TetMesh cube()
 {

@@ -3,6 +3,7 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/structured_bar.hpp"
+#include "tests/support/unit_tet.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,15 +11,7 @@
 
 namespace {
 
-pbs::TetMesh one_tet()
-{
-    pbs::TetMesh mesh;
-    mesh.rest.resize(4, 3);
-    mesh.rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
-    mesh.tets.resize(1, 4);
-    mesh.tets << 0, 1, 2, 3;
-    return mesh;
-}
+using test_support::unit_tet;
 
 // Adds a point and a tet to a mesh.
 pbs::TetMesh with(pbs::TetMesh mesh, std::vector<pbs::Vec3> points, const std::array<int, 4>& tet)
@@ -46,23 +39,23 @@ void expect_refused(const pbs::TetMesh& mesh, const std::string& words)
 
 TEST(RestMesh, ASoundOneIsAccepted)
 {
-    EXPECT_EQ(pbs::check_rest("m.vtu", one_tet()).flipped_tets, 0);
+    EXPECT_EQ(pbs::check_rest("m.vtu", unit_tet()).flipped_tets, 0);
     EXPECT_EQ(pbs::check_rest("m.vtu", test_support::structured_bar({-1, -1, -1}, {1, 1, 1}, {2, 2, 2})).flipped_tets, 0);
 }
 
 TEST(RestMesh, AnInvertedTetIsTurnedAndCounted)
 {
-    pbs::TetMesh mesh = one_tet();
+    pbs::TetMesh mesh = unit_tet();
     mesh.tets << 0, 1, 3, 2;
     const pbs::MeshReading reading = pbs::check_rest("m.vtu", mesh);
     EXPECT_EQ(reading.flipped_tets, 1);
-    EXPECT_EQ(reading.mesh.tets, one_tet().tets);
+    EXPECT_EQ(reading.mesh.tets, unit_tet().tets);
 }
 
 TEST(RestMesh, AnySizeIsAccepted)  // flatness has no unit
 {
     for (const double scale : {1e-6, 1.0, 1e6}) {
-        pbs::TetMesh mesh = one_tet();
+        pbs::TetMesh mesh = unit_tet();
         mesh.rest *= scale;
         EXPECT_NO_THROW(pbs::check_rest("m.vtu", mesh)) << scale;
     }
@@ -71,7 +64,7 @@ TEST(RestMesh, AnySizeIsAccepted)  // flatness has no unit
 TEST(RestMesh, AFlatTetIsRefusedAtAnySize)
 {
     for (const double scale : {1e-6, 1.0, 1e6}) {
-        pbs::TetMesh mesh = one_tet();
+        pbs::TetMesh mesh = unit_tet();
         mesh.rest.row(3) << 0.3, 0.3, 1e-12;
         mesh.rest *= scale;
         expect_refused(mesh, "tet 0 = (0, 1, 2, 3): expected a volume");
@@ -80,26 +73,26 @@ TEST(RestMesh, AFlatTetIsRefusedAtAnySize)
 
 TEST(RestMesh, ATetWithATwiceNamedVertexIsRefused)
 {
-    expect_refused(with(one_tet(), {}, {0, 1, 2, 2}), "tet 1 = (0, 1, 2, 2): expected a volume");
+    expect_refused(with(unit_tet(), {}, {0, 1, 2, 2}), "tet 1 = (0, 1, 2, 2): expected a volume");
 }
 
 TEST(RestMesh, NoTetsAreRefused)
 {
-    pbs::TetMesh mesh = one_tet();
+    pbs::TetMesh mesh = unit_tet();
     mesh.tets.resize(0, 4);
     expect_refused(mesh, "tets = 0");
 }
 
 TEST(RestMesh, IndicesOutOfRangeAreRefused)
 {
-    expect_refused(with(one_tet(), {}, {1, 2, 3, 4}), "tet 1 vertex = 4: expected an index from 0 to 3");
-    expect_refused(with(one_tet(), {}, {-1, 2, 3, 0}), "tet 1 vertex = -1");
+    expect_refused(with(unit_tet(), {}, {1, 2, 3, 4}), "tet 1 vertex = 4: expected an index from 0 to 3");
+    expect_refused(with(unit_tet(), {}, {-1, 2, 3, 0}), "tet 1 vertex = -1");
 }
 
 TEST(RestMesh, CoordinatesThatAreNotFiniteAreRefused)
 {
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-        pbs::TetMesh mesh = one_tet();
+        pbs::TetMesh mesh = unit_tet();
         mesh.rest(2, 1) = bad;
         expect_refused(mesh, "vertex 2 = (0, ");
     }
@@ -107,7 +100,7 @@ TEST(RestMesh, CoordinatesThatAreNotFiniteAreRefused)
 
 TEST(RestMesh, AnUnusedVertexIsRefused)
 {
-    pbs::TetMesh mesh = one_tet();
+    pbs::TetMesh mesh = unit_tet();
     mesh.rest.conservativeResize(5, 3);
     mesh.rest.row(4) << 9, 9, 9;
     expect_refused(mesh, "vertex 4: expected in a tet");
@@ -115,31 +108,31 @@ TEST(RestMesh, AnUnusedVertexIsRefused)
 
 TEST(RestMesh, ADoubledVertexIsRefused)
 {
-    expect_refused(with(one_tet(), {{0, 0, 0}, {1, 1, 1}}, {4, 2, 1, 5}), "vertex 0 is there already");
+    expect_refused(with(unit_tet(), {{0, 0, 0}, {1, 1, 1}}, {4, 2, 1, 5}), "vertex 0 is there already");
 }
 
 TEST(RestMesh, AFaceInThreeTetsIsRefused)
 {
-    const pbs::TetMesh pair = with(one_tet(), {{0, 0, -1}}, {0, 2, 1, 4});
+    const pbs::TetMesh pair = with(unit_tet(), {{0, 0, -1}}, {0, 2, 1, 4});
     EXPECT_NO_THROW(pbs::check_rest("m.vtu", pair));
     expect_refused(with(pair, {{0.1, 0.2, 2}}, {0, 1, 2, 5}), "one face is in three");
 }
 
 TEST(RestMesh, NeighboursFoldedOverEachOtherAreRefused)
 {
-    expect_refused(with(one_tet(), {{0.2, 0.2, 0.5}}, {0, 1, 2, 4}), "they overlap");
+    expect_refused(with(unit_tet(), {{0.2, 0.2, 0.5}}, {0, 1, 2, 4}), "they overlap");
 }
 
 TEST(RestMesh, TetsThatTouchInAnEdgeOrVertexAreRefused)
 {
-    expect_refused(with(one_tet(), {{0.2, -1, -1}, {0.2, -1, -2}}, {0, 1, 5, 4}), "manifold");
-    expect_refused(with(one_tet(), {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, {0, 4, 6, 5}), "manifold");
+    expect_refused(with(unit_tet(), {{0.2, -1, -1}, {0.2, -1, -2}}, {0, 1, 5, 4}), "manifold");
+    expect_refused(with(unit_tet(), {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, {0, 4, 6, 5}), "manifold");
 }
 
 #ifdef PBS_WITH_CGAL
 TEST(RestMesh, BodiesThroughEachOtherAreRefused)
 {
-    const pbs::TetMesh through = with(one_tet(), {{0.1, 0.1, -1}, {0.2, 0.1, -1}, {0.1, 0.2, -1}, {0.12, 0.12, 3}}, {4, 5, 6, 7});
+    const pbs::TetMesh through = with(unit_tet(), {{0.1, 0.1, -1}, {0.2, 0.1, -1}, {0.1, 0.2, -1}, {0.12, 0.12, 3}}, {4, 5, 6, 7});
     expect_refused(through, "does not intersect itself");
 }
 #endif
@@ -157,7 +150,7 @@ TEST(Frame, CoordinatesWhoseVolumesOverflowAreRefused)
 
 TEST(Frame, AsksForIndicesAndPlacesAlone)
 {
-    EXPECT_NO_THROW(pbs::check_frame("m.vtu", with(one_tet(), {{0.2, 0.2, 0.5}}, {0, 1, 2, 2})));
+    EXPECT_NO_THROW(pbs::check_frame("m.vtu", with(unit_tet(), {{0.2, 0.2, 0.5}}, {0, 1, 2, 2})));
 }
 
 }  // namespace
