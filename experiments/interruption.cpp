@@ -1,5 +1,7 @@
 #include "experiments/interruption.hpp"
 
+#include "pbs/geometry/isolated_reader.hpp"
+
 #include <csignal>
 
 namespace experiments {
@@ -21,6 +23,7 @@ void watch_interrupts()
     action.sa_flags = SA_RESETHAND;  // the second signal ends the program at once
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    pbs::ask_while_reading(stop_if_interrupted);
     std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit (ulimit -f) is an error of its writer, as on a full disk
 }
 

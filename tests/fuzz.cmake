@@ -33,9 +33,9 @@ endfunction()
 fuzz_target(scene fuzz/scene.cpp experiments/scene_values.cpp experiments/scene_schema.cpp pbs/geometry/toml_text.cpp
     pbs/geometry/nearest_name.cpp
     pbs/geometry/input_error.cpp)
-fuzz_target(mesh fuzz/mesh.cpp pbs/geometry/guarded_reading.cpp pbs/geometry/isolated_reader.cpp
-    pbs/geometry/mesh_io_checks.cpp
-    pbs/geometry/mesh_io_files.cpp pbs/geometry/tet_volume.cpp pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
+fuzz_target(mesh fuzz/mesh.cpp pbs/geometry/guarded_reading.cpp pbs/geometry/isolated_reader.cpp pbs/geometry/reading_limits.cpp
+    pbs/geometry/mesh_io_checks.cpp pbs/geometry/mesh_io_files.cpp pbs/geometry/text_file.cpp
+    pbs/geometry/tet_volume.cpp pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
 fuzz_target(skeleton fuzz/skeleton.cpp pbs/character/skeleton_file.cpp pbs/character/skeleton_order.cpp pbs/geometry/text_file.cpp
     pbs/geometry/toml_text.cpp
     pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)

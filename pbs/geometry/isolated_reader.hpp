@@ -11,6 +11,10 @@
 
 namespace pbs {
 
+// Asked several times a second while a reader is waited for; what it throws ends the reader and leaves read_isolated. Once, at the start:
+//   ask_while_reading(stop_if_interrupted);
+void ask_while_reading(std::function<void()> question);
+
 // read(path) in a child process; its exceptions come back as InputErrors.
 std::string read_isolated(const std::string& path, const std::function<std::string(const std::string&)>& read);
 

@@ -8,8 +8,10 @@
 
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -61,6 +63,28 @@ TEST(IsolatedReader, ADeathIsAnErrorThatNamesIt)
               "x.vtu: damaged: the reader ended in the middle, with exit status 7");
     EXPECT_EQ(message_of([](const std::string&) -> std::string { _exit(0); }),
               "x.vtu: damaged: the reader ended in the middle, with exit status 0");
+}
+
+struct Stop {};
+
+long open_files()
+{
+    return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), std::filesystem::directory_iterator());
+}
+
+TEST(IsolatedReader, WhatTheQuestionThrowsEndsTheReaderAndLeavesNothing)
+{
+    const long before = open_files();
+    int asked = 0;
+    pbs::ask_while_reading([&asked] {
+        if (++asked == 3) throw Stop{};
+    });
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_THROW(pbs::read_isolated("x.vtu", [](const std::string&) { return sleep(60), std::string(); }), Stop);
+    pbs::ask_while_reading([] {});
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a child was left";
+    EXPECT_EQ(open_files(), before);
 }
 
 std::uintmax_t available_bytes()
