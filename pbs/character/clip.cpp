@@ -130,11 +130,26 @@ const aiScene& import(Assimp::Importer& importer, const std::string& path)
     return *scene;
 }
 
+template <typename Key>
+void check_times(const std::string& path, const std::string& joint, const Key* keys, unsigned count)
+{
+    for (unsigned k = 0; k < count; ++k)
+        if (!std::isfinite(keys[k].mTime) || (k > 0 && keys[k].mTime < keys[k - 1].mTime))
+            throw InputError(path, 0, joint + ", time of key " + std::to_string(k), std::to_string(keys[k].mTime),
+                             "expected finite times that do not go back");
+}
+
 std::vector<Node> read_hierarchy(const aiScene& scene, Clip& clip)
 {
     std::map<std::string, const aiNodeAnim*> channels;
     const aiAnimation& motion = *scene.mAnimations[0];
-    for (unsigned c = 0; c < motion.mNumChannels; ++c) channels[motion.mChannels[c]->mNodeName.C_Str()] = motion.mChannels[c];
+    for (unsigned c = 0; c < motion.mNumChannels; ++c) {
+        const aiNodeAnim& channel = *motion.mChannels[c];
+        const std::string joint = channel.mNodeName.C_Str();
+        check_times(clip.name, joint, channel.mRotationKeys, channel.mNumRotationKeys);
+        check_times(clip.name, joint, channel.mPositionKeys, channel.mNumPositionKeys);
+        channels[joint] = &channel;
+    }
     std::vector<Node> nodes;
     collect_nodes(scene.mRootNode, -1, channels, clip, nodes);
     check_names(clip);

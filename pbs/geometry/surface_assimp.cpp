@@ -13,6 +13,8 @@
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <new>
+#include <string>
 #include <vector>
 
 namespace pbs {
@@ -76,6 +78,7 @@ IndexedPoints read_assimp(const std::string& path, const std::string& mesh_name)
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
     const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
     if (!scene) files.refuse_what_was_referred_to();
+    if (importer.GetErrorString() == std::string("std::bad_alloc")) throw std::bad_alloc();  // which assimp catches
     if (!scene || !scene->mRootNode) throw InputError(path, 0, "", "", std::string("assimp: ") + importer.GetErrorString());
 
     Collected collected;

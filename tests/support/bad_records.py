@@ -29,13 +29,13 @@ def damaged():
     """(name, file, what it holds, what `--judge` says, what `report` says; None: it has nothing to say)"""
     table, run = "limb/measurements.csv", "limb/run.json"
     yield "empty_table", table, "", "the file is empty", None
-    yield "noise_table", table, NOISE, ":1:1: ", None
+    yield "noise_table", table, NOISE, ":1:1: unexpected quote or zero byte within a field", None
     yield "truncated_table", table, MEASUREMENTS[:70], ":2:6: the file ends within a line", None
-    yield "missing_column", table, MEASUREMENTS.replace("value", "worth"), ":1: columns = ", None
+    yield "missing_column", table, MEASUREMENTS.replace("value", "worth"), "expected a column value", None
     yield "column_twice", table, MEASUREMENTS.replace("low", "value"), "expected each column once", None
     yield "a_word_for_a_number", table, MEASUREMENTS.replace("2e-6,2e-6", "east,2e-6", 1), ":3:4: value = east: expected a number", None
     yield "too_many_fields", table, MEASUREMENTS.replace("bar", "bar,bar"), ":3:8: 8 fields: expected 7", None
-    yield "an_open_quote", table, MEASUREMENTS.replace("bar", '"bar'), "", None
+    yield "an_open_quote", table, MEASUREMENTS.replace("bar", '"bar'), ":3:3: a quote is never closed", None
     yield "empty_run", run, "", "no JSON, or cut short", "not JSON"
     yield "noise_run", run, NOISE, "no JSON, or cut short", "not JSON"
     yield "truncated_run", run, RUN[:20], "no JSON, or cut short", "not JSON"

@@ -132,7 +132,8 @@ def tetgen_cases():
             ("nan", node.replace("1 0 0 0", "1 nan 0 0"), element, ("bad.ele: ", "vertex 0 = (nan, 0, 0): expected finite")),
             ("truncated", node[:20], element, ("bad.node:3: point = ", "expected at least 4 numbers")),
             ("index", node, element.replace("3 4\n", "3 9\n"), ("bad.ele:2: tet vertex = 9", "expected a whole number from 1 to 4")),
-            ("two_dimensional", node.replace("4 3", "4 2", 1), element, ("bad.node:1: dimension = 2", "expected a whole number from 3 to 3"))):
+            ("two_dimensional", node.replace("4 3", "4 2", 1), element,
+             ("bad.node:1: dimension = 2", "expected a whole number from 3 to 3"))):
         yield Case(f"tets {name}.node", {"bad.node": nodes, "bad.ele": elements}, ["measure", "bad.ele", "bad.ele"], words)
     for kind, make, words in (("folder", os.mkdir, "expected a file"), ("named pipe", os.mkfifo, "expected a file"),
                               ("symlink loop", lambda path: path.symlink_to(path.name), "no such file"),
