@@ -53,14 +53,16 @@ class Consumer(unittest.TestCase):
         found = set(re.findall(r"^(\w+)_DIR:PATH=", cache, re.MULTILINE))
         self.assertLessEqual(found, {"pbs", "Eigen3", "TBB"}, "the method asks for Eigen, and oneTBB with threads")
 
-    # An array allocated here and freed there would crash.
+    # An array allocated here and freed there would crash. EIGEN_MAX_ALIGN_BYTES bounds members of fixed size alone.
     @unittest.skipUnless(platform.machine() == "x86_64", "the registers of x86-64")
     def test_wider_registers_are_refused(self):
-        configured = configure(project, "wider", "-mavx")
-        self.assertEqual(configured.returncode, 0, configured.stderr)
-        built = run(CMAKE, "--build", folder / "wider")
-        self.assertNotEqual(built.returncode, 0)
-        self.assertIn("pbs was built with Eigen's alignment of 16 bytes", built.stdout)
+        for build, flags in (("wider", "-mavx"), ("bounded", "-mavx -DEIGEN_MAX_ALIGN_BYTES=16")):
+            with self.subTest(flags):
+                configured = configure(project, build, flags)
+                self.assertEqual(configured.returncode, 0, configured.stderr)
+                built = run(CMAKE, "--build", folder / build)
+                self.assertNotEqual(built.returncode, 0)
+                self.assertIn("pbs was built with Eigen's alignment of 16 bytes", built.stdout)
 
     def test_nothing_names_the_source_tree(self):
         texts = [name for name in installation.files_naming(prefix, SOURCE) if not name.endswith(".a")]
