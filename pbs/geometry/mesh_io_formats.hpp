@@ -26,10 +26,6 @@ long long check_gmsh_file(const std::string& path);
 void write_msh(const std::string& path, const TetMesh& mesh);    // 4.1 ASCII
 void write_medit(const std::string& path, const TetMesh& mesh);  // .mesh, version 2
 
-// Through a temporary file beside, .NAME.PROCESS.EXTENSION, which is flushed to disk and renamed, so that a killed run leaves no torn file.
-// An InputError with the system's reason where that cannot be; nothing is left behind then.
-void write_atomically(const std::string& path, const std::string& bytes);
-
 // ".msh" of "a/B.MSH".
 std::string lower_extension(const std::string& path);
 

@@ -2,6 +2,8 @@
 // Formats: Gmsh reference manual 4.8, "MSH file format"; MEDIT, Frey, "MEDIT: an interactive mesh visualization software" (INRIA, 2001).
 #include "pbs/geometry/mesh_io_formats.hpp"
 
+#include "pbs/geometry/atomic_file.hpp"
+
 #include <functional>
 #include <locale>
 #include <sstream>

@@ -1,7 +1,7 @@
 #include "pbs/geometry/mesh_io.hpp"
 
+#include "pbs/geometry/atomic_file.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_io_formats.hpp"
 #include "pbs/geometry/vtk_messages.hpp"
 
 #include <vtkCellArray.h>

@@ -1,0 +1,13 @@
+// Whole files or none: bytes go to a new file beside the target, .NAME.PROCESS.RANDOM, are flushed to disk and renamed over it, so that a
+// killed writer leaves no torn file.
+//   write_atomically("results/run.json", document.dump(2) + "\n");
+#pragma once
+
+#include <string>
+
+namespace pbs {
+
+// An InputError with the system's reason where the folder is missing, cannot be written or is full; nothing is left behind then.
+void write_atomically(const std::string& path, const std::string& bytes);
+
+}  // namespace pbs

@@ -1,0 +1,84 @@
+// Truth: what the file system holds afterwards. Failing writes: tests/unit/analysis/atomic_file.cpp.
+#include "pbs/geometry/atomic_file.hpp"
+
+#include "pbs/geometry/text_file.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <thread>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using pbs::read_text_file;
+using pbs::write_atomically;
+using test_support::ScratchFolder;
+
+long files_in(const fs::path& folder)
+{
+    return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+}
+
+TEST(WriteAtomically, WritesAndReplaces)
+{
+    const ScratchFolder folder;
+    const std::string path = folder / "limb.vtu", bytes("a\0b\n", 4);
+    write_atomically(path, "old");
+    write_atomically(path, bytes);
+    EXPECT_EQ(read_text_file(path), bytes);
+    EXPECT_EQ(files_in(folder.path()), 1);
+}
+
+TEST(WriteAtomically, GivesTheUsualPermissions)
+{
+    const ScratchFolder folder;
+    const mode_t before = umask(027);
+    write_atomically(folder / "limb.vtu", "");
+    umask(before);
+    struct stat status = {};
+    ASSERT_EQ(stat((folder / "limb.vtu").c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777, 0640u);
+}
+
+TEST(WriteAtomically, ANameOfTheGreatestLengthIsWritten)
+{
+    const ScratchFolder folder;
+    const std::string path = folder / (std::string(251, 'x') + ".vtu");
+    write_atomically(path, "whole");
+    EXPECT_EQ(read_text_file(path), "whole");
+}
+
+// Who can write to the folder could lay a link where the name of the temporary file is known beforehand.
+TEST(WriteAtomically, NothingThatLiesThereIsWrittenThrough)
+{
+    const ScratchFolder folder;
+    const std::string theirs = folder.file("theirs", "theirs");
+    fs::create_directory(folder.path() / "out");
+    for (const std::string& name : {".limb." + std::to_string(getpid()) + ".vtu", ".limb.vtu." + std::to_string(getpid())})
+        fs::create_symlink(theirs, folder.path() / "out" / name);
+    write_atomically(folder / "out/limb.vtu", "ours");
+    EXPECT_EQ(read_text_file(theirs), "theirs");
+    EXPECT_EQ(files_in(folder.path() / "out"), 3);
+}
+
+TEST(WriteAtomically, ThreadsThatWriteOneFileLeaveAWholeOne)
+{
+    const ScratchFolder folder;
+    const std::string path = folder / "limb.vtu";
+    std::vector<std::thread> writers;
+    for (const char letter : {'a', 'b', 'c', 'd'})
+        writers.emplace_back([&path, letter] {
+            for (int i = 0; i < 20; ++i) write_atomically(path, std::string(300'000, letter));
+        });
+    for (std::thread& writer : writers) writer.join();
+    const std::string text = read_text_file(path);
+    EXPECT_EQ(text, std::string(300'000, text.front()));
+    EXPECT_EQ(files_in(folder.path()), 1);
+}
+
+}  // namespace
