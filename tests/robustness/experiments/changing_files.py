@@ -1,0 +1,122 @@
+"""Files that shrink, vanish or are replaced while they are read: the answer is that of the whole file, or it is refused by its name,
+whatever the moment. Truth: what the program makes of the whole file that nobody touches; each disturbed state by itself is refused."""
+import json
+import pathlib
+import random
+import shutil
+import subprocess
+import tempfile
+import threading
+import unittest
+
+import bad_case
+import bad_characters
+import bad_surfaces
+import input_cases
+import run_records
+from bad_tets import NOISE
+
+ROUNDS = 3
+CUTS = (0, 1 / 3, 1 / 2)
+RUN = ["--set", "output.frames_every=2", "-o", "out"]
+READ = {"x.vtu": (input_cases.COMMON["arm.vtu"], ["measure", "x.vtu", "x.vtu", "--csv", "out/figures.csv"]),
+        "x.obj": (bad_surfaces.obj(200 * bad_surfaces.POINTS), ["mesh", "x.obj", "-o", "out/t.vtu", "--vertices", "150"]),
+        "x.bvh": (input_cases.COMMON["good.bvh"], ["run", "clip.toml", *RUN, "--set", "motion.clip=x.bvh"]),
+        "x.csv": (bad_characters.WEIGHTS, ["run", "arm.toml", *RUN, "--set", "skinning.weights=x.csv"]),
+        "x.toml": (input_cases.COMMON["arm.toml"], ["run", "x.toml", *RUN])}
+
+
+def put(path, content):
+    """In one step, as a careful writer does."""
+    beside = path.with_suffix(".beside")
+    beside.write_bytes(content)
+    beside.replace(path)
+
+
+def written(out):
+    """What the program has written, and of which bytes it says that they were read."""
+    provenance = json.loads((out / "run.json").read_text())["provenance"] if (out / "run.json").exists() else {}
+    return run_records.records(out), provenance.get("input_hashes")
+
+
+def shrink(path, whole, chance):
+    path.write_bytes(whole[: int(len(whole) * chance.choice(CUTS))])
+
+
+def vanish(path, whole, chance):
+    path.unlink()
+
+
+def replace(path, whole, chance):
+    put(path, NOISE)
+
+
+def disturb(path, whole, way, stop, chance):
+    while not stop.is_set():
+        way(path, whole, chance)
+        stop.wait(2e-3 * chance.random())
+        put(path, whole)
+        stop.wait(2e-2 * chance.random())
+
+
+class ChangingFiles(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder, self.chance = pathlib.Path(temporary.name), random.Random(2014)
+        bad_case.make(self.folder, input_cases.COMMON)
+
+    def run_once(self, command):
+        """(exit status, stderr, what it has written)"""
+        out = self.folder / "out"
+        shutil.rmtree(out, ignore_errors=True)
+        out.mkdir()
+        process = subprocess.run([bad_case.PBSKIN, *command], cwd=self.folder, capture_output=True, text=True, timeout=240)
+        return process.returncode, process.stderr, written(out) if process.returncode == 0 else None
+
+    def expect_refused(self, name, status, told):
+        self.assertEqual(status, 2, told)
+        self.assertIn(name, told)
+        self.assertEqual([word for word in bad_case.WORDS_OF_NO_USER if word in told], [], told)
+
+    def disturbed(self, name, whole, command, way):
+        """What the program says and writes while the file changes."""
+        stop = threading.Event()
+        disturber = threading.Thread(target=disturb, args=(self.folder / name, whole, way, stop, self.chance))
+        disturber.start()
+        try:
+            return [self.run_once(command) for _ in range(ROUNDS)]
+        finally:
+            stop.set()
+            disturber.join()
+
+    def test_each_state_by_itself(self):
+        for name, (text, command) in READ.items():
+            whole, path = text.encode(), self.folder / name
+            states = [whole[: int(len(whole) * cut)] for cut in CUTS] + [NOISE]
+            for number, state in enumerate(states):
+                with self.subTest(name, state=number):
+                    path.write_bytes(state)
+                    self.expect_refused(name, *self.run_once(command)[:2])
+
+    def test_whole_or_refused(self):
+        answers = []
+        for name, (text, command) in READ.items():
+            whole = text.encode()
+            put(self.folder / name, whole)
+            status, told, undisturbed = self.run_once(command)
+            self.assertEqual(status, 0, told)
+            for way in (shrink, vanish, replace):
+                with self.subTest(name, way=way.__name__):
+                    for status, told, records in self.disturbed(name, whole, command, way):
+                        answers.append(status)
+                        if status == 0:
+                            self.assertEqual(records, undisturbed)
+                        else:
+                            self.expect_refused(name, status, told)
+        self.assertEqual(set(answers), {0, 2}, "it was never disturbed, or always")
+
+
+if __name__ == "__main__":
+    bad_case.limit_address_space()
+    unittest.main()
