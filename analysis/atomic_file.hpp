@@ -1,5 +1,4 @@
-// Whole files or none: text goes to a temporary file in the target's folder, is flushed to disk and renamed over the target, so that a
-// killed run leaves no half-written record.
+// Records: whole files or none, by pbs::write_atomically, and what killed writers left of them.
 //   write_text_atomically("results/run.json", document.dump(2) + "\n");
 #pragma once
 
@@ -10,8 +9,8 @@ namespace analysis {
 // InputError with the system's reason where the folder is missing, cannot be written or is full; nothing is left behind then.
 void write_text_atomically(const std::string& path, const std::string& text);
 
-// Removes what writers that were killed left half-written in a folder, and in those below it: temporary files of this and of
-// pbs::write_atomically whose process is gone. A folder that is not there holds none.
+// Removes what writers that were killed left half-written in a folder, and in those below it: temporary files whose
+// process is gone. A folder that is not there holds none.
 void remove_abandoned_files(const std::string& folder, bool and_below = true);
 
 // pbs::read_text_file: an InputError where the file cannot be read.

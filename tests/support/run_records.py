@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 TIME_COLUMNS = re.compile(r"step_ms|.*cpu_s|.*wall_s|.*seconds|.*_ns|ms_.*|ns_.*")
 TIME_KEYS = re.compile(r"provenance|cost|.*seconds|.*_utc|.*_s")
 MOTION_KEYS = {"time_step_s", "time_s", "start_s", "duration_s"}  # of what is simulated
-TEMPORARY = re.compile(r"\..+\.\d+\.([A-Za-z0-9]{6}|vtu|vtp|pvd|msh|mesh)")
+TEMPORARY = re.compile(r"\..+\.\d+\.[A-Za-z0-9]{6}")
 
 
 def files(folder):

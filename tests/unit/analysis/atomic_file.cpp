@@ -49,6 +49,13 @@ TEST_F(AtomicFile, GivesUsualPermissions)
     EXPECT_EQ(status.st_mode & 0777, 0644u);
 }
 
+TEST_F(AtomicFile, ANameOfTheGreatestLengthIsWritten)
+{
+    const std::string path = folder / std::string(255, 'x');
+    write_text_atomically(path, "whole");
+    EXPECT_EQ(read_text(path), "whole");
+}
+
 TEST_F(AtomicFile, MissingFolderIsRefused)
 {
     EXPECT_THROW(write_text_atomically(folder / "missing" / "run.json", "{}"), pbs::InputError);
@@ -112,14 +119,16 @@ TEST_F(AtomicFile, WhatKilledWritersLeftIsRemovedAndNothingElse)
 {
     const std::string gone = std::to_string(ended_process()), here = std::to_string(getpid());
     fs::create_directory(folder / "frames");
-    for (const std::string& name : {".run.json." + gone + ".aB3xYz", "frames/.pbs_000001." + gone + ".vtu", ".limb." + gone + ".msh",
-                                    ".run.json." + here + ".aB3xYz", ".notes." + gone + ".txt", "run.json." + gone + ".aB3xYz"})
+    const fs::path deeper = folder / "frames" / (".pbs_000001.vtu." + gone + ".aB3xYz");
+    write_text_atomically(deeper, "half");
+    for (const std::string& name : {".run.json." + gone + ".aB3xYz", ".limb.msh." + gone + ".a1b2c3", ".run.json." + here + ".aB3xYz",
+                                    ".notes." + gone + ".txt", "run.json." + gone + ".aB3xYz"})
         write_text_atomically(folder / name, "half");
     analysis::remove_abandoned_files(folder, false);
     EXPECT_EQ(files(), 4);
-    EXPECT_TRUE(fs::exists(folder / "frames" / (".pbs_000001." + gone + ".vtu")));
+    EXPECT_TRUE(fs::exists(deeper));
     analysis::remove_abandoned_files(folder);
-    EXPECT_FALSE(fs::exists(folder / "frames" / (".pbs_000001." + gone + ".vtu")));
+    EXPECT_FALSE(fs::exists(deeper));
     for (const std::string& name : {".run.json." + here + ".aB3xYz", ".notes." + gone + ".txt", "run.json." + gone + ".aB3xYz"})
         EXPECT_TRUE(fs::exists(folder / name)) << name;
     analysis::remove_abandoned_files(folder / "missing");
