@@ -7,8 +7,9 @@ import re
 from xml.etree import ElementTree
 
 TIME_COLUMNS = re.compile(r"step_ms|.*cpu_s|.*wall_s|.*seconds|.*_ns|ms_.*|ns_.*")
-TIME_KEYS = re.compile(r"provenance|cost|.*seconds|.*_utc|.*_s")
-MOTION_KEYS = {"time_step_s", "time_s", "start_s", "duration_s"}  # of what is simulated
+TIMED = "analyse|assemble|assembly|character|cost|cpu|factor|mesh|records|set_?up|solve|timing|total|wall"
+TIME_KEYS = re.compile(rf"provenance|peak_memory_mb|.*seconds|.*_utc|(.*_)?({TIMED})_s|.*frames_per_s|gb_s")
+ENDS = {".html": r"</html>\s*", ".md": r"\n", ".msh": r"\$End\w+\n", ".mesh": r"End\s*", ".py": r"\n", ".toml": r"\n"}
 TEMPORARY = re.compile(r"\..+\.\d+\.[A-Za-z0-9]{6}")
 
 
@@ -39,8 +40,8 @@ def what_is_torn(path):
             json.loads(path.read_text(encoding="utf-8"))
         elif path.suffix in (".vtu", ".vtp", ".pvd"):
             ElementTree.parse(path)
-        elif not path.read_bytes():
-            raise ValueError("empty")
+        elif not re.search(rf"(?s:.){ENDS.get(path.suffix, '')}$", path.read_bytes().decode(errors="replace")):
+            raise ValueError("empty, or without its end")
     except (ValueError, ElementTree.ParseError) as error:
         return f"{path}: {error}"
     return None
@@ -48,7 +49,7 @@ def what_is_torn(path):
 
 def without_time(value):
     if isinstance(value, dict):
-        return {key: without_time(of) for key, of in value.items() if key in MOTION_KEYS or not TIME_KEYS.fullmatch(key)}
+        return {key: without_time(of) for key, of in value.items() if not TIME_KEYS.fullmatch(key)}
     return [without_time(of) for of in value] if isinstance(value, list) else value
 
 

@@ -1,6 +1,7 @@
 """A full disk is an error with nothing half-written: exit status 2, the file and the reason named, every other file whole; where there is
 room again the same command, or --resume, ends with the records of an undisturbed run. A limit on the size of a file (ulimit -f) stands for
 the disk at every file's own size; a small tmpfs is one, where it can be mounted. Truth: what an undisturbed run leaves."""
+import os
 import pathlib
 import re
 import resource
@@ -8,11 +9,27 @@ import shutil
 import subprocess
 import unittest
 
+import bad_surfaces
 import foreign_arm
 import program
 import reliability
 import run_records
 
+CHECK = """schema = 1
+[[check.scene]]
+name = "arm"
+scene = "arm.toml"
+[[check.bound]]
+name = "volume"
+scene = "arm"
+deformer = "pbs"
+metric = "volume_change_pct"
+low = -90.0
+high = 90.0
+why = "a limit that holds"
+"""
+LIMB = foreign_arm.SCENE.replace('mesh = "arm.msh"\nskeleton = "arm.skeleton.toml"', 'body = "limb"\nvertices = 600') \
+    .replace('"elbow"', '"forearm"').replace('["lbs", "dqs", "pbs"]', '["lbs"]') + "[output]\nframes_every = 0\n"
 FULL = r"File too large|No space left on device"
 
 
@@ -35,8 +52,8 @@ class FullDisk(program.ProgramTest):
             self.assertIsNone(run_records.what_is_torn(path))
         return named
 
-    def limited(self, size, *arguments):
-        return program.run(*arguments, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+    def limited(self, size, *arguments, **options):
+        return program.run(*arguments, **options, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
 
     def refused_at_every_size(self, *sets):
         """The endings of files that could not be written, one a size at which some file of the run does not fit: nine tenths of its own,
@@ -70,9 +87,38 @@ class FullDisk(program.ProgramTest):
         self.succeeds("reproduce", "momentum", "-o", folder, "--resume")
         self.assertEqual(run_records.records(folder), run_records.records(whole))
 
-    def test_figures_of_measure_and_meshes(self):
-        self.assertIn("figures.csv", self.expect_refused(
-            self.limited(100, "measure", self.path("arm.msh"), self.path("arm.msh"), "--csv", self.path("figures.csv")), self.folder).name)
+    def test_every_other_writer(self):
+        """At 100 bytes, where none of their files fits."""
+        arm, bounds = self.path("arm.msh"), self.write("check.toml", CHECK)
+        surface = self.write("good.off", bad_surfaces.off())
+        for name, arguments in {"figures.csv": ["measure", arm, arm, "--csv", self.path("figures.csv")],
+                                "figures.xml": ["measure", arm, arm, "--junit", self.path("figures.xml")],
+                                "tets.vtu": ["mesh", surface, "-o", self.path("tets.vtu"), "--vertices", 200],
+                                "bench.json": ["bench", "--quick", "-o", self.path("bench")],
+                                "lbs_000000.vtu": ["check", "--bounds", bounds, "-o", self.path("check")]}.items():
+            with self.subTest(name):
+                self.assertEqual(self.expect_refused(self.limited(100, *arguments), pathlib.Path(self.folder)).name, name)
+
+    def test_the_page(self):
+        folder = pathlib.Path(self.path("out"))
+        self.succeeds("run", self.scene, "-o", folder)
+        self.succeeds("report", folder)
+        page = folder / "report.html"
+        size = page.stat().st_size
+        page.unlink()
+        self.assertEqual(self.expect_refused(self.limited(size // 2, "report", folder), folder), page)
+
+    def test_the_cache_is_left_alone(self):
+        """A body that finds no room there is made again the next time."""
+        scene = self.write("limb.toml", LIMB)
+        whole, cache = pathlib.Path(self.path("whole_cache")), pathlib.Path(self.path("cache"))
+        self.succeeds("run", scene, "-o", self.path("whole"), env={**os.environ, "PBSKIN_CACHE": str(whole)})
+        size = max(path.stat().st_size for path in run_records.files(whole))
+        self.assertGreater(size, 2 * max(path.stat().st_size for path in run_records.files(self.path("whole"))))
+        process = self.limited(9 * size // 10, "run", scene, "-o", self.path("out"), env={**os.environ, "PBSKIN_CACHE": str(cache)})
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertEqual([path for path in run_records.files(cache) if path.stat().st_size > 0], [])
+        self.assertEqual(run_records.records(self.path("out")), run_records.records(self.path("whole")))
 
     def test_a_disk_that_fills_up(self):
         disk = pathlib.Path(self.path("disk"))
