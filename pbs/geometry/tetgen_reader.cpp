@@ -72,7 +72,7 @@ private:
 long long most_entries(const std::string& path)
 {
     constexpr std::uintmax_t shortest_bytes = 8;
-    return static_cast<long long>((std::filesystem::file_size(path) + 1) / shortest_bytes);
+    return static_cast<long long>(std::filesystem::file_size(path) / shortest_bytes) + 1;
 }
 
 Positions read_nodes(const std::string& path, long long& first)
