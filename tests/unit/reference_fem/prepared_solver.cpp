@@ -1,12 +1,15 @@
 // Truth: a dense solve of the same small system by Eigen.
 #include "reference_fem/prepared_solver.hpp"
 
+#include "reference_fem/assembly.hpp"
 #include "reference_fem/blas.hpp"
+#include "tests/support/structured_bar.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include <dlfcn.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -105,6 +108,45 @@ TEST(PreparedSolver, CholmodRefusesAnIndefiniteMatrixThatUmfpackSolves)
     const SparseMatrix indefinite = spring_chain(4, -3.0);
     EXPECT_FALSE(prepare(indefinite, LinearSolver::cholmod)->usable());
     EXPECT_TRUE(prepare(indefinite, LinearSolver::umfpack)->usable());
+}
+
+// Stiffness of a bar on springs of a thousandth of its own: 9,000 unknowns, whose dense blocks OpenBLAS shares among its threads.
+SparseMatrix bar_on_springs()
+{
+    const SimplexSpace space(test_support::structured_bar({0, 0, 0}, {1, 0.3, 0.3}, {12, 5, 5}), 2);
+    SparseMatrix stiffness = stiffness_matrix(space, lame_parameters(1e5, 0.3));
+    const double springs = 1e-3 * stiffness.diagonal().mean();
+    for (Eigen::Index i = 0; i < stiffness.rows(); ++i) stiffness.coeffRef(i, i) += springs;
+    return stiffness;
+}
+
+// Truth: one thread. The bound is the contract's; the condition, some 10^4, times the rounding stays below it.
+TEST(PreparedSolver, ThreadsOfTheBlasChangeTheSolutionByLessThanTheContractSays)
+{
+    auto* set_threads = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
+    auto* threads = reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
+    if (!set_threads || !threads) GTEST_SKIP() << "not on " << resolved_blas();
+    const SparseMatrix matrix = bar_on_springs();
+    const Eigen::VectorXd load = Eigen::VectorXd::LinSpaced(matrix.rows(), -1.0, 1.0);
+    for (auto* prepare_direct : {prepare_cholmod, prepare_umfpack}) {
+        set_threads(1);
+        const Eigen::VectorXd alone = prepare_direct(matrix)->solve(load), again = prepare_direct(matrix)->solve(load);
+        EXPECT_EQ(alone, again);
+        set_threads(2);
+        ASSERT_EQ(threads(), 2);
+        EXPECT_LT((prepare_direct(matrix)->solve(load) - alone).norm() / alone.norm(), 1e-10);
+    }
+}
+
+// Whatever a user asks OpenBLAS for, as the environment does.
+TEST(PreparedSolver, PreparedOnOneThreadItRepeatsToTheBit)
+{
+    const SparseMatrix matrix = bar_on_springs();
+    const Eigen::VectorXd load = Eigen::VectorXd::LinSpaced(matrix.rows(), -1.0, 1.0);
+    auto* set_threads = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
+    const Eigen::VectorXd alone = prepare(matrix, LinearSolver::cholmod)->solve(load);
+    if (set_threads) set_threads(2);
+    EXPECT_EQ(prepare(matrix, LinearSolver::cholmod)->solve(load), alone);
 }
 
 TEST(PreparedSolver, TheBlasInUseIsNamedWithItsFile)
