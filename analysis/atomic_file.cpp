@@ -5,6 +5,9 @@
 #include "pbs/geometry/process.hpp"
 #include "pbs/geometry/text_file.hpp"
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <filesystem>
 #include <regex>
 #include <string>
@@ -31,6 +34,16 @@ bool is_abandoned(const fs::path& file)
 void write_text_atomically(const std::string& path, const std::string& text)
 {
     pbs::write_atomically(path, text);
+}
+
+void require_writable(const std::string& path)
+{
+    const fs::path parent = fs::path(path).parent_path(), folder = parent.empty() ? "." : parent;
+    std::error_code error;
+    int reason = fs::is_directory(path, error) ? EISDIR : 0;
+    if (reason == 0 && fs::exists(folder, error) && !fs::is_directory(folder, error)) reason = ENOTDIR;
+    if (reason == 0 && ::access(folder.c_str(), W_OK | X_OK) != 0) reason = errno;
+    if (reason != 0) throw pbs::InputError(path, 0, "", "", "cannot be written: " + std::generic_category().message(reason));
 }
 
 void remove_abandoned_files(const std::string& folder, bool and_below)

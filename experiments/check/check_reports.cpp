@@ -8,19 +8,12 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <unistd.h>
-
-#include <cerrno>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <string_view>
-#include <system_error>
 
 namespace experiments {
 namespace {
-
-namespace fs = std::filesystem;
 
 std::string_view environment(const char* name)
 {
@@ -62,19 +55,9 @@ void tell_failures(const std::vector<analysis::CheckSuite>& suites)
         }
 }
 
-void require_writable(const std::string& path)
-{
-    const fs::path parent = fs::path(path).parent_path(), folder = parent.empty() ? "." : parent;
-    std::error_code error;
-    int reason = fs::is_directory(path, error) ? EISDIR : 0;
-    if (reason == 0 && fs::exists(folder, error) && !fs::is_directory(folder, error)) reason = ENOTDIR;
-    if (reason == 0 && ::access(folder.c_str(), W_OK | X_OK) != 0) reason = errno;
-    if (reason != 0) throw pbs::InputError(path, 0, "", "", "cannot be written: " + std::generic_category().message(reason));
-}
-
 void require_writable(const CheckReports& reports)
 {
-    if (!reports.junit.empty()) require_writable(reports.junit);
+    if (!reports.junit.empty()) analysis::require_writable(reports.junit);
     if (is_for_github(reports)) add_to_summary("");
 }
 

@@ -13,8 +13,7 @@ struct CheckReports {
 // On stderr, one line each, what does not hold or was left out.
 void tell_failures(const std::vector<analysis::CheckSuite>& suites);
 
-// To be asked before the work: InputError with the system's reason where a file or a report cannot be written.
-void require_writable(const std::string& path);
+// To be asked before the work: InputError with the system's reason where a report cannot be written.
 void require_writable(const CheckReports& reports);
 
 void write_reports(const CheckReports& reports, const std::vector<analysis::CheckSuite>& suites);

@@ -1,4 +1,5 @@
 // pbskin check [-o DIR] [--junit FILE] [--baseline FILE]: CI validation, volume preservation and the other bounds.
+#include "analysis/atomic_file.hpp"
 #include "experiments/check/check_reports.hpp"
 #include "experiments/check/check_run.hpp"
 #include "experiments/command_line/verbs.hpp"
@@ -19,7 +20,7 @@ int check(CheckArguments arguments, const CheckReports& reports, const CommonOpt
     std::error_code told_by_the_run;
     if (!reports.junit.empty()) std::filesystem::create_directories(arguments.folder, told_by_the_run);  // a report may lie there
     require_writable(reports);
-    if (!arguments.write_baseline.empty()) require_writable(arguments.write_baseline);
+    if (!arguments.write_baseline.empty()) analysis::require_writable(arguments.write_baseline);
     const CheckResult result = run_check(arguments);
     if (!common.quiet) fmt::print("{}", analysis::check_table(result.suites));
     tell_failures(result.suites);

@@ -1,5 +1,6 @@
 // pbskin measure REST FRAME... [--csv FILE] [--junit FILE] [--max-volume-change PCT]...: the ruler on anybody's result.
 //   pbskin measure rest.msh 'out/frame_%04d.vtu' --max-volume-change 0.5 --max-inverted 0 --junit volume.xml
+#include "analysis/atomic_file.hpp"
 #include "analysis/csv_table.hpp"
 #include "analysis/edge_strain.hpp"
 #include "analysis/frame_metrics.hpp"
@@ -82,7 +83,7 @@ bool tell_broken(const std::vector<FrameBound>& bounds, const std::string& path,
 void require_usable(const MeasureArguments& arguments)
 {
     std::for_each(arguments.bounds.begin(), arguments.bounds.end(), require_meaningful);
-    if (!arguments.csv.empty()) require_writable(arguments.csv);
+    if (!arguments.csv.empty()) analysis::require_writable(arguments.csv);
     require_writable(arguments.reports);
 }
 

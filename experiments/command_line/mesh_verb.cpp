@@ -1,4 +1,5 @@
 // pbskin mesh SURFACE -o TETS [--vertices N]: closed or nearly closed surface -> tets of about the wanted size.
+#include "analysis/atomic_file.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/warnings.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -31,6 +32,8 @@ int mesh(const MeshArguments& arguments)
     std::vector<std::string> remarks;
     const pbs::SurfaceMesh surface = pbs::read_surface(arguments.surface, remarks);
     warn(remarks);
+    pbs::require_tet_mesh_format(arguments.tets);
+    analysis::require_writable(arguments.tets);
     const pbs::TetMesh mesh = meshed(arguments, surface);
     pbs::write_tet_mesh(arguments.tets, mesh);
     fmt::print("{}", pbs::describe(pbs::quality_of(mesh)));

@@ -39,13 +39,20 @@ MeshReading read_tet_mesh(const std::string& path)
     return check_rest(path, read_by_extension(path));
 }
 
+void require_tet_mesh_format(const std::string& path)
+{
+    const std::string extension = lower_extension(path);
+    if (extension != ".msh" && extension != ".vtu" && extension != ".mesh")
+        throw InputError(path, 0, "extension", extension, "expected .msh, .vtu or .mesh");
+}
+
 void write_tet_mesh(const std::string& path, const TetMesh& mesh)
 {
+    require_tet_mesh_format(path);
     const std::string extension = lower_extension(path);
     if (extension == ".msh") return write_msh(path, mesh);
     if (extension == ".mesh") return write_medit(path, mesh);
-    if (extension == ".vtu") return write_vtu(path, mesh.rest, mesh.tets, {});
-    throw InputError(path, 0, "extension", extension, "expected .msh, .vtu or .mesh");
+    write_vtu(path, mesh.rest, mesh.tets, {});
 }
 
 }  // namespace pbs

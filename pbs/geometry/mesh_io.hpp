@@ -23,7 +23,8 @@ MeshReading read_tet_mesh(const std::string& path);
 // Points and tets as they stand in the file, inverted tets and all: what the ruler wants of deformed frames.
 TetMesh read_tet_frame(const std::string& path);
 
-// By extension: .msh (4.1 ASCII), .vtu, .mesh. Written to a temporary file and renamed.
+// By extension: .msh (4.1 ASCII), .vtu, .mesh. Written to a temporary file and renamed. The format alone can be asked for before the work.
+void require_tet_mesh_format(const std::string& path);
 void write_tet_mesh(const std::string& path, const TetMesh& mesh);
 
 struct SurfaceMesh {

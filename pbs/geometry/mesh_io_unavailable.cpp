@@ -22,6 +22,10 @@ TetMesh read_tet_frame(const std::string& path)
 {
     refuse(path);
 }
+void require_tet_mesh_format(const std::string& path)
+{
+    refuse(path);
+}
 void write_tet_mesh(const std::string& path, const TetMesh&)
 {
     refuse(path);

@@ -12,6 +12,8 @@
 
 #include <csignal>
 #include <filesystem>
+#include <map>
+#include <utility>
 
 namespace {
 
@@ -87,6 +89,36 @@ TEST_F(AtomicFile, ReadOnlyFolderIsRefused)
         ASSERT_EQ(seteuid(0), 0);
     }
     EXPECT_EQ(files(), 0);
+}
+
+// What require_writable and then a write say; empty: nothing.
+std::pair<std::string, std::string> refusals(const std::string& path)
+{
+    const auto said_by = [&](auto write) -> std::string {
+        try {
+            return write(), "";
+        } catch (const pbs::InputError& error) {
+            return error.what();
+        }
+    };
+    return {said_by([&] { analysis::require_writable(path); }), said_by([&] { write_text_atomically(path, "{}"); })};
+}
+
+TEST_F(AtomicFile, WhatCannotBeWrittenIsSaidBeforehandInTheSameWords)
+{
+    fs::create_directory(folder / "run.json");
+    write_text_atomically(folder / "file", "");
+    const std::map<std::string, std::string> reasons{
+        {"run.json", "Is a directory"}, {"file/a", "Not a directory"}, {"none/a", "No such file"}};
+    for (const auto& [name, reason] : reasons) {
+        const auto [beforehand, then] = refusals(folder / name);
+        EXPECT_EQ(beforehand, then) << name;
+        EXPECT_NE(beforehand.find("cannot be written: " + reason), std::string::npos) << beforehand;
+    }
+    EXPECT_EQ(files(), 2);
+    EXPECT_NO_THROW(analysis::require_writable(folder / "metrics.csv"));
+    EXPECT_NO_THROW(analysis::require_writable(folder / "file"));
+    EXPECT_EQ(files(), 2);
 }
 
 // A limit on file sizes stands for a full disk: write() ends short with an error.
