@@ -15,7 +15,7 @@ MOST_SECONDS, MOST_BYTES = 5.0, 1 << 30  # of processor time, as other work on t
 MOST_WAITING_SECONDS = {2: 25.0, 0: 240.0}  # by the exit status that is expected; then it hangs
 NOBODY = {"user": 65534, "group": 65534, "extra_groups": []}
 WORDS = r"\b(?:missing\b|[A-Za-z]\w+ \S)"  # that a rule has at least
-RULE = rf"(?=.*?{WORDS}).+"
+RULE = rf"(?![^:=]+ = [^:]*:? ?$)(?=.*?{WORDS}).+"  # no field and value alone
 LINE = re.compile(rf"pbskin: (?:(?P<place>[^:=\n]+)(?::\d+){{0,2}}: )?(?:(?P<field>[^:=\n]+) = (?P<value>.*?): )?(?P<rule>{RULE})")
 USAGE = re.compile(r"pbskin: .+; `pbskin --help` tells the verbs, `pbskin VERB --help` their options")
 WORDS_OF_NO_USER = ("json.exception", "basic_string", "std::", "vector::", "filesystem error", "terminate called", "Traceback")

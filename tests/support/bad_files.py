@@ -45,8 +45,8 @@ def long_names():
     for number, (command, rule) in enumerate(((["measure", long + ".vtu", "arm.vtu"], "no such file"),
                                               (["mesh", long + ".obj", "-o", "t.vtu"], "no such file"),
                                               (["run", long + ".toml", "-o", "out"], "cannot be read: expected a scene file"),
-                                              (["report", long], "no such folder"),
-                                              (["reproduce", "--judge", "-o", long], "no records"),
+                                              (["report", long], "File name too long"),
+                                              (["reproduce", "--judge", "-o", long], "File name too long"),
                                               (["run", "arm.toml", "-o", long], "cannot be made: File name too long"))):
         yield Case(f"name of 5000 characters {number}", {}, command, (long[:40], rule))
 

@@ -130,7 +130,7 @@ def tetgen_cases():
             ("huge_count", node.replace("4 3", "4000000000 3", 1), element,
              ("bad.node:1: #points = ", "expected a whole number from 0 to 7")),
             ("nan", node.replace("1 0 0 0", "1 nan 0 0"), element, ("bad.ele: ", "vertex 0 = (nan, 0, 0): expected finite")),
-            ("truncated", node[:20], element, ("bad.node:3: point = ", "expected at least 4 numbers")),
+            ("truncated", node[:-4], element, ("bad.node:5: point = ", "expected at least 4 numbers")),
             ("index", node, element.replace("3 4\n", "3 9\n"), ("bad.ele:2: tet vertex = 9", "expected a whole number from 1 to 4")),
             ("two_dimensional", node.replace("4 3", "4 2", 1), element,
              ("bad.node:1: dimension = 2", "expected a whole number from 3 to 3"))):

@@ -76,6 +76,14 @@ class SameRecords(program.ProgramTest):
                 with self.subTest(order=order, precision=precision, threads=threads):
                     self.expect_same(alone, self.run_once(scene, *sets, "--threads", threads), but_threads=True)
 
+    def test_the_reference_whatever_its_algebra_is_told(self):
+        """On a mesh whose dense blocks OpenBLAS would share among threads; what they would change is in unit/reference_fem."""
+        scene = self.write_arm((14, 4, 4), '["p1", "snh"]', more=FEM)  # 375 vertices
+        first = self.run_once(scene, env=os.environ | BLAS_THREADS[0])
+        for change in BLAS_THREADS[2:]:
+            with self.subTest(change):
+                self.expect_same(first, self.run_once(scene, env=os.environ | change))
+
     def test_the_human(self):
         overrides = [f"motion.duration_s={1.0 if LONG else 0.05}", "output.frames=[]", "output.frame_names=[]"]
         short = ["human_01_01", *(word for override in overrides for word in ("--set", override))]
