@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <vector>
 
 namespace pbs {
 namespace {
@@ -68,11 +69,10 @@ private:
     std::vector<double> numbers_;
 };
 
-// "0 0 0 0" and the end of its line are the shortest entry: a count above what the file can hold is damage and must not be allocated.
+// A file of n bytes holds fewer than n entries: a count above that is damage. Fewer may be there than it tells: room is made as they come.
 long long most_entries(const std::string& path)
 {
-    constexpr std::uintmax_t shortest_bytes = 8;
-    return static_cast<long long>(std::filesystem::file_size(path) / shortest_bytes) + 1;
+    return static_cast<long long>(std::filesystem::file_size(path));
 }
 
 Positions read_nodes(const std::string& path, long long& first)
@@ -81,15 +81,15 @@ Positions read_nodes(const std::string& path, long long& first)
     lines.next("header", 2);
     const long long count = lines.whole("#points", 0, 0, most_entries(path));
     lines.whole("dimension", 1, 3, 3);
-    Positions points(count, 3);
+    std::vector<double> coordinates;
     first = 0;
     for (long long i = 0; i < count; ++i) {
         const std::vector<double>& numbers = lines.next("point", 4);
         if (i == 0) first = lines.whole("first point", 0, 0, 1);
         lines.whole("point", 0, first + i, first + i);
-        for (std::size_t k = 0; k < 3; ++k) points(i, static_cast<Eigen::Index>(k)) = numbers[k + 1];
+        coordinates.insert(coordinates.end(), numbers.begin() + 1, numbers.begin() + 4);
     }
-    return points;
+    return Eigen::Map<const Positions>(coordinates.data(), count, 3);
 }
 
 Tets read_elements(const std::string& path, long long points, long long first)
@@ -98,13 +98,13 @@ Tets read_elements(const std::string& path, long long points, long long first)
     lines.next("header", 2);
     const long long count = lines.whole("#tets", 0, 0, most_entries(path));
     lines.whole("nodes per tet", 1, 4, 4);
-    Tets tets(count, 4);
+    std::vector<int> corners;
     for (long long t = 0; t < count; ++t) {
         lines.next("tet", 5);
-        for (std::size_t k = 0; k < 4; ++k)
-            tets(t, static_cast<Eigen::Index>(k)) = static_cast<int>(lines.whole("tet vertex", k + 1, first, first + points - 1) - first);
+        for (std::size_t k = 1; k <= 4; ++k)
+            corners.push_back(static_cast<int>(lines.whole("tet vertex", k, first, first + points - 1) - first));
     }
-    return tets;
+    return Eigen::Map<const Tets>(corners.data(), count, 4);
 }
 
 }  // namespace

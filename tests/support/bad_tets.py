@@ -128,7 +128,7 @@ def tetgen_cases():
     for name, nodes, elements, words in (
             ("noise", "\x01\x02 noise", element, ("bad.node:1: header = ", "expected numbers")),
             ("huge_count", node.replace("4 3", "4000000000 3", 1), element,
-             ("bad.node:1: #points = ", "expected a whole number from 0 to 7")),
+             ("bad.node:1: #points = ", "expected a whole number from 0 to 49")),
             ("nan", node.replace("1 0 0 0", "1 nan 0 0"), element, ("bad.ele: ", "vertex 0 = (nan, 0, 0): expected finite")),
             ("truncated", node[:-4], element, ("bad.node:5: point = ", "expected at least 4 numbers")),
             ("index", node, element.replace("3 4\n", "3 9\n"), ("bad.ele:2: tet vertex = 9", "expected a whole number from 1 to 4")),
