@@ -38,6 +38,7 @@ void write_text_atomically(const std::string& path, const std::string& text)
 
 void require_writable(const std::string& path)
 {
+    pbs::require_no_device(path);
     const fs::path parent = fs::path(path).parent_path(), folder = parent.empty() ? "." : parent;
     std::error_code error;
     int reason = fs::is_directory(path, error) ? EISDIR : 0;

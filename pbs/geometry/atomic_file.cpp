@@ -63,8 +63,18 @@ bool write_and_flush(int file, const std::string& bytes)
 
 }  // namespace
 
+void require_no_device(const std::string& path)
+{
+    std::error_code error;
+    const auto kind = std::filesystem::status(path, error).type();
+    using enum std::filesystem::file_type;
+    if (kind == character || kind == block || kind == fifo || kind == socket)
+        throw InputError(path, 0, "", "", "cannot be written: expected a file, or nothing there");
+}
+
 void write_atomically(const std::string& path, const std::string& bytes)
 {
+    require_no_device(path);
     std::string temporary;
     const int file = open_new(beginning_of_temporary(path), temporary);
     if (file < 0) refuse(path, errno);

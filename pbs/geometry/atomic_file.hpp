@@ -7,7 +7,11 @@
 
 namespace pbs {
 
-// An InputError with the system's reason where the folder is missing, cannot be written or is full; nothing is left behind then.
+// An InputError where a device or a named pipe is there: renaming would leave a file in its place.
+void require_no_device(const std::string& path);
+
+// An InputError with the system's reason where the folder is missing, cannot be written or is full; nothing is left behind then. And as
+// require_no_device.
 void write_atomically(const std::string& path, const std::string& bytes);
 
 }  // namespace pbs

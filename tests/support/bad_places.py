@@ -1,5 +1,8 @@
 """Places that cannot be written, and command lines that say nothing that can be done."""
+import os
+
 from bad_case import Case
+from bad_surfaces import off
 
 FIGURES = ["measure", "arm.vtu", "arm.vtu"]
 DENIED = "Permission denied"
@@ -15,6 +18,16 @@ def places():
     yield Case("figures into a folder that is not there", {}, [*FIGURES, "--csv", "none/x.csv"],
                ("none/x.csv: ", "cannot be written: No such file"))
     yield Case("bench into a file", {"out": "text"}, ["bench", "--quick", "-o", "out"], ("out: ", "cannot be made: Not a directory"))
+
+
+def devices():
+    """What a file that is renamed into its place would end."""
+    rule = "cannot be written: expected a file, or nothing there"
+    for kind, make in (("named pipe", os.mkfifo), ("device", lambda path: path.symlink_to("/dev/null"))):
+        yield Case(f"figures onto a {kind}", {"x.csv": make}, [*FIGURES, "--csv", "x.csv"], ("x.csv: ", rule))
+        yield Case(f"report of tests onto a {kind}", {"x.xml": make}, [*FIGURES, "--junit", "x.xml"], ("x.xml: ", rule))
+        yield Case(f"tets onto a {kind}", {"x.vtu": make, "good.off": off()}, ["mesh", "good.off", "-o", "x.vtu", "--vertices", "200"],
+                   ("x.vtu: ", rule))
 
 
 def locked(path):
@@ -43,5 +56,6 @@ def command_lines():
 
 def cases():
     yield from places()
+    yield from devices()
     yield from read_only_places()
     yield from command_lines()

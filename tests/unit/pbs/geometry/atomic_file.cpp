@@ -1,6 +1,7 @@
 // Truth: what the file system holds afterwards. Failing writes: tests/unit/analysis/atomic_file.cpp.
 #include "pbs/geometry/atomic_file.hpp"
 
+#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/text_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -15,7 +16,9 @@
 namespace {
 
 namespace fs = std::filesystem;
+using pbs::InputError;
 using pbs::read_text_file;
+using pbs::require_no_device;
 using pbs::write_atomically;
 using test_support::ScratchFolder;
 
@@ -64,6 +67,20 @@ TEST(WriteAtomically, NothingThatLiesThereIsWrittenThrough)
     write_atomically(folder / "out/limb.vtu", "ours");
     EXPECT_EQ(read_text_file(theirs), "theirs");
     EXPECT_EQ(files_in(folder.path() / "out"), 3);
+}
+
+TEST(WriteAtomically, ADeviceOrANamedPipeIsLeftThere)
+{
+    const ScratchFolder folder;
+    ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+    fs::create_symlink("/dev/null", folder.path() / "device");
+    for (const char* name : {"pipe", "device"}) {
+        EXPECT_THROW(write_atomically(folder / name, "ours"), InputError) << name;
+        EXPECT_THROW(require_no_device(folder / name), InputError) << name;
+    }
+    EXPECT_TRUE(fs::is_fifo(folder.path() / "pipe"));
+    EXPECT_TRUE(fs::is_symlink(folder.path() / "device"));
+    EXPECT_EQ(files_in(folder.path()), 2);
 }
 
 TEST(WriteAtomically, ThreadsThatWriteOneFileLeaveAWholeOne)
