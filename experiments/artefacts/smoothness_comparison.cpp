@@ -42,6 +42,7 @@ Twin twin_of(ArtefactCase of, int vertices)
     of.scene.character.weights = pbs::WeightKind::paper;
     ArtefactBody paper(of, vertices);
     of.scene.character.weights = pbs::WeightKind::rigid;
+    of.scene.character.weights_file.clear();
     return {std::move(paper), ArtefactBody(of, vertices)};
 }
 

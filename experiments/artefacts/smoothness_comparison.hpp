@@ -1,4 +1,5 @@
-// C06: the same poses with the weights of Eq. 2 and with every vertex on its nearest bone alone.
+// C06: the same poses with the weights of Eq. 2, or of the scene's weights file in their place, and with every vertex on its nearest bone
+// alone.
 //   for (const analysis::Measurement& figure : compare_weights(of).figures) ...
 // At each joint: the jump of strain between neighbouring tets and the bending of the skin (analysis/smoothness.hpp); of the whole body the
 // absolute volume change; and the iterations after which PBS stays within the tolerance of its residual, by the residual and the rule of
