@@ -2,9 +2,12 @@
 //   const ScratchFolder folder;  write(folder / "deck.inp");
 #pragma once
 
+#include "pbs/geometry/input_error.hpp"
+
+#include <cerrno>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include <stdlib.h>
 
@@ -14,8 +17,10 @@ class ScratchFolder {
 public:
     ScratchFolder()
     {
-        std::string name = (std::filesystem::temp_directory_path() / "pbskin_XXXXXX").string();
-        if (!mkdtemp(name.data())) throw std::runtime_error("no scratch folder under " + name);
+        const std::filesystem::path parent = std::filesystem::temp_directory_path();
+        std::string name = (parent / "pbskin_XXXXXX").string();
+        if (!mkdtemp(name.data()))
+            throw pbs::InputError(parent.string(), 0, "", "", "no folder can be made there: " + std::generic_category().message(errno));
         path_ = name;
     }
     ~ScratchFolder()

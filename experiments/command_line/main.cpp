@@ -4,9 +4,9 @@
 //   pbskin measure rest.msh frame_*.vtu --max-volume-change 0.5
 #include "experiments/command_line/description.hpp"
 #include "experiments/command_line/verbs.hpp"
+#include "experiments/failure.hpp"
 #include "experiments/interruption.hpp"
 #include "experiments/version_text.hpp"
-#include "pbs/geometry/input_error.hpp"
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -68,14 +68,9 @@ int main(int argc, char** argv)
 {
     try {
         return experiments::parse_and_act(argc, argv);
-    } catch (const pbs::InputError& error) {
-        std::fprintf(stderr, "pbskin: %s\n", error.what());
-        return experiments::exit_input;
-    } catch (const experiments::Interrupted&) {
-        std::fprintf(stderr, "pbskin: interrupted; what was finished is kept\n");
-        return experiments::exit_interrupted;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "pbskin: %s\n", error.what());
-        return experiments::exit_input;
+    } catch (...) {
+        const experiments::Failure failure = experiments::caught_failure();
+        std::fprintf(stderr, "pbskin: %s\n", failure.message().c_str());
+        return failure.status;
     }
 }

@@ -1,6 +1,7 @@
 #include "experiments/second_opinion/calculix_run.hpp"
 
 #include "experiments/scratch_folder.hpp"
+#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <algorithm>
@@ -154,7 +155,7 @@ CalculixRun run_calculix(const std::string& program, const std::function<void(st
     {
         std::ofstream deck(folder / "deck.inp");
         write_deck(deck);
-        if (!deck.flush()) throw std::runtime_error("no space for CalculiX's deck in " + folder.path());
+        if (!deck.flush()) throw pbs::InputError(folder / "deck.inp", 0, "", "", "cannot be written: is there space for CalculiX's deck?");
     }
     CalculixRun run;
     const pbs::Stopwatch stopwatch;

@@ -4,7 +4,7 @@ import os
 import time
 
 statuses = (("0", "finished, whatever the verdicts"),
-            ("1", "a bound does not hold (measure), or a verdict could not be computed (reproduce)"),
+            ("1", "a bound does not hold (measure), or a verdict could not be computed (reproduce); an internal error"),
             ("2", "bad input or usage"),
             ("3", "numerical breakdown in a run that was expected to finish"),
             ("130", "interrupted; what was finished is kept"))
