@@ -4,6 +4,7 @@
 #include "analysis/provenance.hpp"
 #include "experiments/frame_statistics.hpp"
 #include "experiments/library_versions.hpp"
+#include "experiments/record_text.hpp"
 #include "experiments/surface_record.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
@@ -272,7 +273,7 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
     run["character"] = cost.time("records", [&] { return character_record(character); });
     if (!reference_error_method.is_null()) run["reference_error_method"] = reference_error_method;
     run["cost"] = cost.json();
-    analysis::write_text_atomically((fs::path(folder_) / "run.json").string(), run.dump(2) + "\n");
+    analysis::write_text_atomically((fs::path(folder_) / "run.json").string(), record_text(run));
 }
 
 }  // namespace experiments

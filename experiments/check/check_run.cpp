@@ -4,6 +4,7 @@
 #include "analysis/check/check_judgement.hpp"
 #include "analysis/provenance.hpp"
 #include "experiments/metrics_table.hpp"
+#include "experiments/record_text.hpp"
 #include "experiments/run.hpp"
 #include "generated/claims_texts.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -152,7 +153,7 @@ void write_record(const std::string& folder, const std::vector<CheckSuite>& suit
         for (const CheckCase& check : suite.cases) json["cases"].push_back(to_json(check));
         for (const auto& [name, value] : suite.properties) json["tracked"][name] = value;
     }
-    analysis::write_text_atomically((fs::path(folder) / "check.json").string(), record.dump(2) + "\n");
+    analysis::write_text_atomically((fs::path(folder) / "check.json").string(), record_text(record));
 }
 
 bool is_left_out(const CheckScene& check)

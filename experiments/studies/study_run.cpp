@@ -4,6 +4,7 @@
 #include "analysis/provenance.hpp"
 #include "experiments/bench/cpu_clock.hpp"
 #include "experiments/library_versions.hpp"
+#include "experiments/record_text.hpp"
 #include "experiments/run.hpp"
 #include "experiments/run_end.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -49,7 +50,7 @@ std::string carry_out_work(const StudyRun& run, const std::string& folder)
     nlohmann::json outcome = {{"finished", true}, {"breakdown", breakdown}, {"cpu_seconds", process_cpu_s() - cpu_start_s}};
     outcome.update(run_end(stopwatch.seconds()));
     const nlohmann::json json = {{"schema", 1}, {key, value}, {"provenance", provenance}, {"outcome", outcome}};
-    analysis::write_text_atomically(record.string(), json.dump(2) + "\n");
+    analysis::write_text_atomically(record.string(), record_text(json));
     return breakdown;
 }
 

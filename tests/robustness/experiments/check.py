@@ -157,6 +157,14 @@ class Check(program.ProgramTest):
             self.assertFalse(os.path.exists(self.path("out", "arm")), arguments)
         self.assertEqual(self.check("--junit", self.path("out", "volume.xml")).returncode, 0)  # in the folder that the check makes
 
+    def test_bounds_whose_name_is_not_utf8_lose_no_record(self):
+        own = os.fsdecode(os.fsencode(self.path("che")) + b"\xff.toml")
+        os.rename(self.bounds, own)
+        self.bounds = own
+        self.assertEqual(self.check().returncode, 0)
+        with open(self.path("out", "check.json"), encoding="utf-8") as file:
+            self.assertEqual(json.load(file)["scenes"][0]["cases"][0]["file"], self.path("che\ufffd.toml"))
+
     def test_a_deformer_or_frame_that_is_gone_fails(self):
         self.check("--write-baseline", self.baseline)
         for change in ('deformers.use=["lbs"]', "motion.frames=4"):
