@@ -2,6 +2,7 @@
 
 #include "experiments/deformers/option_names.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "experiments/record_text.hpp"
 #include "experiments/scene_values.hpp"
 #include "generated/scenes_texts.hpp"
 #include "pbs/character/clip.hpp"
@@ -294,8 +295,7 @@ std::string read_text(const std::string& path)
     std::error_code code;  // a named pipe would be waited for without end
     std::ifstream file;
     if (fs::is_regular_file(path, code)) file.open(path);
-    if (!file.is_open())
-        throw pbs::InputError(path, 0, "", "", "cannot be read: expected a scene file, or a name of `pbskin list scenes`");
+    if (!file.is_open()) throw pbs::InputError(path, 0, "", "", "cannot be read: expected a scene file, or a name of `pbskin list scenes`");
     std::ostringstream text;
     text << file.rdbuf();
     return text.str();
@@ -345,6 +345,7 @@ Scene read_scene(const std::string& file_or_name, const std::vector<std::string>
     Scene scene;
     scene.file = file;
     scene.name = fs::path(file).stem().string();
+    if (!is_utf8(scene.name)) throw pbs::InputError(file, 0, "", "", "expected a file's name in UTF-8: it names the scene in all records");
     scene.character = read_character(values, folder);
     scene.motion = read_motion(values, folder);
     scene.deformers = read_deformers(values);

@@ -1,5 +1,6 @@
 #include "experiments/scene_values.hpp"
 
+#include "experiments/record_text.hpp"
 #include "experiments/scene_schema.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/nearest_name.hpp"
@@ -8,8 +9,11 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <optional>
 #include <set>
+#include <string_view>
 
 namespace experiments {
 namespace {
@@ -119,61 +123,86 @@ std::string joined(const std::string& table, const std::string& name)
     return table.empty() ? name : table + "." + name;
 }
 
+constexpr std::string_view fem_prefix = "fem.";
+
+// The index of fem.INDEX.KEY as a scene writes it, without leading zeros; nothing of other paths.
+std::optional<int> fem_index(const std::string& path)
+{
+    if (!path.starts_with(fem_prefix)) return std::nullopt;
+    const auto dot = path.find('.', fem_prefix.size());
+    if (dot == std::string::npos) return std::nullopt;
+    const std::string written = path.substr(fem_prefix.size(), dot - fem_prefix.size());
+    int index = 0;
+    const auto [end, error] = std::from_chars(written.data(), written.data() + written.size(), index);
+    return error == std::errc() && index >= 0 && std::to_string(index) == written ? std::optional(index) : std::nullopt;
+}
+
 // fem.0.young_pa -> fem.young_pa: the schema knows one [[fem]] table.
 std::string schema_path(const std::string& path)
 {
-    if (!path.starts_with("fem.") || path.size() < 5 || !std::isdigit(static_cast<unsigned char>(path[4]))) return path;
-    return "fem" + path.substr(path.find('.', 4));
+    return fem_index(path) ? "fem" + path.substr(path.find('.', fem_prefix.size())) : path;
 }
 
 }  // namespace
 
 SceneValues::SceneValues(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) : file_(file)
 {
-    const auto accept = [&](const std::string& path, const toml::node& node, const std::string& source, int line) {
-        const SceneKey* key = find_scene_key(schema_path(path));
-        if (!key) {
-            const auto dot = schema_path(path).rfind('.');
-            const std::string table = dot == std::string::npos ? "" : schema_path(path).substr(0, dot);
-            const std::string name = dot == std::string::npos ? path : schema_path(path).substr(dot + 1);
-            throw pbs::InputError(source, line, path, node.is_table() ? "" : shown(node),
-                                  "unknown key; the nearest known one is " + joined(table, pbs::nearest_name(name, known_names(table))));
-        }
-        const json value = to_json(node);
-        if (!obeys(value, *key)) throw pbs::InputError(source, line, path, shown(node), key->rule());
-        values_[path] = {value, source, line, false};
-    };
-    const auto walk = [&](auto&& self, const toml::table& table, const std::string& prefix) -> void {
-        for (const auto& [name, node] : table) {
-            const std::string path = joined(prefix, std::string(name.str()));
-            const int line = static_cast<int>(node.source().begin.line);
-            if (node.is_table() && path != "fem" && is_table_name(schema_path(path))) {
-                tables_.push_back(path);
-                self(self, *node.as_table(), path);
-            } else if (path == "fem" && node.is_array_of_tables()) {
-                for (const auto& element : *node.as_array()) self(self, *element.as_table(), "fem." + std::to_string(fem_tables_++));
-            } else if (path == "fem" || is_table_name(path)) {
-                throw pbs::InputError(file, line, path, "", path == "fem" ? "expected [[fem]] tables" : "expected a table");
-            } else {
-                accept(path, node, file, line);
-            }
-        }
-    };
-    const toml::table table = parse(text, file);
-    walk(walk, table, "");
-    for (const std::string& override : overrides) {
-        const auto equals = override.find('=');
-        if (equals == std::string::npos || equals == 0) throw pbs::InputError("--set", 0, "", override, "expected key=value");
-        std::string path = override.substr(0, equals);
-        if (path.starts_with("fem.") && fem_tables_ > 0 && schema_path(path) == path) path = "fem.0." + path.substr(4);
-        if (path.starts_with("fem.") && (fem_tables_ == 0 || std::atoi(path.c_str() + 4) >= fem_tables_))
-            throw pbs::InputError("--set", 0, path, override.substr(equals + 1), "the scene has no such [[fem]] table");
-        const toml::table value = parse_override(override.substr(equals + 1));
-        accept(path, *value.get("value"), "--set", 0);
-        if (const auto dot = path.rfind('.'); dot != std::string::npos) tables_.push_back(path.substr(0, dot));
-    }
+    take_table(parse(text, file), "");
+    for (const std::string& override : overrides) take_override(override);
     if (!values_.count("schema")) throw pbs::InputError(file, 0, "schema", "", "missing; write schema = 1");
     add_defaults();
+}
+
+void SceneValues::take_table(const toml::table& table, const std::string& prefix)
+{
+    for (const auto& [key, node] : table) {
+        const std::string name(key.str()), path = joined(prefix, name);
+        const int line = static_cast<int>(node.source().begin.line);
+        if (name.find('.') != std::string::npos) throw pbs::InputError(file_, line, path, "", "expected a key without a dot in quotes");
+        if (node.is_table() && path != "fem" && is_table_name(schema_path(path))) {
+            tables_.push_back(path);
+            take_table(*node.as_table(), path);
+        } else if (path == "fem" && node.is_array_of_tables()) {
+            for (const auto& element : *node.as_array()) take_table(*element.as_table(), "fem." + std::to_string(fem_tables_++));
+        } else if (path == "fem" || is_table_name(path)) {
+            throw pbs::InputError(file_, line, path, "", path == "fem" ? "expected [[fem]] tables" : "expected a table");
+        } else {
+            take_value(path, node, file_, line);
+        }
+    }
+}
+
+// KEY=VALUE; a key of fem without an index is of the first table.
+void SceneValues::take_override(const std::string& override)
+{
+    const auto equals = override.find('=');
+    if (equals == std::string::npos || equals == 0) throw pbs::InputError("--set", 0, "", override, "expected key=value");
+    std::string path = override.substr(0, equals);
+    const std::string value = override.substr(equals + 1);
+    if (!is_utf8(override)) throw pbs::InputError("--set", 0, path, value, "expected UTF-8");
+    if (path.starts_with(fem_prefix)) {
+        if (fem_tables_ > 0 && find_scene_key(path)) path.insert(fem_prefix.size(), "0.");
+        if (fem_index(path).value_or(0) >= fem_tables_)
+            throw pbs::InputError("--set", 0, path, value, "the scene has no such [[fem]] table");
+    }
+    take_value(path, *parse_override(value).get("value"), "--set", 0);
+    if (const auto dot = path.rfind('.'); dot != std::string::npos) tables_.push_back(path.substr(0, dot));
+}
+
+void SceneValues::take_value(const std::string& path, const toml::node& node, const std::string& source, int line)
+{
+    const std::string of_schema = schema_path(path);
+    const SceneKey* key = find_scene_key(of_schema);
+    if (!key) {
+        const auto dot = of_schema.rfind('.');
+        const std::string table = dot == std::string::npos ? "" : of_schema.substr(0, dot);
+        const std::string name = dot == std::string::npos ? path : of_schema.substr(dot + 1);
+        throw pbs::InputError(source, line, path, node.is_table() ? "" : shown(node),
+                              "unknown key; the nearest known one is " + joined(table, pbs::nearest_name(name, known_names(table))));
+    }
+    const json value = to_json(node);
+    if (!obeys(value, *key)) throw pbs::InputError(source, line, path, shown(node), key->rule());
+    values_[path] = {value, source, line, false};
 }
 
 void SceneValues::add_defaults()

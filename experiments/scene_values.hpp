@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <toml++/toml.h>
 
 #include <map>
 #include <string>
@@ -39,6 +40,9 @@ private:
         bool is_default = false;
     };
     const nlohmann::json& value(const std::string& path) const;
+    void take_table(const toml::table& table, const std::string& prefix);
+    void take_override(const std::string& override);
+    void take_value(const std::string& path, const toml::node& node, const std::string& source, int line);
     void add_defaults();
 
     std::string file_;

@@ -31,6 +31,11 @@ const WrongScene wrong_scenes[] = {
     {"joint_and_clip", "schema = 1\n[character]\nbody = \"limb\"\n[motion]\njoint = \"forearm\"\nclip = \"01_01.bvh\"\n",
      "scene.toml:5: motion.joint = forearm: expected either a joint (a sweep) or a clip"},
     {"table_as_value", "schema = 1\npbs = 3\n", "scene.toml:2: pbs: expected a table"},
+    {"fem_with_a_dot_in_quotes", "schema = 1\n\"fem.0\" = 1\n", "scene.toml:2: fem.0: expected a key without a dot in quotes"},
+    {"path_in_quotes", "schema = 1\n\"pbs.jiggle.k_stretch\" = 0.5\n",
+     "scene.toml:2: pbs.jiggle.k_stretch: expected a key without a dot in quotes"},
+    {"path_in_quotes_of_a_table", "schema = 1\n[pbs]\n\"jiggle.k_stretch\" = 0.5\n",
+     "scene.toml:3: pbs.jiggle.k_stretch: expected a key without a dot in quotes"},
     {"fem_not_an_array", "schema = 1\n[fem]\nname = \"fem\"\n", "expected [[fem]] tables"},
 };
 
@@ -142,6 +147,33 @@ TEST(SceneErrors, WrongOverrides)
     EXPECT_NE(refused_with(right, {"pbs.k_volume=1.4"}).find("--set: pbs.k_volume = 1.4: expected a number from 0 to 1"),
               std::string::npos);
     EXPECT_NE(refused_with(right, {"=3"}).find("expected key=value"), std::string::npos);
+}
+
+TEST(SceneErrors, OverridesOfReferencesThatAreNone)
+{
+    const std::string right = std::string(head) + stated, with_one = right + "[[fem]]\nmodel = \"linear\"\n";
+    EXPECT_EQ(refused_with(with_one, {"fem.0.poisson=0.3", "fem.young_pa=2e4"}), "accepted");
+    EXPECT_EQ(refused_with(with_one, {"fem.1.poisson=0.3"}), "--set: fem.1.poisson = 0.3: the scene has no such [[fem]] table");
+    for (const char* key : {"fem.0", "fem.", "fem.00.poisson", "fem.0abc.poisson", "fem.-1.poisson", "fem.+0.poisson", "fem. 0.poisson",
+                            "fem.99999999999.poisson"})
+        EXPECT_NE(refused_with(with_one, {std::string(key) + "=0.3"}).find(std::string("--set: ") + key + " = 0.3: unknown key"),
+                  std::string::npos)
+            << refused_with(with_one, {std::string(key) + "=0.3"});
+    EXPECT_EQ(refused_with(right, {"fem.poisson=0.3"}), "--set: fem.poisson = 0.3: the scene has no such [[fem]] table");
+}
+
+TEST(SceneErrors, NamesThatAreNotUtf8)
+{
+    const std::string right = std::string(head) + stated;
+    EXPECT_EQ(refused_with(right, {"character.mesh=li\xffmb.msh"}), "--set: character.mesh = li\xffmb.msh: expected UTF-8");
+    const test_support::ScratchFolder folder;
+    const std::string path = folder.file("li\xffmb.toml", right);
+    try {
+        experiments::read_scene(path, {});
+        FAIL() << "accepted";
+    } catch (const pbs::InputError& error) {
+        EXPECT_EQ(error.what(), path + ": expected a file's name in UTF-8: it names the scene in all records");
+    }
 }
 
 TEST(SceneErrors, StepsMustDivideAFrame)
