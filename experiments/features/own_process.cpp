@@ -1,7 +1,9 @@
 #include "experiments/features/own_process.hpp"
 
+#include "experiments/failure.hpp"
 #include "experiments/interruption.hpp"
-#include "experiments/progress.hpp"
+#include "experiments/process_pipe.hpp"
+#include "experiments/record_text.hpp"
 #include "pbs/geometry/process.hpp"
 #include "pbs/geometry/input_error.hpp"
 
@@ -13,76 +15,69 @@
 #include <cstdio>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace experiments {
 namespace {
-
-void write_all(int pipe_end, const std::string& text)
-{
-    for (std::size_t sent = 0; sent < text.size();) {
-        const ssize_t count = write(pipe_end, text.data() + sent, text.size() - sent);
-        if (count < 0 && errno != EINTR) return;
-        if (count > 0) sent += static_cast<std::size_t>(count);
-    }
-}
 
 [[noreturn]] void act_and_tell(const std::function<nlohmann::json()>& work, int pipe_end)
 {
     nlohmann::json told;
     try {
         told["result"] = work();
-    } catch (const std::exception& error) {
-        told["failure"] = error.what();
-    } catch (const Interrupted&) {
-        told["failure"] = "interrupted";
+    } catch (...) {
+        const Failure failure = caught_failure();
+        told = {{"failure", failure.words}, {"status", failure.status}};
     }
-    write_all(pipe_end, told.dump());
+    write_whole(pipe_end, record_text(told));
     std::fflush(nullptr);
     _exit(0);
 }
 
-// Until the other end is closed; an interruption is passed on to the process.
+// Until the other end is closed; an interruption is passed on to the process, once: a second signal would end it in the middle of its work.
 std::string read_all(int pipe_end, pid_t process)
 {
     std::string text;
-    char buffer[4096];
-    for (;;) {
-        const ssize_t count = read(pipe_end, buffer, sizeof buffer);
-        if (count > 0) text.append(buffer, static_cast<std::size_t>(count));
-        if (count == 0) break;
-        if (count < 0 && errno != EINTR) break;
-        if (interrupted()) kill(process, SIGTERM);
+    bool told_to_stop = false;
+    while (read_available(pipe_end, text)) {
+        if (interrupted() && !std::exchange(told_to_stop, true)) kill(process, SIGTERM);
+        wait_for_words({pipe_end});
     }
     close(pipe_end);
     return text;
+}
+
+nlohmann::json result_in(const std::string& text)
+{
+    const nlohmann::json told = nlohmann::json::parse(text, nullptr, false);
+    if (told.is_object() && told.contains("result")) return told.at("result");
+    if (!told.is_object()) throw std::runtime_error("a process without a result");
+    if (told.value("status", exit_internal) == exit_input) throw pbs::InputError("", 0, "", "", told.value("failure", ""));
+    throw std::runtime_error(told.value("failure", ""));
 }
 
 }  // namespace
 
 nlohmann::json in_own_process(const std::function<nlohmann::json()>& work)
 {
-    int ends[2];
-    if (pipe(ends) != 0) throw std::runtime_error("no pipe for a process");
+    const ProcessPipe pipe = open_process_pipe();
     std::fflush(nullptr);
     const pid_t parent = getpid(), process = fork();
     if (process < 0) throw std::runtime_error("no process for a measurement");
     if (process == 0) {
         pbs::end_with_parent(parent);
-        close(ends[0]);
-        act_and_tell(work, ends[1]);
+        close(pipe.from);
+        act_and_tell(work, pipe.to);
     }
-    close(ends[1]);
-    const std::string text = read_all(ends[0], process);
+    close(pipe.to);
+    const std::string text = read_all(pipe.from, process);
     int status = 0;
     while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
     }
     stop_if_interrupted();
     if (WIFSIGNALED(status))
         throw pbs::InputError("", 0, "process", "signal " + std::to_string(WTERMSIG(status)), "expected to end by itself");
-    const nlohmann::json told = nlohmann::json::parse(text, nullptr, false);
-    if (!told.is_object() || !told.contains("result"))
-        throw pbs::InputError("", 0, "process", told.is_object() ? told.value("failure", "") : "", "expected a result");
-    return told.at("result");
+    return result_in(text);
 }
 
 }  // namespace experiments

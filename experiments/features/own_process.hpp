@@ -8,7 +8,8 @@
 
 namespace experiments {
 
-// What the work returns. InputError with its words for an exception or a signal there; Interrupted where this process is.
+// What the work returns. An InputError there is one here, with the same words, another exception a std::runtime_error; a signal there is an
+// InputError; Interrupted where this process is.
 nlohmann::json in_own_process(const std::function<nlohmann::json()>& work);
 
 }  // namespace experiments

@@ -1,15 +1,15 @@
 #include "experiments/studies/worker_pool.hpp"
 
+#include "experiments/failure.hpp"
 #include "experiments/interruption.hpp"
+#include "experiments/process_pipe.hpp"
 #include "experiments/progress.hpp"
 #include "pbs/geometry/process.hpp"
-#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,6 +20,7 @@
 #include <cstdio>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 namespace experiments {
@@ -27,52 +28,43 @@ namespace {
 
 struct Worker {
     std::size_t work = 0;
-    int failure_pipe = -1;
+    int words_from = -1;  // below 0: it has ended
+    std::string words;
     bool told_to_stop = false;
 };
 
-constexpr int failed = 1;
-constexpr int refused = 2;
-constexpr int broken_down = 3;
-constexpr int stopped = 130;
-
-[[noreturn]] void act_as_worker(const PooledWork& work, int failure_pipe)
+[[noreturn]] void act_as_worker(const PooledWork& work, int words_to)
 {
     hide_progress();
-    int status = 0;
-    std::string text;
+    int status = exit_finished;
+    std::string words;
     try {
-        text = work.action();
-        if (!text.empty()) status = broken_down;
-    } catch (const Interrupted&) {
-        status = stopped;
-    } catch (const pbs::InputError& error) {
-        text = error.what();
-        status = refused;
-    } catch (const std::exception& error) {
-        text = error.what();
-        status = failed;
+        words = work.action();
+        if (!words.empty()) status = exit_breakdown;
+    } catch (...) {
+        const Failure failure = caught_failure();
+        words = failure.message();
+        status = failure.status;
     }
-    if (write(failure_pipe, text.data(), text.size()) < 0) std::perror("pbskin");
+    write_whole(words_to, words);
     std::fflush(nullptr);
     _exit(status);
 }
 
 Worker start(const PooledWork& work, std::size_t index, pid_t& process)
 {
-    int ends[2];
-    if (pipe(ends) != 0) throw std::runtime_error("no pipe for a worker");
+    const ProcessPipe pipe = open_process_pipe();
     std::fflush(nullptr);
     const pid_t parent = getpid();
     process = fork();
     if (process < 0) throw std::runtime_error("no process for a worker");
     if (process == 0) {
         pbs::end_with_parent(parent);
-        close(ends[0]);
-        act_as_worker(work, ends[1]);
+        close(pipe.from);
+        act_as_worker(work, pipe.to);
     }
-    close(ends[1]);
-    return {index, ends[0]};
+    close(pipe.to);
+    return {index, pipe.from, {}, false};
 }
 
 double seconds_of(const timeval& time)
@@ -80,24 +72,23 @@ double seconds_of(const timeval& time)
     return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-std::string read_all(int pipe_end)
+// Taken while it works: a worker whose words fill the pipe waits until they are read.
+void hear(Worker& worker)
 {
-    std::string text;
-    char buffer[4096];
-    for (ssize_t count; (count = read(pipe_end, buffer, sizeof buffer)) > 0;) text.append(buffer, count);
-    close(pipe_end);
-    return text;
+    if (worker.words_from < 0 || read_available(worker.words_from, worker.words)) return;
+    close(std::exchange(worker.words_from, -1));
 }
 
-PooledResult outcome_of(const PooledWork& work, const Worker& worker, int status)
+PooledResult outcome_of(const PooledWork& work, Worker& worker, int status)
 {
-    const int exit = WIFEXITED(status) ? WEXITSTATUS(status) : failed;
-    const std::string text = read_all(worker.failure_pipe);
-    PooledResult result{work.name, exit == 0 || exit == broken_down, exit == broken_down ? text : "",
-                        exit == 0 || exit == broken_down ? "" : text};
-    result.refused = exit == refused;
+    hear(worker);
+    if (worker.words_from >= 0) close(worker.words_from);
+    const int exit = WIFEXITED(status) ? WEXITSTATUS(status) : exit_internal;
+    const bool finished = exit == exit_finished || exit == exit_breakdown;
+    PooledResult result{work.name, finished, exit == exit_breakdown ? worker.words : "", finished ? "" : worker.words};
+    result.refused = exit == exit_input;
     if (WIFSIGNALED(status)) result.failure = fmt::format("ended by signal {}", WTERMSIG(status));
-    if (exit == stopped) result.failure = "interrupted";
+    if (exit == exit_interrupted) result.failure = "interrupted";
     return result;
 }
 
@@ -105,15 +96,17 @@ PooledResult outcome_of(const PooledWork& work, const Worker& worker, int status
 // A signal between the question and a wait without end would be seen when a worker ends; hence the short waits.
 pid_t wait_for_any(std::map<pid_t, Worker>& workers, int& status, rusage& usage)
 {
-    constexpr int moment_ms = 20;
     for (;;) {
-        if (interrupted())
-            for (auto& [process, worker] : workers)
-                if (!std::exchange(worker.told_to_stop, true)) kill(process, SIGTERM);
+        std::vector<int> ends;
+        for (auto& [process, worker] : workers) {
+            if (interrupted() && !std::exchange(worker.told_to_stop, true)) kill(process, SIGTERM);
+            hear(worker);
+            ends.push_back(worker.words_from);
+        }
         const pid_t process = wait4(-1, &status, WNOHANG, &usage);
         if (process > 0) return process;
         if (process < 0 && errno != EINTR) throw std::runtime_error("the workers are gone");
-        poll(nullptr, 0, moment_ms);
+        wait_for_words(ends);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -31,14 +32,32 @@ TEST(OwnProcess, LeavesNothingBehind)
     EXPECT_EQ(mine, 1);
 }
 
-TEST(OwnProcess, AFailureIsToldWithItsWords)
+template <typename Exception>
+std::string words_of(const std::function<nlohmann::json()>& work)
 {
     try {
-        in_own_process([]() -> nlohmann::json { throw std::runtime_error("no such clip"); });
-        FAIL() << "accepted";
-    } catch (const pbs::InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("no such clip"), std::string::npos) << error.what();
+        in_own_process(work);
+    } catch (const Exception& error) {
+        return error.what();
     }
+    return "accepted";
+}
+
+TEST(OwnProcess, AFailureIsToldWithItsWordsAndItsKind)
+{
+    EXPECT_EQ(words_of<pbs::InputError>([]() -> nlohmann::json { throw pbs::InputError("a.bvh", 0, "", "", "no such clip"); }),
+              "a.bvh: no such clip");
+    const auto internal = []() -> nlohmann::json { throw std::out_of_range("no such row"); };
+    EXPECT_EQ(words_of<std::runtime_error>(internal), "no such row");
+    EXPECT_THROW(words_of<pbs::InputError>(internal), std::runtime_error);
+    EXPECT_THROW(in_own_process([]() -> nlohmann::json { throw std::string("not an exception"); }), std::runtime_error);
+}
+
+TEST(OwnProcess, WordsThatAreNotUtf8ArriveAllTheSame)
+{
+    EXPECT_EQ(in_own_process([] { return nlohmann::json("li\xffmb"); }), "li\xef\xbf\xbdmb");
+    EXPECT_EQ(words_of<pbs::InputError>([]() -> nlohmann::json { throw pbs::InputError("li\xffmb", 0, "", "", "cannot be read"); }),
+              "li\xef\xbf\xbdmb: cannot be read");
 }
 
 TEST(OwnProcess, ADeathIsAnError)

@@ -42,8 +42,24 @@ TEST(WorkerPool, AnExceptionIsReportedWithItsWords)
     const auto results = run_in_pool(
         {{"bad", 1.0, []() -> std::string { throw std::runtime_error("the mesh is empty"); }}, {"good", 1.0, [] { return ""; }}}, 2);
     EXPECT_FALSE(results[0].finished);
-    EXPECT_EQ(results[0].failure, "the mesh is empty");
+    EXPECT_EQ(results[0].failure, "internal error: the mesh is empty; please report it with the command line");
     EXPECT_TRUE(results[1].finished);
+}
+
+TEST(WorkerPool, WhatIsThrownNeedBeNoException)
+{
+    const auto results = run_in_pool({{"bad", 1.0, []() -> std::string { throw std::string("Unknown mesh format"); }}}, 1);
+    EXPECT_FALSE(results[0].finished);
+    EXPECT_NE(results[0].failure.find("internal error"), std::string::npos) << results[0].failure;
+}
+
+// More than a pipe holds, of both at once.
+TEST(WorkerPool, WordsOfAnyLengthArrive)
+{
+    const std::string words(300'000, 'x');
+    const auto results = run_in_pool({{"one", 1.0, [&] { return words; }}, {"other", 1.0, [&] { return words + "y"; }}}, 2);
+    EXPECT_EQ(results[0].breakdown, words);
+    EXPECT_EQ(results[1].breakdown, words + "y");
 }
 
 TEST(WorkerPool, RefusedInputIsToldFromOtherFailures)
