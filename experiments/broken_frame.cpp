@@ -41,20 +41,42 @@ std::string worst_element(const BrokenFrame& broken)
     return fmt::format("worst tet {} of volume ratio {:.3g}, {} inverted", broken.tet, broken.volume_ratio, broken.inverted_tets);
 }
 
-std::string text_of(const BrokenFrame& broken)
+std::string what_of(const BrokenFrame& broken)
 {
     std::string what = broken.what;
     std::replace(what.begin(), what.end(), '_', ' ');
-    return fmt::format("{} in frame {}: {}", what, broken.frame, worst_element(broken));
+    return what;
+}
+
+std::string text_of(const BrokenFrame& broken)
+{
+    const std::string step = broken.step < 0 ? "" : fmt::format(" (in step {}, before it)", broken.step);
+    return fmt::format("{} in frame {}{}: {}", what_of(broken), broken.frame, step, worst_element(broken));
 }
 
 void to_json(nlohmann::json& json, const BrokenFrame& broken)
 {
     json = {{"frame", broken.frame}, {"what", broken.what}};
+    if (broken.step >= 0) json["step"] = broken.step;
     if (broken.vertices > 0)
         json.update({{"first_vertex", broken.vertex}, {"vertices_not_finite", broken.vertices}});
     else
         json.update({{"worst_tet", broken.tet}, {"volume_ratio", broken.volume_ratio}, {"inverted_tets", broken.inverted_tets}});
+}
+
+void from_json(const nlohmann::json& json, BrokenFrame& broken)
+{
+    json.at("frame").get_to(broken.frame);
+    json.at("what").get_to(broken.what);
+    broken.step = json.value("step", -1);
+    if (json.contains("first_vertex")) {
+        json.at("first_vertex").get_to(broken.vertex);
+        json.at("vertices_not_finite").get_to(broken.vertices);
+    } else {
+        json.at("worst_tet").get_to(broken.tet);
+        json.at("volume_ratio").get_to(broken.volume_ratio);
+        json.at("inverted_tets").get_to(broken.inverted_tets);
+    }
 }
 
 }  // namespace experiments

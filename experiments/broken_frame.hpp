@@ -15,6 +15,7 @@ namespace experiments {
 struct BrokenFrame {
     int frame = 0;
     std::string what;  // not_finite, not_converged, inverted
+    int step = -1;     // of the motion, where it was one before the frame's own; the elements are the frame's all the same
     // Where positions are not finite: the first such vertex and how many there are. Else -1, 0.
     int vertex = -1, vertices = 0;
     // Where they are finite: the tet of the lowest volume ratio J_t = V_t / V0_t, and how many have J_t <= 0. Else -1, 0, 0.
@@ -27,8 +28,10 @@ struct BrokenFrame {
 BrokenFrame broken_frame(int frame, pbs::Outcome outcome, const pbs::Positions& positions, const Eigen::VectorXd& volume_ratios);
 
 std::string worst_element(const BrokenFrame& broken);  // "first at vertex 17, 120 not finite"
+std::string what_of(const BrokenFrame& broken);        // in words: "not finite"
 std::string text_of(const BrokenFrame& broken);
 
 void to_json(nlohmann::json& json, const BrokenFrame& broken);
+void from_json(const nlohmann::json& json, BrokenFrame& broken);
 
 }  // namespace experiments

@@ -2,6 +2,7 @@
 
 #include "experiments/broken_frame.hpp"
 #include "experiments/cases/motion_case.hpp"
+#include "experiments/frame_step.hpp"
 #include "experiments/interruption.hpp"
 #include "experiments/progress.hpp"
 #include "experiments/reference_error_bar.hpp"
@@ -21,11 +22,11 @@
 namespace experiments {
 namespace {
 
-// One deformer of the run and what its last step was.
+// One deformer of the run and what its steps since the last frame were.
 struct Runner {
     DeformerSpec spec;
     std::unique_ptr<Deformer> deformer;
-    pbs::StepSummary step;
+    FrameStep steps = {};
     double lowest_change_pct = std::numeric_limits<double>::infinity(), highest_change_pct = -lowest_change_pct;
     int most_inverted = 0;
 };
@@ -132,8 +133,9 @@ private:
             const bool is_frame = step % motion_.steps_per_frame == 0;
             for (Runner& runner : runners_)
                 if (is_frame || runner.deformer->has_memory())
-                    runner.step = cost_.time("step", runner.spec.label,
-                                             [&] { return runner.deformer->advance(motion_.steps[step], motion_.time_step_s); });
+                    runner.steps.add(cost_.time("step", runner.spec.label,
+                                                [&] { return runner.deformer->advance(motion_.steps[step], motion_.time_step_s); }),
+                                     step);
             if (error_bar_ && (is_frame || runners_.front().deformer->has_memory()))
                 cost_.time("error_bar", [&] { error_bar_->advance(motion_.steps[step], motion_.time_step_s); });
             if (is_frame) record_frame(static_cast<int>(step / motion_.steps_per_frame), step);
@@ -155,7 +157,7 @@ private:
         context.pose = &motion_.steps[step];
         if (!motion_.angle_deg.empty()) context.angle_deg = motion_.angle_deg[frame];
         const Runner& first = runners_.front();
-        if (scene_.output.errors && first.spec.name == scene_.reference && first.step.outcome == pbs::Outcome::finished) {
+        if (scene_.output.errors && first.spec.name == scene_.reference && first.steps.summary().outcome == pbs::Outcome::finished) {
             context.reference = &first.deformer->positions();
             cost_.time("ruler", [&] { context.reference_self_intersects = measurer_.self_intersects(*context.reference); });
             self_intersecting_frames_ += context.reference_self_intersects;
@@ -169,9 +171,10 @@ private:
     void record_deformer(Runner& runner, int frame, double time_s, const FrameContext& context)
     {
         const pbs::Positions& positions = runner.deformer->positions();
+        const pbs::StepSummary& step = runner.steps.summary();
         const FrameMeasurement measured = cost_.time("ruler", [&] { return measurer_.measure(positions, context_for(runner, context)); });
         cost_.time("records", [&] {
-            folder_.add_frame(runner.spec, frame, time_s, measured, runner.step);
+            folder_.add_frame(runner.spec, frame, time_s, measured, step);
             folder_.add_state(runner.spec, positions);
             folder_.add_regions(runner.spec.label, positions);
         });
@@ -180,35 +183,38 @@ private:
         runner.most_inverted = std::max(runner.most_inverted, measured.metrics.inverted_tets);
         if (measured.error_below_reference_error() && runner.spec.name != scene_.reference)
             ++frames_below_reference_error_[runner.spec.label];
-        if (runner.step.outcome == pbs::Outcome::not_converged) not_converged_[runner.spec.label].push_back(frame);
-        if (runner.step.outcome == pbs::Outcome::not_finite) breakdowns_[runner.spec.label].push_back(frame);
-        if (runner.step.outcome != pbs::Outcome::finished || (runner.spec.kind == "fem" && measured.metrics.inverted_tets > 0))
+        if (step.outcome == pbs::Outcome::not_converged) not_converged_[runner.spec.label].push_back(frame);
+        if (step.outcome == pbs::Outcome::not_finite) breakdowns_[runner.spec.label].push_back(frame);
+        if (step.outcome != pbs::Outcome::finished || (runner.spec.kind == "fem" && measured.metrics.inverted_tets > 0))
             record_breakdown(runner, frame);
         if (scene_.output.writes(frame))
             cost_.time("frames", [&] {
                 folder_.write_frame(runner.spec, frame, time_s, character_, positions, measurer_.volume_ratios(positions),
                                     runner.deformer->prescribed());
             });
+        runner.steps = {};
     }
 
     void record_breakdown(const Runner& runner, int frame)
     {
         const pbs::Positions& positions = runner.deformer->positions();
-        const BrokenFrame broken = broken_frame(frame, runner.step.outcome, positions, measurer_.volume_ratios(positions));
+        const pbs::Outcome outcome = runner.steps.summary().outcome;
+        BrokenFrame broken = broken_frame(frame, outcome, positions, measurer_.volume_ratios(positions));
+        if (const int step = static_cast<int>(runner.steps.worst_step()); step != frame * motion_.steps_per_frame) broken.step = step;
         broken_frames_[runner.spec.label].push_back(broken);
         if (is_negative_control(runner.spec)) return;
         const std::string text = fmt::format("{} is {}", runner.spec.label, text_of(broken));
-        if (runner.step.outcome == pbs::Outcome::not_finite) {
+        if (outcome == pbs::Outcome::not_finite) {
             if (breakdown_.empty()) breakdown_ = text;
         } else if (bad_frame_.empty()) {
-            bad_frame_ = fmt::format("{}: {}", runner.step.outcome == pbs::Outcome::finished ? "inverted tets" : "pose not reached", text);
+            bad_frame_ = fmt::format("{}: {}", outcome == pbs::Outcome::finished ? "inverted tets" : "pose not reached", text);
         }
     }
 
     // A reference that has not reached its pose stands in another one: it has no error.
     static FrameContext context_for(const Runner& runner, FrameContext context)
     {
-        if (runner.spec.kind == "fem" && runner.step.outcome == pbs::Outcome::not_converged) context.reference = nullptr;
+        if (runner.spec.kind == "fem" && runner.steps.summary().outcome == pbs::Outcome::not_converged) context.reference = nullptr;
         return context;
     }
 

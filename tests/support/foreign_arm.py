@@ -31,6 +31,35 @@ gravity_m_s2 = [0.0, 0.0, 0.0]
 use = ["lbs", "dqs", "pbs"]
 """
 
+CLIP = """HIERARCHY
+ROOT shoulder
+{
+  OFFSET 0 0 0
+  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
+  JOINT elbow
+  {
+    OFFSET 0.5 0 0
+    CHANNELS 3 Zrotation Xrotation Yrotation
+    End Site
+    {
+      OFFSET 0.5 0 0
+    }
+  }
+}
+MOTION
+Frames: %d
+Frame Time: 0.01
+"""
+
+# With the frames a second; a step is 0.01 s, as the clip's frames are.
+CLIP_SCENE = SCENE.replace("""joint = "elbow"
+axis = [0.0, 0.0, 1.0]
+angle_deg = 120.0
+frames = 5
+""", """clip = "arm.bvh"
+rate_hz = %.1f
+""").replace('["lbs", "dqs", "pbs"]', '["pbs"]')
+
 
 def mesh(cells=(20, 4, 4)):
     """Points [m] and tets of a box [0, 1] x [-0.1, 0.1]^2 that tapers to 60 %; each cell is split into six tets along its diagonal."""
@@ -60,3 +89,11 @@ def write_msh(path, points, tets):
         for number, tet in enumerate(tets, 1):
             file.write("%d 4 2 1 1 %d %d %d %d\n" % (number, *[vertex + 1 for vertex in tet]))
         file.write("$EndElements\n")
+
+
+def write_bvh(path, elbow_deg):
+    """A clip at 100 Hz with these angles of the elbow about z, after a frame of the T pose."""
+    with open(path, "w", encoding="ascii") as file:
+        file.write(CLIP % (len(elbow_deg) + 1))
+        for angle in [0.0, *elbow_deg]:
+            file.write("0 0 0 0 0 0 %.17g 0 0\n" % angle)

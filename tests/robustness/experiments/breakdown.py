@@ -1,5 +1,6 @@
 """Numerical breakdown is an outcome: the frame and the worst element are on record and said, and the exit status is 3 where the run was
 expected to finish. Truth: the contract in README; the worst tet, found again in the frame that was written."""
+import csv
 import json
 import unittest
 
@@ -63,6 +64,20 @@ class Breakdown(program.ProgramTest):
         process = self.run_scene("pbs.stop_residual=1e-12", "pbs.iterations=2")
         self.assertEqual(process.returncode, 3, process.stderr)
         self.assertIn("pose not reached: pbs is not converged in frame 0: worst tet", process.stderr)
+
+    def test_a_step_between_frames_that_is_not_reached(self):
+        """The elbow is bent in each second step and straight in the frames, where PBS is within its stop residual."""
+        foreign_arm.write_bvh(self.path("arm.bvh"), [90.0 * (step % 2) for step in range(9)])
+        self.write("arm.toml", foreign_arm.CLIP_SCENE % 50.0)
+        process = program.run("run", self.path("arm.toml"), "-o", self.path("out"), "--set", "pbs.jiggle.k_stretch=0.5",
+                              "--set", "pbs.stop_residual=0.04")
+        self.assertEqual(process.returncode, 3, process.stderr)
+        first = self.outcome()["broken_frames"]["pbs"][0]
+        self.assertEqual((first["what"], first["frame"], first["step"]), ("not_converged", 1, 1))
+        self.assertEqual(self.outcome()["not_converged"], {"pbs": [1, 2, 3, 4]})
+        self.assertIn("pose not reached: pbs is not converged in frame 1 (in step 1, before it): worst tet", process.stderr)
+        with open(self.path("out", "metrics.csv"), encoding="utf-8", newline="") as file:
+            self.assertEqual([row["outcome"] for row in csv.DictReader(file)], ["finished"] + 4 * ["not_converged"])
 
     def test_inverted_tets_of_the_linear_reference_are_on_record_and_no_failure(self):
         process = self.run_scene("motion.axis=[1.0,0.0,0.0]", "motion.angle_deg=180.0", "output.frames=[4]", fem=LINEAR, use='["linear"]')

@@ -44,6 +44,15 @@ TEST(BrokenFrame, AStepThatDidNotConvergeNamesTheWorstTetWithoutAnyInverted)
     EXPECT_EQ(text_of(broken), "not converged in frame 0: worst tet 1 of volume ratio 0.9, 0 inverted");
 }
 
+TEST(BrokenFrame, AStepBeforeTheFramesOwnIsNamed)
+{
+    BrokenFrame broken = broken_frame(2, pbs::Outcome::not_finite, four_points(), ratios({1.0, 0.9}));
+    broken.step = 7;
+    EXPECT_EQ(text_of(broken), "not finite in frame 2 (in step 7, before it): worst tet 1 of volume ratio 0.9, 0 inverted");
+    EXPECT_EQ(nlohmann::json(broken).at("step"), 7);
+    EXPECT_EQ(text_of(nlohmann::json(broken).get<BrokenFrame>()), text_of(broken));
+}
+
 TEST(BrokenFrame, WithoutTetsThereIsNone)
 {
     EXPECT_EQ(broken_frame(0, pbs::Outcome::not_converged, pbs::Positions(0, 3), Eigen::VectorXd()).tet, -1);
