@@ -5,6 +5,7 @@
 #include "analysis/claims_table.hpp"
 #include "experiments/claims_text.hpp"
 #include "experiments/exit_status.hpp"
+#include "experiments/folder_files.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/study_run.hpp"
 #include "experiments/studies/worker_pool.hpp"
@@ -92,7 +93,7 @@ StudyOutcome run_study(const PlannedStudy& planned, const std::vector<StudyRun>&
     fs::create_directories(planned.folder, error);
     if (error) throw pbs::InputError(planned.folder, 0, "", "", "the output folder cannot be made: " + error.message());
     analysis::remove_abandoned_files(planned.folder);
-    for (const StudyRun& run : runs) fs::remove(fs::path(planned.folder) / run.name / "run.json");  // an earlier run's
+    for (const StudyRun& run : runs) remove_record(fs::path(planned.folder) / run.name / "run.json");
     write_study_plan(planned.folder, planned.plan);
     std::vector<PooledWork> work;
     for (const StudyRun& run : runs)

@@ -4,6 +4,7 @@
 #include "analysis/provenance.hpp"
 #include "experiments/frame_statistics.hpp"
 #include "experiments/library_versions.hpp"
+#include "experiments/folder_files.hpp"
 #include "experiments/record_text.hpp"
 #include "experiments/surface_record.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -164,11 +165,11 @@ RunFolder::RunFolder(const Scene& scene, const pbs::Character& character, const 
     if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
     for (const char* old : {"run.json", "metrics.csv", "frame_statistics.csv", "distances.csv", "iterations.csv", "regions.csv",
                             "bones.csv", "bones_rest.csv", "binding.csv", "surface_rest.vtp", "embedding.csv"})
-        fs::remove(fs::path(folder) / old);
+        remove_record(fs::path(folder) / old);
     analysis::remove_abandoned_files(folder, false);
     analysis::remove_abandoned_files((fs::path(folder) / "frames").string(), false);
-    for (const auto& entry : fs::directory_iterator(fs::path(folder) / "frames"))
-        if (is_own_frame(entry.path())) fs::remove(entry.path());
+    for (const fs::path& file : files_in(fs::path(folder) / "frames"))
+        if (is_own_frame(file)) remove_record(file);
 }
 
 void RunFolder::add_frame(const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured,

@@ -3,6 +3,7 @@
 #include "analysis/atomic_file.hpp"
 #include "analysis/check/check_judgement.hpp"
 #include "analysis/provenance.hpp"
+#include "experiments/kept_record.hpp"
 #include "experiments/metrics_table.hpp"
 #include "experiments/record_text.hpp"
 #include "experiments/run.hpp"
@@ -115,10 +116,11 @@ public:
 private:
     void add_baseline_cases(CheckSuite& suite, const CsvTable& metrics, const std::string& folder)
     {
-        const nlohmann::json run = nlohmann::json::parse(analysis::read_text((fs::path(folder) / "run.json").string()));
+        const auto [vertices, tets] = from_record((fs::path(folder) / "run.json").string(), [](const nlohmann::json& run) {
+            return std::pair(run.at("character").at("vertices").get<int>(), run.at("character").at("tets").get<int>());
+        });
         CsvTable now = analysis::baseline_columns(rules_);
-        analysis::add_baseline_rows(now, rules_, suite.name, metrics, run["character"]["vertices"].get<int>(),
-                                    run["character"]["tets"].get<int>());
+        analysis::add_baseline_rows(now, rules_, suite.name, metrics, vertices, tets);
         measured_.append(now);
         if (baseline_)
             for (CheckCase& check : analysis::compare_with_baseline(rules_, suite.name, now, baseline_->table, baseline_->file))

@@ -1,10 +1,10 @@
 #include "experiments/features/feature_cost.hpp"
 
-#include "analysis/atomic_file.hpp"
 #include "analysis/frame_metrics.hpp"
 #include "experiments/cases/motion_case.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/features/own_process.hpp"
+#include "experiments/kept_record.hpp"
 #include "experiments/progress.hpp"
 #include "experiments/run.hpp"
 
@@ -35,10 +35,11 @@ nlohmann::json run_and_tell(const Scene& scene, const Variant& variant, const st
 {
     if (variant.progress) draw_progress_unseen();
     run_scene(scene, folder);
-    const auto run = nlohmann::json::parse(analysis::read_text((fs::path(folder) / "run.json").string()));
-    nlohmann::json cost = run.at("cost");
-    cost["frames"] = run.at("outcome").at("frames");
-    return cost;
+    return from_record((fs::path(folder) / "run.json").string(), [](const nlohmann::json& run) {
+        nlohmann::json cost = run.at("cost");
+        cost["frames"] = run.at("outcome").at("frames");
+        return cost;
+    });
 }
 
 const DeformerSpec& pbs_of(const Scene& scene)

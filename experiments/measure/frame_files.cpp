@@ -1,6 +1,7 @@
 #include "experiments/measure/frame_files.hpp"
 
 #include "experiments/measure/frame_numbers.hpp"
+#include "experiments/folder_files.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
@@ -83,8 +84,9 @@ bool is_mesh(const fs::path& file)
 std::vector<std::string> in_folder(const std::string& folder)
 {
     std::vector<std::string> files;
-    for (const auto& entry : fs::directory_iterator(folder))
-        if (entry.is_regular_file() && is_mesh(entry.path())) files.push_back(entry.path().string());
+    std::error_code gone;
+    for (const fs::path& file : files_in(folder))
+        if (fs::is_regular_file(file, gone) && is_mesh(file)) files.push_back(file.string());
     std::sort(files.begin(), files.end());
     return files;
 }
@@ -109,9 +111,10 @@ std::optional<std::vector<NumberedFile>> of_number_pattern(const std::string& pa
     const std::string before = match[1], after = match[4];
     const std::size_t width = match[3].length() ? std::stoul(match[3]) : 1;
     std::vector<NumberedFile> files;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {
-        const std::string name = entry.path().filename().string();
+    const fs::path listed = folder.empty() ? "." : folder;
+    std::error_code none;
+    for (const fs::path& file : fs::is_directory(listed, none) ? files_in(listed) : std::vector<fs::path>()) {
+        const std::string name = file.filename().string();
         if (name.size() < before.size() + after.size() + width || !name.starts_with(before) || !name.ends_with(after)) continue;
         const std::string digits = name.substr(before.size(), name.size() - before.size() - after.size());
         const bool is_number =

@@ -1,8 +1,9 @@
 #include "experiments/setup/body_setup.hpp"
 
-#include "analysis/atomic_file.hpp"
 #include "analysis/bootstrap.hpp"
 #include "analysis/statistics.hpp"
+#include "experiments/folder_files.hpp"
+#include "experiments/kept_record.hpp"
 #include "experiments/run.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -51,8 +52,8 @@ void use_own_cache(const fs::path& cache)
 // Every trial meshes anew.
 void forget_meshes(const fs::path& cache)
 {
-    for (const auto& entry : fs::directory_iterator(cache))
-        if (entry.path().filename() != "packages") fs::remove_all(entry.path());
+    for (const fs::path& file : files_in(cache))
+        if (file.filename() != "packages") fs::remove_all(file);
 }
 
 std::string name_of(const BodySetup& setup, const nlohmann::json& run)
@@ -62,8 +63,9 @@ std::string name_of(const BodySetup& setup, const nlohmann::json& run)
 
 std::vector<analysis::Measurement> measured_in(const fs::path& run_folder, const BodySetup& setup, const std::vector<std::string>& changed)
 {
-    const nlohmann::json run = nlohmann::json::parse(analysis::read_text((run_folder / "run.json").string()));
-    return setup_measurements(name_of(setup, run), analysis::read_csv((run_folder / "metrics.csv").string()), run, changed);
+    const analysis::CsvTable metrics = analysis::read_csv((run_folder / "metrics.csv").string());
+    return from_record((run_folder / "run.json").string(),
+                       [&](const nlohmann::json& run) { return setup_measurements(name_of(setup, run), metrics, run, changed); });
 }
 
 void write_trials(const std::vector<TriedSetup>& tried, const std::string& path)

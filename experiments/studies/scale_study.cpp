@@ -7,6 +7,7 @@
 // DIR/scale/sizes/VERTICES/... (a run's directory), DIR/scale/scale.csv and scale.md.
 #include "analysis/atomic_file.hpp"
 #include "experiments/features/own_process.hpp"
+#include "experiments/kept_record.hpp"
 #include "experiments/run.hpp"
 #include "experiments/scale/scale_table.hpp"
 #include "experiments/studies/study.hpp"
@@ -32,8 +33,8 @@ Scene human_of(int vertices)
 
 ScaleRow row_of(const fs::path& folder)
 {
-    return scale_row(nlohmann::json::parse(analysis::read_text((folder / "run.json").string())),
-                     analysis::read_csv((folder / "metrics.csv").string()));
+    const analysis::CsvTable metrics = analysis::read_csv((folder / "metrics.csv").string());
+    return from_record((folder / "run.json").string(), [&](const nlohmann::json& run) { return scale_row(run, metrics); });
 }
 
 std::string run_sizes(const std::vector<int>& sizes, const std::string& folder)

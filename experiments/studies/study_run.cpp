@@ -3,6 +3,7 @@
 #include "analysis/atomic_file.hpp"
 #include "analysis/provenance.hpp"
 #include "experiments/bench/cpu_clock.hpp"
+#include "experiments/folder_files.hpp"
 #include "experiments/library_versions.hpp"
 #include "experiments/record_text.hpp"
 #include "experiments/run.hpp"
@@ -39,7 +40,7 @@ std::string carry_out_work(const StudyRun& run, const std::string& folder)
     fs::create_directories(folder, error);
     if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
     const fs::path record = fs::path(folder) / "run.json";
-    fs::remove(record);
+    remove_record(record);
     const pbs::Stopwatch stopwatch;
     const double cpu_start_s = process_cpu_s();
     const std::string breakdown = run.work(folder);
