@@ -6,6 +6,7 @@
 #include "experiments/claims_text.hpp"
 #include "experiments/exit_status.hpp"
 #include "experiments/folder_files.hpp"
+#include "experiments/marked_frames.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/study_run.hpp"
 #include "experiments/studies/worker_pool.hpp"
@@ -116,26 +117,6 @@ StudyOutcome run_study(const PlannedStudy& planned, const std::vector<StudyRun>&
     return outcome;
 }
 
-// Frames in which the reference intersects itself stand beside the figures (no deformer has contact), and those without a reference.
-std::string frames_to_mark(const std::vector<std::string>& folders)
-{
-    std::string lines;
-    for (const std::string& folder : folders) {
-        const auto outcome = nlohmann::json::parse(analysis::read_text((fs::path(folder) / "run.json").string())).at("outcome");
-        if (const int count = outcome.value("self_intersecting_reference_frames", 0); count > 0)
-            lines += fmt::format("     {}: the reference intersects itself in {} of {} frames; their errors are marked\n",
-                                 fs::path(folder).filename().string(), count, outcome.at("frames").get<int>());
-        const auto none = nlohmann::json::object();
-        for (const auto& [label, count] : outcome.value("frames_below_reference_error", none).items())
-            lines += fmt::format("     {}: the error of {} at the joints is not above the reference's own in {} of {} frames\n",
-                                 fs::path(folder).filename().string(), label, count.get<int>(), outcome.at("frames").get<int>());
-        for (const auto& [label, frames] : outcome.value("not_converged", none).items())
-            lines += fmt::format("     {}: {} did not converge in {} of {} frames\n", fs::path(folder).filename().string(), label,
-                                 frames.size(), outcome.at("frames").get<int>());
-    }
-    return lines;
-}
-
 std::vector<analysis::Verdict> verdicts_of(const Study& study, const std::string& folder, const std::string& root)
 {
     std::vector<analysis::Verdict> verdicts;
@@ -189,7 +170,7 @@ int reproduce(const ReproduceArguments& arguments)
         broke_down |= outcome.broke_down;
         refused |= outcome.refused;
         all_hold &= !outcome.failed;
-        beside += frames_to_mark(outcome.folders);
+        beside += marked_frames(outcome.folders);
         for (auto& verdict : verdicts_of(*study, folder, arguments.folder)) verdicts.push_back(std::move(verdict));
         if (!study->conclude) continue;
         const StudyConclusion conclusion = study->conclude(folder, plan, outcome.folders);

@@ -102,10 +102,11 @@ public:
         const std::string folder = (fs::path(arguments_.folder) / check.name).string();
         const RunResult result = run_scene(scene_of(check, rules_, arguments_), folder);
         CheckSuite suite{check.name, result.seconds, {}, {}};
-        suite.cases.push_back({check.name, "runs", result.breakdown.empty() ? CheckState::held : CheckState::broke_down,
-                               result.breakdown.empty() ? fmt::format("{} frames", result.frames) : result.breakdown, std::nullopt,
-                               std::nullopt, rules_.file, check.line, result.seconds});
-        if (!result.breakdown.empty()) breakdowns.push_back(check.name + ": " + result.breakdown);
+        const std::string& failure = result.failure();
+        suite.cases.push_back({check.name, "runs", failure.empty() ? CheckState::held : CheckState::broke_down,
+                               failure.empty() ? fmt::format("{} frames", result.frames) : failure, std::nullopt, std::nullopt, rules_.file,
+                               check.line, result.seconds});
+        if (!failure.empty()) breakdowns.push_back(check.name + ": " + failure);
         const CsvTable metrics = analysis::read_csv((fs::path(folder) / "metrics.csv").string());
         for (const analysis::CheckBound& bound : rules_.bounds)
             if (bound.scene == check.name) suite.cases.push_back(judge_bound(bound, unit_of(bound.metric), metrics, rules_.file));

@@ -24,7 +24,7 @@ int run(const RunArguments& arguments, const CommonOptions& common)
     spdlog::info("{}: {} frames, {:.1f} s, records in {}", scene.name, result.frames, result.seconds, folder);
     if (!result.breakdown.empty()) spdlog::error("pbskin: numerical breakdown: {}", result.breakdown);
     if (!result.bad_frame.empty()) spdlog::error("pbskin: {}", result.bad_frame);
-    return result.breakdown.empty() && result.bad_frame.empty() ? exit_finished : exit_breakdown;
+    return result.failure().empty() ? exit_finished : exit_breakdown;
 }
 
 }  // namespace

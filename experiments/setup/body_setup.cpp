@@ -160,7 +160,7 @@ std::string set_up_and_record(const BodySetup& setup, double rate_hz, const std:
     use_own_cache(cache);
     const auto run = [&](const BodySetup& own) {
         forget_meshes(cache);
-        return run_scene(scene_of(own, rate_hz), run_folder.string()).breakdown;
+        return run_scene(scene_of(own, rate_hz), run_folder.string()).failure();
     };
     const std::vector<TriedSetup> tried = tried_setups(setup, run);
     fs::remove_all(cache);

@@ -26,7 +26,7 @@ Scene scene_of(const BodySetup& setup, double rate_hz);
 // precision, where float overflows; and softer volume with it.
 const std::vector<std::vector<std::string>>& further_keys();
 
-// What came of a trial: why it did not run (refused input, positions that are not finite); empty: it ran.
+// What came of a trial: why it did not run (refused input, positions that are not finite, a pose not reached); empty: it ran.
 using Trial = std::function<std::string(const BodySetup&)>;
 struct TriedSetup {
     BodySetup setup;

@@ -47,7 +47,7 @@ std::string run_sizes(const std::vector<int>& sizes, const std::string& folder)
         fs::remove_all(cache);
         const nlohmann::json told = in_own_process([&] {
             setenv("PBSKIN_CACHE", cache.c_str(), 1);
-            return nlohmann::json(run_scene(human_of(vertices), run.string()).breakdown);
+            return nlohmann::json(run_scene(human_of(vertices), run.string()).failure());
         });
         if (!told.get<std::string>().empty()) breakdown += fmt::format("{} vertices: {} ", vertices, told.get<std::string>());
         rows.push_back(row_of(run));

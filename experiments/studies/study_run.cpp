@@ -27,11 +27,11 @@ std::pair<std::string, nlohmann::json> identity(const StudyRun& run)
     return {"scene", resolved_with_deformers(run.scene)};
 }
 
-std::string carry_out_scene(const Scene& scene, const std::string& folder)
+std::string carry_out_scene(const StudyRun& run, const std::string& folder)
 {
-    const RunResult result = run_scene(scene, folder);
+    const RunResult result = run_scene(run.scene, folder);
     for (const auto& line : result.lines) spdlog::debug("{}", line);
-    return result.breakdown;
+    return run.bad_frames_are_results ? result.breakdown : result.failure();
 }
 
 std::string carry_out_work(const StudyRun& run, const std::string& folder)
@@ -71,7 +71,7 @@ bool is_finished(const StudyRun& run, const std::string& folder)
 
 std::string carry_out(const StudyRun& run, const std::string& folder)
 {
-    return run.work ? carry_out_work(run, folder) : carry_out_scene(run.scene, folder);
+    return run.work ? carry_out_work(run, folder) : carry_out_scene(run, folder);
 }
 
 }  // namespace experiments

@@ -220,6 +220,15 @@ class Check(program.ProgramTest):
         self.assertEqual([key for key, case in cases.items() if case.find("skipped") is not None], [("man_01_01", "runs")])
         self.assertIn("::warning file=", process.stdout)
 
+    def test_a_pose_that_is_not_reached_is_exit_3_and_an_error_in_junit(self):
+        change = "set = ['pbs.stop_residual=1e-12', 'pbs.iterations=2']"
+        self.write("check.toml", (BOUNDS % "-60.0").replace('name = "arm"', 'name = "arm"\n' + change))
+        process = self.check("--junit", self.path("volume.xml"))
+        self.assertEqual(process.returncode, 3, process.stderr)
+        error = check_records.cases(self.path("volume.xml"))["arm", "runs"].find("error").get("message")
+        self.assertRegex(error, r"^pose not reached: pbs is not converged in frame 0: worst tet \d+ of volume ratio")
+        self.assertIn(error, process.stderr)
+
     def test_breakdown_is_exit_3_and_an_error_in_junit(self):
         change = "set = ['pbs.gravity_m_s2=[0.0,-1e300,0.0]', 'pbs.jiggle.k_stretch=0.9']"
         self.write("check.toml", (BOUNDS % "-60.0").replace('name = "arm"', 'name = "arm"\n' + change))

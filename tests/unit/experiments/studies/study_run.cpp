@@ -2,6 +2,7 @@
 #include "experiments/studies/study_run.hpp"
 
 #include "experiments/run.hpp"
+#include "pbs/geometry/input_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -70,16 +71,29 @@ TEST_F(StudyRunTest, ABreakdownIsOnRecordAndTheRunEnded)
 }
 
 // Two iterations do not come within 1e-12 of anything.
-TEST_F(StudyRunTest, ASceneWithAFrameThatWasNotReachedEndsWithoutABreakdown)
+TEST_F(StudyRunTest, AFrameThatWasNotReachedIsABreakdownWhereTheSceneWasExpectedToFinish)
 {
-    const StudyRun run = {.name = "limb",
-                          .scene = read_scene("limb_bend", {"pbs.iterations=2", "pbs.stop_residual=1e-12", "motion.frames=2",
-                                                            "deformers.use=[\"pbs\"]", "reference.name=\"\""})};
+    StudyRun run = {.name = "limb",
+                    .scene = read_scene("limb_bend", {"pbs.iterations=2", "pbs.stop_residual=1e-12", "motion.frames=2",
+                                                      "deformers.use=[\"pbs\"]", "reference.name=\"\""})};
     const RunResult result = run_scene(run.scene, scratch / "alone");
     EXPECT_EQ(result.breakdown, "");
     EXPECT_EQ(result.bad_frame.rfind("pose not reached: pbs is not converged in frame 0: worst tet ", 0), 0u) << result.bad_frame;
+    EXPECT_EQ(carry_out(run, folder), result.bad_frame);
+    EXPECT_TRUE(is_finished(run, folder));  // on record all the same
+    run.bad_frames_are_results = true;
     EXPECT_EQ(carry_out(run, folder), "");
-    EXPECT_TRUE(is_finished(run, folder));
+}
+
+TEST_F(StudyRunTest, ARecordThatCannotBeRemovedIsNamed)
+{
+    fs::create_directories(fs::path(folder) / "run.json" / "kept");
+    try {
+        carry_out(counting_run(3, write_a_record), folder);
+        FAIL() << "accepted";
+    } catch (const pbs::InputError& error) {
+        EXPECT_EQ(error.what(), folder + "/run.json: an earlier run's record cannot be removed: Directory not empty");
+    }
 }
 
 TEST_F(StudyRunTest, WorkThatFailsLeavesNoRecordOfAnEarlierRun)
