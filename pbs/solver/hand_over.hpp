@@ -4,7 +4,7 @@
 // It still finds two tasks that touch the same place. In every other build these are nothing.
 #pragma once
 
-#ifdef __SANITIZE_THREAD__
+#ifdef PBS_TELL_THREAD_SANITIZER
 #include <sanitizer/tsan_interface.h>
 #endif
 
@@ -30,7 +30,7 @@ public:
 
 private:
     struct Place {};
-#ifdef __SANITIZE_THREAD__
+#ifdef PBS_TELL_THREAD_SANITIZER
     static void give(Place& place) { __tsan_release(&place); }
     static void take(Place& place) { __tsan_acquire(&place); }
 #else
