@@ -28,7 +28,7 @@ target_compile_options(pbs_settings INTERFACE "$<INSTALL_INTERFACE:SHELL:-includ
 target_link_libraries(pbs_settings INTERFACE Eigen3::Eigen)
 
 if(PBS_WITH_COVERAGE)
-    add_library(pbs_coverage STATIC tests/support/counted_exit.cpp)
+    add_library(pbs_coverage STATIC cmake/counted_exit.cpp)
     add_compile_options(--coverage)
     add_link_options(--coverage -Wl,--wrap=_exit)
     target_link_libraries(pbs_settings INTERFACE $<BUILD_INTERFACE:pbs_coverage>)
