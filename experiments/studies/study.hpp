@@ -20,7 +20,7 @@ struct StudyRun {
     Scene scene = {};
     double cost_s = 0.0;  // expected, on one core
     StudyWork work = {};
-    bool beside = false;           // of a body and motion that another run is judged by
+    bool beside = false;  // of a body and motion that another run is judged by
     // Of a scene that goes as far as its reference breaks: frames that it does not reach, or inverts, are on record, told below the claims
     // and left out where they show another pose. Any other scene is expected to finish, each frame sound: one that is not is a breakdown.
     bool bad_frames_are_results = false;
