@@ -20,7 +20,10 @@ function(fuzz_target name target)
         target_link_libraries(${kind}_${name} PRIVATE pbs_settings fmt::fmt tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json)
         set_target_properties(${kind}_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
     endforeach()
-    set(folders ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${name} ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/findings/${name})
+    set(folders ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${name})
+    if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/findings/${name})
+        list(APPEND folders ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/findings/${name})
+    endif()
     target_sources(replay_${name} PRIVATE fuzz/replay.cpp)
     add_test(NAME robustness/fuzz/replay_${name} COMMAND replay_${name} ${folders})
     set_tests_properties(robustness/fuzz/replay_${name} PROPERTIES LABELS robustness TIMEOUT 60)
@@ -30,8 +33,8 @@ function(fuzz_target name target)
     endif()
 endfunction()
 
-fuzz_target(scene fuzz/scene.cpp experiments/scene_values.cpp experiments/scene_schema.cpp pbs/geometry/toml_text.cpp
-    pbs/geometry/nearest_name.cpp
+fuzz_target(scene fuzz/scene.cpp experiments/scene_values.cpp experiments/scene_schema.cpp experiments/record_text.cpp
+    pbs/geometry/toml_text.cpp pbs/geometry/nearest_name.cpp
     pbs/geometry/input_error.cpp)
 fuzz_target(mesh fuzz/mesh.cpp pbs/geometry/guarded_reading.cpp pbs/geometry/isolated_reader.cpp pbs/geometry/reading_limits.cpp
     pbs/geometry/mesh_io_checks.cpp pbs/geometry/mesh_io_files.cpp pbs/geometry/text_file.cpp
@@ -42,6 +45,12 @@ fuzz_target(skeleton fuzz/skeleton.cpp pbs/character/skeleton_file.cpp pbs/chara
 fuzz_target(clip fuzz/clip.cpp pbs/character/clip_bytes.cpp pbs/character/retarget.cpp pbs/character/retarget_plan.cpp
     pbs/character/joint_map.cpp
     pbs/skinning/pose.cpp pbs/skinning/skeleton.cpp pbs/geometry/input_error.cpp)
+fuzz_target(texts fuzz/texts.cpp analysis/csv_reader.cpp analysis/csv_table.cpp analysis/atomic_file.cpp experiments/scene_values.cpp
+    experiments/scene_schema.cpp experiments/record_text.cpp pbs/character/bvh_header.cpp pbs/geometry/atomic_file.cpp
+    pbs/geometry/text_file.cpp pbs/geometry/toml_text.cpp pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
+fuzz_target(files fuzz/files.cpp pbs/character/iqm.cpp pbs/character/weights_file.cpp pbs/skinning/skeleton.cpp
+    pbs/geometry/tetgen_reader.cpp pbs/geometry/msh_reader.cpp pbs/geometry/mesh_io_files.cpp pbs/geometry/text_file.cpp
+    pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
 if(PBS_WITH_FUZZ)
     set(settings PBS_SOURCE=${PROJECT_SOURCE_DIR} PBS_FUZZ_PROGRAMS=${CMAKE_BINARY_DIR}/tests PBS_FUZZ_FOLDER=${CMAKE_BINARY_DIR}/fuzz
         PYTHONPATH=${CMAKE_CURRENT_SOURCE_DIR}/support)

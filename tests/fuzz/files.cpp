@@ -1,0 +1,90 @@
+// Any bytes as a file that the program itself reads, by their first byte: TetGen's pair (parted by a zero byte), weights, IQM, and what is
+// looked at before Gmsh may see .mesh and .msh. A sound answer, or an InputError, nothing else.
+#include "pbs/character/iqm.hpp"
+#include "pbs/character/weights_file.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/mesh_io_formats.hpp"
+#include "pbs/geometry/module.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+namespace pbs {
+
+// Gmsh stays out: what it is given is the end of what is tried.
+const Module& load_module(const std::string& name)
+{
+    static const Module none(name, nullptr);
+    return none;
+}
+
+void* Module::address(const char*) const
+{
+    return nullptr;
+}
+
+}  // namespace pbs
+
+namespace {
+
+const pbs::Skeleton arm = {{{"upper", -1, pbs::Vec3(-1, 0, 0), pbs::Vec3::Zero()}, {"forearm", 0, pbs::Vec3::Zero(), pbs::Vec3(1, 0, 0)}}};
+constexpr int vertices = 4;
+
+void expect(bool sound)
+{
+    if (!sound) std::abort();
+}
+
+std::string written(const std::string& name, const std::string& bytes)
+{
+    static const test_support::ScratchFolder folder;
+    return folder.file(name, bytes);
+}
+
+void try_tetgen(const std::string& bytes)
+{
+    const std::size_t parting = std::min(bytes.find('\0'), bytes.size());
+    written("fuzz.ele", bytes.substr(std::min(parting + 1, bytes.size())));
+    const pbs::TetMesh mesh = pbs::read_tetgen(written("fuzz.node", bytes.substr(0, parting)));
+    if (mesh.tets.size() > 0) expect(mesh.tets.minCoeff() >= 0 && mesh.tets.maxCoeff() < mesh.rest.rows());
+}
+
+void try_weights(const std::string& bytes)
+{
+    const pbs::Weights weights = pbs::read_weights(written("fuzz.csv", bytes), arm, vertices);
+    expect(weights.first.size() == vertices + 1);
+    for (int vertex = 0; vertex < vertices; ++vertex) {
+        double sum = 0.0;
+        for (int entry = weights.first[vertex]; entry < weights.first[vertex + 1]; ++entry) sum += weights.weight[entry];
+        expect(std::abs(sum - 1.0) < 1e-5);
+    }
+}
+
+void try_iqm(const std::string& bytes)
+{
+    const pbs::IqmModel model = pbs::read_iqm(written("fuzz.iqm", bytes));
+    if (model.surface.triangles.size() > 0) expect(model.surface.triangles.maxCoeff() < model.surface.points.rows());
+    for (int joint = 0; joint < static_cast<int>(model.joints.size()); ++joint) expect(model.joints[joint].parent < joint);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    if (size == 0) return 0;
+    const std::string bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
+    try {
+        if (data[0] == 't') try_tetgen(bytes);
+        if (data[0] == 'w') try_weights(bytes);
+        if (data[0] == 'i') try_iqm(bytes);
+        if (data[0] == 'm') pbs::check_gmsh_file(written("fuzz.mesh", bytes));
+        if (data[0] == 'g') pbs::check_gmsh_file(written("fuzz.msh", bytes));
+    } catch (const pbs::InputError&) {
+    }
+    return 0;
+}

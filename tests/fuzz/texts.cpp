@@ -1,0 +1,51 @@
+// Any text as what the program itself reads, by its first byte: a BVH's header, a CSV record, or --set (one a line) over a scene. What is
+// read, or an InputError, nothing else.
+#include "analysis/csv_table.hpp"
+#include "experiments/scene_values.hpp"
+#include "pbs/character/bvh_header.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr const char* scene =
+    "schema = 1\n[character]\nbody = \"limb\"\n[motion]\njoint = \"forearm\"\naxis = [1.0, 0.0, 0.0]\n"
+    "angle_deg = 90.0\nframes = 5\n[pbs]\nk_stretch = 0.2\nk_volume = 1.0\nk_bind = 1.0\n"
+    "gravity_m_s2 = [0.0, 0.0, 0.0]\n[[fem]]\nname = \"p1\"\nmodel = \"linear\"\n"
+    "[[fem]]\nname = \"p2\"\nmodel = \"neo_hookean\"\n[deformers]\nuse = [\"lbs\", \"p1\"]\n";
+
+// What was read is written, and read again, as it was.
+void try_csv(const std::string& text)
+{
+    const std::string once = analysis::parse_csv(text, "record.csv").text();
+    if (analysis::parse_csv(once, "record.csv").text() != once) std::abort();
+}
+
+void try_settings(const std::string& text)
+{
+    std::vector<std::string> settings;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line) && settings.size() < 50;) settings.push_back(line);
+    experiments::SceneValues(scene, "scene.toml", settings).resolved();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    if (size == 0) return 0;
+    const std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
+    try {
+        if (data[0] == 'b' && pbs::is_bvh(text, "clip")) pbs::check_bvh_header(text, "clip.bvh");
+        if (data[0] == 'c') try_csv(text);
+        if (data[0] == 's') try_settings(text);
+    } catch (const pbs::InputError&) {
+    }
+    return 0;
+}
