@@ -61,16 +61,28 @@ int parse_and_act(int argc, char** argv)
     return action();
 }
 
+int told(const Failure& failure)
+{
+    std::fprintf(stderr, "pbskin: %s\n", failure.message().c_str());
+    return failure.status;
+}
+
+// What is printed may lie in a buffer to the end: a full disk says so no earlier.
+bool output_is_lost()
+{
+    return std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+}
+
 }  // namespace
 }  // namespace experiments
 
 int main(int argc, char** argv)
 {
     try {
-        return experiments::parse_and_act(argc, argv);
+        const int status = experiments::parse_and_act(argc, argv);
+        if (!experiments::output_is_lost()) return status;
     } catch (...) {
-        const experiments::Failure failure = experiments::caught_failure();
-        std::fprintf(stderr, "pbskin: %s\n", failure.message().c_str());
-        return failure.status;
+        if (!experiments::output_is_lost()) return experiments::told(experiments::caught_failure());
     }
+    return experiments::told({"standard output: cannot be written", experiments::exit_input});
 }

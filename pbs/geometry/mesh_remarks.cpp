@@ -1,8 +1,12 @@
 #include "pbs/geometry/mesh_remarks.hpp"
 
+#include "pbs/geometry/tet_volume.hpp"
 #include "pbs/geometry/topology.hpp"
 
+#include <algorithm>
+#include <map>
 #include <sstream>
+#include <utility>
 
 namespace pbs {
 namespace {
@@ -24,6 +28,29 @@ void add_size(const std::string& path, const Positions& points, std::vector<std:
         remarks.push_back(remark(path, "extent [m]", size, "taken as it is; are the coordinates in metres?"));
 }
 
+// Edges of a surface that are not between two triangles: at holes there is one, where sheets meet there are more.
+void add_edges(const std::string& path, const Triangles& triangles, std::vector<std::string>& remarks)
+{
+    std::map<std::pair<int, int>, int> triangles_at;
+    for (const auto& triangle : triangles.rowwise())
+        for (int k = 0; k < 3; ++k) ++triangles_at[std::minmax({triangle(k), triangle((k + 1) % 3)})];
+    const auto edges = [&](auto&& of) { return std::count_if(triangles_at.begin(), triangles_at.end(), of); };
+    if (const auto holes = edges([](const auto& edge) { return edge.second == 1; }))
+        remarks.push_back(remark(path, "edges of one triangle", holes, "its holes are wrapped over"));
+    if (const auto joins = edges([](const auto& edge) { return edge.second > 2; }))
+        remarks.push_back(remark(path, "edges of three triangles or more", joins, "not manifold there; what is outside is kept"));
+}
+
+// Of the body within outward triangles [m^3]; below 0 where they look inward.
+double signed_volume(const SurfaceMesh& surface)
+{
+    const Vec3 middle = surface.points.colwise().mean().transpose();
+    double volume = 0.0;
+    for (const auto& triangle : surface.triangles.rowwise())
+        volume += tet_volume(middle, surface.points.row(triangle(0)), surface.points.row(triangle(1)), surface.points.row(triangle(2)));
+    return volume;
+}
+
 }  // namespace
 
 std::vector<std::string> remarks_on(const std::string& path, const MeshReading& reading)
@@ -42,6 +69,9 @@ std::vector<std::string> remarks_on(const std::string& path, const SurfaceMesh& 
     std::vector<std::string> remarks;
     if (unused_points > 0) remarks.push_back(remark(path, "unused points", unused_points, "left out; no triangle uses them"));
     if (triangles_without_area > 0) remarks.push_back(remark(path, "triangles without area", triangles_without_area, "left out"));
+    add_edges(path, surface.triangles, remarks);
+    if (const double volume = signed_volume(surface); volume < 0.0)
+        remarks.push_back(remark(path, "enclosed volume [m^3]", volume, "inside out; taken as the body that it encloses"));
     add_size(path, surface.points, remarks);
     return remarks;
 }

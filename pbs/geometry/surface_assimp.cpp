@@ -25,8 +25,10 @@ void refuse_negative_indices(const std::string& path)
 {
     std::ifstream file(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    for (std::size_t open = text.find("<p>"); open != std::string::npos; open = text.find("<p>", open + 1)) {
-        const std::size_t close = std::min(text.find('<', open + 1), text.size()), minus = text.find('-', open);
+    for (std::size_t open = text.find("<p"); open != std::string::npos; open = text.find("<p", open + 1)) {
+        if (text.find_first_of("> \t\r\n", open) != open + 2) continue;  // <param, ...
+        const std::size_t begin = text.find('>', open), close = std::min(text.find('<', open + 1), text.size());
+        const std::size_t minus = text.find('-', begin);
         if (minus >= close) continue;
         const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(minus), '\n');
         throw InputError(path, static_cast<int>(line), "p", text.substr(minus, text.find_first_of(" \t\r\n<", minus) - minus),

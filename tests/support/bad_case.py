@@ -126,8 +126,8 @@ def is_well_formed(line, names):
 
 def what_is_wrong_with(told, case, common):
     lines = told.splitlines()
-    ours = [line.startswith("pbskin: ") for line in lines]
-    if sum(ours) != 1 or not ours[-1]:
+    ours = [line.startswith("pbskin: ") for line in lines if not line.startswith("pbskin: warning: ")]
+    if sum(ours) != 1 or not lines[-1].startswith("pbskin: "):
         yield "expected one line that begins with `pbskin: `, and that the last"
     elif not is_well_formed(lines[-1], names_of(case, common)):
         yield "expected the form `FILE[:LINE]: FIELD = VALUE: RULE`"

@@ -70,5 +70,9 @@ def told():
     yield surface("surface with an unused vertex", "x.off", bad_surfaces.off([*CORNERS, (5, 5, 5)]), "unused points = 1: left out")
     yield surface("surface with a triangle without area", "x.off", bad_surfaces.off(faces=[*FACES, (0, 0, 1)]),
                   "triangles without area = 1: left out")
+    yield surface("surface inside out", "x.off", bad_surfaces.off(faces=[face[::-1] for face in FACES]), "= -0.166667: inside out")
+    yield surface("surface with a triangle twice", "x.off", bad_surfaces.off(faces=[*FACES, FACES[0]]),
+                  "edges of three triangles or more = 3: not manifold there")
+
     yield surface("surface of 1,700 m", "x.off", bad_surfaces.off([[1700 * x for x in point] for point in CORNERS]),
                   "extent [m] = 1700: taken as it is")

@@ -120,6 +120,14 @@ class FullDisk(program.ProgramTest):
         self.assertEqual([path for path in run_records.files(cache) if path.stat().st_size > 0], [])
         self.assertEqual(run_records.records(self.path("out")), run_records.records(self.path("whole")))
 
+    def test_standard_output(self):
+        arm = self.path("arm.msh")
+        for arguments in (["list"], ["explain", "pbs.k_volume"], ["measure", arm, arm], ["--version"], ["list", "--help"]):
+            with self.subTest(arguments), open("/dev/full", "wb") as full:
+                process = subprocess.run([program.PBSKIN, *arguments], stdout=full, stderr=subprocess.PIPE, text=True)
+                self.assertEqual(process.returncode, 2)
+                self.assertTrue(process.stderr.endswith("pbskin: standard output: cannot be written\n"), process.stderr)
+
     def test_a_disk_that_fills_up(self):
         disk = pathlib.Path(self.path("disk"))
         disk.mkdir()
