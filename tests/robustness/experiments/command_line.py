@@ -162,7 +162,7 @@ class CommandLine(program.ProgramTest):
         gone = subprocess.Popen(["true"])
         gone.wait()
         os.makedirs(self.path("out", "frames"))
-        names = f".run.json.{gone.pid}.aB3xYz", f"frames/.pbs_000001.{gone.pid}.vtu"
+        names = f".run.json.{gone.pid}.aB3xYz", f"frames/.pbs_000001.vtu.{gone.pid}.aB3xYz"
         halves = [self.write(os.path.join("out", name), "half") for name in names]
         self.succeeds("run", self.scene, "-o", self.path("out"))
         self.assertEqual([half for half in halves if os.path.exists(half)], [])
