@@ -26,10 +26,3 @@ target_compile_options(pbs_settings INTERFACE
 target_compile_features(pbs_settings INTERFACE cxx_std_20)
 target_compile_options(pbs_settings INTERFACE "$<INSTALL_INTERFACE:SHELL:-include pbs/geometry/installed_eigen.hpp>")
 target_link_libraries(pbs_settings INTERFACE Eigen3::Eigen)
-
-if(PBS_WITH_COVERAGE)
-    add_library(pbs_coverage STATIC cmake/counted_exit.cpp)
-    add_compile_options(--coverage)
-    add_link_options(--coverage -Wl,--wrap=_exit)
-    target_link_libraries(pbs_settings INTERFACE $<BUILD_INTERFACE:pbs_coverage>)
-endif()
