@@ -89,6 +89,21 @@ std::vector<std::string> known_names(const std::string& table)
     return {names.begin(), names.end()};
 }
 
+std::string joined(const std::string& table, const std::string& name)
+{
+    return table.empty() ? name : table + "." + name;
+}
+
+// In the path's own table, else in the nearest one around it that there is.
+std::string nearest_key(const std::string& path)
+{
+    const auto dot = path.rfind('.');
+    if (dot == std::string::npos) return pbs::nearest_name(path, known_names(""));
+    const std::string table = path.substr(0, dot);
+    const std::vector<std::string> known = known_names(table);
+    return known.empty() ? nearest_key(table) : joined(table, pbs::nearest_name(path.substr(dot + 1), known));
+}
+
 bool is_table_name(const std::string& path)
 {
     return std::any_of(scene_keys().begin(), scene_keys().end(),
@@ -116,11 +131,6 @@ toml::table parse_override(const std::string& value)
     } catch (const pbs::InputError&) {
     }
     return toml::table{{"value", value}};
-}
-
-std::string joined(const std::string& table, const std::string& name)
-{
-    return table.empty() ? name : table + "." + name;
 }
 
 constexpr std::string_view fem_prefix = "fem.";
@@ -193,13 +203,9 @@ void SceneValues::take_value(const std::string& path, const toml::node& node, co
 {
     const std::string of_schema = schema_path(path);
     const SceneKey* key = find_scene_key(of_schema);
-    if (!key) {
-        const auto dot = of_schema.rfind('.');
-        const std::string table = dot == std::string::npos ? "" : of_schema.substr(0, dot);
-        const std::string name = dot == std::string::npos ? path : of_schema.substr(dot + 1);
+    if (!key)
         throw pbs::InputError(source, line, path, node.is_table() ? "" : shown(node),
-                              "unknown key; the nearest known one is " + joined(table, pbs::nearest_name(name, known_names(table))));
-    }
+                              "unknown key; the nearest known one is " + nearest_key(of_schema));
     const json value = to_json(node);
     if (!obeys(value, *key)) throw pbs::InputError(source, line, path, shown(node), key->rule());
     values_[path] = {value, source, line, false};

@@ -159,6 +159,10 @@ TEST(SceneErrors, OverridesOfReferencesThatAreNone)
         EXPECT_NE(refused_with(with_one, {std::string(key) + "=0.3"}).find(std::string("--set: ") + key + " = 0.3: unknown key"),
                   std::string::npos)
             << refused_with(with_one, {std::string(key) + "=0.3"});
+    EXPECT_EQ(refused_with(with_one, {"fem.00.poisson=0.3"}),
+              "--set: fem.00.poisson = 0.3: unknown key; the nearest known one is fem.name");
+    EXPECT_EQ(refused_with(right, {"pbz.jiggle.k_stretch=0.3"}),
+              "--set: pbz.jiggle.k_stretch = 0.3: unknown key; the nearest known one is pbs");
     EXPECT_EQ(refused_with(right, {"fem.poisson=0.3"}), "--set: fem.poisson = 0.3: the scene has no such [[fem]] table");
 }
 
