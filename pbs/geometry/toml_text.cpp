@@ -3,6 +3,8 @@
 #include "pbs/geometry/input_error.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <string_view>
 #include <vector>
 
 namespace pbs {
@@ -55,6 +57,11 @@ std::string beginning_of_line(const std::string& text, std::size_t place)
     return text.substr(before == std::string::npos ? 0 : before + 1, 40) + "...";
 }
 
+bool is_within_a_word(char before)
+{
+    return std::isalnum(static_cast<unsigned char>(before)) || std::string_view("_-+\"'").find(before) != std::string_view::npos;
+}
+
 }  // namespace
 
 void check_toml_keys(const std::string& text, const std::string& file)
@@ -63,6 +70,8 @@ void check_toml_keys(const std::string& text, const std::string& file)
     for (std::size_t place = 0; place < text.size();) {
         const char c = text[place];
         if (c == '"' || c == '\'') {
+            if (place > 0 && is_within_a_word(text[place - 1]))  // the parser goes on with its word, whatever letters the text has
+                refuse(text, place, file, "quote", beginning_of_line(text, place), "expected a text apart from what is before it");
             place = after_quotes(text, place);
         } else if (c == '#') {
             place = std::min(text.find('\n', place), text.size());

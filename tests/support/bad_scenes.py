@@ -39,6 +39,7 @@ def scenes():
     yield "nested_keys_of_an_inline_table", SCENE + "x = {" + "a." * 60000 + "a = 1}\n", DEEP
     yield "nested_tables", SCENE + "x = " + "{a = " * 5000, ":17: " + PARSING + "value: exceeded maximum nested value depth"
     yield "ten_megabytes_of_brackets", "[" * 10_000_000, ":1: " + PARSING + "key: expected bare key"
+    yield "text_behind_a_word", SCENE.replace("1.0", '1.0"\u0372"', 1), "expected a text apart from what is before it"
     yield "zero_byte", SCENE.encode() + b"\0", "byte = 0: expected ASCII outside of texts"
 
 

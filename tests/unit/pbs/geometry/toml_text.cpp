@@ -66,6 +66,7 @@ TEST(TomlText, BareWordsAreAscii)
     EXPECT_EQ(message_of("x = 1\nt\xc3\xa9te = 2\n"), "x.toml:2: byte = 195: expected ASCII outside of texts");
     EXPECT_EQ(message_of(std::string("x\0y = 2\n", 8)), "x.toml:1: byte = 0: expected ASCII outside of texts");
     EXPECT_EQ(message_of("x = \"\"\"\n\"\"\"\nt\xc3\xa9te = 2\n"), "x.toml:3: byte = 195: expected ASCII outside of texts");
+    EXPECT_EQ(message_of("x = r\"t\xc3\xa9te\"\n").substr(0, 18), "x.toml:1: quote = ");
     EXPECT_EQ(message_of("x = \"t\xc3\xa9te\"  # t\xc3\xa9te\r\n\ty = 2\r\n"), "accepted");
 }
 
