@@ -87,6 +87,22 @@ std::vector<StudyRun> runs_to_do(const PlannedStudy& planned, bool resume)
     return to_do;
 }
 
+void tell_of_breakdown(const std::string& name, const std::string& breakdown, StudyOutcome& outcome)
+{
+    if (breakdown.empty()) return;
+    spdlog::error("pbskin: {}: numerical breakdown: {}", name, breakdown);
+    outcome.broke_down = true;
+}
+
+// Runs kept from before count as those of now do.
+void tell_of_kept_breakdowns(const PlannedStudy& planned, const std::vector<StudyRun>& to_do, StudyOutcome& outcome)
+{
+    for (const StudyRun& run : planned.plan.runs) {
+        const bool kept = std::none_of(to_do.begin(), to_do.end(), [&](const StudyRun& of) { return of.name == run.name; });
+        if (kept) tell_of_breakdown(run.name, breakdown_on_record(run, (fs::path(planned.folder) / run.name).string()), outcome);
+    }
+}
+
 // then_s: expected of the studies after this one, wall time.
 StudyOutcome run_study(const PlannedStudy& planned, const std::vector<StudyRun>& runs, int jobs, double then_s)
 {
@@ -102,10 +118,10 @@ StudyOutcome run_study(const PlannedStudy& planned, const std::vector<StudyRun>&
             {run.name, run.cost_s, [&run, folder = (fs::path(planned.folder) / run.name).string()] { return carry_out(run, folder); }});
     spdlog::info("{} runs, {} kept from before", work.size(), planned.plan.runs.size() - work.size());
     StudyOutcome outcome{.costs = StudyCosts(planned.folder)};
+    tell_of_kept_breakdowns(planned, runs, outcome);
     for (const PooledResult& result : run_in_pool(work, planned.study->alone ? 1 : jobs, then_s)) {
         if (!result.finished) spdlog::error("pbskin: {}: {}", result.name, result.failure);
-        if (!result.breakdown.empty()) spdlog::error("pbskin: {}: numerical breakdown: {}", result.name, result.breakdown);
-        outcome.broke_down |= !result.breakdown.empty();
+        tell_of_breakdown(result.name, result.breakdown, outcome);
         outcome.failed |= !result.finished;
         outcome.refused |= result.refused;
         const auto run = std::find_if(runs.begin(), runs.end(), [&](const StudyRun& of) { return of.name == result.name; });

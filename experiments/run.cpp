@@ -244,6 +244,8 @@ private:
             if (const auto record = runner.deformer->record(); !record.is_null()) records[runner.spec.label] = record;
         nlohmann::json outcome = {{"finished", true}, {"frames", frames_}, {"breakdowns", breakdowns_}, {"not_converged", not_converged_}};
         outcome["broken_frames"] = broken_frames_;
+        outcome["breakdown"] = breakdown_;
+        outcome["bad_frame"] = bad_frame_;
         if (!scene_.reference.empty()) outcome["self_intersecting_reference_frames"] = self_intersecting_frames_;
         if (error_bar_) outcome["frames_below_reference_error"] = frames_below_reference_error_;
         outcome.update(run_end(stopwatch_.seconds()));

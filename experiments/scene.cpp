@@ -7,13 +7,12 @@
 #include "generated/scenes_texts.hpp"
 #include "pbs/character/clip.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/text_file.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 namespace experiments {
 namespace {
@@ -290,15 +289,12 @@ ErrorBar read_error_bar(const SceneValues& values, const std::string& reference,
     return error_bar;
 }
 
-std::string read_text(const std::string& path)
+std::string read_scene_text(const std::string& path)
 {
-    std::error_code code;  // a named pipe would be waited for without end
-    std::ifstream file;
-    if (fs::is_regular_file(path, code)) file.open(path);
-    if (!file.is_open()) throw pbs::InputError(path, 0, "", "", "cannot be read: expected a scene file, or a name of `pbskin list scenes`");
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
+    std::error_code code;
+    if (!fs::is_regular_file(path, code))
+        throw pbs::InputError(path, 0, "", "", "cannot be read: expected a scene file, or a name of `pbskin list scenes`");
+    return pbs::read_text_file(path);
 }
 
 }  // namespace
@@ -340,7 +336,7 @@ Scene read_scene(const std::string& file_or_name, const std::vector<std::string>
     const bool from_file = found == built_in.end();
     const std::string file = from_file ? file_or_name : file_or_name + ".toml";
     const std::string folder = from_file ? fs::path(file).parent_path().string() : "";
-    const SceneValues values(from_file ? read_text(file) : found->text, file, overrides);
+    const SceneValues values(from_file ? read_scene_text(file) : found->text, file, overrides);
 
     Scene scene;
     scene.file = file;

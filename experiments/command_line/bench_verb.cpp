@@ -21,21 +21,26 @@ struct BenchArguments {
     bool json = false;
 };
 
-void make_folder(const std::string& folder)
+// Before anything is measured. "": no record is asked for.
+std::string writable_record(const std::string& folder)
 {
+    if (folder.empty()) return "";
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
+    const std::string record = (std::filesystem::path(folder) / "bench.json").string();
+    analysis::require_writable(record);
+    return record;
 }
 
 int bench(BenchArguments arguments)
 {
     for (const std::string& size : arguments.sizes) arguments.options.sizes.push_back(parse_size(size));
     std::sort(arguments.options.sizes.begin(), arguments.options.sizes.end());  // the peak of memory is then each one's own
-    if (!arguments.folder.empty()) make_folder(arguments.folder);
+    const std::string file = writable_record(arguments.folder);
     const BenchRecord record = run_bench(arguments.options);
     const std::string json = bench_json(record).dump(2) + "\n";
-    if (!arguments.folder.empty()) analysis::write_text_atomically((std::filesystem::path(arguments.folder) / "bench.json").string(), json);
+    if (!file.empty()) analysis::write_text_atomically(file, json);
     fmt::print("{}", arguments.json ? json : bench_table(record));
     return exit_finished;
 }

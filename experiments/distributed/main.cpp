@@ -12,6 +12,7 @@
 #include "experiments/deformers/option_names.hpp"
 #include "experiments/distributed/distributed_record.hpp"
 #include "experiments/exit_status.hpp"
+#include "experiments/failure.hpp"
 #include "analysis/atomic_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "reference_fem/distributed/distributed_elasticity.hpp"
@@ -144,8 +145,9 @@ int main(int argc, char** argv)
     } catch (const pbs::InputError& error) {  // every rank meets it
         if (session.rank() == 0) std::fprintf(stderr, "pbskin_distributed: %s\n", error.what());
         return experiments::exit_input;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "pbskin_distributed: rank %d: %s\n", session.rank(), error.what());
-        session.abort(experiments::exit_input);
+    } catch (...) {
+        const experiments::Failure failure = experiments::caught_failure();
+        std::fprintf(stderr, "pbskin_distributed: rank %d: %s\n", session.rank(), failure.message().c_str());
+        session.abort(failure.status);
     }
 }

@@ -38,6 +38,7 @@ nlohmann::json run_and_tell(const Scene& scene, const Variant& variant, const st
     return from_record((fs::path(folder) / "run.json").string(), [](const nlohmann::json& run) {
         nlohmann::json cost = run.at("cost");
         cost["frames"] = run.at("outcome").at("frames");
+        cost["breakdown"] = run.at("outcome").at("breakdown");
         return cost;
     });
 }
@@ -75,6 +76,7 @@ RunCost cost_of(const Scene& scene, const Variant& variant, const std::string& s
     result.step_cpu_ms = step_of(cpu_seconds);
     result.peak_mb = cost.at("peak_memory_mb").get<double>();
     result.shared_objects = cost.at("shared_objects").get<int>();
+    result.breakdown = cost.at("breakdown").get<std::string>();
     return result;
 }
 

@@ -50,6 +50,15 @@ std::vector<std::vector<RunCost>> costs_by_turns(const CutScene& scene, const st
     return costs;
 }
 
+// The first one's, if any: bad frames are no failure here, a bend of 150 degrees is none that a reference must reach.
+std::string breakdown_among(const std::vector<std::vector<RunCost>>& costs)
+{
+    for (const auto& rounds : costs)
+        for (const RunCost& cost : rounds)
+            if (!cost.breakdown.empty()) return cost.breakdown;
+    return "";
+}
+
 std::optional<AnswerChange> change_of(const CutScene& scene, const Feature& feature)
 {
     if (!feature.changes_answer) return std::nullopt;
@@ -77,7 +86,7 @@ std::string measure_and_record(const CutScene& scene, const std::string& folder)
     for (const Feature& feature : asked)
         rows.push_back({scene.name, feature.name, costs_of(feature.without), costs_of(feature.with), change_of(scene, feature)});
     features_csv(rows).write((fs::path(folder) / "features.csv").string());
-    return "";
+    return breakdown_among(costs);
 }
 
 StudyRun features_run(CutScene scene, double cost_s, bool full)

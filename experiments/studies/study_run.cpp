@@ -4,6 +4,7 @@
 #include "analysis/provenance.hpp"
 #include "experiments/bench/cpu_clock.hpp"
 #include "experiments/folder_files.hpp"
+#include "experiments/kept_record.hpp"
 #include "experiments/library_versions.hpp"
 #include "experiments/record_text.hpp"
 #include "experiments/run.hpp"
@@ -72,6 +73,16 @@ bool is_finished(const StudyRun& run, const std::string& folder)
 std::string carry_out(const StudyRun& run, const std::string& folder)
 {
     return run.work ? carry_out_work(run, folder) : carry_out_scene(run, folder);
+}
+
+std::string breakdown_on_record(const StudyRun& run, const std::string& folder)
+{
+    return from_record((fs::path(folder) / "run.json").string(), [&](const nlohmann::json& json) {
+        const nlohmann::json& outcome = json.at("outcome");
+        const auto breakdown = outcome.at("breakdown").get<std::string>();
+        const bool bad_frame_counts = !run.work && !run.bad_frames_are_results && breakdown.empty();
+        return bad_frame_counts ? outcome.at("bad_frame").get<std::string>() : breakdown;
+    });
 }
 
 }  // namespace experiments

@@ -13,4 +13,7 @@ bool is_finished(const StudyRun& run, const std::string& folder);
 // Carries it out; what broke down numerically, if anything.
 std::string carry_out(const StudyRun& run, const std::string& folder);
 
+// Of a finished run in `folder`: what carry_out returned then.
+std::string breakdown_on_record(const StudyRun& run, const std::string& folder);
+
 }  // namespace experiments

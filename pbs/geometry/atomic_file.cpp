@@ -56,6 +56,16 @@ bool write_and_flush(int file, const std::string& bytes)
     return ::fsync(file) == 0;  // a full disk may say so no earlier
 }
 
+// The new name survives a loss of power, too. File systems that cannot flush a folder keep no such promise.
+void flush_folder_of(const std::string& path)
+{
+    const std::filesystem::path parent = std::filesystem::path(path).parent_path();
+    const int folder = ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) return;
+    ::fsync(folder);
+    ::close(folder);
+}
+
 [[noreturn]] void refuse(const std::string& path, int reason)
 {
     throw InputError(path, 0, "", "", "cannot be written: " + std::generic_category().message(reason));
@@ -81,7 +91,7 @@ void write_atomically(const std::string& path, const std::string& bytes)
     int reason = write_and_flush(file, bytes) ? 0 : errno;
     if (::close(file) != 0 && reason == 0) reason = errno;
     if (reason == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) reason = errno;
-    if (reason == 0) return;
+    if (reason == 0) return flush_folder_of(path);
     ::unlink(temporary.c_str());
     refuse(path, reason);
 }

@@ -90,6 +90,10 @@ class Bench(program.ProgramTest):
         self.refuses("", "--mesh", self.arm(), "--sizes", "1K")
         self.refuses("cannot be made", "--mesh", self.arm(), "-o", os.path.join(self.arm(), "below"))
 
+    def test_what_cannot_be_written_is_refused_before_anything_is_read(self):
+        os.makedirs(self.path("out", "bench.json"))
+        self.refuses("bench.json: cannot be written: Is a directory", "--mesh", self.path("none.msh"), "-o", self.path("out"))
+
 
 if __name__ == "__main__":
     unittest.main()

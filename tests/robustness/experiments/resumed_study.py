@@ -1,5 +1,6 @@
 """A study that is killed goes on where it was: runs that ended are kept as they are, the others are done, and the records are those of a
 study that nobody killed. Truth: files' own times, and the records of an undisturbed run."""
+import json
 import os
 import pathlib
 import signal
@@ -38,6 +39,17 @@ class ResumedStudy(program.ProgramTest):
             path = pathlib.Path("momentum") / run / "measurements.csv"
             self.assertEqual((killed / path).read_text(), (whole / path).read_text())
         self.assertEqual((killed / "claims.json").read_text(), (whole / "claims.json").read_text())
+
+    def test_a_kept_breakdown_counts(self):
+        results = pathlib.Path(self.path("whole"))
+        subprocess.run(self.command(results), check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        record = results / "momentum" / RUNS[0] / "run.json"
+        run = json.loads(record.read_text())
+        run["outcome"]["breakdown"] = "vertex 3 is not finite"
+        record.write_text(json.dumps(run))
+        resumed = subprocess.run(self.command(results, "--resume"), capture_output=True, text=True)
+        self.assertEqual(resumed.returncode, 3, resumed.stderr)
+        self.assertIn(f"{RUNS[0]}: numerical breakdown: vertex 3 is not finite", resumed.stderr)
 
 
 if __name__ == "__main__":

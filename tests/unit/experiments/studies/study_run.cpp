@@ -68,6 +68,7 @@ TEST_F(StudyRunTest, ABreakdownIsOnRecordAndTheRunEnded)
     EXPECT_TRUE(is_finished(run, folder));
     std::ifstream record(fs::path(folder) / "run.json");
     EXPECT_EQ(nlohmann::json::parse(record).at("outcome").at("breakdown"), "step 7 diverged");
+    EXPECT_EQ(breakdown_on_record(run, folder), "step 7 diverged");
 }
 
 // Two iterations do not come within 1e-12 of anything.
@@ -81,8 +82,10 @@ TEST_F(StudyRunTest, AFrameThatWasNotReachedIsABreakdownWhereTheSceneWasExpected
     EXPECT_EQ(result.bad_frame.rfind("pose not reached: pbs is not converged in frame 0: worst tet ", 0), 0u) << result.bad_frame;
     EXPECT_EQ(carry_out(run, folder), result.bad_frame);
     EXPECT_TRUE(is_finished(run, folder));  // on record all the same
+    EXPECT_EQ(breakdown_on_record(run, folder), result.bad_frame);
     run.bad_frames_are_results = true;
     EXPECT_EQ(carry_out(run, folder), "");
+    EXPECT_EQ(breakdown_on_record(run, folder), "");
 }
 
 TEST_F(StudyRunTest, ARecordThatCannotBeRemovedIsNamed)
