@@ -13,7 +13,8 @@ void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action
     verb->add_option("-o,--output", arguments->folder, "folder of the records")->capture_default_str();
     auto* full =
         verb->add_flag("--full", arguments->full,
-                       "the whole study; of verification, fit, error_split, bench and features a part, of scale nothing: name these");
+                       "the whole study; of verification, fit, work_precision, error_split, bench and features a part, of scale nothing: "
+                       "name these");
     auto quick = std::make_shared<bool>(false);
     verb->add_flag("--quick", *quick, "a part of it that decides the same claims in minutes (default)")->excludes(full);
     verb->add_option("-j,--jobs", arguments->jobs, "runs side by side")->check(CLI::Range(1, 256))->capture_default_str();

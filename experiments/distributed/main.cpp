@@ -40,7 +40,7 @@ void add_options(CLI::App& app, Arguments& arguments)
 {
     app.add_option("--bar", arguments.body.bar_tets, "a cantilever of about so many tets")->check(CLI::Range(6, 1'000'000'000));
     app.add_option("--limb", arguments.body.limb_vertices, "the built-in limb of about so many vertices, held by its skeleton");
-    app.add_option("--mesh", arguments.body.mesh_file, "a tet mesh [m]: .msh .vtu .vtk .mesh .node");
+    app.add_option("--mesh", arguments.body.mesh_file, "a tet mesh [m]: .msh .vtu .vtk .mesh .node .ele");
     app.add_option("--held-below", arguments.body.held_below_m, "boundary with x up to this is held [m]; default: the lowest x");
     app.add_option("--pulled-above", arguments.body.pulled_above_m,
                    "boundary with x from this bears the traction [m]; default: the highest x");
@@ -63,7 +63,7 @@ void add_options(CLI::App& app, Arguments& arguments)
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
     app.add_option("-o,--output", arguments.folder, "folder for record.json; default: none");
-    app.add_flag("--nodes", arguments.nodes, "write nodes.csv, too");
+    app.add_flag("--nodes", arguments.nodes, "write nodes.csv into the folder, too");
 }
 
 pbs::Vec3 vector(const std::vector<double>& components)
