@@ -21,9 +21,10 @@ CLI::App* add_verb(CLI::App& app, CommonOptions& common, const std::string& name
     CLI::App* verb = app.add_subcommand(name, meaning);
     verb->add_flag("--quiet", common.quiet, "errors only");
     verb->add_flag("--verbose", common.verbose, "say more: what each run of a study found");
-    verb->add_option("--threads", common.threads,
-                     "threads of a deformer in run and check (pbs, in the orders ordered and grouped, on meshes that are worth it; by default "
-                     "1), or those that bench times beside one (by default all cores); the other verbs leave it at one")
+    verb->add_option(
+            "--threads", common.threads,
+            "threads of a deformer in run and check (pbs, in the orders ordered and grouped, on meshes that are worth it; by default 1), "
+            "or those that bench times beside one (by default all cores); the other verbs leave it at one")
         ->check(CLI::Range(1, 1024));
     return verb;
 }

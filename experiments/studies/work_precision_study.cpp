@@ -124,8 +124,7 @@ StudyPlan plan_work_precision_study(bool full)
         plan.runs.push_back(limb_run("bend", 90, full, 440.0));
     }
     try {
-        for (const BodyPose& pose : human_poses(full))
-            plan.runs.push_back(body_run("human", pose, full, full ? 145.0 : 50.0));
+        for (const BodyPose& pose : human_poses(full)) plan.runs.push_back(body_run("human", pose, full, full ? 145.0 : 50.0));
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({"human", error.what()});
     }
