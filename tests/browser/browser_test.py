@@ -25,10 +25,9 @@ import viewer_poses  # noqa: E402
 skipped = 77
 bound_missed = figure_missed = 1  # exit statuses of a bound that does not hold, and of a figure that was not drawn
 sampled = {"limb_twist": ["lbs", "snh_p1"], "human_jump": ["pbs", "dqs"], "human_walk": ["pbs_jiggle"]}
-# Of the records beside the sources, which hold verdicts rather than all tables, and of studies that take hours none.
-not_of_these_records = {"convergence_iterations", "error_split", "features_cost", "fit", "roofline", "scaling", "section_profiles",
-                        "stability_cells", "stability_maps", "verification", "volume_by_region", "volume_over_angle", "volume_over_clip",
-                        "volume_over_iterations", "work_precision"}
+# Of the records beside the sources, which hold verdicts rather than all tables.
+not_of_these_records = {"convergence_iterations", "fit", "roofline", "scaling", "section_profiles", "stability_cells", "volume_by_region",
+                        "volume_over_angle", "volume_over_clip", "work_precision"}
 sampled_skins = {"human_jump": ["pbs"], "human_walk": ["lbs", "pbs_jiggle"]}
 columns = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "error_linf_m")
 
