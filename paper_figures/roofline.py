@@ -23,7 +23,7 @@ def draw_roof(axes, limits, precision):
         axes.plot(intensity, numpy.minimum(peak, bandwidth * intensity), color="#808080", linewidth=0.7)
         text = f"{name}\n{bandwidth:.0f}{' GB/s' if name == 'memory' else ''}"
         axes.annotate(text, (peak / bandwidth, peak * 1.08), fontsize=5, color="#606060", ha="center", va="bottom")
-    axes.annotate(f"multiply-add {peak:.0f} GFLOP/s", (95, peak * 1.12), fontsize=5, color="#606060", ha="right")
+    axes.annotate(f"multiply-add {peak:.0f} GFLOP/s", (95, peak * 0.9), fontsize=5, color="#606060", ha="right", va="top")
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlim(0.1, 100)

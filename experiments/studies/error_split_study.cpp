@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
@@ -59,6 +60,12 @@ StudyRun split_run(const std::string& name, const std::string& scene, const std:
             .settings = {{"scene", resolved_with_deformers(of.scene)}, {"frames", frames}, {"full", full}}};
 }
 
+// Not a number: a pose that was not reached.
+std::string told(double value, int digits)
+{
+    return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "\u2013";
+}
+
 }  // namespace
 
 StudyPlan plan_error_split_study(bool full)
@@ -97,10 +104,10 @@ StudyConclusion conclude_error_split_study(const std::string& folder, const Stud
                     attachments.integer(other, "frame") == parts.integer(row, "frame") &&
                     attachments.number(other, "k_stretch") == parts.number(row, "k_stretch"))
                     bind_pct = attachments.number(other, "model_pct");
-            table += fmt::format("| {} | {:.0f} | {} | {:.1f} | {:.1f} | {:.1f} | {:.2f} | {:.1f} |\n", parts.text_at(row, "scene"),
-                                 parts.number(row, "angle_deg"), parts.number(row, "k_stretch"), parts.number(row, "error_joint_pct"),
-                                 parts.number(row, "solver_pct"), parts.number(row, "model_pct"), parts.number(row, "discretisation_pct"),
-                                 bind_pct);
+            table += fmt::format(
+                "| {} | {:.0f} | {} | {} | {} | {} | {} | {} |\n", parts.text_at(row, "scene"), parts.number(row, "angle_deg"),
+                parts.number(row, "k_stretch"), told(parts.number(row, "error_joint_pct"), 1), told(parts.number(row, "solver_pct"), 1),
+                told(parts.number(row, "model_pct"), 1), told(parts.number(row, "discretisation_pct"), 2), told(bind_pct, 1));
         }
     }
     analysis::write_text_atomically((fs::path(folder) / "error_split.md").string(), table);

@@ -15,19 +15,23 @@ def do_they_hold(found):
     return joined([element("p", verdicts.counts_sentence(found.claims), class_="answer"), verdicts.chips(found.claims)])
 
 
-def when_not(found):
-    """Every claim that does not hold throughout, with where it does."""
-    def entry(claim):
-        symbol, colour, _ = verdicts.marks[claim["verdict"]]
-        link = element("a", claim["id"], href=f"#{claim['id']}")
-        sign = Markup(f'<span class="{colour}" aria-label="{escaped(claim["verdict"])}">{symbol}</span>')
-        statement = element("span", with_symbols_named(claim["statement"]), class_="statement")
-        return joined([sign, " ", link, " ", statement, " ", holding(claim)])
+def entry(claim, words):
+    symbol, colour, _ = verdicts.marks[claim["verdict"]]
+    link = element("a", claim["id"], href=f"#{claim['id']}")
+    sign = Markup(f'<span class="{colour}" aria-label="{escaped(claim["verdict"])}">{symbol}</span>')
+    statement = element("span", with_symbols_named(claim["statement"]), class_="statement")
+    return joined([sign, " ", link, " ", statement, " ", words])
 
-    claims = [claim for kind in failing for claim in found.claims or [] if claim["verdict"] == kind]
-    if not claims:
+
+def when_not(found):
+    """Every claim that does not hold throughout, with where it does; of those that hold what was measured beside."""
+    failed = [claim for kind in failing for claim in found.claims or [] if claim["verdict"] == kind]
+    but = [claim for claim in found.claims or [] if claim["verdict"] == "reproduced" and verdicts.beside(claim)]
+    entries = [entry(claim, holding(claim)) for claim in failed]
+    entries += [entry(claim, f"Holds; beside it: {verdicts.beside(claim)}.") for claim in but]
+    if not entries:
         return element("p", "Every claim that could be tested holds." if found.claims else "Not known without verdicts.")
-    return items([entry(claim) for claim in claims], "when")
+    return items(entries, "when")
 
 
 def with_symbols_named(text):
@@ -91,8 +95,8 @@ def errors(shown, deformer):
 
 
 def distance_sentence(shown):
-    return (f"At the joints PBS with 24 iterations is {span(errors(shown, 'pbs'))} % away from stable neo-Hookean finite elements, "
-            f"LBS {span(errors(shown, 'lbs'))} % (of the mean distance to the bone).")
+    return (f"At the joints, in {counted(len(shown), 'pose')}, PBS with 24 iterations is {span(errors(shown, 'pbs'))} % away from stable "
+            f"neo-Hookean finite elements, LBS {span(errors(shown, 'lbs'))} % (of the mean distance to the bone).")
 
 
 def bar_of(row):

@@ -104,6 +104,15 @@ def words_of(claim):
     return before.get(claim["verdict"], "") + words
 
 
+def beside(claim, most=4):
+    """The first quantities that were measured beside, without a bound, from the least to the most; "": none."""
+    values = {}
+    for row in claim["measured_beside"]:
+        values.setdefault((row["quantity"], row["unit"]), []).append(row["value"])
+    told = [f"{quantity} {span(found)}" + (f" {unit}" if unit != "1" else "") for (quantity, unit), found in values.items()]
+    return ", ".join(told[:most])
+
+
 def farthest(claim, of_quantity=False):
     """The figure that is farthest from what is expected of it; of which quantity it is alone, or of whom as well."""
     said = re.search(r"; farthest: (.*?) is ([^\s;]+)(?:; |$)", claim["text"])

@@ -88,7 +88,7 @@ class Captions(unittest.TestCase):
                     ("bar", "iterations", "pbs", 48, 500), ("human", "iterations", "xpbd_small_steps", 6, 4),
                     ("human", "iterations", "xpbd_small_steps", 48, 5))]
         text = self.told("stiffness", rows)
-        self.assertIn("after growing 2.5-fold (bar, 6 to 48); in small steps it grows 1.25-fold (human, 6 to 48).", text)
+        self.assertIn("grows 2.5-fold (bar, 6 to 48) with the iterations; in small steps 1.25-fold (human, 6 to 48).", text)
 
     def test_a_ladder_is_told_by_its_ends(self):
         def row(ladder, vertices, residual, error):

@@ -113,6 +113,12 @@ class Plots(unittest.TestCase):
         rows = [row for row in self.drawn("stiffness") if (row["body"], row["varied"], row["method"]) == ("limb", "time_step_ms", "pbs")]
         self.assertEqual([(row["time_step_ms"], float(row["stiffness_n_m"])) for row in rows], [("5", 960.0), ("10", 240.0)])
 
+    def test_stiffness_of_xpbd_is_of_one_material(self):
+        synthetic_tables.write_stiffness(self.results / "stiffness")
+        rows = [row for row in self.drawn("stiffness") if row["method"] == "xpbd"]
+        self.assertEqual({float(row["young_pa"]) for row in rows}, {30e3})
+        self.assertEqual({float(row["stiffness_n_m"]) for row in rows}, {50.0})
+
     def test_stiffness_beyond_rounding_is_left_out_and_counted(self):
         synthetic_tables.write_stiffness(self.results / "stiffness")
         with unittest.mock.patch.object(stiffness, "stiffest_n_m", 500.0):

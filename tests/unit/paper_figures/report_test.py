@@ -151,6 +151,14 @@ class Report(unittest.TestCase):
                  "text": "not reproduced: limb, man; farthest: ratio of rates of man, at 10 ms is 2; beside it: all else"}
         self.assertEqual(verdicts.outcome(claim), "not for limb, man; farthest: ratio of rates of man, at 10 ms is 2, expected 0.9 to 1.1")
 
+    def test_what_holds_says_what_was_measured_beside(self):
+        beside = [{"quantity": quantity, "unit": unit, "value": value}
+                  for quantity, unit, value in (("share inverted", "1", 0.5), ("frames a second", "1/s", 30.0),
+                                                ("share inverted", "1", 0.0))]
+        self.assertEqual(verdicts.beside({"measured_beside": beside}), "share inverted 0 to 0.5, frames a second 30 1/s")
+        self.assertEqual(verdicts.beside({"measured_beside": beside}, most=1), "share inverted 0 to 0.5")
+        self.assertEqual(verdicts.beside({"measured_beside": []}), "")
+
     def test_the_viewer_s_program_is_named_where_it_is_shown(self):
         synthetic_records.write_study(self.results)
         found = record_set.RecordSet(self.results)
@@ -206,6 +214,7 @@ class Report(unittest.TestCase):
         synthetic_records.write_verification(self.results)
         _, text, _, _ = self.make()
         self.assertIn('<th scope="row">cantilever</th><td>yes</td>', text)
+        self.assertIn("1 of 2 figures with a bound set beforehand keep it; 1 more have none", text)
         self.assertIn("<li>closed form: a beam</li>", text)
 
     def test_provenance_and_records_of_two_revisions(self):
