@@ -117,7 +117,9 @@ def conclusions(found, entry, told):
 def section(found):
     """The figures' HTML, and what is missing."""
     parts, missing, told = [], [], set()
-    for number, entry in enumerate(entries.read(), 1):  # the paper's come first: no number stands twice, whichever are missing
+    number = 0
+    for entry in entries.read():  # the paper's come first: no number stands twice, whichever are missing
+        number += not entry.title.startswith("Table")
         try:
             file = drawn(found, entry)
             parts.append(drawn_figure(found, as_drawn(found, entry), number, file))

@@ -39,7 +39,8 @@ title = "Position Based Skinning: do its claims hold?"
 def lead(found):
     """What was examined, at which revision."""
     revisions = origin.values_of(found, "git_revision")
-    text = (f"The paper of 2014 against {len(found.runs)} recorded runs of pbskin {', '.join(origin.values_of(found, 'version'))}, "
+    runs = sum(name.count("/") == 1 for name in found.runs)  # a run's own parts lie below it
+    text = (f"The paper of 2014 against {runs} recorded runs of pbskin {', '.join(origin.values_of(found, 'version'))}, "
             f"revision {', '.join(revision[:10] for revision in revisions)}.")
     return element("p", text, class_="lead")
 
