@@ -28,7 +28,7 @@ def draw_parts(axes, rows, angle_deg):
                       alpha=shade, label=label if shade == 1.0 else None)
         drawn += [{"scene": row["scene"], "angle_deg": row["angle_deg"], "k_stretch": row["k_stretch"], "shown": column,
                    "at": row["iterations"], "value_pct": row[column]} for row in chosen for column, *_ in parts]
-    axes.set_xscale("log")
+    style.log_scale(axes.xaxis, sorted({float(row["at"]) for row in drawn}))
     axes.set_ylim(bottom=0)
     axes.set_xlabel("iterations")
     axes.set_ylabel("error at the joint [%]")

@@ -5,7 +5,7 @@ import style
 
 sag_columns = {"vertices", "k_stretch", "k_volume", "iterations", "young_pa", "settled"}
 valley_columns = {"model", "element_order", "attachment", "body", "k_stretch", "poisson", "misfit_pct"}
-shades = {"0.05": style.sky, "0.2": style.blue, "0.9": style.vermillion}
+looks = {"0.05": (style.sky, "o"), "0.2": (style.blue, "v"), "0.9": (style.vermillion, "s")}
 lines = {"pbs": "-", "pbs_converged": (0, (4, 1.5))}
 names = {"pbs": "24 iterations", "pbs_converged": "converged"}
 
@@ -36,12 +36,12 @@ def draw_valley(axes, rows):
     first = rows[0]
     chosen = wanted or [row for row in rows if all(row[key] == first[key] for key in ("model", "element_order", "attachment"))]
     for body, line in lines.items():
-        for k_stretch, color in shades.items():
+        for k_stretch, (color, marker) in looks.items():
             valley = [row for row in chosen if row["body"] == body and float(row["k_stretch"]) == float(k_stretch)]
             axes.plot([float(row["poisson"]) for row in valley], [float(row["misfit_pct"]) for row in valley], color=color, linestyle=line,
-                      label=f"k_stretch {k_stretch}, {names[body]}")
+                      marker=marker, markevery=5, label=f"k_stretch {k_stretch}, {names[body]}")
     axes.set_ylim(bottom=0)
-    axes.set_xlabel("Poisson's ratio of the finite elements")
+    axes.set_xlabel("Poisson's ratio of the finite elements [1]")
     axes.set_ylabel("distance to PBS at the joint [%]")
     axes.set_title("twist and bend, 30\u00b0 to 90\u00b0")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncol=2, fontsize=6, handlelength=3.4)
