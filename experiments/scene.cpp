@@ -294,7 +294,7 @@ std::string read_scene_text(const std::string& path)
     std::error_code code;
     if (!fs::is_regular_file(path, code))
         throw pbs::InputError(path, 0, "", "", "cannot be read: expected a scene file, or a name of `pbskin list scenes`");
-    return pbs::read_text_file(path);
+    return pbs::read_text_file(path, pbs::most_settings_bytes);
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ def secret(path):
 
 
 def secrets():
-    unread = {"scene": "cannot be read: expected a scene file", "mesh": "cannot be read", "surface": "cannot be read",
+    unread = {"scene": NOT_OPEN + "Permission denied", "mesh": "cannot be read", "surface": "cannot be read",
               "skeleton": NOT_OPEN + "Permission denied", "weights": NOT_OPEN + "Permission denied"}
     for use, rule in unread.items():
         file, command = USES[use]

@@ -1,7 +1,7 @@
 """Scenes and settings that are refused: texts of bad.toml, and of --set."""
 from bad_characters import SCENE, bvh
 from bad_case import Case
-from bad_tets import NOISE
+from bad_tets import NOISE, sparse
 
 CLIP_SCENE = SCENE.replace('joint = "elbow"\naxis = [0.0, 0.0, 1.0]\nangle_deg = 120.0\nframes = 5\n', 'clip = "good.bvh"\n')
 CLIP = bvh("3", motion=3 * "0 0 0 0 0 0 10 20 30\n")
@@ -13,6 +13,7 @@ FEM_SCENE = SCENE + '[[fem]]\nname = "p1"\nmodel = "linear"\n'
 def scenes():
     yield "empty", "", "schema: missing"
     yield "noise", NOISE, ":1: byte = 0: expected ASCII outside of texts"
+    yield "sparse", sparse, "bytes = 68719476736: expected at most 16777216"
     yield "truncated", SCENE[:50], ":4: " + PARSING + "key-value pair: encountered end-of-file"
     yield "no_schema", SCENE.replace("schema = 1\n", ""), "schema: missing"
     yield "schema_of_tomorrow", SCENE.replace("schema = 1", "schema = 2"), ":1: schema = 2: " + WHOLE + "1 to 1"
