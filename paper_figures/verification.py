@@ -29,8 +29,16 @@ def poisson(row):
     return re.search(r"nu = ([0-9.]+)", row["material"]).group(1)
 
 
+def theory(ladder, order):
+    """What the rows would tell if the error fell by this order to that of the finest mesh."""
+    finest_mesh = ladder[-1]
+    return [{**row, "quantity": f"theory, h^{order}: {row['quantity']}",
+             "value": float(finest_mesh["value"]) * (float(row["h_m"]) / float(finest_mesh["h_m"])) ** order} for row in ladder]
+
+
 def draw_convergence(axes, rows):
-    """One line a norm and element order; from its finest mesh the slope of theory, dotted, to the coarsest."""
+    """One line a norm and element order; from its finest mesh the slope of theory, dotted, to the coarsest. Returns the dotted rows."""
+    dotted = []
     for elements in ("P1", "P2"):
         color, marker = looks[elements]
         for quantity, (norm, line, gain) in norms.items():
@@ -40,13 +48,15 @@ def draw_convergence(axes, rows):
             h, error = records.numbers(ladder, "h_m"), records.numbers(ladder, "value")
             order = int(elements[1]) + gain
             axes.plot(h, error, color=color, linestyle=line, marker=marker, label=f"{elements} in {norm}, theory $h^{order}$")
-            axes.plot(h, [error[-1] * (x / h[-1]) ** order for x in h], color=style.black, linestyle=(0, (1, 2)), linewidth=0.7)
+            dotted += theory(ladder, order)
+            axes.plot(h, records.numbers(dotted[-len(h):], "value"), color=style.black, linestyle=(0, (1, 2)), linewidth=0.7)
     axes.set_xscale("log", base=2)
     axes.set_yscale("log")
     axes.set_xlabel("cell size over the cube's side")
     axes.set_ylabel("error over the solution's norm")
     axes.set_title("manufactured solution; dotted: theory")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncol=2)
+    return dotted
 
 
 def draw_locking(axes, rows):
@@ -114,7 +124,7 @@ def draw(results, figures):
     if not shown:
         raise records.RecordsMissing("verification.csv: no benchmark")
     figure, (above, below) = style.stacked((2, 2.5), (1, 2.9))
-    draw_convergence(above[0], manufactured)
+    dotted = draw_convergence(above[0], manufactured)
     draw_locking(above[1], locking)
     draw_benchmarks(below[0], shown)
-    style.save(figure, figures / "verification", records.provenance(results / "verification"), manufactured + locking + shown)
+    style.save(figure, figures / "verification", records.provenance(results / "verification"), manufactured + dotted + locking + shown)
