@@ -39,8 +39,8 @@ SurfaceMesh ring_surface()
     const std::vector<Centre> line = centre_line();
     const int along = static_cast<int>(line.size());
     SurfaceMesh ring;
-    ring.points.resize(along * around_tube, 3);
-    ring.triangles.resize(2 * along * around_tube, 3);
+    ring.points.resize(Eigen::Index{along} * around_tube, 3);
+    ring.triangles.resize(2 * ring.points.rows(), 3);
     const auto index = [&](int i, int k) { return i % along * around_tube + k % around_tube; };
     Eigen::Index t = 0;
     for (int i = 0; i < along; ++i)

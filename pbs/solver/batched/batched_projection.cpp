@@ -213,7 +213,7 @@ template <typename Scalar>
 std::size_t BatchedProjection<Scalar>::bytes_an_iteration() const
 {
     const std::size_t positions = 4 * sizeof(Scalar) * batched_.order.old_of_new.size();
-    return batched_.stretch.bytes() + batched_.volume.bytes() + bind_.size() * sizeof(BindBatch<Scalar>) + 2 * 3 * positions;
+    return batched_.stretch.bytes() + batched_.volume.bytes() + bind_.size() * sizeof(BindBatch<Scalar>) + 2 * positions * 3;
 }
 
 template class BatchedProjection<float>;
