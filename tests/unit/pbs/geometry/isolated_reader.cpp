@@ -13,6 +13,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -99,9 +100,7 @@ std::uintmax_t available_bytes()
 // However large the file: a sparse one has any size at no cost.
 TEST(IsolatedReader, MoreThanHalfOfTheMemoryIsNotGiven)
 {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    GTEST_SKIP() << "no limit on addresses";
-#endif
+    if (std::getenv("PBS_SANITIZED")) GTEST_SKIP() << "sanitizers reserve terabytes: no limit on addresses";
     const test_support::ScratchFolder folder;
     const std::string path = folder.file("sparse.vtu", "");
     std::filesystem::resize_file(path, std::uintmax_t(1) << 36);
