@@ -12,7 +12,7 @@ import installation
 from installation import BUILD, CMAKE, SOURCE, folder, run
 
 project = SOURCE / "tests/packaging/method_consumer"
-# Of the build under test: a sanitizer's are asked of all that is linked with it.
+# Of the build under test.
 own_flags = re.search(r"^CMAKE_CXX_FLAGS:STRING=(.*)$", (BUILD / "CMakeCache.txt").read_text(), re.MULTILINE)[1]
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Tells README's table what a run of ctest counted, from its JUnit report.
 
-    PBS_RELIABILITY_DIR=DIR junit_counts.py results/check/asan.xml asan "tests under the address sanitizer without a report"
+    PBS_RELIABILITY_DIR=DIR junit_counts.py results/check/tsan.xml tsan "tests without a report of the thread sanitizer"
 """
 import os
 import pathlib
