@@ -15,6 +15,7 @@
 #include "pbs/geometry/meshing.hpp"
 
 #include <filesystem>
+#include <utility>
 
 namespace pbs {
 namespace {
@@ -82,20 +83,40 @@ void require_bones_of_the_meshs_size(const Character& character, const std::stri
                      "expected 1/25 to 25: mesh and skeleton in different units (skeleton_scale)?");
 }
 
+// A file's name and the hash of the bytes that were read, for they were the same before and after.
+class InputFile {
+public:
+    explicit InputFile(const std::string& path) : path_(path)
+    {
+        try {
+            before_ = hash_of_file(path);
+        } catch (const InputError&) {  // its reader says why
+        }
+    }
+    std::pair<std::string, std::string> hashed() const
+    {
+        if (hash_of_file(path_) != before_) throw InputError(path_, 0, "", "", "was changed while it was read");
+        return {file_name(path_), before_};
+    }
+
+private:
+    std::string path_, before_;
+};
+
 Character make_from_files(const CharacterSource& source, std::vector<std::string>& remarks)
 {
     if (source.mesh_file.empty()) throw InputError("", 0, "character.mesh", "", "missing: expected a body, or a mesh and a skeleton");
     if (source.skeleton_file.empty()) throw InputError("", 0, "character.skeleton", "", "missing: a mesh from a file needs a skeleton");
     Character character;
     character.name = file_name(source.mesh_file);
+    const InputFile mesh_file(source.mesh_file), skeleton_file(source.skeleton_file);
     MeshReading reading = read_tet_mesh(source.mesh_file);
     remarks = remarks_on(source.mesh_file, reading);
     character.mesh = std::move(reading.mesh);
     character.skeleton = read_skeleton_of(source);
     require_bones_at_the_mesh(character, source.skeleton_file);
     require_bones_of_the_meshs_size(character, source.skeleton_file);
-    character.inputs = {{file_name(source.mesh_file), hash_of_file(source.mesh_file)},
-                        {file_name(source.skeleton_file), hash_of_file(source.skeleton_file)}};
+    character.inputs = {mesh_file.hashed(), skeleton_file.hashed()};
     return character;
 }
 
@@ -152,9 +173,10 @@ Character make_character(const CharacterSource& source, std::vector<std::string>
     character.binding = bind_to_nearest_bone(character.mesh.rest, character.skeleton);
     const Weights paper = paper_weights(character.binding, character.skeleton);
     for (int vertex = 0; vertex < paper.vertices(); ++vertex) character.blended.push_back(paper.blended(vertex));
+    const InputFile weights_file(source.weights_file);
     character.weights = weights_of(character, source, paper);
     character.weight_kind = source.weights_file.empty() ? source.weights : WeightKind::file;
-    if (!source.weights_file.empty()) character.inputs.emplace_back(file_name(source.weights_file), hash_of_file(source.weights_file));
+    if (!source.weights_file.empty()) character.inputs.push_back(weights_file.hashed());
     for (int level = 0; level < source.refinements; ++level) character = refined(character);
     return character;
 }
