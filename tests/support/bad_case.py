@@ -13,6 +13,7 @@ import run_records
 PBSKIN = os.environ["PBSKIN"]
 SANITIZED = "PBS_SANITIZED" in os.environ  # several times as slow and as large, and terabytes of addresses are reserved
 SLOWER = 10 if SANITIZED else 1
+UNLIMITED = re.compile(r"huge|a_word_for_an_index|negative_index\.msh 4\.1$")  # cases whose reader ends otherwise without a limit on memory
 MOST_SECONDS, MOST_BYTES = 5.0 * SLOWER, SLOWER << 30  # of processor time, as other work must not fail a case; of each process
 MOST_WAITING_SECONDS = {2: 25.0 * SLOWER, 0: 240.0}  # by the exit status that is expected; then it hangs
 NOBODY = {"user": 65534, "group": 65534, "extra_groups": []}
@@ -141,7 +142,8 @@ def problems(case, common):
     found = [f"exit status {given.status}, expected {case.status}"] if given.status != case.status else []
     if case.status == 2:
         found += what_is_wrong_with(given.told, case, common)
-    found += [f"does not say {word!r}" for word in case.says if word not in given.told]
+    if not (SANITIZED and UNLIMITED.search(case.name)):
+        found += [f"does not say {word!r}" for word in case.says if word not in given.told]
     found += [f"says {word!r}" for word in WORDS_OF_NO_USER if word in given.told]
     if case.status == 2 and given.seconds > MOST_SECONDS:
         found.append(f"took {given.seconds:.1f} s of processor time")
