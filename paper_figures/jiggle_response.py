@@ -43,8 +43,8 @@ def draw_reference(axes, rows):
     for row in found:
         fem = row["deformer"] != "pbs"
         for panels, (measure, *_) in zip(axes, measures):
-            panels[0].plot(float(row["k_stretch"]), float(row[measure]), linestyle="none", marker="D" if fem else "o", markersize=5,
-                           color=style.black, markerfacecolor=style.yellow if fem else "white",
+            panels[0].plot(float(row["k_stretch"]), float(row[measure]), linestyle="none", marker="*" if fem else "o", markersize=8,
+                           color=style.black, markerfacecolor=style.yellow if fem else "none", markeredgewidth=0.8,
                            label="neo-Hookean FEM in time, limb" if fem else "PBS on the FEM's mesh")
     return [{"body": "limb_reference", "varied": ""} | {name: row[name] for name in sorted(columns)} for row in found]
 

@@ -70,6 +70,8 @@ def draw(results, figures):
         draw_case(panel, rows, fronts)
     for panel in axes.flat[len(shown):]:
         panel.set_visible(False)
+    axes.flat[0].plot([], [], linestyle="none", marker="o", color="#777777", markersize=2.6, alpha=0.45,
+                      label="small marks: every setting; lines: each one's front")
     style.legend_above(figure, columns=4)
     behind = [{name: row[name] for name in ("body", "pose", "deformer", "setting", "ms_median", "error_joint_pct")}
               for rows in shown for row in measured(rows)]

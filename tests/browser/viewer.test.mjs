@@ -256,6 +256,20 @@ test("a claim's link opens its pose", async () => {
     }
 });
 
+test("without an address the first claim's pose is open", async () => {
+    const other = await open_viewer(file);
+    try {
+        const [pose] = truth.poses;
+        const { run, frame, claim } = await other.page.evaluate(() => {
+            const { viewer, state: { now } } = window.viewer;
+            return { run: now.run, frame: viewer.run.frames[now.at], claim: now.claim };
+        });
+        assert.deepEqual({ run, frame, claim }, { run: pose.run, frame: pose.frame, claim: pose.claim });
+    } finally {
+        await other.close();
+    }
+});
+
 for (const [name, width, height] of [["desktop", 1280, 900], ["phone", 390, 844]]) {
     test(`nothing is wider than ${width} px, every control can be pressed`, async () => {
         const other = await open_viewer(file, "#claim=C01", { width, height, touch: width < 500 });

@@ -27,7 +27,7 @@ export class Viewer {
         this.state.on_change((now, changed) => this.update(now, changed));
         new Player(this.state, () => this.run.frames.length);
         this.update(this.state.now, new Set(Object.keys(this.state.now)));
-        this.open(location.hash, false);
+        this.open(pose_of(location.hash) ? location.hash : first_pose(data.poses), false);
         window.addEventListener("hashchange", () => this.open(location.hash, true));
     }
 
@@ -165,6 +165,11 @@ export class Viewer {
         action();
         this.redraw();
     }
+}
+
+// Where no address asks for a pose: a claim's own says more than a body at rest.
+function first_pose(poses) {
+    return poses.length ? `#claim=${poses[0].claim}` : "";
 }
 
 function links_to(poses) {

@@ -117,8 +117,8 @@ class Captions(unittest.TestCase):
         rows = [{"largest_mm": mm, "farthest_bone": bone, "time_s": time_s} for mm, bone, time_s in (
             (31.9, "upper_arm.R", 0.0), (65.1, "neck", 1.92))]
         text = self.told("fig_09_jiggle", rows)
-        self.assertIn("Farthest apart: 32 mm at upper_arm.R (0.00 s), 65 mm at neck (1.92 s).", text)
-        self.assertIn("moved yet: 32 mm at upper_arm.R (0.00 s) is softness", text)
+        self.assertIn("Farthest apart: 32 mm at the right upper arm (0.00 s), 65 mm at the neck (1.92 s).", text)
+        self.assertIn("moved yet: 32 mm at the right upper arm (0.00 s) is softness", text)
 
     def test_it_is_written_with_the_figure_and_deleted_with_it(self):
         synthetic_records.write_study(self.figures)
