@@ -8,18 +8,20 @@
 
 namespace analysis {
 
+// A figure and how sure it is, in its own unit; NaN bounds: not known.
 struct Interval {
-    double estimate = 0.0, low = 0.0, high = 0.0;
-    double level = 0.95;
-    int n = 0;      // samples
-    int block = 0;  // length of the blocks; 0: no bootstrap
+    double estimate = 0.0, low = 0.0, high = 0.0;  // the figure and its bounds
+    double level = 0.95;                           // of confidence, two-sided
+    int n = 0;                                     // samples
+    int block = 0;                                 // length of the blocks; 0: no bootstrap
 };
 
+// The same options and series give the same interval to the bit.
 struct BootstrapOptions {
-    double level = 0.95;
-    int resamples = 2000;
-    unsigned long seed = 20140528;
-    int block = 0;  // 0: chosen by `block_length`
+    double level = 0.95;            // 0 to 1, of confidence
+    int resamples = 2000;           // series drawn
+    unsigned long seed = 20140528;  // of GSL's mt19937
+    int block = 0;                  // 0: chosen by `block_length`
     // Of the figures behind a share [samples]: where every sample holds, or none, the bootstrap sees no spread; the exact binomial bound
     // (Clopper and Pearson 1934) of n / autocorrelation_time independent samples is taken instead.
     double autocorrelation_time = 1.0;
@@ -31,6 +33,7 @@ int block_length(const std::vector<double>& series);
 
 // NaN bounds for fewer than two samples or values that are not finite.
 Interval bootstrap_mean(const std::vector<double>& series, const BootstrapOptions& options = {});
+// The share of samples that hold, 0 to 1; see autocorrelation_time where all hold, or none.
 Interval bootstrap_share(const std::vector<bool>& holds, const BootstrapOptions& options = {});
 
 }  // namespace analysis

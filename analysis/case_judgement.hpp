@@ -7,31 +7,36 @@
 
 namespace analysis {
 
-enum class Extent { none, part, whole };  // of the case, for which the claim holds
+// Of a case, for how much of it the claim holds; in rising order.
+enum class Extent { none, part, whole };
 
+// Of a sweep, both ends among the angles that were sampled.
 struct AngleRange {
-    double from_deg = 0.0, to_deg = 0.0;
+    double from_deg = 0.0, to_deg = 0.0;  // equal for a single frame
 };
 
+// A frame outside the bound.
 struct FailingFrame {
-    double frame = 0.0, time_s = 0.0, angle_deg = 0.0, value = 0.0, inverted_tets = 0.0;
+    double frame = 0.0, time_s = 0.0, angle_deg = 0.0, value = 0.0, inverted_tets = 0.0;  // value: of the metric; angle_deg NaN for clips
 };
 
+// A record without frames gives extent none and figures of 0.
 struct CaseJudgement {
-    std::string scene, deformer, variant, metric, run;
-    ClaimRule rule = ClaimRule::share_within;
-    int iterations = 0, frames = 0;
-    bool sweep = false;
-    Extent extent = Extent::none;
-    Interval mean;                       // of the metric over the frames; a sweep's frames are no sample and have no bounds
-    Interval share;                      // of frames within the bound
-    std::vector<AngleRange> angles;      // of a sweep: share_within up to the first failure, mean_within wherever it holds
-    double last_angle_deg = 0.0;         // of a sweep
-    double least = 0.0, most = 0.0;      // of the metric
-    int holding_with_inverted_tets = 0;  // frames within the bound although tets are inverted
-    std::vector<FailingFrame> deepest;   // share_within: at most three, farthest outside first; what is not a number before all
+    std::string scene, deformer, variant, metric, run;  // as in the record; the metric as the claim names it
+    ClaimRule rule = ClaimRule::share_within;           // share_within or mean_within
+    int iterations = 0, frames = 0;                     // iterations a step, 0: the deformer has none; frames judged
+    bool sweep = false;                                 // of angles, not a clip
+    Extent extent = Extent::none;                       // by the rule, see experiments/claims.toml
+    Interval mean;                                      // of the metric over the frames; a sweep's frames are no sample and have no bounds
+    Interval share;                                     // of frames within the bound
+    std::vector<AngleRange> angles;                     // of a sweep: share_within up to the first failure, mean_within wherever it holds
+    double last_angle_deg = 0.0;                        // of a sweep
+    double least = 0.0, most = 0.0;                     // of the metric; both NaN where a frame is
+    int holding_with_inverted_tets = 0;                 // frames within the bound although tets are inverted
+    std::vector<FailingFrame> deepest;  // share_within: at most three, farthest outside first; what is not a number before all
 };
 
+// By the claim's low, high, share, part and level. InputError as metric_series.
 CaseJudgement judge_case(const Claim& claim, const CaseRecord& record, const std::string& metric);
 
 std::string case_name(const CaseJudgement& judgement);      // limb_twist, or limb_twist (jiggle)

@@ -10,28 +10,28 @@ namespace analysis {
 
 // One deformer on one scene: a row of metrics.csv a frame.
 struct CaseRecord {
-    std::string scene, deformer, variant;
-    std::string order = "", precision = "";        // of projection; empty: the deformer has none
+    std::string scene, deformer, variant;          // as in metrics.csv; the variant may be empty or "default"
+    std::string order = "", precision = "";        // of projection; both empty: the deformer has none
     int iterations = 0;                            // 0: the deformer has none
-    std::vector<double> frame, time_s, angle_deg;  // angle_deg is empty for clips
+    std::vector<double> frame, time_s, angle_deg;  // #frames each; angle_deg is empty for clips
     int frames_not_converged = 0;                  // left out of the series
-    std::vector<double> volume_change_pct, volume_abs_change_pct, inverted_tets;
-    std::string run;      // the folder it came from, as to be named in reports
+    std::vector<double> volume_change_pct, volume_abs_change_pct, inverted_tets;  // #frames each, by FrameMetrics
+    std::string run;                                                              // the folder it came from, as to be named in reports
     bool beside = false;  // the same body and motion once more (another mesh, another reference): shown, no part of a verdict
 
-    bool is_sweep() const { return !angle_deg.empty(); }
+    bool is_sweep() const { return !angle_deg.empty(); }  // of one joint through angle_deg
 };
 
 // What one could not run here, and why: a character whose package is not installed.
 struct LeftOut {
-    std::string scene, reason;
+    std::string scene, reason;  // the reason in words, for reports
 };
 
 // A figure in print and the bounds that other figures of the paper put on it.
 struct PrintedFigure {
-    std::string claim;  // its id
-    std::string what;
-    double printed = 0.0, least = 0.0, most = 0.0;
+    std::string claim;                              // its id
+    std::string what;                               // the figure in words
+    double printed = 0.0, least = 0.0, most = 0.0;  // in print, and its bounds; most may be infinite
 };
 
 // A figure that a study measured for a claim: a row of measurements.csv.
@@ -39,16 +39,17 @@ struct Measurement {
     std::string claim;                          // its id
     std::string quantity;                       // as the claim's `metrics` name it
     std::string of;                             // the case: character, pose, setting
-    double value = 0.0, low = 0.0, high = 0.0;  // with its interval; where there is none, low and high are the value
+    double value = 0.0, low = 0.0, high = 0.0;  // in `unit`, with its interval; where there is none, low and high are the value
     std::string unit;                           // 1 where there is none
     std::string run = {};                       // the folder it came from
 };
 
+// All that a claim is judged from.
 struct Records {
-    std::vector<CaseRecord> cases = {};
-    std::vector<LeftOut> left_out = {};
-    std::vector<PrintedFigure> printed = {};
-    std::vector<Measurement> measurements = {};
+    std::vector<CaseRecord> cases = {};            // of all scenes and deformers
+    std::vector<LeftOut> left_out = {};            // named in the verdict
+    std::vector<PrintedFigure> printed = {};       // of all claims with rule = "printed"
+    std::vector<Measurement> measurements = {};    // of all claims with rule = "measured"
     std::vector<std::string> missing_runs = {};    // planned, and not ended: what is measured cannot be judged without them
     std::vector<std::string> planned_scenes = {};  // each must have a record or be left out, or the verdict cannot be computed
 };
@@ -56,9 +57,11 @@ struct Records {
 // The cases in a metrics.csv: its rows grouped by scene, deformer, variant, order, precision, iterations and threads, in order of first
 // appearance; empty iterations (a deformer that has none) are 0. A column angle_deg, filled in throughout a case, makes it a sweep.
 // Left out and counted: rows of a deformer without iterations, that is a reference, whose outcome is not_converged. They show another pose.
+// InputError for a missing column, for what is no number, and for a case with angles in some frames only. run: for CaseRecord::run.
 std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string& run);
 
-// The figures of a printed.csv: claim, what, printed, least, most; an empty most is no bound.
+// The figures of a file printed.csv: claim, what, printed, least, most; an empty most is no bound. InputError as read_csv, for a missing
+// column and what is no number.
 std::vector<PrintedFigure> printed_figures(const std::string& csv);
 
 // The series that a metric of a claim names, #frames; InputError for an unknown name or a record with series of different lengths.

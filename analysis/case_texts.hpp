@@ -6,7 +6,7 @@
 
 namespace analysis {
 
-std::string figure(double value);
+std::string figure(double value);                                  // 0 below 5e-4 in size; nan for what is not a number
 std::string bounds_text(const Interval& interval, double factor);  // " [5.1, 7.3]"; nothing for an interval without bounds
 std::string share_text(const CaseJudgement& judgement);            // 0 % [0, 2.54] of 573 frames
 std::string span_text(const CaseJudgement& judgement);             // -3.44 to -0.644 %

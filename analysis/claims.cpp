@@ -101,6 +101,7 @@ Claim read_claim(const toml::table& table, const std::string& file)
     reader.optional("part", claim.part);
     reader.optional("level", claim.level);
     reader.optional("reason", claim.reason);
+    reader.optional("formulae", claim.formulae);
     reader.require_nothing_unknown();
     if (!rules.contains(rule)) reader.refuse("rule", "expected share_within, mean_within, measured, printed or untestable");
     claim.rule = rules.at(rule);

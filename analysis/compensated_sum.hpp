@@ -6,8 +6,10 @@
 
 namespace analysis {
 
+// A. Neumaier, Z. Angew. Math. Mech. 54, 1974.
 class CompensatedSum {
 public:
+    // Any double; what is not finite stays.
     CompensatedSum& operator+=(double term)
     {
         const double next = sum_ + term;
@@ -15,7 +17,7 @@ public:
         sum_ = next;
         return *this;
     }
-    double value() const { return std::isfinite(lost_) ? sum_ + lost_ : sum_; }
+    double value() const { return std::isfinite(lost_) ? sum_ + lost_ : sum_; }  // 0 without terms
 
 private:
     double sum_ = 0.0, lost_ = 0.0;

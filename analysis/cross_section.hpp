@@ -9,6 +9,7 @@
 
 namespace analysis {
 
+// Through a point; what lies on the side of the normal is above.
 struct Plane {
     pbs::Vec3 point;   // [m]
     pbs::Vec3 normal;  // of any length but zero
@@ -21,18 +22,20 @@ double cross_section_area(const pbs::Positions& positions, const pbs::Tets& tets
 // A place along a limb: the same material plane at rest and in the pose, and the tets of that limb (another limb that the plane also
 // meets is left out by not being in the list).
 struct SectionStation {
-    Plane rest, posed;
-    std::vector<int> tets;
+    Plane rest, posed;          // with normals of any length but zero
+    std::vector<int> tets;      // indices into #T
     double rest_area_m2 = 0.0;  // of its tets in the plane at rest; 0: measured
 };
 
+// Without stations the ratios are 1.
 struct SectionExtremes {
-    std::vector<double> area_m2, ratio;  // one a station; ratio: posed over rest
-    int smallest = -1, largest = -1;     // stations of the extreme ratios; -1 without stations
-    double smallest_ratio = 1.0, largest_ratio = 1.0;
+    std::vector<double> area_m2, ratio;                // one a station: in the pose, and over rest
+    int smallest = -1, largest = -1;                   // stations of the extreme ratios; -1 without stations
+    double smallest_ratio = 1.0, largest_ratio = 1.0;  // of those stations
 };
 
-// InputError for a station whose plane misses its tets at rest, or whose normal is zero.
+// InputError for a station whose plane misses its tets at rest, whose normal is zero or whose tets are out of range, and for positions of
+// another number than rest.
 SectionExtremes section_extremes(const pbs::Positions& rest, const pbs::Positions& positions, const pbs::Tets& tets,
                                  const std::vector<SectionStation>& stations);
 

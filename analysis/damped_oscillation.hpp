@@ -13,10 +13,11 @@ namespace analysis {
 // overdamped: it creeps back, w is nothing but a rate; too_short: fewer than 8 samples before it has died away; unclear: less than half of
 // its variance is the model's; none: it does not move.
 enum class OscillationOutcome { found, overdamped, too_short, unclear, none };
-const char* name_of(OscillationOutcome outcome);
+const char* name_of(OscillationOutcome outcome);  // as it is spelt in the enum
 
+// Figures are to be used only where found().
 struct DampedOscillation {
-    OscillationOutcome outcome = OscillationOutcome::none;
+    OscillationOutcome outcome = OscillationOutcome::none;  // what the series shows
     // w / 2 pi, and d / sqrt(d^2 + w^2): 0 for ever, 1 does not swing. Intervals by Student's t from the fit's covariance; what the model
     // leaves of a body with many modes is no white noise, so they are narrow.
     Interval frequency_hz, damping_ratio;
@@ -24,9 +25,11 @@ struct DampedOscillation {
     double explained = 0.0;                // share of the variance
     int samples = 0;                       // fitted to: until what is left is 2 % of the largest excursion
 
-    bool found() const { return outcome == OscillationOutcome::found; }
+    bool found() const { return outcome == OscillationOutcome::found; }  // with intervals for frequency and damping
 };
 
+// series: at equal steps of dt_s [s] from t = 0, in any unit; level: of the intervals. Nothing is thrown: an empty series, one at rest and
+// one that is not finite give none.
 DampedOscillation fit_damped_oscillation(const std::vector<double>& series, double dt_s, double level = 0.95);
 
 }  // namespace analysis

@@ -10,6 +10,7 @@ namespace analysis {
 double largest_edge_strain(const pbs::Positions& rest, const pbs::Edges& edges, const pbs::Positions& positions);
 
 // Median over the edges of l / l0: near 1 for whatever a body does, near a power of ten for one in other units. 1 without edges.
+// InputError as largest_edge_strain.
 double median_edge_ratio(const pbs::Positions& rest, const pbs::Edges& edges, const pbs::Positions& positions);
 
 }  // namespace analysis

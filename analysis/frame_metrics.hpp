@@ -7,21 +7,22 @@
 
 namespace analysis {
 
+// In terms of the signed tet volumes V_t, in double; compensated sums.
 struct FrameMetrics {
     double volume_change_pct = 0.0;      // 100 (V - V0) / V0, signed
     double volume_abs_change_pct = 0.0;  // 100 sum |V_t - V0_t| / V0
     int inverted_tets = 0;               // V_t <= 0, or not a number
     double mean_abs_j_minus_1 = 0.0;     // sum V0_t |J_t - 1| / V0, J_t = V_t / V0_t
-    double j_min = 0.0;
-    double stretch_rms = 0.0;  // rms of l / l0 - 1 over edges
+    double j_min = 0.0;                  // the least J_t, negative where inverted
+    double stretch_rms = 0.0;            // rms of l / l0 - 1 over edges
 };
 
 // What does not change from frame to frame. Throws InputError for a rest mesh with indices out of range or a tet without positive volume,
 // and for a frame with another number of points.
 class Ruler {
 public:
-    Ruler(const pbs::Positions& rest, const pbs::Tets& tets);
-    FrameMetrics measure(const pbs::Positions& positions) const;
+    Ruler(const pbs::Positions& rest, const pbs::Tets& tets);              // [m], #V x 3; #T x 4
+    FrameMetrics measure(const pbs::Positions& positions) const;           // [m], #V x 3
     Eigen::VectorXd volume_ratios(const pbs::Positions& positions) const;  // J_t, #T
 
 private:
@@ -35,7 +36,7 @@ private:
     Eigen::Index vertices_ = 0;
 };
 
-// rms of |x_i - q_i| - d_i [m].
+// rms of |x_i - q_i| - d_i [m], all of #V; 0 without vertices. InputError for another number of bind points than positions.
 double bind_rms(const pbs::Positions& positions, const pbs::Positions& bind_points, const Eigen::VectorXd& bind_distance);
 
 }  // namespace analysis

@@ -10,10 +10,11 @@ namespace analysis {
 
 // y = intercept + slope x. Intervals by Student's t with n - 2 degrees of freedom; NaN bounds for two points.
 struct LineFit {
-    Interval slope, intercept;
+    Interval slope, intercept;  // in y / x and y
     double residual_rms = 0.0;  // sqrt(sum of squared residuals / n)
 };
 
+// InputError unless there are as many y as x, at least two, with x that differ.
 LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y, double level = 0.95);
 
 // error = c h^p: p is the slope, log c the intercept. InputError unless all values are positive.

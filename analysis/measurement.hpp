@@ -10,10 +10,11 @@
 
 namespace analysis {
 
+// The rows of the file `csv`; run is left empty. InputError as read_csv, for a missing column and what is no number.
 std::vector<Measurement> measurements(const std::string& csv);
-CsvTable measurement_table(const std::vector<Measurement>& measurements);
+CsvTable measurement_table(const std::vector<Measurement>& measurements);  // what measurements() reads, without run
 
-QuantityBound bound_of(const Claim& claim, const std::string& quantity);
+QuantityBound bound_of(const Claim& claim, const std::string& quantity);  // from claim.bounds, else the claim's low and high
 
 // whole: the interval lies in the claim's bound of the quantity; part: the value does; none: it does not, or is not a number.
 Extent extent_of(const Claim& claim, const Measurement& measured);

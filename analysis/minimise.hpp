@@ -12,8 +12,9 @@
 
 namespace analysis {
 
-using Misfit = std::function<double(double parameter)>;
+using Misfit = std::function<double(double parameter)>;  // any unit; not a number where it has no value
 
+// samples >= 3, else InputError.
 struct MinimiseOptions {
     int samples = 17;           // evenly over the interval, ends included: the deepest one brackets the minimum that is taken
     double tolerance = 1e-5;    // of the parameter, as a share of the interval
@@ -22,28 +23,32 @@ struct MinimiseOptions {
     double least_rise = 0.01;   // where the value then rises by less than this share of itself, the parameter is not identifiable
 };
 
+// Why the search ended; only converged has a minimum inside.
 enum class MinimumOutcome {
     converged,
     at_lower_bound,        // the deepest value lies at the end of the interval: the true minimum is there or beyond
-    at_upper_bound,        //
+    at_upper_bound,        // the same at the other end
     flat,                  // all samples are equal but for rounding
     not_finite,            // no sample is a number, or one inside the bracket is not
     iterations_exhausted,  // the bracket is still wider than the tolerance
 };
-const char* name_of(MinimumOutcome outcome);
+const char* name_of(MinimumOutcome outcome);  // as it is spelt in the enum
 
+// A point that the function was asked at.
 struct Evaluation {
-    double parameter = 0.0, value = 0.0;
+    double parameter = 0.0, value = 0.0;  // the value as it came, NaN too
 };
 
+// x and value are the best there is, whatever the outcome.
 struct Minimum {
-    MinimumOutcome outcome = MinimumOutcome::not_finite;
-    double x = 0.0, value = 0.0;  // the best point evaluated; NaN where none was a number
+    MinimumOutcome outcome = MinimumOutcome::not_finite;  // why it ended
+    double x = 0.0, value = 0.0;                          // the best point evaluated; NaN where none was a number
     double rise = 0.0;  // least of value(x (1 +- perturbation)) / value - 1, over the sides inside the interval; infinite for value 0
     bool flat_valley = false;             // rise < least_rise
     int iterations = 0;                   // of Brent's method
     std::vector<Evaluation> evaluations;  // all of them, by increasing parameter
 
+    // Only then x says something of the parameter.
     bool identifiable() const { return outcome == MinimumOutcome::converged && !flat_valley; }
 };
 
@@ -58,6 +63,7 @@ struct FittedParameter {
     Interval interval;            // jackknife: all.x +- Student's t (n - 1) times sqrt((n - 1) / n sum (without - their mean)^2), cut to
                                   // [low, high]; NaN bounds for fewer than two cases
 };
+// One misfit a case, >= 0; each is asked once at a parameter. level: of the interval. InputError as minimise, and without any case.
 FittedParameter fit_over_cases(const std::vector<Misfit>& misfits, double low, double high, const MinimiseOptions& options = {},
                                double level = 0.95);
 

@@ -11,6 +11,7 @@
 
 namespace analysis {
 
+// One measured point; less is better of both.
 struct WorkPrecision {
     double cost = 0.0;   // of any unit, the same for all points
     double error = 0.0;  // of any unit, the same for all points

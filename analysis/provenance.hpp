@@ -11,19 +11,21 @@
 
 namespace analysis {
 
+// What two machines of a kind agree on, and what a run adds to it.
 struct Provenance {
-    std::string version;       // of pbskin
-    std::string git_revision;  // 40 digits; "unknown" without git or outside a checkout
-    bool git_dirty = false;    // tracked files differed from the revision when this was built
-    std::string compiler, flags, build_type;
-    std::string cpu_model;  // as /proc/cpuinfo has it
-    int logical_cpus = 0;
+    std::string version;                              // of pbskin
+    std::string git_revision;                         // 40 digits; "unknown" without git or outside a checkout
+    bool git_dirty = false;                           // tracked files differed from the revision when this was built
+    std::string compiler, flags, build_type;          // of this build, as CMake knows them
+    std::string cpu_model;                            // as /proc/cpuinfo has it
+    int logical_cpus = 0;                             // 0 where the system does not tell
     int threads = 0;                                  // the run's
-    std::map<std::string, std::string> libraries;     // name -> version
+    std::map<std::string, std::string> libraries;     // name -> version; those of this module, others are added
     std::map<std::string, std::string> input_hashes;  // file name -> content_hash_of_file
 };
 
+// Of this build and machine; input_hashes are left to the caller. threads: that the run uses.
 Provenance collect_provenance(int threads);
-void to_json(nlohmann::json& document, const Provenance& provenance);
+void to_json(nlohmann::json& document, const Provenance& provenance);  // an object, keys as the fields are called
 
 }  // namespace analysis

@@ -8,18 +8,20 @@
 
 namespace analysis {
 
+// Signed tet volumes; all 0 for a number that no tet has.
 struct RegionVolume {
-    double rest_m3 = 0.0;
+    double rest_m3 = 0.0;        // sum V0_t
     double change_m3 = 0.0;      // sum V_t - V0_t, signed
     double abs_change_m3 = 0.0;  // sum |V_t - V0_t|
 };
 
+// Regions are numbered from 0 up to the highest.
 class RegionRuler {
 public:
     // region: of each tet, 0 or more; -1: in none, #T. Throws InputError unless there is one for each tet.
     RegionRuler(const pbs::Positions& rest, const pbs::Tets& tets, const std::vector<int>& region);
 
-    std::vector<RegionVolume> measure(const pbs::Positions& positions) const;  // by region
+    std::vector<RegionVolume> measure(const pbs::Positions& positions) const;  // by region; [m], #V x 3, not checked
     double rest_volume_m3() const { return rest_volumes_.sum(); }              // of all tets, those in no region too
 
 private:

@@ -13,9 +13,9 @@ namespace analysis {
 // Radii are distances from the outline's own centroid (of its length), so that flesh that moved aside as a whole has not grown thinner.
 struct OutlineSize {
     double area_m2 = 0.0;  // enclosed; where the outline crosses itself, what it goes round clockwise is taken off
-    double smallest_radius_m = 0.0, largest_radius_m = 0.0;
+    double smallest_radius_m = 0.0, largest_radius_m = 0.0;  // to the nearest point of a side; to the farthest corner
 };
-OutlineSize outline_size(const pbs::Positions& outline);
+OutlineSize outline_size(const pbs::Positions& outline);  // all 0 for no points
 
 // How often the outline goes round the plane's point; 0: the point lies outside.
 int winding_number(const pbs::Positions& outline, const Plane& plane);

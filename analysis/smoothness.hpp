@@ -10,17 +10,20 @@
 
 namespace analysis {
 
+// Both 0 at rest and where there is nothing to measure.
 struct Smoothness {
     // rms over inner faces, weighted by rest area, of |E - E'|, E = (F^T F - 1) / 2 of the tets on both sides (Green), Frobenius norm.
     double strain_jump_rms = 0.0;
     double bending_rms_rad = 0.0;  // rms over the skin's edges, weighted by rest length, of the dihedral angle's change
 };
 
+// Keeps what it needs of the rest pose.
 class SmoothnessRuler {
 public:
     // near: vertices of the region, #V; faces and edges all of whose corners are in it are measured. A region without any measures 0.
+    // InputError for a mesh that checked_rest_volumes refuses, and another number of entries than vertices.
     SmoothnessRuler(const pbs::Positions& rest, const pbs::Tets& tets, const std::vector<bool>& near);
-    Smoothness measure(const pbs::Positions& positions) const;
+    Smoothness measure(const pbs::Positions& positions) const;  // [m], #V x 3, else InputError
 
 private:
     struct InnerFace {

@@ -10,16 +10,17 @@
 
 namespace analysis {
 
+// A stream: only the bytes and their order count, not in which portions they were added.
 class StateHash {
 public:
     StateHash();
     ~StateHash();
-    StateHash(StateHash&&) noexcept;
-    StateHash& operator=(StateHash&&) noexcept;
+    StateHash(StateHash&&) noexcept;             // what is moved from may only be assigned to
+    StateHash& operator=(StateHash&&) noexcept;  // likewise
 
-    void add(const pbs::Positions& positions);
-    void add_bytes(const void* bytes, std::size_t count);
-    std::string hex() const;  // of what was added so far
+    void add(const pbs::Positions& positions);             // row after row, 24 bytes a vertex
+    void add_bytes(const void* bytes, std::size_t count);  // as they lie in memory; none for 0
+    std::string hex() const;                               // of what was added so far
 
 private:
     struct State;

@@ -6,10 +6,10 @@
 
 namespace analysis {
 
-inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();  // NaN, for figures that could not be computed
 
-double mean(const std::vector<double>& values);
-double median(const std::vector<double>& values);
+double mean(const std::vector<double>& values);                // NaN where a value is
+double median(const std::vector<double>& values);              // quantile at 0.5
 double quantile(std::vector<double> values, double share);     // linear between the order statistics at share (n - 1), 0 <= share <= 1
 double standard_deviation(const std::vector<double>& values);  // n - 1 in the denominator
 double standard_error(const std::vector<double>& values);      // of the mean of independent values

@@ -15,7 +15,7 @@ double enclosed_volume(const pbs::Positions& points, const pbs::Triangles& trian
 class SurfaceVolume {
 public:
     SurfaceVolume(const pbs::Positions& rest, const pbs::Triangles& triangles);  // InputError where V0 is not positive
-    double change_pct(const pbs::Positions& posed) const;                        // 100 (V - V0) / V0
+    double change_pct(const pbs::Positions& posed) const;  // 100 (V - V0) / V0; InputError for another number of points
 
 private:
     pbs::Triangles triangles_;

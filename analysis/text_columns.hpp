@@ -10,11 +10,12 @@ namespace analysis {
 // Lines of at most `width` characters (of UTF-8, not bytes); a word that is longer is broken, a line break in the text is kept.
 std::vector<std::string> wrapped(const std::string& text, std::size_t width);
 
-std::size_t characters(const std::string& text);
+std::size_t characters(const std::string& text);  // of UTF-8: code points
 
+// A cell of a row, broken where it is too wide.
 struct TextColumn {
-    std::string text;
-    std::size_t width;
+    std::string text;         // without escape sequences
+    std::size_t width;        // in characters, at least 1
     std::string colour = {};  // an escape sequence; empty: none
 };
 

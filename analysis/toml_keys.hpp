@@ -21,11 +21,13 @@ toml::table parse_toml_document(const std::string& text, const std::string& file
 // The tables of [[name]]; none where the name is missing. InputError where it is something else.
 std::vector<const toml::table*> toml_tables(const toml::table& parent, const std::string& name, const std::string& file);
 
+// Refers to table and file, which outlive it.
 class TomlKeys {
 public:
     // thing: what a table is called in messages.
     TomlKeys(const toml::table& table, const std::string& file, const std::string& thing) : table_(table), file_(file), thing_(thing) {}
 
+    // InputError at the table's line where the key is missing, else as optional().
     template <typename Value>
     void required(const char* key, Value& value)
     {
@@ -33,6 +35,7 @@ public:
         optional(key, value);
     }
 
+    // `value` stays as it is where the key is missing; InputError for a value of another kind.
     template <typename Value>
     void optional(const char* key, Value& value)
     {
@@ -44,6 +47,7 @@ public:
         value = *found;
     }
 
+    // A list; its entries are put behind those of `values`. InputError where it is none, or an entry of another kind.
     template <typename Value>
     void optional(const char* key, std::vector<Value>& values)
     {
@@ -58,11 +62,11 @@ public:
         }
     }
 
-    void mark_read(const char* key) { read_.insert(key); }
-    bool has(const char* key) const { return table_.contains(key); }
-    const toml::node* node(const char* key) const { return table_.get(key); }
-    int line() const { return line_of(table_); }
-    void require_nothing_unknown() const;
+    void mark_read(const char* key) { read_.insert(key); }                     // of a key that the caller reads by node()
+    bool has(const char* key) const { return table_.contains(key); }           // whether it was read or not
+    const toml::node* node(const char* key) const { return table_.get(key); }  // null where missing; not marked as read
+    int line() const { return line_of(table_); }                               // of the table, from 1
+    void require_nothing_unknown() const;                                      // InputError at the first key that was not read
     [[noreturn]] void refuse(const char* key, const std::string& rule) const;  // an InputError at the key's place
 
 private:

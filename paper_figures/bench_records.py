@@ -5,7 +5,7 @@ import style
 # What each order looks like, and each class of constraints.
 orders = {"plain": (style.vermillion, (0, (4, 1.5))), "plain_native": (style.orange, (0, (2, 1))),
           "plain_spread": (style.black, (0, (1, 1))),
-          "ordered": (style.blue, "-"), "grouped": (style.green, (0, (5, 1.2, 1, 1.2))), "poses": (style.purple, (0, (3, 1)))}
+          "ordered": (style.blue, "-"), "grouped": (style.green, (0, (5, 1.2, 1, 1.2))), "poses": (style.purple, (0, (4, 1, 1, 1, 1, 1)))}
 markers = {"plain": "v", "plain_native": "s", "plain_spread": "x", "ordered": "o", "grouped": "^", "poses": "D"}
 names = {"plain": "plain", "plain_native": "plain, native build", "plain_spread": "plain, native, spread", "ordered": "ordered",
          "grouped": "grouped", "poses": "16 poses, each"}

@@ -1,7 +1,8 @@
 """Captions with the figure's own numbers in them. In figures.toml {name} asks for one; facts(rows) of the figure's script tells it, of the
-rows of NAME.csv. The whole caption is written when the figure is drawn: NAME.caption.txt.
+rows of NAME.csv; {cpu} is the processor of the runs behind it. The whole caption is written when the figure is drawn, to
+NAME.caption.txt, and names at its end what was planned and is not on record.
 
-    captions.write(entry, figures)
+    captions.write(entry, results, figures)
     captions.read(entry, figures)
 """
 import importlib
@@ -9,6 +10,8 @@ import string
 
 import records
 import whole_file
+
+of_runs = {"cpu"}  # told without the rows behind the figure
 
 
 def asked(entry):
@@ -20,16 +23,20 @@ def file_of(entry, figures):
     return figures / f"{entry.name}.caption.txt"
 
 
-def whole(entry, figures):
-    if not asked(entry):
-        return entry.caption
-    rows = records.table(figures / f"{entry.name}.csv", set())
-    return entry.caption.format_map(importlib.import_module(entry.script).facts(rows))
+def whole(entry, figures, origin):
+    told = {"cpu": origin.get("cpu_model", "a processor that is not on record")}
+    if asked(entry) - of_runs:
+        told |= importlib.import_module(entry.script).facts(records.table(figures / f"{entry.name}.csv", set()))
+    return entry.caption.format_map(told) if asked(entry) else entry.caption
 
 
-def write(entry, figures):
+def not_on_record(names, planned):
+    return f" Planned and not on record, {len(names)} of {planned}: {', '.join(names)}." if names else ""
+
+
+def write(entry, results, figures):
     with whole_file.beside(file_of(entry, figures)) as path:
-        path.write_text(whole(entry, figures) + "\n")
+        path.write_text(whole(entry, figures, entry.origin(results)) + not_on_record(*entry.absent(results)) + "\n")
 
 
 def read(entry, figures):

@@ -1,4 +1,6 @@
 """The human jumping under LBS, PBS and FEM side by side, as an animated WebP that plays at the clip's own speed, and one still of it."""
+from xml.sax.saxutils import escape
+
 import matplotlib
 from PIL import Image, ImageDraw, ImageFont
 
@@ -46,7 +48,7 @@ def draw_clip(file, frames, origin):
     step_ms = round(1000 * (times_s[-1] - times_s[0]) / (len(times_s) - 1))
     with whole_file.beside(file) as path:
         pages[0].save(path, save_all=True, append_images=pages[1:], duration=step_ms, loop=0, quality=80,
-                      xmp=xmp.format(source=style.source_of(origin), rights=origin["rights"]).encode())
+                      xmp=xmp.format(source=escape(style.source_of(origin)), rights=escape(origin["rights"])).encode())
 
 
 def draw_still(frames):

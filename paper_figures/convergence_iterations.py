@@ -1,6 +1,7 @@
 """PBS over 1,000 iterations from four starts: above, what the constraints leave unsatisfied; below, the distance to the finite element
 reference. See that the error does not follow the residual: in the twist it grows again while PBS converges to a shape of its own. From the
 frame before or the rest pose a twisted limb is never told that it is twisted: the residual is small and the error large."""
+import entries
 import records
 import style
 
@@ -61,4 +62,4 @@ def draw(results, figures):
     style.log_scale(axes[1][0].yaxis, [5, 10, 20, 50, 100, 200, 500])
     style.log_scale(axes[0][0].yaxis, [0.01, 0.1, 1])
     style.legend_above(figure)
-    style.save(figure, figures / "convergence_iterations", records.provenance(folder), behind)
+    style.save(figure, figures / "convergence_iterations", entries.origin_of(results, "convergence_iterations"), behind)

@@ -3,6 +3,7 @@ what the constraints leave, how much each tet's volume changes, how far from the
 volumes are kept within 0.5 %. See whether 24 iterations do the same on fine meshes as on coarse ones."""
 import math
 
+import entries
 import records
 import style
 from report.markup import figure, span
@@ -103,4 +104,4 @@ def draw(results, figures):
         style.decades(panel.xaxis)
         panel.set_xlabel("vertices of the limb")
     style.legend_above(drawing, columns=4)
-    style.save(drawing, figures / "convergence_mesh", records.provenance(folder), behind)
+    style.save(drawing, figures / "convergence_mesh", entries.origin_of(results, "convergence_mesh"), behind)

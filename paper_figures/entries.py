@@ -1,8 +1,11 @@
 """The figures that there are, as figures.toml lists them, and whether the records behind one are there and fresh.
 
     for entry in entries.read():
-        entry.check(results)  # raises RecordsMissing or RecordsStale
+        entry.check(results)          # raises RecordsMissing or RecordsStale
+        entry.absent(results)         # (["man_crouch"], 15): planned runs without records, and of how many
+    entries.origin_of(results, name)  # for the figure's metadata: versions, revisions, processors, scenes of the runs behind it
 """
+import fnmatch
 import pathlib
 import tomllib
 from dataclasses import dataclass
@@ -10,8 +13,8 @@ from dataclasses import dataclass
 import records
 
 listing = pathlib.Path(__file__).with_name("figures.toml")
-marks = {"R": "minutes, on any machine: ./reproduce --quick or one study on its own", "CR": "hours: ./reproduce --full",
-         "NR": "not from this repository's records"}
+marks = {"R": "minutes, on any machine: ./reproduce", "NR": "not from this repository's records",
+         "CR": "an hour or more on two cores: ./reproduce --full; or the one study by its name"}
 slack_s = 60.0  # that copying a folder may put between the times of its files
 
 
@@ -39,6 +42,23 @@ class Entry:
                 raise records.RecordsMissing(f"{results / pattern}: not there")
         return [file for files in found.values() for file in files]
 
+    def runs(self, results):
+        """The run.json of each run behind it."""
+        return list(dict.fromkeys(run for file in self.files(results) for run in runs_behind(file, results)))
+
+    def origin(self, results):
+        return records.origin_of({run.parent.name: records.read_json(run) for run in self.runs(results)})
+
+    def absent(self, results):
+        """Of the planned runs behind a figure of many those without records, and of how many. A study's own table sums up all of them."""
+        on_record = {}
+        for pattern in self.records:
+            study, *below = pattern.split("/")
+            chosen, file = (below[0], "/".join(below[1:])) if len(below) > 1 else ("*", "run.json")
+            for name in fnmatch.filter(planned_runs(results / study), chosen) if "*" in chosen else []:
+                on_record[name] = on_record.get(name, True) and any((results / study / name).glob(file))
+        return [name for name, found in on_record.items() if not found], len(on_record)
+
     def check(self, results):
         """Missing where a pattern matches nothing or no run.json tells where it is from. Stale where a run is not in its study's plan (left
         from an earlier one), where a table was written after its run ended or before a run that it sums up, or where revisions differ."""
@@ -58,6 +78,10 @@ def read():
     return [Entry(name=name, **entry) for name, entry in tomllib.loads(listing.read_text())["figures"].items()]
 
 
+def origin_of(results, name):
+    return next(entry for entry in read() if entry.name == name).origin(results)
+
+
 def runs_behind(file, results):
     """The run.json of the run that wrote a file; of a study's table, those of all its runs."""
     for folder in file.parents:
@@ -75,12 +99,20 @@ def runs_behind(file, results):
 def is_planned(run):
     """A run's folder, or a part of it, named in the plan of its study; a study without a plan names none."""
     for folder in run.parents:
-        if (plan := folder.parent / "plan.json").is_file():
-            try:
-                return folder.name in {planned["name"] for planned in records.read_json(plan)["runs"]}
-            except (KeyError, TypeError):
-                raise records.RecordsMissing(f"{plan}: runs: expected a list of runs with their names") from None
+        if (folder.parent / "plan.json").is_file():
+            return folder.name in planned_runs(folder.parent)
     return True
+
+
+def planned_runs(study):
+    """The names in its plan.json; none without one."""
+    plan = study / "plan.json"
+    if not plan.is_file():
+        return []
+    try:
+        return [planned["name"] for planned in records.read_json(plan)["runs"]]
+    except (KeyError, TypeError):
+        raise records.RecordsMissing(f"{plan}: runs: expected a list of runs with their names") from None
 
 
 def check_plan(run):

@@ -1,6 +1,7 @@
 """The error of PBS in each pose of the study of error against run time, split three ways over the iterations: what the solver leaves, what
 the constraints themselves leave when converged, and the bound of the reference's own discretisation. Where the bound lies above the whole
 error, the reference is too coarse to tell how wrong PBS is."""
+import entries
 import error_split
 import records
 import style
@@ -44,4 +45,4 @@ def draw(results, figures):
     for panel in axes.flat[len(cases):]:
         panel.set_visible(False)
     style.legend_above(figure, columns=4)
-    style.save(figure, figures / "error_parts", records.provenance(folder), behind)
+    style.save(figure, figures / "error_parts", entries.origin_of(results, "error_parts"), behind)

@@ -3,6 +3,7 @@ themselves leave when converged, and the bound of the reference's own discretisa
 bones do to the model's part."""
 import math
 
+import entries
 import records
 import style
 
@@ -46,6 +47,10 @@ def draw_attachments(axes, rows, angle_deg):
     chosen = of_pose(rows, angle_deg, 0.2)
     chosen.sort(key=lambda row: (row["attachment"] == "bind", float(row["core_radius"])))
     axes.barh([name_of(row) for row in chosen], [float(row["model_pct"] or "nan") for row in chosen], color=style.sky, height=0.6)
+    axes.set_ylim(-0.5, len(chosen) - 0.5)
+    for place, row in enumerate(chosen):
+        if not math.isfinite(float(row["model_pct"] or "nan")):
+            axes.annotate("not reached", (0.01, place), xycoords=("axes fraction", "data"), va="center", fontsize=7)
     axes.set_xlabel("model error against P1, k_stretch 0.2 [%]")
     axes.grid(axis="y", visible=False)
     return [{"scene": row["scene"], "angle_deg": row["angle_deg"], "k_stretch": row["k_stretch"], "shown": "model_pct",
@@ -61,4 +66,4 @@ def draw(results, figures):
         behind += draw_parts(axes[0][column], records.table(folder / "parts.csv", part_columns), angle_deg)
         behind += draw_attachments(axes[1][column], records.table(folder / "attachments.csv", attachment_columns), angle_deg)
     style.legend_above(figure, columns=4)
-    style.save(figure, figures / "error_split", records.provenance(results / "error_split"), behind)
+    style.save(figure, figures / "error_split", entries.origin_of(results, "error_split"), behind)

@@ -1,5 +1,6 @@
 """What each switch of a scene costs: processor time of a frame, and of a step, with it over without it, on the limb and the human; bars
 hold the runs' spread. Right of 1 it costs, left of 1 it saves; what lies at 1 is free."""
+import entries
 import records
 import style
 
@@ -33,4 +34,4 @@ def draw(results, figures):
     axes[0][0].set_ylim(len(names) - 0.5, -0.5)
     style.legend_above(figure)
     behind = [{"scene": scene} | {name: row[name] for name in sorted(columns)} for scene, rows in found.items() for row in rows]
-    style.save(figure, figures / "features_cost", records.provenance(folder), behind)
+    style.save(figure, figures / "features_cost", entries.origin_of(results, "features_cost"), behind)

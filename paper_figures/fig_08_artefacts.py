@@ -1,5 +1,6 @@
 """The paper's Fig. 8 with a truth beside it: the limb twisted by 180 degrees and bent by 110 under LBS, DQS, PBS and FEM, each tet coloured
 by its volume ratio; one camera a row, one colour bar for all."""
+import pose_reached
 import recorded_frames
 import rendering
 import style
@@ -12,7 +13,7 @@ deformers = ("lbs", "dqs", "pbs", "snh_p1")
 
 def facts(row):
     return style.signed(f"volume {float(row['volume_change_pct']):+.2f} %, {row['inverted_tets']} inverted\n"
-                        f"smallest section {float(row['min_section_pct']):.0f} %")
+                        f"smallest section {float(row['min_section_pct']):.0f} %{pose_reached.mark(row)}")
 
 
 def draw_row(panels, frames, angle_deg):

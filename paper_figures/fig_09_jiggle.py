@@ -31,16 +31,10 @@ def draw_pose(panels, frames, frame, stage):
     return {"scene": scene, "frame": frame, "time_s": time_s, **apart, "farthest_bone": bone}
 
 
-def in_words(bone):
-    """The left upper arm, of `upper_arm.L`."""
-    name, _, side = bone.partition(".")
-    return " ".join(["the", *{"L": ["left"], "R": ["right"]}.get(side, []), *name.split("_")])
-
-
 def facts(rows):
     """Where the two are farthest apart, frame by frame."""
     def told(row):
-        return f"{float(row['largest_mm']):.0f} mm at {in_words(row['farthest_bone'])} ({float(row['time_s']):.2f} s)"
+        return f"{float(row['largest_mm']):.0f} mm at the {style.bone_in_words(row['farthest_bone'])} ({float(row['time_s']):.2f} s)"
 
     return {"farthest": ", ".join(map(told, rows)), "first": told(rows[0])}
 

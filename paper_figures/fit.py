@@ -1,5 +1,6 @@
 """What k_stretch is worth: Young's modulus of the elastic bar that sags as PBS does, over k_stretch, for several iteration counts and
 meshes; and how near any Poisson's ratio comes to PBS in twist and bend."""
+import entries
 import records
 import style
 
@@ -54,4 +55,4 @@ def draw(results, figures):
     figure, axes = style.panels(1, 2, height_in=3.1)
     behind = draw_young(axes[0][0], records.table(folder / "sag.csv", sag_columns))
     behind += draw_valley(axes[0][1], records.table(folder / "valley.csv", valley_columns))
-    style.save(figure, figures / "fit", records.provenance(results / "fit"), behind)
+    style.save(figure, figures / "fit", entries.origin_of(results, "fit"), behind)

@@ -2,6 +2,7 @@
 each stand the inverted tets and the smallest limb cross-section (100 %: as at rest)."""
 import numpy
 
+import pose_reached
 import recorded_frames
 import records
 import rendering
@@ -29,7 +30,7 @@ def skin_of(tet_file):
 def caption(row):
     section = f"\nsmallest section {float(row['min_section_pct']):.0f} %" if row.get("min_section_pct") else ""
     inverted = row["inverted_tets"]
-    return f"{inverted} inverted tet{'' if inverted == '1' else 's'}{section}"
+    return f"{inverted} inverted tet{'' if inverted == '1' else 's'}{section}{pose_reached.mark(row)}"
 
 
 def half_height_of(boxes):

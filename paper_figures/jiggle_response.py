@@ -1,12 +1,13 @@
 """How flesh answers a jolt: frequency and damping ratio of the first swing against k_stretch, time step and iterations, on the limb and on
 bodies. k_stretch moves Frankie's frequency far, the others' little; time step and iterations, which are no material, all. Damping is no
 parameter at all; the elements beside swing almost undamped."""
+import entries
 import records
 import style
-from report.markup import figure, listed
+from report.markup import figure, listed, span
 
 columns = {"deformer", "k_stretch", "time_step_ms", "iterations", "masses", "k_bind", "outcome", "frequency_hz", "frequency_low_hz",
-           "frequency_high_hz", "damping_ratio", "damping_low", "damping_high"}
+           "frequency_high_hz", "damping_ratio", "damping_low", "damping_high", "young_pa"}
 usual = {"k_stretch": 0.1, "time_step_ms": 10.0, "iterations": 24.0}
 names = {"k_stretch": "k_stretch [1]", "time_step_ms": "time step [ms]", "iterations": "iterations"}
 measures = [("frequency_hz", "frequency_low_hz", "frequency_high_hz", "frequency [Hz]"),
@@ -37,25 +38,29 @@ def draw_body(axes, rows, body, number):
 
 
 def draw_reference(axes, rows):
-    """The limb of the finite elements in time, and PBS on the same mesh with the usual iterations."""
+    """Damping of the limb of the finite elements in time, and of PBS on the same mesh with the usual iterations. The elements' modulus was
+    chosen so that they swing as fast: their frequency would tell nothing."""
     found = [row for row in rows if row["outcome"] == "found" and float(row["k_bind"]) == 1.0
              and float(row["iterations"]) == usual["iterations"]]
     for row in found:
         fem = row["deformer"] != "pbs"
-        for panels, (measure, *_) in zip(axes, measures):
-            panels[0].plot(float(row["k_stretch"]), float(row[measure]), linestyle="none", marker="*" if fem else "o", markersize=8,
-                           color=style.black, markerfacecolor=style.yellow if fem else "none", markeredgewidth=0.8,
-                           label="neo-Hookean FEM in time, limb" if fem else "PBS on the FEM's mesh")
+        axes.plot(float(row["k_stretch"]), float(row["damping_ratio"]), linestyle="none", marker="*" if fem else "o", markersize=8,
+                  color=style.black, markerfacecolor=style.yellow if fem else "none", markeredgewidth=0.8,
+                  label="neo-Hookean FEM in time, limb" if fem else "PBS on the FEM's mesh")
     return [{"body": "limb_reference", "varied": ""} | {name: row[name] for name in sorted(columns)} for row in found]
 
 
 def facts(rows):
-    """How many-fold each factor moves each body's frequency over the values shown."""
+    """How many-fold each factor moves each body's frequency over the values shown; what the others are held at; the elements' moduli."""
     def folds(factor):
         hz = {body: [float(row["frequency_hz"]) for row in rows if (row["body"], row["varied"]) == (body, factor)] for body in bodies}
         return listed([f"{figure(max(found) / min(found))}-fold ({body})" for body, found in hz.items() if len(found) > 1])
 
-    return {factor: folds(factor) for factor in names}
+    young_kpa = [float(row["young_pa"]) / 1000 for row in rows if row["body"] == "limb_reference" and row["deformer"] != "pbs"]
+    k_stretch, step_ms, iterations = (figure(value) for value in usual.values())
+    beside = f"{step_ms} ms and {iterations} iterations"
+    held = {"held": f"k_stretch {k_stretch}, {beside}", "held_beside": beside}
+    return {factor: folds(factor) for factor in names} | held | {"young_kpa": span(young_kpa)}
 
 
 def draw(results, figures):
@@ -64,7 +69,7 @@ def draw(results, figures):
     found = {body: records.table(file, columns) for body, file in found.items() if file.is_file()}
     drawing, axes = style.panels(2, 3, height_in=1.9, sharex="col", sharey="row")
     behind = [row for number, (body, rows) in enumerate(found.items()) for row in draw_body(axes, rows, body, number)]
-    behind += draw_reference(axes, records.table(folder / "limb_reference" / "responses.csv", columns))
+    behind += draw_reference(axes[1][0], records.table(folder / "limb_reference" / "responses.csv", columns))
     for column, (factor, name) in enumerate(names.items()):
         axes[1][column].set_xlabel(name)
         if factor != "k_stretch":
@@ -76,4 +81,4 @@ def draw(results, figures):
     axes[1][0].set_ylim(bottom=-0.02)
     axes[1][0].set_xticks([0, 0.2, 0.4, 0.6, 0.8, 1.0])
     style.legend_above(drawing)
-    style.save(drawing, figures / "jiggle_response", records.provenance(folder), behind)
+    style.save(drawing, figures / "jiggle_response", entries.origin_of(results, "jiggle_response"), behind)

@@ -1,6 +1,7 @@
 """Deletes the figures of DIR and draws those of figures.toml anew from its records. A figure whose records are missing or stale says so
-instead: exit status 1. One whose study was not run is left out; where DIR holds no study at all the status is 1. Where a file cannot be
-written it is named: exit status 2.
+instead: exit status 1. One whose study has no folder in DIR was not asked for: it is named and left out, and the status stays 0, so 0 means
+that every figure of the studies in DIR was drawn. Where DIR holds no study at all the status is 1. A figure of some of the runs that were
+planned is drawn, and its caption names the others. Where a file cannot be written it is named: exit status 2.
 
     xvfb-run -a python3 paper_figures/make_all.py results/reproduce
     xvfb-run -a python3 paper_figures/make_all.py results/reproduce --only work_precision --into elsewhere
@@ -35,7 +36,7 @@ def draw(script, group, results, folder):
             entry.check(results)
         importlib.import_module(script).draw(results, folder)
         for entry in group:
-            captions.write(entry, folder)
+            captions.write(entry, results, folder)
     except records.RecordsMissing as error:
         for entry in group:
             delete(entry.name, folder)

@@ -1,6 +1,7 @@
 """What one projection of a class of constraints does to linear and angular momentum, over the momentum exchanged: with weighted masses
 rounding alone, in both precisions; with the formulae for unit masses (Eq. 8-9) on unequal masses up to a third; the bind constraint's all
 goes to the bones, which no one moves."""
+import entries
 import records
 import style
 
@@ -49,4 +50,4 @@ def draw(results, figures):
         draw_momentum(panel, [row for row in rows if row["momentum"] == momentum], places)
         panel.set_title(momentum)
     style.legend_above(figure, columns=4)
-    style.save(figure, figures / "momentum_drift", records.provenance(folder), rows)
+    style.save(figure, figures / "momentum_drift", entries.origin_of(results, "momentum_drift"), rows)

@@ -99,9 +99,8 @@ def bone_of(row):
 
 
 def origin_of(*shown):
-    """Where these scenes' records come from: revision, hash of the scenes as resolved, licences of what is shown."""
-    first = shown[0].run.record
-    return {**first.get("provenance", {}), "scenes": {frames.run.name: records.scene_hash(frames.run.record) for frames in shown},
+    """Where these scenes' records come from, and the licences of what is shown."""
+    return {**records.origin_of({frames.run.name: frames.run.record for frames in shown}),
             "rights": "; ".join(dict.fromkeys(text for frames in shown for text in licences_of(frames)))}
 
 

@@ -90,12 +90,22 @@ def at_angle(rows, angle_deg):
 
 
 def scene_hash(record):
-    """Digest of the scene as resolved, for a figure's metadata."""
-    return hashlib.sha256(json.dumps(record.get("scene", {}), sort_keys=True).encode()).hexdigest()[:12]
+    """Digest of the scene as resolved, or of a study's own work, for a figure's metadata."""
+    return hashlib.sha256(json.dumps(record.get("scene", record.get("work", {})), sort_keys=True).encode()).hexdigest()[:12]
+
+
+def origin_of(runs):
+    """Of runs (name -> what its run.json holds) every version, revision, processor and scene, for a figure's metadata and caption."""
+    origins = [record.get("provenance", {}) for record in runs.values()]
+    found = {key: " and ".join(dict.fromkeys(origin[key] for origin in origins if origin.get(key)))
+             for key in ("version", "git_revision", "cpu_model")}
+    scenes = {name: scene_hash(record) for name, record in runs.items() if record.get("scene") or record.get("work")}
+    return {key: text for key, text in found.items() if text} | {"git_dirty": any(origin.get("git_dirty") for origin in origins),
+                                                                 "scenes": scenes}
 
 
 def provenance(results):
-    """Version and git revision of the runs, for a figure's metadata."""
+    """Version and git revision of the first run in a folder or below."""
     files = sorted(results.glob("**/run.json"))
     if not files:
         raise RecordsMissing(f"{results}: no run.json in it or below")

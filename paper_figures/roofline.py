@@ -1,9 +1,11 @@
 """How near each kernel comes to what the machine allows, one thread: useful operations a second over operations a byte, under the peak of
-multiply-adds and the copy bandwidth of each level of memory. The two usual bars: hollow 2,200 vertices, filled 19,500."""
+multiply-adds and the copy bandwidth of each level of memory. The two usual bars: hollow 2,200 vertices, filled 19,500. A thin line
+joins the three kinds of constraints of an order, and the order's name stands beside that of the larger mesh."""
 import numpy
 from matplotlib.collections import LineCollection
 
 import bench_records
+import entries
 import records
 import style
 
@@ -17,21 +19,26 @@ def bandwidth_gb_s(copy, size):
 
 
 def draw_roof(axes, limits, precision):
+    """Returns the roofs: the peak alone, and each level with what it copies a second and where it meets the peak."""
     peak = limits[peaks[precision]]
     intensity = numpy.geomspace(0.1, 100, 200)
+    rows = [{"shown": "roof", "precision": precision, "roof": "multiply-add", "gflops": peak}]
     for name, size in levels:
         bandwidth = bandwidth_gb_s(limits["copy"], size)
         roof = numpy.column_stack([intensity, numpy.minimum(peak, bandwidth * intensity)])
         axes.add_collection(LineCollection([roof], colors="#808080", linewidths=0.7))  # a limit: no values under the pointer
         text = f"{name}\n{bandwidth:.0f}{' GB/s' if name == 'memory' else ''}"
-        axes.annotate(text, (peak / bandwidth, peak * 1.08), fontsize=5, color="#606060", ha="center", va="bottom")
-    axes.annotate(f"multiply-add {peak:.0f} GFLOP/s", (95, peak * 0.9), fontsize=5, color="#606060", ha="right", va="top")
+        axes.annotate(text, (peak / bandwidth, peak * 1.08), fontsize=6, color="#606060", ha="center", va="bottom")
+        rows.append({"shown": "roof", "precision": precision, "roof": name, "gb_s": bandwidth, "flops_per_byte": peak / bandwidth,
+                     "gflops": peak})
+    axes.annotate(f"multiply-add {peak:.0f} GFLOP/s", (95, peak * 0.9), fontsize=6, color="#606060", ha="right", va="top")
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlim(0.1, 100)
     axes.set_ylim(peak / 500, peak * 2.5)
     axes.set_xlabel("operations a byte")
     axes.set_ylabel("useful GFLOP/s")
+    return rows
 
 
 def draw_points(axes, mesh, precision, filled):
@@ -40,18 +47,32 @@ def draw_points(axes, mesh, precision, filled):
         if timing["precision"] != precision or "roofline" not in timing:
             continue
         color, _ = bench_records.orders[timing["variant"]]
+        places = sorted((timing["roofline"][name]["flops_per_byte"], timing["roofline"][name]["gflops"]) for name in bench_records.classes)
+        axes.add_collection(LineCollection([places], colors=color, linewidths=0.7))  # its points tell their values
         for name, marker in bench_records.classes.items():
             point = timing["roofline"][name]
             axes.plot(point["flops_per_byte"], point["gflops"], marker, color=color, markerfacecolor=color if filled else "none",
                       markersize=4, markeredgewidth=0.8)
-            rows.append({"vertices": mesh["mesh"]["vertices"], "order": timing["variant"], "precision": precision, "constraints": name,
-                         **point})
+            rows.append({"shown": "kernel", "vertices": mesh["mesh"]["vertices"], "order": timing["variant"], "precision": precision,
+                         "constraints": name, **point})
     return rows
 
 
+def name_orders(axes, rows):
+    """Right of all points and as far up as each order's greatest, apart from each other."""
+    most = {}
+    for row in sorted(rows, key=lambda row: row["gflops"]):
+        most[row["order"]] = row["flops_per_byte"], row["gflops"]
+    right, above = 1.6 * max(row["flops_per_byte"] for row in rows), 0.0
+    for order, place in sorted(most.items(), key=lambda item: item[1][1]):
+        color, _ = bench_records.orders[order]
+        above = max(place[1], 1.35 * above)
+        axes.annotate(bench_records.names[order], place, (right, above), fontsize=6, va="center",
+                      arrowprops={"arrowstyle": "-", "color": color, "linewidth": 0.5, "shrinkA": 0, "shrinkB": 3},
+                      bbox={"color": "white", "pad": 0.3})
+
+
 def add_legend(figure, axes):
-    for order, (color, _) in bench_records.orders.items():
-        axes.plot([], [], "s", color=color, label=bench_records.names[order], markersize=4)
     for name, marker in bench_records.classes.items():
         axes.plot([], [], marker, color="#404040", markerfacecolor="none", label=name, markersize=4)
     style.legend_above(figure, columns=5)
@@ -61,14 +82,17 @@ def draw(results, figures):
     record = bench_records.read(results)
     meshes = record["meshes"][:2]
     figure, axes = style.panels(1, 2, height_in=2.9)
-    behind = []
+    behind, roofs = [], []
     for panel, precision in zip(axes[0], peaks):
-        draw_roof(panel, record["context"]["limits_of_one_core"], precision)
+        roofs += draw_roof(panel, record["context"]["limits_of_one_core"], precision)
         shown = [f"{fill} {mesh['mesh']['vertices']:,} vertices" for fill, mesh in zip(("hollow", "filled"), meshes)]
         panel.set_title(f"{precision}, one thread; {', '.join(shown)}", fontsize=7)
         for mesh, filled in zip(meshes, (False, True)):
-            behind += draw_points(panel, mesh, precision, filled)
+            drawn = draw_points(panel, mesh, precision, filled)
+            behind += drawn
+        if drawn:
+            name_orders(panel, drawn)
     if not behind:
         raise records.RecordsMissing(f"{results / 'bench' / 'bench.json'}: no timing of one thread")
     add_legend(figure, axes[0][0])
-    style.save(figure, figures / "roofline", records.provenance(results / "bench"), behind)
+    style.save(figure, figures / "roofline", entries.origin_of(results, "roofline"), style.aligned(behind + roofs))

@@ -1,5 +1,6 @@
 """How the cost of a step of 24 iterations grows with the mesh: ns a constraint and iteration, one thread; and what more threads bring."""
 import bench_records
+import entries
 import records
 import style
 
@@ -16,14 +17,18 @@ def timing_of(mesh, variant, precision, threads):
 
 
 def write_exponents(axes, record, precision):
-    """The fitted exponents of cost over constraints, in the panel's corner."""
+    """The fitted exponents of cost over constraints, in the panel's corner. Returns them."""
     fits = {fit["variant"]: fit for fit in record.get("scaling", []) if (fit["precision"], fit["threads"]) == (precision, 1)}
     lines = ["step \u221d constraints$^e$, 95 %"] if fits else []
+    rows = []
     for variant in ("plain", "ordered", "grouped", "poses"):
         if variant in fits:
             low, high = fits[variant]["interval"]
             lines.append(f"{variant}: e = {fits[variant]['exponent']:.2f}" + (f" [{low:.2f}, {high:.2f}]" if low is not None else ""))
-    axes.annotate("\n".join(lines), (0.03, 0.03), xycoords="axes fraction", fontsize=5.5, va="bottom")
+            rows.append({"shown": "exponent", "order": variant, "precision": precision, "threads": 1, "value": fits[variant]["exponent"],
+                         "low": low, "high": high})
+    axes.annotate("\n".join(lines), (0.03, 0.03), xycoords="axes fraction", fontsize=6, va="bottom")
+    return rows
 
 
 def draw_cost(axes, record, precision):
@@ -38,16 +43,15 @@ def draw_cost(axes, record, precision):
         axes.plot(tets, median, color=color, linestyle=line, marker=bench_records.markers[variant], label=bench_records.names[variant])
         quartiles = [[timing["quartiles"]["ms_step"][bound] * s for (_, timing), s in zip(found, scale)] for bound in (0, 1)]
         axes.fill_between(tets, *quartiles, color=color, alpha=0.2, linewidth=0)
-        rows += [{"shown": "ns_per_constraint", "order": variant, "precision": precision, "threads": 1, "tets": t, "value": m}
-                 for t, m in zip(tets, median)]
+        rows += [{"shown": "ns_per_constraint", "order": variant, "precision": precision, "threads": 1, "tets": t, "value": m,
+                  "low": low, "high": high} for t, m, low, high in zip(tets, median, *quartiles)]
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("tets")
     axes.set_ylabel("ns a constraint and iteration")
     axes.set_ylim(bottom=axes.get_ylim()[0] / 7)
     axes.set_title(f"{precision}, one thread")
-    write_exponents(axes, record, precision)
-    return rows
+    return rows + write_exponents(axes, record, precision)
 
 
 def draw_threads(axes, record):
@@ -78,4 +82,4 @@ def draw(results, figures):
     if not behind:
         raise records.RecordsMissing(f"{results / 'bench' / 'bench.json'}: no timings")
     style.legend_above(figure, columns=6)
-    style.save(figure, figures / "scaling", records.provenance(results / "bench"), behind)
+    style.save(figure, figures / "scaling", entries.origin_of(results, "scaling"), style.aligned(behind))

@@ -1,5 +1,6 @@
 """Area of the cross-section over that at rest, along the limb through the joint: LBS is wrung out at a twisted joint (the candy wrapper),
 DQS swells at a bent one (the bulge). See whether PBS follows the elements, and where it does not."""
+import entries
 import records
 import style
 
@@ -47,4 +48,4 @@ def draw(results, figures):
     for panel in axes[-1]:
         panel.set_xlabel("position along the limb, joint at 0 [cm]")
     style.legend_above(figure)
-    style.save(figure, figures / "section_profiles", records.provenance(folder), behind)
+    style.save(figure, figures / "section_profiles", entries.origin_of(results, "section_profiles"), behind)

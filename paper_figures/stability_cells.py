@@ -1,6 +1,7 @@
 """Every disturbance of the limb by every method: what comes of it. A row is a quantity driven to its extremes, its marks go from the
 least to the greatest value. See which methods come to rest as if undisturbed, which leave tets inverted, and whether any but the printed
 form of PBS diverges."""
+import entries
 import outcomes
 import records
 import style
@@ -87,4 +88,4 @@ def draw(results, figures):
     outcomes.legend(figure, panel)
     kept = ("body", "model", "factor", "value", "unit", "named", "precision", "outcome")
     behind = [{column: row[column] for column in kept} for row in rows]
-    style.save(figure, figures / "stability_cells", records.provenance(folder), behind)
+    style.save(figure, figures / "stability_cells", entries.origin_of(results, "stability_cells"), behind)

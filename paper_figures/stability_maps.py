@@ -1,5 +1,6 @@
 """Jiggling PBS on the limb, disturbed and then held still, as two settings change together: what comes of it, cell by cell. See
 which settings leave tets inverted, which keep the body from coming to rest, and whether any lets it grow without bound."""
+import entries
 import outcomes
 import records
 import style
@@ -50,4 +51,4 @@ def draw(results, figures):
         draw_map(panel, rows, f"limb, PBS with jiggle, {title}")
         behind += [{"map": file} | {column: row[column] for column in sorted(columns)} for row in rows]
     outcomes.legend(figure, axes[0][0])
-    style.save(figure, figures / "stability_maps", records.provenance(folder), behind)
+    style.save(figure, figures / "stability_maps", entries.origin_of(results, "stability_maps"), behind)

@@ -3,6 +3,7 @@ line. That of PBS grows with iterations and falls with the square of the time st
 which keeps multipliers, is nearly flat. What is too stiff to move in double precision is left out."""
 import sys
 
+import entries
 import records
 import style
 from report.markup import figure, listed
@@ -63,7 +64,7 @@ def draw_factor_axis(axis, factor, values):
 
 
 def facts(rows):
-    """How many-fold XPBD stiffens over the iterations shown, plain and in small steps."""
+    """How many-fold XPBD stiffens over the iterations shown, plain and in small steps; what the other settings are held at."""
     def folds(method):
         parts = []
         for body, _, _ in bodies:
@@ -73,7 +74,9 @@ def facts(rows):
                 parts.append(f"{figure(found[-1] / found[0])}-fold ({body}, {figure(min(counts))} to {figure(max(counts))})")
         return listed(parts)
 
-    return {"xpbd": folds("xpbd"), "small_steps": folds("xpbd_small_steps")}
+    held = {"iterations": figure(usual["iterations"]), "step_ms": figure(usual["time_step_ms"]),
+            "k_exponent": listed([figure(k_stretch) for method, k_stretch, _ in methods if method == "exponent"])}
+    return {"xpbd": folds("xpbd"), "small_steps": folds("xpbd_small_steps")} | held
 
 
 def draw(results, figures):
@@ -87,4 +90,4 @@ def draw(results, figures):
             panel.set_xlabel(name)
         panels[0].set_ylabel("stiffness [N/m]")
     style.legend_above(drawing)
-    style.save(drawing, figures / "stiffness", records.provenance(folder), behind)
+    style.save(drawing, figures / "stiffness", entries.origin_of(results, "stiffness"), behind)

@@ -158,11 +158,18 @@ def ratio_bar(figure, axes, scale, colors):
     bar(figure, axes, scale, colors, label, "both")
 
 
+def bone_in_words(bone):
+    """left upper arm, of `upper_arm.L`."""
+    name, _, side = bone.partition(".")
+    return " ".join([*{"L": ["left"], "R": ["right"]}.get(side, []), *name.split("_")])
+
+
 def source_of(provenance):
-    """Version, revision and the shown scenes' hashes, for a file's metadata."""
+    """Version, revision, processor and the shown scenes' hashes, for a file's metadata."""
+    processor = f"; {provenance['cpu_model']}" if "cpu_model" in provenance else ""
     scenes = "".join(f"; scene {name} {digest}" for name, digest in provenance.get("scenes", {}).items())
-    return "pbskin {} {}{}{}".format(provenance.get("version", "?"), provenance.get("git_revision", "unknown revision"),
-                                     " (dirty)" if provenance.get("git_dirty") else "", scenes)
+    return "pbskin {} {}{}{}{}".format(provenance.get("version", "?"), provenance.get("git_revision", "unknown revision"),
+                                       " (dirty)" if provenance.get("git_dirty") else "", processor, scenes)
 
 
 def save(figure, stem, provenance, table, formats=("pdf", "png", "svg")):
@@ -184,6 +191,12 @@ def save(figure, stem, provenance, table, formats=("pdf", "png", "svg")):
         writer = csv.DictWriter(stream, fieldnames=list(table[0]), lineterminator="\n")
         writer.writeheader()
         writer.writerows(table)
+
+
+def aligned(rows):
+    """Rows of several kinds in one table: all columns, empty where a kind has none."""
+    columns = dict.fromkeys(column for row in rows for column in row)
+    return [{column: row.get(column, "") for column in columns} for row in rows]
 
 
 def columns_of(rows, *names):

@@ -1,6 +1,7 @@
 """The paper's Table 1 beside what was timed here on meshes matched to its counts: a drawn table, its CSV and its LaTeX. The paper prints
 two times that exclude each other, a frame rate and a CT of 100 steps; both stand here as milliseconds a frame. Our milliseconds are
 processor time, our frame rates wall-clock."""
+import entries
 import records
 import style
 import whole_file
@@ -73,6 +74,6 @@ def draw(results, figures):
     models = matched(results)
     lines = [line_of(model, mesh) for model, mesh in models.items()]
     cpu = next(iter(models.values()))["plain", "f64"]["cpu_model"]
-    style.save(drawn(lines), figures / "table_1_timing", records.provenance(results / "timing"), lines)
+    style.save(drawn(lines), figures / "table_1_timing", entries.origin_of(results, "table_1_timing"), lines)
     with whole_file.beside(figures / "table_1_timing.tex") as path:
         path.write_text(latex(lines, cpu))

@@ -1,6 +1,7 @@
 """Wall-clock time of a frame on one core over the size of the mesh, in three kernels, and what a frame is made of on the meshes that stand
 for the paper's. Crosses: the paper's frame rates; stars: its column CT over 100 steps; the two differ by a factor of 20. See how far all
 stay below 33 ms at the paper's sizes."""
+import entries
 import records
 import style
 
@@ -57,4 +58,4 @@ def draw(results, figures):
     draw_parts(axes[0][2], rows, "ordered", "f32")
     style.legend_above(figure, columns=5)
     behind = [{name: row[name] for name in sorted(columns)} for row in rows]
-    style.save(figure, figures / "timing_sizes", records.provenance(folder), behind)
+    style.save(figure, figures / "timing_sizes", entries.origin_of(results, "timing_sizes"), behind)

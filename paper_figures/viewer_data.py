@@ -15,12 +15,13 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 import entries
+import pose_reached
 import recorded_frames
 import records
 import rendering
 
 titles = {"limb_twist": "limb, twist", "limb_bend": "limb, bend", "human_jump": "human, jumping", "human_walk": "human, walking"}
-deformers = {"lbs": "LBS", "dqs": "DQS", "pbs": "PBS", "snh_p1": "FEM", "pbs_jiggle": "PBS, jiggling flesh",
+deformers = {"lbs": "LBS", "dqs": "DQS", "pbs": "PBS", "snh_p1": "FEM, neo-Hookean P1", "pbs_jiggle": "PBS, jiggling flesh",
              "pbs_no_zone": "PBS, no zone", "pbs_increment": "PBS, no start from LBS"}
 figures = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "error_linf_m", "min_section_pct", "angle_deg",
            "reference_self_intersects")
@@ -38,6 +39,8 @@ def read_frame(file):
     ratio, rest = grid.GetCellData().GetArray("volume_ratio"), grid.GetPointData().GetArray("rest_position")
     if not ratio or not rest:
         raise records.RecordsMissing(f"{file}: no {'rest_position' if ratio else 'volume_ratio'}")
+    if not numpy.isfinite(vtk_to_numpy(grid.GetPoints().GetData())).all():
+        raise records.RecordsMissing(f"{file}: a position is not finite: nothing to show")
     tets = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
     return tuple(numpy.array(array) for array in (vtk_to_numpy(grid.GetPoints().GetData()), tets, vtk_to_numpy(ratio), vtk_to_numpy(rest)))
 
@@ -95,6 +98,11 @@ def figures_of(rows):
     return {column: [float(row[column]) if row.get(column) else None for row in rows] for column in figures}
 
 
+def not_reached(rows):
+    """Places of the frames whose pose the deformer did not reach."""
+    return [at for at, row in enumerate(rows) if not pose_reached.of(row)]
+
+
 def title_of(recorded, label):
     """Of PBS with a stiffness other than plain PBS has in the same scene, that and its jiggling zone's, as recorded."""
     options = {run["label"]: run.get("options", {}) for run in recorded.run.record["scene"]["runs"]}
@@ -136,7 +144,8 @@ def facts_of(recorded, every):
     """What the run's tables say, without its frames."""
     rows = {label: kept[::every] for label, kept in rows_of(recorded).items()}
     first = next(iter(rows.values()))
-    shown = [{"label": label, "title": title_of(recorded, label), "figures": figures_of(rows[label])} for label in rows]
+    shown = [{"label": label, "title": title_of(recorded, label), "figures": figures_of(rows[label]),
+              "not_reached": not_reached(rows[label])} for label in rows]
     return {"name": recorded.run.name, "title": titles[recorded.run.name], "reference": recorded.run.reference(),
             "rights": "; ".join(recorded_frames.licences_of(recorded)), "frames": [int(row["frame"]) for row in first],
             "times_s": [float(row["time_s"]) for row in first], "deformers": shown}

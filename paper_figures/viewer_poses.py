@@ -10,7 +10,8 @@ poses = (
      "PBS without the start from LBS is farthest from FEM"),
     ("C04", "limb_twist", "lbs", "min_section_pct", min, "skin", "", "LBS has its thinnest section"),
     ("C05", "limb_bend", "dqs", "error_joint_pct", max, "error", "", "DQS errs most at the joint"),
-    ("C09", "human_walk", "pbs_jiggle", "error_linf_m", max, "error", "lbs,pbs,pbs_jiggle,snh_p1", "jiggling flesh is farthest from FEM"),
+    ("C09", "human_walk", "pbs_jiggle", "error_linf_m", max, "error", "lbs,pbs_no_zone,pbs_jiggle,snh_p1",
+     "jiggling flesh is farthest from FEM; the same stiffness without a jiggling zone beside it"),
     ("C12", "human_jump", "pbs", "error_joint_pct", max, "error", "", "PBS with 24 iterations errs most at the joints"),
 )
 
@@ -30,8 +31,9 @@ def poses_of(runs):
     found = []
     for claim, run, label, column, extreme, colour, panels, what in poses:
         known = {deformer["label"]: deformer for deformer in named[run]["deformers"]} if run in named else {}
-        if label not in known or any(panel not in known for panel in panels.split(",") if panel):
+        if label not in known:
             continue
+        panels = ",".join(panel for panel in panels.split(",") if panel in known)
         at = position_of(known[label]["figures"][column], extreme)
         if at is not None:
             found.append({"claim": claim, "run": run, "frame": named[run]["frames"][at], "colour": colour, "panels": panels, "what": what})

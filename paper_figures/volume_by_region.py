@@ -1,5 +1,6 @@
 """Where the human's volume goes over the clip: the change of each bone's and each joint's share, in per cent of the whole body, mean over
 frames. LBS loses at shoulders, spine and hips; what PBS still loses lies along the spine."""
+import entries
 import records
 import style
 
@@ -16,6 +17,16 @@ def largest(rows):
     return [row["region"] for row in of_lbs[:most_regions]]
 
 
+def in_words(region):
+    """A bone, or the two of a joint; their side once."""
+    first, *second = map(style.bone_in_words, region.split(" - "))
+    return "\u2013".join([first, *(bone.removeprefix(side_of(first)) for bone in second)])
+
+
+def side_of(bone):
+    return next((side for side in ("left ", "right ") if bone.startswith(side)), "")
+
+
 def draw_kind(axes, rows):
     regions = largest(rows)
     behind = []
@@ -28,7 +39,7 @@ def draw_kind(axes, rows):
         behind += [{name: row[name] for name in ("run", "deformer", "kind", "region", "rest_share_pct", "change_pct", "own_change_pct")}
                    for row in shown]
     axes.axvline(0, color=style.black, linewidth=0.6)
-    axes.set_yticks(range(len(regions)), [region.replace(" - ", "\u2013").replace("_", " ") for region in regions])
+    axes.set_yticks(range(len(regions)), list(map(in_words, regions)))
     axes.set_ylim(len(regions) - 0.5, -0.5)
     axes.set_xlabel("change [% of the body's volume]")
     return behind
@@ -45,4 +56,4 @@ def draw(results, figures):
         behind += draw_kind(panel, [row for row in rows if row["kind"] == kind])
         panel.set_title(f"human, {title}")
     style.legend_above(figure)
-    style.save(figure, figures / "volume_by_region", records.provenance(results / "volume"), behind)
+    style.save(figure, figures / "volume_by_region", entries.origin_of(results, "volume_by_region"), behind)

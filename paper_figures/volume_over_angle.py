@@ -1,5 +1,6 @@
 """How much volume each deformer changes as the limb is twisted and bent: signed (the paper's measure) and absolute (gains do
 not hide losses)."""
+import entries
 import records
 import style
 
@@ -28,4 +29,4 @@ def draw(results, figures):
             style.paper_band(panel, signed=row == 0)
             style.per_cent_scale(panel, signed=row == 0)
     style.legend_above(figure, columns=3)
-    style.save(figure, figures / "volume_over_angle", records.provenance(results / "volume"), behind)
+    style.save(figure, figures / "volume_over_angle", entries.origin_of(results, "volume_over_angle"), behind)

@@ -1,4 +1,5 @@
 """How much volume each deformer changes over the clip on the human, beside neo-Hookean finite elements."""
+import entries
 import records
 import style
 
@@ -22,4 +23,4 @@ def draw(results, figures):
         panel.margins(x=0)
     axes[1][0].set_xlabel("time in the clip [s]")
     style.legend_above(figure)
-    style.save(figure, figures / "volume_over_clip", records.provenance(results / "volume"), behind)
+    style.save(figure, figures / "volume_over_clip", entries.origin_of(results, "volume_over_clip"), behind)

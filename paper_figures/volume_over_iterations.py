@@ -1,5 +1,6 @@
 """PBS volume change against the number of iterations: the median over the clip's frames and the band that holds 8 frames in 10 for the
 human, single poses for the limb."""
+import entries
 import records
 import style
 from report.markup import figure
@@ -62,4 +63,4 @@ def draw(results, figures):
         panel.set_xlabel("iterations per step")
         panel.set_ylabel(label)
     style.legend_above(drawing)
-    style.save(drawing, figures / "volume_over_iterations", records.provenance(results / "volume"), behind)
+    style.save(drawing, figures / "volume_over_iterations", entries.origin_of(results, "volume_over_iterations"), behind)

@@ -1,15 +1,17 @@
 """Error against run time, a panel a pose: every setting of every deformer, the front of each and the front of them all, and the bound of
 the reference's own error, below which nothing can be told apart; dotted: how far the solution beside the reference is from it."""
+import entries
 import records
 import style
 
 looks = {"lbs": ("LBS", style.vermillion, "v"), "dqs": ("DQS", style.orange, "s"), "delta_mush": ("delta mush", style.green, "^"),
          "pbs": ("PBS", style.blue, "o"), "pbs_exponent": ("PBS, exponent", style.sky, "p"), "xpbd": ("XPBD", style.purple, "D"),
-         "xpbd_small_steps": ("XPBD, small steps", style.purple, "d"), "fem_linear": ("linear FEM", "#999999", "x"),
+         "xpbd_small_steps": ("XPBD, small steps", "#8B5A2B", "<"), "fem_linear": ("linear FEM", "#999999", "x"),
          "fem_corotational": ("corotational FEM", style.black, "+"), "fem_stable_neo_hookean": ("neo-Hookean FEM", style.black, "P")}
 point_columns = {"body", "pose", "deformer", "setting", "outcome", "ms_median", "error_joint_pct", "reference_error_joint_pct",
                  "error_joint_beside_pct"}
 front_columns = {"case", "measure", "front", "deformer", "setting", "ms_median", "error_joint_pct"}
+point_numbers = ("body", "pose", "deformer", "setting", "ms_median", "error_joint_pct")
 most_panels = 6
 
 
@@ -17,36 +19,50 @@ def measured(rows):
     return [row for row in rows if row["ms_median"] and row["error_joint_pct"]]
 
 
-def draw_case(axes, rows, fronts):
-    case = f"{rows[0]['body']}, {rows[0]['pose']}"
+def draw_deformers(axes, rows, fronts):
     for deformer, (label, color, marker) in looks.items():
         chosen = [row for row in measured(rows) if row["deformer"] == deformer]
         if not chosen:
             continue
         axes.plot(records.numbers(chosen, "ms_median"), records.numbers(chosen, "error_joint_pct"), linestyle="none", marker=marker,
                   color=color, markersize=2.6, alpha=0.45, markeredgewidth=0.6)
-        front = [row for row in fronts if row["case"] == case and row["front"] == deformer]
+        front = [row for row in fronts if row["front"] == deformer]
         axes.plot(records.numbers(front, "ms_median"), records.numbers(front, "error_joint_pct"), color=color, marker=marker, label=label,
                   linewidth=1.0)
-    front = [row for row in fronts if row["case"] == case and row["front"] == "all"]
+    front = [row for row in fronts if row["front"] == "all"]
     if front:
         axes.step(records.numbers(front, "ms_median"), records.numbers(front, "error_joint_pct"), where="post", color=style.yellow,
                   linewidth=4.0, alpha=0.6, zorder=0, label="front of all")
-    bound = rows[0]["reference_error_joint_pct"]
-    beside = [row["error_joint_beside_pct"] for row in rows if row["outcome"] == "reference"]
     axes.set_xscale("log")
     axes.set_yscale("log")
+
+
+def draw_bounds(axes, bound, beside):
     low, high = axes.get_ylim()
-    if beside and beside[0]:
-        axes.axhline(float(beside[0]), color=style.vermillion, linewidth=0.8, linestyle=(0, (1, 1)), label="second solution")
-        low, high = min(low, 0.8 * float(beside[0])), max(high, 1.2 * float(beside[0]))
+    if beside:
+        axes.axhline(float(beside), color=style.vermillion, linewidth=0.8, linestyle=(0, (1, 1)), label="second solution")
+        low, high = min(low, 0.8 * float(beside)), max(high, 1.2 * float(beside))
     if bound:
         axes.axhspan(low, min(float(bound), high), color="#EFEFEF", linewidth=0, zorder=-1, label="below the reference's own error (bound)")
     axes.set_ylim(low, high)
+
+
+def draw_case(axes, rows, fronts):
+    """Returns the rows behind it: points, fronts, the bound of the reference's own error and how far the second solution is."""
+    case = f"{rows[0]['body']}, {rows[0]['pose']}"
+    fronts = [row for row in fronts if row["case"] == case]
+    bound = rows[0]["reference_error_joint_pct"]
+    beside = next((row["error_joint_beside_pct"] for row in rows if row["outcome"] == "reference"), "")
+    draw_deformers(axes, rows, fronts)
+    draw_bounds(axes, bound, beside)
     style.log_scale(axes.yaxis)
     axes.set_title((f"{case}; bound {float(bound):.3g} %" if bound else case).replace(" deg", "\u00b0"))
     axes.set_xlabel("processor time a frame [ms]")
     axes.set_ylabel("error at the joints [%]")
+    points = [{"shown": "point"} | {name: row[name] for name in point_numbers} for row in measured(rows)]
+    of_fronts = [{"shown": f"front of {row['front']}"} | {name: row[name] for name in point_numbers[2:]} for row in fronts]
+    levels = [{"shown": shown, "error_joint_pct": value} for shown, value in (("bound", bound), ("second solution", beside)) if value]
+    return points + [{"body": rows[0]["body"], "pose": rows[0]["pose"]} | row for row in of_fronts + levels]
 
 
 def place(rows):
@@ -66,13 +82,10 @@ def draw(results, figures):
     shown = cases[:most_panels]
     columns = 2
     figure, axes = style.panels(-(-len(shown) // columns), columns, height_in=2.4)
-    for panel, rows in zip(axes.flat, shown):
-        draw_case(panel, rows, fronts)
+    behind = [row for panel, rows in zip(axes.flat, shown) for row in draw_case(panel, rows, fronts)]
     for panel in axes.flat[len(shown):]:
         panel.set_visible(False)
     axes.flat[0].plot([], [], linestyle="none", marker="o", color="#777777", markersize=2.6, alpha=0.45,
                       label="small marks: every setting; lines: each one's front")
     style.legend_above(figure, columns=4)
-    behind = [{name: row[name] for name in ("body", "pose", "deformer", "setting", "ms_median", "error_joint_pct")}
-              for rows in shown for row in measured(rows)]
-    style.save(figure, figures / "work_precision", records.provenance(results / "work_precision"), behind)
+    style.save(figure, figures / "work_precision", entries.origin_of(results, "work_precision"), style.aligned(behind))

@@ -8,6 +8,7 @@
 
 namespace reference_fem {
 
+// Keeps what it needs of mesh and space.
 class AttachedPoints {
 public:
     // points [m], #S x 3; stiffness [N/m], #S.
@@ -22,8 +23,9 @@ public:
     // The same to a matrix whose blocks are in place.
     void add_to(NodalMatrix& matrix) const;
 
-    // The energy [J], and its gradient k N^T (point + displacement - target) [N], #dofs.
+    // The energy [J]; targets [m], #S x 3, displacement [m], #dofs.
     double energy(const pbs::Positions& targets, const Eigen::VectorXd& displacement) const;
+    // Adds the gradient of that energy, k N^T (point + displacement - target) [N], #dofs.
     void add_pull(const pbs::Positions& targets, const Eigen::VectorXd& displacement, Eigen::VectorXd& gradient) const;
 
     // Where a displacement [m], #dofs, takes the points [m], #S x 3; not a number for those left out.

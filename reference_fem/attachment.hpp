@@ -18,12 +18,13 @@ struct Attachment {
     Eigen::VectorXd bind_stiffness;    // k_i [N/m], #V; 0: this vertex is not bound
 };
 
+// For records: what was built, with what, in how many seconds of wall time.
 struct SetupSummary {
-    int dofs = 0;
-    double assemble_s = 0.0, analyse_s = 0.0, factor_s = 0.0;
-    std::string elements;               // e.g. "deal.II 9.4.1"
-    std::string solver;                 // e.g. "CHOLMOD 3.0.14 supernodal, METIS"
-    std::string blas;                   // the BLAS that was resolved
+    int dofs = 0;  // unknowns, prescribed ones too; with taylor_hood a pressure a vertex besides
+    double assemble_s = 0.0, analyse_s = 0.0, factor_s = 0.0;  // the last analysis and factor; assembly only of LinearElasticity, else 0
+    std::string elements;                                      // e.g. "deal.II 9.4.1"
+    std::string solver;                                        // e.g. "CHOLMOD 3.0.14 supernodal, METIS"
+    std::string blas;                                          // the BLAS that was resolved
     bool factored = false;              // false: the matrix is singular in double; every solve then reports finite = false
     double reciprocal_condition = 0.0;  // the solver's own rough estimate
     std::vector<int> spring_tet;        // tet that holds each spring point, -1: outside

@@ -13,41 +13,44 @@
 
 namespace reference_fem {
 
+// As lame_parameters takes it: pbs::InputError where it is out of bounds.
 struct ElasticMaterial {
-    double young_pa = 1.0;
-    double poisson = 0.3;
+    double young_pa = 1.0;  // Young's modulus E > 0; with the 1 of a benchmark in print, stresses are in units of E
+    double poisson = 0.3;   // Poisson's ratio, -1 < nu < 0.5
 };
 
 // Which components of a node's displacement are held: all or none, or single ones (rollers, planes of symmetry).
 struct Held {
-    Held(bool all) : x(all), y(all), z(all) {}
-    Held(bool hold_x, bool hold_y, bool hold_z) : x(hold_x), y(hold_y), z(hold_z) {}
+    Held(bool all) : x(all), y(all), z(all) {}                                        // implicit: a predicate may return a bool
+    Held(bool hold_x, bool hold_y, bool hold_z) : x(hold_x), y(hold_y), z(hold_z) {}  // along the axes of the world
 
-    bool x, y, z;
+    bool x, y, z;  // true: that component is prescribed
 };
 
+// Data of a problem; inside the body nothing can be held.
 struct BoundaryValueProblem {
-    VectorField body_force = {};                      // [N/m^3]; empty: none
-    VectorField displacement = {};                    // [m], where it is held; empty: zero
-    std::function<Held(const pbs::Vec3&)> held = {};  // of the boundary nodes; empty: all are
-    int element_order = 2;
-    LinearSolver solver = LinearSolver::cholmod;
-    std::vector<Traction> tractions = {};  // elsewhere the boundary is free
-    Formulation formulation = Formulation::displacement;
+    VectorField body_force = {};                          // [N/m^3]; empty: none
+    VectorField displacement = {};                        // [m], where it is held; empty: zero
+    std::function<Held(const pbs::Vec3&)> held = {};      // of the boundary nodes; empty: all are
+    int element_order = 2;                                // 1, 2; taylor_hood: 2
+    LinearSolver solver = LinearSolver::cholmod;          // with taylor_hood a direct one, and UMFPACK either way
+    std::vector<Traction> tractions = {};                 // elsewhere the boundary is free
+    Formulation formulation = Formulation::displacement;  // at finite strain not taylor_hood
 };
 
+// The solution and what it takes to evaluate it: the mesh may go.
 struct BoundaryValueSolution {
-    std::shared_ptr<const SimplexSpace> space;
-    Eigen::VectorXd displacement;  // [m], #dofs
-    double residual = 0.0;
+    std::shared_ptr<const SimplexSpace> space;  // its node v is vertex v of the mesh
+    Eigen::VectorXd displacement;               // [m], #dofs
+    double residual = 0.0;   // |K u - f| / |f| over the free unknowns; infinite where K is singular, and the displacement is not a number
     Eigen::VectorXd load;    // of body force and tractions [N], #dofs
     std::vector<bool> held;  // #dofs
-    Formulation formulation = Formulation::displacement;
-    Eigen::VectorXd pressure_pa = {};  // lambda div u at the vertices, #V, with taylor_hood, else empty
+    Formulation formulation = Formulation::displacement;  // that it was solved in
+    Eigen::VectorXd pressure_pa = {};                     // lambda div u at the vertices, #V, with taylor_hood, else empty
 
-    ErrorNorms errors(const VectorField& exact, const GradientField& exact_gradient) const;
-    double largest_nodal_error(const VectorField& exact) const;  // [m]
-    double strain_energy_j(const ElasticMaterial& material) const;
+    ErrorNorms errors(const VectorField& exact, const GradientField& exact_gradient) const;  // l2 [m^(5/2)], h1_seminorm [m^(3/2)]
+    double largest_nodal_error(const VectorField& exact) const;                              // [m]
+    double strain_energy_j(const ElasticMaterial& material) const;                           // with the solution's own material
     double work_of_load_j() const { return load.dot(displacement); }  // over the total force: the mean displacement along it
 
     pbs::Vec3 displacement_at(const pbs::Vec3& point) const;                                   // [m], of the nearest node
@@ -55,6 +58,8 @@ struct BoundaryValueSolution {
                                                                                                // over the tets that meet there
 };
 
+// pbs::InputError for a mesh that check_mesh refuses, an element_order or a material out of bounds, and taylor_hood unless the order is 2,
+// nu > 0 and the solver a direct one. A body that may still move rigidly is not refused: with a direct solver `residual` tells.
 BoundaryValueSolution solve(const pbs::TetMesh& mesh, const ElasticMaterial& material, const BoundaryValueProblem& problem);
 
 // What a problem says of a space.
@@ -62,8 +67,9 @@ struct PrescribedData {
     std::vector<bool> held;  // #dofs
     Eigen::VectorXd values;  // [m], #dofs
 };
+// Boundary nodes only; without `displacement` the values are 0.
 PrescribedData prescribed_data(const SimplexSpace& space, const BoundaryValueProblem& problem);
 Eigen::VectorXd external_load(const SimplexSpace& space, const BoundaryValueProblem& problem);  // [N], #dofs
-int nearest_node(const SimplexSpace& space, const pbs::Vec3& point);
+int nearest_node(const SimplexSpace& space, const pbs::Vec3& point);  // by rest position [m]; mid-edge nodes count
 
 }  // namespace reference_fem

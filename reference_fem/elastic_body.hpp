@@ -19,20 +19,21 @@
 
 namespace reference_fem {
 
+// Out of bounds: pbs::InputError from ElasticBody's constructor.
 struct ElasticOptions {
-    Model model = Model::stable_neo_hookean;
-    int element_order = 2;  // 1, 2
-    Formulation formulation = Formulation::displacement;
-    double young_pa = 1.0e5;
-    double poisson = 0.45;
-    double density_kg_m3 = 1000.0;
-    Dynamics dynamics = Dynamics::quasi_static;
-    double rayleigh_mass_1_s = 0.0;  // damping C = rayleigh_mass M + rayleigh_stiffness K(rest)
-    double rayleigh_stiffness_s = 0.0;
-    double spectral_radius = 0.8;  // of generalised-alpha at infinite frequency
-    LinearSolver solver = LinearSolver::cholmod;
-    NewtonOptions newton = {};
-    LoadPathOptions path = {};
+    Model model = Model::stable_neo_hookean;              // the law; `linear` keeps one factor for all quasi-static solves
+    int element_order = 2;                                // 1, 2
+    Formulation formulation = Formulation::displacement;  // not taylor_hood; mean_dilatation for laws with a volume term
+    double young_pa = 1.0e5;                              // Young's modulus E > 0
+    double poisson = 0.45;                                // Poisson's ratio, -1 < nu < 0.5
+    double density_kg_m3 = 1000.0;                        // >= 0; where there is inertia > 0
+    Dynamics dynamics = Dynamics::quasi_static;           // quasi_static: solve() and solve_at_once(); else solve() and advance()
+    double rayleigh_mass_1_s = 0.0;                       // damping C = rayleigh_mass M + rayleigh_stiffness K(rest)
+    double rayleigh_stiffness_s = 0.0;                    // both finite, >= 0
+    double spectral_radius = 0.8;                         // of generalised-alpha at infinite frequency, 0 to 1
+    LinearSolver solver = LinearSolver::cholmod;          // of the systems in Newton
+    NewtonOptions newton = {};                            // of each attempt on the path
+    LoadPathOptions path = {};                            // how solve() and advance() divide the way
 };
 
 // What the skeleton asks for at a fraction of the way from the last solved state (0) to this one (1).
@@ -43,26 +44,30 @@ struct Targets {
     pbs::Positions guide = {};   // [m], #V x 3, or empty: solve() sets out from the last state plus the guide's change since. Not what is
                                  // converged to depends on it, only the way
 };
-using TargetsAt = std::function<Targets(double fraction)>;
+using TargetsAt = std::function<Targets(double fraction)>;  // may be asked for a fraction twice, and after a failure for a lower one
 
+// Keeps what it needs: mesh, options and attachment may go.
 class ElasticBody {
 public:
     // pbs::InputError where an option, the mesh or the attachment is out of bounds, or a connected part of the mesh is not held.
     ElasticBody(const pbs::TetMesh& mesh, const ElasticOptions& options, const Attachment& attachment);
     ~ElasticBody();
 
+    // Equilibrium, along a path on which targets and gravity go from the last state's to these. pbs::InputError for gravity that is not
+    // finite and targets of the wrong number.
     LoadPathSummary solve(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2);
     // One step of options.dynamics from rest or the last state, whose targets are those at fraction 0; in between, targets and gravity move
     // linearly in time. A step whose Newton fails is taken in halves, which ask for targets at their own fractions; where fraction 1 is not
     // reached, nothing of the step is kept. After solve() the body is at rest. The frame of reference is taken to be inertial: a skeleton
     // whose root moves is to be given as it is in the world. Gravity acts in full from the first step on.
+    // pbs::InputError where quasi-static, for a step that is not finite and > 0, and as solve().
     LoadPathSummary advance(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2, double time_step_s);
 
     // A start for Newton other than the last state [m], #V x 3; mid-edge nodes halfway. Does not change what is converged to, only the way.
     void start_from(const pbs::Positions& vertices);
 
     // Newton alone for these targets, from the last state or start_from(), however broken: no load path, nothing taken back. positions()
-    // are then the last iterate, converged or not. Quasi-static.
+    // are then the last iterate, converged or not. pbs::InputError unless quasi-static, and as solve().
     NewtonSummary solve_at_once(const Targets& targets, const pbs::Vec3& gravity_m_s2);
 
     const pbs::Positions& positions() const;        // deformed vertices [m], #V x 3
@@ -72,7 +77,7 @@ public:
     double kinetic_energy_j() const;                // 0 where quasi-static
     Jacobians jacobians() const;                    // at the quadrature points: an inverted one is not for P1 alone to see
     std::vector<bool> prescribed_vertices() const;  // #V
-    const SetupSummary& setup() const;
+    const SetupSummary& setup() const;              // solver and factor from the first solve on
 
 private:
     class Implementation;

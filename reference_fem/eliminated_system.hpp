@@ -8,11 +8,13 @@
 
 namespace reference_fem {
 
+// Of all degrees of freedom, the prescribed ones at their values.
 struct EliminatedSolution {
     Eigen::VectorXd displacement;  // [m], #dofs; not finite where the factorisation broke down
-    double residual = 0.0;         // |K_ff u_f - right-hand side| / |right-hand side|; 0 where both are 0
+    double residual = 0.0;         // |K_ff u_f - right-hand side| / |right-hand side|; 0 where both are 0; infinite where it broke down
 };
 
+// Keeps K_ff and K_fp: the stiffness may go.
 class EliminatedSystem {
 public:
     // prescribed: #dofs. near_null_space, #dofs x #modes: for an iterative solver, see near_null_space.hpp.
@@ -26,7 +28,7 @@ public:
     void update(const SparseMatrix& stiffness);
 
     bool usable() const { return free_.empty() || factor_->usable(); }  // false: solve() gives what is not a number
-    const PreparedSolver& factor() const { return *factor_; }
+    const PreparedSolver& factor() const { return *factor_; }           // of K_ff
 
 private:
     struct Block {

@@ -10,13 +10,14 @@ namespace reference_fem {
 // pbs::InputError where the springs, prescribed tets or bound vertices do not fit the mesh.
 void check_attachment(const pbs::TetMesh& mesh, const Attachment& attachment);
 
+// Keeps what it needs: mesh and attachment may go.
 class HeldSpace {
 public:
     // pbs::InputError where the mesh, an option or the attachment is out of bounds, or a connected part of the mesh is not held.
     HeldSpace(const pbs::TetMesh& mesh, int element_order, double density_kg_m3, const Attachment& attachment);
 
-    const SimplexSpace& space() const { return space_; }
-    const AttachedPoints& springs() const { return springs_; }
+    const SimplexSpace& space() const { return space_; }                 // its node v is vertex v of the mesh
+    const AttachedPoints& springs() const { return springs_; }           // in the attachment's order, those outside too
     const std::vector<bool>& prescribed() const { return prescribed_; }  // #dofs
     const pbs::Positions& rest() const { return rest_; }                 // vertices [m], #V x 3
 
@@ -27,6 +28,7 @@ public:
     pbs::Positions vertices(const Eigen::VectorXd& displacement) const;
     std::vector<bool> prescribed_vertices() const;  // #V
 
+    // pbs::InputError unless there is one target a spring point and one a vertex.
     void require_targets(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets) const;
     SetupSummary summary(const PreparedSolver* factor, double assemble_s) const;  // null: nothing is factored yet
 

@@ -9,6 +9,7 @@
 
 namespace reference_fem {
 
+// Throws unless it holds; without file and line, since the input is arrays.
 template <typename Value>
 void require(bool holds, const char* field, const Value& value, const char* rule)
 {

@@ -14,30 +14,34 @@
 
 namespace reference_fem {
 
+// Out of bounds: pbs::InputError from LinearElasticity's constructor.
 struct LinearOptions {
-    int element_order = 2;  // 1, 2
-    double young_pa = 1.0e5;
-    double poisson = 0.45;
-    double density_kg_m3 = 1000.0;
-    pbs::Vec3 gravity_m_s2 = pbs::Vec3::Zero();
-    LinearSolver solver = LinearSolver::cholmod;  // taylor_hood: UMFPACK for either direct solver
-    Formulation formulation = Formulation::displacement;
+    int element_order = 2;                                // 1, 2
+    double young_pa = 1.0e5;                              // Young's modulus E > 0
+    double poisson = 0.45;                                // Poisson's ratio, -1 < nu < 0.5; with taylor_hood > 0
+    double density_kg_m3 = 1000.0;                        // >= 0; gravity alone asks for it
+    pbs::Vec3 gravity_m_s2 = pbs::Vec3::Zero();           // of solve() without its own
+    LinearSolver solver = LinearSolver::cholmod;          // taylor_hood: UMFPACK for either direct solver
+    Formulation formulation = Formulation::displacement;  // taylor_hood: element_order 2 and a direct solver
 };
 
+// Numerical breakdown is reported here, never thrown.
 struct SolveSummary {
-    double seconds = 0.0;
-    double residual = 0.0;  // |K u - f| / |f|
+    double seconds = 0.0;   // wall time of right-hand side and re-solve
+    double residual = 0.0;  // |K u - f| / |f| over the free unknowns; infinite where singular
     bool finite = true;     // false: the matrix is singular in double, or an iterative solver did not converge
     int iterations = 0;     // of an iterative solver
 };
 
+// Keeps what it needs: mesh, options and attachment may go.
 class LinearElasticity {
 public:
     // pbs::InputError where an option, the mesh or the attachment is out of bounds, or a connected part of the mesh is not held.
     LinearElasticity(const pbs::TetMesh& mesh, const LinearOptions& options, const Attachment& attachment);
     ~LinearElasticity();
 
-    // spring_targets: #S x 3 [m]; vertex_targets: #V x 3 [m], read at the vertices of prescribed tets only.
+    // spring_targets: #S x 3 [m]; vertex_targets: #V x 3 [m], read at the vertices of prescribed tets only. pbs::InputError for another
+    // number of either.
     SolveSummary solve(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets);
     // The same under another gravity than the options', for a frame of reference that turns.
     SolveSummary solve(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets, const pbs::Vec3& gravity_m_s2);
@@ -48,7 +52,7 @@ public:
     pbs::Positions spring_points_deformed() const;  // where the tied points went [m], #S x 3: targets minus this is the grip error
     double strain_energy_j() const;                 // of the flesh alone, without the springs
     std::vector<bool> prescribed_vertices() const;  // #V
-    const SetupSummary& setup() const;
+    const SetupSummary& setup() const;              // of the constructor's one assembly and factor
 
 private:
     class Implementation;

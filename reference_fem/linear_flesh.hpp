@@ -22,6 +22,7 @@
 
 namespace reference_fem {
 
+// Of one material throughout.
 class LinearFlesh {
 public:
     // held_tets: prescribed whole. What they are asked for has no pressure to share with the flesh around them.
@@ -32,9 +33,9 @@ public:
     // which make all entries [N/m] of one size.
     int unknowns() const;
     int pressures() const { return static_cast<int>(has_pressure_.size()); }  // #V, or 0
-    double pressure_unit_pa() const { return pressure_unit_pa_; }
-    SparseMatrix stiffness() const;                     // unknowns x unknowns, both triangles
-    LinearSolver solver(LinearSolver asked_for) const;  // that can; pbs::InputError for cg_ml with taylor_hood
+    double pressure_unit_pa() const { return pressure_unit_pa_; }  // mu / (mean tet volume)^(1/3) in SI units; 0 without taylor_hood
+    SparseMatrix stiffness() const;                                // unknowns x unknowns, both triangles
+    LinearSolver solver(LinearSolver asked_for) const;             // that can; pbs::InputError for cg_ml with taylor_hood
 
     // Those that are known beforehand: prescribed degrees of freedom, #dofs, and pressures at vertices that only held tets have.
     std::vector<bool> prescribed(const std::vector<bool>& of_dofs) const;

@@ -3,6 +3,7 @@
 
 namespace reference_fem {
 
+// What each is stands in prepared_solver.hpp; cholmod is the default everywhere.
 enum class LinearSolver { cholmod, umfpack, cg_ml };
 
 }  // namespace reference_fem

@@ -3,6 +3,7 @@
 
 namespace reference_fem {
 
+// Isotropic all, with the same limit at small strain.
 enum class Model {
     linear,                 // small strain: rotation by a is taken for a strain of 1 - cos(a)
     corotational,           // small strain in the frame of the polar decomposition F = R S

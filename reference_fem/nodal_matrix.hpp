@@ -10,11 +10,12 @@
 
 namespace reference_fem {
 
+// Degree of freedom 3 n + c is component c at node n.
 class NodalMatrix {
 public:
-    explicit NodalMatrix(const SimplexSpace& space);
+    explicit NodalMatrix(const SimplexSpace& space);  // zeros; the space may go
 
-    void set_zero() { matrix_.coeffs().setZero(); }
+    void set_zero() { matrix_.coeffs().setZero(); }                               // the pattern stays
     void add_block(int row_node, int column_node, const Eigen::Matrix3d& block);  // of two nodes that share a tet
     // Blocks of one tet, k of them a side: values 3 k x 3 k.
     void add_tet(Eigen::Index tet, const Eigen::Ref<const Eigen::MatrixXd>& values);
@@ -24,7 +25,7 @@ public:
     void add_isotropic(const SparseMatrix& of_nodes, double factor);
 
     const SparseMatrix& matrix() const& { return matrix_; }  // #dofs x #dofs, both triangles
-    SparseMatrix matrix() && { return std::move(matrix_); }
+    SparseMatrix matrix() && { return std::move(matrix_); }  // the same, moved out
 
 private:
     SparseMatrix::StorageIndex place(int row_node, int column_node) const;  // of the block's first row in its columns

@@ -12,16 +12,18 @@
 
 namespace reference_fem {
 
+// Stays where it is made: the handler refers to the triangulation.
 struct SimplexSpace::Elements {
+    // 1 or 2; the triangulation is filled later, by the space.
     explicit Elements(int element_order)
         : element(dealii::FE_SimplexP<3>(element_order), 3), mapping(dealii::FE_SimplexP<3>(1)), dof_handler(triangulation)
     {
     }
 
-    dealii::Triangulation<3> triangulation;
-    dealii::FESystem<3> element;
-    dealii::MappingFE<3> mapping;
-    dealii::DoFHandler<3> dof_handler;
+    dealii::Triangulation<3> triangulation;  // cell t is tet t of the mesh
+    dealii::FESystem<3> element;             // three components of FE_SimplexP
+    dealii::MappingFE<3> mapping;            // of straight tets
+    dealii::DoFHandler<3> dof_handler;       // renumbered: 3 n + c is component c at node n
 };
 
 }  // namespace reference_fem

@@ -11,6 +11,7 @@ namespace reference_fem {
 
 using TetNodes = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // #T x 4 or #T x 10
 
+// The mesh may go.
 class SimplexSpace {
 public:
     struct Elements;  // deal.II's side, in simplex_elements.hpp
@@ -22,9 +23,9 @@ public:
     SimplexSpace(const pbs::TetMesh& mesh, int element_order);
     ~SimplexSpace();
 
-    int element_order() const { return element_order_; }
-    int nodes() const { return static_cast<int>(node_positions_.rows()); }
-    int dofs() const { return 3 * nodes(); }
+    int element_order() const { return element_order_; }                      // 1 or 2
+    int nodes() const { return static_cast<int>(node_positions_.rows()); }    // #V with P1, #V + #E with P2
+    int dofs() const { return 3 * nodes(); }                                  // 3 a node, prescribed ones too
     const pbs::Positions& node_positions() const { return node_positions_; }  // [m], #nodes x 3
     const TetNodes& tet_nodes() const { return tet_nodes_; }                  // the corners first, in the mesh's order
 
@@ -34,7 +35,7 @@ public:
     // Values given at the vertices, #V x 3, on all nodes, #nodes x 3: linear along each edge.
     pbs::Positions from_vertices(const pbs::Positions& at_vertices) const;
 
-    const Elements& elements() const { return *elements_; }
+    const Elements& elements() const { return *elements_; }  // deal.II's side, for those who include simplex_elements.hpp
 
 private:
     void number_nodes(const pbs::TetMesh& mesh);

@@ -8,6 +8,6 @@
 
 namespace reference_fem {
 
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int64_t>;
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int64_t>;  // compressed before a solver reads it
 
 }  // namespace reference_fem

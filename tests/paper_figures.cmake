@@ -24,6 +24,9 @@ if(TARGET pbskin)
     add_test(NAME browser/viewer COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/browser/browser_test.py
         $<TARGET_FILE:pbskin> ${CMAKE_BINARY_DIR}/tests/browser)
     set_tests_properties(browser/viewer PROPERTIES LABELS browser SKIP_RETURN_CODE 77 TIMEOUT 1800)
+    add_test(NAME browser/quick_results COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/browser/quick_results_test.py
+        $<TARGET_FILE:pbskin> ${CMAKE_BINARY_DIR}/tests/browser_quick)
+    set_tests_properties(browser/quick_results PROPERTIES LABELS browser SKIP_RETURN_CODE 77 TIMEOUT 3600)
 endif()
 add_test(NAME unit/paper_figures/report COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/report_test.py)
 set_tests_properties(unit/paper_figures/report PROPERTIES LABELS unit TIMEOUT 120)

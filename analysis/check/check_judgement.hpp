@@ -13,6 +13,8 @@ CheckCase judge_bound(const CheckBound& bound, const std::string& unit, const Cs
 
 // The frames of a baseline: one row a scene, deformer and frame, with counts, the metrics that have a tolerance, and step_ms.
 CsvTable baseline_columns(const CheckRules& rules);
+// Adds the frames of a scene's metrics.csv, in its order; empty cells for metrics that the scene does not measure. InputError as
+// CsvTable.
 void add_baseline_rows(CsvTable& baseline, const CheckRules& rules, const std::string& scene, const CsvTable& metrics, int vertices,
                        int tets);
 

@@ -7,6 +7,7 @@
 
 namespace analysis {
 
+// The whole document; counts and seconds of each suite and of all.
 std::string junit_report(const std::vector<CheckSuite>& suites);
 
 }  // namespace analysis

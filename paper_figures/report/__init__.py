@@ -9,11 +9,11 @@ import records
 import whole_file
 from report import page, record_set
 
-usual_most_mb = 25
+most_mb = 25
 
 
 def main(results, quiet=False):
-    """The exit status: 2 where there are no records, or damaged ones, or the page cannot be written."""
+    """The exit status: 2 where there are no records, or damaged ones, or the page cannot be written; 1 where it is too large."""
     try:
         text, missing = page.page(record_set.RecordSet(results))
     except records.RecordsMissing as error:
@@ -26,9 +26,12 @@ def main(results, quiet=False):
     except whole_file.CannotBeWritten as error:
         print(f"pbskin: {error}", file=sys.stderr)
         return 2
+    megabytes = file.stat().st_size / 1e6
     if not quiet:
         for line in missing:
             print(f"missing: {line}")
-        megabytes = file.stat().st_size / 1e6
-        print(f"{file}: {megabytes:.1f} MB" + (f", more than {usual_most_mb}" if megabytes > usual_most_mb else ""))
+        print(f"{file}: {megabytes:.1f} MB")
+    if megabytes > most_mb:
+        print(f"pbskin: {file}: {megabytes:.1f} MB: expected at most {most_mb}", file=sys.stderr)
+        return 1
     return 0

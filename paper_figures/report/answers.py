@@ -4,7 +4,9 @@ import record_shapes
 from report import costs, verdicts
 from report.markup import Markup, counted, element, escaped, figure, items, joined, span, table
 from report.record_set import not_run, number
+from report.verdict_names import mark_of
 
+who = "Of each claim the bodies that it was tried on; in brackets how many of a body\u2019s figures are within the claim\u2019s bound."
 failing = ("not reproduced", "reproduced only for", "inconsistent in print", "not computable")
 
 
@@ -16,32 +18,29 @@ def do_they_hold(found):
 
 
 def entry(claim, words):
-    symbol, colour, _ = verdicts.marks[claim["verdict"]]
+    """Mark, claim, statement; then the verdict by its name, and for whom or what beside it."""
+    symbol, colour, name = mark_of(claim["verdict"])
     link = element("a", claim["id"], href=f"#{claim['id']}")
-    sign = Markup(f'<span class="{colour}" aria-label="{escaped(claim["verdict"])}">{symbol}</span>')
+    sign = Markup(f'<span class="{colour}" aria-hidden="true">{symbol}</span>')
     statement = element("span", with_symbols_named(claim["statement"]), class_="statement")
-    return joined([sign, " ", link, " ", statement, " ", words])
+    verdict = element("b", name[:1].upper() + name[1:], class_=colour)
+    return joined([sign, " ", link, " ", statement, " ", verdict, words])
 
 
 def when_not(found):
     """Every claim that does not hold throughout, with where it does; of those that hold what was measured beside."""
     failed = [claim for kind in failing for claim in found.claims or [] if claim["verdict"] == kind]
     but = [claim for claim in found.claims or [] if claim["verdict"] == "reproduced" and verdicts.beside(claim)]
-    entries = [entry(claim, holding(claim)) for claim in failed]
-    entries += [entry(claim, f"Holds; beside it: {verdicts.beside(claim)}.") for claim in but]
+    entries = [entry(claim, f": {verdicts.outcome(claim, in_short=True)}.") for claim in failed]
+    entries += [entry(claim, f"; beside it: {verdicts.beside(claim)}.") for claim in but]
     if not entries:
-        return element("p", "Every claim that could be tested holds." if found.claims else "Not known without verdicts.")
-    return items(entries, "when")
+        return element("p", "Every claim that could be tested is reproduced." if found.claims else "Not known without verdicts.")
+    return joined([element("p", who, class_="who"), items(entries, "when")])
 
 
 def with_symbols_named(text):
     """For who has not read the paper."""
     return text.replace("k_stretch", "k_stretch (how stiff edges are, 0 to 1)")
-
-
-def holding(claim):
-    words = verdicts.outcome(claim)
-    return words[:1].upper() + words[1:] + "."
 
 
 class Pose:
@@ -61,8 +60,8 @@ class Pose:
 
 
 def poses(found):
-    """The whole ones, the limb's first; and the names of the others."""
-    all_poses = []
+    """The whole ones, the limb's first; and the names of the others, with those that were planned and have no table."""
+    all_poses, without_table = [], planned_without_table(found)
     for file in found.files("work_precision/*/points.csv"):
         name = file.parent.relative_to(found.results).as_posix()
         run = found.run(name, record_shapes.posed_run) if name in found.runs else {}
@@ -71,12 +70,18 @@ def poses(found):
         if rows:
             all_poses.append(Pose(rows, scene.get("pbs", {}).get("k_stretch", 0.2)))
     whole = [pose for pose in all_poses if pose.is_whole()]
-    return sorted(whole, key=lambda pose: not pose.name.startswith("limb")), [pose.name for pose in all_poses if not pose.is_whole()]
+    left_out = [pose.name for pose in all_poses if not pose.is_whole()]
+    return sorted(whole, key=lambda pose: not pose.name.startswith("limb")), left_out + without_table
+
+
+def planned_without_table(found):
+    planned = [run["name"] for run in found.plans.get("work_precision", {"runs": []})["runs"]]
+    return [name.replace("_", " ") for name in planned if not found.rows(f"work_precision/{name}/points.csv")]
 
 
 def left_out_sentence(names):
     """Poses without all three on record, or without the error of PBS."""
-    told = f"Without an error of PBS, or without LBS or the reference, on record and so left out: {'; '.join(names)}."
+    told = f"Planned, but without an error of PBS, LBS or the reference on record, and so left out: {'; '.join(names)}."
     return element("p", told, class_="missing") if names else ""
 
 

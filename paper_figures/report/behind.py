@@ -1,5 +1,6 @@
 """What a verdict rests on: every run's figures with their intervals, and where its records lie."""
-from report.markup import counted, details, element, figure, folder_link, items, joined, span_of_thousandths, table
+from report.markup import beside_the_page, counted, details, element, figure, folder_link, items, joined, span_of_thousandths, table
+from report.verdict_names import name_of
 
 holds = {"whole": "\u2714 yes", "part": "\u25d0 in part", "none": "\u2718 no"}
 most_rows = 400  # of one table; the rest stands in claims.json
@@ -61,20 +62,20 @@ def printed_table(claim, found):
 
 def orders_table(claim):
     header = ["order, precision", "verdict", "as the claim's own", "differing"]
-    rows = [[f"{other['order']}, {other['precision']}", other["verdict"], "yes" if other["same"] else "no", ", ".join(other["differing"])]
-            for other in claim["orders"]]
+    rows = [[f"{other['order']}, {other['precision']}", name_of(other["verdict"]), "yes" if other["same"] else "no",
+             ", ".join(other["differing"])] for other in claim["orders"]]
     return table(f"{claim['id']}: in other orders of projection", header, rows) if rows else ""
 
 
 def of(claim, found):
     """To be opened: the verdict in whole, the runs, the figures."""
-    parts = [items(claim["text"].split("; "), "verdict-text"),
+    parts = [items(claim["text"].replace("reproduced only for ", "reproduced in part: for ", 1).split("; "), "verdict-text"),
              case_table(f"{claim['id']}: cases", claim["cases"], found),
              case_table(f"{claim['id']}: beside them, no part of the verdict", claim["beside"], found),
              measurement_table(f"{claim['id']}: figures", claim["measurements"], found),
              measurement_table(f"{claim['id']}: beside them, no part of the verdict", claim["measured_beside"], found),
              printed_table(claim, found), orders_table(claim)]
     runs = joined((folder_link(found.results, run) for run in claim["runs"] or [claim["study"]]), ", ")
-    parts.append(element("p", joined(["Runs: ", runs])))
+    parts.append(element("p", joined(["Runs (", beside_the_page("folders"), "): ", runs])))
     count = f" ({counted(len(claim['runs']), 'run')})" if claim["runs"] else ""
     return details(f"{claim['id']}: what is behind it{count}", joined(parts, "\n"))

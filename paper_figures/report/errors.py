@@ -1,7 +1,7 @@
 """How far the deformers are from nonlinear finite elements over whole sweeps and clips, from frame_statistics.csv."""
 import record_shapes
 import records
-from report.markup import element, escaped, figure, folder_link, items, joined, span_of_thousandths, table
+from report.markup import beside_the_page, element, escaped, figure, folder_link, items, joined, span_of_thousandths, table
 from report.record_set import not_run, number
 
 shown = (("lbs", "LBS"), ("dqs", "DQS"), ("pbs", "PBS, 24 iterations"), ("snh_p1", "neo-Hookean FEM, P1"))
@@ -48,4 +48,5 @@ def section(found):
         return joined([told, left_out], "\n"), missing
     header = ["run", "reference", *(label for _, label in shown), "frames in which the reference meets itself"]
     caption = "Error at the joints [% of the mean distance to the bone]: median over the frames (least to most)"
-    return joined([table(caption, header, rows), left_out], "\n"), missing
+    where = element("p", f"The runs are {beside_the_page('folders')}.", class_="lead")
+    return joined([table(caption, header, rows), where, left_out], "\n"), missing

@@ -8,7 +8,7 @@ import captions
 import entries
 import records
 from report import record_set
-from report.markup import Markup, details, element, escaped, joined
+from report.markup import Markup, beside_the_page, details, element, escaped, joined
 
 slack_s = 60.0  # that copying a folder may put between the times of its files
 most_inline_kb = 400  # of a CSV that travels with the page
@@ -82,7 +82,8 @@ def numbers_link(found, entry):
         return ""
     inline = file.stat().st_size <= 1000 * most_inline_kb
     target = data_uri(file, "text/csv") if inline else f"figures/{file.name}"
-    return Markup(f' <a download="{file.name}" href="{target}">numbers (CSV)</a>')
+    apart = "" if inline else f" ({escaped(beside_the_page('files'))})"
+    return Markup(f' <a download="{file.name}" href="{target}">numbers (CSV)</a>{apart}')
 
 
 def claims_links(entry, known):
@@ -127,6 +128,6 @@ def section(found):
         except NotDrawn as reason:
             missing.append(f"figure {entry.name}: {reason}")
     intro = ("R: redrawn in minutes on any machine; CR: in hours; NR: not from this repository\u2019s records. "
-             "Values stand under the pointer; with the keyboard: tab to a plot, then the arrow keys.")
+             "Values stand beside the pointer or the finger; with the keyboard: tab to a plot, then the arrow keys.")
     listed = element("ul", joined(element("li", line) for line in missing), class_="not-drawn") if missing else ""
     return joined([element("p", intro), *parts, element("h3", "Not drawn") if missing else "", listed], "\n"), missing

@@ -60,6 +60,11 @@ def folder_link(results, name):
     return element("a", name, href=urllib.parse.quote(name) + "/")
 
 
+def beside_the_page(what):
+    """To be said of links that a page takes nowhere: it travels alone."""
+    return f"{what} beside this page: where it was moved without them, their links lead nowhere"
+
+
 def figure(value):
     """Three digits, as in the table of claims; minus as a minus."""
     if value is None or value != value:

@@ -22,6 +22,21 @@ function show(circle) {
   readout.style.top = `${Math.max(8, box.top - readout.offsetHeight - 6)}px`;
 }
 
+// The circle nearest to a place in the window, of those within reach [px]; null: none.
+const reach = 20;
+function nearest(plot, x, y) {
+  let best = null, least = reach;
+  for (const panel of plot.querySelectorAll(".values")) {
+    const to_window = panel.getScreenCTM();
+    for (const circle of panel.querySelectorAll("circle")) {
+      const place = new DOMPoint(circle.cx.baseVal.value, circle.cy.baseVal.value).matrixTransform(to_window);
+      const distance = Math.hypot(place.x - x, place.y - y);
+      if (distance <= least) [best, least] = [circle, distance];
+    }
+  }
+  return best;
+}
+
 for (const circle of document.querySelectorAll(".values circle")) {
   const title = circle.querySelector("title");
   circle.dataset.value = title ? title.textContent : "";
@@ -31,8 +46,11 @@ for (const circle of document.querySelectorAll(".values circle")) {
 for (const plot of document.querySelectorAll("svg.plot")) {
   const circles = [...plot.querySelectorAll(".values circle")];
   const steps = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 };
-  for (const event of ["pointerover", "click"])
-    plot.addEventListener(event, ({ target }) => target.matches(".values circle") ? show(target) : hide());
+  for (const event of ["pointermove", "click"])
+    plot.addEventListener(event, ({ clientX, clientY }) => {
+      const circle = nearest(plot, clientX, clientY);
+      if (circle !== shown) circle ? show(circle) : hide();
+    });
   plot.addEventListener("pointerleave", hide);
   plot.addEventListener("blur", hide);
   plot.addEventListener("keydown", (event) => {

@@ -3,46 +3,28 @@ import re
 
 from report import behind
 from report.markup import Markup, counted, element, escaped, figure, items, joined, span, span_of_thousandths
+from report.verdict_names import counted_in_words, mark_of, name_of
 
-# Of each verdict: symbol, class of its colour, how many are said to be so.
-marks = {
-    "reproduced": ("\u2714", "holds", "hold"),
-    "reproduced only for": ("\u25d0", "partly", "hold in part"),
-    "not reproduced": ("\u2718", "fails", "do not hold"),
-    "inconsistent in print": ("\u2260", "print", "contradict other figures of the paper"),
-    "cannot be tested here": ("\u25cb", "untested", "cannot be tested here"),
-    "not computable": ("?", "fails", "cannot be computed from these records"),
-}
 columns = ("claim", "statement", "verdict", "expected", "measured", "for whom")
 
 
 def mark(verdict):
-    symbol, colour, _ = marks.get(verdict, ("?", "untested", ""))
-    return Markup(f'<span class="mark {colour}"><span aria-hidden="true">{symbol}</span> {escaped(verdict)}</span>')
+    symbol, colour, name = mark_of(verdict)
+    return Markup(f'<span class="mark {colour}"><span aria-hidden="true">{symbol}</span> {escaped(name)}</span>')
 
 
 def counts_sentence(claims):
-    """Of 17 claims 3 hold, 8 hold in part, ..."""
-    counts = {kind: sum(claim["verdict"] == kind for claim in claims) for kind in marks}
-    parts = [f"{count} {words if count > 1 else singular(words)}"
-             for (kind, count), (_, _, words) in zip(counts.items(), marks.values()) if count]
-    others = len(claims) - sum(counts.values())
-    parts += [f"{others} otherwise"] if others else []
-    return f"Of {counted(len(claims), 'claim')} " + ", ".join(parts) + "."
-
-
-def singular(words):
-    first, *others = words.split()
-    return " ".join([{"hold": "holds", "do": "does", "contradict": "contradicts", "cannot": "cannot"}[first], *others])
+    """Of 17 claims 3 are reproduced, 8 are reproduced in part, ..."""
+    return f"Of {counted(len(claims), 'claim')} {counted_in_words(claims)}."
 
 
 def chips(claims):
     """A mark a claim, to its row."""
     def chip(claim):
-        symbol, colour, _ = marks.get(claim["verdict"], ("?", "untested", ""))
+        symbol, colour, name = mark_of(claim["verdict"])
         return Markup(f'<a class="chip {colour}" href="#{escaped(claim["id"])}" title="{escaped(claim["statement"])}">'
                       f'<span aria-hidden="true">{symbol}</span> {escaped(claim["id"])}'
-                      f'<span class="unseen">: {escaped(claim["verdict"])}</span></a>')
+                      f'<span class="unseen">: {escaped(name)}</span></a>')
 
     return element("p", joined(map(chip, claims), " "), class_="chips")
 
@@ -80,11 +62,11 @@ def angles(case):
     return f"{spoken.get(name, name)} " + (f"by {held}{whole}\u00b0" if held else "by no angle")
 
 
-def outcome(claim):
-    """For whom it holds, in a line."""
+def outcome(claim, in_short=False):
+    """For whom it holds, in a line; in short: without whose the farthest figure is."""
     cases = own_cases(claim)
     if not cases:
-        return words_of(claim)
+        return words_of(claim, in_short)
     clips = [case for case in cases if not is_sweep(case)]
     parts = ["for " + ", ".join(angles(case) for case in cases if is_sweep(case))] if len(clips) < len(cases) else []
     if clips:
@@ -93,34 +75,64 @@ def outcome(claim):
     return "; ".join(parts)
 
 
-def words_of(claim):
+def words_of(claim, in_short=False):
     """The verdict's text without the verdict and without single figures."""
     words = claim["text"].removeprefix(claim["verdict"]).lstrip(": ").split("; farthest")[0].split("; beside it")[0]
     before = {"reproduced": "for ", "reproduced only for": "for ", "not reproduced": "not for "}
     if claim["verdict"] == "inconsistent in print":
         return f"{claim['measured']} with the paper\u2019s others"
     if claim["verdict"] == "not reproduced":
-        words += farthest(claim)
+        words += farthest(claim, of_quantity=in_short, named=changes_in_words if in_short else str)
     return before.get(claim["verdict"], "") + words
+
+
+changes = {"half the time step": "the time step is halved", "twice the iterations": "the iterations are doubled",
+           "twice the resolution": "the resolution is doubled"}
+
+
+def changes_in_words(quantity):
+    """Of a figure of one run over that of another, what was changed between them."""
+    ratio = re.fullmatch(rf"(.*) at ({'|'.join(changes)}) over at the (?:whole|once)", quantity)
+    return f"factor on the {ratio[1]} when {changes[ratio[2]]}" if ratio else quantity
 
 
 def beside(claim, most=4):
     """The first quantities that were measured beside, without a bound, from the least to the most; "": none."""
-    values = {}
+    rows = {}
     for row in claim["measured_beside"]:
-        values.setdefault((row["quantity"], row["unit"]), []).append(row["value"])
-    told = [f"{quantity} {span(found)}" + (f" {unit}" if unit != "1" else "") for (quantity, unit), found in values.items()]
-    return ", ".join(told[:most])
+        rows.setdefault((row["quantity"], row["unit"]), []).append(row)
+    return ", ".join([told_beside(quantity, unit, found) for (quantity, unit), found in rows.items()][:most])
 
 
-def farthest(claim, of_quantity=False):
-    """The figure that is farthest from what is expected of it; of which quantity it is alone, or of whom as well."""
+trials = {"share of cells inverted": "end with inverted tets", "share of cells not at rest": "end in motion",
+          "share of cells converged": "end as if undisturbed"}
+
+
+def told_beside(quantity, unit, rows):
+    """Shares of trials as counts over all of them, where each row tells of how many it is."""
+    values = [row["value"] for row in rows]
+    counts = [re.search(r", n = ([0-9]+)$", row["of"]) for row in rows]
+    if quantity in trials and all(counts) and None not in values:
+        of = [int(count[1]) for count in counts]
+        return f"{sum(round(value * count) for value, count in zip(values, of))} of {sum(of)} trials {trials[quantity]}"
+    if quantity == "frames a second over Table 1's":
+        return f"{span(values)} times Table 1\u2019s frames a second"
+    if unit == "1/s" and quantity.startswith("frames a second"):
+        name, _, how = quantity.replace(" f32", ", single precision").partition(", ")
+        return f"{span(values)} {name}" + (f" ({how})" if how else "")
+    return f"{quantity} {span(values)}" + (f" {unit}" if unit != "1" else "")
+
+
+def farthest(claim, of_quantity=False, named=str):
+    """The figure that is farthest from what is expected of it; of which quantity it is alone, or of whom as well. named: how a quantity
+    is called."""
     said = re.search(r"; farthest: (.*?) is ([^\s;]+)(?:; |$)", claim["text"])
     if not said:
         return ""
     bounds = dict(part.rsplit(": ", 1) for part in claim["expected"].split("; ") if ": " in part)
-    quantity = next((quantity for quantity in bounds if said[1].startswith(f"{quantity} of ")), None)
-    return (f"; farthest: {quantity if of_quantity and quantity else said[1]} is {said[2]}, "
+    known = [*bounds, *(entry["quantity"] for entry in claim["measurements"])]
+    quantity = next((quantity for quantity in known if said[1].startswith(f"{quantity} of ")), None)
+    return (f"; farthest: {named(quantity) if of_quantity and quantity else said[1]} is {said[2]}, "
             f"expected {bounds.get(quantity, claim['expected'])}")
 
 

@@ -20,33 +20,36 @@
 
 namespace reference_fem {
 
+// Boundary ids of the triangulation: free of traction, at rest, under traction.
 enum BoundaryPart : dealii::types::boundary_id { free_part = 0, held_part = 1, pulled_part = 2 };
 
+// Made and asked by all ranks together.
 struct DistributedSpace {
-    using Cell = dealii::DoFHandler<3>::active_cell_iterator;
-    using DofIndex = dealii::types::global_dof_index;
-    using DofIndices = std::vector<DofIndex>;
+    using Cell = dealii::DoFHandler<3>::active_cell_iterator;  // one rank's own or its neighbour's
+    using DofIndex = dealii::types::global_dof_index;          // numbered over all ranks
+    using DofIndices = std::vector<DofIndex>;                  // of one cell, in deal.II's order
 
     // Boundary triangles with all three corners in a set belong to that part; held goes before pulled.
     DistributedSpace(const pbs::TetMesh& mesh, int element_order, const std::vector<int>& held_vertices,
                      const std::vector<int>& pulled_vertices);
 
-    Eigen::Index tet(const Cell& cell) const { return static_cast<Eigen::Index>(cell->id().get_coarse_cell_id()); }
-    unsigned int nodes_per_tet() const { return element.n_dofs_per_cell() / 3; }
+    Eigen::Index tet(const Cell& cell) const { return static_cast<Eigen::Index>(cell->id().get_coarse_cell_id()); }  // its number in `mesh`
+    unsigned int nodes_per_tet() const { return element.n_dofs_per_cell() / 3; }  // 4 with P1, 10 with P2
     // The two vertices of the mesh that a tet's node lies halfway between, lower first; a vertex twice for itself.
     std::pair<int, int> ends(const Cell& cell, unsigned int node_in_tet) const;
-    bool node_on_face(const Cell& cell, unsigned int node_in_tet, unsigned int face) const;
+    bool node_on_face(const Cell& cell, unsigned int node_in_tet, unsigned int face) const;  // face: 0 to 3, deal.II's
 
+    // This rank's cells alone, each with its degrees of freedom.
     void for_each_own_cell(const std::function<void(const Cell&, const DofIndices&)>& visit) const;
     std::vector<double> rigid_body_modes() const;  // of this rank's degrees of freedom, mode after mode, #owned x 6
     // All nodes by their ends, increasing, #nodes x 2, and their values, #nodes x 3; empty on the other ranks.
     std::pair<pbs::Edges, pbs::Positions> on_rank_0(const std::function<double(DofIndex)>& value_at_own) const;
 
-    const pbs::TetMesh& mesh;  // outlives the space
-    dealii::parallel::fullydistributed::Triangulation<3> triangulation;
-    dealii::FESystem<3> element;
-    dealii::MappingFE<3> mapping;
-    dealii::DoFHandler<3> dof_handler;
+    const pbs::TetMesh& mesh;                                            // outlives the space
+    dealii::parallel::fullydistributed::Triangulation<3> triangulation;  // never refined: coarse cells alone
+    dealii::FESystem<3> element;                                         // three components of FE_SimplexP of order 1 or 2
+    dealii::MappingFE<3> mapping;                                        // of straight tets
+    dealii::DoFHandler<3> dof_handler;                                   // of `element` on `triangulation`
     dealii::IndexSet owned, relevant;  // degrees of freedom of this rank; and those of its neighbours' tets
 };
 

@@ -12,21 +12,22 @@
 
 namespace reference_fem {
 
+// One a program, over MPI_COMM_WORLD; its end ends MPI.
 class MpiSession {
 public:
     MpiSession(int& argc, char**& argv);  // one thread a rank
     ~MpiSession();
 
-    int rank() const;
-    int ranks() const;
+    int rank() const;                                // from 0
+    int ranks() const;                               // all of MPI_COMM_WORLD
     [[noreturn]] void abort(int exit_status) const;  // ends all ranks: for an error that one of them met alone
 
-    // From rank 0 to all.
+    // From rank 0 to all; called by all. The others' arrays take rank 0's size.
     void broadcast(std::string& text) const;
-    void broadcast(std::vector<int>& values) const;
-    void broadcast(Eigen::VectorXd& values) const;
-    void broadcast(pbs::Positions& points) const;
-    void broadcast(pbs::Tets& tets) const;
+    void broadcast(std::vector<int>& values) const;  // of any length
+    void broadcast(Eigen::VectorXd& values) const;   // to the bit
+    void broadcast(pbs::Positions& points) const;    // #P x 3
+    void broadcast(pbs::Tets& tets) const;           // #T x 4
 
 private:
     class Implementation;

@@ -8,13 +8,15 @@
 
 namespace reference_fem {
 
+// cpu_s is the sum over the threads of the process.
 struct PhaseTime {
-    double wall_s = 0.0, cpu_s = 0.0;
+    double wall_s = 0.0, cpu_s = 0.0;  // [s]
 };
 
+// Starts when it is made.
 class PhaseClock {
 public:
-    PhaseTime elapsed() const { return {wall_.seconds(), processor_seconds() - start_}; }
+    PhaseTime elapsed() const { return {wall_.seconds(), processor_seconds() - start_}; }  // since the start; the clock runs on
 
 private:
     static double processor_seconds()

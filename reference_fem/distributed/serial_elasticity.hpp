@@ -5,6 +5,8 @@
 
 namespace reference_fem {
 
+// By problem.options.solver, on this process alone. pbs::InputError where check_problem finds one; a singular matrix, or not converging, is
+// reported: converged = false.
 ElasticSolution solve_serially(const pbs::TetMesh& mesh, const ElasticProblem& problem);
 
 }  // namespace reference_fem

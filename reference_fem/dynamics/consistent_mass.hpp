@@ -5,9 +5,10 @@
 
 namespace reference_fem {
 
+// Keeps its own matrix: the space may go.
 class ConsistentMass {
 public:
-    ConsistentMass(const SimplexSpace& space, double density_kg_m3);
+    ConsistentMass(const SimplexSpace& space, double density_kg_m3);  // of a homogeneous body; the sign of the density is not checked
 
     Eigen::VectorXd times(const Eigen::VectorXd& values) const;  // M x, #dofs
     void add_to(NodalMatrix& matrix, double factor) const;       // + factor M

@@ -7,11 +7,13 @@
 
 namespace reference_fem {
 
+// Nothing may be asked of it before set().
 class InertiaPotential : public Potential {
 public:
     explicit InertiaPotential(const ConsistentMass& mass) : mass_(mass) {}  // which outlives the potential
 
-    void set(double coefficient, Eigen::VectorXd centre)  // c [1/s^2], w~ [m], #dofs
+    // c [1/s^2], w~ [m], #dofs.
+    void set(double coefficient, Eigen::VectorXd centre)
     {
         coefficient_ = coefficient;
         centre_ = std::move(centre);

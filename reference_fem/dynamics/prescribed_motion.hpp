@@ -11,6 +11,7 @@
 
 namespace reference_fem {
 
+// Remembers what the past steps did; next() only looks, accept() goes on.
 class PrescribedMotion {
 public:
     explicit PrescribedMotion(const std::vector<bool>& prescribed);  // #dofs
@@ -24,7 +25,7 @@ public:
     // From one motion to the next, the ends of a step that was reached.
     void accept(const Motion& motion, const Motion& next, double step_s);
 
-    const std::vector<int>& dofs() const { return dofs_; }
+    const std::vector<int>& dofs() const { return dofs_; }  // the prescribed ones, increasing
 
 private:
     struct Differences {

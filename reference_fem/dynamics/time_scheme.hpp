@@ -20,19 +20,20 @@
 
 namespace reference_fem {
 
+// The parameters of Eqs. (a) to (c), without unit.
 struct TimeScheme {
-    double alpha_m = 0.0, alpha_f = 0.0, beta = 0.25, gamma = 0.5;
+    double alpha_m = 0.0, alpha_f = 0.0, beta = 0.25, gamma = 0.5;  // as they stand, Newmark's average acceleration
 };
 
-TimeScheme newmark();
+TimeScheme newmark();  // second order, unconditionally stable, without dissipation in linear problems
 
 // Second order, unconditionally stable, the least dissipation at low frequencies for a given spectral radius at infinite frequency, 0 to 1,
 // else pbs::InputError: 1 keeps the energy, 0 annihilates the highest modes, in three steps.
 TimeScheme generalized_alpha(double spectral_radius);
 
-// #dofs each [m], [m/s], [m/s^2].
+// The state at t_n, #dofs each.
 struct Motion {
-    Eigen::VectorXd displacement, velocity, acceleration;
+    Eigen::VectorXd displacement, velocity, acceleration;  // [m], [m/s], [m/s^2]
 };
 
 double inertia_coefficient(const TimeScheme& scheme, double step_s);                            // c_m [1/s^2], Eq. (d)

@@ -14,10 +14,11 @@
 
 namespace reference_fem {
 
+// The same for all steps of a stepper.
 struct TimeStepperOptions {
-    TimeScheme scheme = newmark();
-    double density_kg_m3 = 1000.0;
-    double rayleigh_mass_1_s = 0.0, rayleigh_stiffness_s = 0.0;  // a, b
+    TimeScheme scheme = newmark();                               // newmark() or generalized_alpha(radius)
+    double density_kg_m3 = 1000.0;                               // of the whole body, finite and > 0
+    double rayleigh_mass_1_s = 0.0, rayleigh_stiffness_s = 0.0;  // a, b; finite, >= 0
 };
 
 // What moves during a step, by fractions of the way from its start (0) to its end (1).
@@ -27,6 +28,7 @@ struct MovingData {
     std::function<void(double from, double to, double share)> move_terms;
 };
 
+// Keeps nothing of space and flesh. Not copied: it would share the factor in `newton`.
 class TimeStepper {
 public:
     // pbs::InputError where the density is not positive or a damping is negative. `newton` outlives the stepper.
@@ -40,13 +42,13 @@ public:
 
     // One step. `guess` [m], #dofs, is where Newton starts, and afterwards the displacement. Where Newton fails the step is halved as a
     // load path is: each part is a step of the scheme of its own length, and the last one lands on fraction 1. Where the end is not reached
-    // nothing is kept, neither of the failed part nor of those before it.
+    // nothing is kept, neither of the failed part nor of those before it. pbs::InputError unless step_s is finite and > 0.
     LoadPathSummary advance(const Terms& terms, const MovingData& data, double step_s, Eigen::VectorXd& guess, const NewtonOptions& newton,
                             const LoadPathOptions& path);
 
-    const Motion& motion() const { return state_.motion; }
-    double kinetic_energy_j() const;  // v M v / 2
-    const ConsistentMass& mass() const { return mass_; }
+    const Motion& motion() const { return state_.motion; }  // at the end of the last step that was reached
+    double kinetic_energy_j() const;                        // v M v / 2
+    const ConsistentMass& mass() const { return mass_; }    // M, of density_kg_m3
 
     // `newton` was used for something else.
     void forget_factor() { factored_step_s_ = 0.0; }

@@ -13,20 +13,24 @@
 
 namespace reference_fem {
 
+// Out of bounds: pbs::InputError from the constructor, of the density from stepper().
 struct VibratingOptions {
-    int element_order = 2;
-    double young_pa = 1e5, poisson = 0.3, density_kg_m3 = 1000.0;
-    std::function<Held(const pbs::Vec3& node)> held = {};  // empty: none
+    int element_order = 2;                                         // 1, 2
+    double young_pa = 1e5, poisson = 0.3, density_kg_m3 = 1000.0;  // E > 0, -1 < nu < 0.5, density > 0
+    std::function<Held(const pbs::Vec3& node)> held = {};          // empty: none
 };
 
+// Undamped, but for what the options of a stepper ask for.
 class VibratingBody {
 public:
+    // pbs::InputError for a mesh that check_mesh refuses. The mesh may go.
     VibratingBody(const pbs::TetMesh& mesh, const VibratingOptions& options);
 
-    const SimplexSpace& space() const { return space_; }
-    const std::vector<bool>& fixed() const { return fixed_; }  // #dofs
-    const StiffnessPotential& flesh() const { return flesh_; }
-    const ConsistentMass& mass() const { return mass_; }
+    const SimplexSpace& space() const { return space_; }        // its node v is vertex v of the mesh
+    const std::vector<bool>& fixed() const { return fixed_; }   // #dofs
+    const StiffnessPotential& flesh() const { return flesh_; }  // u K u / 2 [J]
+    const ConsistentMass& mass() const { return mass_; }        // M, of density_kg_m3
+    // Not a number where the body may move rigidly.
     Mode first_mode() const { return reference_fem::first_mode(stiffness_.matrix(), mass_, fixed_); }
 
     // The density is the body's. One stepper at a time: they share the factor.

@@ -5,13 +5,15 @@
 
 namespace reference_fem {
 
-using Vector9 = Eigen::Matrix<double, 9, 1>;
+using Vector9 = Eigen::Matrix<double, 9, 1>;  // of a 3 x 3 matrix, column under column
 
+// Entry (i, j) becomes entry 3 j + i.
 inline Vector9 vec(const Eigen::Matrix3d& matrix)
 {
     return Eigen::Map<const Vector9>(matrix.data());
 }
 
+// vec(A) vec(B)^T.
 inline Tangent outer(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b)
 {
     return vec(a) * vec(b).transpose();
@@ -34,6 +36,6 @@ struct Invariants {
 
     double log_volume() const;  // ln J, for J > 0
 };
-Invariants invariants(const Eigen::Matrix3d& f);
+Invariants invariants(const Eigen::Matrix3d& f);  // of any finite F, inverted ones too
 
 }  // namespace reference_fem

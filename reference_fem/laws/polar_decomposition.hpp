@@ -7,8 +7,9 @@
 
 namespace reference_fem {
 
+// F = U diag(s) V^T and S = V diag(s) V^T.
 struct PolarDecomposition {
-    Eigen::Matrix3d left, right;  // U, V
+    Eigen::Matrix3d left, right;  // U, V: orthogonal
     Eigen::Vector3d stretches;    // s, falling; the last may be negative: the eigenvalues of S
     Eigen::Matrix3d rotation;     // R = U V^T
 };

@@ -9,25 +9,28 @@
 
 namespace reference_fem {
 
+// By default the whole way at once, and down to 1/64 of it where that fails.
 struct LoadPathOptions {
-    double first_step = 1.0;            // of the fraction
+    double first_step = 1.0;            // of the fraction; above 1: 1
     double smallest_step = 1.0 / 64.0;  // no halving below
     int most_newton_steps = 0;          // the path ends where it has taken so many; 0: no limit
 };
 
+// One attempt, converged or not.
 struct LoadStep {
     double fraction = 0.0;  // where the step ends, or would have
-    NewtonSummary newton;
+    NewtonSummary newton;   // why it ended, and each iteration
 };
 
+// Every attempt; not reaching the end is an outcome.
 struct LoadPathSummary {
-    double reached = 0.0;  // the fraction of the last converged step
-    std::vector<LoadStep> steps;
-    double seconds = 0.0;
+    double reached = 0.0;         // the fraction of the last converged step
+    std::vector<LoadStep> steps;  // in the order they were tried, failed ones too
+    double seconds = 0.0;         // wall time of all attempts
 
-    bool converged() const { return reached >= 1.0; }
-    int newton_steps() const;  // linear solves, of failed steps too
-    int halvings() const;
+    bool converged() const { return reached >= 1.0; }  // the end was reached
+    int newton_steps() const;                          // linear solves, of failed steps too
+    int halvings() const;                              // attempts that did not converge
 };
 
 // `attempt` moves `displacement` to the state at a fraction. After a failure the displacement is put back to the last converged state,

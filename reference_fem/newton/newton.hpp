@@ -14,14 +14,16 @@
 
 namespace reference_fem {
 
+// When a minimisation ends.
 struct NewtonOptions {
     // Converged where |free residual| <= relative_tolerance * sum over the terms of |gradient|, reactions included, or below what the
     // rounding of positions makes of forces.
     double relative_tolerance = 1e-8;
-    int iterations = 40;
-    int halvings = 25;  // of one step
+    int iterations = 40;  // linear solves at most
+    int halvings = 25;    // of one step; then no_descent
 };
 
+// A state and the step that left it; the last has none.
 struct NewtonIteration {
     double residual_n = 0.0;         // norm of the free part of the gradient, before the step
     double force_scale_n = 0.0;      // what it is measured against
@@ -31,21 +33,25 @@ struct NewtonIteration {
     bool carries_increment = false;  // the linear solve that moves the prescribed data
 };
 
+// no_descent: no length of the step lowers the energy enough; not_positive_definite: not even the projected Hessian can be factored;
+// not_finite: an energy, a gradient or a step is not.
 enum class NewtonOutcome { converged, iterations_exhausted, no_descent, not_positive_definite, not_finite };
-const char* name_of(NewtonOutcome outcome);
+const char* name_of(NewtonOutcome outcome);  // as it is spelt in the enum
 
+// Breakdown is an outcome: nothing is thrown.
 struct NewtonSummary {
-    NewtonOutcome outcome = NewtonOutcome::iterations_exhausted;
-    std::vector<NewtonIteration> iterations;
-    int factorisations = 0;
-    double seconds = 0.0;
+    NewtonOutcome outcome = NewtonOutcome::iterations_exhausted;  // why it ended
+    std::vector<NewtonIteration> iterations;                      // one a state, the start first
+    int factorisations = 0;                                       // numerical ones; 0 where a kept factor served
+    double seconds = 0.0;                                         // wall time
 
-    bool converged() const { return outcome == NewtonOutcome::converged; }
-    int steps() const;  // that were taken
+    bool converged() const { return outcome == NewtonOutcome::converged; }  // only then the displacement is a minimum
+    int steps() const;                                                      // that were taken
 };
 
-using Terms = std::vector<const Potential*>;
+using Terms = std::vector<const Potential*>;  // of the sum; not owned
 
+// For one mesh and set of prescribed degrees of freedom; keeps nothing of the space. Other terms than before: forget_factor().
 class NewtonMinimiser {
 public:
     // prescribed: #dofs.

@@ -7,6 +7,7 @@
 
 namespace reference_fem {
 
+// Until move_to() the bind points q_i are the rest positions.
 class BindPotential : public Potential {
 public:
     // rest [m], #V x 3; distance d_i [m] and stiffness k_i [N/m], #V; k_i = 0: not bound. Vertex v is node v.

@@ -5,12 +5,13 @@
 
 namespace reference_fem {
 
+// Its Hessian is 0.
 class DeadLoad : public Potential {
 public:
     explicit DeadLoad(Eigen::VectorXd force) : force_(std::move(force)) {}  // [N], #dofs
 
-    void set(const Eigen::VectorXd& force) { force_ = force; }
-    const Eigen::VectorXd& force() const { return force_; }
+    void set(const Eigen::VectorXd& force) { force_ = force; }  // [N], #dofs; in place of the one before
+    const Eigen::VectorXd& force() const { return force_; }     // [N], #dofs
 
     double value(const Eigen::VectorXd& displacement) const override { return -force_.dot(displacement); }
     void add_gradient(const Eigen::VectorXd&, Eigen::VectorXd& gradient) const override { gradient -= force_; }

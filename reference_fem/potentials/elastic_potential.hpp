@@ -12,6 +12,7 @@
 
 namespace reference_fem {
 
+// What det F is like: 1 at rest.
 struct Jacobians {
     double lowest = 1.0;  // of det F over all quadrature points
     int lowest_tet = -1;  // where
@@ -19,6 +20,7 @@ struct Jacobians {
     double volume = 0.0;  // [m^3]: sum of w det F, exact
 };
 
+// Keeps what it needs of the space; infinite where the law is not defined at some quadrature point.
 class ElasticPotential : public Potential {
 public:
     // formulation: displacement or mean_dilatation, else pbs::InputError; so is mean dilatation of a law that is not of two parts.
@@ -31,7 +33,7 @@ public:
     void add_hessian(const Eigen::VectorXd& displacement, Definiteness definiteness, NodalMatrix& hessian) const override;
     bool is_quadratic() const override { return model_ == Model::linear; }
 
-    Jacobians jacobians(const Eigen::VectorXd& displacement) const;
+    Jacobians jacobians(const Eigen::VectorXd& displacement) const;  // displacement [m], #dofs
 
     // F at quadrature point q of a tet.
     Eigen::Matrix3d deformation_gradient(const Eigen::VectorXd& displacement, Eigen::Index tet, int q) const;

@@ -12,6 +12,7 @@ namespace reference_fem {
 // positive semi-definite and every Newton step descends.
 enum class Definiteness { as_it_is, projected };
 
+// Terms are added up: gradient and Hessian go on top of what is there.
 class Potential {
 public:
     virtual ~Potential() = default;

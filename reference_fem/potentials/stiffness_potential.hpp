@@ -6,6 +6,7 @@
 
 namespace reference_fem {
 
+// Keeps a copy of K.
 class StiffnessPotential : public Potential {
 public:
     // stiffness [N/m], of the Hessians' pattern; as it is: c = 1, u0 = 0.

@@ -13,6 +13,8 @@ import shutil
 import subprocess
 import sys
 
+import numpy
+
 root = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(root / "paper_figures"))
 
@@ -20,11 +22,13 @@ import bodies  # noqa: E402
 import entries  # noqa: E402
 import recorded_frames  # noqa: E402
 import viewer_data  # noqa: E402
+import viewer_html  # noqa: E402
 import viewer_poses  # noqa: E402
 
 skipped = 77
 bound_missed = figure_missed = 1  # exit statuses of a bound that does not hold, and of a figure that was not drawn
-sampled = {"limb_twist": ["lbs", "snh_p1"], "human_jump": ["pbs", "dqs"], "human_walk": ["pbs_jiggle"]}
+sampled = {"limb_twist": ["lbs", "snh_p1"], "limb_bend": ["dqs"], "human_jump": ["pbs", "dqs"], "human_walk": ["pbs_jiggle"]}
+with_bones = "limb_bend"  # seen whole, and its skeleton moves
 # Of the records beside the sources, which hold verdicts rather than all tables.
 not_of_these_records = {"convergence_iterations", "fit", "roofline", "scaling", "section_profiles", "stability_cells", "volume_by_region",
                         "volume_over_angle", "volume_over_clip", "work_precision"}
@@ -69,11 +73,14 @@ def undrawn(folder):
 
 
 def sample_of(frames, label, frame):
-    """Positions [m] by VTK's reader, numbers by the row of metrics.csv."""
-    row = frames.row(label, frame)
-    positions = viewer_data.read_frame(frames.tets(label, frame))[0]
+    """Positions [m], ratios and distances to the reference [m] by VTK's reader, numbers by the row of metrics.csv, bones' middles [m]."""
+    row, reference = frames.row(label, frame), frames.run.reference()
+    positions, _, ratios, _ = viewer_data.read_frame(frames.tets(label, frame))
+    truth_m = viewer_data.read_frame(frames.tets(reference, frame))[0]
+    middles = [((bone.head + bone.tail) / 2).tolist() for bone in frames.bones(frame)] if frames.run.name == with_bones else None
     return {"run": frames.run.name, "label": label, "frame": frame, "positions_m": positions.ravel().tolist(),
-            "figures": {column: row[column] for column in columns if row[column]}}
+            "ratios": ratios.tolist(), "distances_m": numpy.linalg.norm(positions - truth_m, axis=1).tolist(), "reference": reference,
+            "bones": middles, "figures": {column: row[column] for column in columns if row[column]}}
 
 
 def skin_sample_of(frames, label, frame):
@@ -96,7 +103,7 @@ def truth_of(results):
         samples += [sample_of(frames, label, frame) for label in sampled.get(frames.run.name, []) for frame in (0, last // 2, last)]
         skins += [skin_sample_of(frames, label, frame) for label in sampled_skins.get(frames.run.name, []) for frame in (last // 2, last)]
     return {"samples": samples, "skins": skins, "undrawn": sorted(undrawn(results)),
-            "largest_error_m": {frames.run.name: largest_error_m(frames) for frames in runs},
+            "colours": viewer_html.colours(), "largest_error_m": {frames.run.name: largest_error_m(frames) for frames in runs},
             "poses": viewer_poses.poses_of([viewer_data.facts_of(frames, 1) for frames in runs])}
 
 

@@ -19,6 +19,22 @@ function numbers_in(cell) {
     return cell.split(" / ").filter((part) => part.trim() !== "").map(Number).filter((number) => !Number.isNaN(number));
 }
 
+// Rows of a study's CSV as objects, column -> text.
+export function table(name) {
+    const [header, ...rows] = cells_of(fs.readFileSync(path.join(results, name), "utf8"));
+    return rows.map((row) => Object.fromEntries(header.map((column, at) => [column, row[at]])));
+}
+
+// Folders of a study that hold this file.
+export function runs_with(study, name) {
+    const there = (run) => fs.existsSync(path.join(results, study, run, name));
+    return fs.readdirSync(path.join(results, study)).filter(there);
+}
+
+export function json(name) {
+    return JSON.parse(fs.readFileSync(path.join(results, name), "utf8"));
+}
+
 // Lines of cells; a cell in quotes may hold commas.
 function cells_of(text) {
     return text.trim().split("\n").map((line) => [...line.matchAll(/(?:^|,)(?:"((?:[^"]|"")*)"|([^,]*))/g)]

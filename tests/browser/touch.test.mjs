@@ -17,7 +17,7 @@ function state() {
     return page.evaluate(() => {
         const { camera, target } = window.viewer.viewer.views, eye = camera.position.clone().sub(target);
         return { scrolled: scrollY, scale: visualViewport.scale, away: eye.length(), up: eye.y / eye.length(),
-                 around: Math.atan2(eye.x, eye.z) };
+                 around: Math.atan2(eye.x, eye.z), target: target.toArray() };
     });
 }
 
@@ -72,4 +72,19 @@ test("two fingers upwards tilt the view and leave the page", async () => {
     const [before, after] = await gesture([[-30, 10], [30, 10]], [[-30, -5], [30, -5]]);
     assert.ok(after.up < before.up - 0.1, `from ${before.up} to ${after.up}`);
     assert.equal(after.scrolled, before.scrolled);
+});
+
+test("two fingers shift the view once the button says so, and turn it after", async () => {
+    const button = page.locator("#frame-viewer button", { hasText: "two fingers shift" });
+    const upwards = () => gesture([[-30, 10], [30, 10]], [[-30, -15], [30, -15]]);
+    await button.tap();
+    assert.equal(await button.getAttribute("aria-pressed"), "true");
+    const [before, after] = await upwards();
+    assert.ok(after.target[1] < before.target[1] - 0.005, `from ${before.target} to ${after.target} m`);  // the body goes up with them
+    for (const kept of ["up", "around"]) assert_near(after[kept], before[kept], 1e-3);
+    assert.equal(after.scrolled, before.scrolled);
+    await button.tap();
+    const [first, second] = await upwards();
+    assert.deepEqual(second.target, first.target);
+    assert.ok(Math.abs(second.up - first.up) > 0.05, `from ${first.up} to ${second.up}`);
 });

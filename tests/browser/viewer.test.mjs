@@ -96,6 +96,130 @@ for (const sample of truth.samples) {
     });
 }
 
+// Which shade of a table each corner of the first panel has been painted with, and its vertex and the tet behind it.
+function painted() {
+    return page.evaluate(() => {
+        const { geometry, vertices, tets } = window.viewer.viewer.panels[0].body;
+        return { colours: [...geometry.attributes.colour.array.subarray(0, 3 * vertices.length)], vertices: [...vertices],
+                 tets: [...tets] };
+    });
+}
+
+const rgb_of = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255);
+const is_same = (one, other) => one.every((part, at) => Math.abs(part - other[at]) < 1e-3);
+
+// Each corner's shade is one of those that the value on record may have, once it is rounded; -1: none of the table.
+function assert_shades({ colours, vertices }, shades, allowed, fewest) {
+    const table = shades.map(rgb_of), used = new Set();
+    vertices.forEach((_, corner) => {
+        const shade = table.findIndex((one) => is_same(one, colours.slice(3 * corner, 3 * corner + 3)));
+        const [low, high] = allowed(corner);
+        assert.ok(shade >= low && shade <= high, `corner ${corner}: shade ${shade}, on record ${low} to ${high}`);
+        used.add(shade);
+    });
+    assert.ok(used.size >= fewest, `${used.size} shades`);
+}
+
+for (const sample of truth.samples.filter(({ frame }) => frame > 0)) {
+    const name = `${sample.run}, ${sample.label}, frame ${sample.frame}`;
+    test(`tets have the colour of the record's ratio: ${name}`, async () => {
+        await show_sample(sample, "ratio");
+        const { low, high, shades } = truth.colours.ratio, made = await painted(), last = shades.length - 1;
+        const place = (ratio) => Math.round(last * Math.min(1, Math.max(0, (ratio - low) / (high - low))));
+        const inverted = rgb_of(truth.colours.inverted), rounding = 0.5 / 127 + 1e-6;
+        const is_inverted = (corner) => sample.ratios[made.tets[Math.floor(corner / 3)]] <= 0;
+        made.vertices.forEach((_, corner) => assert.equal(is_same(inverted, made.colours.slice(3 * corner, 3 * corner + 3)),
+                                                          is_inverted(corner), `corner ${corner}`));
+        const shown = made.vertices.map((_, corner) => corner).filter((corner) => !is_inverted(corner));
+        const kept = { colours: shown.flatMap((corner) => made.colours.slice(3 * corner, 3 * corner + 3)), vertices: shown };
+        assert_shades(kept, shades, (at) => {
+            const ratio = sample.ratios[made.tets[Math.floor(shown[at] / 3)]];
+            return [place(ratio - rounding), place(ratio + rounding)];
+        }, 5);
+    });
+    if (sample.label === sample.reference) continue;
+    test(`vertices have the colour of their distance on record: ${name}`, async () => {
+        await show_sample(sample, "error");
+        const { shades } = truth.colours.error, made = await painted(), last = shades.length - 1;
+        const most_m = truth.largest_error_m[sample.run], step_m = await page.evaluate(() => window.viewer.viewer.run.step_m);
+        const place = (distance_m) => Math.round(last * Math.sqrt(Math.min(1, Math.max(0, distance_m) / most_m)));
+        const rounding_m = Math.sqrt(3) * (step_m + roundings(sample.positions_m, 4));  // of both bodies
+        assert_shades(made, shades, (corner) => {
+            const distance_m = sample.distances_m[made.vertices[corner]];
+            return [place(distance_m - rounding_m), place(distance_m + rounding_m)];
+        }, 5);
+    });
+}
+
+// Red green blue, at the darkest pixel of those around a place [m] in the first panel.
+function darkest_at(place) {
+    return page.evaluate(([x, y, z]) => {
+        const { viewer } = window.viewer, bytes = window.viewer.pixels(0), { camera, renderer } = viewer.views;
+        const box = viewer.panel_elements[0].view.getBoundingClientRect(), ratio = renderer.getPixelRatio();
+        const seen = camera.position.clone().set(x, y, z).project(camera), width = Math.round(box.width * ratio);
+        const [across, up] = [(seen.x + 1) / 2 * box.width * ratio, (seen.y + 1) / 2 * box.height * ratio].map(Math.round);
+        let darkest = 255;
+        for (let dx = -1; dx <= 1; ++dx)
+            for (let dy = -1; dy <= 1; ++dy) {
+                const at = 4 * ((up + dy) * width + across + dx);
+                darkest = Math.min(darkest, Math.max(bytes[at], bytes[at + 1], bytes[at + 2]));
+            }
+        return darkest;
+    }, place);
+}
+
+for (const sample of truth.samples.filter(({ bones }) => bones)) {
+    test(`the skeleton is drawn where bones.csv has it: ${sample.run}, frame ${sample.frame}`, async () => {
+        await show_sample(sample, "skin");
+        await show({ bones: false });
+        await page.locator('#frame-viewer button[aria-label="the camera where it began"]').click();
+        const without = [];
+        for (const middle of sample.bones) without.push(await darkest_at(middle));
+        await show({ bones: true });
+        for (const middle of sample.bones) assert.ok(await darkest_at(middle) < 70, `no bone at ${middle} m`);
+        assert.ok(without.every((brightness) => brightness > 70), `dark without bones: ${without}`);
+        await show({ bones: false });
+    });
+}
+
+test("a pose that was not reached is marked, and nothing is painted against it", async () => {
+    const [sample] = truth.samples.filter(({ label, frame, reference }) => frame > 0 && label !== reference);
+    await show_sample(sample, "error");
+    const marks = () => page.locator("#frame-viewer .vw-mark").evaluateAll((all) => all.map((one) => one.getClientRects().length > 0));
+    const shades = async () => new Set((await painted()).colours.map((part) => part.toFixed(3))).size;
+    assert.deepEqual(await marks(), [false, false, false, false]);
+    assert.ok(await shades() > 9);
+    const at = await page.evaluate(() => {
+        const { run, state } = window.viewer.viewer;
+        run.deformer(run.reference).not_reached = [state.now.at];
+        return state.now.at;
+    });
+    await show({ at: at - 1 });
+    await show({ at });
+    const labels = await page.evaluate(() => window.viewer.state.now.panels);
+    assert.deepEqual(await marks(), labels.map((label) => label === sample.reference));
+    assert.equal(await shades(), 3);  // red, green and blue of one grey
+    assert.match(await legend_words(), /grey: no distance/);
+    await page.evaluate(() => { const { run } = window.viewer.viewer; run.deformer(run.reference).not_reached = []; });
+    await show({ at: at - 1 });
+});
+
+test("in a panel shift and the arrows shift the view, without turning it", async () => {
+    const seen = () => page.evaluate(() => {
+        const { camera, target } = window.viewer.viewer.views;
+        return { target: target.toArray(), eye: camera.position.clone().sub(target).toArray() };
+    });
+    await page.locator("#frame-viewer .vw-view").first().focus();
+    for (const [key, axis] of [["Shift+ArrowUp", 1], ["Shift+ArrowRight", 0]]) {
+        const first = await seen();
+        await page.keyboard.press(key);
+        await settle(page);
+        const second = await seen();
+        assert.ok(second.target[axis] > first.target[axis] + 0.005, `${key}: from ${first.target} to ${second.target}`);
+        second.eye.forEach((part, at) => assert.ok(Math.abs(part - first.eye[at]) < 1e-6, key));
+    }
+});
+
 function rendered_button() {
     return page.locator("#frame-viewer button", { hasText: "rendered skin" });
 }
@@ -252,7 +376,15 @@ test("a claim's link opens its pose", async () => {
             return { run: now.run, frame: window.viewer.viewer.run.frames[now.at], colour: now.colour };
         });
         assert.deepEqual({ run, frame, colour }, { run: pose.run, frame: pose.frame, colour: pose.colour });
-        assert.ok((await page.locator("#frame-viewer .vw-claim").textContent()).startsWith(`${pose.claim}.`));
+        const told = await page.locator("#frame-viewer .vw-claim").textContent();
+        assert.ok(told.startsWith(`${pose.claim}.`));
+        assert.match(told, new RegExp(`Colour: ${{ skin: "skin", ratio: "volume ratio", error: "distance to FEM" }[pose.colour]}\\.$`));
+        const { drawn, known } = await page.evaluate(() => {
+            const { viewer, state: { now } } = window.viewer;
+            return { drawn: viewer.panels[0].body.tets.length, known: viewer.run.surface?.corners.length };
+        });
+        if (known) assert.equal(drawn, known / 3, `${pose.claim}: not the rendered surface`);
+        if (pose.panels) assert.deepEqual(await page.evaluate(() => window.viewer.state.now.panels), pose.panels.split(","));
     }
 });
 
@@ -260,11 +392,11 @@ test("without an address the first claim's pose is open", async () => {
     const other = await open_viewer(file);
     try {
         const [pose] = truth.poses;
-        const { run, frame, claim } = await other.page.evaluate(() => {
+        const { run, frame, claim, rendered } = await other.page.evaluate(() => {
             const { viewer, state: { now } } = window.viewer;
-            return { run: now.run, frame: viewer.run.frames[now.at], claim: now.claim };
+            return { run: now.run, frame: viewer.run.frames[now.at], claim: now.claim, rendered: now.rendered };
         });
-        assert.deepEqual({ run, frame, claim }, { run: pose.run, frame: pose.frame, claim: pose.claim });
+        assert.deepEqual({ run, frame, claim, rendered }, { run: pose.run, frame: pose.frame, claim: pose.claim, rendered: true });
     } finally {
         await other.close();
     }
@@ -272,7 +404,7 @@ test("without an address the first claim's pose is open", async () => {
 
 for (const [name, width, height] of [["desktop", 1280, 900], ["phone", 390, 844]]) {
     test(`nothing is wider than ${width} px, every control can be pressed`, async () => {
-        const other = await open_viewer(file, "#claim=C01", { width, height, touch: width < 500 });
+        const other = await open_viewer(file, "#claim=C09", { width, height, touch: width < 500 });
         try {
             const wide = await other.page.evaluate(() => [...document.querySelectorAll("#frame-viewer, #frame-viewer *")]
                 .filter((one) => one.getBoundingClientRect().right > innerWidth + 0.5).map((one) => one.className || one.tagName));
@@ -282,6 +414,12 @@ for (const [name, width, height] of [["desktop", 1280, 900], ["phone", 390, 844]
             const faulty = await controls.evaluateAll((all) => all.filter((one) => !one.getAttribute("aria-label")
                 || (one.offsetParent && one.getBoundingClientRect().height < 30)).map((one) => one.outerHTML));
             assert.deepEqual(faulty, []);
+            const cut = await other.page.locator("#frame-viewer .vw-panel select").evaluateAll((all) => all.filter((one) => {
+                const pen = document.createElement("canvas").getContext("2d");
+                pen.font = getComputedStyle(one).font;
+                return pen.measureText(one.selectedOptions[0].text).width + 20 > one.clientWidth;  // and the arrow
+            }).map((one) => one.selectedOptions[0].text));
+            assert.deepEqual(cut, []);
             if (pictures) await other.page.screenshot({ path: `${pictures}/viewer_${name}.png`, fullPage: true });
             assert.deepEqual(other.problems, []);
         } finally {

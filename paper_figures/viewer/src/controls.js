@@ -3,7 +3,7 @@ import { colourings } from "./link.js";
 import { draws_surface, no_surface_because } from "./state.js";
 import { button, element, group, select, slider } from "./page.js";
 
-const colour_names = { skin: "skin", ratio: "volume ratio", error: "distance to FEM", inverted: "inverted tets" };
+export const colour_names = { skin: "skin", ratio: "volume ratio", error: "distance to FEM", inverted: "inverted tets" };
 
 const what_rendered_does = "show the rendered surface in place of the tets' boundary";
 const cut_names = [["", "no cut"], ["x", "across x"], ["y", "across y"], ["z", "across z"]];
@@ -18,6 +18,8 @@ export class Controls {
         this.rendered = button("rendered skin", what_rendered_does, actions.rendered);
         this.bones = button("bones", "show the skeleton", actions.bones);
         this.follow = button("follow", "the camera follows the body", actions.follow);
+        this.shifting = button("two fingers shift", "two fingers shift the view instead of turning it", actions.shifting);
+        this.shifting.classList.add("vw-fingers");
         this.axis = select("cut the tets by a plane", cut_names, actions.cut_axis);
         this.cut_at = slider("where the cut is, in the body at rest", actions.cut_at);
         this.side = button("other side", "show the other side of the cut", actions.cut_side);
@@ -28,7 +30,7 @@ export class Controls {
         this.bars = [
             element("div", { class: "vw-bars" }, group("run", this.run), back, this.play, on, this.time, this.clock),
             element("div", { class: "vw-bars" }, group("colour", ...this.colours),
-                    group("show", this.rendered, this.bones, this.follow, first_view),
+                    group("show", this.rendered, this.bones, this.follow, this.shifting, first_view),
                     group("cut", this.axis, this.cut_at, this.side, this.cut_text)),
         ];
     }
@@ -51,6 +53,7 @@ export class Controls {
         this.rendered.title = refused ?? what_rendered_does;
         this.bones.setAttribute("aria-pressed", String(now.bones));
         this.follow.setAttribute("aria-pressed", String(now.follow));
+        this.shifting.setAttribute("aria-pressed", String(now.shifting));
         this.update_cut(run, now.cut);
     }
 

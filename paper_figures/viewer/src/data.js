@@ -81,6 +81,16 @@ export class Run {
         return this.deformer(label).figures[column][at];
     }
 
+    // Whether the solve of this frame reached its pose, as recorded.
+    reached(label, at) {
+        return !this.deformer(label).not_reached.includes(at);
+    }
+
+    // Whether a distance of this deformer to the reference says anything: both reached the frame's pose.
+    has_errors(label, at) {
+        return this.labels.includes(this.reference) && this.reached(label, at) && this.reached(this.reference, at);
+    }
+
     // Whether the reference is recorded to pass through itself, so that distances to it say less.
     reference_intersects(at) {
         return this.deformers.some((deformer) => deformer.figures.reference_self_intersects[at] === 1);

@@ -31,8 +31,14 @@ export function draw_legend(element, header, run, state) {
     if (state.colour === "skin") parts.push(swatch(colours.skin, "skin"));
     const caption = document.createElement("span");
     caption.className = "vw-caption";
-    caption.textContent = (draws_surface(run, state) ? on_the_surface : what)[state.colour];
+    caption.textContent = (draws_surface(run, state) ? on_the_surface : what)[state.colour] + without_errors(run, state);
     element.replaceChildren(...parts, caption);
+}
+
+// Which panels have no distance in this frame.
+function without_errors(run, { colour, panels, at }) {
+    const grey = colour === "error" ? panels.filter((label) => !run.has_errors(label, at)) : [];
+    return grey.length ? `; grey: no distance, for ${grey.length === panels.length ? "FEM" : "it"} did not reach this frame's pose` : "";
 }
 
 function bar(shades, numbers) {

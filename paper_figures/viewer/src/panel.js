@@ -46,6 +46,7 @@ export class Panel {
         if (shown.colour === "ratio") return (tet) => ratio_shades[codes[tet]];
         if (shown.colour === "inverted") return () => ghost;
         if (shown.colour === "skin") return () => palette.skin;
+        if (!run.has_errors(label, shown.at)) return () => ghost;
         const errors = run.errors_mm(label, shown.at, draws_surface(run, shown)), most = run.largest_error_mm();
         return (_, vertex) => distance_shade(palette.error.shades, most, errors[vertex]);
     }

@@ -6,7 +6,7 @@
 // rendered       the rendered surface in place of the tets' boundary, where the run has one and nothing is cut
 // bones, cut     skeleton shown; { axis, at_m, above } or null
 // claim          whose pose this is, or null
-// playing, follow
+// playing, follow, shifting: two fingers shift the view rather than turn it
 
 export class State {
     constructor(first) {

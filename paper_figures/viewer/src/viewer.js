@@ -1,11 +1,12 @@
 // Holds the parts together: state in, panels, legend and address out.
 import { palette_of, ratio_shades } from "./colours.js";
-import { Controls } from "./controls.js";
+import { Controls, colour_names } from "./controls.js";
 import { draw_figures } from "./figures.js";
 import { help, listen } from "./keyboard.js";
 import { draw_legend } from "./legend.js";
 import { hash_of, pose_of } from "./link.js";
 import { Meshes } from "./meshes.js";
+import { note_of } from "./note.js";
 import { element, select } from "./page.js";
 import { Panel } from "./panel.js";
 import { Player } from "./player.js";
@@ -22,7 +23,7 @@ export class Viewer {
         this.meshes = new Meshes();
         const first = data.runs[0];
         this.state = new State({ run: first.name, at: 0, panels: panels_for(first), colour: "ratio", rendered: true, bones: false,
-                                 cut: null, claim: null, playing: false, follow: true });
+                                 cut: null, claim: null, playing: false, follow: true, shifting: false });
         this.build();
         this.state.on_change((now, changed) => this.update(now, changed));
         new Player(this.state, () => this.run.frames.length);
@@ -61,9 +62,10 @@ export class Viewer {
             const name = `${title}: arrows turn, plus and minus zoom`;
             const view = element("div", { class: "vw-view", tabindex: 0, role: "application", "aria-label": name });
             const numbers = element("dl", { "aria-label": `recorded numbers of ${title}` });
-            const whole = element("div", { class: "vw-panel" }, choice, view, numbers);
+            const mark = element("p", { class: "vw-mark vw-hidden" }, "pose not reached");
+            const whole = element("div", { class: "vw-panel" }, choice, view, mark, numbers);
             this.panels_element.append(whole);
-            return { whole, view, numbers };
+            return { whole, view, mark, numbers };
         });
         this.panels_element.classList.toggle("vw-wide", is_wide(this.run));
         this.panels = now.panels.map(() => new Panel());
@@ -82,8 +84,10 @@ export class Viewer {
         const mesh = this.meshes.of(run, now.cut);
         now.panels.forEach((label, at) => {
             this.panels[at].update(mesh, label, now, this.palette, this.shades);
+            this.panel_elements[at].mark.classList.toggle("vw-hidden", run.reached(label, now.at));
             draw_figures(this.panel_elements[at].numbers, run, label, now.at);
         });
+        if (changed.has("shifting") || changed.has("run") || changed.has("panels")) this.views.two_fingers(now.shifting);
         this.controls.update(run, now);
         draw_legend(this.legend, this.data, run, now);
         this.sight.update(run, now, changed);
@@ -95,7 +99,7 @@ export class Viewer {
     show_claim(claim) {
         const pose = this.data.poses.find((one) => one.claim === claim);
         this.claim.classList.toggle("vw-hidden", !claim);
-        const what = pose ? ` Shown: ${pose.what}.` : "";
+        const what = pose ? ` Shown: ${pose.what}. Colour: ${colour_names[this.state.now.colour]}.` : "";
         this.claim.textContent = claim ? `${claim}. ${this.data.claims[claim] ?? ""}${what}` : "";
     }
 
@@ -114,7 +118,7 @@ export class Viewer {
         if (!now.playing) history.replaceState(null, "", hash_of({ ...now, frame: this.run.frames[now.at] }));
     }
 
-    // The pose of an address; one that names a claim alone is the claim's own.
+    // The pose of an address; one that names a claim alone is the claim's own. A claim's pose shows the skin as it is rendered.
     open(hash, scroll) {
         const asked = pose_of(hash);
         if (!asked) return;
@@ -123,7 +127,7 @@ export class Viewer {
         const pose = { ...(asked.run ? {} : own), ...asked };
         const run = this.data.runs.find((one) => one.name === pose.run) ?? this.run;
         this.state.set({ run: run.name, at: run.place_of(pose.frame ?? 0), panels: panels_for(run, pose.panels),
-                         colour: pose.colour ?? "ratio", rendered: pose.rendered ?? false, bones: pose.bones ?? false,
+                         colour: pose.colour ?? "ratio", rendered: pose.rendered ?? Boolean(pose.claim), bones: pose.bones ?? false,
                          cut: pose.cut ?? null, claim: pose.claim ?? null, playing: false });
         if (scroll) this.root.scrollIntoView({ block: "start" });
     }
@@ -140,11 +144,13 @@ export class Viewer {
             rendered: () => no_surface_because(this.run, now()) === null && this.user({ rendered: !now().rendered }),
             bones: () => this.user({ bones: !now().bones }),
             follow: () => this.user({ follow: !now().follow }),
+            shifting: () => this.user({ shifting: !now().shifting }),
             cut: () => this.cut_axis(now().cut ? "" : "z"),
             cut_axis: (axis) => this.cut_axis(axis),
             cut_at: (at_m) => cut({ at_m }), cut_side: () => cut({ above: !now().cut.above }),
             move_cut: (by) => cut({ at_m: this.run.stepped(now().cut, by) }),
             turn: (around, up) => this.moved(() => this.views.turn(around, up)),
+            shift: (right, up) => this.moved(() => this.views.shift(right, up)),
             zoom: (factor) => this.moved(() => this.views.zoom(factor)),
             reset: () => this.moved(() => this.sight.first(this.run, now())),
         };
@@ -175,21 +181,4 @@ function first_pose(poses) {
 function links_to(poses) {
     const links = poses.flatMap(({ claim, what }) => [" ", element("a", { href: `#claim=${claim}`, title: what }, claim)]);
     return element("p", { class: "vw-small vw-poses" }, links.length ? "Poses of the claims:" : "", ...links);
-}
-
-function note_of(run, every, at) {
-    const mark = run.reference_intersects(at) ? "* In this frame the FEM reference passes through itself: distances to it say less. " : "";
-    const kept = every === 1 ? "every recorded frame" : `one of ${every} recorded frames`;
-    const step_um = (1e6 * run.step_m).toFixed(1);
-    return `${mark}${run.vertices} vertices, ${run.tets} tets${carried_by(run)}; ${kept}. Positions are rounded to steps of ${step_um} `
-        + "\u00b5m: each coordinate of a vertex is within half a step of the record's; volume ratios to 1/127 up to 2; the numbers are "
-        + "the records' own. A cut goes through the body at rest, so that every panel and frame shows the same tets. "
-        + run.rights;
-}
-
-function carried_by({ surface, step_m }) {
-    if (!surface) return "";
-    const within_um = Math.ceil(0.5e6 * step_m * surface.largest_sum);
-    const points = `, which carry the ${surface.points} points of the rendered surface`;
-    return `${points}, each coordinate within ${within_um} \u00b5m of the record's`;
 }

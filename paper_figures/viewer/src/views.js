@@ -28,13 +28,18 @@ export class Views {
             scene.add(...contents[at]);
             const controls = new OrbitControls(this.camera, element);
             controls.target = this.target;
-            controls.touches = { ONE: TOUCH.ROTATE, TWO: TOUCH.DOLLY_ROTATE };
             leave_scrolling(element);
             keep_level(element, controls);
             controls.update();
             controls.addEventListener("change", this.on_move);
             return { element, scene, controls };
         });
+    }
+
+    // One finger turns; two come nearer, and shift or turn.
+    two_fingers(shift) {
+        const touches = { ONE: TOUCH.ROTATE, TWO: shift ? TOUCH.DOLLY_PAN : TOUCH.DOLLY_ROTATE };
+        for (const { controls } of this.views) controls.touches = touches;
     }
 
     // Looks at this middle from so far that all points of a cloud about it [m] are in the panel.
@@ -67,6 +72,16 @@ export class Views {
         offset.setFromSphericalCoords(offset.length(), Math.min(3.1, Math.max(0.04, polar)), azimuth);
         this.camera.position.copy(this.target).add(offset);
         this.camera.lookAt(this.target);
+    }
+
+    // By shares of what a panel shows from top to bottom.
+    shift(right, up) {
+        const height = 2 * this.camera.position.distanceTo(this.target) * Math.tan(this.camera.fov / 2 * Math.PI / 180);
+        this.camera.updateMatrix();
+        const [across, upwards] = [0, 1].map((column) => new Vector3().setFromMatrixColumn(this.camera.matrix, column));
+        const step = across.multiplyScalar(right * height).addScaledVector(upwards, up * height);
+        this.target.add(step);
+        this.camera.position.add(step);
     }
 
     zoom(factor) {

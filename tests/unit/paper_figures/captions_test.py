@@ -36,7 +36,7 @@ class Captions(unittest.TestCase):
             writer = csv.DictWriter(stream, list(rows[0]))
             writer.writeheader()
             writer.writerows(rows)
-        return captions.whole(listed[name], self.figures)
+        return captions.whole(listed[name], self.figures, {"cpu_model": "a processor"})
 
     def test_no_number_that_another_run_would_change_is_typed(self):
         for entry in listed.values():
@@ -47,7 +47,7 @@ class Captions(unittest.TestCase):
                 self.assertEqual(re.findall(r"\d[\d.,]*", rest), [], entry.name)
 
     def test_every_caption_that_asks_has_a_script_that_tells(self):
-        asking = [entry for entry in listed.values() if captions.asked(entry)]
+        asking = [entry for entry in listed.values() if captions.asked(entry) - captions.of_runs]
         self.assertGreater(len(asking), 5)
         for entry in asking:
             self.assertTrue(callable(getattr(importlib.import_module(entry.script), "facts", None)), entry.name)
@@ -74,10 +74,14 @@ class Captions(unittest.TestCase):
         self.assertIn("the longest took 611 steps", text)
 
     def test_folds_of_frequency_are_largest_over_smallest(self):
-        rows = [{"body": body, "varied": varied, "frequency_hz": hz} for body, varied, hz in (
-            ("limb", "k_stretch", 10), ("limb", "k_stretch", 5), ("limb", "k_stretch", 8), ("man", "k_stretch", 7),
-            ("limb", "iterations", 4), ("limb", "iterations", 6), ("limb_reference", "", 99))]
+        rows = [{"body": body, "varied": varied, "frequency_hz": hz, "deformer": "snh_p1" if pa else "pbs", "young_pa": pa or "nan"}
+                for body, varied, hz, pa in (
+                    ("limb", "k_stretch", 10, ""), ("limb", "k_stretch", 5, ""), ("limb", "k_stretch", 8, ""), ("man", "k_stretch", 7, ""),
+                    ("limb", "iterations", 4, ""), ("limb", "iterations", 6, ""), ("limb_reference", "", 99, ""),
+                    ("limb_reference", "", 98, 117e3), ("limb_reference", "", 97, 121e3))]
         text = self.told("jiggle_response", rows)
+        self.assertIn("each with the others at k_stretch 0.1, 10 ms and 24 iterations;", text)
+        self.assertIn("Young's modulus (117 to 121 kPa) is chosen there so that they swing as fast as PBS: the damping alone", text)
         self.assertIn("moves with k_stretch 2-fold (limb); with the time step, which is no material, none; "
                       "with iterations 1.5-fold (limb).", text)
 
@@ -88,7 +92,31 @@ class Captions(unittest.TestCase):
                     ("bar", "iterations", "pbs", 48, 500), ("human", "iterations", "xpbd_small_steps", 6, 4),
                     ("human", "iterations", "xpbd_small_steps", 48, 5))]
         text = self.told("stiffness", rows)
+        self.assertIn("others at 24 iterations and 10 ms; PBS with the exponent has k_stretch 0.2.", text)
         self.assertIn("grows 2.5-fold (bar, 6 to 48) with the iterations; in small steps 1.25-fold (human, 6 to 48).", text)
+
+    def test_linear_elements_are_told_apart_from_the_truth(self):
+        def row(problem, quantity, elements, difference="", ratio=""):
+            return {"problem": problem, "quantity": quantity, "elements": elements, "difference_pct": difference,
+                    "value_over_reference": ratio}
+
+        rows = [row("locking", "tip deflection", elements, -50, ratio) for elements, ratio in (
+            ("P1", 0.5), ("P1", 0.0125), ("P2", 0.75), ("P2 Taylor-Hood", 0.875), ("PBS, volumes kept", 0.001))]
+        rows += [row("locking", "torque", "P1", 37, 1.37), row("thick_plate", "another", "P2", 99)]
+        rows += [row("thick_plate", "sigma_yy at D", elements, pct) for elements, pct in (("P1", -47), ("P1", 12), ("P2", -1.5), ("P2", 1))]
+        text = self.told("verification", rows)
+        self.assertIn("keep 75 to 87.5 % of a beam's bending towards incompressibility and meet published benchmarks within 1.5 %.", text)
+        self.assertIn("lock: they keep 1.25 to 50 % of the bending and miss benchmarks by up to 47 %.", text)
+
+    def test_figures_of_time_name_the_processor(self):
+        timed = [entry for entry in listed.values() if set(entry.studies()) & {"timing", "work_precision", "bench", "features"}]
+        timed = [entry for entry in timed if entry.name != "error_parts"]
+        self.assertEqual(len(timed), 6)
+        for entry in timed:
+            with self.subTest(entry.name):
+                self.assertIn("{cpu}", entry.caption)
+                self.assertIn("a processor", captions.whole(entry, self.figures, {"cpu_model": "a processor"}))
+                self.assertIn("a processor that is not on record", captions.whole(entry, self.figures, {}))
 
     def test_a_ladder_is_told_by_its_ends(self):
         def row(ladder, vertices, residual, error):
@@ -137,7 +165,7 @@ class Captions(unittest.TestCase):
         rows = [{"map": "map_time_step_k_stretch.csv", "outcome": "bounded", "steps": 1}]
         self.told("stability_maps", rows)
         with self.assertRaises(KeyError):
-            captions.whole(dataclasses.replace(listed["stability_maps"], caption="see {nothing}"), self.figures)
+            captions.whole(dataclasses.replace(listed["stability_maps"], caption="see {nothing}"), self.figures, {})
 
 
 if __name__ == "__main__":

@@ -150,8 +150,11 @@ class Figures(unittest.TestCase):
             self.assertIn(synthetic_records.revision.encode(), (results / "figures" / "work_precision.png").read_bytes())
             with open(results / "figures" / "work_precision.csv", newline="") as stream:
                 rows = list(csv.DictReader(stream))
-            self.assertEqual([(row["deformer"], float(row["ms_median"]), float(row["error_joint_pct"])) for row in rows],
-                             [("lbs", 0.1, 50.0), ("pbs", 1.0, 40.0), ("pbs", 2.0, 20.0), ("pbs", 4.0, 10.0)])  # not the reference
+            points = [("lbs", 0.1, 50.0), ("pbs", 1.0, 40.0), ("pbs", 2.0, 20.0), ("pbs", 4.0, 10.0)]  # not the reference
+            found = {shown: [(row["deformer"], float(row["ms_median"] or 0), float(row["error_joint_pct"])) for row in rows
+                             if row["shown"] == shown] for shown in {row["shown"]: 0 for row in rows}}
+            self.assertEqual(found, {"point": points, "front of all": points, "front of lbs": points[:1], "front of pbs": points[1:],
+                                     "bound": [("", 0.0, 15.0)], "second solution": [("", 0.0, 3.0)]})
             (results / "work_precision" / "fronts.csv").unlink()
             with contextlib.redirect_stderr(io.StringIO()) as said:
                 with contextlib.redirect_stdout(io.StringIO()):
@@ -174,8 +177,19 @@ class Figures(unittest.TestCase):
             self.assertAlmostEqual(cost["plain", "f32", "400"], 1000.0)  # 24 us a constraint and step of 24 iterations
             self.assertAlmostEqual(cost["ordered", "f64", "5000"], 250.0)
             self.assertEqual({row["value"] for row in rows if row["shown"] == "speedup_by_threads"}, {"1.5"})
+            band = next(row for row in rows if (row["order"], row["precision"], row["tets"]) == ("plain", "f32", "400"))
+            self.assertAlmostEqual(float(band["low"]), 900.0)
+            self.assertAlmostEqual(float(band["high"]), 1100.0)
+            fits = [(row["order"], row["precision"], row["value"], row["low"]) for row in rows if row["shown"] == "exponent"]
+            self.assertEqual(fits, [("ordered", "f32", "1.0", "")])
             with open(results / "figures" / "roofline.csv", newline="") as stream:
-                self.assertEqual(len(list(csv.DictReader(stream))), 2 * 4 * 3)  # meshes, orders and precisions, classes
+                rows = list(csv.DictReader(stream))
+            self.assertEqual(len([row for row in rows if row["shown"] == "kernel"]), 2 * 4 * 3)  # meshes, orders and precisions, classes
+            roofs = [row for row in rows if row["shown"] == "roof"]
+            self.assertEqual([row["roof"] for row in roofs], ["multiply-add", "L1", "L2", "L3", "memory"] * 2)
+            for row in roofs:
+                if row["gb_s"]:  # they meet the peak where they end
+                    self.assertAlmostEqual(float(row["gb_s"]) * float(row["flops_per_byte"]), float(row["gflops"]))
             (results / "bench" / "bench.json").unlink()
             with contextlib.redirect_stderr(io.StringIO()) as said:
                 with contextlib.redirect_stdout(io.StringIO()):

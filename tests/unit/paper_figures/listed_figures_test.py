@@ -7,6 +7,7 @@ import io
 import json
 import os
 import pathlib
+import re
 import sys
 import tempfile
 import tomllib
@@ -60,6 +61,62 @@ class Listing(unittest.TestCase):
                 self.assertIn(f"figures: {entry.name} not drawn: {results}", said)
                 self.assertIn(": not there", next(line for line in said.splitlines() if f" {entry.name} not" in line))
             self.assertFalse(list(results.glob("figures/*")))
+
+
+def quick_studies():
+    """Those that ./reproduce runs without --full, by the list of studies in the program's source."""
+    source = (root / "experiments" / "studies" / "studies.cpp").read_text()
+    not_quick = re.findall(r"constexpr Sets (\w+) = \{Extent::none", source)
+    entries_of = re.findall(r'^        \{"(\w+)",(.*?)\},\n(?=        \{"|    \};)', source, re.MULTILINE | re.DOTALL)
+    return {name for name, rest in entries_of if not any(re.search(rf"\b{sets}\b", rest) for sets in not_quick)}
+
+
+class Marks(unittest.TestCase):
+    def test_what_is_marked_r_needs_studies_of_the_quick_set_alone_and_nothing_else_does(self):
+        quick = quick_studies()
+        self.assertLess({"volume", "frames", "timing", "work_precision"}, quick)
+        self.assertFalse({"verification", "scale"} & quick)
+        for entry in entries.read():
+            with self.subTest(entry.name):
+                self.assertEqual(entry.mark, "R" if quick.issuperset(entry.studies()) else "CR")
+
+
+class Planned(unittest.TestCase):
+    """Runs that a plan names and that have no records."""
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.results = pathlib.Path(folder.name)
+        synthetic_tables.write_error_parts(self.results / "work_precision")
+        self.entry = {entry.name: entry for entry in entries.read()}
+
+    def plan(self, *names, study="work_precision"):
+        (self.results / study / "plan.json").write_text(json.dumps({"runs": [{"name": name} for name in names]}))
+
+    def test_without_a_plan_and_with_all_on_record_nothing_is_absent(self):
+        self.assertEqual(self.entry["error_parts"].absent(self.results), ([], 0))
+        self.plan("limb_twist_90")
+        self.assertEqual(self.entry["error_parts"].absent(self.results), ([], 1))
+        self.assertEqual(drawn(self.results, "error_parts"), (0, ""))
+        self.assertNotIn("not on record", (self.results / "figures" / "error_parts.caption.txt").read_text())
+
+    def test_what_is_not_on_record_stands_in_the_caption(self):
+        self.plan("limb_twist_90", "human_crouch", "man_crouch")
+        synthetic_tables.write_origin(self.results / "work_precision" / "man_crouch")  # run, and its table not kept
+        self.assertEqual(drawn(self.results, "error_parts"), (0, ""))
+        self.assertTrue((self.results / "figures" / "error_parts.caption.txt").read_text()
+                        .endswith(" Planned and not on record, 2 of 3: human_crouch, man_crouch.\n"))
+
+    def test_of_a_pattern_those_that_it_matches(self):
+        synthetic_tables.write_jiggle(self.results / "jiggle")
+        self.plan("limb_jolt", "limb_reference", "human_jolt", "human_walk", study="jiggle")
+        self.assertEqual(self.entry["jiggle_response"].absent(self.results), (["human_jolt"], 2))
+
+    def test_a_table_of_the_study_sums_up_all_runs(self):
+        synthetic_tables.write_timing(self.results / "timing")
+        self.plan("man_1654", "lady_1829", study="timing")
+        self.assertEqual(self.entry["timing_sizes"].absent(self.results), (["lady_1829"], 2))
+        self.assertEqual(self.entry["section_profiles"].absent(self.results), ([], 0))
 
 
 class Staleness(unittest.TestCase):

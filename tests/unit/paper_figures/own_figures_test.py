@@ -1,5 +1,5 @@
 """Truth: the definition. The paper's own figures show what the frames on record hold, say whose body and motion it is, and refuse
-without."""
+without; every figure says which runs it is of."""
 import csv
 import importlib
 import json
@@ -19,7 +19,10 @@ import recorded_distances  # noqa: E402
 import recorded_frames  # noqa: E402
 import records  # noqa: E402
 import synthetic_frames  # noqa: E402
+import synthetic_records  # noqa: E402
+import synthetic_tables  # noqa: E402
 import table_1_timing  # noqa: E402
+import volume_over_angle  # noqa: E402
 
 own = [entry for entry in entries.read() if entry.script.startswith(("fig_", "table_", "clip_"))]
 
@@ -154,6 +157,38 @@ class OwnFigures(unittest.TestCase):
     def test_table_1_refuses_half_a_timing(self):
         self.write_timing(orders=table_1_timing.orders[:1])
         self.assert_missing("not timed in plain f64 and ordered f32", lambda: table_1_timing.draw(self.results, self.results / "figures"))
+
+
+class Origin(unittest.TestCase):
+    def test_it_is_of_the_runs_behind_the_figure_and_no_others(self):
+        with tempfile.TemporaryDirectory() as folder:
+            results = pathlib.Path(folder)
+            synthetic_records.write_study(results)
+            synthetic_tables.write_origin(results / "volume" / "a_first", of="f" * 40)  # before them in the alphabet
+            scenes = {}
+            for name in ("limb_twist", "limb_bend"):
+                run = results / "volume" / name / "run.json"
+                record = json.loads(run.read_text())
+                record["scene"]["name"] = name
+                record["provenance"]["cpu_model"] = "a processor"
+                run.write_text(json.dumps(record))
+                scenes[name] = records.scene_hash(record)
+            self.assertEqual(entries.origin_of(results, "volume_over_angle"), {
+                "version": "0.1.0", "git_revision": synthetic_records.revision, "git_dirty": False, "cpu_model": "a processor",
+                "scenes": scenes})
+            volume_over_angle.draw(results, results / "figures")
+            shown = (results / "figures" / "volume_over_angle.png").read_bytes()
+            for text in (synthetic_records.revision, "; a processor; ", *(f"scene {name} {digest}" for name, digest in scenes.items())):
+                self.assertIn(text.encode(), shown)
+
+    def test_all_revisions_and_processors_are_named(self):
+        runs = {name: {"work": {"name": name}, "provenance": {"git_revision": name * 4, "cpu_model": cpu, "git_dirty": name == "b"}}
+                for name, cpu in (("a", "one"), ("b", "two"), ("c", "one"))}
+        origin = records.origin_of(runs)
+        self.assertEqual((origin["git_revision"], origin["cpu_model"]), ("aaaa and bbbb and cccc", "one and two"))
+        self.assertTrue(origin["git_dirty"])
+        self.assertEqual(len(set(origin["scenes"].values())), 3)
+        self.assertEqual(records.origin_of({"kept": {}}), {"git_dirty": False, "scenes": {}})
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ import stiffness  # noqa: E402
 import style  # noqa: E402
 import synthetic_records  # noqa: E402
 import synthetic_tables  # noqa: E402
+import volume_by_region  # noqa: E402
 
 svg = "{http://www.w3.org/2000/svg}"
 
@@ -83,6 +84,24 @@ class Plots(unittest.TestCase):
         self.assertEqual(len(rows), 4 * 3)  # parts, iterations: neither another order nor another stiffness nor substeps
         self.assertEqual(parts["solver_pct", 24.0], 1.25)
 
+    def test_an_attachment_that_was_not_reached_keeps_its_place_and_says_so(self):
+        synthetic_tables.write_error_split(self.results / "error_split")
+        axes, save = [], style.save
+
+        def kept(figure, *others):
+            axes.extend(figure.axes)
+            save(figure, *others)
+
+        with unittest.mock.patch.object(style, "save", kept):
+            rows = self.drawn("error_split")
+        self.assertEqual([row["value_pct"] for row in rows if row["shown"] == "model_pct" and "bind" in row["at"]], ["80.0", "nan"])
+        for panel in axes[2:4]:
+            names = [text.get_text() for text in panel.get_yticklabels()]
+            self.assertEqual(names, ["bones, core 0.2", "bones, core 0.35", "bind constraint"])
+            self.assertEqual(panel.get_ylim(), (-0.5, 2.5))
+        self.assertEqual([text.xy[1] for text in axes[3].texts], [2])
+        self.assertEqual(self.stem.with_suffix(".svg").read_text().count("not reached"), 1)
+
     def test_sections_are_of_one_mesh_and_the_best_elements(self):
         synthetic_tables.write_artefacts(self.results / "artefacts")
         rows = self.drawn("section_profiles")
@@ -106,7 +125,9 @@ class Plots(unittest.TestCase):
         synthetic_tables.write_jiggle(self.results / "jiggle")
         rows = [row for row in self.drawn("jiggle_response") if row["varied"] == "k_stretch"]
         self.assertEqual([(float(row["k_stretch"]), float(row["frequency_hz"])) for row in rows], [(0.1, 10.0), (0.4, 20.0)])
-        self.assertIn("neo-Hookean FEM in time, limb: 0.1, 0.5", self.titles("k_stretch [1]"))
+        shown = [title for title in self.titles("k_stretch [1]") if title.startswith("neo-Hookean FEM in time, limb: ")]
+        self.assertEqual(shown, ["neo-Hookean FEM in time, limb: 0.1, 0.5"])
+        self.assertEqual([title for title in self.titles("") if "FEM" in title], [])  # their frequency was asked for
 
     def test_stiffness_is_of_answers_that_converged(self):
         synthetic_tables.write_stiffness(self.results / "stiffness")
@@ -138,6 +159,8 @@ class Plots(unittest.TestCase):
         synthetic_records.write_study(self.results)
         self.drawn("volume_by_region")
         self.assertIn("LBS: -1, spine\u2013chest", self.titles("change [% of the body's volume]"))
+        self.assertEqual([volume_by_region.in_words(region) for region in ("upper_arm.L", "chest - clavicle.R", "thigh.R - shin.R")],
+                         ["left upper arm", "chest\u2013right clavicle", "right thigh\u2013shin"])
 
     def test_timing(self):
         synthetic_tables.write_timing(self.results / "timing")

@@ -79,15 +79,15 @@ def write_bones(folder, frames):
                 posed.writerow([frame, frame / 100, bone, "", at, 0, frame, at + 1, 0, frame])
 
 
-def write_frames(results, scene="limb_twist", frames=4, body="limb"):
-    """DIR/frames/SCENE; volume_change_pct of LBS is smallest in frame 2."""
+def write_frames(results, scene="limb_twist", frames=4, body="limb", not_reached=()):
+    """DIR/frames/SCENE; volume_change_pct of LBS is smallest in frame 2. not_reached: (label, frame) whose solve did not converge."""
     folder = results / "frames" / scene
     (folder / "frames").mkdir(parents=True)
     (folder / "run.json").write_text(json.dumps({"scene": {
         "character": {"body": body}, "motion": {}, "reference": {"name": "snh_p1"},
         "runs": [{"label": label, "name": label, "variant": "default"} for label in labels]}}))
     columns = ["scene", "deformer", "variant", "iterations", "frame", "time_s", "volume_change_pct", "inverted_tets", "j_min",
-               "error_joint_pct", "error_linf_m", "min_section_pct", "angle_deg"]
+               "error_joint_pct", "error_linf_m", "min_section_pct", "angle_deg", "outcome"]
     with open(folder / "metrics.csv", "w", newline="") as stream:
         table = csv.writer(stream)
         table.writerow(columns)
@@ -96,7 +96,8 @@ def write_frames(results, scene="limb_twist", frames=4, body="limb"):
                 ratios = ratios_of(label, frame)
                 inverted = sum(ratio <= 0 for ratio in ratios)
                 table.writerow([scene, label, "default", 24 if label == "pbs" else "", frame, frame / 100, -abs(frame - 2) or -9, inverted,
-                                min(ratios), 10 * frame, error_m(label, frame), 100 - frame, 10 * frame])
+                                min(ratios), 10 * frame, error_m(label, frame), 100 - frame, 10 * frame,
+                                "not_converged" if (label, frame) in not_reached else "finished"])
                 write_frame(folder / "frames" / f"{label}_{frame:06}.vtu", label, frame)
     write_bones(folder, frames)
     if body != "limb":

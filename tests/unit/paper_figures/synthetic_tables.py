@@ -53,6 +53,20 @@ def write_error_parts(study):
             "model_pct": 20.0, "discretisation_pct": 5.0} for n in (1, 24, 384) for order, k, more in settings])
 
 
+def write_error_split(study):
+    """As above; beneath, flesh held by the bind constraint is reached in the twist and not in the bend."""
+    for scene, angle_deg in (("limb_twist", 90), ("limb_bend", 60)):
+        write_origin(study / scene)
+        pose = {"scene": scene, "angle_deg": angle_deg}
+        write(study / scene / "parts.csv",
+              [{**pose, "k_stretch": k, "iterations": n, "error_joint_pct": 25.0, "solver_pct": 30.0 / n, "model_pct": 20.0,
+                "discretisation_pct": 5.0} for k in (0.2, 0.9) for n in (1, 24)])
+        held = [("bind", 0.35, 80.0 if scene == "limb_twist" else "nan"), ("embedded", 0.35, 20.0), ("embedded", 0.2, 30.0)]
+        write(study / scene / "attachments.csv",
+              [{**pose, "k_stretch": 0.2, "reference": f"{attachment} {core}", "attachment": attachment, "core_radius": core,
+                "model_pct": model} for attachment, core, model in held])
+
+
 def write_artefacts(study):
     """Sections every 10 cm: LBS leaves half of the area, DQS a tenth more, PBS and the elements all; on another mesh nought."""
     cases = {"limb_twist": ("twist 90 deg", "twist 180 deg"), "limb_bend": ("bend 60 deg", "bend 90 deg"),
@@ -89,7 +103,8 @@ def write_jiggle(study):
     def row(deformer="pbs", k=0.1, step=10, iterations=24):
         return {"deformer": deformer, "k_stretch": k, "time_step_ms": step, "iterations": iterations, "masses": "unit", "k_bind": 1,
                 "outcome": "too_short" if k == 1 else "found", "frequency_hz": 10 * (k / 0.1) ** 0.5, "frequency_low_hz": 9,
-                "frequency_high_hz": 40, "damping_ratio": 0.5, "damping_low": 0.25, "damping_high": 0.75}
+                "frequency_high_hz": 40, "damping_ratio": 0.5, "damping_low": 0.25, "damping_high": 0.75,
+                "young_pa": "nan" if deformer == "pbs" else 1e5}
 
     write_runs(study, ["limb_jolt", "limb_reference"])
     write(study / "limb_jolt" / "responses.csv", [row(), row(k=0.4), row(k=1), row(step=20), row(iterations=6)])

@@ -16,6 +16,8 @@ import numpy
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
+import fig_08_artefacts  # noqa: E402
+import frames  # noqa: E402
 import records  # noqa: E402
 import synthetic_frames  # noqa: E402
 import viewer_html  # noqa: E402
@@ -83,7 +85,7 @@ class Viewer(unittest.TestCase):
         runs = [{"label": label, "options": set_to} for label, set_to in options.items()] + [{"label": "lbs"}]
         recorded = types.SimpleNamespace(run=types.SimpleNamespace(record={"scene": {"runs": runs}}))
         self.assertEqual([viewer_data.title_of(recorded, label) for label in ("lbs", *options)],
-                         ["LBS", "PBS", "PBS, k_stretch 1, zone 0.1", "PBS, k_stretch 1, no zone", "PBS, no start from LBS", "FEM"])
+                         ["LBS", "PBS", "PBS, k_stretch 1, zone 0.1", "PBS, k_stretch 1, no zone", "PBS, no start from LBS", "FEM, neo-Hookean P1"])
 
     def test_the_limb_has_no_surface_but_its_tets(self):
         self.assertIsNone(self.unpacked()[0]["surface"])
@@ -104,7 +106,36 @@ class Viewer(unittest.TestCase):
         lbs = next(deformer for deformer in run["deformers"] if deformer["label"] == "lbs")
         self.assertEqual(lbs["figures"]["volume_change_pct"], [-2.0, -9.0])
         self.assertEqual(lbs["figures"]["inverted_tets"], [0.0, 1.0])
-        self.assertEqual([deformer["title"] for deformer in run["deformers"]], ["LBS", "DQS", "PBS", "FEM"])
+        self.assertEqual([deformer["title"] for deformer in run["deformers"]], ["LBS", "DQS", "PBS", "FEM, neo-Hookean P1"])
+
+    def test_frames_whose_pose_was_not_reached_are_packed_as_such(self):
+        with tempfile.TemporaryDirectory() as folder:
+            synthetic_frames.write_frames(pathlib.Path(folder), not_reached=[("snh_p1", 2), ("snh_p1", 3), ("pbs", 0)])
+            runs = [viewer_data.pack(pathlib.Path(folder), every)[0]["runs"][0] for every in (1, 2)]
+        found = [{deformer["label"]: deformer["not_reached"] for deformer in run["deformers"]} for run in runs]
+        self.assertEqual(found, [{"lbs": [], "dqs": [], "pbs": [0], "snh_p1": [2, 3]}, {"lbs": [], "dqs": [], "pbs": [0], "snh_p1": [1]}])
+
+    def test_stills_say_under_a_pose_that_it_was_not_reached(self):
+        row = {"inverted_tets": "1", "min_section_pct": "40", "volume_change_pct": "-2"}
+        for caption in (frames.caption, fig_08_artefacts.facts):
+            for outcome, marked in (("finished", False), ("not_converged", True), ("not_finite", True), (None, False)):
+                with self.subTest(caption.__module__, outcome=outcome):
+                    self.assertEqual("pose not reached" in caption({**row, "outcome": outcome}), marked)
+
+    def test_positions_that_are_not_finite_are_refused_by_file(self):
+        file = self.run / "frames" / "pbs_000001.vtu"
+        first = " ".join(map(str, synthetic_frames.positions_of("pbs", 1)[1]))
+        file.write_text(file.read_text().replace(first, "nan nan nan", 1))
+        with self.assertRaisesRegex(records.RecordsMissing, "pbs_000001.vtu: a position is not finite"):
+            viewer_data.pack(self.results)
+
+    def test_panels_of_a_claim_are_those_on_record(self):
+        figures = {column: [0.0, 1.0] for column in viewer_data.figures}
+        run = {"name": "human_walk", "frames": [0, 1], "deformers": [{"label": label, "figures": figures}
+                                                                      for label in ("lbs", "pbs_jiggle", "snh_p1")]}
+        self.assertEqual([(pose["claim"], pose["panels"]) for pose in viewer_poses.poses_of([run])], [("C09", "lbs,pbs_jiggle,snh_p1")])
+        run["deformers"].append({"label": "pbs_no_zone", "figures": figures})
+        self.assertEqual(viewer_poses.poses_of([run])[0]["panels"], "lbs,pbs_no_zone,pbs_jiggle,snh_p1")
 
     def test_a_claim_opens_at_the_recorded_extreme(self):
         links = viewer_html.claim_links(self.results)

@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { distance_shade, palette_of, ratio_shades, rgb_of, shade_of } from "../../../../paper_figures/viewer/src/colours.js";
+import { Run } from "../../../../paper_figures/viewer/src/data.js";
 import { shown, signed } from "../../../../paper_figures/viewer/src/numbers.js";
 import { State, draws_surface, no_surface_because, panels_for } from "../../../../paper_figures/viewer/src/state.js";
 
@@ -37,6 +38,14 @@ test("the rendered surface is drawn where the body has one and nothing is cut", 
         assert.equal(draws_surface(run, { rendered: true, cut: asked }), false);
         assert.match(no_surface_because(run, { cut: asked }), why);
     }
+});
+
+test("no distance where the deformer or the reference did not reach the frame's pose", () => {
+    const deformers = [{ label: "pbs", not_reached: [1] }, { label: "snh_p1", not_reached: [2] }];
+    const run = Object.assign(Object.create(Run.prototype), { reference: "snh_p1", labels: ["pbs", "snh_p1"], deformers });
+    assert.deepEqual([0, 1, 2].map((at) => run.reached("pbs", at)), [true, false, true]);
+    assert.deepEqual([0, 1, 2].map((at) => run.has_errors("pbs", at)), [true, false, false]);
+    assert.deepEqual([0, 1, 2].map((at) => run.has_errors("snh_p1", at)), [true, true, false]);
 });
 
 test("listeners hear what changed, and nothing when nothing did", () => {

@@ -1,0 +1,22 @@
+// What is to be known of the frame that is shown: which FEM it is, how many frames are kept, how they are rounded, whose the body is.
+
+const locking = "The FEM shown has linear elements (P1), which lock: they are stiffer than the material. How far they are from quadratic "
+    + "ones, and the reference\u2019s own error, stand in the report: \u201cHow far from the finite elements?\u201d, \u201cDistance from "
+    + "the finite elements\u201d. ";
+
+export function note_of(run, every, at) {
+    const mark = run.reference_intersects(at) ? "* In this frame the FEM reference passes through itself: distances to it say less. " : "";
+    const kept = every === 1 ? "every recorded frame" : `one of ${every} recorded frames`;
+    const step_um = (1e6 * run.step_m).toFixed(1);
+    return `${mark}${locking}${run.vertices} vertices, ${run.tets} tets${carried_by(run)}; ${kept}. Positions are rounded to steps of `
+        + `${step_um} \u00b5m: each coordinate of a vertex is within half a step of the record's; volume ratios to 1/127 up to 2; `
+        + "the numbers are the records' own. A cut goes through the body at rest, so that every panel and frame shows the same tets. "
+        + run.rights;
+}
+
+function carried_by({ surface, step_m }) {
+    if (!surface) return "";
+    const within_um = Math.ceil(0.5e6 * step_m * surface.largest_sum);
+    const points = `, which carry the ${surface.points} points of the rendered surface`;
+    return `${points}, each coordinate within ${within_um} \u00b5m of the record's`;
+}
