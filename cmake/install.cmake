@@ -19,18 +19,24 @@ function(pbs_install_headers component)
     foreach(folder IN LISTS ARGN)
         file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
         if(component STREQUAL "method")
-            list(FILTER headers EXCLUDE REGEX "/(mesh_io|meshing|module)[a-z_]*\\.hpp$")
+            list(FILTER headers EXCLUDE REGEX "/(mesh_io|mesh_remarks|meshing|module)[a-z_]*\\.hpp$")
         endif()
-        set(no_call_for_users "mesh_io_|meshing_|guarded_reading|isolated_reader|reading_limits|packed_bytes|assimp_files|vtk_messages")
+        set(no_call_for_users  # readers' and meshers' own; text and files of the program; what stands behind the solvers; parts of bodies
+            "mesh_io_|meshing_|guarded_reading|isolated_reader|reading_limits|packed_bytes|assimp_files|vtk_messages|surface_checks"
+            "geometry/(atomic_file|file_limits|nearest_name|number_text|process|stopwatch|text_file|toml_text)"
+            "solver/(algorithm_1|hand_over|parallel|plain_projection|project_plain|reordered_projection)"
+            "character/(bvh_header|clip_bytes|face_stream|folded_skeleton|input_file|json_file|making_lock|morph_targets|skeleton_order)")
+        list(JOIN no_call_for_users "|" no_call_for_users)
         list(FILTER headers EXCLUDE REGEX "/(${no_call_for_users})[a-z_]*\\.hpp$")
         install(FILES ${headers} DESTINATION include/${folder} COMPONENT ${component})
     endforeach()
 endfunction()
 
 pbs_install_libraries(method pbs_settings=settings pbs_method=method)
-pbs_install_headers(method pbs/geometry pbs/skinning pbs/constraints pbs/solver pbs/solver/batched)
+pbs_install_headers(method pbs/geometry pbs/skinning pbs/constraints pbs/solver)
 pbs_install_libraries(mesh_io pbs_module=module pbs_meshing=meshing pbs_mesh_io=mesh_io)
-install(FILES pbs/geometry/mesh_io.hpp pbs/geometry/meshing.hpp pbs/geometry/module.hpp DESTINATION include/pbs/geometry COMPONENT mesh_io)
+install(FILES pbs/geometry/mesh_io.hpp pbs/geometry/mesh_remarks.hpp pbs/geometry/meshing.hpp pbs/geometry/module.hpp
+    DESTINATION include/pbs/geometry COMPONENT mesh_io)
 pbs_install_libraries(character pbs_character=character)
 pbs_install_headers(character pbs/character)
 if(PBS_WITH_ANALYSIS)

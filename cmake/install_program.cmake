@@ -24,6 +24,12 @@ install(DIRECTORY paper_figures DESTINATION ${data_folder} COMPONENT program
 install(DIRECTORY experiments/scenes DESTINATION ${data_folder} COMPONENT program FILES_MATCHING PATTERN *.toml)
 install(FILES CITATION.cff experiments/claims.toml DESTINATION ${data_folder} COMPONENT program)
 
+# Parameter sweeps, as bin/pbskin-sweep; the scaling of the distributed reference is for a checkout.
+install(DIRECTORY experiments/sweeps DESTINATION ${data_folder} COMPONENT program USE_SOURCE_PERMISSIONS
+    PATTERN __pycache__ EXCLUDE PATTERN distributed* EXCLUDE)
+file(CREATE_LINK ../${data_folder}/sweeps/sweep.py ${PROJECT_BINARY_DIR}/pbskin-sweep SYMBOLIC)
+install(FILES ${PROJECT_BINARY_DIR}/pbskin-sweep DESTINATION bin COMPONENT program)
+
 # The manual page and the completions, from what the program says of itself.
 find_program(PBS_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
 if(PBS_PYTHON)

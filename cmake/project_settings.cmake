@@ -26,3 +26,12 @@ target_compile_options(pbs_settings INTERFACE
 target_compile_features(pbs_settings INTERFACE cxx_std_20)
 target_compile_options(pbs_settings INTERFACE "$<INSTALL_INTERFACE:SHELL:-include pbs/geometry/installed_eigen.hpp>")
 target_link_libraries(pbs_settings INTERFACE Eigen3::Eigen)
+
+# unity_build(TARGET): its sources are compiled eight at once, so that their anonymous namespaces are one. Each alone is compiled by the
+# presets dev and package, which find a missing include; GCC 12 warns of its own headers where it inlines more.
+function(unity_build target)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ${PBS_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 8)
+    if(PBS_UNITY_BUILD)
+        target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+    endif()
+endfunction()

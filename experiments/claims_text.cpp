@@ -53,6 +53,7 @@ Lines claim_lines(const analysis::Claim& claim)
     if (claim.rule != analysis::ClaimRule::untestable)
         lines.emplace_back("study", fmt::format("{}, about {:g} min", claim.study, claim.cost_minutes));
     for (auto& line : measure_of(claim)) lines.push_back(std::move(line));
+    lines.emplace_back("formula", fmt::format("{}", fmt::join(claim.formulae, "\n")));
     return lines;
 }
 

@@ -21,6 +21,11 @@ void remove_record(const fs::path& file)
     require(error, file, "an earlier run's record cannot be removed: ");
 }
 
+std::string path_in(const std::string& folder, const std::string& name)
+{
+    return (fs::path(folder) / name).string();
+}
+
 std::vector<fs::path> files_in(const fs::path& folder)
 {
     std::error_code error;

@@ -194,9 +194,9 @@ int reproduce(const ReproduceArguments& arguments)
         beside += conclusion.text;
         all_hold &= conclusion.holds;
     }
+    spdlog::info("what it took:\n{}", cost_table(costs));
     fmt::print("{}", beside);
     const bool all_computed = verdicts.empty() || tell_verdicts(verdicts, arguments.folder);
-    spdlog::info("what it took:\n{}", cost_table(costs));
     if (refused) return exit_input;
     if (broke_down) return exit_breakdown;
     return all_computed && all_hold ? exit_finished : exit_bound;

@@ -1,6 +1,5 @@
 #include "experiments/run.hpp"
 
-#include "analysis/state_hash.hpp"
 #include "experiments/broken_frame.hpp"
 #include "experiments/cases/motion_case.hpp"
 #include "experiments/frame_step.hpp"
@@ -11,13 +10,13 @@
 #include "experiments/run_folder.hpp"
 #include "experiments/warnings.hpp"
 #include "pbs/character/body_remarks.hpp"
+#include "pbs/character/input_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 #include <memory>
 
@@ -99,21 +98,14 @@ pbs::Character told_character(const Scene& scene)
     return character;
 }
 
-// The motion and the hash of its clip: of the bytes that were read, for they were the same before and after. A sweep has none.
-struct HashedMotion {
-    pbs::Motion motion;
-    std::string clip_hash;
-};
-
-HashedMotion read_motion(const Scene& scene, const pbs::Skeleton& skeleton)
+// The motion, and the hashes of its clip into the character's inputs; a sweep has none.
+pbs::Motion read_motion(const Scene& scene, pbs::Character& character)
 {
-    const std::string& clip = scene.motion.clip;
-    std::error_code error;  // what is no file is refused by its reader
-    const std::string before = std::filesystem::is_regular_file(clip, error) ? analysis::content_hash_of_file(clip) : "";
-    HashedMotion read{make_motion(scene.motion, skeleton, scene.file), before};
-    if (!clip.empty() && analysis::content_hash_of_file(clip) != before)
-        throw pbs::InputError(clip, 0, "", "", "was changed while it was read");
-    return read;
+    const pbs::InputFile clip(scene.motion.clip);
+    pbs::Motion motion = make_motion(scene.motion, character.skeleton, scene.file);
+    if (scene.motion.clip.empty()) return motion;
+    for (const auto& hashed : clip.hashed()) character.inputs.push_back(hashed);
+    return motion;
 }
 
 class SceneRun {
@@ -121,7 +113,7 @@ public:
     SceneRun(const Scene& scene, const std::string& folder)
         : scene_(scene),
           character_(cost_.time("character", [&] { return told_character(scene); })),
-          read_motion_(cost_.time("motion", [&] { return read_motion(scene, character_.skeleton); })),
+          motion_(cost_.time("motion", [&] { return read_motion(scene, character_); })),
           runners_(make_runners(scene, character_, cost_)),
           measurer_(
               cost_.time("ruler_set_up", [&] { return FrameMeasurer(character_, measured_output(scene), prescribed_by_any(runners_)); })),
@@ -249,7 +241,7 @@ private:
         if (!scene_.reference.empty()) outcome["self_intersecting_reference_frames"] = self_intersecting_frames_;
         if (error_bar_) outcome["frames_below_reference_error"] = frames_below_reference_error_;
         outcome.update(run_end(stopwatch_.seconds()));
-        folder_.finish(character_, read_motion_.clip_hash, records, outcome, cost_, error_bar_ ? error_bar_->method() : nlohmann::json());
+        folder_.finish(character_, records, outcome, cost_, error_bar_ ? error_bar_->method() : nlohmann::json());
 
         RunResult result{frames_, stopwatch_.seconds(), breakdown_, bad_frame_, {}};
         for (const Runner& runner : runners_)
@@ -265,8 +257,7 @@ private:
     CostRecord cost_;
     pbs::Stopwatch stopwatch_;
     pbs::Character character_;
-    HashedMotion read_motion_;
-    const pbs::Motion& motion_ = read_motion_.motion;
+    pbs::Motion motion_;
     std::vector<Runner> runners_;
     FrameMeasurer measurer_;
     std::optional<ReferenceErrorBar> error_bar_;

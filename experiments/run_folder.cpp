@@ -7,6 +7,7 @@
 #include "experiments/folder_files.hpp"
 #include "experiments/record_text.hpp"
 #include "experiments/surface_record.hpp"
+#include "pbs/character/input_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/quality.hpp"
@@ -255,9 +256,8 @@ void RunFolder::write_what_frames_hang_on(const pbs::Character& character) const
     if (character.surface) write_surface(*character.surface, character.mesh, folder_);
 }
 
-void RunFolder::finish(const pbs::Character& character, const std::string& clip_hash,
-                       const std::map<std::string, nlohmann::json>& deformer_records, const nlohmann::json& outcome, CostRecord& cost,
-                       const nlohmann::json& reference_error_method)
+void RunFolder::finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
+                       const nlohmann::json& outcome, CostRecord& cost, const nlohmann::json& reference_error_method)
 {
     cost.time("records", [&] {
         write_tables();
@@ -265,8 +265,7 @@ void RunFolder::finish(const pbs::Character& character, const std::string& clip_
     });
     analysis::Provenance provenance = analysis::collect_provenance(most_threads(scene_));
     for (const auto& [library, version] : library_versions()) provenance.libraries[library] = version;
-    for (const auto& [input, hash] : character.inputs) provenance.input_hashes[input] = hash;
-    if (!scene_.motion.clip.empty()) provenance.input_hashes[fs::path(scene_.motion.clip).filename().string()] = clip_hash;
+    provenance.input_hashes = pbs::hashes_by_name(character.inputs);
 
     nlohmann::json run = {{"schema", 1}, {"scene", resolved_with_deformers(scene_)}, {"provenance", provenance}, {"outcome", outcome}};
     for (const auto& [name, hash] : hashes_) run["state_hash"][name] = hash.hex();

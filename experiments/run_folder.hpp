@@ -33,11 +33,9 @@ public:
 
     void write_tables() const;  // metrics.csv, iterations.csv, regions.csv and the collections: of an interrupted run, all there is
 
-    // Writes the tables and, last, run.json with what all of it cost; a null method of the reference's error bar is left out. clip_hash: of
-    // the bytes that the motion was read from; of a sweep it is not looked at.
-    void finish(const pbs::Character& character, const std::string& clip_hash,
-                const std::map<std::string, nlohmann::json>& deformer_records, const nlohmann::json& outcome, CostRecord& cost,
-                const nlohmann::json& reference_error_method = nullptr);
+    // Writes the tables and, last, run.json with what all of it cost; a null method of the reference's error bar is left out.
+    void finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
+                const nlohmann::json& outcome, CostRecord& cost, const nlohmann::json& reference_error_method = nullptr);
 
 private:
     void write_what_frames_hang_on(const pbs::Character& character) const;

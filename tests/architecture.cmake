@@ -19,3 +19,12 @@ if(PBS_CPPCHECK)
 else()
     message(STATUS "cppcheck is not there: its test is left out")
 endif()
+
+find_program(PBS_SHELLCHECK NAMES shellcheck)
+if(PBS_SHELLCHECK)
+    add_test(NAME architecture/shell_scripts
+        COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/architecture/shell_scripts_test.py)
+    set_tests_properties(architecture/shell_scripts PROPERTIES LABELS architecture TIMEOUT 60 ENVIRONMENT PBS_SHELLCHECK=${PBS_SHELLCHECK})
+else()
+    message(STATUS "shellcheck is not there: its test is left out")
+endif()

@@ -1,5 +1,5 @@
 # Tests of the method: pbs/geometry (topology, quality, volumes), skinning, constraints, solver.
-foreach(name IN ITEMS topology quality refinement tet_volume atomic_file input_error nearest_name text_file toml_text)
+foreach(name IN ITEMS topology quality refinement tet_volume atomic_file input_error nearest_name text_file toml_text process)
     pbs_test(unit pbs/geometry/${name} pbs_method)
 endforeach()
 foreach(name IN ITEMS skeleton pose bone_binding weights blend packed_weights blend_skinning)

@@ -1,5 +1,15 @@
 # Doxygen reads `///`, the headers are written with `//`: a comment before a declaration, or behind it, becomes its documentation, the first
 # comment the file's, an indented line in it code. Lines keep their numbers: \file takes that of #pragma once.
+# `TYPE a = 1.0, b = 2.0;` as a declaration each, all with the comment: Doxygen gives it to the last alone.
+function each_declared(code, text,    start, type, rest, names, n, i, line) {
+    match(code, /^ *(const )?[A-Za-z_][A-Za-z_0-9:]*(<[^=;()]*>)?[&*]? +/)
+    type = substr(code, 1, RLENGTH)
+    rest = substr(code, RLENGTH + 1, length(code) - RLENGTH - 1)
+    n = split(rest, names, /, */)
+    for (i = 1; i <= n; ++i) line = line (i == 1 ? type : substr(type, match(type, /[^ ]/))) names[i] ";  /**< " text " */ "
+    return line
+}
+
 function escaped(text) { gsub(/[\\@#<>%&$]/, "\\\\&", text); gsub(/::/, "\\::", text); return text }
 
 function flush(closing) { if (held != "") print held closing; held = "" }
@@ -21,7 +31,9 @@ FNR == 1 { print "/// \\file"; in_head = 1 }
     flush(in_code ? " \\endcode" : "")
     in_code = 0
     place = match($0, /[;,{}]  +\/\/ /)
-    if (place && $0 !~ /^#|namespace /) print substr($0, 1, place) "  ///< " escaped(substr($0, place + RLENGTH))
+    if (place && $0 ~ /^ *[A-Za-z_][A-Za-z_0-9:<>, ]* +[a-z_0-9]+( = [^(){},]*)?(, *[a-z_0-9]+( = [^(){},]*)?)+;  +\/\/ / && $0 !~ /^ *(using|return) /)
+        print each_declared(substr($0, 1, place), escaped(substr($0, RLENGTH + place)))
+    else if (place && $0 !~ /^#|namespace /) print substr($0, 1, place) "  ///< " escaped(substr($0, place + RLENGTH))
     else if (match($0, /^[ A-Za-z_0-9]+  \/\/ /)) print substr($0, 1, RLENGTH - 5) "  ///< " escaped(substr($0, RLENGTH + 1))
     else print
 }

@@ -2,6 +2,7 @@
 
 #include "analysis/case_judgement.hpp"
 #include "analysis/statistics.hpp"
+#include "experiments/ambiguity/judged_figure.hpp"
 #include "experiments/claims_text.hpp"
 
 #include <fmt/format.h>
@@ -14,12 +15,6 @@ namespace experiments {
 namespace {
 
 constexpr const char* unchanged = "no";
-
-const char* word_for(analysis::Extent extent)
-{
-    static constexpr const char* words[] = {"nowhere", "in part", "whole"};
-    return words[static_cast<int>(extent)];
-}
 
 // Claims of the volume study whose extent on this scene differs, by metric.
 std::string changed_verdicts(const ReadMotion& a, const ReadMotion& b)

@@ -8,12 +8,6 @@ namespace {
 
 using Cells = std::vector<analysis::CsvTable::Cell>;
 
-const char* word_for(analysis::Extent extent)
-{
-    static constexpr const char* words[] = {"nowhere", "in part", "whole"};
-    return words[static_cast<int>(extent)];
-}
-
 const JudgedFigure* find(const ReadingFigures& of, const JudgedFigure& wanted)
 {
     const auto found = std::find_if(of.figures.begin(), of.figures.end(), [&](const JudgedFigure& one) {

@@ -38,6 +38,12 @@ JudgedFigure of_case(const analysis::Claim& claim, const analysis::CaseRecord& r
 
 }  // namespace
 
+const char* word_for(analysis::Extent extent)
+{
+    static constexpr const char* words[] = {"nowhere", "in part", "whole"};
+    return words[static_cast<int>(extent)];
+}
+
 const analysis::Claim& claim_named(const std::string& id)
 {
     const auto found = std::find_if(claims().begin(), claims().end(), [&](const analysis::Claim& claim) { return claim.id == id; });

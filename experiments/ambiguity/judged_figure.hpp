@@ -30,6 +30,9 @@ struct ReadingFigures {
     std::vector<LeftOutQuantity> left_out = {};
 };
 
+// "nowhere", "in part", "whole".
+const char* word_for(analysis::Extent extent);
+
 // Of the quantities that the claim is judged by.
 std::vector<LeftOutQuantity> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason);
 

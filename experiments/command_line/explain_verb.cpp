@@ -63,15 +63,23 @@ bool explain_metric(const std::string& name)
     return false;
 }
 
+bool is_metric(const std::string& name)
+{
+    return std::any_of(metric_texts().begin(), metric_texts().end(), [&](const MetricText& text) { return text.name == name; });
+}
+
+// By its id, or by a quantity that it is judged by.
 bool explain_claim(const std::string& name)
 {
+    bool found = false;
     for (const auto& claim : claims()) {
-        if (claim.id != name) continue;
+        const bool is_judged_by_it = std::count(claim.metrics.begin(), claim.metrics.end(), name) && !is_metric(name);
+        if (claim.id != name && !is_judged_by_it) continue;
         fmt::print("{} (claim)\n", claim.id);
         for (const auto& [label, text] : claim_lines(claim)) line(label, text);
-        return true;
+        found = true;
     }
-    return false;
+    return found;
 }
 
 bool explain_study(const std::string& name)
@@ -105,7 +113,10 @@ std::vector<std::string> known_names()
     std::vector<std::string> names;
     for (const auto& key : scene_keys()) names.insert(names.end(), {key.path(), key.name});
     for (const auto& text : metric_texts()) names.push_back(text.name);
-    for (const auto& claim : claims()) names.push_back(claim.id);
+    for (const auto& claim : claims()) {
+        names.push_back(claim.id);
+        names.insert(names.end(), claim.metrics.begin(), claim.metrics.end());
+    }
     for (const auto& study : studies()) names.push_back(study.name);
     for (const auto& kind : deformer_kinds()) names.push_back(kind.kind);
     for (const auto& scene : built_in_scenes()) names.push_back(scene.name);

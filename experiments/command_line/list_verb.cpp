@@ -43,7 +43,7 @@ Lines study_lines()
     return lines;
 }
 
-Lines claim_lines()
+Lines listed_claims()
 {
     Lines lines;
     for (const auto& claim : claims()) lines.emplace_back(claim.id, claim.statement);
@@ -58,7 +58,7 @@ Lines metrics()
 }
 
 const std::map<std::string, Lines (*)()> kinds = {{"cases", cases},         {"scenes", scene_lines}, {"deformers", deformers},
-                                                  {"studies", study_lines}, {"claims", claim_lines}, {"metrics", metrics}};
+                                                  {"studies", study_lines}, {"claims", listed_claims}, {"metrics", metrics}};
 
 int list(const std::vector<std::string>& asked)
 {

@@ -5,6 +5,7 @@
 #include "experiments/cases/motion_case.hpp"
 #include "experiments/deformers/option_names.hpp"
 #include "experiments/error_split/posed_character.hpp"
+#include "experiments/folder_files.hpp"
 #include "experiments/jiggle/jiggle_figures.hpp"
 #include "experiments/jiggle/jiggle_reference.hpp"
 #include "experiments/jiggle/jiggle_zone_contents.hpp"
@@ -13,7 +14,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 
 namespace experiments {
 namespace {
@@ -21,11 +21,6 @@ namespace {
 using analysis::CsvTable;
 
 constexpr double first_young_pa = 1e5;  // of the reference, before it is matched
-
-std::string path_in(const std::string& folder, const char* name)
-{
-    return (std::filesystem::path(folder) / name).string();
-}
 
 CsvTable response_table()
 {

@@ -1,6 +1,7 @@
 #include "experiments/jiggle/jiggle_report.hpp"
 
 #include "analysis/csv_table.hpp"
+#include "experiments/folder_files.hpp"
 
 #include <fmt/format.h>
 
@@ -12,11 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using analysis::CsvTable;
-
-std::string path_in(const std::string& folder, const char* name)
-{
-    return (fs::path(folder) / name).string();
-}
 
 std::string jolt_text(const std::string& run)
 {

@@ -8,8 +8,6 @@ namespace {
 using reference_fem::Dynamics;
 using reference_fem::Model;
 
-constexpr double g_m_s2 = 9.81;
-
 const Sweep youngs{
     "Young's modulus", "Pa", {1e5, 1e12}, {1.0, 1e3, 1e7, 1e9}, [](StabilityCell& cell, double pa) { cell.spec.fem.young_pa = pa; }};
 const Sweep poissons{"Poisson's ratio", "1", {0.3, 0.4999}, {0.0, 0.45, 0.49, 0.499, 0.499999}, [](StabilityCell& cell, double nu) {

@@ -7,7 +7,6 @@
 namespace experiments {
 namespace {
 
-constexpr double g_m_s2 = 9.81;
 constexpr pbs::Precision both_precisions[] = {pbs::Precision::f32, pbs::Precision::f64};
 
 void set_k_stretch(StabilityCell& cell, double k)

@@ -26,6 +26,8 @@ struct Disturbance {
 // Tets spoilt before anything is bound: a seeded share of the vertices is moved until a tet at each is so thin.
 enum class Defect { none, slivers, needles };
 
+inline constexpr double g_m_s2 = 9.81;  // one g
+
 // Of masses, spoilt tets and random starts.
 inline constexpr unsigned stability_seed = 20140528;
 

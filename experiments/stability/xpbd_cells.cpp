@@ -4,8 +4,6 @@
 namespace experiments {
 namespace {
 
-constexpr double g_m_s2 = 9.81;
-
 const Sweep youngs{
     "Young's modulus", "Pa", {1.0, 1e12}, {1e3, 1e7, 1e9}, [](StabilityCell& cell, double pa) { cell.spec.xpbd.young_pa = pa; }};
 const Sweep poissons{"Poisson's ratio", "1", {0.25, 0.499999}, {0.45, 0.49, 0.499, 0.4999}, [](StabilityCell& cell, double nu) {

@@ -20,6 +20,7 @@
 #include "experiments/artefacts/artefact_figures.hpp"
 #include "experiments/convergence/path_figures.hpp"
 #include "experiments/deformers/option_names.hpp"
+#include "experiments/folder_files.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 
@@ -33,11 +34,6 @@ namespace experiments {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string path_in(const std::string& folder, const char* name)
-{
-    return (fs::path(folder) / name).string();
-}
 
 struct Baseline {
     Reading reading;

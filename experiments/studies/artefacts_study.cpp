@@ -49,7 +49,7 @@ std::string look_and_record(const ArtefactCase& of, const std::string& folder)
     return records.breakdown;
 }
 
-nlohmann::json settings_of(const ArtefactCase& of)
+nlohmann::json case_settings(const ArtefactCase& of)
 {
     auto poses = nlohmann::json::array();
     for (const ArtefactPose& pose : of.poses) poses.push_back({{"frame", pose.frame}, {"name", pose.name}});
@@ -74,7 +74,7 @@ StudyRun artefact_run(const std::string& name, const ArtefactCase& of, double co
     return {.name = name,
             .cost_s = cost_s,
             .work = [of](const std::string& folder) { return look_and_record(of, folder); },
-            .settings = settings_of(of)};
+            .settings = case_settings(of)};
 }
 
 const char* const all_deformers = R"(deformers.use=["lbs","dqs","pbs","delta_mush","xpbd","snh_p1"])";

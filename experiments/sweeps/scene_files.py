@@ -1,10 +1,12 @@
 """The files that a scene's texts name: mesh, skeleton, clip, weights. A run is the result of what they hold, and so is its name."""
 import functools
 import hashlib
+import json
 import pathlib
 import tomllib
+import urllib.parse
 
-COMPANIONS = {".ele": ".node", ".gltf": ".bin"}  # one file in two
+COMPANIONS = {".ele": ".node", ".node": ".ele"}  # one mesh in two files, named by either
 
 
 def texts_of(value):
@@ -28,14 +30,31 @@ def is_file(path):
         return False
 
 
+def buffers_of(path):
+    """What a glTF's buffers name, those inside it left out; nothing where it is no glTF, which pbskin refuses."""
+    try:
+        named = [buffer.get("uri", "") for buffer in json.loads(path.read_text(encoding="utf-8"))["buffers"]]
+        return [urllib.parse.unquote(uri) for uri in named if uri and not uri.startswith("data:")]
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return []
+
+
+def companions_of(path):
+    """Names, in the file's own folder, of what it is read with."""
+    if path.suffix == ".gltf":
+        return buffers_of(path)
+    return [path.with_suffix(COMPANIONS[path.suffix]).name] if path.suffix in COMPANIONS else []
+
+
 def files_of(values, folder):
     """Name -> hash for those of the values that name a file in the scene's folder; of a built-in scene, folder None, by absolute paths."""
     found = {}
     for text in texts_of(values):
         path = pathlib.Path(folder or "", text)
-        companion = COMPANIONS.get(path.suffix)
-        parts = {text: path, **({str(pathlib.Path(text).with_suffix(companion)): path.with_suffix(companion)} if companion else {})}
-        found |= {name: sha256(part) for name, part in parts.items() if part.is_absolute() and is_file(part)}
+        if path.is_absolute() and is_file(path):
+            found[text] = sha256(path)
+        beside = {str(pathlib.Path(text).parent / name): path.parent / name for name in companions_of(path)} if path.is_absolute() else {}
+        found |= {name: sha256(part) for name, part in beside.items() if is_file(part)}
     return found
 
 

@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/python3 -B
 """Parameter sweeps: many runs of one scene, by Snakemake, on this machine or on a Slurm cluster, and one table of all of them.
 
     experiments/sweeps/sweep.py check SWEEP.toml                            the runs that it makes
@@ -6,20 +6,20 @@
     experiments/sweeps/sweep.py run SWEEP.toml -o results/stiffness -j 2    DIR/sweep.csv, costs.csv, sweep.json, runs/NAME/
     experiments/sweeps/sweep.py run SWEEP.toml -o results/stiffness --slurm
 
-`run` goes on where it was stopped. More options of snakemake follow after `--`. What a sweep file holds: sweep_file.py.
+`run` goes on where it was stopped. More options of snakemake follow after `--`. What a sweep file holds: sweep_file.py. Installed, this is
+`pbskin-sweep`. The pbskin of a checkout is its build's, that of an installation the one beside, where they are there, else the PATH's.
 Exit status: 0 finished (runs that broke down numerically are in the table), 1 snakemake or a program failed, 2 bad input or usage,
 130 interrupted."""
 import argparse
 import pathlib
 import sys
 
+import pbskin_program
 import sweep_file
 import sweep_merge
 import sweep_runs
 import sweep_size
 import sweep_start
-
-HERE = pathlib.Path(__file__).resolve().parent
 
 
 def arguments(given):
@@ -31,10 +31,10 @@ def arguments(given):
                         ("merge", "the tables of runs that are there (started by snakemake)")):
         made[name] = verb = verbs.add_parser(name, help=about)
         verb.add_argument("sweep")
-        verb.add_argument("--pbskin", type=pathlib.Path, default=HERE.parents[1] / "build/release/bin/pbskin")
+        verb.add_argument("--pbskin", type=pathlib.Path, default=pbskin_program.found())
         verb.add_argument("-o", "--output", type=pathlib.Path, required=name in ("run", "batch", "merge"))
     made["run"].add_argument("-j", "--jobs", type=int, default=1, help="runs at once; on Slurm the profile says")
-    made["run"].add_argument("--slurm", action="store_true", help="as Slurm jobs, by the profile experiments/sweeps/slurm")
+    made["run"].add_argument("--slurm", action="store_true", help="as Slurm jobs, by the profile slurm beside this script")
     made["batch"].add_argument("name")
     sweep_size.add_options(made["size"])
     own, rest = (given[:given.index("--")], given[given.index("--") + 1:]) if "--" in given else (given, [])

@@ -4,6 +4,7 @@
 #include "pbs/character/body_remarks.hpp"
 #include "pbs/character/frankie.hpp"
 #include "pbs/character/human.hpp"
+#include "pbs/character/input_file.hpp"
 #include "pbs/character/makehuman.hpp"
 #include "pbs/character/refined_character.hpp"
 #include "pbs/character/ring.hpp"
@@ -13,6 +14,7 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_remarks.hpp"
 #include "pbs/geometry/meshing.hpp"
+#include "pbs/geometry/text_file.hpp"
 
 #include <filesystem>
 #include <utility>
@@ -39,22 +41,32 @@ Character make_beam(const std::string& name, int vertices, TetMesh (*mesher)(int
     return beam;
 }
 
-// Records name files, not folders of the machine.
-std::string file_name(const std::string& path)
+void add(const std::vector<std::pair<std::string, std::string>>& hashed, Character& character)
 {
-    return std::filesystem::path(path).filename().string();
+    character.inputs.insert(character.inputs.end(), hashed.begin(), hashed.end());
 }
 
-Skeleton read_skeleton_of(const CharacterSource& source)
+Skeleton skeleton_of_clip(const CharacterSource& source, Character& character)
+{
+    const InputFile file(source.skeleton_file);
+    Skeleton skeleton = skeleton_from_clip(read_clip(source.skeleton_file), source.skeleton_scale);
+    add(file.hashed(), character);
+    return skeleton;
+}
+
+// And its hash into the character's inputs.
+Skeleton read_skeleton_of(const CharacterSource& source, Character& character)
 {
     const std::string extension = std::filesystem::path(source.skeleton_file).extension().string();
     for (const char* clip : {".bvh", ".gltf", ".glb", ".fbx"})
-        if (extension == clip) return skeleton_from_clip(read_clip(source.skeleton_file), source.skeleton_scale);
-    Skeleton skeleton = read_skeleton(source.skeleton_file);
+        if (extension == clip) return skeleton_of_clip(source, character);
+    const std::string text = read_text_file(source.skeleton_file, most_settings_bytes);
+    Skeleton skeleton = parse_skeleton(text, source.skeleton_file);
     for (Bone& bone : skeleton.bones) {
         bone.head *= source.skeleton_scale;
         bone.tail *= source.skeleton_scale;
     }
+    add({{file_name(source.skeleton_file), content_hash(text)}}, character);
     return skeleton;
 }
 
@@ -83,40 +95,20 @@ void require_bones_of_the_meshs_size(const Character& character, const std::stri
                      "expected 1/25 to 25: mesh and skeleton in different units (skeleton_scale)?");
 }
 
-// A file's name and the hash of the bytes that were read, for they were the same before and after.
-class InputFile {
-public:
-    explicit InputFile(const std::string& path) : path_(path)
-    {
-        try {
-            before_ = hash_of_file(path);
-        } catch (const InputError&) {  // its reader says why
-        }
-    }
-    std::pair<std::string, std::string> hashed() const
-    {
-        if (hash_of_file(path_) != before_) throw InputError(path_, 0, "", "", "was changed while it was read");
-        return {file_name(path_), before_};
-    }
-
-private:
-    std::string path_, before_;
-};
-
 Character make_from_files(const CharacterSource& source, std::vector<std::string>& remarks)
 {
     if (source.mesh_file.empty()) throw InputError("", 0, "character.mesh", "", "missing: expected a body, or a mesh and a skeleton");
     if (source.skeleton_file.empty()) throw InputError("", 0, "character.skeleton", "", "missing: a mesh from a file needs a skeleton");
     Character character;
     character.name = file_name(source.mesh_file);
-    const InputFile mesh_file(source.mesh_file), skeleton_file(source.skeleton_file);
+    const InputFile mesh_file(source.mesh_file);
     MeshReading reading = read_tet_mesh(source.mesh_file);
     remarks = remarks_on(source.mesh_file, reading);
     character.mesh = std::move(reading.mesh);
-    character.skeleton = read_skeleton_of(source);
+    add(mesh_file.hashed(), character);
+    character.skeleton = read_skeleton_of(source, character);
     require_bones_at_the_mesh(character, source.skeleton_file);
     require_bones_of_the_meshs_size(character, source.skeleton_file);
-    character.inputs = {mesh_file.hashed(), skeleton_file.hashed()};
     return character;
 }
 
@@ -133,11 +125,13 @@ Character make_body(const CharacterSource& source, std::vector<std::string>& rem
     throw InputError("", 0, "character.body", source.body, "expected limb, bar, ring, human, man, lady or frankie");
 }
 
-Weights weights_of(const Character& character, const CharacterSource& source, const Weights& paper)
+// And the hash of their file into the character's inputs.
+Weights weights_of_file(const std::string& file, Character& character)
 {
-    if (!source.weights_file.empty())
-        return read_weights(source.weights_file, character.skeleton, static_cast<int>(character.mesh.rest.rows()));
-    return source.weights == WeightKind::rigid ? rigid_weights(character.binding) : paper;
+    const std::string text = read_text_file(file);
+    Weights weights = parse_weights(text, file, character.skeleton, static_cast<int>(character.mesh.rest.rows()));
+    add({{file_name(file), content_hash(text)}}, character);
+    return weights;
 }
 
 }  // namespace
@@ -173,10 +167,12 @@ Character make_character(const CharacterSource& source, std::vector<std::string>
     character.binding = bind_to_nearest_bone(character.mesh.rest, character.skeleton);
     const Weights paper = paper_weights(character.binding, character.skeleton);
     for (int vertex = 0; vertex < paper.vertices(); ++vertex) character.blended.push_back(paper.blended(vertex));
-    const InputFile weights_file(source.weights_file);
-    character.weights = weights_of(character, source, paper);
-    character.weight_kind = source.weights_file.empty() ? source.weights : WeightKind::file;
-    if (!source.weights_file.empty()) character.inputs.push_back(weights_file.hashed());
+    character.weights = source.weights == WeightKind::rigid ? rigid_weights(character.binding) : paper;
+    character.weight_kind = source.weights;
+    if (!source.weights_file.empty()) {
+        character.weights = weights_of_file(source.weights_file, character);
+        character.weight_kind = WeightKind::file;
+    }
     for (int level = 0; level < source.refinements; ++level) character = refined(character);
     return character;
 }

@@ -5,23 +5,29 @@
 
 namespace pbs {
 
+// A body by name, or mesh_file with skeleton_file.
 struct CharacterSource {
     std::string body = {};  // limb, bar, ring, human, man, lady, frankie; empty: from files
-    std::string mesh_file = {}, skeleton_file = {};
-    double skeleton_scale = 1.0;  // metres a unit of the skeleton file
-    int vertices = 0;             // wanted size of a body; 0: its default (limb 1,775, bar 1,800, others in Table 1's neighbourhood)
-    WeightKind weights = WeightKind::paper;
-    std::string weights_file = {};  // CSV vertex,joint,weight; empty: `weights`
-    bool surface = true;            // carry the rendered surface along, where the body has one
-    int refinements = 0;            // every tet into eight so many times; `vertices` and a weights file are of the unrefined mesh
+    // Tets that read_tet_mesh takes [m]; read where `body` is empty.
+    std::string mesh_file = {}, skeleton_file = {};  // .bvh, .gltf, .glb, .fbx: a clip's zero pose; any other: the skeleton TOML
+    double skeleton_scale = 1.0;                     // metres a unit of the skeleton file
+    int vertices = 0;  // wanted size of a body; 0: its default (limb 1,775, bar 1,800, others in Table 1's neighbourhood)
+    WeightKind weights = WeightKind::paper;  // paper or rigid; not read where there is a weights_file
+    std::string weights_file = {};           // CSV vertex,joint,weight; empty: `weights`
+    bool surface = true;                     // carry the rendered surface along, where the body has one
+    int refinements = 0;                     // every tet into eight so many times; `vertices` and a weights file are of the unrefined mesh
 };
 
 // Are the files of a named body there? Cheap: nothing is read or meshed. require_body: an InputError that names what is missing.
+// Bodies that are built in have no files, and names that are none are not refused here but by make_character.
 void require_body(const std::string& body);
-bool body_is_installed(const std::string& body);
+bool body_is_installed(const std::string& body);  // whether require_body throws nothing
 
 // Builds it, or takes the tets from the cache (content hash of what they are made from). A body that is not installed is an InputError
-// that names its package.
+// that names its package. InputErrors as well: another name; a mesh without a skeleton or the other way round; vertices below 0, or fewer
+// than the mesher makes; what read_tet_mesh, read_skeleton, read_clip and read_weights refuse; a skeleton from a file none of whose bones
+// reaches the mesh's bounding box, or that is 25 times larger or smaller than the mesh (other units); a file that changed while it was
+// read.
 Character make_character(const CharacterSource& source);
 
 }  // namespace pbs

@@ -12,7 +12,7 @@ namespace pbs {
 
 std::string content_hash(const std::string& bytes);  // XXH3, 128 bits, 32 hexadecimal digits
 std::string content_hash(const TetMesh& mesh);       // of its arrays
-std::string hash_of_file(const std::string& path);
+std::string hash_of_file(const std::string& path);   // of its bytes; an InputError where it cannot be read or has over 1 GiB
 
 // Where tet meshes are cached: $PBSKIN_CACHE, else $XDG_CACHE_HOME/pbskin, else ~/.cache/pbskin.
 std::string cache_folder();

@@ -16,18 +16,19 @@ namespace pbs {
 // The rule that weights come from: Eq. 2, the nearest bone alone, a file.
 enum class WeightKind { paper, rigid, file };
 
+// By make_character whole; who fills one by hand answers for sizes that fit each other.
 struct Character {
-    std::string name;
-    TetMesh mesh;
-    Skeleton skeleton;
-    BoneBinding binding;
+    std::string name;                                         // of the body, or of the mesh's file without its folder
+    TetMesh mesh;                                             // flesh in rest pose [m]
+    Skeleton skeleton;                                        // in rest pose [m], in the mesh's coordinates
+    BoneBinding binding;                                      // of the mesh's vertices, #V
     Weights weights;                                          // what LBS and DQS blend with
     std::vector<bool> blended;                                // vertices that Eq. 2 blends between bones, whatever `weights` is, #V
     std::optional<EmbeddedSurface> surface;                   // the surface people see, carried by the tets
     std::vector<std::pair<std::string, std::string>> inputs;  // what it was made from -> content hash
-    WeightKind weight_kind = WeightKind::paper;
-    int refinements = 0;                         // how often its tets were cut into eight; see refined_character.hpp
-    std::shared_ptr<const Character> unrefined;  // whose first vertices and whose bones' sizes it keeps; null: itself
+    WeightKind weight_kind = WeightKind::paper;               // the rule that `weights` obey, on finer tets too
+    int refinements = 0;                                      // how often its tets were cut into eight; see refined_character.hpp
+    std::shared_ptr<const Character> unrefined;               // whose first vertices and whose bones' sizes it keeps; null: itself
 };
 
 // Vertices farther from their nearest bone than the mean over all (Sec. 4), #V.

@@ -10,36 +10,41 @@ namespace pbs {
 
 // Joint rotations and root positions as the clip has them. End sites are joints without motion, so that every limb has a direction.
 struct Clip {
-    std::string name;  // the file
-    double frame_time_s = 0.0;
-    std::vector<std::string> joints;
+    std::string name;                                    // the file
+    double frame_time_s = 0.0;                           // between frames, 1e-6 to 1000 s
+    std::vector<std::string> joints;                     // names, each once, #joints
     std::vector<int> parent;                             // -1: root; parents stand before their children
     Positions zero_pose;                                 // joint positions of the zero pose [clip's units], #joints x 3
     std::vector<std::vector<Eigen::Quaterniond>> local;  // relative to the parent, identities in the zero pose, #frames x #joints
     Positions root;                                      // root position a frame [clip's units], #frames x 3
+    // 1 or more of a clip that was read.
     int frames() const { return static_cast<int>(local.size()); }
 };
 
 // The first motion in the file. BVH keeps its frames; motions with free keys (glTF, FBX) are sampled at 120 Hz. Unreadable, empty and
-// non-finite clips are InputErrors.
+// non-finite clips are InputErrors, and so are two joints of one name, times of keys that go back, a motion that moves none of the joints,
+// files over 256 MiB, and every clip in a build without rig import (PBS_WITH_RIG_IMPORT).
 Clip read_clip(const std::string& path);
 
+// The stretch of a clip that is taken, and at which rate.
 struct ClipSampling {
     bool drop_first_frame = true;  // cgspeed's conversions begin with a T pose
     double start_s = 0.0;          // after the dropped frame
     double duration_s = 0.0;       // 0: to the end
-    double rate_hz = 100.0;
-    double time_step_s = 0.01;  // rate_hz * time_step_s = 1 / n: n steps a frame
+    double rate_hz = 100.0;        // frames of the motion that is made, whatever the clip's own
+    double time_step_s = 0.01;     // of Algorithm 1; rate_hz * time_step_s = 1 / n: n steps a frame
 };
 
 // The clip's motion on a skeleton: R_bone(t) = R_joint(t) A, A the least rotation from the bone's rest direction to the joint's limb in the
 // zero pose (none where the joint branches). CMU's joint names reach the `human` skeleton, others go by equal names; bones without a joint
 // follow their parent. Rotations only, so that bones keep their lengths; the root's path is scaled by leg length, and the clip's first
 // frame (the T pose dropped) is at the skeleton's rest place. Poses between frames by slerp. A clip none of whose names match is an
-// InputError, and so is a stretch of time it does not hold.
+// InputError, and so is a stretch of time it does not hold, one without a frame after the dropped one, a rate_hz or time_step_s that is not
+// positive, and a product of the two that is not 1 / n with n from 1 to 100,000.
 Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& sampling);
 
-// Full path of a clip given by name: as it is, relative to `folder`, or in Debian's assimp-testmodels.
+// Full path of a clip given by name: as it is, relative to `folder`, or in Debian's assimp-testmodels. InputError where it is
+// in none of them.
 std::string find_clip(const std::string& name, const std::string& folder);
 
 }  // namespace pbs

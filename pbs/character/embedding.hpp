@@ -5,6 +5,7 @@
 
 namespace pbs {
 
+// #S surface vertices in the tets of one mesh.
 struct EmbeddedSurface {
     Triangles triangles;                                                    // #F x 3
     Eigen::VectorXi tet;                                                    // the tet that carries each surface vertex, #S
@@ -12,6 +13,8 @@ struct EmbeddedSurface {
     double largest_distance_outside_m = 0.0;                                // of a surface vertex from the tets
 };
 
+// Each point of `surface` [m], #S x 3, in the tet that holds it or is nearest, in rest pose. The mesh has at least one tet, none flat
+// (unchecked).
 EmbeddedSurface embed(const Positions& surface, const Triangles& triangles, const TetMesh& mesh);
 
 // The same surface points carried by the children of their tets, which `fine` holds in the order of pbs::refine.

@@ -1,5 +1,7 @@
 #include "pbs/character/face_stream.hpp"
 
+#include "pbs/geometry/number_text.hpp"
+
 #include <map>
 
 namespace pbs {
@@ -31,8 +33,7 @@ public:
         const std::size_t corners = type & 1 ? 4 : 3;
         while (face.corners.size() < corners) {
             face.corners.push_back(take());
-            if (face.corners.back() < 0 || face.corners.back() >= vertices_)
-                refuse_last("expected a vertex, 0 to " + std::to_string(vertices_ - 1));
+            if (face.corners.back() < 0 || face.corners.back() >= vertices_) refuse_last(expected_whole("a vertex", 0, vertices_ - 1));
         }
         if (type & 2) face.material = take();
         // Bits 4 to 128: texture, normal and colour, of the face and of its corners.

@@ -12,8 +12,10 @@ namespace pbs {
 
 // A star in a name stands for L and R: such a bone is two. parent "": the root.
 struct FoldedBone {
-    std::string name, parent;
-    std::vector<std::string> head, tail;
+    // With or without a star.
+    std::string name, parent;  // a bone's name with its star; "": the root
+    // Points of the rig whose mean the bone's head is.
+    std::vector<std::string> head, tail;  // those of its tail
 };
 
 // Bones in the middle first, then those of the left, then those of the right. `file` stands for the rig in errors.

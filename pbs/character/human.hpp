@@ -5,6 +5,7 @@
 
 namespace pbs {
 
+// In metres; known without the package. An InputError in a build without PBS_WITH_RIG_IMPORT.
 Skeleton human_skeleton();
 
 void require_human();  // an InputError where it is not installed

@@ -6,8 +6,10 @@
 
 namespace pbs {
 
+// One bone of the `human`.
 struct JointMapping {
-    std::string bone, joint;
+    // By its name in the skeleton.
+    std::string bone, joint;       // of the clip, by name
     bool aligned = false;          // the bone turns to the joint's limb; false: it keeps its own rest direction (spine, neck, clavicles)
     bool leg = false;              // its length counts in the scale of the root's path
     std::string twist_joint = {};  // takes a share of this joint's twist about the limb; empty: none

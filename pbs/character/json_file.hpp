@@ -12,16 +12,18 @@
 
 namespace pbs {
 
+// Every error is an InputError that names file and key.
 class JsonFile {
 public:
+    // Reads it whole; an InputError by line where it is no JSON or cut short.
     explicit JsonFile(const std::string& path);
 
-    const std::string& path() const { return path_; }
+    const std::string& path() const { return path_; }  // as it was given
     const std::string& hash() const { return hash_; }  // of its bytes
 
     // The entry of a key of the whole, or of one of its parts.
     const nlohmann::json& at(const std::string& key) const { return at(json_, key); }
-    const nlohmann::json& at(const nlohmann::json& part, const std::string& key) const;
+    const nlohmann::json& at(const nlohmann::json& part, const std::string& key) const;  // an InputError where the key is missing
 
     // An array of numbers; whole ones where Number is an integer.
     template <typename Number>
@@ -29,6 +31,7 @@ public:
     {
         return numbers<Number>(at(key), key);
     }
+    // Likewise of an array; `field` stands for it in errors.
     template <typename Number>
     std::vector<Number> numbers(const nlohmann::json& array, const std::string& field) const
     {
@@ -44,7 +47,7 @@ public:
         return values;
     }
 
-    [[noreturn]] void refuse(const std::string& field, const std::string& rule) const;
+    [[noreturn]] void refuse(const std::string& field, const std::string& rule) const;  // throws an InputError on this file
 
 private:
     std::string path_, hash_;

@@ -3,6 +3,7 @@
 #include "pbs/character/face_stream.hpp"
 #include "pbs/character/folded_skeleton.hpp"
 #include "pbs/character/morph_targets.hpp"
+#include "pbs/geometry/number_text.hpp"
 
 #include <filesystem>
 
@@ -44,7 +45,7 @@ Vec3 joint_of(const JsonFile& rig, const std::string& joint, const Positions& ve
     if (around.empty()) rig.refuse(field, "expected vertices");
     Vec3 sum = Vec3::Zero();
     for (const int vertex : around) {
-        if (vertex < 0 || vertex >= vertices.rows()) rig.refuse(field, "expected vertices, 0 to " + std::to_string(vertices.rows() - 1));
+        if (vertex < 0 || vertex >= vertices.rows()) rig.refuse(field, expected_whole("vertices", 0, vertices.rows() - 1));
         sum += vertices.row(vertex).transpose();
     }
     return metres_a_unit * sum / static_cast<double>(around.size());

@@ -12,10 +12,13 @@
 
 namespace pbs {
 
+// Paths.
 struct MakehumanFiles {
+    // model: base mesh; rig: bones; target_list: names; targets: rows.
     std::string model, rig, target_list, targets;  // human_full_size.json, default.json, target-list.json, targets.bin
 };
 
+// In metres.
 struct MakehumanFigure {
     SurfaceMesh skin;   // the material `body` alone: x to the figure's left, y up, z forward
     Skeleton skeleton;  // the `human`'s 23 bones by name, folded from the rig, after the targets have moved its vertices

@@ -9,8 +9,10 @@
 
 namespace pbs {
 
+// Held from construction to destruction; not copied.
 class MakingLock {
 public:
+    // Waits until no other process has it.
     MakingLock(const std::string& folder, const std::string& key);
     ~MakingLock();
     MakingLock(const MakingLock&) = delete;

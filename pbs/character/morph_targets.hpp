@@ -7,6 +7,7 @@
 
 namespace pbs {
 
+// Rows are read from the file one by one, when they are added.
 class MorphTargets {
 public:
     // A targets.bin that is not as long as the list and the vertices want it is an InputError.
@@ -15,7 +16,7 @@ public:
     // Moves the vertices [dm], #V x 3, by the target of that whole name ("caucasian-male-young"). Returns the row's content hash.
     std::string add(const std::string& target, Positions& vertices) const;
 
-    const std::string& list_hash() const { return list_.hash(); }
+    const std::string& list_hash() const { return list_.hash(); }  // content hash of target-list.json
 
 private:
     std::size_t row_of(const std::string& target) const;

@@ -9,6 +9,7 @@
 
 namespace pbs {
 
+// Eight times the tets; Character::refinements is one higher.
 Character refined(const Character& character);
 
 }  // namespace pbs

@@ -10,9 +10,11 @@ namespace pbs {
 
 // A joint as it stands in a skeleton file, and the line it begins at.
 struct NamedJoint {
+    // Given once.
     std::string name, parent;  // parent "": a root
-    Vec3 head, tail;           // [m]
-    int line = 0;
+    // Where it turns [m].
+    Vec3 head, tail;  // where its bone ends [m]
+    int line = 0;     // for errors; 0: not known
 };
 
 // Checked (duplicate names, unknown parents, cycles, no root, bones without length) and sorted; the file's order is kept where it can be.

@@ -9,8 +9,9 @@
 
 namespace pbs {
 
+// made_from, the name and the number of vertices are the key by which tets are cached: the same ones mean the same tets.
 struct SurfaceBody {
-    std::string name;
+    std::string name;                           // of the character, and the beginning of its file in the cache
     std::string made_from = {};                 // content hashes of what surface and skeleton come from
     Skeleton skeleton = {};                     // [m]
     std::function<SurfaceMesh()> surface = {};  // [m]; asked for only where it is needed
@@ -18,6 +19,7 @@ struct SurfaceBody {
     std::vector<Vec3> inside = {};              // must lie inside the tets; where empty: the heads of all bones
 };
 
+// vertices: wanted, as of mesh_surface, whose InputErrors reach the caller. Binding and weights are left empty, for make_character to fill.
 Character make_surface_body(const SurfaceBody& body, int vertices, bool with_surface);
 
 }  // namespace pbs

@@ -3,6 +3,7 @@
 #include "pbs/geometry/text_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/nearest_name.hpp"
+#include "pbs/geometry/number_text.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -44,7 +45,7 @@ Row read_row(const std::vector<std::string>& fields, const Skeleton& skeleton, i
     if (fields.size() != 3) throw InputError(file, line, "", "", "expected three fields: vertex,joint,weight");
     Row row{};
     if (!read_number(fields[0], row.vertex) || row.vertex < 0 || row.vertex >= vertices)
-        throw InputError(file, line, "vertex", fields[0], "expected a vertex, 0 to " + std::to_string(vertices - 1));
+        throw InputError(file, line, "vertex", fields[0], expected_whole("a vertex", 0, vertices - 1));
     row.entry.bone = find_bone(skeleton, fields[1]);
     if (row.entry.bone < 0) {
         std::vector<std::string> names;
@@ -62,9 +63,9 @@ struct Rows {
     std::vector<int> line;
 };
 
-Rows read_rows(const std::string& path, const Skeleton& skeleton, int vertices)
+Rows read_rows(const std::string& csv, const std::string& path, const Skeleton& skeleton, int vertices)
 {
-    std::istringstream text(read_text_file(path));
+    std::istringstream text(csv);
     Rows rows{std::vector<std::vector<Entry>>(vertices), std::vector<int>(vertices, 0)};
     int number = 0;
     for (std::string line; std::getline(text, line);) {
@@ -95,13 +96,13 @@ void check_sum(const std::vector<Entry>& entries, std::size_t vertex, int line, 
 
 }  // namespace
 
-Weights read_weights(const std::string& path, const Skeleton& skeleton, int vertices)
+Weights parse_weights(const std::string& text, const std::string& name, const Skeleton& skeleton, int vertices)
 {
-    const auto [entries, line] = read_rows(path, skeleton, vertices);
+    const auto [entries, line] = read_rows(text, name, skeleton, vertices);
     Weights weights;
     weights.first.push_back(0);
     for (std::size_t vertex = 0; vertex < entries.size(); ++vertex) {
-        check_sum(entries[vertex], vertex, line[vertex], path);
+        check_sum(entries[vertex], vertex, line[vertex], name);
         for (const Entry& entry : entries[vertex]) {
             if (entry.weight == 0.0) continue;
             weights.bone.push_back(entry.bone);
@@ -110,6 +111,11 @@ Weights read_weights(const std::string& path, const Skeleton& skeleton, int vert
         weights.first.push_back(static_cast<int>(weights.bone.size()));
     }
     return weights;
+}
+
+Weights read_weights(const std::string& path, const Skeleton& skeleton, int vertices)
+{
+    return parse_weights(read_text_file(path), path, skeleton, vertices);
 }
 
 }  // namespace pbs

@@ -11,9 +11,10 @@
 
 namespace pbs {
 
+// Scalar: float or double.
 template <typename Scalar>
 struct BindConstraint {
-    int vertex;
+    int vertex;            // its number in the mesh; value, gradient and project take positions and do not read it
     Scalar rest_distance;  // d [m]
     Scalar stiffness;      // k_bind, in [0, 1]
 };

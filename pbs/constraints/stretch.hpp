@@ -10,11 +10,12 @@
 
 namespace pbs {
 
+// Scalar: float or double.
 template <typename Scalar>
 struct StretchConstraint {
-    std::array<int, 2> vertex;
-    Scalar rest_length;  // d [m]
-    Scalar stiffness;    // k_stretch, in [0, 1]
+    std::array<int, 2> vertex;  // the edge's ends; value, gradient and project take positions and do not read them
+    Scalar rest_length;         // d [m]
+    Scalar stiffness;           // k_stretch, in [0, 1]
 };
 
 // C [m], Eq. 10.

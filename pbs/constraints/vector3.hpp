@@ -5,6 +5,7 @@
 
 namespace pbs {
 
+// A position or a gradient, 3 x 1.
 template <typename Scalar>
 using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
 

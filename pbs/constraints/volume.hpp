@@ -13,13 +13,15 @@
 
 namespace pbs {
 
+// Scalar: float or double.
 template <typename Scalar>
 struct VolumeConstraint {
-    std::array<int, 4> vertex;
-    Scalar rest_volume;  // V0 [m^3]
-    Scalar stiffness;    // k_volume, in [0, 1]
+    std::array<int, 4> vertex;  // p1 .. p4, positively oriented; value, gradient and project take positions and do not read them
+    Scalar rest_volume;         // V0 [m^3], positive
+    Scalar stiffness;           // k_volume, in [0, 1]
 };
 
+// 1 / 6 of Eq. 11.
 template <typename Scalar>
 inline constexpr Scalar sixth = Scalar(1) / Scalar(6);
 

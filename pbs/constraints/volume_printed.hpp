@@ -27,6 +27,7 @@ std::array<Vector3<Scalar>, 4> gradient_printed(const VolumeConstraint<Scalar>& 
     return {-(g2 + g3 + g4), g2, g3, g4};               // Eq. 15-16
 }
 
+// Eq. 17-21: moves the four corners [m] with the stiffness of the constraint, all masses one. Nothing moves where all gradients are zero.
 template <Printed form, typename Scalar>
 void project_printed(const VolumeConstraint<Scalar>& constraint, Vector3<Scalar>& p1, Vector3<Scalar>& p2, Vector3<Scalar>& p3,
                      Vector3<Scalar>& p4)

@@ -17,12 +17,16 @@
 
 namespace pbs {
 
+// Links are followed before a file's folder is asked.
 class OwnFolder : public Assimp::DefaultIOSystem {
 public:
+    // path: the file that is read; it may lie anywhere.
     explicit OwnFolder(const std::string& path) : path_(path) {}
 
+    // False, too, for what may not be opened.
     bool Exists(const char* file) const override { return allows(file) && DefaultIOSystem::Exists(file); }
 
+    // Null for what may not be opened; the first such file that is there is remembered.
     Assimp::IOStream* Open(const char* file, const char* mode) override
     {
         if (allows(file)) return DefaultIOSystem::Open(file, mode);

@@ -8,6 +8,7 @@
 
 namespace pbs {
 
+// A mesh of one kind of cell, as a reader gives it: nothing is checked.
 struct IndexedPoints {
     Positions points;                                                           // [m], #V x 3
     Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> cells;  // vertex indices, #C x corners
@@ -18,6 +19,6 @@ IndexedPoints read_guarded(const std::string& path, const std::function<IndexedP
 
 // What comes over the pipe; an InputError that names the file where the bytes are no whole mesh.
 std::string packed(const IndexedPoints& mesh);
-IndexedPoints unpacked_points(const std::string& bytes, const std::string& path);
+IndexedPoints unpacked_points(const std::string& bytes, const std::string& path);  // `path`: the file that errors name
 
 }  // namespace pbs

@@ -8,6 +8,7 @@
 
 namespace pbs {
 
+// what() is that one line. It is what is thrown wherever a comment says "an InputError".
 class InputError : public std::runtime_error {
 public:
     // line 0: no line is known; an empty field or value is left out, a long one cut to 80 bytes. The message is one line: control

@@ -1,5 +1,6 @@
 // Reading and writing meshes. Read by libraries: Gmsh (.msh 2.2 and 4.1, MEDIT .mesh; a module, loaded with the first such file), VTK
-// (.vtu, .vtk), assimp and CGAL (surfaces); TetGen's .node/.ele, which no library in Debian reads alone, here. Bad files are InputErrors.
+// (.vtu, .vtk), assimp and CGAL (surfaces); TetGen's .node/.ele, which no library in Debian reads alone, here. Bad files are InputErrors,
+// and in a build without PBS_WITH_MESH_IO everything is.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -10,8 +11,9 @@
 
 namespace pbs {
 
+// What read_tet_mesh gives.
 struct MeshReading {
-    TetMesh mesh;
+    TetMesh mesh;          // positively oriented, in the file's order [m]
     int flipped_tets = 0;  // orientation was normalised on so many
 };
 
@@ -21,12 +23,16 @@ struct MeshReading {
 MeshReading read_tet_mesh(const std::string& path);
 
 // Points and tets as they stand in the file, inverted tets and all: what the ruler wants of deformed frames.
+// InputError where there is no tet, an index out of range, or a coordinate that is not finite or beyond 1e9 m.
 TetMesh read_tet_frame(const std::string& path);
 
 // By extension: .msh (4.1 ASCII), .vtu, .mesh. Written to a temporary file and renamed. The format alone can be asked for before the work.
 void require_tet_mesh_format(const std::string& path);
+// InputError for another extension (require_tet_mesh_format: that alone), and where the file cannot be written. Coordinates read back to
+// the bit.
 void write_tet_mesh(const std::string& path, const TetMesh& mesh);
 
+// A triangle mesh, closed or not; its maker says whether it was checked.
 struct SurfaceMesh {
     Positions points;     // [m], #S x 3
     Triangles triangles;  // #F x 3
@@ -34,6 +40,7 @@ struct SurfaceMesh {
 
 // .obj, .ply, .off, .stl, .gltf, .glb, .dae, .zae. Polygons are triangulated, points split at texture seams are joined (equal
 // coordinates, to the bit), nodes' transforms and the file's unit applied. mesh_name: the mesh or node of that name alone.
+// InputError where there is none of that name, no triangle, or a coordinate that is not finite or beyond 1e9 m; a surface may be open.
 SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name = "");
 
 // One deformed frame as VTK XML: Float64, compressed, atomic. Fields have one entry a point (or 3, or one a cell).
@@ -42,10 +49,14 @@ struct FrameFields {
     std::map<std::string, std::vector<int>> point_flags;  // e.g. prescribed
     std::map<std::string, Eigen::VectorXd> cell_scalars;  // e.g. volume_ratio
 };
+// points [m], #V x 3. InputError where a field has not one entry a point (a cell), or the file cannot be written; path's extension is not
+// asked.
 void write_vtu(const std::string& path, const Positions& points, const Tets& tets, const FrameFields& fields);
+// A surface, without fields; errors as of write_vtu.
 void write_vtp(const std::string& path, const Positions& points, const Triangles& triangles);
 
-// A ParaView collection of frames: time [s] -> file name relative to the .pvd.
+// A ParaView collection of frames: time [s] -> file name relative to the .pvd, in the order given; names stand in it as they are, without a
+// check. InputError where it cannot be written.
 void write_pvd(const std::string& path, const std::vector<std::pair<double, std::string>>& frames);
 
 }  // namespace pbs

@@ -20,7 +20,7 @@ namespace {
 // |V| / (longest edge)^3 is 0.118 for the regular tet. Rounding of the coordinates alone leaves some 1e-16 D / l of it, D the distance
 // from the origin: 1e-10 keeps clear of that for every mesh with D / l < 1e5.
 constexpr double flat_tet = 1e-10;
-constexpr double farthest_m = 1e9;  // beyond, and far below its inverse, products of three lengths leave the range of a double
+constexpr double farthest_m = 1e9;  // beyond, products of three lengths leave the range of a double
 
 std::string numbered(const char* what, Eigen::Index i)
 {
@@ -118,12 +118,6 @@ void check_places(const std::string& path, const Positions& points)
     }
 }
 
-void check_size(const std::string& path, const Positions& points)
-{
-    const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
-    if (!(size >= 1.0 / farthest_m)) throw InputError(path, 0, "extent", std::to_string(size), "expected at least 1e-9 m");
-}
-
 // Two tets that share a face lie on either side of it; both positively oriented, they list it in opposite order.
 void check_faces(const std::string& path, const TetMesh& mesh)
 {
@@ -163,7 +157,7 @@ void check_frame(const std::string& path, const TetMesh& mesh)
 MeshReading check_rest(const std::string& path, TetMesh mesh)
 {
     check_frame(path, mesh);
-    check_size(path, mesh.rest);
+    require_extent(path, mesh.rest);
     const int flipped = normalise_orientation(path, mesh);
     check_used(path, mesh);
     check_distinct(path, mesh.rest);

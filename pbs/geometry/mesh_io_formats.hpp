@@ -32,6 +32,13 @@ std::string lower_extension(const std::string& path);
 // An InputError unless the file is there, can be read, is not empty and not larger.
 void require_readable(const std::string& path, std::uintmax_t most_bytes);
 
+// An InputError where there is none, so that no index could be right.
+void require_points(const std::string& path, long long points);
+
+// An InputError unless the points' bounding box is 1e-9 m or more from corner to corner: products of three lengths stay in a double's
+// range.
+void require_extent(const std::string& path, const Positions& points);
+
 // The index as int, or an InputError: vertex indices begin at 0 and stay below the number of points.
 int checked_index(const std::string& path, long long tet, long long index, long long points);
 

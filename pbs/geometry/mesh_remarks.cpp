@@ -1,9 +1,12 @@
 #include "pbs/geometry/mesh_remarks.hpp"
 
+#include "pbs/geometry/meshing.hpp"
+#include "pbs/geometry/number_text.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <sstream>
 #include <utility>
@@ -28,17 +31,28 @@ void add_size(const std::string& path, const Positions& points, std::vector<std:
         remarks.push_back(remark(path, "extent [m]", size, "taken as it is; are the coordinates in metres?"));
 }
 
-// Edges of a surface that are not between two triangles: at holes there is one, where sheets meet there are more.
-void add_edges(const std::string& path, const Triangles& triangles, std::vector<std::string>& remarks)
+void add_holes(const std::string& path, const Triangles& triangles, std::vector<std::string>& remarks)
 {
     std::map<std::pair<int, int>, int> triangles_at;
     for (const auto& triangle : triangles.rowwise())
         for (int k = 0; k < 3; ++k) ++triangles_at[std::minmax({triangle(k), triangle((k + 1) % 3)})];
-    const auto edges = [&](auto&& of) { return std::count_if(triangles_at.begin(), triangles_at.end(), of); };
-    if (const auto holes = edges([](const auto& edge) { return edge.second == 1; }))
+    if (const auto holes = std::count_if(triangles_at.begin(), triangles_at.end(), [](const auto& edge) { return edge.second == 1; }))
         remarks.push_back(remark(path, "edges of one triangle", holes, "its holes are wrapped over"));
-    if (const auto joins = edges([](const auto& edge) { return edge.second > 2; }))
-        remarks.push_back(remark(path, "edges of three triangles or more", joins, "not manifold there; what is outside is kept"));
+}
+
+// Skins of characters do so: MakeHuman's at lips and lids.
+void add_crossings(const std::string& path, const SurfaceMesh& surface, std::vector<std::string>& remarks)
+{
+#ifdef PBS_WITH_CGAL
+    const std::vector<std::array<int, 2>> crossings = self_intersections(surface.points, surface.triangles);
+    if (crossings.empty()) return;
+    Vec3 middle = Vec3::Zero();  // of the first one's first triangle
+    for (const int point : surface.triangles.row(crossings.front()[0])) middle += surface.points.row(point).transpose() / 3.0;
+    remarks.push_back(remark(path, "pairs of triangles that meet", crossings.size(),
+                             "it intersects itself, first at " + place_text(middle) + "; what is outside is kept"));
+#else
+    static_cast<void>(path), static_cast<void>(surface), static_cast<void>(remarks);  // as of tet meshes: not asked
+#endif
 }
 
 // Of the body within outward triangles [m^3]; below 0 where they look inward.
@@ -69,7 +83,8 @@ std::vector<std::string> remarks_on(const std::string& path, const SurfaceMesh& 
     std::vector<std::string> remarks;
     if (unused_points > 0) remarks.push_back(remark(path, "unused points", unused_points, "left out; no triangle uses them"));
     if (triangles_without_area > 0) remarks.push_back(remark(path, "triangles without area", triangles_without_area, "left out"));
-    add_edges(path, surface.triangles, remarks);
+    add_holes(path, surface.triangles, remarks);
+    add_crossings(path, surface, remarks);
     if (const double volume = signed_volume(surface); volume < 0.0)
         remarks.push_back(remark(path, "enclosed volume [m^3]", volume, "inside out; taken as the body that it encloses"));
     add_size(path, surface.points, remarks);

@@ -9,8 +9,9 @@ namespace pbs {
 // Turned tets, parts that no face joins, and a size that speaks for other units than metres (under 1 mm or above 100 m).
 std::vector<std::string> remarks_on(const std::string& path, const MeshReading& reading);
 
-// read_surface with its remarks: points that no triangle uses, triangles that are a line or a point, edges that are not between two
-// triangles, a surface inside out, and the size as above.
+// read_surface of a file that a user names, with its remarks: points that no triangle uses, triangles that are a line or a point, holes,
+// triangles that cross (asked in builds with CGAL), a surface inside out, and the size as above. An edge in three triangles is an
+// InputError.
 SurfaceMesh read_surface(const std::string& path, std::vector<std::string>& remarks);
 
 // For readers: on a surface as it was joined, and what was left out of it.

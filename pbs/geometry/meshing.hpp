@@ -6,6 +6,7 @@
 
 #include "pbs/geometry/mesh_io.hpp"
 
+#include <array>
 #include <vector>
 
 namespace pbs {
@@ -13,34 +14,40 @@ namespace pbs {
 // Limb: capsule of radius 0.15 m round (-1,0,0) -> (1,0,0) m with round caps. Bar: [-1, 1] x [-0.15, 0.15]^2 m.
 // `vertices`: wanted number, at least 300 (limb) or 150 (bar); what comes out is within 10 % (the cell size is searched).
 TetMesh mesh_limb(int vertices);
-TetMesh mesh_bar(int vertices);
+TetMesh mesh_bar(int vertices);  // InputError, as of the limb, for fewer vertices than that and in a build without CGAL
 
 // A closed or nearly closed surface [m] -> tets of about the wanted number of vertices: wrapped (alpha_wrap_3), meshed with a cell
 // size proportional to the local thickness, perturbed and exuded, checked, tried again with another facet distance where the check fails.
 // The tets' boundary lies up to about wrap_offset_m + wrap_alpha_m from the surface.
 struct SurfaceMeshing {
-    int vertices = 2000;
+    int vertices = 2000;            // wanted, 150 or more
     double wrap_alpha_m = 0.0;      // smallest gap the wrap enters; 0: the bounding box's diagonal / 170
     double wrap_offset_m = 0.0;     // 0: alpha / 3
     double min_dihedral_deg = 5.0;  // asked of every tet
     int boundary_euler = 2;         // asked of the boundary; 2: a ball, 0: a body with one handle
     std::vector<Vec3> inside;       // points that must lie inside, e.g. joints
 };
+// InputError where fewer than 150 vertices are asked for; the surface has fewer than 4 triangles, a point that is not finite, an index
+// out of range or no volume; its wrap holds less than half or more than twice what it encloses (an open sheet, triangles turned both ways),
+// has another Euler number or leaves a point of `inside` outside; or none of six tries has the quality asked. And in a build without CGAL.
 TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options);
 
-// Triangles that share no vertex or edge meet somewhere, or neighbours overlap.
+// Triangles that share no vertex or edge meet somewhere, or neighbours overlap. An InputError in a build without CGAL, as of all below.
 bool self_intersects(const Positions& positions, const Triangles& boundary);
-int count_self_intersections(const Positions& positions, const Triangles& boundary);  // pairs of triangles
+std::vector<std::array<int, 2>> self_intersections(const Positions& positions, const Triangles& boundary);  // pairs of triangles, sorted
+int count_self_intersections(const Positions& positions, const Triangles& boundary);                        // of those pairs
 
 // The closed lines in which each plane cuts a surface, points [m], #P x 3 a line, the first not repeated at its end. A surface that
 // intersects itself is cut all the same, triangle by triangle.
 struct CuttingPlane {
-    Vec3 point, normal;  // [m]; of any length but zero
+    // Any point of the plane [m].
+    Vec3 point, normal;  // of any length but zero
 };
+// The lines of each plane, #planes; lines that do not close are left out. InputError where a normal is zero.
 std::vector<std::vector<Positions>> section_outlines(const Positions& positions, const Triangles& boundary,
                                                      const std::vector<CuttingPlane>& planes);
 
-// Which points lie inside or on a closed manifold boundary.
+// Which points [m] lie inside or on a closed manifold boundary, #points. InputError where it has no triangle or is not closed.
 std::vector<bool> points_inside(const Positions& positions, const Triangles& boundary, const std::vector<Vec3>& points);
 
 }  // namespace pbs

@@ -12,6 +12,7 @@
 
 namespace pbs {
 
+// Exact where a decision hangs on it, double in all coordinates.
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 // CGAL seeds its generator with the clock; a fixed seed makes meshing repeat to the bit.
@@ -20,8 +21,8 @@ inline void fix_meshing_seed()
     CGAL::get_default_random() = CGAL::Random(0);
 }
 
-// Refines, perturbs and exudes. make_mesh_3 would limit the optimisers to the seconds that the refinement took; called by themselves they
-// end by themselves, and the same way each time. sliver_bound_deg: dihedral angles above it are good enough; 0: as good as they get.
+// Refines and no more. make_mesh_3 would limit the optimisers to the seconds that the refinement took; called by themselves they end by
+// themselves, and the same way each time.
 template <typename Complex, class Domain, class Criteria, class... Refinement>
 Complex refine_mesh(const Domain& domain, const Criteria& criteria, const Refinement&... refinement)
 {
@@ -30,6 +31,7 @@ Complex refine_mesh(const Domain& domain, const Criteria& criteria, const Refine
     return CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(), parameters::no_exude(), refinement...);
 }
 
+// Perturbs and exudes. sliver_bound_deg: dihedral angles above it are good enough; 0: as good as they get.
 template <typename Complex, class Domain>
 void optimise_mesh(Complex& complex, const Domain& domain, double sliver_bound_deg)
 {

@@ -29,6 +29,10 @@ bool self_intersects(const Positions&, const Triangles&)
 {
     refuse("self-intersection");
 }
+std::vector<std::array<int, 2>> self_intersections(const Positions&, const Triangles&)
+{
+    refuse("self-intersection");
+}
 int count_self_intersections(const Positions&, const Triangles&)
 {
     refuse("self-intersection");

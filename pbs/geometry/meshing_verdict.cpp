@@ -1,6 +1,7 @@
 #include "pbs/geometry/meshing_verdict.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/number_text.hpp"
 #include "pbs/geometry/quality.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 
@@ -8,6 +9,12 @@
 #include <cmath>
 
 namespace pbs {
+namespace {
+
+// |V| / diagonal^3 is 0.19 of the cube. Rounding leaves 1e-16 of a flat surface; a body so thin would be all wrap.
+constexpr double flat_surface = 1e-12;
+
+}  // namespace
 
 void check_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
 {
@@ -17,6 +24,11 @@ void check_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
     if (!surface.points.allFinite()) throw InputError("", 0, "points", "", "expected finite coordinates [m]");
     if (surface.triangles.minCoeff() < 0 || surface.triangles.maxCoeff() >= surface.points.rows())
         throw InputError("", 0, "triangles", "", "expected indices of points");
+    const double diagonal = (surface.points.colwise().maxCoeff() - surface.points.colwise().minCoeff()).norm();
+    const double volume = enclosed_volume(surface);
+    if (!(std::abs(volume) > flat_surface * diagonal * diagonal * diagonal))
+        throw InputError("", 0, "enclosed volume [m^3]", number_text(volume),
+                         "expected a closed surface round a volume, neither flat nor open");
 }
 
 double enclosed_volume(const SurfaceMesh& surface)

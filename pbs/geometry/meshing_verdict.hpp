@@ -7,7 +7,7 @@
 
 namespace pbs {
 
-// An InputError unless there are enough vertices asked for, at least four triangles, finite points and indices in range.
+// An InputError unless there are enough vertices asked for, at least four triangles, finite points, indices in range and a volume inside.
 void check_surface(const SurfaceMesh& surface, const SurfaceMeshing& options);
 
 // The signed volume inside the triangles [m^3], as if closed by a fan from the points' mean.

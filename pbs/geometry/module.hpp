@@ -9,18 +9,20 @@
 
 namespace pbs {
 
+// A shared object that load_module has loaded.
 class Module {
 public:
+    // handle: dlopen's.
     Module(std::string path, void* handle) : path_(std::move(path)), handle_(handle) {}
 
-    // The function of that C name; its type is the caller's word.
+    // The function of that C name; its type is the caller's word. An InputError where there is none of that name.
     template <typename Function>
     Function* function(const char* symbol) const
     {
         return reinterpret_cast<Function*>(address(symbol));
     }
 
-    const std::string& path() const { return path_; }
+    const std::string& path() const { return path_; }  // where it was found
 
 private:
     void* address(const char* symbol) const;
@@ -29,7 +31,7 @@ private:
     void* handle_;
 };
 
-// Loaded once and kept to the end of the program; may be called from any thread.
+// Loaded once and kept to the end of the program; may be called from any thread. An InputError where it is not there or does not load.
 const Module& load_module(const std::string& name);
 
 }  // namespace pbs

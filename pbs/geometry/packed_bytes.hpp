@@ -12,21 +12,24 @@
 
 namespace pbs {
 
+// In the machine's own byte order: for processes of one machine.
 class PackedBytes {
 public:
+    // As it lies in memory.
     template <typename Number>
     void put(Number number)
     {
         put_raw(&number, sizeof number);
     }
+    // Its count, then its numbers.
     template <typename Number>
     void put_array(const Number* numbers, std::size_t count)
     {
         put(static_cast<std::uint64_t>(count));
         put_raw(numbers, count * sizeof(Number));
     }
-    void put_text(const std::string& text) { put_array(text.data(), text.size()); }
-    const std::string& text() const { return bytes_; }
+    void put_text(const std::string& text) { put_array(text.data(), text.size()); }  // as an array of char
+    const std::string& text() const { return bytes_; }                               // all that was put
 
 private:
     void put_raw(const void* data, std::size_t size)
@@ -39,8 +42,10 @@ private:
 // Once something does not fit, everything taken is zero or empty and sound() is false.
 class TakenBytes {
 public:
+    // `bytes` has to outlive it.
     explicit TakenBytes(const std::string& bytes) : bytes_(bytes) {}
 
+    // The next number; its type is the caller's word.
     template <typename Number>
     Number take()
     {
@@ -48,6 +53,7 @@ public:
         take_raw(&number, sizeof number);
         return number;
     }
+    // What put_array put; empty where fewer bytes are left than its count says.
     template <typename Number>
     std::vector<Number> take_array()
     {
@@ -58,12 +64,13 @@ public:
         take_raw(numbers.data(), numbers.size() * sizeof(Number));
         return numbers;
     }
+    // What put_text put.
     std::string take_text()
     {
         const std::vector<char> text = take_array<char>();
         return {text.begin(), text.end()};
     }
-    bool sound() const { return sound_; }
+    bool sound() const { return sound_; }                          // all that was asked for was there
     bool whole() const { return sound_ && at_ == bytes_.size(); }  // and nothing is left over
 
 private:

@@ -8,6 +8,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <fstream>
+#include <string>
 
 namespace pbs {
 
@@ -21,7 +23,11 @@ inline void end_with_parent(pid_t parent)
 // No process of this number is on this machine: what it left half-made can be removed.
 inline bool process_is_gone(pid_t process)
 {
-    return ::kill(process, 0) != 0 && errno == ESRCH;
+    if (::kill(process, 0) != 0 && errno == ESRCH) return true;
+    std::string status;  // proc(5): number (name) state ...; Z and X have ended, and nobody has asked how
+    std::getline(std::ifstream("/proc/" + std::to_string(process) + "/stat"), status);
+    const std::size_t name_end = status.rfind(") ");
+    return name_end != std::string::npos && (status[name_end + 2] == 'Z' || status[name_end + 2] == 'X');
 }
 
 }  // namespace pbs

@@ -12,13 +12,16 @@
 
 namespace pbs {
 
+// A refined mesh and where its vertices come from.
 struct Refinement {
     TetMesh mesh;   // tets 8 t .. 8 t + 7 are the children of tet t, oriented as it is; child k < 4 lies at its corner k, which it keeps
     Edges parents;  // the two coarse vertices that new vertex #V_coarse + e lies between: each coarse edge once, sorted
 };
+// 8 #T tets and #V + #E vertices; positively oriented tets stay so, and their volumes add up. Indices are in range (unchecked).
 Refinement refine(const TetMesh& mesh);
 
-// A field of the coarse vertices, #V x 3, and at the new ones the mean of their parents: linear on every coarse tet.
+// A field of the coarse vertices, #V x 3, and at the new ones the mean of their parents: linear on every coarse tet. #V + #E
+// rows; that the edges are those of the field's vertices is not checked.
 Positions prolongated(const Positions& coarse, const Edges& parents);
 
 }  // namespace pbs

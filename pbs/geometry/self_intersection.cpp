@@ -12,6 +12,7 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/helpers.h>
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <utility>
@@ -58,11 +59,19 @@ Positions closed_line(const std::vector<Point>& points)
 
 }  // namespace
 
+std::vector<std::array<int, 2>> self_intersections(const Positions& positions, const Triangles& triangles)
+{
+    std::vector<std::pair<Surface::Face_index, Surface::Face_index>> faces;
+    pmp::self_intersections(surface_of(positions, triangles), std::back_inserter(faces));
+    std::vector<std::array<int, 2>> pairs;
+    for (const auto& [a, b] : faces) pairs.push_back({static_cast<int>(std::min(a, b).idx()), static_cast<int>(std::max(a, b).idx())});
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
+
 int count_self_intersections(const Positions& positions, const Triangles& triangles)
 {
-    std::vector<std::pair<Surface::Face_index, Surface::Face_index>> pairs;
-    pmp::self_intersections(surface_of(positions, triangles), std::back_inserter(pairs));
-    return static_cast<int>(pairs.size());
+    return static_cast<int>(self_intersections(positions, triangles).size());
 }
 
 bool self_intersects(const Positions& positions, const Triangles& boundary)

@@ -4,7 +4,9 @@
 #include "pbs/geometry/assimp_files.hpp"
 #include "pbs/geometry/input_error.hpp"
 
+#include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -35,6 +37,42 @@ void refuse_negative_indices(const std::string& path)
                          "expected indices from 0");
     }
 }
+
+// What assimp leaves out of a file and goes on without, by its warnings.
+class LeftOut {
+public:
+    LeftOut()
+    {
+        Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
+        Assimp::DefaultLogger::get()->attachStream(&warnings_, Assimp::Logger::Warn);
+    }
+    ~LeftOut()
+    {
+        Assimp::DefaultLogger::get()->detachStream(&warnings_, Assimp::Logger::Warn);
+        Assimp::DefaultLogger::kill();
+    }
+    LeftOut(const LeftOut&) = delete;
+    LeftOut& operator=(const LeftOut&) = delete;
+
+    void throw_if_any(const std::string& path) const
+    {
+        if (!warnings_.first.empty()) throw InputError(path, 0, "", "", "assimp: " + warnings_.first);
+    }
+
+private:
+    struct Warnings : Assimp::LogStream {
+        void write(const char* message) override
+        {
+            const std::string text = message;  // "Warn,  T0: Some faces had out-of-range indices. Those faces were dropped.\n"
+            if (text.find("dropped") == std::string::npos || !first.empty()) return;
+            const std::size_t level = text.find(": ");
+            first = text.substr(level == std::string::npos ? 0 : level + 2);
+            first.erase(first.find_last_not_of(" \n") + 1);
+        }
+        std::string first;
+    };
+    Warnings warnings_;
+};
 
 struct Collected {
     std::vector<Vec3> points;
@@ -78,10 +116,13 @@ IndexedPoints read_assimp(const std::string& path, const std::string& mesh_name)
     Assimp::Importer importer;
     const OwnFolder& files = only_own_folder(importer, path);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
+    const LeftOut left_out;
     const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
     if (!scene) files.refuse_what_was_referred_to();
     if (importer.GetErrorString() == std::string("std::bad_alloc")) throw std::bad_alloc();  // which assimp catches
     if (!scene || !scene->mRootNode) throw InputError(path, 0, "", "", std::string("assimp: ") + importer.GetErrorString());
+
+    left_out.throw_if_any(path);
 
     Collected collected;
     add_node(*scene, *scene->mRootNode, aiMatrix4x4(), mesh_name, collected);

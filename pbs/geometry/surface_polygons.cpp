@@ -2,6 +2,7 @@
 #include "pbs/geometry/mesh_io_formats.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/number_text.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/OFF.h>
@@ -41,11 +42,12 @@ void add_triangles(const std::vector<Point>& points, const Polygon& polygon, std
 std::vector<Triangle> triangulated(const std::string& path, const std::vector<Point>& points, const std::vector<Polygon>& polygons)
 {
     std::vector<Triangle> triangles;
+    if (!polygons.empty()) require_points(path, static_cast<long long>(points.size()));
     for (std::size_t f = 0; f < polygons.size(); ++f) {
         for (const std::size_t vertex : polygons[f])
             if (vertex >= points.size())
-                throw InputError(path, 0, "face " + std::to_string(f) + " vertex", std::to_string(vertex),
-                                 "expected an index from 0 to " + std::to_string(points.size() - 1));
+                throw InputError(path, 0, "face " + std::to_string(f) + " vertex", std::to_string(static_cast<long long>(vertex)),
+                                 expected_whole("an index", 0, static_cast<long long>(points.size()) - 1));
         if (polygons[f].size() >= 3) add_triangles(points, polygons[f], triangles);
     }
     return triangles;

@@ -5,6 +5,7 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
 #include "pbs/geometry/mesh_remarks.hpp"
+#include "pbs/geometry/surface_checks.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +16,6 @@
 namespace pbs {
 namespace {
 
-constexpr double farthest_m = 1e9;
 constexpr std::array<std::string_view, 8> extensions = {".obj", ".ply", ".off", ".stl", ".gltf", ".glb", ".dae", ".zae"};
 
 IndexedPoints read_by_library(const std::string& path, const std::string& mesh_name)
@@ -30,19 +30,6 @@ IndexedPoints read_by_library(const std::string& path, const std::string& mesh_n
 #endif
 }
 
-void check_raw(const std::string& path, const IndexedPoints& mesh)
-{
-    if (mesh.cells.rows() == 0) throw InputError(path, 0, "triangles", "0", "expected at least one triangle");
-    for (Eigen::Index i = 0; i < mesh.points.rows(); ++i)
-        if (!(mesh.points.row(i).cwiseAbs().maxCoeff() <= farthest_m && mesh.points.row(i).allFinite()))
-            throw InputError(path, 0, "vertex " + std::to_string(i), "", "expected finite coordinates within 1e9 m of the origin");
-    for (Eigen::Index f = 0; f < mesh.cells.rows(); ++f)
-        for (Eigen::Index k = 0; k < 3; ++k)
-            if (mesh.cells(f, k) < 0 || mesh.cells(f, k) >= mesh.points.rows())
-                throw InputError(path, 0, "triangle " + std::to_string(f) + " vertex", std::to_string(mesh.cells(f, k)),
-                                 "expected an index from 0 to " + std::to_string(mesh.points.rows() - 1));
-}
-
 int unused_points(const IndexedPoints& mesh)
 {
     std::vector<bool> used(static_cast<std::size_t>(mesh.points.rows()));
@@ -51,7 +38,7 @@ int unused_points(const IndexedPoints& mesh)
 }
 
 // The points that triangles use, in the order of first use; triangles that joining makes a line or a point are left out.
-SurfaceMesh joined(const IndexedPoints& mesh)
+SurfaceMesh joined(const std::string& path, const IndexedPoints& mesh)
 {
     std::map<std::array<double, 3>, int> index_of;
     std::vector<std::array<int, 3>> triangles;
@@ -69,6 +56,7 @@ SurfaceMesh joined(const IndexedPoints& mesh)
     for (const auto& [p, index] : index_of) surface.points.row(index) << p[0], p[1], p[2];
     for (std::size_t f = 0; f < triangles.size(); ++f)
         surface.triangles.row(static_cast<Eigen::Index>(f)) << triangles[f][0], triangles[f][1], triangles[f][2];
+    require_extent(path, surface.points);
     return surface;
 }
 
@@ -79,7 +67,7 @@ IndexedPoints checked_points(const std::string& path, const std::string& mesh_na
     if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
         throw InputError(path, 0, "extension", extension, "expected a surface: .obj, .ply, .off, .stl, .gltf, .glb, .dae or .zae");
     IndexedPoints read = read_guarded(path, [&](const std::string& file) { return read_by_library(file, mesh_name); });
-    check_raw(path, read);
+    check_raw_surface(path, read);
     return read;
 }
 
@@ -87,13 +75,14 @@ IndexedPoints checked_points(const std::string& path, const std::string& mesh_na
 
 SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name)
 {
-    return joined(checked_points(path, mesh_name));
+    return joined(path, checked_points(path, mesh_name));
 }
 
 SurfaceMesh read_surface(const std::string& path, std::vector<std::string>& remarks)
 {
     const IndexedPoints read = checked_points(path, "");
-    const SurfaceMesh surface = joined(read);
+    const SurfaceMesh surface = joined(path, read);
+    check_surface_edges(path, surface);
     remarks = remarks_on(path, surface, unused_points(read), static_cast<int>(read.cells.rows() - surface.triangles.rows()));
     return surface;
 }

@@ -1,4 +1,4 @@
-// Signed volumes of tets, in double.
+// Signed volumes of tets, in double. Indices of tets are in range (unchecked).
 #pragma once
 
 #include "pbs/geometry/types.hpp"

@@ -3,6 +3,7 @@
 #include "pbs/geometry/mesh_io_formats.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/number_text.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -38,7 +39,7 @@ public:
         const double number = numbers_[column];
         if (!(number >= static_cast<double>(low) && number <= static_cast<double>(high)) ||
             number != static_cast<double>(static_cast<long long>(number)))
-            fail(field, std::to_string(number), "expected a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+            fail(field, number_text(number, 15), expected_whole("a whole number", low, high));
         return static_cast<long long>(number);
     }
 
@@ -81,6 +82,7 @@ Positions read_nodes(const std::string& path, long long& first)
     lines.next("header", 2);
     const long long count = lines.whole("#points", 0, 0, most_entries(path));
     lines.whole("dimension", 1, 3, 3);
+    require_points(path, count);
     std::vector<double> coordinates;
     first = 0;
     for (long long i = 0; i < count; ++i) {

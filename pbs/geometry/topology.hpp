@@ -1,4 +1,5 @@
-// What a tet mesh's connectivity says: edges, boundary, manifoldness, Euler characteristic.
+// What a tet mesh's connectivity says: edges, boundary, manifoldness, Euler characteristic. vertices: #V; indices of tets lie from 0 to
+// #V - 1 (unchecked).
 #pragma once
 
 #include "pbs/geometry/types.hpp"
@@ -9,22 +10,26 @@ namespace pbs {
 
 Edges edges_of(const Tets& tets);                                              // each edge once, sorted, #E x 2
 Triangles boundary_of(const Tets& tets);                                       // faces of one tet only, oriented outward, #F x 3
-std::vector<bool> boundary_vertices(const Tets& tets, Eigen::Index vertices);  // #V
+std::vector<bool> boundary_vertices(const Tets& tets, Eigen::Index vertices);  // whether a vertex is in one of boundary_of's faces, #V
 
 // Neighbours of vertex i by edges: first[i] .. first[i + 1] - 1 of `neighbour`.
 struct Adjacency {
-    std::vector<int> first, neighbour;
+    // #V + 1.
+    std::vector<int> first, neighbour;  // vertex indices, 2 #E, those of a vertex ascending
 };
+// Of every vertex, those without a tet included.
 Adjacency adjacency_of(const Tets& tets, int vertices);
 
+// Of tets and their boundary; one manifold component of Euler number 2 is a ball's.
 struct Topology {
     // Every boundary edge in two triangles, every boundary vertex in one fan, every face in at most two tets.
     bool boundary_manifold = false;
-    int boundary_components = 0;
-    int boundary_euler = 0;  // V - E + F of the boundary; 2 for a ball
-    int components = 0;      // of the tets, over shared faces
-    int unused_vertices = 0;
+    int boundary_components = 0;  // of boundary triangles, over shared edges
+    int boundary_euler = 0;       // V - E + F of the boundary; 2 for a ball
+    int components = 0;           // of the tets, over shared faces
+    int unused_vertices = 0;      // that no tet names
 };
+// Without a tet the boundary is manifold, by the letter, and all counts but unused_vertices are zero.
 Topology topology_of(const Tets& tets, Eigen::Index vertices);
 
 }  // namespace pbs

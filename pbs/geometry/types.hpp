@@ -5,7 +5,7 @@
 
 namespace pbs {
 
-using Vec3 = Eigen::Vector3d;
+using Vec3 = Eigen::Vector3d;                                                 // a point or vector [m], 3 x 1
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;  // points [m], #V x 3
 using Tets = Eigen::Matrix<int, Eigen::Dynamic, 4, Eigen::RowMajor>;          // vertex indices, #T x 4
 using Edges = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;         // vertex indices, #E x 2, first < second

@@ -6,6 +6,7 @@
 
 namespace pbs {
 
+// What VTK says on this thread from its construction on.
 class VtkMessages {
 public:
     VtkMessages();  // forgets what the thread collected before

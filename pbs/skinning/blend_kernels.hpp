@@ -7,39 +7,42 @@ namespace pbs {
 // v' = c_0 x + c_1 y + c_2 z + t: the columns c_0, c_1, c_2, t of a rigid or blended transform, padded to four numbers each.
 template <class Scalar>
 struct alignas(64) PaddedMatrix {
-    Scalar numbers[16];
+    Scalar numbers[16];  // column by column; the fourth of each is not used
 };
 
 // Real and dual part as x, y, z, w.
 template <class Scalar>
 struct alignas(8 * sizeof(Scalar)) PackedDualQuaternion {
-    Scalar numbers[8];
+    Scalar numbers[8];  // real x, y, z, w, then dual
 };
 
 // n rows of weights, sparse in bones: row i blends the transforms `transform[k]` with `weight[k]`, first[i] <= k < first[i + 1].
 template <class Scalar>
 struct BlendRows {
-    int n;
-    const int* first;
-    const int* transform;
-    const Scalar* weight;
+    int n;                 // 0 or more
+    const int* first;      // n + 1
+    const int* transform;  // #entries
+    const Scalar* weight;  // #entries
 };
 
 // No blending: all points by one matrix, or point i by matrix transform[i].
 template <class Scalar>
 void transform_points(int n, const PaddedMatrix<Scalar>& matrix, const Scalar* rest, Scalar* posed);
+// By a matrix each.
 template <class Scalar>
 void transform_points(int n, const int* transform, const PaddedMatrix<Scalar>* matrices, const Scalar* rest, Scalar* posed);
 
 // One row of weights a point.
 template <class Scalar>
 void blend_points(const BlendRows<Scalar>& rows, const PaddedMatrix<Scalar>* matrices, const Scalar* rest, Scalar* posed);
+// The same of dual quaternions, on the side of their row's heaviest (TurnedBone).
 template <class Scalar>
 void blend_points(const BlendRows<Scalar>& rows, const PackedDualQuaternion<Scalar>* dual_quaternions, const Scalar* rest, Scalar* posed);
 
 // The blended transforms themselves, one a row.
 template <class Scalar>
 void blend_matrices(const BlendRows<Scalar>& rows, const PaddedMatrix<Scalar>* matrices, PaddedMatrix<Scalar>* blended);
+// The same of dual quaternions; what comes out is rigid.
 template <class Scalar>
 void blend_matrices(const BlendRows<Scalar>& rows, const PackedDualQuaternion<Scalar>* dual_quaternions, PaddedMatrix<Scalar>* blended);
 

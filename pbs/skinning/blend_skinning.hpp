@@ -15,18 +15,18 @@ namespace pbs {
 template <class Scalar>
 class BlendSkinning {
 public:
-    BlendSkinning(const Positions& rest, const Weights& weights);  // rest positions [m], #V x 3
+    BlendSkinning(const Positions& rest, const Weights& weights);  // rest positions [m], #V x 3; weights of as many (unchecked)
 
     // Posed positions [m], #V x 3. Float blends about the middle of the body, so that far from the origin no digits are lost.
     void linear(const Pose& pose, Positions& posed);
-    void dual_quaternion(const Pose& pose, Positions& posed);
+    void dual_quaternion(const Pose& pose, Positions& posed);  // likewise
 
     // Without conversion: posed position - origin [m], #V rows x, y, z. Float loses no digits where `origin` is near the posed body.
     void linear_rows(const Pose& pose, const Vec3& origin, Scalar* posed);
-    void dual_quaternion_rows(const Pose& pose, const Vec3& origin, Scalar* posed);
+    void dual_quaternion_rows(const Pose& pose, const Vec3& origin, Scalar* posed);  // likewise
 
-    int vertices() const { return static_cast<int>(packed_.matrix.size()); }
-    const PackedWeights<Scalar>& packed_weights() const { return packed_; }
+    int vertices() const { return static_cast<int>(packed_.matrix.size()); }  // #V
+    const PackedWeights<Scalar>& packed_weights() const { return packed_; }   // what is blended how often
 
 private:
     using Rows = Eigen::Matrix<Scalar, Eigen::Dynamic, 3, Eigen::RowMajor>;

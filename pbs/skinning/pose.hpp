@@ -14,19 +14,21 @@ using Pose = std::vector<Eigen::Isometry3d>;
 
 // Poses one time step apart; every `steps_per_frame`-th is a frame, the first and the last included.
 struct Motion {
-    std::vector<Pose> steps;
-    double time_step_s = 0.01;
-    int steps_per_frame = 1;
+    std::vector<Pose> steps;        // every pose, the substeps between frames included
+    double time_step_s = 0.01;      // Delta t of Algorithm 1
+    int steps_per_frame = 1;        // 1 or more
     std::vector<double> angle_deg;  // of a sweep, one a frame; empty for a clip
 
+    // Whole frames; 0 where there is no step.
     int frames() const { return steps.empty() ? 0 : static_cast<int>((steps.size() - 1) / steps_per_frame) + 1; }
 };
 
 // Pose from local joint rotations about the heads (parent's frame = world axes) and a translation [m] of the roots.
+// local_rotations: one a bone, of any length but zero (#bones, unchecked). Parents stand before their children.
 Pose pose_from_joints(const Skeleton& skeleton, const std::vector<Eigen::Quaterniond>& local_rotations, const Vec3& root_translation);
 
 // A joint sweep: frame i of `frames` turns `joint` by angle_deg * i / (frames - 1) about `axis` (rest world axes); frame 0 is the rest
-// pose.
+// pose. InputError where `joint` is no bone of the skeleton, `axis` is zero or not finite, or `frames` is below 1.
 Motion joint_sweep(const Skeleton& skeleton, int joint, const Vec3& axis, double angle_deg, int frames, double time_step_s);
 
 }  // namespace pbs

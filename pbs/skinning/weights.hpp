@@ -5,17 +5,19 @@
 
 namespace pbs {
 
-// Weights of vertex i: entries first(i) .. first(i + 1) - 1 of `bone` and `weight`; they sum to one.
+// Weights of vertex i: entries first(i) .. first(i + 1) - 1 of `bone` and `weight`; they sum to one. Those made
+// here and read from files obey that; nothing asks it of others.
 struct Weights {
-    std::vector<int> first;  // #V + 1
-    std::vector<int> bone;
-    std::vector<double> weight;
+    std::vector<int> first;      // begins with 0, #V + 1
+    std::vector<int> bone;       // index into Skeleton::bones, #entries
+    std::vector<double> weight;  // in [0, 1], #entries
 
-    int vertices() const { return static_cast<int>(first.size()) - 1; }
-    bool blended(int vertex) const { return first[vertex + 1] - first[vertex] > 1; }
+    int vertices() const { return static_cast<int>(first.size()) - 1; }               // #V; -1 of default-made weights
+    bool blended(int vertex) const { return first[vertex + 1] - first[vertex] > 1; }  // between two bones or more
 };
 
-Weights paper_weights(const BoneBinding& binding, const Skeleton& skeleton);  // Eq. 2
+// `binding` is one to this skeleton (unchecked); #V and the order of vertices are its own.
+Weights paper_weights(const BoneBinding& binding, const Skeleton& skeleton);  // Eq. 2: 1 at 1/6 <= t <= 5/6, else 1 / n of bones_meeting
 Weights rigid_weights(const BoneBinding& binding);                            // nearest bone only
 
 // The other reading of Eq. 2's n_joints: near either end, 1 / n over all bones that touch the bone at either end.

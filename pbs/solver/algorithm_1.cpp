@@ -24,8 +24,8 @@ template <typename Scalar>
 Algorithm1<Scalar>::Algorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
                                const PbsOptions& options, const std::vector<bool>& held)
     : options_(options),
-      sleep_tolerance_(sleep_tolerance(mesh, options)),
       projection_(make_projection(make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, options, held), mesh.tets, options)),
+      sleep_tolerance_(sleep_tolerance(mesh, options)),
       particles_(mesh.rest, jiggle_zone, options)
 {
 }

@@ -9,12 +9,14 @@
 
 namespace pbs {
 
+// One mesh in motion. Scalar: float or double.
 template <typename Scalar>
 class Algorithm1 {
 public:
-    // See PbsSolver.
+    // See PbsSolver, whose checks are made here.
     Algorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone, const PbsOptions& options,
                const std::vector<bool>& held = {});
+    // See PbsSolver::advance.
     StepSummary advance(const Positions& lbs_positions, const Positions& bind_points, double dt_s);
 
     const Positions& positions() const { return particles_.positions(); }  // [m], #V x 3
@@ -25,8 +27,8 @@ private:
     bool examine_residuals(StepSummary& summary) const;
 
     PbsOptions options_;
-    SleepTolerance sleep_tolerance_;
     std::unique_ptr<Projection<Scalar>> projection_;
+    SleepTolerance sleep_tolerance_;  // of a mesh that the constraints have checked
     Particles particles_;
 };
 

@@ -1,6 +1,7 @@
 #include "pbs/solver/constraint_set.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/number_text.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/geometry/topology.hpp"
 
@@ -48,8 +49,9 @@ void check_mesh(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const
     if (bind_distance.size() != mesh.rest.rows()) size_error("bind_distance", bind_distance.size());
     if (!jiggle_zone.empty() && Eigen::Index(jiggle_zone.size()) != mesh.rest.rows()) size_error("jiggle_zone", jiggle_zone.size());
     if (!held.empty() && Eigen::Index(held.size()) != mesh.rest.rows()) size_error("held", held.size());
+    if (mesh.tets.size() && mesh.rest.rows() == 0) throw InputError("mesh", 0, "points", "0", "expected at least one point");
     if (mesh.tets.size() && (mesh.tets.minCoeff() < 0 || mesh.tets.maxCoeff() >= mesh.rest.rows()))
-        throw InputError("mesh", 0, "tets", "", "expected vertex indices from 0 to " + std::to_string(mesh.rest.rows() - 1));
+        throw InputError("mesh", 0, "tets", "", expected_whole("vertex indices", 0, mesh.rest.rows() - 1));
     const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets);
     for (Eigen::Index t = 0; t < volumes.size(); ++t)
         if (!(volumes(t) > 0.0))

@@ -12,25 +12,27 @@
 
 namespace pbs {
 
-// File order: bind by vertex, stretch by edges_of(tets), volume by tet. Classes of stiffness zero are empty.
+// File order: bind by vertex, stretch by edges_of(tets), volume by tet. Classes of stiffness zero are empty. Stiffnesses are those of one
+// projection, by share_removed.
 template <typename Scalar>
 struct ConstraintSet {
-    std::vector<BindConstraint<Scalar>> bind;
-    std::vector<StretchConstraint<Scalar>> stretch;
-    std::vector<VolumeConstraint<Scalar>> volume;
+    std::vector<BindConstraint<Scalar>> bind;        // at most one a vertex
+    std::vector<StretchConstraint<Scalar>> stretch;  // at most one an edge
+    std::vector<VolumeConstraint<Scalar>> volume;    // one a tet, or none
     // unit: 1; lumped: mean lumped volume / lumped volume of the vertex, so that no unit enters; held: 0, #V
     std::vector<Scalar> inverse_mass;
 };
 
-// InputError for stiffnesses outside [0, 1] and counts that make no sense.
+// InputError for stiffnesses outside [0, 1], iterations below 0, threads below 1, and a stop_residual or sleep_tolerance that is negative
+// or NaN.
 void check_options(const PbsOptions& options);
 
 // The share of its error that a projection of a constraint of stiffness k removes, by options.stiffness_form.
 double share_removed(double k, const PbsOptions& options);
 
-// bind_distance [m], #V; jiggle_zone: #V, or empty: nothing jiggles; held: #V, or empty: nothing is held. Wrong sizes, stiffnesses outside
-// [0, 1], tets without a positive rest volume, and vertices held although they jiggle or Eq. 12-20 are taken as printed (which know no
-// mass) are InputErrors.
+// bind_distance [m], #V; jiggle_zone: #V, or empty: nothing jiggles; held: #V, or empty: nothing is held. InputErrors: as check_options,
+// wrong sizes, vertex indices out of range, tets without a positive rest volume, and vertices held although they jiggle, all are integrated
+// (LbsEntry::increment) or Eq. 12-20 are taken as printed (which know no mass).
 template <typename Scalar>
 ConstraintSet<Scalar> make_constraint_set(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
                                           const PbsOptions& options, const std::vector<bool>& held = {});

@@ -10,6 +10,7 @@
 
 namespace pbs {
 
+// One call that hands tasks to other threads, and takes them back when it ends.
 class HandOver {
 public:
     HandOver() { give(start_); }
@@ -17,8 +18,10 @@ public:
     HandOver(const HandOver&) = delete;
     HandOver& operator=(const HandOver&) = delete;
 
+    // One of its tasks, on whichever thread.
     class Task {
     public:
+        // From here on the task may read what the caller wrote.
         explicit Task(HandOver& call) : call_(call) { take(call_.start_); }
         ~Task() { give(call_.end_); }
         Task(const Task&) = delete;

@@ -11,8 +11,11 @@ namespace pbs {
 // constraints that share no vertex side by side. grouped: the same with neighbouring constraints in groups, quicker and farther from
 // `plain`.
 enum class Order { plain, ordered, grouped };
+// Floating point of the projections; particles, their integration and sums of residuals are double in both. f32 projects relative to the
+// step's mean position, so that far from the origin no digits are lost.
 enum class Precision { f32, f64 };
-enum class Masses { unit, lumped };  // m_i = 1 (the paper), or the lumped rest volume
+// m_i = 1 (the paper), or in proportion to the lumped rest volume; only their ratios count.
+enum class Masses { unit, lumped };
 // The volume correction: derived from Eq. 11 (default), or with one error of Eq. 12-20 at a time, or all of them:
 // labels_relative: Eq. 12-14 under the particles they are printed for, positions relative to p1;
 // labels_absolute: the same with the absolute positions as printed, so it depends on the origin;
@@ -42,31 +45,37 @@ enum class LbsEntry { start, increment };
 // Of a vertex on its bone (d_i = 0): pinned to its material point, or without a bind constraint.
 enum class BindOnBone { pinned, unbound };
 
+// Stiffnesses of the jiggling zone, in [0, 1]. A zone that a solver is given jiggles only where options have one of these.
 struct Jiggle {
     double k_stretch = 0.1;             // of edges with both ends in the jiggling zone
     std::optional<double> k_bind = {};  // of the zone's vertices; nothing: as elsewhere
 };
 
+// The paper states 24 iterations and m_i = 1; it leaves k_volume, k_bind, gravity and k_stretch outside the jiggling zone unstated.
+// A solver refuses with an InputError: iterations below 0, threads below 1, a stiffness outside [0, 1], a negative or NaN stop_residual or
+// sleep_tolerance, sleep with order plain, a volume_form other than derived with another order than plain.
 struct PbsOptions {
-    int iterations = 24;
-    double k_stretch = 0.2, k_volume = 1.0, k_bind = 1.0;
-    Vec3 gravity_m_s2 = Vec3::Zero();  // acts where particles are integrated: in the jiggling zone
-    Order order = Order::ordered;
-    int threads = 1;  // of a step, where the mesh is large enough for more than one to pay
-    Precision precision = Precision::f32;
-    Masses masses = Masses::unit;
-    VolumeForm volume_form = VolumeForm::derived;
-    StiffnessForm stiffness_form = StiffnessForm::per_iteration;
-    ClassOrder class_order = ClassOrder::bind_stretch_volume;
-    LbsEntry lbs_entry = LbsEntry::start;
-    BindOnBone bind_on_bone = BindOnBone::pinned;
+    int iterations = 24;  // at most, of lines 11-13 of Algorithm 1; 0: LBS as it is given (and integrated particles as predicted)
+    // Of edges (k_stretch, Eq. 10), tets (k_volume, Eq. 11) and vertices to their bones (k_bind, Sec. 3.6): the share of its error that a
+    // projection of a constraint removes (StiffnessForm), in [0, 1].
+    double k_stretch = 0.2, k_volume = 1.0, k_bind = 1.0;         // likewise of vertices to their bones
+    Vec3 gravity_m_s2 = Vec3::Zero();                             // acts where particles are integrated: in the jiggling zone
+    Order order = Order::ordered;                                 // within each class
+    int threads = 1;                                              // of a step, where the mesh is large enough for more than one to pay
+    Precision precision = Precision::f32;                         // of the projections alone
+    Masses masses = Masses::unit;                                 // the paper's
+    VolumeForm volume_form = VolumeForm::derived;                 // another one wants order plain, and knows no masses
+    StiffnessForm stiffness_form = StiffnessForm::per_iteration;  // as printed
+    ClassOrder class_order = ClassOrder::bind_stretch_volume;     // as printed
+    LbsEntry lbs_entry = LbsEntry::start;                         // increment: no vertex can be held
+    BindOnBone bind_on_bone = BindOnBone::pinned;                 // k_bind applies to it as to any other
     // Constraints that LBS satisfies within the tolerance, and all around them, are left out of the frame; at its end they are looked at
     // again and the frame is redone with those that are not satisfied any more. Tolerance: ratios; bind in shares of the mean edge.
     bool sleep = false;
-    double sleep_tolerance = 1e-3;
+    double sleep_tolerance = 1e-3;   // 0 or more, dimensionless; see sleep
     double stop_residual = 0.0;      // stop when the largest of the three residuals is below, else not_converged; 0: all iterations
     bool record_iterations = false;  // keep residuals of every iteration
-    std::optional<Jiggle> jiggle;
+    std::optional<Jiggle> jiggle;    // nothing: the zone is as all else
 };
 
 }  // namespace pbs

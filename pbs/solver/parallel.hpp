@@ -8,12 +8,13 @@
 
 namespace pbs {
 
+// A number of threads to share tasks among; moved, not copied.
 class Parallel {
 public:
     explicit Parallel(int threads);  // at most so many, the caller's among them, and no more than oneTBB allows in this process
     ~Parallel();
-    Parallel(Parallel&&) noexcept;
-    Parallel& operator=(Parallel&&) noexcept;
+    Parallel(Parallel&&) noexcept;             // the other is then for one thread
+    Parallel& operator=(Parallel&&) noexcept;  // likewise
 
     // task(0) .. task(count - 1), in any order; returns when all are done.
     void for_each(int count, const std::function<void(int)>& task) const;

@@ -9,9 +9,10 @@
 
 namespace pbs {
 
+// The state between steps: positions and, of those that are integrated, velocities.
 class Particles {
 public:
-    // jiggle_zone: #V, or empty: nothing is integrated.
+    // rest: where positions are before the first step [m], #V x 3. jiggle_zone: #V, or empty: nothing is integrated.
     Particles(const Positions& rest, const std::vector<bool>& jiggle_zone, const PbsOptions& options);
 
     // InputError where the arrays are not of #V rows, or particles are to be integrated and dt [s] is not positive.
@@ -20,8 +21,8 @@ public:
     void predict(const Positions& lbs_positions, double dt_s);  // lines (2)-(3) in the first step, (6)-(9)
     void update(double dt_s);                                   // lines (15)-(18)
 
-    Positions& predicted() { return p_; }  // p_i [m], #V x 3
-    const Positions& predicted() const { return p_; }
+    Positions& predicted() { return p_; }               // p_i [m], #V x 3
+    const Positions& predicted() const { return p_; }   // as above
     const Positions& positions() const { return x_; }   // x_i [m], #V x 3
     const Positions& velocities() const { return v_; }  // v_i [m/s] of the jiggling vertices, #jiggling x 3; none before the first step
 

@@ -7,9 +7,11 @@
 
 namespace pbs {
 
+// As Projection says; nothing sleeps.
 template <typename Scalar>
 class PlainProjection : public Projection<Scalar> {
 public:
+    // volume_form: derived, or Eq. 12-20 as printed, which take all masses for one.
     PlainProjection(ConstraintSet<Scalar> constraints, VolumeForm volume_form);
 
     void load(const Positions& p, const Positions& q, const Vec3& origin) override;

@@ -7,13 +7,16 @@
 
 namespace pbs {
 
+// Line 11 of Algorithm 1.
 template <typename Scalar>
 void project_bind_constraints(const ConstraintSet<Scalar>& constraints, const std::vector<Vector3<Scalar>>& q,
                               std::vector<Vector3<Scalar>>& p);
 
+// Line 12.
 template <typename Scalar>
 void project_stretch_constraints(const ConstraintSet<Scalar>& constraints, std::vector<Vector3<Scalar>>& p);
 
+// Line 13, derived from Eq. 11.
 template <typename Scalar>
 void project_volume_constraints(const ConstraintSet<Scalar>& constraints, std::vector<Vector3<Scalar>>& p);
 

@@ -18,6 +18,7 @@ struct SleepTolerance {
     double length_m = 0.0;  // of bind constraints, and what counts as moved
 };
 
+// One mesh's constraints, with its positions between load and store. Scalar: float or double.
 template <typename Scalar>
 class Projection {
 public:
@@ -25,12 +26,13 @@ public:
 
     // p: positions, q: posed bind points [m], #V x 3; inside, positions are relative to origin [m].
     virtual void load(const Positions& p, const Positions& q, const Vec3& origin) = 0;
-    virtual void project_bind_constraints() = 0;
-    virtual void project_stretch_constraints() = 0;
-    virtual void project_volume_constraints() = 0;
+    virtual void project_bind_constraints() = 0;     // line 11: all of the class once, Sec. 3.6
+    virtual void project_stretch_constraints() = 0;  // line 12, Eq. 10
+    virtual void project_volume_constraints() = 0;   // line 13, Eq. 11
+    // Positions back in p [m], #V x 3; origin as it was given to load.
     virtual void store(const Vec3& origin, Positions& p) const = 0;
 
-    virtual Residuals residuals() const = 0;
+    virtual Residuals residuals() const = 0;  // of the positions as they are now, summed in double
 
     // Constraints far from any that the loaded positions leave unsatisfied, and from what moved in the last step, sleep from now on. Where
     // options.sleep is not set, and in an order that knows no sleep, nothing sleeps.

@@ -8,9 +8,11 @@
 
 namespace pbs {
 
+// The names of the three calls are those of the lines, not of the classes that they then project.
 template <typename Scalar>
 class ReorderedProjection : public Projection<Scalar> {
 public:
+    // Takes the projection over; all but the order of classes is its own.
     ReorderedProjection(std::unique_ptr<Projection<Scalar>> projection, ClassOrder class_order);
 
     void load(const Positions& p, const Positions& q, const Vec3& origin) override { projection_->load(p, q, origin); }

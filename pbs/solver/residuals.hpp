@@ -6,7 +6,7 @@
 
 namespace pbs {
 
-// p: particle positions [m], #V; q: posed bind points [m], #V. A class that was left out has the residual zero.
+// p: particle positions [m], #V; q: posed bind points [m], #V; sizes are not checked. A class that was left out has the residual zero.
 template <typename Scalar>
 Residuals residuals_of(const ConstraintSet<Scalar>& constraints, const std::vector<Vector3<Scalar>>& p,
                        const std::vector<Vector3<Scalar>>& q);

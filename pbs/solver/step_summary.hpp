@@ -5,22 +5,26 @@
 
 namespace pbs {
 
+// Over all constraints of a class, 0 where the class was left out.
 struct Residuals {
     double stretch_rms = 0.0;  // rms of l / l0 - 1
     double volume_rms = 0.0;   // rms of V / V0 - 1
     double bind_rms_m = 0.0;   // rms of |x_i - q_i| - d_i [m]
 };
 
+// finished: all iterations, or, where stop_residual is set, residuals below it. not_finite: a position is infinite or NaN; the state is
+// lost, and a jiggling solver has to be made anew. not_converged: stop_residual is set and was not reached; positions are valid.
 enum class Outcome { finished, not_finite, not_converged };
-const char* to_string(Outcome outcome);
+const char* to_string(Outcome outcome);  // the value's name, as records have it
 
+// What PbsSolver::advance tells of one step.
 struct StepSummary {
-    int iterations = 0;
-    Outcome outcome = Outcome::finished;
-    double sleeping_share = 0.0;     // of stretch and volume constraints that were left out
-    int wakings = 0;                 // how often the step was redone because some of them were needed
-    double seconds = 0.0;            // wall time of the step
-    std::vector<Residuals> history;  // one an iteration, where asked
+    int iterations = 0;                   // that were done; of the last attempt where sleepers had to be woken
+    Outcome outcome = Outcome::finished;  // a breakdown is told here, never thrown
+    double sleeping_share = 0.0;          // of stretch and volume constraints that were left out
+    int wakings = 0;                      // how often the step was redone because some of them were needed
+    double seconds = 0.0;                 // wall time of the step
+    std::vector<Residuals> history;       // one an iteration, where asked
 };
 
 }  // namespace pbs

@@ -21,9 +21,14 @@ def setUpModule():
     prefix = installation.install("method")
 
 
-def configure(source, build, flags=""):
-    return run(CMAKE, "-S", source, "-B", folder / build, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}",
+def configure(source, build, flags="", installed=None):
+    return run(CMAKE, "-S", source, "-B", folder / build, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={installed or prefix}",
                f"-DCMAKE_CXX_FLAGS={own_flags} {flags}")
+
+
+def looked_for(build):
+    """The packages that a build's cache tells."""
+    return set(re.findall(r"^([\w.]+)_DIR:PATH=", (folder / build / "CMakeCache.txt").read_text(), re.MULTILINE))
 
 
 def asking_for(name, components, version=""):
@@ -35,23 +40,41 @@ def asking_for(name, components, version=""):
     return configure(source, name + "_build")
 
 
-class Consumer(unittest.TestCase):
-    def test_method_in_a_project_of_its_own(self):
-        configured = configure(project, "consumer")
+class MethodTest(unittest.TestCase):
+    def expect_built(self, configured, build, *options):
         self.assertEqual(configured.returncode, 0, configured.stderr)
-        built = run(CMAKE, "--build", folder / "consumer")
+        built = run(CMAKE, "--build", folder / build, *options)
         self.assertEqual(built.returncode, 0, built.stdout)
-        told = run(folder / "consumer/bent_bar")
+
+    def expect_bent_bar(self, build, installed):
+        self.expect_built(configure(project, build, installed=installed), build)
+        told = run(folder / build / "bent_bar")
         self.assertEqual(told.returncode, 0, told.stderr)
         match = re.fullmatch(r"tets 1920, lbs (-[0-9.]+) %, pbs (-?[0-9.]+) %\n", told.stdout)
         self.assertTrue(match, told.stdout)
         lbs, pbs = map(float, match.groups())
         self.assertLess(lbs, -1)
         self.assertLess(abs(pbs), abs(lbs) / 2)
+        return told.stdout
 
-        cache = (folder / "consumer/CMakeCache.txt").read_text()
-        found = set(re.findall(r"^(\w+)_DIR:PATH=", cache, re.MULTILINE))
-        self.assertLessEqual(found, {"pbs", "Eigen3", "TBB"}, "the method asks for Eigen, and oneTBB with threads")
+
+class WithoutThreads(MethodTest):
+    def test_eigen_is_all_that_the_method_needs(self):
+        """Built and used, it looks for nothing else, and threads change nothing."""
+        off = [f"-DPBS_WITH_{part}=OFF" for part in re.findall(r"option\(PBS_WITH_(\w+)", (SOURCE / "CMakeLists.txt").read_text())]
+        self.assertIn("-DPBS_WITH_THREADS=OFF", off)
+        flags = f"-DCMAKE_CXX_FLAGS={own_flags}"
+        self.expect_built(run(CMAKE, "-S", SOURCE, "-B", folder / "alone", "-G", "Ninja", flags, *off), "alone", "--target", "pbs_method")
+        self.assertEqual(looked_for("alone"), {"Eigen3"})
+        alone = self.expect_bent_bar("consumer_alone", installation.install("method", folder / "alone"))
+        self.assertEqual(looked_for("consumer_alone"), {"pbs", "Eigen3"})
+        self.assertEqual(alone, self.expect_bent_bar("consumer_beside", prefix))
+
+
+class Consumer(MethodTest):
+    def test_method_in_a_project_of_its_own(self):
+        self.expect_bent_bar("consumer", prefix)
+        self.assertLessEqual(looked_for("consumer"), {"pbs", "Eigen3", "TBB"}, "the method asks for Eigen, and oneTBB with threads")
 
     # An array allocated here and freed there would crash. EIGEN_MAX_ALIGN_BYTES bounds members of fixed size alone.
     @unittest.skipUnless(platform.machine() == "x86_64", "the registers of x86-64")

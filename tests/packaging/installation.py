@@ -29,12 +29,12 @@ def run(*words, timeout=1800, check=False, **options):
     return ended
 
 
-def install(component):
+def install(component, build=BUILD):
     """The prefix, which is not the one that it was installed to."""
-    installed = run(CMAKE, "--install", BUILD, "--component", component, "--prefix", folder / "installed")
+    installed = run(CMAKE, "--install", build, "--component", component, "--prefix", folder / "installed")
     if installed.returncode != 0:
         raise RuntimeError(installed.stdout + installed.stderr)
-    return (folder / "installed").rename(folder / f"moved_{component}")
+    return (folder / "installed").rename(folder / f"moved_{component}_{build.name}")
 
 
 def files_naming(prefix, path):

@@ -3,6 +3,7 @@
 Truth: the folders as the file system tells them; the records' own fields.
 """
 import json
+import shutil
 import unittest
 
 import installation
@@ -41,10 +42,26 @@ class InstalledProgram(unittest.TestCase):
         page = (folder / "elsewhere/audit/report.html").read_text(encoding="utf-8")
         self.assertIn("C13", page)
 
+    def sweep(self, *arguments):
+        process = run(prefix / "bin/pbskin-sweep", *arguments, cwd=folder / "elsewhere", env={"PATH": "/usr/bin:/bin", "HOME": str(folder)})
+        self.assertEqual(process.returncode, 0, process.stderr)
+        return process.stdout
+
+    def test_sweeps_by_the_program_beside(self):
+        (folder / "elsewhere").mkdir(exist_ok=True)
+        example = prefix / "share/pbskin/sweeps/examples/limb_bend.toml"
+        self.assertRegex(self.sweep("check", example), r"(?m)^\d+ runs in \d+ jobs$")
+        self.assertRegex(self.sweep("size", example, "--sample", "1"), r"(?m)^a run: \d+\.\d+ processor seconds")
+        if shutil.which("snakemake", path="/usr/bin:/bin"):
+            self.sweep("run", example, "-o", "sweep", "-j", "2")
+            self.assertTrue((folder / "elsewhere/sweep/sweep.csv").is_file())
+
     def test_what_it_reads_is_there(self):
         for name in ("share/pbskin/paper_figures/make_all.py", "share/pbskin/CITATION.cff", "share/pbskin/claims.toml",
                      "share/pbskin/scenes/limb_twist.toml", "share/man/man1/pbskin.1", "share/bash-completion/completions/pbskin",
-                     "share/zsh/site-functions/_pbskin", "lib/pbskin/libpbskin_native_plain.so"):
+                     "share/zsh/site-functions/_pbskin", "lib/pbskin/libpbskin_native_plain.so", "bin/pbskin-sweep",
+                     "share/pbskin/sweeps/Snakefile", "share/pbskin/sweeps/slurm/config.yaml",
+                     "share/pbskin/sweeps/examples/limb_bend.toml"):
             self.assertTrue((prefix / name).is_file(), name)
         left_behind = [str(file) for file in prefix.rglob("*") if file.name in ("node_modules", "__pycache__", "src", "package.json")]
         self.assertEqual(left_behind, [])

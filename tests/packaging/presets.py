@@ -20,6 +20,8 @@ class Presets(unittest.TestCase):
         presets = json.loads(text("CMakePresets.json"))
         self.steps = {flow["name"]: [(step["type"], step["name"]) for step in flow["steps"]] for flow in presets["workflowPresets"]}
         self.configured = {preset["name"]: preset for preset in presets["configurePresets"]}
+        self.built = {preset["name"]: preset for preset in presets["buildPresets"]}
+        self.tested = {preset["name"] for preset in presets["testPresets"]}
 
     def test_check_configures_by_the_preset_of_the_workflow(self):
         self.assertEqual(self.steps["ci"], [("configure", "ci"), ("build", "ci"), ("test", "ci")])
@@ -36,6 +38,19 @@ class Presets(unittest.TestCase):
     def test_packages_are_for_any_machine(self):
         self.assertEqual(self.steps["package"][-1], ("package", "package"))
         self.assertEqual(self.configured["package"]["cacheVariables"]["PBS_NATIVE"], "OFF")
+
+    def test_every_preset_is_built_by_its_name(self):
+        visible = {name for name, preset in self.configured.items() if not preset.get("hidden")}
+        self.assertEqual(set(self.built), visible)
+        self.assertLessEqual(self.tested | set(re.findall(r"--preset (\w[\w-]*)", text("check"))), visible)
+
+    def test_the_method_and_the_ruler_alone(self):
+        """What the presets leave out; threads are looked at, and the ruler is there."""
+        options = set(re.findall(r'option\((PBS_WITH_\w+) ".*" ON\)', text("CMakeLists.txt")))
+        for name in ("tsan", "valgrind"):
+            parent = self.configured[self.configured[name]["inherits"]]["cacheVariables"]
+            self.assertEqual(set(parent), options - {"PBS_WITH_ANALYSIS", "PBS_WITH_TESTS", "PBS_WITH_THREADS"})
+            self.assertEqual(set(parent.values()), {"OFF"})
 
     def test_contributing_names_it(self):
         self.assertIn("cmake --workflow --preset ci", text("CONTRIBUTING.md"))

@@ -1,4 +1,7 @@
 """Tet meshes and surfaces in binary, and MSH 4.1, that are refused."""
+import itertools
+import math
+
 import binary_bytes
 from bad_case import Case
 from bad_surfaces import FACES, NEGATIVE, OUT
@@ -74,7 +77,7 @@ def plys():
     yield "truncated", whole[:-20], NO_FURTHER.format(4, 2)
     yield "truncated_header", half(whole), NO_FURTHER.format(0, 0)
     yield "index_out_of_range", write(CORNERS, OUT), INDEX.format(9)
-    yield "negative_index", write(CORNERS, NEGATIVE), INDEX.format(2**64 - 9)
+    yield "negative_index", write(CORNERS, NEGATIVE), INDEX.format(-9)
     yield "huge_vertex_count", write(CORNERS, FACES, vertices_told=4000000000), NO_FURTHER.format(8, 0)
     yield "huge_face_count", write(CORNERS, FACES, faces_told=4000000000), NO_FURTHER.format(4, 4)
     yield "faces_of_255_corners", write(CORNERS, FACES, corners=255), NO_FURTHER.format(4, 0)
@@ -92,13 +95,31 @@ def stls():
     yield "huge_face_count", write(CORNERS, FACES, faces_told=4000000000), NO_FURTHER.format(4, 4)
 
 
+# assimp reads on without them, and a body of so many triangles would seem nearly closed
+GOLDEN = (1 + 5**0.5) / 2
+TWELVE = [point for a in (-1, 1) for b in (-GOLDEN, GOLDEN) for point in ((0, a, b), (a, b, 0), (b, 0, a))]
+TWENTY = [corners for corners in itertools.combinations(range(12), 3)
+          if all(math.dist(TWELVE[a], TWELVE[b]) < 2.1 for a, b in itertools.combinations(corners, 2))]
+DROPPED, NOT_WHOLE = "assimp: Some faces had out-of-range indices. Those faces were dropped.", "Some vertices were dropped."
+
+
+def dropped(write):
+    yield "one_index_of_sixty_out_of_range", write(TWELVE, [*TWENTY[:-1], (*TWENTY[-1][:2], 12)]), DROPPED
+    yield "fifty_nine_indices", write(TWELVE, TWENTY, corners_told=59), NOT_WHOLE
+
+
+def gltfs():
+    yield from dropped(binary_bytes.gltf)
+
+
 def glbs():
     write = binary_bytes.glb
     whole = write(CORNERS, FACES)
     yield "nan", write(NAN_CORNERS, FACES), NAN_CORNER
     yield "truncated", whole[:-20], "GLTF: Unable to read gltf file"
     yield "truncated_document", half(whole), NO_READER
-    yield "index_out_of_range", write(CORNERS, OUT), OPEN
+    yield "index_out_of_range", write(CORNERS, OUT), DROPPED
+    yield from dropped(write)
     yield "unknown_version", write(CORNERS, FACES, version=9), NO_READER
     yield "huge_document", write(CORNERS, FACES, json_length=4000000000), NO_READER
     yield "empty_document", write(CORNERS, FACES, json_length=0), NO_READER
@@ -109,7 +130,7 @@ def cases():
     for kind, defects in (("2.2 binary", msh22), ("4.1", msh41), ("4.1 binary", msh41_binary)):
         for name, content, words in defects():
             yield Case(f"tets {name}.msh {kind}", {"bad.msh": content}, ["measure", "bad.msh", "bad.msh"], ("bad.msh: ", words))
-    for extension, defects in ((".ply", plys), (".stl", stls), (".glb", glbs)):
+    for extension, defects in ((".ply", plys), (".stl", stls), (".glb", glbs), (".gltf", gltfs)):
         file = "bad" + extension
         for name, content, words in defects():
             yield Case(f"surface {name}{extension} binary", {file: content}, ["mesh", file, "-o", "tets.vtu", "--vertices", "200"],

@@ -21,6 +21,7 @@ WORDS = r"\b(?:missing\b|[A-Za-z]\w+ \S)"  # that a rule has at least
 RULE = rf"(?![^:=]+ = [^:]*:? ?$)(?=.*?{WORDS}).+"  # no field and value alone
 LINE = re.compile(rf"pbskin: (?:(?P<place>[^:=\n]+)(?::\d+){{0,2}}: )?(?:(?P<field>[^:=\n]+) = (?P<value>.*?): )?(?P<rule>{RULE})")
 USAGE = re.compile(r"pbskin: .+; `pbskin --help` tells the verbs, `pbskin VERB --help` their options")
+NO_NUMBER = r" = (-?(?:nan|inf))\b"
 WORDS_OF_NO_USER = ("json.exception", "basic_string", "std::", "vector::", "filesystem error", "terminate called", "Traceback")
 
 
@@ -136,6 +137,11 @@ def what_is_wrong_with(told, case, common):
         yield "expected the form `FILE[:LINE]: FIELD = VALUE: RULE`"
 
 
+def typed(value, case):
+    """Whether a value that is no number stands in the input; within bytes where the case demands it."""
+    return any(value in str(text) for text in (*case.files.values(), *case.command)) or any(f"= {value}" in word for word in case.says)
+
+
 def problems(case, common):
     """What is wrong with the answer to `case`; empty where all is well. `common` files are there in every case."""
     given = answer(case, common)
@@ -144,6 +150,7 @@ def problems(case, common):
         found += what_is_wrong_with(given.told, case, common)
     if not (SANITIZED and UNLIMITED.search(case.name)):
         found += [f"does not say {word!r}" for word in case.says if word not in given.told]
+    found += [f"says that a value is {value}, which nobody typed" for value in re.findall(NO_NUMBER, given.told) if not typed(value, case)]
     found += [f"says {word!r}" for word in WORDS_OF_NO_USER if word in given.told]
     if case.status == 2 and given.seconds > MOST_SECONDS:
         found.append(f"took {given.seconds:.1f} s of processor time")

@@ -62,8 +62,8 @@ def weights():
            ":9: joint = " + 16 * "elbow" + "...: no such joint; the nearest is 'elbow'")
     yield ("control_characters", WEIGHTS.replace("3,elbow", "3,el\x1b[2Jbow\a", 1),
            ":9: joint = el\\x1b[2Jbow\\x07: no such joint; the nearest is 'elbow'")
-    yield "vertex_out_of_range", WEIGHTS.replace("\n3,elbow", "\n99,elbow", 1), ":9: vertex = 99: expected a vertex, 0 to 44"
-    yield "negative_vertex", WEIGHTS.replace("\n3,elbow", "\n-3,elbow", 1), ":9: vertex = -3: expected a vertex, 0 to 44"
+    yield "vertex_out_of_range", WEIGHTS.replace("\n3,elbow", "\n99,elbow", 1), ":9: vertex = 99: expected a vertex from 0 to 44"
+    yield "negative_vertex", WEIGHTS.replace("\n3,elbow", "\n-3,elbow", 1), ":9: vertex = -3: expected a vertex from 0 to 44"
     yield "vertex_beyond_int", WEIGHTS.replace("\n3,elbow", "\n99999999999999,elbow", 1), ":9: vertex = 99999999999999: expected a vertex"
     yield "joint_twice", WEIGHTS.replace("\n3,elbow", "\n3,shoulder", 1), ":9: joint = shoulder: vertex 3 has this joint already"
     yield "two_fields", WEIGHTS.replace("3,elbow,0.5", "3,elbow", 1), ":9: expected three fields"

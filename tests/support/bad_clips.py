@@ -21,9 +21,9 @@ def gltfs():
     yield "one_frame", gltf_clip(times=(0.0,), turns=(IDENTITY,)), ONE_FRAME
     yield "nan_turn", gltf_clip(turns=(IDENTITY, (NAN, 0, 0, 1), IDENTITY)), NOT_FINITE
     yield "turn_of_no_length", gltf_clip(turns=(IDENTITY, (0, 0, 0, 0), IDENTITY)), "damaged: the reader's answer is not a whole clip"
-    yield "nan_time", gltf_clip(times=(0.0, NAN, 1.0)), TIMES
+    yield "nan_time", gltf_clip(times=(0.0, NAN, 1.0)), "key 1 = nan: " + TIMES
     yield "time_that_goes_back", gltf_clip(times=(0.0, 1.0, 0.5)), TIMES
-    yield "infinite_time", gltf_clip(times=(0.0, 0.5, float("inf"))), TIMES
+    yield "infinite_time", gltf_clip(times=(0.0, 0.5, float("inf"))), "key 2 = inf: " + TIMES
     yield "huge_time", gltf_clip(times=(0.0, 0.5, 1e30)), "expected 1 to 10000000"
     yield "all_at_one_time", gltf_clip(times=(0.0, 0.0, 0.0)), ONE_FRAME
     yield "names_that_do_not_match", gltf_clip(names=("a", "b")), "no joint has the name of a bone (bones: shoulder, elbow)"

@@ -77,7 +77,7 @@ CUT = {".obj": NO_TRIANGLES, ".off": NO_FURTHER.format(4, 4), ".ply": NO_FURTHER
 NOT_FINITE = {".obj": "vertex 0: expected finite coordinates", ".off": NO_FURTHER.format(4, 4), ".ply": NO_FURTHER.format(0, 0),
               ".stl": NO_FURTHER.format(12, 5)}
 BEYOND = {".obj": INDEX, ".off": NO_FURTHER.format(4, 4), ".ply": "face 3 vertex = 9: expected an index from 0 to 3"}
-BELOW = BEYOND | {".ply": "face 3 vertex = 18446744073709551607: expected an index from 0 to 3"}
+BELOW = BEYOND | {".ply": "face 3 vertex = -9: expected an index from 0 to 3"}
 
 
 def soups():
@@ -96,6 +96,8 @@ def soups():
             yield "negative_index" + extension, write(POINTS, NEGATIVE), BELOW[extension]
     for extension in (".obj", ".off", ".gltf"):
         yield "sparse" + extension, sparse, "bytes = 68719476736: expected at most 1073741824"
+    yield "no_points.ply", ply([]), "points = 0: expected at least one point"
+    yield "one_point.ply", ply(POINTS[:1]), "face 0 vertex = 2: expected 0"
     yield "huge_count.off", off(count=4000000000), NO_FURTHER.format(0, 0)
     yield "huge_count.ply", ply(count=4000000000), NO_FURTHER.format(9, 0)
     yield "huge_count.stl", b"\0" * 80 + struct.pack("<I", 4000000000) + b"\0" * 50, NO_FURTHER.format(1, 1)

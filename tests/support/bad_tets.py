@@ -70,9 +70,9 @@ DEFECTS = {
     "corner_twice": (lambda points, tets: tets[2].__setitem__(1, tets[2][0]), {}, both("tet 2 = (5, 5, 6, 21): " + VOLUME)),
     "tet_twice": (lambda points, tets: tets.append(list(tets[0])), {}, both("tet 96 = (0, 1, 6, 21): expected to lie beside tet 0")),
     "beyond_range": (lambda points, tets: scaled(points, 1e300), {}, both("expected within 1e9 m")),
-    "below_range": (lambda points, tets: scaled(points, 1e-300), {}, both("expected at least 1e-9 m")),
+    "below_range": (lambda points, tets: scaled(points, 1e-300), {}, both("e-300: expected at least 1e-9 m")),
     "no_tets": (lambda points, tets: tets.clear(), {}, both("tets = 0: expected at least one tetrahedron")),
-    "no_points": (lambda points, tets: points.clear(), {}, both("expected an index")),
+    "no_points": (lambda points, tets: points.clear(), {}, both("points = 0: expected at least one point")),
     "a_number_of_100000_digits": (set_point(3, "1" * 100000), {},
                                   {".vtk": "Unrecognized keyword: -0.06999999999999999", ".vtu": TOO_SHORT}),
 }
@@ -131,9 +131,11 @@ def tetgen_cases():
              ("bad.node:1: #points = ", "expected a whole number from 0 to 49")),
             ("nan", node.replace("1 0 0 0", "1 nan 0 0"), element, ("bad.ele: ", "vertex 0 = (nan, 0, 0): expected finite")),
             ("truncated", node[:-4], element, ("bad.node:5: point = ", "expected at least 4 numbers")),
-            ("index", node, element.replace("3 4\n", "3 9\n"), ("bad.ele:2: tet vertex = 9", "expected a whole number from 1 to 4")),
+            ("index", node, element.replace("3 4\n", "3 9\n"), ("bad.ele:2: tet vertex = 9: expected a whole number from 1 to 4",)),
             ("two_dimensional", node.replace("4 3", "4 2", 1), element,
-             ("bad.node:1: dimension = 2", "expected a whole number from 3 to 3"))):
+             ("bad.node:1: dimension = 2: expected 3",)),
+            ("no_points", "0 3 0 0\n", element, ("bad.node: points = 0: expected at least one point",)),
+            ("one_point", "1 3 0 0\n1 0 0 0\n", element, ("bad.ele:2: tet vertex = 2: expected 1",))):
         yield Case(f"tets {name}.node", {"bad.node": nodes, "bad.ele": elements}, ["measure", "bad.ele", "bad.ele"], words)
     for kind, make, words in (("folder", os.mkdir, "expected a file"), ("named pipe", os.mkfifo, "expected a file"),
                               ("symlink loop", lambda path: path.symlink_to(path.name), "no such file"),

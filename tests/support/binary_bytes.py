@@ -66,12 +66,22 @@ def views(*parts):
     return found
 
 
-def glb(points, faces, version=2, json_length=None, length=None):
+def surface_document(points, faces, corners_told=None, **buffer):
     arrays = surface_arrays(points, faces)
-    document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-                "accessors": [accessor(0, 5126, len(points), "VEC3"), accessor(1, 5123, 3 * len(faces), "SCALAR")],
-                "bufferViews": views(*arrays), "buffers": [{"byteLength": sum(map(len, arrays))}]}
+    corners = 3 * len(faces) if corners_told is None else corners_told
+    return {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+            "accessors": [accessor(0, 5126, len(points), "VEC3"), accessor(1, 5123, corners, "SCALAR")],
+            "bufferViews": views(*arrays), "buffers": [{"byteLength": sum(map(len, arrays)), **buffer}]}
+
+
+def gltf(points, faces, corners_told=None):
+    uri = "data:application/octet-stream;base64," + base64.b64encode(b"".join(surface_arrays(points, faces))).decode()
+    return json.dumps(surface_document(points, faces, corners_told, uri=uri))
+
+
+def glb(points, faces, version=2, json_length=None, length=None, corners_told=None):
+    arrays, document = surface_arrays(points, faces), surface_document(points, faces, corners_told)
     text, data = json.dumps(document).encode(), b"".join(arrays)
     text, data = text + b" " * (-len(text) % 4), data + b"\0" * (-len(data) % 4)
     chunks = struct.pack("<I", len(text) if json_length is None else json_length) + b"JSON" + text \

@@ -17,7 +17,7 @@ def main(summary):
     lines = json.loads(pathlib.Path(summary).read_text())
     covered, total = lines["line_covered"], lines["line_total"]
     percent = 100.0 * covered / total
-    reliability.tell("coverage", "lines of our own code that the tests run (gcovr)", covered, total, command="./check --long",
+    reliability.tell("coverage", "lines of our own C++ that the tests run (gcovr)", covered, total, command="./check --long",
                      note=f"{percent:.1f} %")
     if percent < least_percent:
         sys.exit(f"{percent:.2f} % of the lines: expected at least {least_percent:g} %")

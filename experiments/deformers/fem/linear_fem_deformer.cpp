@@ -8,7 +8,7 @@
 namespace experiments {
 namespace {
 
-reference_fem::LinearOptions solver_options(const FemOptions& options)
+reference_fem::LinearOptions linear_options(const FemOptions& options)
 {
     return {.element_order = options.element_order,
             .young_pa = options.young_pa,
@@ -25,7 +25,7 @@ void LinearFemDeformer::reset(const pbs::Character& character)
 {
     character_ = &character;
     bones_ = bone_attachment(character, options_);
-    elasticity_ = std::make_unique<reference_fem::LinearElasticity>(character.mesh, solver_options(options_), bones_.attachment);
+    elasticity_ = std::make_unique<reference_fem::LinearElasticity>(character.mesh, linear_options(options_), bones_.attachment);
     record_ = FemRecord(character, options_, bones_, elasticity_->setup().spring_tet);
     frames_not_finite_ = 0;
     largest_residual_ = 0.0;

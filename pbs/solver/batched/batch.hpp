@@ -13,12 +13,15 @@ namespace pbs {
 // Groups in a batch; on machines of fewer lanes it is worked off in parts, so that the order of projection is the same everywhere.
 inline constexpr int batch_size = 16;
 
+// edge: one; edge_wedge: two that share a vertex; edge_triangle: three; edge_tet: the six of a tet; tet: one; tet_fan_2, _3: tets round an
+// edge.
 enum class GroupKind { edge, edge_wedge, edge_triangle, edge_tet, tet, tet_fan_2, tet_fan_3 };
 
 // Which of a group's vertices each of its constraints joins.
 template <GroupKind kind>
 struct GroupShape;
 
+// vertices and constraints: how many; joins: of each constraint, its vertices within the group.
 template <>
 struct GroupShape<GroupKind::edge> {
     static constexpr int vertices = 2, constraints = 1;
@@ -55,6 +58,7 @@ struct GroupShape<GroupKind::tet_fan_3> {
     static constexpr std::array<std::array<int, 4>, 3> joins{{{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 5}}};
 };
 
+// Of stretch constraints; else of volume constraints.
 template <GroupKind kind>
 inline constexpr bool of_edges = kind <= GroupKind::edge_tet;
 
@@ -63,8 +67,8 @@ inline constexpr bool of_edges = kind <= GroupKind::edge_tet;
 template <typename Scalar, GroupKind kind>
 struct alignas(64) Batch {
     std::uint32_t offset[GroupShape<kind>::vertices][batch_size];  // 4 * vertex
-    Scalar rest[GroupShape<kind>::constraints][batch_size];
-    Scalar stiffness[GroupShape<kind>::constraints][batch_size];
+    Scalar rest[GroupShape<kind>::constraints][batch_size];        // l0, or 6 V0
+    Scalar stiffness[GroupShape<kind>::constraints][batch_size];   // k / (w1 + w2), or k
 };
 
 // The bind constraints of sixteen vertices that follow each other.

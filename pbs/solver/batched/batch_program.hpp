@@ -11,17 +11,19 @@ namespace pbs {
 
 // Batches of one kind that follow each other.
 struct BatchRun {
-    GroupKind kind;
-    int count = 0;
+    GroupKind kind;              // which Batch they are
+    int count = 0;               // of batches
     std::size_t first_line = 0;  // where they begin in the program's memory
 };
 
 // What a constraint is told, by its place in its class.
 template <typename Scalar>
 struct ConstraintValues {
-    std::vector<Scalar> rest, stiffness;  // as Batch has them
+    // As Batch has them, one a constraint.
+    std::vector<Scalar> rest, stiffness;  // as Batch has them, one a constraint
 };
 
+// Made once a mesh. Scalar: float or double.
 template <typename Scalar>
 class BatchProgram {
 public:
@@ -31,13 +33,13 @@ public:
     BatchProgram(const std::vector<ConstraintGroup>& groups, const ConstraintValues<Scalar>& values, const VertexOrder& order,
                  int dummy_begin);
 
-    static constexpr int dummies_a_slab = batch_size * largest_group;
+    static constexpr int dummies_a_slab = batch_size * largest_group;  // so that a whole batch of them shares none
 
-    const std::vector<BatchRun>& runs(int slab) const { return runs_[slab]; }  // all of a slab
-    const void* batches(const BatchRun& run) const { return lines_.data() + run.first_line; }
-    std::size_t bytes() const { return lines_.size() * sizeof(CacheLine); }
-    int slabs() const { return static_cast<int>(runs_.size()); }
-    int batches() const { return static_cast<int>(lanes_ / batch_size); }
+    const std::vector<BatchRun>& runs(int slab) const { return runs_[slab]; }                  // all of a slab
+    const void* batches(const BatchRun& run) const { return lines_.data() + run.first_line; }  // Batch<Scalar, run.kind>, run.count of them
+    std::size_t bytes() const { return lines_.size() * sizeof(CacheLine); }                    // of all batches
+    int slabs() const { return static_cast<int>(runs_.size()); }                               // of the mesh
+    int batches() const { return static_cast<int>(lanes_ / batch_size); }                      // of all slabs
 
     // f(vertices in the new order, rest, stiffness) of every constraint in the order of projection: even slabs, then odd ones; of each
     // batch the first constraint of every lane, then the second. Sixteen in a row share no vertex.

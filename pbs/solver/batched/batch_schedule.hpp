@@ -8,8 +8,10 @@
 
 namespace pbs {
 
+// Remembers from one kind to the next which batch touched a vertex last.
 class BatchScheduler {
 public:
+    // vertices: #V of the mesh.
     explicit BatchScheduler(int vertices) : uses_(vertices, 0), last_batch_(vertices, never) {}
 
     // groups: of one kind. Returns indices into `groups`, at most batch_size a batch, in the order given; of the last quarter the groups at

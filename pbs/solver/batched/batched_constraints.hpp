@@ -6,15 +6,18 @@
 
 namespace pbs {
 
+// Scalar: float or double.
 template <typename Scalar>
 struct BatchedConstraints {
-    VertexOrder order;
+    VertexOrder order;    // where the mesh's vertices lie
     int dummy_begin = 0;  // dummy vertices follow the mesh's, from a whole batch on; see BatchProgram
-    BatchProgram<Scalar> stretch, volume;
+    // Of edges; empty where the class is left out.
+    BatchProgram<Scalar> stretch, volume;  // of tets, likewise
 
-    int vertices() const { return static_cast<int>(order.old_of_new.size()); }
+    int vertices() const { return static_cast<int>(order.old_of_new.size()); }  // #V of the mesh, dummies not counted
 };
 
+// order: ordered or grouped.
 template <typename Scalar>
 BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets, Order order);
 

@@ -13,9 +13,11 @@
 
 namespace pbs {
 
+// As Projection says. Of the options it reads order, threads and sleep.
 template <typename Scalar>
 class BatchedProjection : public Projection<Scalar> {
 public:
+    // tets: those whose edges may be grouped, constrained or not.
     BatchedProjection(const ConstraintSet<Scalar>& constraints, const Tets& tets, const PbsOptions& options);
 
     void load(const Positions& p, const Positions& q, const Vec3& origin) override;
@@ -29,9 +31,9 @@ public:
     int wake(const SleepTolerance& tolerance) override;
     double sleeping_share() const override;
 
-    std::size_t bytes_an_iteration() const;  // constraint data once, positions read and written in each class
-    double stretch_fill() const { return batched_.stretch.fill(); }
-    double volume_fill() const { return batched_.volume.fill(); }
+    std::size_t bytes_an_iteration() const;                          // constraint data once, positions read and written in each class
+    double stretch_fill() const { return batched_.stretch.fill(); }  // share of lanes that have a group
+    double volume_fill() const { return batched_.volume.fill(); }    // likewise
 
 private:
     struct alignas(64) Block {  // sixteen vertices of x, y, z, w

@@ -13,21 +13,22 @@ namespace pbs {
 
 inline constexpr int largest_group = 6;  // of vertices and of constraints
 
+// What one lane projects.
 struct ConstraintGroup {
-    GroupKind kind;
+    GroupKind kind;                             // says how many entries of the arrays count
     std::array<int, largest_group> vertex;      // as GroupShape<kind> counts them
     std::array<int, largest_group> constraint;  // index into the class, as GroupShape<kind>::joins; -1: there is none
 };
 
-int vertices_of(GroupKind kind);
-int constraints_of(GroupKind kind);
+int vertices_of(GroupKind kind);     // GroupShape<kind>::vertices
+int constraints_of(GroupKind kind);  // GroupShape<kind>::constraints
 
 // edges: vertices of each stretch constraint. tets: of each volume constraint.
 std::vector<ConstraintGroup> single_edges(const std::vector<std::array<int, 2>>& edges);
-std::vector<ConstraintGroup> single_tets(const std::vector<std::array<int, 4>>& tets);
+std::vector<ConstraintGroup> single_tets(const std::vector<std::array<int, 4>>& tets);  // one group each, in the order given
 
 // mesh_tets: any tets whose edges may be grouped, constrained or not.
 std::vector<ConstraintGroup> grouped_edges(const std::vector<std::array<int, 2>>& edges, const Tets& mesh_tets);
-std::vector<ConstraintGroup> grouped_tets(const std::vector<std::array<int, 4>>& tets);
+std::vector<ConstraintGroup> grouped_tets(const std::vector<std::array<int, 4>>& tets);  // every tet in one group
 
 }  // namespace pbs

@@ -14,16 +14,20 @@
 
 namespace pbs {
 
+// A register of numbers.
 template <typename Scalar>
 using Lanes = std::experimental::native_simd<Scalar>;
+// How many: 4 to 16 in float, 2 to 8 in double on x86-64.
 template <typename Scalar>
 inline constexpr int lanes = static_cast<int>(Lanes<Scalar>::size());
 
+// Positions [m] and inverse masses w.
 template <typename Scalar>
 struct Vertices {
-    Lanes<Scalar> x, y, z, w;
+    Lanes<Scalar> x, y, z, w;  // w: inverse mass
 };
 
+// `from` is aligned to a whole register.
 template <typename Scalar>
 [[gnu::always_inline]] inline Lanes<Scalar> load(const Scalar* from)
 {
@@ -32,9 +36,11 @@ template <typename Scalar>
 
 namespace simd_detail {
 
+// `count` numbers, as the compiler's own vectors hold them.
 template <typename Scalar, int count>
 using Vector [[gnu::vector_size(count * sizeof(Scalar)), gnu::may_alias]] = Scalar;
 
+// A register as a vector of the compiler.
 template <typename Scalar>
 using Row = Vector<Scalar, lanes<Scalar>>;
 
@@ -56,6 +62,7 @@ struct HighHalves {
     static constexpr int at(int i) { return LowHalves<width>::at(i) + 2; }
 };
 
+// (a, b) by the pattern: element i is Pattern::at(i).
 template <template <int> typename Pattern, typename V, std::size_t... i>
 [[gnu::always_inline]] inline V shuffled(V a, V b, std::index_sequence<i...>)
 {
@@ -105,6 +112,7 @@ template <typename Scalar>
 #endif
 }
 
+// Numbers 4 which .. 4 which + 3.
 template <int which, typename Scalar>
 [[gnu::always_inline]] inline Vector<Scalar, 4> block(Row<Scalar> row)
 {
@@ -118,6 +126,7 @@ template <int which, typename Scalar>
     return __builtin_shufflevector(row, row, i, i + 1, i + 2, i + 3);
 }
 
+// A row's blocks to the vertices that row() took them from.
 template <typename Scalar, std::size_t... blocks>
 [[gnu::always_inline]] inline void store_row(const Row<Scalar>& row, Scalar* vertices, const std::uint32_t* offset,
                                              std::index_sequence<blocks...>)
@@ -143,6 +152,7 @@ template <typename Scalar>
     }
 }
 
+// Back to where gather takes them from, w with them. No two offsets are equal.
 template <typename Scalar>
 [[gnu::always_inline]] inline void scatter(const Vertices<Scalar>& from, Scalar* vertices, const std::uint32_t* offset)
 {

@@ -10,25 +10,28 @@ inline constexpr int poses_a_block = 16;
 
 // Which of a pose's stiffnesses a constraint has.
 enum class StiffnessOf : std::uint32_t { stretch, jiggling_stretch, volume };
-inline constexpr int stiffness_classes = 3;
+inline constexpr int stiffness_classes = 3;  // values of StiffnessOf
 
+// Of all poses, but for its stiffness.
 template <typename Scalar>
 struct PoseEdge {
-    std::uint32_t vertex[2];
-    StiffnessOf stiffness;
-    Scalar rest_length;  // [m]
-    Scalar w[2];         // inverse masses
-    Scalar one_over_w;   // 1 / (w1 + w2), zero where both are pinned
+    std::uint32_t vertex[2];  // in the new order
+    StiffnessOf stiffness;    // of each pose
+    Scalar rest_length;       // [m]
+    Scalar w[2];              // inverse masses
+    Scalar one_over_w;        // 1 / (w1 + w2), zero where both are pinned
 };
 
+// Likewise.
 template <typename Scalar>
 struct PoseTet {
-    std::uint32_t vertex[4];
-    StiffnessOf stiffness;
-    Scalar six_rest_volume;  // [m^3]
-    Scalar w[4];
+    std::uint32_t vertex[4];  // in the new order
+    StiffnessOf stiffness;    // of each pose
+    Scalar six_rest_volume;   // [m^3]
+    Scalar w[4];              // inverse masses
 };
 
+// Of one vertex in all poses.
 template <typename Scalar>
 struct PoseBind {
     Scalar rest_distance;  // [m]

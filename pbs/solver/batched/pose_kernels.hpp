@@ -8,8 +8,10 @@
 
 namespace pbs {
 
+// Eq. 10, edge by edge.
 template <typename Scalar>
 void project_pose_edges(const PoseEdge<Scalar>* edges, std::size_t count, const Scalar* stiffness, Scalar* poses);
+// Eq. 11, tet by tet.
 template <typename Scalar>
 void project_pose_tets(const PoseTet<Scalar>* tets, std::size_t count, const Scalar* stiffness, Scalar* poses);
 // bind_points: q_i like poses; k_bind: of every pose. Vertex i has constraint i.

@@ -11,9 +11,9 @@ namespace pbs {
 // What all poses share: the constraints, one after the other, in the order of projection.
 template <typename Scalar>
 struct PoseProgram {
-    VertexOrder order;
-    std::vector<PoseEdge<Scalar>> edges;
-    std::vector<PoseTet<Scalar>> tets;
+    VertexOrder order;                    // where the mesh's vertices lie
+    std::vector<PoseEdge<Scalar>> edges;  // in the order that PbsSolver would take
+    std::vector<PoseTet<Scalar>> tets;    // likewise
     std::vector<PoseBind<Scalar>> binds;  // of each vertex; empty: no bind constraints
 };
 
@@ -31,11 +31,11 @@ public:
 
     // As Projection's, of the pose in a lane.
     void load(int lane, const Positions& p, const Positions& q, const Vec3& origin);
-    void store(int lane, const Vec3& origin, Positions& p) const;
+    void store(int lane, const Vec3& origin, Positions& p) const;  // likewise
 
-    void project_bind_constraints();
-    void project_stretch_constraints();
-    void project_volume_constraints();
+    void project_bind_constraints();     // line 11, in all lanes
+    void project_stretch_constraints();  // line 12
+    void project_volume_constraints();   // line 13
 
 private:
     struct alignas(64) Row {  // a coordinate, or a stiffness, of every pose

@@ -10,15 +10,17 @@
 
 namespace pbs {
 
+// Scalar: float or double.
 template <typename Scalar>
 class PosesAlgorithm1 {
 public:
     // See PosesSolver, which has checked the options.
     PosesAlgorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
                     const std::vector<PbsOptions>& options, const std::vector<bool>& held);
+    // See PosesSolver::advance.
     std::vector<StepSummary> advance(const std::vector<Positions>& lbs_positions, const std::vector<Positions>& bind_points, double dt_s);
 
-    const Positions& positions(int pose) const { return particles_[pose].positions(); }
+    const Positions& positions(int pose) const { return particles_[pose].positions(); }  // [m], #V x 3
 
 private:
     void project_block(std::size_t block, const std::vector<Positions>& bind_points);

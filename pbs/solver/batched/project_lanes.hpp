@@ -8,6 +8,7 @@
 
 namespace pbs {
 
+// A vector in every lane.
 template <typename Scalar>
 struct LaneVector {
     Lanes<Scalar> x, y, z;
@@ -37,6 +38,7 @@ template <typename Scalar>
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+// p += factor * g; w stays.
 template <typename Scalar>
 [[gnu::always_inline]] inline void add(const Lanes<Scalar>& factor, const LaneVector<Scalar>& g, Vertices<Scalar>& p)
 {

@@ -11,12 +11,14 @@
 
 namespace pbs {
 
+// old: the mesh's numbers of vertices; new: where they lie.
 struct VertexOrder {
+    // #V, either the other's inverse.
     std::vector<int> old_of_new, new_of_old;  // #V
     std::vector<int> slab_begin;              // first vertex of each slab, in the new order; #slabs + 1
 
-    int slabs() const { return static_cast<int>(slab_begin.size()) - 1; }
-    std::vector<int> slab_of_new() const;  // #V
+    int slabs() const { return static_cast<int>(slab_begin.size()) - 1; }  // #slabs
+    std::vector<int> slab_of_new() const;                                  // #V
 };
 
 // A slab has at least `vertices_a_slab` vertices, the first of several half as many, so that where the middle of a body is,

@@ -9,6 +9,7 @@ import subprocess
 import unittest
 
 import foreign_arm
+import limb_alone
 import program
 import reliability
 import run_records
@@ -93,13 +94,24 @@ class SameRecords(program.ProgramTest):
         self.expect_same(first, self.run_once(*short))
         self.expect_same(first, self.run_once(*short, "--threads", 4), but_threads=True)
 
+    def records_of_jobs(self, jobs, study, before=()):
+        """Of a study by so many runs at a time."""
+        folder = self.path(f"{study}_{jobs}")
+        subprocess.run([*before, program.PBSKIN, "reproduce", study, "-j", str(jobs), "-o", folder], check=True, capture_output=True)
+        return run_records.records(folder)
+
     def test_runs_side_by_side(self):
-        records = {}
-        for jobs in (1, 2, 4) if LONG else (1, 4):
-            self.succeeds("reproduce", "momentum", "-j", jobs, "-o", self.path(f"j{jobs}"))
-            records[jobs] = run_records.records(self.path(f"j{jobs}"))
-        for jobs, of in records.items():
-            self.assertEqual(of, records[1], jobs)
+        for study, before in (("momentum", []), ("frames", limb_alone.before())):
+            alone = self.records_of_jobs(1, study, before)
+            first = limb_alone.state_hashes(alone)
+            self.assertEqual("frames/limb_twist/run.json pbs" in first, study == "frames")  # the others have figures alone
+            for jobs in (2, 4) if LONG else (4,):
+                with self.subTest(study=study, jobs=jobs):
+                    records = self.records_of_jobs(jobs, study, before)
+                    second = limb_alone.state_hashes(records)
+                    type(self).compared += len(first)
+                    type(self).equal += sum(second.get(label) == state for label, state in first.items())
+                    self.assertEqual(records, alone)
 
 
 if __name__ == "__main__":

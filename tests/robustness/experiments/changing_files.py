@@ -12,6 +12,7 @@ import unittest
 import bad_case
 import bad_characters
 import bad_surfaces
+import foreign_arm
 import input_cases
 import run_records
 from bad_tets import NOISE
@@ -21,6 +22,8 @@ CUTS = (0, 1 / 3, 1 / 2)
 RUN = ["--set", "output.frames_every=2", "-o", "out"]
 READ = {"x.vtu": (input_cases.COMMON["arm.vtu"], ["measure", "x.vtu", "x.vtu", "--csv", "out/figures.csv"]),
         "x.obj": (bad_surfaces.obj(200 * bad_surfaces.POINTS), ["mesh", "x.obj", "-o", "out/t.vtu", "--vertices", "150"]),
+        "y.vtu": (input_cases.COMMON["arm.vtu"], ["run", "arm.toml", *RUN, "--set", "character.mesh=y.vtu"]),
+        "y.skeleton.toml": (foreign_arm.SKELETON, ["run", "arm.toml", *RUN, "--set", "character.skeleton=y.skeleton.toml"]),
         "x.bvh": (input_cases.COMMON["good.bvh"], ["run", "clip.toml", *RUN, "--set", "motion.clip=x.bvh"]),
         "x.csv": (bad_characters.WEIGHTS, ["run", "arm.toml", *RUN, "--set", "skinning.weights=x.csv"]),
         "x.toml": (input_cases.COMMON["arm.toml"], ["run", "x.toml", *RUN])}

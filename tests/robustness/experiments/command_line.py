@@ -45,6 +45,15 @@ class CommandLine(program.ProgramTest):
     def test_explains_scene_keys(self):
         self.assertIn("0 leaves the class out", self.succeeds("explain", "k_volume").stdout)
 
+    def test_explains_how_each_measured_figure_comes_about(self):
+        claims = [line.split()[0] for line in self.succeeds("list", "claims").stdout.splitlines() if line.startswith("  C")]
+        texts = {claim: self.succeeds("explain", claim).stdout for claim in claims}
+        measured = [claim for claim, text in texts.items() if "its interval within the bound" in text]
+        self.assertGreaterEqual(len(measured), 11)
+        self.assertEqual([claim for claim in measured if "\n  formula " not in texts[claim]], [])
+        self.assertEqual(self.succeeds("explain", "damping ratio").stdout, texts["C09"])
+        self.assertEqual(self.succeeds("explain", "volume_loss_pct").stdout, texts["C01"])
+
     def test_explains_a_formula_with_its_symbols_within_the_terminals_width(self):
         text = self.succeeds("explain", "error_joint_pct", env={**os.environ, "COLUMNS": "100"}).stdout
         self.assertIn("  formula   100 sqrt(sum_i m_i |x_i - xref_i|^2 / sum_i m_i) / (sum_i m_i d_i / sum_i m_i)\n            x_i: ", text)
@@ -147,9 +156,11 @@ class CommandLine(program.ProgramTest):
         self.assertNotIn("libpbskin_fem", loaded)
 
     def test_interrupt_keeps_whole_files(self):
-        process = subprocess.Popen([program.PBSKIN, "run", self.scene, "-o", self.path("out"), "--set", "motion.frames=100000"],
-                                   stderr=subprocess.PIPE, text=True)
-        time.sleep(1.0)
+        process = subprocess.Popen([program.PBSKIN, "run", self.scene, "-o", self.path("out"), "--set", "motion.frames=100000",
+                                    "--set", "output.frames_every=1"], stderr=subprocess.PIPE, text=True)
+        frame, deadline = self.path("out", "frames", "pbs_000001.vtu"), time.monotonic() + 60
+        while not os.path.exists(frame) and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.05)
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, errors)

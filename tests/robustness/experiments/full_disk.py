@@ -77,7 +77,7 @@ class FullDisk(program.ProgramTest):
         frames = self.refused_at_every_size()
         self.assertEqual(set(frames), {".vtu"})  # they come first and are the largest
         count = len(tables + frames)
-        reliability.tell("full_disk", "sizes of a full disk: the file named, nothing half-written", count, count)
+        reliability.tell("full_disk", "limits on a file's size: the file named, nothing half-written", count, count)
 
     def test_a_study_goes_on_where_there_is_room_again(self):
         whole, folder = pathlib.Path(self.path("whole")), pathlib.Path(self.path("out"))
@@ -137,6 +137,7 @@ class FullDisk(program.ProgramTest):
         self.expect_refused(program.run("run", self.scene, "-o", disk / "out"), disk)
         subprocess.run(["mount", "-o", "remount,size=16m", disk], check=True)
         self.succeeds("run", self.scene, "-o", disk / "out")
+        reliability.tell("full_disk_mounted", "a disk that fills up under `run` (tmpfs): the same, and finished once there is room", 1, 1)
 
 
 if __name__ == "__main__":

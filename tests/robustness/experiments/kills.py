@@ -1,5 +1,6 @@
 """Killed at any moment, by any signal, once or several times: what lies there is whole, nothing of the program goes on, and --resume ends
-with the records of a run that nobody killed. Truth: those records; the exit status in README; /proc. Moments come from PBS_KILL_SEED."""
+with the records and the state hashes of a run that nobody killed. Truth: those records; the exit status in README; /proc. Moments come from
+PBS_KILL_SEED."""
 import itertools
 import os
 import pathlib
@@ -10,6 +11,7 @@ import subprocess
 import time
 import unittest
 
+import limb_alone
 import program
 import reliability
 import run_records
@@ -17,7 +19,7 @@ import run_records
 LONG = bool(os.environ.get("PBS_LONG"))
 SEED = int(os.environ.get("PBS_KILL_SEED", "2014"))
 STUDIES = ["momentum", "jiggle"] if LONG else ["momentum"]  # the limb and the human, in both
-KILLS = 20 if LONG else 3
+KILLS = 10 if LONG else 2  # at least, of the studies and of the scenes' runs
 SIGNALS = [signal.SIGKILL, signal.SIGINT, signal.SIGTERM]
 AIMS = ["parent", "child", "group"]
 QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
@@ -60,15 +62,36 @@ def send(process, kill, aim, chance):
     return "parent"
 
 
+def is_pbskin(process):
+    try:
+        return os.path.samefile(f"/proc/{process.pid}/exe", program.PBSKIN)
+    except OSError:  # it ended
+        return False
+
+
 class Kills(program.ProgramTest):
+    kills = survived = hashes = 0
+
+    @classmethod
+    def tearDownClass(cls):
+        reliability.tell("kills", "kills survived: whole files, no process left, the same records and state hashes after --resume",
+                         cls.survived, cls.kills, note=f"seed {SEED}, {cls.hashes:,} state hashes compared")
+
     def setUp(self):
         super().setUp()
-        self.chance, self.survived = random.Random(SEED), 0
+        self.chance = random.Random(SEED)
         self.ways = list(itertools.product(SIGNALS, AIMS))
         self.chance.shuffle(self.ways)
 
     def command(self, folder, *more):
-        return [program.PBSKIN, "reproduce", *STUDIES, "-o", str(folder), "-j", "2", *more]
+        return [*self.before, program.PBSKIN, "reproduce", *self.studies, "-o", str(folder), "-j", "2", *more]
+
+    def begin(self, folder):
+        """The process, where it is pbskin."""
+        process = subprocess.Popen(self.command(folder, "--resume"), start_new_session=True, **QUIET)
+        while process.poll() is None and not is_pbskin(process):
+            time.sleep(0.001)
+        return process
 
     def expect_nothing_goes_on(self, session):
         deadline = time.monotonic() + 1  # less than a run takes
@@ -94,7 +117,7 @@ class Kills(program.ProgramTest):
     def kill_once(self, folder, seconds):
         """Whether that hit it at work; a resumed run keeps what the last one finished."""
         (kill, aim), moment = self.ways[0], self.chance.uniform(0.02, seconds)
-        process = subprocess.Popen(self.command(folder, "--resume"), start_new_session=True, **QUIET)
+        process = self.begin(folder)
         try:
             process.wait(moment)
         except subprocess.TimeoutExpired:
@@ -102,32 +125,43 @@ class Kills(program.ProgramTest):
             hit = send(process, kill, aim, self.chance)
             status = process.wait(60)
             if status == 0:  # it was done before the signal came, or the child that it met was
-                self.assertTrue((folder / "claims.json").exists())
+                self.assertEqual(run_records.records(folder), self.undisturbed)
                 return False
             with self.subTest(kill=kill.name, hit=hit, moment_s=round(moment, 3), seed=SEED):
                 self.expect_status(status, kill, hit, folder)
                 self.expect_nothing_goes_on(process.pid)
                 self.expect_whole(folder, temporaries_allowed=kill == signal.SIGKILL)
-                self.survived += 1
+                type(self).survived += 1
             return True
         return False
 
-    def test_killed_and_resumed(self):
+    def kill_and_resume(self, studies, before=()):
+        """State hashes of the undisturbed run; those of every other were the same."""
+        self.studies, self.before = studies, before
         whole = pathlib.Path(self.path("whole"))
         start = time.monotonic()
         subprocess.run(self.command(whole), check=True, **QUIET)
         seconds = time.monotonic() - start
-        undisturbed = run_records.records(whole)
-        self.assertGreater(len(undisturbed), 5)
+        self.undisturbed = run_records.records(whole)
+        self.assertGreater(len(self.undisturbed), 5)
         folder, kills = pathlib.Path(self.path("killed")), 0
         while kills < KILLS:
             shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir()
             kills += sum(self.kill_once(folder, seconds) for _ in range(self.chance.choice([1, 2, 3])))
             subprocess.run(self.command(folder, "--resume"), check=True, **QUIET)
-            self.assertEqual(run_records.records(folder), undisturbed)
-        reliability.tell("kills", "kills survived: whole files, no process left, the same records after --resume", self.survived, kills,
-                         note=f"seed {SEED}")
+            resumed = run_records.records(folder)
+            self.assertEqual(resumed, self.undisturbed)
+            type(self).hashes += len(limb_alone.state_hashes(resumed))
+        type(self).kills += kills
+        return limb_alone.state_hashes(self.undisturbed)
+
+    def test_studies_of_the_limb_and_the_human(self):
+        self.kill_and_resume(STUDIES)
+
+    def test_whole_runs_of_scenes(self):
+        hashes = self.kill_and_resume(["frames"], limb_alone.before())
+        self.assertIn("frames/limb_twist/run.json pbs", hashes)
 
 
 class KilledReport(program.ProgramTest):

@@ -1,5 +1,5 @@
 """A study that is killed goes on where it was: runs that ended are kept as they are, the others are done, and the records are those of a
-study that nobody killed. Truth: files' own times, and the records of an undisturbed run."""
+study that nobody killed, state hashes among them. Truth: files' own times, and the records of an undisturbed run."""
 import json
 import os
 import pathlib
@@ -8,28 +8,31 @@ import subprocess
 import time
 import unittest
 
+import limb_alone
 import program
+import run_records
 
 RUNS = ["limb", "human"]
 
 
 class ResumedStudy(program.ProgramTest):
-    def command(self, results, *more):
-        return [program.PBSKIN, "reproduce", "momentum", "-o", str(results), "-j", "1", *more]
+    def command(self, results, *more, study="momentum"):
+        return [program.PBSKIN, "reproduce", study, "-o", str(results), "-j", "1", *more]
 
-    def kill_after_first_run(self, results):
-        process = subprocess.Popen(self.command(results), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+    def kill_after_first_run(self, command, study):
+        """The record of the run that ended."""
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
         deadline = time.monotonic() + 120
-        while not (results / "momentum" / RUNS[0] / "run.json").exists() and time.monotonic() < deadline:
+        while not (ended := list(study.glob("*/run.json"))) and time.monotonic() < deadline:
             time.sleep(0.002)
         os.killpg(process.pid, signal.SIGKILL)
         process.wait()
+        return ended[0]
 
     def test_killed_and_resumed(self):
         whole, killed = pathlib.Path(self.path("whole")), pathlib.Path(self.path("killed"))
         subprocess.run(self.command(whole), check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        self.kill_after_first_run(killed)
-        first = killed / "momentum" / RUNS[0] / "run.json"
+        first = self.kill_after_first_run(self.command(killed), killed / "momentum")
         ended = first.stat()
         self.assertFalse((killed / "claims.json").exists())
         said = subprocess.run(self.command(killed, "--resume"), check=True, capture_output=True, text=True).stderr
@@ -39,6 +42,17 @@ class ResumedStudy(program.ProgramTest):
             path = pathlib.Path("momentum") / run / "measurements.csv"
             self.assertEqual((killed / path).read_text(), (whole / path).read_text())
         self.assertEqual((killed / "claims.json").read_text(), (whole / "claims.json").read_text())
+
+    def test_whole_runs_of_scenes(self):
+        whole, killed = pathlib.Path(self.path("whole")), pathlib.Path(self.path("killed"))
+        by_itself, to_kill = ([*limb_alone.before(), *self.command(results, study="frames")] for results in (whole, killed))
+        subprocess.run(by_itself, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        first = self.kill_after_first_run(to_kill, killed / "frames")
+        ended = first.stat()
+        subprocess.run([*to_kill, "--resume"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.assertEqual((first.stat().st_mtime_ns, first.stat().st_ino), (ended.st_mtime_ns, ended.st_ino))
+        self.assertEqual(run_records.records(killed), run_records.records(whole))
+        self.assertIn("frames/limb_twist/run.json pbs", limb_alone.state_hashes(run_records.records(killed)))
 
     def test_a_kept_breakdown_counts(self):
         results = pathlib.Path(self.path("whole"))

@@ -1,5 +1,6 @@
-"""The steps of .github/workflows/volume.yml do what they say: those of pbskin are run in a folder of their own, those that build name
-functions, presets and targets that there are. Truth: the file itself."""
+"""The steps of .github/workflows/volume.yml, and of the example for another repository, do what they say: those of pbskin are run in a
+folder of their own, by the shell of a container's job, those that build name functions, presets and targets that there are. Truth: the
+files themselves."""
 import json
 import os
 import pathlib
@@ -12,12 +13,14 @@ import program
 
 SOURCE = pathlib.Path(program.SOURCE)
 WORKFLOW = SOURCE / ".github" / "workflows" / "volume.yml"
+ELSEWHERE = SOURCE / ".github" / "examples" / "volume_elsewhere.yml"
+SHELL = ["sh", "-e", "-c"]
 
 
-def steps():
+def steps(workflow=WORKFLOW):
     """The script of each step that has one, by its name: `run: COMMAND`, or `run: |` and the lines that stand deeper."""
     found, name, block = {}, None, None
-    for line in WORKFLOW.read_text(encoding="utf-8").splitlines():
+    for line in workflow.read_text(encoding="utf-8").splitlines():
         depth = len(line) - len(line.lstrip())
         if block is not None and depth > block:
             found[name] += line.strip() + "\n"
@@ -31,30 +34,45 @@ def steps():
     return found
 
 
-class VolumeWorkflow(program.ProgramTest):
-    def test_every_step_is_a_script(self):
-        self.assertEqual(list(steps()), ["Certificates and git", "Build", "Hold the bounds", "Measure written frames"])
-        for name, script in steps().items():
-            subprocess.run(["bash", "-n", "-c", script], check=True)
+class WorkflowTest(program.ProgramTest):
+    def expect_steps(self, workflow, *names):
+        self.assertEqual(list(steps(workflow)), list(names))
+        for name, script in steps(workflow).items():
             self.assertTrue(script, name)
+            subprocess.run(["sh", "-n", "-c", script], check=True)
+
+    def expect_what_there_is(self, packages, build):
+        self.assertIn("provide_packages()", (SOURCE / re.search(r"source (\S+)", packages)[1]).read_text(encoding="utf-8"))
+        presets = json.loads((SOURCE / "CMakePresets.json").read_text(encoding="utf-8"))["configurePresets"]
+        self.assertIn(re.search(r"--preset (\S+)", build)[1], [preset["name"] for preset in presets])
+        options = re.findall(r"-D(\w+)=", build)
+        self.assertTrue(options)
+        for option in options:
+            self.assertIn(f"option({option} ", (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8"))
+
+    def write_script(self, text, *place):
+        os.makedirs(self.path(*place[:-1]), exist_ok=True)
+        with open(self.path(*place), "w", encoding="utf-8") as file:
+            file.write("#!/bin/sh\n" + text)
+        os.chmod(self.path(*place), 0o755)
+
+    def act(self, script, environment):
+        return subprocess.run([*SHELL, script], cwd=self.folder, env=environment, capture_output=True, text=True, timeout=120)
+
+
+class VolumeWorkflow(WorkflowTest):
+    def test_every_step_is_a_script(self):
+        self.expect_steps(WORKFLOW, "Certificates and git", "Build", "Hold the bounds", "Measure written frames")
 
     def test_the_build_names_what_there_is(self):
-        script = steps()["Build"]
-        self.assertIn("provide_packages()", (SOURCE / re.search(r"source (\S+)", script)[1]).read_text(encoding="utf-8"))
-        presets = json.loads((SOURCE / "CMakePresets.json").read_text(encoding="utf-8"))["configurePresets"]
-        self.assertIn(re.search(r"--preset (\S+)", script)[1], [preset["name"] for preset in presets])
+        self.expect_what_there_is(steps()["Build"], steps()["Build"])
 
     def test_the_steps_of_pbskin_run(self):
-        os.makedirs(self.path("build", "release", "bin"))
-        with open(self.path("build", "release", "bin", "pbskin"), "w", encoding="utf-8") as file:
-            file.write('#!/bin/sh\nexec "%s" "$@"\n' % program.PBSKIN)
-        os.chmod(self.path("build", "release", "bin", "pbskin"), 0o755)
+        self.write_script(f'exec "{program.PBSKIN}" "$@"\n', "build", "release", "bin", "pbskin")
         environment = {**os.environ, "GITHUB_ACTIONS": "true", "GITHUB_STEP_SUMMARY": self.path("summary.md")}
         status = {}
         for name in ("Hold the bounds", "Measure written frames"):
-            process = subprocess.run(["bash", "-e", "-c", steps()[name]], cwd=self.folder, env=environment, capture_output=True, text=True,
-                                     timeout=120)
-            status[name] = process.returncode
+            status[name] = self.act(steps()[name], environment).returncode
         report = self.path("results", "volume.xml")
         other_meshes = check_records.scenes_of_another_mesh(self.path("results", "check"))  # another CGAL's: their baselines must tell
         failed = check_records.failed(report)
@@ -62,6 +80,34 @@ class VolumeWorkflow(program.ProgramTest):
         self.assertEqual(status, {"Hold the bounds": 1 if failed else 0, "Measure written frames": 0})
         self.assertEqual(check_records.failed(self.path("results", "frames.xml")), set())
         self.assertIn("### pbskin:", self.read("summary.md"))
+
+
+class ElsewhereWorkflow(WorkflowTest):
+    EXPORT = """set -e
+"{pbskin}" run limb_twist -o run --quiet --set 'deformers.use=["{deformer}"]' --set reference.name= --set motion.frames=3 \\
+    --set motion.angle_deg=150 --set output.frames_every=1
+mkdir -p "$1"
+for i in 0 1 2; do cp "run/frames/{deformer}_00000$i.vtu" "$1/frame_000$i.vtu"; done
+cp "$1/frame_0000.vtu" "$1/rest.vtu"
+"""
+
+    def test_every_step_is_a_script(self):
+        self.expect_steps(ELSEWHERE, "Certificates and git", "Packages", "Build", "Export frames", "Hold the bounds")
+
+    def test_the_build_names_what_there_is(self):
+        self.expect_what_there_is(steps(ELSEWHERE)["Packages"], steps(ELSEWHERE)["Build"])
+
+    def test_frames_within_and_beyond_the_bounds(self):
+        """A limb twisted by 150 degrees, by the paper's method and by linear blend skinning (C01, C02)."""
+        self.write_script(f'exec "{program.PBSKIN}" "$@"\n', "pbskin", "build", "release", "bin", "pbskin")
+        for deformer, status in (("pbs", 0), ("lbs", 1)):
+            with self.subTest(deformer):
+                self.write_script(self.EXPORT.format(pbskin=program.PBSKIN, deformer=deformer), "EXPORT_FRAMES")
+                for name in ("Export frames", "Hold the bounds"):
+                    process = self.act(steps(ELSEWHERE)[name], os.environ)
+                    self.assertEqual(process.returncode, status if name == "Hold the bounds" else 0, process.stdout + process.stderr)
+                failed = check_records.failed(self.path("results", "frames.xml"))
+                self.assertEqual(bool(failed), status == 1, failed)
 
 
 if __name__ == "__main__":

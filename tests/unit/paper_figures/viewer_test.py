@@ -85,7 +85,8 @@ class Viewer(unittest.TestCase):
         runs = [{"label": label, "options": set_to} for label, set_to in options.items()] + [{"label": "lbs"}]
         recorded = types.SimpleNamespace(run=types.SimpleNamespace(record={"scene": {"runs": runs}}))
         self.assertEqual([viewer_data.title_of(recorded, label) for label in ("lbs", *options)],
-                         ["LBS", "PBS", "PBS, k_stretch 1, zone 0.1", "PBS, k_stretch 1, no zone", "PBS, no start from LBS", "FEM, neo-Hookean P1"])
+                         ["LBS", "PBS", "PBS, k_stretch 1, zone 0.1", "PBS, k_stretch 1, no zone", "PBS, no start from LBS",
+                          "FEM, neo-Hookean P1"])
 
     def test_the_limb_has_no_surface_but_its_tets(self):
         self.assertIsNone(self.unpacked()[0]["surface"])

@@ -187,7 +187,7 @@ TEST(DamagedMesh, TetGenErrorsNameFileLineFieldAndValue)
         folder.file("a.node", n);
         expect_refused(folder.file("a.ele", e), words);
     };
-    read(node, "1 4 0\n0 0 1 2 4\n", "a.ele:2: tet vertex = 4.000000: expected a whole number from 0 to 3");
+    read(node, "1 4 0\n0 0 1 2 4\n", "a.ele:2: tet vertex = 4: expected a whole number from 0 to 3");
     read(node, "1 4 0\n", "a.ele:1: tet: truncated");
     read(node, "1 10 0\n0 0 1 2 3 4 5 6 7 8 9\n", "a.ele:1: nodes per tet");
     read(node, "9999999999 4 0\n", "a.ele:1: #tets");

@@ -78,19 +78,41 @@ class SweepFile(unittest.TestCase):
         sweep = self.read(text)
         return [run.name for run in sweep.runs], sweep.files
 
-    def test_files_that_the_scene_names_are_in_the_names(self):
-        folder = self.file.parent
-        (folder / "arm.toml").write_text('[character]\nmesh = "arm.ele"\nbody = "none"\n[[list]]\nclip = "absent.bvh"\n')
-        (folder / "arm.ele").write_text("1")
-        (folder / "arm.node").write_text("1")
-        (folder / "other.csv").write_text("1")
+    def write(self, **texts):
+        for name, text in texts.items():
+            (self.file.parent / name).write_text(text)
+
+    def expect_in_the_names(self, scene, *expected):
+        """These files, which a scene names by itself or by another of them, and not other.csv."""
+        self.write(**{"arm.toml": scene, "other.csv": "1"})
         before, files = self.names(GOOD.replace('"limb_bend"', '"arm.toml"'))
-        self.assertEqual(sorted(files), ["arm.ele", "arm.node"])
-        for changed, same in (("arm.ele", False), ("arm.node", False), ("other.csv", True)):
-            (folder / changed).write_text("2")
+        self.assertEqual(sorted(files), sorted(expected))
+        for changed in (*expected, "other.csv"):
+            with (self.file.parent / changed).open("a") as file:
+                file.write(" ")
             after, _ = self.names(GOOD.replace('"limb_bend"', '"arm.toml"'))
-            self.assertEqual(after == before, same, changed)
+            self.assertEqual(after == before, changed == "other.csv", changed)
             before = after
+
+    def test_files_that_the_scene_names_are_in_the_names(self):
+        self.write(**{"arm.ele": "1", "arm.node": "1"})
+        self.expect_in_the_names('[character]\nmesh = "arm.ele"\nbody = "none"\n[[list]]\nclip = "absent.bvh"\n', "arm.ele", "arm.node")
+
+    def test_a_mesh_named_by_its_vertices(self):
+        self.write(**{"arm.ele": "1", "arm.node": "1"})
+        self.expect_in_the_names('[character]\nmesh = "arm.node"\n', "arm.ele", "arm.node")
+
+    def test_the_buffers_of_a_gltf(self):
+        """By any name, one with a space as an address writes it; one is inside, and one is not there."""
+        uris = '{"uri": "skin.bin"}, {"uri": "a%20clip.dat"}, {"uri": "data:;base64,AAAA"}, {"uri": "absent.bin"}, {"byteLength": 4}'
+        self.write(**{"arm.gltf": '{"buffers": [%s]}' % uris, "skin.bin": "1", "a clip.dat": "1", "arm.bin": "1"})
+        self.expect_in_the_names('[character]\nmesh = "arm.gltf"\n', "arm.gltf", "skin.bin", "a clip.dat")
+
+    def test_what_is_no_gltf(self):
+        for text in ("", "[]", '{"buffers": 1}', '{"buffers": [1]}', '{"buffers": [{"uri": 1}]}'):
+            with self.subTest(text):
+                self.write(**{"arm.gltf": text})
+                self.expect_in_the_names('[character]\nmesh = "arm.gltf"\n', "arm.gltf")
 
     def test_files_that_a_run_names_are_in_its_name(self):
         folder = self.file.parent

@@ -11,17 +11,40 @@ import sys
 import tempfile
 import time
 import unittest
+import unittest.mock
 
 root = pathlib.Path(__file__).resolve().parents[4]
 here = pathlib.Path(__file__).parent
 sys.path[:0] = [str(root / "experiments/sweeps"), str(here)]
 
+import pbskin_program  # noqa: E402
 import sweep_file  # noqa: E402
 import sweep_start  # noqa: E402
 import synthetic_runs  # noqa: E402
 
 SLOW = 103  # iterations of a run that takes a minute
 needs_snakemake = unittest.skipUnless(shutil.which("snakemake"), "snakemake is not there")
+
+
+class Program(unittest.TestCase):
+    def made(self, path):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("#!/bin/sh\n")
+        path.chmod(0o755)
+        return path
+
+    def test_of_the_checkout_the_installation_or_the_path(self):
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.dict(os.environ, {"PATH": f"{folder}/path"}):
+            tree, prefix = pathlib.Path(folder, "tree"), pathlib.Path(folder, "prefix")
+            of_tree, of_prefix = tree / "build/release/bin/pbskin", prefix / "bin/pbskin"
+            scripts = {of_tree: tree / "experiments/sweeps", of_prefix: prefix / "share/pbskin/sweeps"}
+            for place, here in scripts.items():
+                self.assertEqual(pbskin_program.found(here), place)  # which says what is missing
+            on_path = self.made(pathlib.Path(folder, "path/pbskin"))
+            for place, here in scripts.items():
+                self.assertEqual(pbskin_program.found(here), on_path)
+                self.made(place)
+                self.assertEqual(pbskin_program.found(here), place)
 
 
 class SweepStart(unittest.TestCase):
@@ -92,7 +115,7 @@ class SweepStart(unittest.TestCase):
                                  (["--pbskin", self.folder / "absent"], None, "no such program")):
             with self.subTest(rule):
                 options = sweep_start_options(words, out or self.out, self.program)
-                with self.assertRaises(sweep_start.StartError) as caught:
+                with self.assertRaises(sweep_start.StartError) as caught, unittest.mock.patch("shutil.which", return_value="snakemake"):
                     sweep_start.ready(options)
                     sweep_start.locked(options.output)
                 self.assertIn(rule, str(caught.exception))

@@ -1,11 +1,15 @@
 // Truth: what was written to the files.
 #include "pbs/character/bodies.hpp"
+#include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 
 #include "tests/support/structured_bar.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
 
 namespace {
 
@@ -26,8 +30,10 @@ TEST(Bodies, FromFiles)
     EXPECT_EQ(bar.mesh.rest.rows(), 12);
     EXPECT_EQ(bar.weights.vertices(), 12);
     ASSERT_EQ(bar.inputs.size(), 4u);  // mesh, skeleton, tets, weights
-    EXPECT_EQ(bar.inputs[0].first, "bar.vtu");
-    EXPECT_EQ(bar.inputs[3].second.size(), 32u);
+    EXPECT_EQ(bar.inputs[0], std::pair(std::string("bar.vtu"), hash_of_file(mesh)));
+    EXPECT_EQ(bar.inputs[1], std::pair(std::string("bar.skeleton.toml"), content_hash(bones)));
+    EXPECT_EQ(bar.inputs[2].first, "tets");
+    EXPECT_EQ(bar.inputs[3], std::pair(std::string("bar.csv"), content_hash(rows)));
 }
 
 }  // namespace

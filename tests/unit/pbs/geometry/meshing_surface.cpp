@@ -90,6 +90,15 @@ TEST(SurfaceToTets, SmallHolesAreClosedAndOpenSheetsRefused)
     EXPECT_NE(words.find("expected 0.5 to 2: a closed or nearly closed surface"), std::string::npos) << words;
 }
 
+TEST(SurfaceToTets, ASurfaceWithoutAVolumeIsRefusedByIt)
+{
+    pbs::SurfaceMesh flat = icosphere(1.0, 1);
+    flat.points.col(2).setConstant(1.0 / 3.0);
+    const std::string words = refusal(flat, quick(0.2, 0.02, 200));
+    EXPECT_EQ(words.rfind("enclosed volume [m^3] = ", 0), 0u) << words;
+    EXPECT_NE(words.find("expected a closed surface round a volume, neither flat nor open"), std::string::npos) << words;
+}
+
 TEST(SurfaceToTets, BadInputIsRefused)
 {
     const pbs::SurfaceMeshing options = quick(0.2, 0.02, 200);

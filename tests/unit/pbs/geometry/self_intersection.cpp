@@ -37,6 +37,15 @@ TEST(SelfIntersection, SpheresThroughEachOtherAreFoundAndApartAreNot)
     EXPECT_GT(pbs::count_self_intersections(through.points, through.triangles), 0);
 }
 
+TEST(SelfIntersection, PairsOfTrianglesAreToldByTheirPlaces)
+{
+    pbs::SurfaceMesh two{pbs::Positions(6, 3), pbs::Triangles(2, 3)};
+    two.points << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0.2, 0.2, -1, 0.3, 0.2, 1, 0.2, 0.3, 1;
+    two.triangles << 0, 1, 2, 3, 4, 5;
+    const std::vector<std::array<int, 2>> pair = {{0, 1}};
+    EXPECT_EQ(pbs::self_intersections(two.points, two.triangles), pair);
+}
+
 TEST(SelfIntersection, ABarBentThroughItselfIsFound)
 {
     pbs::TetMesh bar = test_support::structured_bar({-1, -0.1, -0.1}, {1, 0.1, 0.1}, {20, 2, 2});

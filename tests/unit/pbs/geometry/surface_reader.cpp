@@ -2,12 +2,17 @@
 #include "pbs/geometry/mesh_io.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/mesh_remarks.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstring>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -114,6 +119,76 @@ TEST(Surface, OneMeshOfSeveralIsReadByName)
         EXPECT_NE(std::string(error.what()).find("mesh = box: expected one of the file's meshes: cube, lid"), std::string::npos)
             << error.what();
     }
+}
+
+std::string refusal(const std::string& path)
+{
+    std::vector<std::string> remarks;
+    try {
+        pbs::read_surface(path, remarks);
+    } catch (const pbs::InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Surface, AnEdgeInThreeTrianglesIsRefusedByItsPlaceWhereAUserNamesTheFile)
+{
+    const ScratchFolder folder;
+    const std::string path = folder.file("flap.obj", points("v ", 1.0) + "v 0.5 -1 -1\n" + faces("f", 1) + "f 1 2 9\n");
+    EXPECT_EQ(refusal(path), path +
+                                 ": edge = (0, 0, 0) to (1, 0, 0): expected in one or two triangles; it is in 3, the surface not "
+                                 "manifold there");
+    EXPECT_EQ(pbs::read_surface(path).triangles.rows(), 13);  // bodies by name stay as they are
+    EXPECT_EQ(refusal(folder.file("cube.obj", points("v ", 1.0) + faces("f", 1))), "");
+}
+
+#ifdef PBS_WITH_CGAL
+TEST(Surface, CrossingTrianglesAreToldWithTheFirstPlace)
+{
+    const ScratchFolder folder;
+    std::vector<std::string> remarks;
+    const std::string needle = "v 0.5 0.4 0.5\nv 0.5 0.6 0.5\nv 0.5 0.5 3\nf 9 10 11\n";  // through the lid, and open
+    pbs::read_surface(folder.file("x.obj", points("v ", 1.0) + faces("f", 1) + needle), remarks);
+    ASSERT_EQ(remarks.size(), 2u);
+    EXPECT_NE(remarks[1].find("pairs of triangles that meet = 2: it intersects itself, first at ("), std::string::npos) << remarks[1];
+    remarks.clear();
+    pbs::read_surface(folder.file("cube.obj", points("v ", 1.0) + faces("f", 1)), remarks);
+    EXPECT_TRUE(remarks.empty());
+}
+#endif
+
+// The unit tetrahedron, whose last index is given, and how many of its twelve the file tells.
+std::string gltf(const ScratchFolder& folder, unsigned short last, int told)
+{
+    const std::array<float, 12> points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const std::array<unsigned short, 12> corners = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, last};
+    std::string bytes(sizeof points + sizeof corners, '\0');
+    std::memcpy(bytes.data(), points.data(), sizeof points);
+    std::memcpy(bytes.data() + sizeof points, corners.data(), sizeof corners);
+    folder.file("x.bin", bytes);
+    return folder.file(
+        "x.gltf",
+        R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "buffers": [{"byteLength": 72,
+            "uri": "x.bin"}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}], "bufferViews": [{"buffer": 0,
+            "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 24}], "accessors": [{"bufferView": 0, "componentType": 5126,
+            "count": 4, "type": "VEC3"}, {"bufferView": 1, "componentType": 5123, "type": "SCALAR", "count": )" +
+            std::to_string(told) + "}]}");
+}
+
+TEST(Surface, WhatAssimpWouldDropOfAGltfIsRefused)
+{
+    const ScratchFolder folder;
+    EXPECT_EQ(refusal(gltf(folder, 3, 12)), "");
+    EXPECT_EQ(refusal(gltf(folder, 4, 12)), folder / "x.gltf" + ": assimp: Some faces had out-of-range indices. Those faces were dropped.");
+    EXPECT_NE(refusal(gltf(folder, 3, 11)).find("Some vertices were dropped."), std::string::npos) << refusal(gltf(folder, 3, 11));
+}
+
+TEST(Surface, OneBelowANanometreIsRefused)
+{
+    const ScratchFolder folder;
+    const std::string words = refusal(folder.file("speck.obj", points("v ", 1e-12) + faces("f", 1)));
+    EXPECT_NE(words.find("extent = 1.73205e-12: expected at least 1e-9 m"), std::string::npos) << words;
 }
 
 TEST(Surface, PointsAndLinesAloneAreRefused)

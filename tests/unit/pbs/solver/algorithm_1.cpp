@@ -93,4 +93,13 @@ TEST(Algorithm1, TimeStepMattersOnlyWhereParticlesAreIntegrated)
     EXPECT_NO_THROW(still.advance(limb.lbs, limb.bind_points, 0.0));
 }
 
+TEST(Algorithm1, RefusesATetOfNoVertexBeforeItMeasuresAnyEdge)
+{
+    PbsOptions options;
+    options.sleep = true;
+    pbs::TetMesh mesh = limb.mesh;
+    mesh.tets(0, 3) = 1 << 30;
+    EXPECT_THROW(Algorithm1<double>(mesh, limb.binding.distance, none, options), pbs::InputError);
+}
+
 }  // namespace

@@ -1,0 +1,78 @@
+#include "pbs/character/input_file.hpp"
+
+#include "pbs/character/body_cache.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/text_file.hpp"
+
+#include <filesystem>
+
+namespace pbs {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of a glTF; a buffer within the text ("data:...") is no file, and one that is not there is its reader's to refuse.
+std::vector<std::string> referred_files(const std::string& path)
+{
+    const std::string text = read_text_file(path, most_mesh_bytes), key = "\"uri\"", blank = " \t\r\n";
+    std::vector<std::string> files;
+    for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) {
+        const std::size_t colon = text.find_first_not_of(blank, at + key.size());
+        if (colon == std::string::npos || text[colon] != ':') continue;
+        const std::size_t begin = text.find_first_not_of(blank, colon + 1);
+        if (begin == std::string::npos || text[begin] != '"') continue;
+        const std::string uri = text.substr(begin + 1, text.find('"', begin + 1) - begin - 1);
+        if (!uri.starts_with("data:")) files.push_back((fs::path(path).parent_path() / uri).string());
+    }
+    return files;
+}
+
+std::vector<std::string> companions(const std::string& path)
+{
+    const std::string extension = fs::path(path).extension().string();
+    if (extension == ".node") return {fs::path(path).replace_extension(".ele").string()};
+    if (extension == ".ele") return {fs::path(path).replace_extension(".node").string()};
+    if (extension == ".gltf") return referred_files(path);
+    return {};
+}
+
+}  // namespace
+
+std::string file_name(const std::string& path)
+{
+    return fs::path(path).filename().string();
+}
+
+InputFile::InputFile(const std::string& path) : path_(path)
+{
+    try {
+        before_ = {{path, hash_of_file(path)}};
+        for (const std::string& file : companions(path))
+            if (fs::is_regular_file(file)) before_.emplace_back(file, hash_of_file(file));
+    } catch (const std::exception&) {  // its reader says why
+    }
+}
+
+std::vector<std::pair<std::string, std::string>> InputFile::hashed() const
+{
+    if (before_.empty()) throw InputError(path_, 0, "", "", "was changed while it was read");
+    std::vector<std::pair<std::string, std::string>> named;
+    for (const auto& [file, hash] : before_) {
+        if (hash_of_file(file) != hash) throw InputError(file, 0, "", "", "was changed while it was read");
+        named.emplace_back(file_name(file), hash);
+    }
+    return named;
+}
+
+std::map<std::string, std::string> hashes_by_name(const std::vector<std::pair<std::string, std::string>>& inputs)
+{
+    std::map<std::string, std::string> hashes;
+    for (const auto& [name, hash] : inputs) {
+        std::string free = name;
+        for (int n = 2; hashes.count(free) > 0 && hashes.at(free) != hash; ++n) free = name + " (" + std::to_string(n) + ")";
+        hashes[free] = hash;
+    }
+    return hashes;
+}
+
+}  // namespace pbs
