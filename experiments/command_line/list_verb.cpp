@@ -57,7 +57,7 @@ Lines metrics()
     return lines;
 }
 
-const std::map<std::string, Lines (*)()> kinds = {{"cases", cases},         {"scenes", scene_lines}, {"deformers", deformers},
+const std::map<std::string, Lines (*)()> kinds = {{"cases", cases},         {"scenes", scene_lines},   {"deformers", deformers},
                                                   {"studies", study_lines}, {"claims", listed_claims}, {"metrics", metrics}};
 
 int list(const std::vector<std::string>& asked)
