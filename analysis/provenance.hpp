@@ -1,7 +1,7 @@
 // Where a record comes from: what was built, from which revision, on what kind of machine. No host name, no folder: two machines of a
 // kind write the same text.
 //   Provenance provenance = collect_provenance(threads);  provenance.libraries["deal.II"] = "9.4.1";
-//   provenance.input_hashes["limb.toml"] = content_hash_of_file(path);  run["provenance"] = provenance;
+//   provenance.input_hashes["limb.toml"] = pbs::content_hash(bytes);  run["provenance"] = provenance;
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -21,7 +21,7 @@ struct Provenance {
     int logical_cpus = 0;                             // 0 where the system does not tell
     int threads = 0;                                  // the run's
     std::map<std::string, std::string> libraries;     // name -> version; those of this module, others are added
-    std::map<std::string, std::string> input_hashes;  // file name -> content_hash_of_file
+    std::map<std::string, std::string> input_hashes;  // file name -> pbs::content_hash
 };
 
 // Of this build and machine; input_hashes are left to the caller. threads: that the run uses.

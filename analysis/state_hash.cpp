@@ -1,7 +1,5 @@
 #include "analysis/state_hash.hpp"
 
-#include "analysis/atomic_file.hpp"
-
 #include <xxhash.h>
 
 #include <new>
@@ -48,14 +46,6 @@ std::string StateHash::hex() const
         text += "0123456789abcdef"[byte & 15];
     }
     return text;
-}
-
-std::string content_hash_of_file(const std::string& path)
-{
-    const std::string bytes = read_text(path);
-    StateHash hash;
-    hash.add_bytes(bytes.data(), bytes.size());
-    return hash.hex();
 }
 
 }  // namespace analysis

@@ -27,7 +27,4 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// XXH3 128 of a file's bytes, hexadecimal: what provenance says of an input. InputError when the file cannot be read.
-std::string content_hash_of_file(const std::string& path);
-
 }  // namespace analysis

@@ -1,6 +1,9 @@
 # Doxygen reads `///`, the headers are written with `//`: a comment before a declaration, or behind it, becomes its documentation, the first
 # comment the file's, an indented line in it code. Lines keep their numbers: \file takes that of #pragma once.
-# `TYPE a = 1.0, b = 2.0;` as a declaration each, all with the comment: Doxygen gives it to the last alone.
+BEGIN { several = "^ *[A-Za-z_][A-Za-z_0-9:<>, ]* +[a-z_0-9]+( = [^(){},]*)?(, *[a-z_0-9]+( = [^(){},]*)?)+;  +// " }
+
+# `TYPE a = 1.0, b = 2.0;` as a declaration each, all with the comment: Doxygen gives it to the last alone. Where another comment stands
+# above, that is the first's, and the one behind the last's.
 function each_declared(code, text,    start, type, rest, names, n, i, line) {
     match(code, /^ *(const )?[A-Za-z_][A-Za-z_0-9:]*(<[^=;()]*>)?[&*]? +/)
     type = substr(code, 1, RLENGTH)
@@ -22,6 +25,7 @@ FNR == 1 { print "/// \\file"; in_head = 1 }
     text = substr($0, start + 2)
     is_code = text ~ /^   /
     flush(in_code && !is_code ? " \\endcode" : "")
+    is_told = 1
     held = substr($0, 1, start - 1) "///" (is_code ? (in_code ? "" : " \\code{.cpp}") text : escaped(text))
     in_code = is_code
     next
@@ -31,10 +35,11 @@ FNR == 1 { print "/// \\file"; in_head = 1 }
     flush(in_code ? " \\endcode" : "")
     in_code = 0
     place = match($0, /[;,{}]  +\/\/ /)
-    if (place && $0 ~ /^ *[A-Za-z_][A-Za-z_0-9:<>, ]* +[a-z_0-9]+( = [^(){},]*)?(, *[a-z_0-9]+( = [^(){},]*)?)+;  +\/\/ / && $0 !~ /^ *(using|return) /)
+    if (place && !is_told && $0 ~ several && $0 !~ /^ *(using|return) /)
         print each_declared(substr($0, 1, place), escaped(substr($0, RLENGTH + place)))
     else if (place && $0 !~ /^#|namespace /) print substr($0, 1, place) "  ///< " escaped(substr($0, place + RLENGTH))
     else if (match($0, /^[ A-Za-z_0-9]+  \/\/ /)) print substr($0, 1, RLENGTH - 5) "  ///< " escaped(substr($0, RLENGTH + 1))
     else print
+    is_told = 0
 }
 END { flush(in_code ? " \\endcode" : "") }

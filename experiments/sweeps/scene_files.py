@@ -4,7 +4,6 @@ import hashlib
 import json
 import pathlib
 import tomllib
-import urllib.parse
 
 COMPANIONS = {".ele": ".node", ".node": ".ele"}  # one mesh in two files, named by either
 
@@ -34,7 +33,7 @@ def buffers_of(path):
     """What a glTF's buffers name, those inside it left out; nothing where it is no glTF, which pbskin refuses."""
     try:
         named = [buffer.get("uri", "") for buffer in json.loads(path.read_text(encoding="utf-8"))["buffers"]]
-        return [urllib.parse.unquote(uri) for uri in named if uri and not uri.startswith("data:")]
+        return [uri for uri in named if uri and not uri.startswith("data:")]
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return []
 

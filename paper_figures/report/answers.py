@@ -80,8 +80,8 @@ def planned_without_table(found):
 
 
 def left_out_sentence(names):
-    """Poses without all three on record, or without the error of PBS."""
-    told = f"Planned, but without an error of PBS, LBS or the reference on record, and so left out: {'; '.join(names)}."
+    """Poses without all three on record, planned ones among them."""
+    told = f"Without an error of PBS, LBS or the reference on record, and so left out: {'; '.join(names)}."
     return element("p", told, class_="missing") if names else ""
 
 

@@ -25,7 +25,7 @@ struct Character {
     Weights weights;                                          // what LBS and DQS blend with
     std::vector<bool> blended;                                // vertices that Eq. 2 blends between bones, whatever `weights` is, #V
     std::optional<EmbeddedSurface> surface;                   // the surface people see, carried by the tets
-    std::vector<std::pair<std::string, std::string>> inputs;  // what it was made from -> content hash
+    std::vector<std::pair<std::string, std::string>> inputs;  // what it is made from, its clip with a run's -> content hash
     WeightKind weight_kind = WeightKind::paper;               // the rule that `weights` obey, on finer tets too
     int refinements = 0;                                      // how often its tets were cut into eight; see refined_character.hpp
     std::shared_ptr<const Character> unrefined;               // whose first vertices and whose bones' sizes it keeps; null: itself

@@ -48,7 +48,7 @@ InputFile::InputFile(const std::string& path) : path_(path)
     try {
         before_ = {{path, hash_of_file(path)}};
         for (const std::string& file : companions(path))
-            if (fs::is_regular_file(file)) before_.emplace_back(file, hash_of_file(file));
+            if (std::error_code error; fs::is_regular_file(file, error)) before_.emplace_back(file, hash_of_file(file));
     } catch (const std::exception&) {  // its reader says why
     }
 }

@@ -49,7 +49,7 @@ void add_crossings(const std::string& path, const SurfaceMesh& surface, std::vec
     Vec3 middle = Vec3::Zero();  // of the first one's first triangle
     for (const int point : surface.triangles.row(crossings.front()[0])) middle += surface.points.row(point).transpose() / 3.0;
     remarks.push_back(remark(path, "pairs of triangles that meet", crossings.size(),
-                             "it intersects itself, first at " + place_text(middle) + "; what is outside is kept"));
+                             "it intersects or touches itself, first at " + place_text(middle) + "; what is outside is kept"));
 #else
     static_cast<void>(path), static_cast<void>(surface), static_cast<void>(remarks);  // as of tet meshes: not asked
 #endif

@@ -1,9 +1,10 @@
 """The study `frames` without the human: whole scene runs, with state hashes and frames on disk, in seconds. It has no option for that: in a
-mount namespace of its own it sees an empty folder where the motions are installed. Where none can be had, it is the whole study."""
+mount namespace of its own it sees an empty folder where the motions are installed."""
 import functools
 import os
 import subprocess
 import tempfile
+import unittest
 
 MOTIONS = "/usr/share/assimp/models/BVH"
 HIDE = f'mount --bind "$0" {MOTIONS} && exec "$@"'
@@ -17,7 +18,7 @@ def empty_folder():
 
 @functools.cache
 def before():
-    """The words that go before those of pbskin, which takes over their process."""
+    """The words that go before those of pbskin, which takes over their process; the test is skipped where none can be had."""
     if not os.path.isdir(MOTIONS):
         return []
     for namespace in NAMESPACES:
@@ -27,7 +28,7 @@ def before():
                 return words
         except FileNotFoundError:
             pass
-    return []
+    raise unittest.SkipTest("no mount namespace can be had here, and the whole study takes minutes")
 
 
 def state_hashes(records):

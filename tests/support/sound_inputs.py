@@ -77,6 +77,6 @@ def told():
                   "triangles without area = 1: left out")
     yield surface("surface inside out", "x.off", bad_surfaces.off(faces=[face[::-1] for face in FACES]), "= -0.166667: inside out")
     yield surface("surface through itself", "x.off", bad_surfaces.off(*through_itself()),
-                  "pairs of triangles that meet = 3: it intersects itself, first at (")
+                  "pairs of triangles that meet = 3: it intersects or touches itself, first at (")
     yield surface("surface of 1,700 m", "x.off", bad_surfaces.off([[1700 * x for x in point] for point in CORNERS]),
                   "extent [m] = 1700: taken as it is")

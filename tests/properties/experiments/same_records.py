@@ -101,17 +101,24 @@ class SameRecords(program.ProgramTest):
         return run_records.records(folder)
 
     def test_runs_side_by_side(self):
-        for study, before in (("momentum", []), ("frames", limb_alone.before())):
-            alone = self.records_of_jobs(1, study, before)
-            first = limb_alone.state_hashes(alone)
-            self.assertEqual("frames/limb_twist/run.json pbs" in first, study == "frames")  # the others have figures alone
-            for jobs in (2, 4) if LONG else (4,):
-                with self.subTest(study=study, jobs=jobs):
-                    records = self.records_of_jobs(jobs, study, before)
-                    second = limb_alone.state_hashes(records)
-                    type(self).compared += len(first)
-                    type(self).equal += sum(second.get(label) == state for label, state in first.items())
-                    self.assertEqual(records, alone)
+        self.compare_jobs("momentum", ())
+
+    def test_whole_runs_of_scenes_side_by_side(self):
+        hashes = self.compare_jobs("frames", limb_alone.before())
+        self.assertIn("frames/limb_twist/run.json pbs", hashes)
+
+    def compare_jobs(self, study, before):
+        """The study's state hashes, if it has any."""
+        alone = self.records_of_jobs(1, study, before)
+        first = limb_alone.state_hashes(alone)
+        for jobs in (2, 4) if LONG else (4,):
+            with self.subTest(study=study, jobs=jobs):
+                records = self.records_of_jobs(jobs, study, before)
+                second = limb_alone.state_hashes(records)
+                type(self).compared += len(first)
+                type(self).equal += sum(second.get(label) == state for label, state in first.items())
+                self.assertEqual(records, alone)
+        return first
 
 
 if __name__ == "__main__":

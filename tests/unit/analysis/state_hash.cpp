@@ -1,9 +1,6 @@
 // Truth: the test vector of XXH3 128 for empty input with seed 0 (xxHash's own sanity test), and the command `xxhsum -H2` for a file.
 #include "analysis/state_hash.hpp"
 
-#include "pbs/geometry/input_error.hpp"
-#include "tests/support/scratch_folder.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -52,14 +49,6 @@ TEST(StateHash, GoesOnAfterBeingRead)
     read_between.add(frame);
     EXPECT_NE(first, hash.hex());
     EXPECT_EQ(read_between.hex(), hash.hex());
-}
-
-TEST(ContentHash, IsThatOfTheFilesBytes)
-{
-    const test_support::ScratchFolder folder;
-    EXPECT_EQ(analysis::content_hash_of_file(folder.file("text", "abc")), "06b05ab6733a618578af5f94892f3950");
-    EXPECT_THROW(analysis::content_hash_of_file(folder / "missing"), pbs::InputError);
-    EXPECT_THROW(analysis::content_hash_of_file(folder.path()), pbs::InputError);
 }
 
 }  // namespace

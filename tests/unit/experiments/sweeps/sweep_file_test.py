@@ -103,10 +103,10 @@ class SweepFile(unittest.TestCase):
         self.expect_in_the_names('[character]\nmesh = "arm.node"\n', "arm.ele", "arm.node")
 
     def test_the_buffers_of_a_gltf(self):
-        """By any name, one with a space as an address writes it; one is inside, and one is not there."""
+        """By any name, as it is written, for so assimp opens it; one is inside, and one is not there."""
         uris = '{"uri": "skin.bin"}, {"uri": "a%20clip.dat"}, {"uri": "data:;base64,AAAA"}, {"uri": "absent.bin"}, {"byteLength": 4}'
-        self.write(**{"arm.gltf": '{"buffers": [%s]}' % uris, "skin.bin": "1", "a clip.dat": "1", "arm.bin": "1"})
-        self.expect_in_the_names('[character]\nmesh = "arm.gltf"\n', "arm.gltf", "skin.bin", "a clip.dat")
+        self.write(**{"arm.gltf": '{"buffers": [%s]}' % uris, "skin.bin": "1", "a%20clip.dat": "1", "arm.bin": "1"})
+        self.expect_in_the_names('[character]\nmesh = "arm.gltf"\n', "arm.gltf", "skin.bin", "a%20clip.dat")
 
     def test_what_is_no_gltf(self):
         for text in ("", "[]", '{"buffers": 1}', '{"buffers": [1]}', '{"buffers": [{"uri": 1}]}'):
