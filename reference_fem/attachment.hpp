@@ -11,11 +11,11 @@ namespace reference_fem {
 // Springs tie material points to targets; prescribed tets have every node in them at its target; the bind constraint keeps vertices at a
 // distance from moving points: an energy sum_i k_i / 2 (|x_i - q_i| - d_i)^2.
 struct Attachment {
-    pbs::Positions spring_points;      // rest points [m], #S x 3; a point outside the tets is left out and counted
-    Eigen::VectorXd spring_stiffness;  // [N/m], #S
-    std::vector<int> prescribed_tets;  // tets held whole; a mid-edge node follows the mean of its edge's ends: exact for affine targets
-    Eigen::VectorXd bind_distance;     // d_i [m], #V, or empty: nothing is bound. Not for LinearElasticity
-    Eigen::VectorXd bind_stiffness;    // k_i [N/m], #V; 0: this vertex is not bound
+    pbs::Positions spring_points = {};      // rest points [m], #S x 3; a point outside the tets is left out and counted
+    Eigen::VectorXd spring_stiffness = {};  // [N/m], #S
+    std::vector<int> prescribed_tets = {};  // held whole; a mid-edge node follows the mean of its edge's ends: exact for affine targets
+    Eigen::VectorXd bind_distance = {};     // d_i [m], #V, or empty: nothing is bound. Not for LinearElasticity
+    Eigen::VectorXd bind_stiffness = {};    // k_i [N/m], #V; 0: this vertex is not bound
 };
 
 // For records: what was built, with what, in how many seconds of wall time.

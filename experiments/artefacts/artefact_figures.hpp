@@ -30,7 +30,7 @@ struct JudgedSection {
     std::size_t pose = 0, joint = 0;
     std::string reference;  // "snh_p2"; empty: none reached
     SectionOutcome outcome = SectionOutcome::measured;
-    std::string remark;  // of C05, unless bent too far: who is wider than widest_over_rest, and whose skin the outline is
+    std::string remark = {};  // of C05, unless bent too far: who is wider than widest_over_rest, and whose skin the outline is
 };
 
 // One a pose and joint, of the case's claim. C04 does without the reference, which stands beside.

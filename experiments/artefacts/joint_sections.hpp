@@ -41,7 +41,7 @@ public:
 private:
     std::vector<pbs::CuttingPlane> planes(const pbs::Pose& pose) const;
     struct Cut {
-        analysis::OutlineSize size;
+        analysis::OutlineSize size = {};
         int outlines = 0;
         double limb_share = 1.0;
     };

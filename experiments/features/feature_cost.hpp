@@ -17,7 +17,7 @@ struct RunCost {
     double start_s = 0.0;  // character, motion, deformers, ruler, modules loaded; wall time
     double peak_mb = 0.0;  // 10^6 bytes
     int shared_objects = 0;
-    std::string breakdown;  // RunResult::breakdown
+    std::string breakdown = {};  // RunResult::breakdown
 };
 
 // How far the answer is from the one without the feature, over the frames.

@@ -47,8 +47,8 @@ struct Sets {
 };
 
 struct Study {
-    std::string name, meaning, claims, cost;
-    StudyPlan (*plan)(bool full);
+    std::string name, meaning = {}, claims = {}, cost = {};
+    StudyPlan (*plan)(bool full) = nullptr;
     Sets sets = {};
     // Of the study's folder and the folders of the runs that ended; writes the records that sum them up.
     StudyConclusion (*conclude)(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished) = nullptr;

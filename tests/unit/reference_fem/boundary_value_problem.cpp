@@ -34,7 +34,9 @@ TEST_P(BoundaryData, OnlyTheFacesThatAreAskedForAreLoaded)
     const Eigen::Map<const pbs::Positions> forces(load.data(), space.nodes(), 3);
     EXPECT_LT((forces.colwise().sum() - Eigen::RowVector3d(0, 0, 0.5)).norm(), 1e-13);
     for (int node = 0; node < space.nodes(); ++node)
-        if (space.node_positions()(node, 2) < 1.0 - 1e-9) EXPECT_LT(forces.row(node).norm(), 1e-15);
+        if (space.node_positions()(node, 2) < 1.0 - 1e-9) {
+            EXPECT_LT(forces.row(node).norm(), 1e-15);
+        }
 }
 
 TEST_P(BoundaryData, ABarOnRollersIsStretchedUniformly)

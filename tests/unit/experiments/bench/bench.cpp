@@ -59,7 +59,9 @@ TEST(BenchBody, IsTwistedByNinetyDegreesFromTheHeldEnd)
     const double begin = rest.col(0).minCoeff(), end = rest.col(0).maxCoeff(), y0 = (rest.col(1).maxCoeff() + rest.col(1).minCoeff()) / 2.0,
                  z0 = (rest.col(2).maxCoeff() + rest.col(2).minCoeff()) / 2.0;
     for (Eigen::Index i = 0; i < rest.rows(); ++i) {
-        if (rest(i, 0) == begin) EXPECT_TRUE(body.held[i] && body.twisted.row(i) == rest.row(i));
+        if (rest(i, 0) == begin) {
+            EXPECT_TRUE(body.held[i] && body.twisted.row(i) == rest.row(i));
+        }
         if (rest(i, 0) != end) continue;
         EXPECT_FALSE(body.held[i]);
         EXPECT_NEAR(body.twisted(i, 1) - y0, -(rest(i, 2) - z0), 1e-12);

@@ -77,7 +77,7 @@ TEST(InputFile, TheBuffersOfAGltfBelongToIt)
 TEST(InputFile, AGltfThatEndsWithinAnAddressIsLeftToItsReader)
 {
     const test_support::ScratchFolder folder;
-    for (const std::string& text : {R"({"uri")", R"({"uri" : )", R"({"uri": "walk)", R"({"uri": ")"}) {
+    for (const std::string text : {R"({"uri")", R"({"uri" : )", R"({"uri": "walk)", R"({"uri": ")"}) {
         const InputFile file(folder.file("walk.gltf", text));
         EXPECT_EQ(file.hashed(), (Hashes{{"walk.gltf", content_hash(text)}})) << text;
     }

@@ -198,7 +198,9 @@ TEST(ElasticFemDeformer, OnlyNodesArePrescribedVertices)
     const pbs::Positions targets = vertex_targets(bones, bar().mesh.rest, bent(30.0));
     for (Eigen::Index v = 0; v < targets.rows(); ++v) {
         EXPECT_EQ(prescribed[v], bones.vertex_bone[v] >= 0);
-        if (prescribed[v]) EXPECT_LT((nodes.positions().row(v) - targets.row(v)).norm(), 1e-14);
+        if (prescribed[v]) {
+            EXPECT_LT((nodes.positions().row(v) - targets.row(v)).norm(), 1e-14);
+        }
     }
 }
 

@@ -250,7 +250,9 @@ TYPED_TEST(PoseKernels, NotANumberStaysInItsPose)
     for (int v = 0; v < 4; ++v)
         for (int axis = 0; axis < 3; ++axis)
             for (int pose = 0; pose < poses; ++pose)
-                if (pose != 5) EXPECT_EQ(sick[v][axis][pose], clean[v][axis][pose]) << "pose " << pose;
+                if (pose != 5) {
+                    EXPECT_EQ(sick[v][axis][pose], clean[v][axis][pose]) << "pose " << pose;
+                }
 }
 
 }  // namespace
