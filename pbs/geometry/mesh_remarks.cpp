@@ -40,8 +40,9 @@ void add_holes(const std::string& path, const Triangles& triangles, std::vector<
         remarks.push_back(remark(path, "edges of one triangle", holes, "its holes are wrapped over"));
 }
 
-// Skins of characters do so: MakeHuman's at lips and lids.
-void add_crossings(const std::string& path, const SurfaceMesh& surface, std::vector<std::string>& remarks)
+// Skins of characters do so: MakeHuman's at lips and lids. Without CGAL they are not asked, nor are tet meshes.
+void add_crossings([[maybe_unused]] const std::string& path, [[maybe_unused]] const SurfaceMesh& surface,
+                   [[maybe_unused]] std::vector<std::string>& remarks)
 {
 #ifdef PBS_WITH_CGAL
     const std::vector<std::array<int, 2>> crossings = self_intersections(surface.points, surface.triangles);
@@ -50,8 +51,6 @@ void add_crossings(const std::string& path, const SurfaceMesh& surface, std::vec
     for (const int point : surface.triangles.row(crossings.front()[0])) middle += surface.points.row(point).transpose() / 3.0;
     remarks.push_back(remark(path, "pairs of triangles that meet", crossings.size(),
                              "it intersects or touches itself, first at " + place_text(middle) + "; what is outside is kept"));
-#else
-    static_cast<void>(path), static_cast<void>(surface), static_cast<void>(remarks);  // as of tet meshes: not asked
 #endif
 }
 
