@@ -151,7 +151,8 @@ TEST(Surface, CrossingTrianglesAreToldWithTheFirstPlace)
     const std::string needle = "v 0.5 0.4 0.5\nv 0.5 0.6 0.5\nv 0.5 0.5 3\nf 9 10 11\n";  // through the lid, and open
     pbs::read_surface(folder.file("x.obj", points("v ", 1.0) + faces("f", 1) + needle), remarks);
     ASSERT_EQ(remarks.size(), 2u);
-    EXPECT_NE(remarks[1].find("pairs of triangles that meet = 2: it intersects or touches itself, first at ("), std::string::npos) << remarks[1];
+    EXPECT_NE(remarks[1].find("pairs of triangles that meet = 2: it intersects or touches itself, first at ("), std::string::npos)
+        << remarks[1];
     remarks.clear();
     pbs::read_surface(folder.file("cube.obj", points("v ", 1.0) + faces("f", 1)), remarks);
     EXPECT_TRUE(remarks.empty());
