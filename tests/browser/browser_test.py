@@ -107,8 +107,8 @@ def truth_of(results):
             "poses": viewer_poses.poses_of([viewer_data.facts_of(frames, 1) for frames in runs])}
 
 
-def main(program, scratch):
-    """Exit status."""
+def unready():
+    """Exit status where the test cannot run, said why; None where it can."""
     missing = what_is_missing()
     if not os.environ.get("PBS_LONG"):
         print("skipped: part of ./check --long" + (f"; missing here: {', '.join(missing)}" if missing else ""))
@@ -116,6 +116,13 @@ def main(program, scratch):
     if missing:
         print(f"missing: {', '.join(missing)}")
         return 1
+    return None
+
+
+def main(program, scratch):
+    """Exit status."""
+    if (status := unready()) is not None:
+        return status
     scratch.mkdir(parents=True, exist_ok=True)
     results = recorded(program, scratch)
     page, truth = scratch / "viewer.html", scratch / "truth.json"

@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 import browser_test
-from browser_test import bound_missed, root, run, skipped
+from browser_test import bound_missed, root, run
 
 import entries
 
@@ -36,13 +36,8 @@ def lacking(folder):
 
 def main(program, scratch):
     """Exit status."""
-    missing = browser_test.what_is_missing()
-    if not os.environ.get("PBS_LONG"):
-        print("skipped: part of ./check --long" + (f"; missing here: {', '.join(missing)}" if missing else ""))
-        return skipped
-    if missing:
-        print(f"missing: {', '.join(missing)}")
-        return 1
+    if (status := browser_test.unready()) is not None:
+        return status
     scratch.mkdir(parents=True, exist_ok=True)
     folder = quick_records(program, scratch)
     run(["xvfb-run", "-a", sys.executable, "-B", root / "paper_figures" / "make_all.py", folder])  # 0: none that could not be drawn
