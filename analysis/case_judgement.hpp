@@ -26,7 +26,7 @@ struct CaseJudgement {
     ClaimRule rule = ClaimRule::share_within;           // share_within or mean_within
     int iterations = 0, frames = 0;                     // iterations a step, 0: the deformer has none; frames judged
     bool sweep = false;                                 // of angles, not a clip
-    Extent extent = Extent::none;                       // by the rule, see experiments/claims.toml
+    Extent extent = Extent::none;                       // by the rule, see experiments/verdicts/claims.toml
     Interval mean;                                      // of the metric over the frames; a sweep's frames are no sample and have no bounds
     Interval share;                                     // of frames within the bound
     std::vector<AngleRange> angles;                     // of a sweep: share_within up to the first failure, mean_within wherever it holds

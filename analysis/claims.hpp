@@ -1,6 +1,6 @@
 // The paper's claims as data: what is claimed, where, by which study and metric it is measured, and the bound fixed beforehand.
 //   for (const Claim& claim : parse_claims(text, "claims.toml")) verdicts.push_back(judge(claim, records));
-// The fields are documented at the head of experiments/claims.toml.
+// The fields are documented at the head of experiments/verdicts/claims.toml.
 #pragma once
 
 #include <limits>

@@ -22,7 +22,7 @@ install(DIRECTORY paper_figures DESTINATION ${data_folder} COMPONENT program
     PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE PATTERN viewer/src EXCLUDE PATTERN viewer/*.json EXCLUDE
     PATTERN viewer/*.mjs EXCLUDE PATTERN viewer/.npmrc EXCLUDE)
 install(DIRECTORY experiments/scenes DESTINATION ${data_folder} COMPONENT program FILES_MATCHING PATTERN *.toml)
-install(FILES CITATION.cff experiments/claims.toml DESTINATION ${data_folder} COMPONENT program)
+install(FILES CITATION.cff experiments/verdicts/claims.toml DESTINATION ${data_folder} COMPONENT program)
 
 # Parameter sweeps, as bin/pbskin-sweep; the scaling of the distributed reference is for a checkout.
 install(DIRECTORY experiments/sweeps DESTINATION ${data_folder} COMPONENT program USE_SOURCE_PERMISSIONS

@@ -22,5 +22,5 @@ pbs_test(unit analysis/minimise analysis GSL::gsl)
 
 # The project's own claims, read by the tests of claims and verdicts.
 foreach(name IN ITEMS claims verdict)
-    target_compile_definitions(test_unit_analysis_${name} PRIVATE PBS_CLAIMS_FILE="${PROJECT_SOURCE_DIR}/experiments/claims.toml")
+    target_compile_definitions(test_unit_analysis_${name} PRIVATE PBS_CLAIMS_FILE="${PROJECT_SOURCE_DIR}/experiments/verdicts/claims.toml")
 endforeach()

@@ -33,7 +33,7 @@ function(fuzz_target name target)
     endif()
 endfunction()
 
-fuzz_target(scene fuzz/scene.cpp experiments/scene_values.cpp experiments/scene_schema.cpp experiments/record_text.cpp
+fuzz_target(scene fuzz/scene.cpp experiments/scene/scene_values.cpp experiments/scene/scene_schema.cpp analysis/records/record_text.cpp
     pbs/geometry/toml_text.cpp pbs/geometry/nearest_name.cpp
     pbs/geometry/input_error.cpp)
 fuzz_target(mesh fuzz/mesh.cpp pbs/geometry/guarded_reading.cpp pbs/geometry/isolated_reader.cpp pbs/geometry/reading_limits.cpp
@@ -45,8 +45,8 @@ fuzz_target(skeleton fuzz/skeleton.cpp pbs/character/skeleton_file.cpp pbs/chara
 fuzz_target(clip fuzz/clip.cpp pbs/character/clip_bytes.cpp pbs/character/retarget.cpp pbs/character/retarget_plan.cpp
     pbs/character/joint_map.cpp
     pbs/skinning/pose.cpp pbs/skinning/skeleton.cpp pbs/geometry/input_error.cpp)
-fuzz_target(texts fuzz/texts.cpp analysis/csv_reader.cpp analysis/csv_table.cpp analysis/atomic_file.cpp experiments/scene_values.cpp
-    experiments/scene_schema.cpp experiments/record_text.cpp pbs/character/bvh_header.cpp pbs/geometry/atomic_file.cpp
+fuzz_target(texts fuzz/texts.cpp analysis/csv_reader.cpp analysis/csv_table.cpp analysis/atomic_file.cpp experiments/scene/scene_values.cpp
+    experiments/scene/scene_schema.cpp analysis/records/record_text.cpp pbs/character/bvh_header.cpp pbs/geometry/atomic_file.cpp
     pbs/geometry/text_file.cpp pbs/geometry/toml_text.cpp pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
 fuzz_target(files fuzz/files.cpp pbs/character/iqm.cpp pbs/character/weights_file.cpp pbs/skinning/skeleton.cpp
     pbs/geometry/tetgen_reader.cpp pbs/geometry/msh_reader.cpp pbs/geometry/mesh_io_files.cpp pbs/geometry/text_file.cpp

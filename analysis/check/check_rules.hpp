@@ -1,5 +1,5 @@
 // What a check measures and holds: scenes, bounds on their frames, tolerances of the comparison with a baseline. As data in TOML; the keys
-// are documented at [[check.scene]] in experiments/claims.toml.
+// are documented at [[check.scene]] in experiments/verdicts/claims.toml.
 //   const CheckRules rules = parse_check_rules(text, "check.toml", known_metrics);
 #pragma once
 

@@ -1,9 +1,9 @@
 // pbskin check [-o DIR] [--junit FILE] [--baseline FILE]: CI validation, volume preservation and the other bounds.
 #include "analysis/atomic_file.hpp"
-#include "experiments/check/check_reports.hpp"
-#include "experiments/check/check_run.hpp"
+#include "experiments/verdicts/check/check_reports.hpp"
+#include "experiments/verdicts/check/check_run.hpp"
 #include "experiments/command_line/verbs.hpp"
-#include "experiments/progress.hpp"
+#include "experiments/process/progress.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

@@ -1,13 +1,13 @@
 // pbskin explain NAME: what a metric, claim, scene key or study means.
 #include "analysis/text_columns.hpp"
-#include "experiments/claims_text.hpp"
+#include "experiments/verdicts/claims_text.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/metrics_table.hpp"
-#include "experiments/scene.hpp"
-#include "experiments/scene_schema.hpp"
+#include "experiments/run/metrics_table.hpp"
+#include "experiments/scene/scene.hpp"
+#include "experiments/scene/scene_schema.hpp"
 #include "experiments/studies/study.hpp"
-#include "experiments/terminal.hpp"
+#include "experiments/process/terminal.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/nearest_name.hpp"
 

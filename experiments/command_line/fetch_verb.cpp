@@ -1,6 +1,6 @@
 // pbskin fetch [man, lady, frankie]: the bodies that are not part of the project, onto this machine.
 #include "experiments/command_line/verbs.hpp"
-#include "experiments/fetch/packages.hpp"
+#include "experiments/command_line/fetch/packages.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,9 +1,9 @@
 // pbskin list [cases, scenes, deformers, studies, claims, metrics]: what there is.
-#include "experiments/claims_text.hpp"
+#include "experiments/verdicts/claims_text.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/metrics_table.hpp"
-#include "experiments/scene.hpp"
+#include "experiments/run/metrics_table.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <fmt/format.h>

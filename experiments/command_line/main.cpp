@@ -4,9 +4,9 @@
 //   pbskin measure rest.msh frame_*.vtu --max-volume-change 0.5
 #include "experiments/command_line/description.hpp"
 #include "experiments/command_line/verbs.hpp"
-#include "experiments/failure.hpp"
-#include "experiments/interruption.hpp"
-#include "experiments/version_text.hpp"
+#include "experiments/process/failure.hpp"
+#include "experiments/process/interruption.hpp"
+#include "experiments/process/version_text.hpp"
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>

@@ -1,7 +1,7 @@
 // pbskin report DIR: the records and the figures drawn from them as one self-contained page, DIR/report.html.
 #include "experiments/command_line/verbs.hpp"
-#include "experiments/fetch/program_run.hpp"
-#include "experiments/scratch_folder.hpp"
+#include "experiments/process/program_run.hpp"
+#include "experiments/process/scratch_folder.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <cstdio>

@@ -1,7 +1,7 @@
 // pbskin reproduce [CLAIM or STUDY]... [-o DIR] [--quick, --full] [-j N] [--resume]: studies -> records -> verdicts.
 #include "experiments/command_line/verbs.hpp"
-#include "experiments/progress.hpp"
-#include "experiments/reproduce.hpp"
+#include "experiments/process/progress.hpp"
+#include "experiments/verdicts/reproduce.hpp"
 
 namespace experiments {
 

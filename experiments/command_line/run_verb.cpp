@@ -1,7 +1,7 @@
 // pbskin run SCENE.toml [-o DIR] [--set key=value]...: one scene, frames and records.
 #include "experiments/command_line/verbs.hpp"
-#include "experiments/progress.hpp"
-#include "experiments/run.hpp"
+#include "experiments/process/progress.hpp"
+#include "experiments/run/run.hpp"
 
 #include <spdlog/spdlog.h>
 

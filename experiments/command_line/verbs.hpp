@@ -1,7 +1,7 @@
 // The verbs of `pbskin`, one file each. A verb adds its options and what it does; what it returns is the exit status.
 #pragma once
 
-#include "experiments/exit_status.hpp"
+#include "experiments/process/exit_status.hpp"
 
 #include <CLI/CLI.hpp>
 

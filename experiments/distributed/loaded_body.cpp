@@ -1,7 +1,7 @@
 #include "experiments/distributed/loaded_body.hpp"
 
 #include "experiments/deformers/fem/bone_attachment.hpp"
-#include "experiments/verification/structured_mesh.hpp"
+#include "reference_fem/verification/structured_mesh.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"

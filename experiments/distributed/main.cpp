@@ -11,8 +11,8 @@
 // minute for 1,000,000 on 2 ranks.
 #include "experiments/deformers/option_names.hpp"
 #include "experiments/distributed/distributed_record.hpp"
-#include "experiments/exit_status.hpp"
-#include "experiments/failure.hpp"
+#include "experiments/process/exit_status.hpp"
+#include "experiments/process/failure.hpp"
 #include "analysis/atomic_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "reference_fem/distributed/distributed_elasticity.hpp"

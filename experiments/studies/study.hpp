@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/case_record.hpp"
-#include "experiments/scene.hpp"
+#include "experiments/scene/scene.hpp"
 
 #include <functional>
 #include <string>

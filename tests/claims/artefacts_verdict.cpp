@@ -1,6 +1,6 @@
 // C04, C05 and C06 are judged from the figures that the study of artefacts writes: alter the sections and strains behind them and the
 // verdicts turn round. Truth: the project's own claims.toml.
-#include "experiments/artefacts/smoothness_comparison.hpp"
+#include "experiments/studies/artefacts/smoothness_comparison.hpp"
 #include "tests/support/artefact_samples.hpp"
 #include "tests/support/study_claims.hpp"
 

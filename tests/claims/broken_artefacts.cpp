@@ -8,7 +8,7 @@
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/study_claims.hpp"
 
-#include "experiments/artefacts/artefact_figures.hpp"
+#include "experiments/studies/artefacts/artefact_figures.hpp"
 
 #include <gtest/gtest.h>
 

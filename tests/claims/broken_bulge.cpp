@@ -12,7 +12,7 @@
 #include "tests/support/hand_cut_sections.hpp"
 #include "tests/support/study_claims.hpp"
 
-#include "experiments/artefacts/artefact_figures.hpp"
+#include "experiments/studies/artefacts/artefact_figures.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 //                      once, so that LBS is not the better start
 //   nothing projected  every start stays what it is, to the bit: the rest pose has its volume at once, LBS never
 //   stretch dropped    the bind and the volume constraints remain; the last residual of the edges is larger
-#include "experiments/convergence/convergence_figures.hpp"
-#include "experiments/error_split/posed_character.hpp"
+#include "experiments/studies/convergence/convergence_figures.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/study_claims.hpp"
 

@@ -7,9 +7,9 @@
 //   any                half the time step is twice the frequency as before: Algorithm 1 knows a step, no time
 // The verdict itself is against the claim already, by the time step and by how little k_stretch moves; what has to change is the figures
 // behind it.
-#include "experiments/error_split/posed_character.hpp"
-#include "experiments/jiggle/jiggle_figures.hpp"
-#include "experiments/jiggle/jiggle_zone_contents.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
+#include "experiments/studies/jiggle/jiggle_figures.hpp"
+#include "experiments/studies/jiggle/jiggle_zone_contents.hpp"
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/study_claims.hpp"
 

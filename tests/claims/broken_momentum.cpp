@@ -7,7 +7,7 @@
 #include "tests/support/limb_character.hpp"
 #include "tests/support/study_claims.hpp"
 
-#include "experiments/momentum/momentum_drift.hpp"
+#include "experiments/studies/momentum/momentum_drift.hpp"
 
 #include <gtest/gtest.h>
 

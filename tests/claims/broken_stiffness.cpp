@@ -5,7 +5,7 @@
 //   half the time step     4 ((1 + a / 4)^n - 1) / ((1 + a)^n - 1) times: one and less
 // and so has every mode of a body with one rate an iteration. Rigid constraints, a without bound, know no time step and are four times as
 // stiff at half of it: one and less is for flesh without bind constraints.
-#include "experiments/stiffness/stiffness_ratios.hpp"
+#include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "tests/support/study_claims.hpp"
 
 #include "analysis/measurement.hpp"

@@ -10,7 +10,7 @@
 #include "tests/support/hand_strain_jump.hpp"
 #include "tests/support/study_claims.hpp"
 
-#include "experiments/artefacts/smoothness_comparison.hpp"
+#include "experiments/studies/artefacts/smoothness_comparison.hpp"
 
 #include <gtest/gtest.h>
 

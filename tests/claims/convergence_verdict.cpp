@@ -1,6 +1,6 @@
 // The verdicts of C03 and C12 follow from the figures that the convergence study writes, and flip when the paths behind them are altered.
-// Truth: the rules in experiments/claims.toml.
-#include "experiments/convergence/convergence_figures.hpp"
+// Truth: the rules in experiments/verdicts/claims.toml.
+#include "experiments/studies/convergence/convergence_figures.hpp"
 
 #include "analysis/atomic_file.hpp"
 #include "analysis/verdict.hpp"

@@ -3,7 +3,7 @@
 #include "analysis/atomic_file.hpp"
 #include "analysis/claims.hpp"
 #include "analysis/verdict.hpp"
-#include "experiments/setup/body_setup.hpp"
+#include "experiments/studies/setup/body_setup.hpp"
 
 #include <gtest/gtest.h>
 

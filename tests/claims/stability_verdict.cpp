@@ -3,8 +3,8 @@
 #include "analysis/claims.hpp"
 #include "analysis/measurement.hpp"
 #include "analysis/verdict.hpp"
-#include "experiments/stability/cell_table.hpp"
-#include "experiments/stability/stability_cells.hpp"
+#include "experiments/studies/stability/cell_table.hpp"
+#include "experiments/studies/stability/stability_cells.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>

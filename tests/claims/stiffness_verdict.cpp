@@ -3,7 +3,7 @@
 #include "analysis/verdict.hpp"
 
 #include "analysis/atomic_file.hpp"
-#include "experiments/stiffness/stiffness_ratios.hpp"
+#include "experiments/studies/stiffness/stiffness_ratios.hpp"
 
 #include <gtest/gtest.h>
 

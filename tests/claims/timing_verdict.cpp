@@ -3,7 +3,7 @@
 #include "analysis/verdict.hpp"
 
 #include "analysis/atomic_file.hpp"
-#include "experiments/timing/timing_table.hpp"
+#include "experiments/studies/timing/timing_table.hpp"
 
 #include <gtest/gtest.h>
 

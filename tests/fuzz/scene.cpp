@@ -1,5 +1,5 @@
 // Any text as a scene: a scene or an InputError, nothing else.
-#include "experiments/scene_values.hpp"
+#include "experiments/scene/scene_values.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // A small limb bent by 30, 90 and 150 degrees, and made-up sections of it.
 #pragma once
 
-#include "experiments/artefacts/artefact_figures.hpp"
+#include "experiments/studies/artefacts/artefact_figures.hpp"
 
 namespace test_support {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "analysis/measurement.hpp"
-#include "experiments/scene.hpp"
+#include "experiments/scene/scene.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <array>

@@ -3,7 +3,7 @@
 //   hand_cut_widest(body, positions, pose).area   // over rest
 #pragma once
 
-#include "experiments/artefacts/artefact_case.hpp"
+#include "experiments/studies/artefacts/artefact_case.hpp"
 
 #include <algorithm>
 #include <cmath>

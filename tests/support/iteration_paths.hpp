@@ -1,7 +1,7 @@
 // Paths of iterations made up from formulas, as a convergence study would measure them.
 #pragma once
 
-#include "experiments/convergence/convergence_case.hpp"
+#include "experiments/studies/convergence/convergence_case.hpp"
 
 #include <cmath>
 #include <functional>

@@ -1,7 +1,7 @@
 // Made-up responses of flesh to a jolt: what the figures of C09 are made of.
 #pragma once
 
-#include "experiments/jiggle/jiggle_figures.hpp"
+#include "experiments/studies/jiggle/jiggle_figures.hpp"
 
 namespace test_support {
 

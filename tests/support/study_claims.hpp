@@ -7,7 +7,7 @@
 #include "analysis/claims.hpp"
 #include "analysis/verdict.hpp"
 #include "experiments/studies/study_run.hpp"
-#include "experiments/study_records.hpp"
+#include "experiments/verdicts/study_records.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <algorithm>

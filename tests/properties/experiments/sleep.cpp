@@ -1,7 +1,7 @@
 // Sleep on the human through a jump: the change against the full solve stays small. Truth: the same deformer with all awake.
-#include "experiments/cases/motion_case.hpp"
-#include "experiments/features/feature.hpp"
-#include "experiments/features/feature_cost.hpp"
+#include "experiments/scene/motion_case.hpp"
+#include "experiments/studies/features/feature.hpp"
+#include "experiments/studies/features/feature_cost.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 

@@ -1,5 +1,5 @@
 // Wrong scenes, one by one: each is refused with its file, line, key, value and rule.
-#include "experiments/scene.hpp"
+#include "experiments/scene/scene.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 

@@ -1,4 +1,4 @@
-// Verdicts are computed: each kind follows from its records and flips when they are altered. Truth: the rules in experiments/claims.toml.
+// Verdicts are computed: each kind follows from its records and flips when they are altered. Truth: the rules in experiments/verdicts/claims.toml.
 #include "analysis/verdict.hpp"
 
 #include "analysis/atomic_file.hpp"

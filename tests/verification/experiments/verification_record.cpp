@@ -1,7 +1,7 @@
 // The quick verification record of the judge. Truth: what each row cites: closed forms, published benchmarks, other codes; its tolerance
 // and where that comes from stand in the row. And that the record can fail: with an error of 5 % in the solver's lambda, of which no
 // reference knows, named rows do not hold.
-#include "experiments/verification/problem.hpp"
+#include "experiments/studies/verification/problem.hpp"
 
 #include <gtest/gtest.h>
 

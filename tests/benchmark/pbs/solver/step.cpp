@@ -1,7 +1,7 @@
 // One step of 24 iterations in each order and precision, on bars of about 2,200 and 19,500 vertices twisted by 90 degrees. Read ratios from
 // one run; absolute times are the machine's of that moment. `pbskin bench` compares more, by turns.
 //   build/release/tests/benchmark_step --benchmark_filter=ordered
-#include "experiments/bench/bench_body.hpp"
+#include "experiments/studies/bench/bench_body.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
 #include <benchmark/benchmark.h>

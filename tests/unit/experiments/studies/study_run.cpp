@@ -1,7 +1,7 @@
 // Pieces of work in their folders. Truth: the contract of the header: run.json comes last and only of a run that ended.
 #include "experiments/studies/study_run.hpp"
 
-#include "experiments/run.hpp"
+#include "experiments/run/run.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 

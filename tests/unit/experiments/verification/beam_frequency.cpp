@@ -1,5 +1,5 @@
 // Truth: beam theory. A slender beam is Bernoulli and Euler's, and what shear and rotary inertia take away goes with (h / L)^2.
-#include "experiments/verification/problems/beam_frequency.hpp"
+#include "reference_fem/verification/beam_frequency.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,40 @@
+#include "experiments/process/interruption.hpp"
+
+#include "pbs/geometry/isolated_reader.hpp"
+
+#include <csignal>
+
+namespace experiments {
+namespace {
+
+volatile std::sig_atomic_t signalled = 0;
+
+void on_signal(int)
+{
+    signalled = 1;
+}
+
+}  // namespace
+
+void watch_interrupts()
+{
+    struct sigaction action = {};
+    action.sa_handler = on_signal;
+    action.sa_flags = SA_RESETHAND;  // the second signal ends the program at once
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    pbs::ask_while_reading(stop_if_interrupted);
+    std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit (ulimit -f) is an error of its writer, as on a full disk
+}
+
+bool interrupted()
+{
+    return signalled != 0;
+}
+
+void stop_if_interrupted()
+{
+    if (interrupted()) throw Interrupted{};
+}
+
+}  // namespace experiments

@@ -1,0 +1,88 @@
+#include "experiments/run/frame_measurement.hpp"
+
+#include "pbs/geometry/meshing.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace experiments {
+namespace {
+
+// The largest rotation [deg] of a bone relative to the root's.
+double largest_rotation_deg(const pbs::Pose& pose)
+{
+    const Eigen::Quaterniond root(pose.front().linear());
+    double largest = 0.0;
+    for (const auto& bone : pose) largest = std::max(largest, root.angularDistance(Eigen::Quaterniond(bone.linear())));
+    return largest * 180.0 / std::numbers::pi;
+}
+
+}  // namespace
+
+analysis::ErrorDomain error_domain(const pbs::Character& character, const std::vector<bool>& prescribed)
+{
+    analysis::ErrorDomain domain{character.mesh.rest, character.mesh.tets, prescribed, {}, character.binding.distance};
+    for (std::size_t v = 0; v < character.blended.size(); ++v)
+        if (character.blended[v]) domain.blended.push_back(static_cast<int>(v));
+    return domain;
+}
+
+bool FrameMeasurement::error_below_reference_error() const
+{
+    if (!errors || !reference_error) return false;
+    return std::isnan(errors->joint_pct) ? errors->l2_pct <= reference_error->l2_pct : errors->joint_pct <= reference_error->joint_pct;
+}
+
+FrameMeasurer::FrameMeasurer(const pbs::Character& character, const OutputSpec& output, const std::vector<bool>& prescribed)
+    : character_(character), ruler_(character.mesh.rest, character.mesh.tets)
+{
+    if (output.errors) {
+        error_ruler_.emplace(error_domain(character, prescribed));
+        boundary_ = pbs::boundary_of(character.mesh.tets);
+    }
+    if (output.sections) stations_ = limb_stations(character);
+    for (const LimbStation& station : stations_) {
+        const analysis::Plane rest{station.point, station.normal};
+        sections_.push_back(
+            {rest, rest, station.tets, analysis::cross_section_area(character.mesh.rest, character.mesh.tets, station.tets, rest)});
+    }
+    if (output.surface && character.surface)
+        surface_volume_.emplace(pbs::embedded_positions(*character.surface, character.mesh.rest, character.mesh.tets),
+                                character.surface->triangles);
+}
+
+FrameMeasurement FrameMeasurer::measure(const pbs::Positions& positions, const FrameContext& context)
+{
+    FrameMeasurement measured;
+    measured.metrics = ruler_.measure(positions);
+    measured.bind_rms_m =
+        analysis::bind_rms(positions, pbs::posed_bind_points(character_.binding, *context.pose), character_.binding.distance);
+    measured.angle_deg = context.angle_deg;
+    measured.rotation_deg = largest_rotation_deg(*context.pose);
+    if (error_ruler_ && context.reference) {
+        measured.errors = error_ruler_->measure(positions, *context.reference);
+        measured.reference_self_intersects = context.reference_self_intersects;
+        measured.reference_error = context.reference_error;
+    }
+    if (!positions.allFinite()) return measured;
+    if (!stations_.empty()) measured.min_section_pct = min_section_pct(positions, *context.pose);
+    if (surface_volume_)
+        measured.surface_volume_change_pct =
+            surface_volume_->change_pct(pbs::embedded_positions(*character_.surface, positions, character_.mesh.tets));
+    return measured;
+}
+
+bool FrameMeasurer::self_intersects(const pbs::Positions& positions) const
+{
+    return pbs::self_intersects(positions, boundary_);
+}
+
+double FrameMeasurer::min_section_pct(const pbs::Positions& positions, const pbs::Pose& pose)
+{
+    for (std::size_t i = 0; i < stations_.size(); ++i)
+        sections_[i].posed = {posed_point(stations_[i], pose), posed_normal(stations_[i], pose)};
+    return 100.0 * analysis::section_extremes(character_.mesh.rest, positions, character_.mesh.tets, sections_).smallest_ratio;
+}
+
+}  // namespace experiments

@@ -1,0 +1,33 @@
+#include "experiments/run/frame_step.hpp"
+
+#include <utility>
+
+namespace experiments {
+namespace {
+
+int severity(pbs::Outcome outcome)
+{
+    switch (outcome) {
+        case pbs::Outcome::finished:
+            return 0;
+        case pbs::Outcome::not_converged:
+            return 1;
+        case pbs::Outcome::not_finite:
+            break;
+    }
+    return 2;
+}
+
+}  // namespace
+
+void FrameStep::add(pbs::StepSummary summary, std::size_t step)
+{
+    const pbs::Outcome before = summary_.outcome;
+    summary_ = std::move(summary);
+    if (before == pbs::Outcome::finished || severity(summary_.outcome) > severity(before))
+        worst_step_ = step;
+    else
+        summary_.outcome = before;
+}
+
+}  // namespace experiments

@@ -1,0 +1,279 @@
+#include "experiments/run/run.hpp"
+
+#include "experiments/run/broken_frame.hpp"
+#include "experiments/scene/motion_case.hpp"
+#include "experiments/run/frame_step.hpp"
+#include "experiments/process/interruption.hpp"
+#include "experiments/process/progress.hpp"
+#include "experiments/run/reference_error_bar.hpp"
+#include "experiments/run/run_end.hpp"
+#include "experiments/run/run_folder.hpp"
+#include "experiments/process/warnings.hpp"
+#include "pbs/character/body_remarks.hpp"
+#include "pbs/character/input_file.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/stopwatch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+namespace experiments {
+namespace {
+
+// One deformer of the run and what its steps since the last frame were.
+struct Runner {
+    DeformerSpec spec;
+    std::unique_ptr<Deformer> deformer;
+    FrameStep steps = {};
+    double lowest_change_pct = std::numeric_limits<double>::infinity(), highest_change_pct = -lowest_change_pct;
+    int most_inverted = 0;
+};
+
+std::vector<Runner> make_runners(const Scene& scene, const pbs::Character& character, CostRecord& cost)
+{
+    std::vector<Runner> runners;
+    for (const DeformerSpec& spec : scene.deformers) {
+        cost.time("set_up", spec.label, [&] {
+            runners.push_back({spec, make_deformer(spec), {}});
+            runners.back().deformer->reset(character);
+        });
+        stop_if_interrupted();
+    }
+    // The reference moves first, so that a frame's errors can be measured.
+    std::stable_partition(runners.begin(), runners.end(), [&](const Runner& runner) { return runner.spec.name == scene.reference; });
+    return runners;
+}
+
+// Vertices that any of the deformers is told where to be, #V; empty: none. Errors leave them out.
+std::vector<bool> prescribed_by_any(const std::vector<Runner>& runners)
+{
+    std::vector<bool> any;
+    for (const Runner& runner : runners) {
+        const std::vector<bool> own = runner.deformer->prescribed();
+        if (any.size() < own.size()) any.resize(own.size(), false);
+        for (std::size_t v = 0; v < own.size(); ++v) any[v] = any[v] || own[v];
+    }
+    return any;
+}
+
+void refuse_frames_beyond(const pbs::Motion& motion, const Scene& scene)
+{
+    for (const int frame : scene.output.frames)
+        if (frame >= motion.frames())
+            throw pbs::InputError(scene.file, 0, "output.frames", std::to_string(frame),
+                                  fmt::format("expected less than the motion's {} frames", motion.frames()));
+}
+
+// The printed forms, and linear elasticity at large rotations: their breakdown is on record, no failure.
+bool is_negative_control(const DeformerSpec& spec)
+{
+    const bool linear = spec.kind == "fem" && spec.fem.model == reference_fem::Model::linear;
+    return linear || spec.pbs.volume_form != pbs::VolumeForm::derived;
+}
+
+// Without a reference there are no errors to be measured.
+OutputSpec measured_output(const Scene& scene)
+{
+    OutputSpec output = scene.output;
+    output.errors = output.errors && !scene.reference.empty();
+    return output;
+}
+
+// The rendered surface is carried along where it is measured or written.
+pbs::CharacterSource needed_character(const Scene& scene)
+{
+    pbs::CharacterSource source = scene.character;
+    source.surface = scene.output.surface || scene.output.frames_every > 0 || !scene.output.frames.empty();
+    return source;
+}
+
+pbs::Character told_character(const Scene& scene)
+{
+    std::vector<std::string> remarks;
+    pbs::Character character = pbs::make_character(needed_character(scene), remarks);
+    warn(remarks);
+    return character;
+}
+
+// The motion, and the hashes of its clip into the character's inputs; a sweep has none.
+pbs::Motion read_motion(const Scene& scene, pbs::Character& character)
+{
+    const pbs::InputFile clip(scene.motion.clip);
+    pbs::Motion motion = make_motion(scene.motion, character.skeleton, scene.file);
+    if (scene.motion.clip.empty()) return motion;
+    for (const auto& hashed : clip.hashed()) character.inputs.push_back(hashed);
+    return motion;
+}
+
+class SceneRun {
+public:
+    SceneRun(const Scene& scene, const std::string& folder)
+        : scene_(scene),
+          character_(cost_.time("character", [&] { return told_character(scene); })),
+          motion_(cost_.time("motion", [&] { return read_motion(scene, character_); })),
+          runners_(make_runners(scene, character_, cost_)),
+          measurer_(
+              cost_.time("ruler_set_up", [&] { return FrameMeasurer(character_, measured_output(scene), prescribed_by_any(runners_)); })),
+          folder_((refuse_frames_beyond(motion_, scene), scene), character_, folder)
+    {
+        if (scene.error_bar != ErrorBar::none)
+            cost_.time("error_bar_set_up", [&] { error_bar_.emplace(scene.error_bar, runners_.front().spec, character_); });
+    }
+
+    RunResult run()
+    {
+        try {
+            play();
+        } catch (const Interrupted&) {
+            folder_.write_tables();
+            throw;
+        }
+        return finish();
+    }
+
+private:
+    void play()
+    {
+        tell_what_comes();
+        Progress progress(scene_.name, static_cast<int>(motion_.steps.size()));
+        for (std::size_t step = 0; step < motion_.steps.size(); ++step) {
+            stop_if_interrupted();
+            const bool is_frame = step % motion_.steps_per_frame == 0;
+            for (Runner& runner : runners_)
+                if (is_frame || runner.deformer->has_memory())
+                    runner.steps.add(cost_.time("step", runner.spec.label,
+                                                [&] { return runner.deformer->advance(motion_.steps[step], motion_.time_step_s); }),
+                                     step);
+            if (error_bar_ && (is_frame || runners_.front().deformer->has_memory()))
+                cost_.time("error_bar", [&] { error_bar_->advance(motion_.steps[step], motion_.time_step_s); });
+            if (is_frame) record_frame(static_cast<int>(step / motion_.steps_per_frame), step);
+            progress.advance_to(static_cast<int>(step) + 1);
+        }
+    }
+
+    void tell_what_comes()
+    {
+        std::vector<pbs::Pose> frames;
+        for (std::size_t step = 0; step < motion_.steps.size(); step += motion_.steps_per_frame) frames.push_back(motion_.steps[step]);
+        for (Runner& runner : runners_) runner.deformer->foresee(runner.deformer->has_memory() ? motion_.steps : frames);
+    }
+
+    void record_frame(int frame, std::size_t step)
+    {
+        const double time_s = static_cast<double>(step) * motion_.time_step_s;
+        FrameContext context;
+        context.pose = &motion_.steps[step];
+        if (!motion_.angle_deg.empty()) context.angle_deg = motion_.angle_deg[frame];
+        const Runner& first = runners_.front();
+        if (scene_.output.errors && first.spec.name == scene_.reference && first.steps.summary().outcome == pbs::Outcome::finished) {
+            context.reference = &first.deformer->positions();
+            cost_.time("ruler", [&] { context.reference_self_intersects = measurer_.self_intersects(*context.reference); });
+            self_intersecting_frames_ += context.reference_self_intersects;
+            if (error_bar_) cost_.time("error_bar", [&] { context.reference_error = error_bar_->bound(*context.reference, measurer_); });
+        }
+        for (Runner& runner : runners_) record_deformer(runner, frame, time_s, context);
+        if (scene_.output.writes(frame)) folder_.write_pose(frame, time_s, character_.skeleton, motion_.steps[step]);
+        ++frames_;
+    }
+
+    void record_deformer(Runner& runner, int frame, double time_s, const FrameContext& context)
+    {
+        const pbs::Positions& positions = runner.deformer->positions();
+        const pbs::StepSummary& step = runner.steps.summary();
+        const FrameMeasurement measured = cost_.time("ruler", [&] { return measurer_.measure(positions, context_for(runner, context)); });
+        cost_.time("records", [&] {
+            folder_.add_frame(runner.spec, frame, time_s, measured, step);
+            folder_.add_state(runner.spec, positions);
+            folder_.add_regions(runner.spec.label, positions);
+        });
+        runner.lowest_change_pct = std::min(runner.lowest_change_pct, measured.metrics.volume_change_pct);
+        runner.highest_change_pct = std::max(runner.highest_change_pct, measured.metrics.volume_change_pct);
+        runner.most_inverted = std::max(runner.most_inverted, measured.metrics.inverted_tets);
+        if (measured.error_below_reference_error() && runner.spec.name != scene_.reference)
+            ++frames_below_reference_error_[runner.spec.label];
+        if (step.outcome == pbs::Outcome::not_converged) not_converged_[runner.spec.label].push_back(frame);
+        if (step.outcome == pbs::Outcome::not_finite) breakdowns_[runner.spec.label].push_back(frame);
+        if (step.outcome != pbs::Outcome::finished || (runner.spec.kind == "fem" && measured.metrics.inverted_tets > 0))
+            record_breakdown(runner, frame);
+        if (scene_.output.writes(frame))
+            cost_.time("frames", [&] {
+                folder_.write_frame(runner.spec, frame, time_s, character_, positions, measurer_.volume_ratios(positions),
+                                    runner.deformer->prescribed());
+            });
+        runner.steps = {};
+    }
+
+    void record_breakdown(const Runner& runner, int frame)
+    {
+        const pbs::Positions& positions = runner.deformer->positions();
+        const pbs::Outcome outcome = runner.steps.summary().outcome;
+        BrokenFrame broken = broken_frame(frame, outcome, positions, measurer_.volume_ratios(positions));
+        if (const int step = static_cast<int>(runner.steps.worst_step()); step != frame * motion_.steps_per_frame) broken.step = step;
+        broken_frames_[runner.spec.label].push_back(broken);
+        if (is_negative_control(runner.spec)) return;
+        const std::string text = fmt::format("{} is {}", runner.spec.label, text_of(broken));
+        if (outcome == pbs::Outcome::not_finite) {
+            if (breakdown_.empty()) breakdown_ = text;
+        } else if (bad_frame_.empty()) {
+            bad_frame_ = fmt::format("{}: {}", outcome == pbs::Outcome::finished ? "inverted tets" : "pose not reached", text);
+        }
+    }
+
+    // A reference that has not reached its pose stands in another one: it has no error.
+    static FrameContext context_for(const Runner& runner, FrameContext context)
+    {
+        if (runner.spec.kind == "fem" && runner.steps.summary().outcome == pbs::Outcome::not_converged) context.reference = nullptr;
+        return context;
+    }
+
+    RunResult finish()
+    {
+        std::map<std::string, nlohmann::json> records;
+        for (const Runner& runner : runners_)
+            if (const auto record = runner.deformer->record(); !record.is_null()) records[runner.spec.label] = record;
+        nlohmann::json outcome = {{"finished", true}, {"frames", frames_}, {"breakdowns", breakdowns_}, {"not_converged", not_converged_}};
+        outcome["broken_frames"] = broken_frames_;
+        outcome["breakdown"] = breakdown_;
+        outcome["bad_frame"] = bad_frame_;
+        if (!scene_.reference.empty()) outcome["self_intersecting_reference_frames"] = self_intersecting_frames_;
+        if (error_bar_) outcome["frames_below_reference_error"] = frames_below_reference_error_;
+        outcome.update(run_end(stopwatch_.seconds()));
+        folder_.finish(character_, records, outcome, cost_, error_bar_ ? error_bar_->method() : nlohmann::json());
+
+        RunResult result{frames_, stopwatch_.seconds(), breakdown_, bad_frame_, {}};
+        for (const Runner& runner : runners_)
+            result.lines.push_back(fmt::format("  {:<12} volume change {:8.3f} to {:7.3f} %, at most {} inverted tets", runner.spec.label,
+                                               runner.lowest_change_pct, runner.highest_change_pct, runner.most_inverted));
+        for (const auto& [label, frames] : not_converged_)
+            result.lines.push_back(fmt::format("  {:<12} did not converge in {} of {} frames; as a reference, it is not compared there",
+                                               label, frames.size(), frames_));
+        return result;
+    }
+
+    const Scene& scene_;
+    CostRecord cost_;
+    pbs::Stopwatch stopwatch_;
+    pbs::Character character_;
+    pbs::Motion motion_;
+    std::vector<Runner> runners_;
+    FrameMeasurer measurer_;
+    std::optional<ReferenceErrorBar> error_bar_;
+    RunFolder folder_;  // made when all else stands: it clears an earlier run's records
+    int frames_ = 0, self_intersecting_frames_ = 0;
+    std::string breakdown_, bad_frame_;
+    std::map<std::string, std::vector<int>> breakdowns_, not_converged_;  // label -> frames
+    std::map<std::string, std::vector<BrokenFrame>> broken_frames_;       // label -> frames with their worst elements
+    std::map<std::string, int> frames_below_reference_error_ = {};        // label -> how many
+};
+
+}  // namespace
+
+RunResult run_scene(const Scene& scene, const std::string& folder)
+{
+    return SceneRun(scene, folder).run();
+}
+
+}  // namespace experiments

@@ -1,0 +1,97 @@
+#include "experiments/studies/ambiguity/judged_figure.hpp"
+
+#include "experiments/verdicts/claims_text.hpp"
+#include "pbs/character/body_cache.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace experiments {
+namespace {
+
+// What the study of convergence adds to `of` where a tolerance is not reached.
+constexpr const char* bounding_remarks[] = {"; at least so much", "; at most so much", "; more than so much"};
+
+void take_remark(JudgedFigure& figure)
+{
+    for (const std::string remark : bounding_remarks)
+        if (figure.of.ends_with(remark)) {
+            figure.remark = remark.substr(2);
+            figure.of.resize(figure.of.size() - remark.size());
+        }
+}
+
+JudgedFigure of_case(const analysis::Claim& claim, const analysis::CaseRecord& record, const std::string& metric)
+{
+    const analysis::CaseJudgement judgement = analysis::judge_case(claim, record, metric);
+    const bool of_share = claim.rule == analysis::ClaimRule::share_within;
+    return {claim.id,
+            (of_share ? "share of frames within, " : "mean ") + metric,
+            record.scene,
+            of_share ? "1" : "%",
+            of_share ? analysis::bound_text({"", claim.share, 1.0}) : analysis::bound_text({"", claim.low, claim.high}),
+            of_share ? judgement.share.estimate : judgement.mean.estimate,
+            judgement.extent};
+}
+
+}  // namespace
+
+const char* word_for(analysis::Extent extent)
+{
+    static constexpr const char* words[] = {"nowhere", "in part", "whole"};
+    return words[static_cast<int>(extent)];
+}
+
+const analysis::Claim& claim_named(const std::string& id)
+{
+    const auto found = std::find_if(claims().begin(), claims().end(), [&](const analysis::Claim& claim) { return claim.id == id; });
+    if (found == claims().end()) throw std::logic_error("no claim " + id);
+    return *found;
+}
+
+std::string digest_of(const std::vector<analysis::Claim>& claims)
+{
+    nlohmann::json all = nlohmann::json::array();
+    for (const analysis::Claim& claim : claims) {
+        all.push_back({claim.id, static_cast<int>(claim.rule), claim.metrics, claim.deformer, claim.iterations, claim.low, claim.high,
+                       claim.share, claim.part, claim.level});
+        for (const analysis::QuantityBound& bound : claim.bounds) all.push_back({bound.quantity, bound.low, bound.high});
+    }
+    return pbs::content_hash(all.dump());
+}
+
+std::vector<LeftOutQuantity> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason)
+{
+    std::vector<LeftOutQuantity> left_out;
+    for (const std::string& quantity : claim_named(claim).metrics)
+        if (std::find(measured.begin(), measured.end(), quantity) == measured.end()) left_out.push_back({claim, quantity, reason});
+    return left_out;
+}
+
+std::vector<JudgedFigure> judged(const std::vector<analysis::Measurement>& measured)
+{
+    std::vector<JudgedFigure> figures;
+    for (const analysis::Measurement& one : measured) {
+        const analysis::Claim& claim = claim_named(one.claim);
+        if (std::find(claim.metrics.begin(), claim.metrics.end(), one.quantity) == claim.metrics.end()) continue;
+        figures.push_back({one.claim, one.quantity, one.of, one.unit, analysis::bound_text(analysis::bound_of(claim, one.quantity)),
+                           one.value, analysis::extent_of(claim, one)});
+        take_remark(figures.back());
+    }
+    return figures;
+}
+
+std::vector<JudgedFigure> judged(const ReadMotion& moved)
+{
+    std::vector<JudgedFigure> figures;
+    for (const analysis::Claim& claim : claims()) {
+        if (claim.study != "volume") continue;
+        for (const std::string& metric : claim.metrics)
+            figures.push_back(of_case(claim, claim.deformer == "lbs" ? moved.lbs : moved.pbs, metric));
+    }
+    return figures;
+}
+
+}  // namespace experiments

@@ -1,0 +1,49 @@
+// A figure that a claim is judged by, of a character moved by one reading, and whether it lies in the claim's bound.
+//   const std::vector<JudgedFigure> figures = judged(measurements);   // those of quantities that a claim is judged by
+//   const std::vector<JudgedFigure> of_sweep = judged(read_motion);   // C01, C02
+#pragma once
+
+#include "analysis/measurement.hpp"
+#include "experiments/studies/ambiguity/read_motion.hpp"
+
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+struct JudgedFigure {
+    std::string claim, quantity, of, unit, bound;
+    double value = 0.0;
+    analysis::Extent extent = analysis::Extent::none;  // of the claim, by this figure
+    std::string remark = {};                           // "at least so much": the value bounds the figure
+};
+
+// A quantity that a claim is judged by and that is not measured of readings.
+struct LeftOutQuantity {
+    std::string claim, quantity, reason;
+};
+
+// What one reading makes of the claims that were looked at.
+struct ReadingFigures {
+    std::vector<JudgedFigure> figures;
+    bool broke_down = false;  // positions ceased to be finite
+    std::vector<LeftOutQuantity> left_out = {};
+};
+
+// "nowhere", "in part", "whole".
+const char* word_for(analysis::Extent extent);
+
+// Of the quantities that the claim is judged by.
+std::vector<LeftOutQuantity> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason);
+
+std::vector<JudgedFigure> judged(const std::vector<analysis::Measurement>& measured);
+
+// C01: the mean of its metrics over the frames; C02: the share of frames within; both judged as analysis::judge_case does.
+std::vector<JudgedFigure> judged(const ReadMotion& moved);
+
+const analysis::Claim& claim_named(const std::string& id);
+
+// Of all that decides whether a figure holds: another bound is another digest.
+std::string digest_of(const std::vector<analysis::Claim>& claims);
+
+}  // namespace experiments

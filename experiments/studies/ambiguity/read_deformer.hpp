@@ -1,0 +1,41 @@
+// Position based skinning by one reading of the paper, as a deformer: whatever a study measures of a deformer, it measures of a reading.
+//   ReadDeformer deformer(reading);
+//   deformer.reset(character);
+//   deformer.advance(pose, dt_s);   // one of the reading's substeps
+#pragma once
+
+#include "experiments/studies/ambiguity/reading.hpp"
+#include "experiments/deformers/deformer.hpp"
+#include "pbs/skinning/blend_skinning.hpp"
+#include "pbs/solver/pbs_solver.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace experiments {
+
+pbs::Weights weights_of(const pbs::Character& character, const Reading& reading);
+
+// Posed q_i [m], #V x 3.
+pbs::Positions bind_points_of(const pbs::Character& character, const Reading& reading, const pbs::Pose& pose, const pbs::Positions& lbs);
+
+class ReadDeformer final : public Deformer {
+public:
+    explicit ReadDeformer(const Reading& reading) : reading_(reading) {}
+
+    void reset(const pbs::Character& character) override;
+    pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override;
+    const pbs::Positions& positions() const override { return solver_->positions(); }
+    bool has_memory() const override { return reading_.options.jiggle || reading_.options.lbs_entry == pbs::LbsEntry::increment; }
+
+    const pbs::Positions& lbs() const { return lbs_; }  // of the last step [m], #V x 3
+
+private:
+    Reading reading_;
+    const pbs::Character* character_ = nullptr;
+    std::optional<pbs::BlendSkinning<double>> skinning_;
+    std::unique_ptr<pbs::PbsSolver> solver_;
+    pbs::Positions lbs_;
+};
+
+}  // namespace experiments

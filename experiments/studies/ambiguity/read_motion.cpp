@@ -1,0 +1,63 @@
+#include "experiments/studies/ambiguity/read_motion.hpp"
+
+#include "analysis/frame_metrics.hpp"
+#include "experiments/studies/ambiguity/read_deformer.hpp"
+#include "experiments/scene/motion_case.hpp"
+#include "experiments/process/interruption.hpp"
+
+namespace experiments {
+namespace {
+
+pbs::Motion motion_of(const pbs::Character& character, const Scene& scene, int substeps)
+{
+    MotionSpec spec = scene.motion;
+    if (!spec.clip.empty()) spec.time_step_s /= substeps;
+    return make_motion(spec, character.skeleton, scene.file);
+}
+
+analysis::CaseRecord record_of(const Scene& scene, const std::string& deformer)
+{
+    analysis::CaseRecord record;
+    record.scene = scene.name;
+    record.deformer = deformer;
+    return record;
+}
+
+void add_frame(analysis::CaseRecord& record, int frame, double time_s, const pbs::Motion& motion, const analysis::FrameMetrics& metrics)
+{
+    record.frame.push_back(frame);
+    record.time_s.push_back(time_s);
+    if (!motion.angle_deg.empty()) record.angle_deg.push_back(motion.angle_deg[frame]);
+    record.volume_change_pct.push_back(metrics.volume_change_pct);
+    record.volume_abs_change_pct.push_back(metrics.volume_abs_change_pct);
+    record.inverted_tets.push_back(metrics.inverted_tets);
+}
+
+}  // namespace
+
+ReadMotion move(const pbs::Character& character, const Scene& scene, const Reading& reading)
+{
+    const pbs::Motion motion = motion_of(character, scene, reading.substeps);
+    const analysis::Ruler ruler(character.mesh.rest, character.mesh.tets);
+    ReadDeformer moving(reading);
+    moving.reset(character);
+    ReadMotion moved;
+    moved.pbs = record_of(scene, "pbs");
+    moved.pbs.iterations = reading.options.iterations;
+    moved.lbs = record_of(scene, "lbs");
+    for (int step = 0; step < static_cast<int>(motion.steps.size()); ++step) {
+        const bool is_frame = step % motion.steps_per_frame == 0;
+        if (!is_frame && !moving.has_memory()) continue;
+        stop_if_interrupted();
+        moving.advance(motion.steps[step], motion.time_step_s);
+        if (!is_frame) continue;
+        const int frame = step / motion.steps_per_frame;
+        add_frame(moved.pbs, frame, step * motion.time_step_s, motion, ruler.measure(moving.positions()));
+        add_frame(moved.lbs, frame, step * motion.time_step_s, motion, ruler.measure(moving.lbs()));
+        moved.shapes.push_back(moving.positions());
+        moved.finite = moved.finite && moving.positions().allFinite();
+    }
+    return moved;
+}
+
+}  // namespace experiments

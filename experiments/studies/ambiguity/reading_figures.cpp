@@ -1,0 +1,235 @@
+#include "experiments/studies/ambiguity/reading_figures.hpp"
+
+#include "experiments/studies/ambiguity/read_deformer.hpp"
+#include "experiments/process/cpu_clock.hpp"
+#include "experiments/studies/shared/timed_rounds.hpp"
+#include "experiments/scene/motion_case.hpp"
+#include "experiments/studies/convergence/convergence_figures.hpp"
+#include "experiments/process/interruption.hpp"
+#include "experiments/studies/jiggle/jiggle_figures.hpp"
+#include "experiments/studies/jiggle/jiggle_zone_contents.hpp"
+#include "experiments/studies/momentum/momentum_drift.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace experiments {
+namespace {
+
+// The body of a case and where it goes.
+struct MovedBody {
+    explicit MovedBody(const ReadingsCase& of)
+        : character(pbs::make_character(of.scene.character)), motion(make_motion(of.scene.motion, character.skeleton, of.scene.file))
+    {
+    }
+
+    const pbs::Pose& pose_at(int frame) const { return motion.steps.at(static_cast<std::size_t>(frame) * motion.steps_per_frame); }
+
+    pbs::Character read(const Reading& reading) const
+    {
+        pbs::Character own = character;
+        own.weights = weights_of(character, reading);
+        return own;
+    }
+
+    pbs::Character character;
+    pbs::Motion motion;
+};
+
+ConvergencePaths paths_of(const ReadingsCase& of, const MovedBody& body, const Reading& reading)
+{
+    const pbs::Character character = body.read(reading);
+    const FrameStarts starts = starts_of(character, body.motion, {of.frame}, reading.options).front();
+    const pbs::Positions bind_points = bind_points_of(character, reading, body.pose_at(of.frame), starts.shapes.front());
+    ConvergencePaths paths;
+    paths.body = of.scene.character.body;
+    paths.pose = of.pose;
+    paths.vertices = static_cast<int>(character.mesh.rest.rows());
+    paths.tets = static_cast<int>(character.mesh.tets.rows());
+    paths.setting = {reading.options.order, reading.options.precision};
+    paths.character = !of.scene.motion.clip.empty();
+    paths.paths = iterate(character, reading.options, bind_points, {starts.shapes.begin(), starts.shapes.end()}, of.most_iterations,
+                          IterationRuler(character, bind_points));
+    return paths;
+}
+
+bool are_finite(const std::vector<IterationPath>& paths)
+{
+    return std::all_of(paths.begin(), paths.end(), [](const IterationPath& path) { return path.finite; });
+}
+
+Reading jolted(Reading reading, double k_stretch, int iterations)
+{
+    const bool everywhere = reading.options.jiggle && reading.options.k_stretch == reading.options.jiggle->k_stretch;
+    if (!reading.options.jiggle) reading.options.jiggle = pbs::Jiggle{};
+    reading.options.jiggle->k_stretch = k_stretch;
+    if (everywhere) reading.options.k_stretch = k_stretch;
+    reading.options.iterations = iterations;
+    reading.options.gravity_m_s2.setZero();
+    return reading;
+}
+
+// The setting as the figures name it: that of the paper, whatever the reading makes of it.
+MeasuredJiggle jolt(const MovedBody& body, const std::vector<int>& probe, const ReadingsCase& of, const Reading& reading,
+                    const JiggleSetting& named, double k_stretch)
+{
+    ReadDeformer deformer(jolted(reading, k_stretch, named.iterations));
+    Jolt jolt{.direction = of.jolt_direction, .time_step_s = named.time_step_s / reading.substeps, .steps = of.jolt_steps};
+    jolt.still_steps *= reading.substeps;
+    jolt.steps *= reading.substeps;
+    MeasuredJiggle measured{named, jolt_response(body.character, deformer, probe, jolt)};
+    if (measured.response.peak_over_jolt < least_answer) measured.response.swing = {};
+    return measured;
+}
+
+std::vector<MeasuredJiggle> jolts_of(const ReadingsCase& of, const MovedBody& body, const std::vector<int>& probe, const Reading& reading)
+{
+    const int iterations = reading.options.iterations;
+    const double dt_s = of.scene.motion.time_step_s, k = reading.options.jiggle ? reading.options.jiggle->k_stretch : table_1_k_stretch;
+    return {jolt(body, probe, of, reading, {table_1_k_stretch, dt_s, iterations}, k),
+            jolt(body, probe, of, reading, {soft_k_stretch, dt_s, iterations}, soft_k_stretch),
+            jolt(body, probe, of, reading, {table_1_k_stretch, 0.5 * dt_s, iterations}, k),
+            jolt(body, probe, of, reading, {table_1_k_stretch, dt_s, 2 * iterations}, k)};
+}
+
+// Of one setting or of two, which few settings give as many do.
+const std::vector<std::string> quantities_of_few_settings = {"damping ratio", "frequency at half the time step over at the whole",
+                                                             "frequency at twice the iterations over at the once"};
+
+ReadingFigures of_jolts(const std::string& body, const std::vector<MeasuredJiggle>& measured)
+{
+    const std::vector<JiggleSetting> all = jiggle_settings();
+    const std::string reason = fmt::format("the bound is for the study's {} settings, a reading is jolted at {}",
+                                           std::count_if(all.begin(), all.end(), is_of_the_paper), measured.size());
+    ReadingFigures read = {judged(jiggle_figures(body, measured)), false, all_but("C09", quantities_of_few_settings, reason)};
+    std::erase_if(read.figures, [&](const JudgedFigure& figure) {
+        return std::any_of(read.left_out.begin(), read.left_out.end(), [&](const auto& one) { return one.quantity == figure.quantity; });
+    });
+    read.broke_down = std::any_of(measured.begin(), measured.end(), [](const MeasuredJiggle& one) { return !one.response.finished; });
+    return read;
+}
+
+// One reading's way through the motion, a frame a turn.
+class TimedReading {
+public:
+    TimedReading(const MovedBody& body, Reading reading, double dt_s)
+        : motion_(body.motion), substeps_(reading.substeps), dt_s_(dt_s), deformer_(judged_precision(std::move(reading)))
+    {
+        deformer_.reset(body.character);
+    }
+
+    std::vector<double> turn()
+    {
+        stop_if_interrupted();
+        const pbs::Pose& pose = motion_.steps[next_];
+        next_ = (next_ + static_cast<std::size_t>(motion_.steps_per_frame)) % motion_.steps.size();
+        const double start_s = thread_cpu_s();
+        for (int substep = 0; substep < substeps_; ++substep) deformer_.advance(pose, dt_s_ / substeps_);
+        const double took_s = thread_cpu_s() - start_s;
+        finite_ = finite_ && deformer_.positions().allFinite();
+        return {took_s};
+    }
+
+    bool finite() const { return finite_; }  // in every turn
+
+private:
+    static Reading judged_precision(Reading reading)
+    {
+        reading.options.order = pbs::Order::plain;
+        reading.options.precision = pbs::Precision::f64;
+        return reading;
+    }
+
+    const pbs::Motion& motion_;
+    int substeps_;
+    double dt_s_;
+    ReadDeformer deformer_;
+    std::size_t next_ = 0;
+    bool finite_ = true;
+};
+
+JudgedFigure of_frame(const std::string& body, int vertices, double ms)
+{
+    const analysis::Claim& claim = claim_named("C10");
+    const double frames_s = 1e3 / ms;
+    const analysis::Measurement pace{"C10", claim.metrics.front(), "", frames_s, frames_s, frames_s, "1/s"};
+    return {"C10",
+            "processor time of a frame",
+            fmt::format("{}, {} vertices, plain f64", body, vertices),
+            "ms",
+            fmt::format("{} frames a second", analysis::bound_text(analysis::bound_of(claim, pace.quantity))),
+            ms,
+            analysis::extent_of(claim, pace)};
+}
+
+}  // namespace
+
+std::vector<ReadingFigures> figures_of_starts(const ReadingsCase& of, const std::vector<Reading>& readings)
+{
+    const MovedBody body(of);
+    std::vector<ReadingFigures> all;
+    for (const Reading& reading : readings) {
+        ConvergenceResult result;
+        result.all.push_back(paths_of(of, body, reading));
+        result.all.front().k_stretch = readings.front().options.k_stretch;  // a name for the case, the same for all readings
+        all.push_back({judged(convergence_figures(result)), !are_finite(result.all.front().paths)});
+        if (!result.all.front().character) all.back().left_out = all_but("C12", {}, "judged on characters alone");
+    }
+    return all;
+}
+
+std::vector<ReadingFigures> figures_of_projections(const ReadingsCase& of, const std::vector<Reading>& readings)
+{
+    const MovedBody body(of);
+    std::vector<ReadingFigures> all;
+    for (const Reading& reading : readings) {
+        const pbs::Character character = body.read(reading);
+        const pbs::PbsOptions& options = reading.options;
+        std::vector<analysis::Measurement> figures;
+        const auto add = [&](const char* which, const std::string& name, double drift) {
+            figures.push_back({"C07", name, fmt::format("{}, {}, {}", of.scene.character.body, of.pose, which), drift, drift, drift, "1"});
+        };
+        for (const auto& [projected, which] :
+             {std::pair{ProjectedClass::stretch, "stretch"}, std::pair{ProjectedClass::volume, "volume"}}) {
+            const MomentumDrift single = drift_of_projections(character, body.pose_at(of.frame), options, projected, options.masses);
+            const MomentumDrift pass = drift_of_a_pass(character, body.pose_at(of.frame), options, projected, options.masses);
+            add(which, "linear drift", single.linear);
+            add(which, "angular drift", single.angular);
+            add(which, "linear drift of a pass", pass.linear);
+            add(which, "angular drift of a pass", pass.angular);
+        }
+        all.push_back({judged(figures), false});
+    }
+    return all;
+}
+
+std::vector<ReadingFigures> figures_of_jolts(const ReadingsCase& of, const std::vector<Reading>& readings)
+{
+    const MovedBody body(of);
+    const std::vector<int> probe = zone_contents(body.character).pieces.at(0);
+    std::vector<ReadingFigures> all;
+    for (const Reading& reading : readings) all.push_back(of_jolts(of.scene.character.body, jolts_of(of, body, probe, reading)));
+    return all;
+}
+
+std::vector<ReadingFigures> figures_of_frames(const ReadingsCase& of, const std::vector<Reading>& readings)
+{
+    const MovedBody body(of);
+    std::vector<std::unique_ptr<TimedReading>> timed;
+    std::vector<TimedVariant> turns;
+    for (const Reading& reading : readings) {
+        timed.push_back(std::make_unique<TimedReading>(body, reading, of.scene.motion.time_step_s));
+        turns.push_back([one = timed.back().get()] { return one->turn(); });
+    }
+    const auto seconds = take_turns(turns, {.seconds = of.timing_s});
+    std::vector<ReadingFigures> all;
+    for (std::size_t i = 0; i < timed.size(); ++i) {
+        const double ms = 1e3 * spread_of(seconds[i][0]).median;
+        all.push_back({{of_frame(of.scene.character.body, int(body.character.mesh.rest.rows()), ms)}, !timed[i]->finite()});
+    }
+    return all;
+}
+
+}  // namespace experiments

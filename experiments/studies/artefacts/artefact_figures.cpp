@@ -1,0 +1,168 @@
+#include "experiments/studies/artefacts/artefact_figures.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace experiments {
+namespace {
+
+using Extreme = double SectionExtremesOverRest::*;
+
+// The samples of one group in one pose at one joint: its own first; of the reference, that of the highest element order.
+std::vector<ArtefactSample> chosen(const std::vector<ArtefactSample>& samples, const std::string& group, std::size_t pose,
+                                   std::size_t joint)
+{
+    std::vector<ArtefactSample> chosen;
+    for (const ArtefactSample& sample : samples)
+        if (sample.group == group && sample.pose == pose && sample.joint == joint) chosen.push_back(sample);
+    std::stable_sort(chosen.begin(), chosen.end(), [](const auto& a, const auto& b) { return a.element_order > b.element_order; });
+    return chosen;
+}
+
+std::vector<double> sizes(const std::vector<ArtefactSample>& samples, Extreme extreme)
+{
+    std::vector<double> sizes;
+    for (const ArtefactSample& sample : samples) sizes.push_back(sample.extremes.*extreme);
+    return sizes;
+}
+
+double least(const std::vector<double>& values)
+{
+    return *std::min_element(values.begin(), values.end());
+}
+
+double most(const std::vector<double>& values)
+{
+    return *std::max_element(values.begin(), values.end());
+}
+
+bool is_wide(const std::vector<ArtefactSample>& samples)
+{
+    return !samples.empty() && most(sizes(samples, &SectionExtremesOverRest::largest_radius)) > widest_over_rest;
+}
+
+// "pbs 7.56 times as wide as at rest, 34 % of that outline the limb's own skin"
+std::string remark_on_width(const std::vector<ArtefactSample>& samples, std::size_t pose, std::size_t joint)
+{
+    std::vector<std::string> remarks;
+    for (const std::string group : {"pbs", "lbs", "dqs", "reference"}) {
+        const std::vector<ArtefactSample> own = chosen(samples, group, pose, joint);
+        if (!is_wide(own)) continue;
+        const SectionExtremesOverRest widest = std::max_element(own.begin(), own.end(), [](const auto& a, const auto& b) {
+                                                   return a.extremes.largest_radius < b.extremes.largest_radius;
+                                               })->extremes;
+        remarks.push_back(fmt::format("{} {:.3g} times as wide as at rest, {:.0f} % of that outline the limb's own skin", group,
+                                      widest.largest_radius, 100.0 * widest.limb_share_of_widest));
+    }
+    return fmt::format("{}", fmt::join(remarks, "; "));
+}
+
+std::string of_text(const ArtefactCase& of, const ArtefactBody& body, std::size_t pose, std::size_t joint)
+{
+    return fmt::format("{}, {}, {}", body.posed.character().name, of.poses[pose].name, body.joints[joint].name);
+}
+
+// The claim's own quantity is that of pbs; the others' carry their names.
+std::string quantity_of(const std::string& quantity, const std::string& group)
+{
+    return group == "pbs" ? quantity : quantity + ", " + group;
+}
+
+std::string reference_name(const std::vector<ArtefactSample>& samples, std::size_t pose, std::size_t joint)
+{
+    const std::vector<ArtefactSample> reference = chosen(samples, "reference", pose, joint);
+    return reference.empty() ? "" : fmt::format("snh_p{}", reference.front().element_order);
+}
+
+}  // namespace
+
+std::vector<analysis::Measurement> candy_wrapper_figures(const ArtefactCase& of, const ArtefactBody& body,
+                                                         const std::vector<ArtefactSample>& samples)
+{
+    std::vector<analysis::Measurement> figures;
+    for (const auto& [pose, joint, reference, outcome, remark] : section_outcomes(of, body, samples))
+        for (const std::string group : {"pbs", "lbs", "dqs", "reference"})
+            for (const auto& [quantity, extreme] :
+                 {std::pair{"smallest section radius over rest", &SectionExtremesOverRest::smallest_radius},
+                  {"smallest section area over rest", &SectionExtremesOverRest::smallest_area}}) {
+                const std::vector<double> values = sizes(chosen(samples, group, pose, joint), extreme);
+                if (values.empty()) continue;
+                const std::string which = group == "reference" ? ", " + reference : "";
+                figures.push_back({"C04", quantity_of(quantity, group), of_text(of, body, pose, joint) + which, values.front(),
+                                   least(values), most(values), "1"});
+            }
+    return figures;
+}
+
+std::vector<analysis::Measurement> bulge_figures(const ArtefactCase& of, const ArtefactBody& body,
+                                                 const std::vector<ArtefactSample>& samples)
+{
+    std::vector<analysis::Measurement> figures;
+    for (const auto& [pose, joint, reference_name, outcome, remark] : section_outcomes(of, body, samples)) {
+        if (outcome != SectionOutcome::measured && outcome != SectionOutcome::pbs_did_not_finish) continue;
+        for (const auto& [quantity, extreme] :
+             {std::pair{"largest section radius over the reference's", &SectionExtremesOverRest::largest_radius},
+              {"largest section area over the reference's", &SectionExtremesOverRest::largest_area}}) {
+            const std::vector<double> reference = sizes(chosen(samples, "reference", pose, joint), extreme);
+            for (const std::string group : {"pbs", "lbs", "dqs"}) {
+                const std::vector<ArtefactSample> own = chosen(samples, group, pose, joint);
+                if (own.empty()) continue;
+                const std::vector<double> values = sizes(own, extreme);
+                figures.push_back({"C05", quantity_of(quantity, group), of_text(of, body, pose, joint) + ", over " + reference_name,
+                                   values.front() / reference.front(), least(values) / most(reference), most(values) / least(reference),
+                                   "1"});
+            }
+        }
+    }
+    return figures;
+}
+
+const char* name_of(SectionOutcome outcome)
+{
+    static constexpr const char* names[] = {"measured", "pbs did not finish", "reference not reached", "bent by more than 110 deg",
+                                            "inside another part"};
+    return names[static_cast<int>(outcome)];
+}
+
+std::vector<JudgedSection> section_outcomes(const ArtefactCase& of, const ArtefactBody& body, const std::vector<ArtefactSample>& samples)
+{
+    const bool over_reference = of.claim == ArtefactCase::Claim::bulge;
+    std::vector<JudgedSection> sections;
+    for (std::size_t pose = 0; pose < of.poses.size(); ++pose)
+        for (std::size_t joint = 0; joint < body.joints.size(); ++joint) {
+            JudgedSection section{pose, joint, reference_name(samples, pose, joint)};
+            if (over_reference && body.sections[joint].bend_deg(body.posed.pose(pose)) > deepest_bend_deg)
+                section.outcome = SectionOutcome::bent_too_far;
+            else if (over_reference && section.reference.empty())
+                section.outcome = SectionOutcome::reference_not_reached;
+            else if (over_reference && is_wide(chosen(samples, "reference", pose, joint)))
+                section.outcome = SectionOutcome::inside_another_part;
+            else if (chosen(samples, "pbs", pose, joint).empty())
+                section.outcome = SectionOutcome::pbs_did_not_finish;
+            if (over_reference && section.outcome != SectionOutcome::bent_too_far) section.remark = remark_on_width(samples, pose, joint);
+            sections.push_back(section);
+        }
+    return sections;
+}
+
+analysis::CsvTable section_table(const ArtefactCase& of, const ArtefactBody& body, const std::vector<JudgedSection>& sections)
+{
+    analysis::CsvTable table({"claim", "body", "pose", "joint", "reference", "outcome", "remark"});
+    const auto add = [&](std::size_t pose, const std::string& joint, const std::string& reference, const std::string& outcome,
+                         const std::string& remark) {
+        table.add_row({of.claim == ArtefactCase::Claim::bulge ? "C05" : "C04", body.posed.character().name, of.poses[pose].name, joint,
+                       reference, outcome, remark});
+    };
+    for (const JudgedSection& section : sections)
+        add(section.pose, body.joints[section.joint].name, section.reference, name_of(section.outcome), section.remark);
+    for (const JointByHand& joint : joints_by_hand(body.posed.character().name)) {
+        const std::string why = why_left_out(body.posed.character(), joint);
+        if (why.empty() || !(of.joint.empty() || of.joint == name_of(joint))) continue;
+        for (std::size_t pose = 0; pose < of.poses.size(); ++pose) add(pose, name_of(joint), "", why, "");
+    }
+    return table;
+}
+
+}  // namespace experiments

@@ -1,0 +1,58 @@
+// Cross-sections of a limb from one side of a joint to the other, in any pose, in shares of rest.
+//   const JointSections sections(character, joint);
+//   sections.measure(positions, pose);            // a profile, one section a station
+//   extremes_of(profile).smallest_area;           // of the narrowest section, over its own at rest
+// Stations stand on the bones, up to 2 limb radii or the joint's reach from it. Their planes fan out evenly, over 3 radii on each side,
+// from the direction of one bone to that of the other: on the inside of a joint bent by an angle they meet 6 radii / angle from it, so that
+// they do not cut the limb's other half. Bones carry them, so that all deformers are cut by the same planes. Only the limb's own outline
+// counts, the one round the bone; but where the skin is folded into a joint so deeply that the outline goes round both halves, it measures
+// both.
+#pragma once
+
+#include "analysis/section_outline.hpp"
+#include "experiments/studies/shared/limb_joints.hpp"
+#include "pbs/geometry/meshing.hpp"
+
+namespace experiments {
+
+struct JointSection {
+    double offset_m = 0.0;                                           // from the joint, negative on the parent; of the rest pose
+    double area = 1.0, smallest_radius = 1.0, largest_radius = 1.0;  // over the same station's at rest
+    int outlines = 0;                                                // that the plane cuts out of the whole body
+    double limb_share = 1.0;  // of the outline's length: skin that hangs on the parent or a bone below it; the rest is another part's
+};
+using JointProfile = std::vector<JointSection>;
+
+struct SectionExtremesOverRest {
+    double smallest_radius = 1.0, smallest_area = 1.0, largest_radius = 1.0, largest_area = 1.0;
+    double limb_share_of_widest = 1.0;  // where the largest radius is
+};
+SectionExtremesOverRest extremes_of(const JointProfile& profile);
+
+class JointSections {
+public:
+    JointSections(const pbs::Character& character, const LimbJoint& joint);
+
+    double bend_deg(const pbs::Pose& pose) const;  // between the directions of the two bones; 0: straight
+
+    // A station that the skin does not meet any more has size 0.
+    JointProfile measure(const pbs::Positions& positions, const pbs::Pose& pose) const;
+
+private:
+    std::vector<pbs::CuttingPlane> planes(const pbs::Pose& pose) const;
+    struct Cut {
+        analysis::OutlineSize size = {};
+        int outlines = 0;
+        double limb_share = 1.0;
+    };
+    std::vector<Cut> cuts(const pbs::Positions& positions, const pbs::Pose& pose) const;
+
+    pbs::Skeleton skeleton_;
+    LimbJoint joint_;
+    pbs::Triangles skin_;
+    std::vector<bool> on_limb_;  // #V
+    std::vector<double> offsets_m_;
+    std::vector<Cut> rest_;  // of each station
+};
+
+}  // namespace experiments

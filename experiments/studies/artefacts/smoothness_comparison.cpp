@@ -1,0 +1,183 @@
+#include "experiments/studies/artefacts/smoothness_comparison.hpp"
+
+#include "analysis/frame_metrics.hpp"
+#include "analysis/smoothness.hpp"
+#include "analysis/statistics.hpp"
+#include "experiments/studies/convergence/path_figures.hpp"
+#include "experiments/deformers/option_names.hpp"
+#include "pbs/skinning/blend.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace experiments {
+namespace {
+
+constexpr double rounding = 1e-12;  // a figure below is none: of rest
+
+const std::vector<std::string> columns = {"body",
+                                          "vertices",
+                                          "weights",
+                                          "pose",
+                                          "joint",
+                                          "deformer",
+                                          "order",
+                                          "precision",
+                                          "strain_jump_rms",
+                                          "bending_rms_rad",
+                                          "volume_abs_change_pct"};
+const std::vector<std::string> iteration_columns = {"body",          "vertices",         "pose",         "iterations_paper",
+                                                    "reached_paper", "iterations_rigid", "reached_rigid"};
+
+struct Twin {
+    ArtefactBody paper, rigid;
+};
+
+Twin twin_of(ArtefactCase of, int vertices)
+{
+    of.scene.character.weights = pbs::WeightKind::paper;
+    ArtefactBody paper(of, vertices);
+    of.scene.character.weights = pbs::WeightKind::rigid;
+    of.scene.character.weights_file.clear();
+    return {std::move(paper), ArtefactBody(of, vertices)};
+}
+
+// A figure by mesh and order, its own first; not a number where there is none.
+struct Ratios {
+    std::vector<double> values = {};
+    std::string remark = {};  // on its own
+};
+
+class Comparison {
+public:
+    explicit Comparison(const ArtefactCase& of) : of_(of), result_{{}, analysis::CsvTable(columns), analysis::CsvTable(iteration_columns)}
+    {
+    }
+
+    void compare(const Twin& twin, const DeformerSpec& spec)
+    {
+        const Shapes paper = twin.paper.posed.shapes(spec), rigid = twin.rigid.posed.shapes(spec);
+        for (std::size_t pose = 0; pose < paper.size(); ++pose) {
+            if (!paper[pose].finished || !rigid[pose].finished) continue;
+            for (std::size_t joint = 0; joint < twin.paper.joints.size(); ++joint) {
+                const analysis::Smoothness smooth = measure(twin.paper, spec, paper[pose], pose, joint, "paper"),
+                                           rough = measure(twin.rigid, spec, rigid[pose], pose, joint, "rigid");
+                const std::string at = fmt::format("{}, {}, {}", body_name(twin), of_.poses[pose].name, twin.paper.joints[joint].name);
+                add("strain jump at the joint of " + title(spec) + ", Eq. 2 over rigid", at, smooth.strain_jump_rms, rough.strain_jump_rms);
+                add("curvature of the skin of " + title(spec) + ", Eq. 2 over rigid", at, smooth.bending_rms_rad, rough.bending_rms_rad);
+            }
+            if (spec.kind == "pbs")
+                add("absolute volume change of PBS, Eq. 2 over rigid", whole_body(twin, pose), volume_change_pct(twin.paper, paper[pose]),
+                    volume_change_pct(twin.rigid, rigid[pose]));
+        }
+    }
+
+    // The weights are where the solver starts from, and nothing else of it: two starts towards one limit.
+    void compare_convergence(const Twin& twin, const pbs::PbsOptions& options)
+    {
+        const pbs::Character &paper = twin.paper.posed.character(), &rigid = twin.rigid.posed.character();
+        for (std::size_t pose = 0; pose < of_.poses.size(); ++pose) {
+            const pbs::Pose& now = twin.paper.posed.pose(pose);
+            const pbs::Positions bind_points = pbs::posed_bind_points(paper.binding, now);
+            const std::vector<IterationPath> paths = iterate(paper, options, bind_points, {blended(paper, now), blended(rigid, now)},
+                                                             most_weight_iterations, IterationRuler(paper, bind_points));
+            const double floor = floor_of(paths);
+            add_iterations(twin, pose, reached_residual(paths[0], floor), reached_residual(paths[1], floor));
+        }
+    }
+
+    WeightsComparison result() &&
+    {
+        for (const auto& [key, ratios] : ratios_) {
+            analysis::Measurement figure{
+                "C06", key.first, key.second + ratios.remark, ratios.values.front(), ratios.values.front(), ratios.values.front(), "1"};
+            if (!std::isfinite(figure.value)) continue;
+            for (const double ratio : ratios.values) {
+                figure.low = std::fmin(figure.low, ratio);
+                figure.high = std::fmax(figure.high, ratio);
+            }
+            result_.figures.push_back(figure);
+        }
+        return std::move(result_);
+    }
+
+private:
+    static std::string title(const DeformerSpec& spec) { return spec.kind == "pbs" ? "PBS" : "LBS"; }
+    static std::string body_name(const Twin& twin) { return twin.paper.posed.character().name; }
+    std::string whole_body(const Twin& twin, std::size_t pose) const
+    {
+        return fmt::format("{}, {}", body_name(twin), of_.poses[pose].name) + (of_.joint.empty() ? "" : ", " + of_.joint);
+    }
+
+    void add(const std::string& quantity, const std::string& at, double paper, double rigid)
+    {
+        ratios_[{quantity, at}].values.push_back(rigid > rounding ? paper / rigid : analysis::not_known);
+    }
+
+    static pbs::Positions blended(const pbs::Character& character, const pbs::Pose& pose)
+    {
+        pbs::Positions positions;
+        pbs::linear_blend_skinning(character.mesh.rest, character.weights, pose, positions);
+        return positions;
+    }
+
+    // A start that is there already counts as one iteration; where neither arrives there is no ratio.
+    void add_iterations(const Twin& twin, std::size_t pose, const Reached& paper, const Reached& rigid)
+    {
+        result_.iterations.add_row({body_name(twin), static_cast<int>(twin.paper.posed.character().mesh.rest.rows()), of_.poses[pose].name,
+                                    paper.iterations, static_cast<int>(paper.within), rigid.iterations, static_cast<int>(rigid.within)});
+        Ratios& ratios = ratios_[{"iterations to tolerance, Eq. 2 over rigid", whole_body(twin, pose)}];
+        const bool some = paper.within || rigid.within;
+        if (ratios.values.empty() && some && paper.within != rigid.within) ratios.remark = paper.within ? "; at most" : "; at least";
+        ratios.values.push_back(some ? std::max(paper.iterations, 1) / double(std::max(rigid.iterations, 1)) : analysis::not_known);
+    }
+
+    static double volume_change_pct(const ArtefactBody& body, const Shape& shape)
+    {
+        const pbs::TetMesh& mesh = body.posed.character().mesh;
+        return analysis::Ruler(mesh.rest, mesh.tets).measure(shape.positions).volume_abs_change_pct;
+    }
+
+    analysis::Smoothness measure(const ArtefactBody& body, const DeformerSpec& spec, const Shape& shape, std::size_t pose,
+                                 std::size_t joint, const std::string& weights)
+    {
+        const pbs::Character& character = body.posed.character();
+        const analysis::SmoothnessRuler ruler(character.mesh.rest, character.mesh.tets, near_joint(character, body.joints[joint]));
+        const analysis::Smoothness smoothness = ruler.measure(shape.positions);
+        const bool pbs = spec.kind == "pbs";
+        result_.smoothness.add_row({character.name, static_cast<int>(character.mesh.rest.rows()), weights, of_.poses[pose].name,
+                                    body.joints[joint].name, spec.name, pbs ? name_of(spec.pbs.order) : "",
+                                    pbs ? name_of(spec.pbs.precision) : "", smoothness.strain_jump_rms, smoothness.bending_rms_rad,
+                                    volume_change_pct(body, shape)});
+        return smoothness;
+    }
+
+    const ArtefactCase& of_;
+    std::map<std::pair<std::string, std::string>, Ratios> ratios_;  // by quantity and what it is of
+    WeightsComparison result_;
+};
+
+}  // namespace
+
+WeightsComparison compare_weights(const ArtefactCase& of)
+{
+    Comparison comparison(of);
+    std::vector<int> meshes = {0};
+    meshes.insert(meshes.end(), of.vertices.begin(), of.vertices.end());
+    const DeformerSpec pbs = spec_of(of.scene, "pbs");
+    for (const int vertices : meshes) {
+        const Twin twin = twin_of(of, vertices);
+        comparison.compare(twin, spec_of(of.scene, "lbs"));
+        comparison.compare(twin, pbs);
+        comparison.compare_convergence(twin, pbs.pbs);
+        if (vertices != 0) continue;
+        for (const DeformerSpec& other : other_orders(pbs)) comparison.compare(twin, other);
+    }
+    return std::move(comparison).result();
+}
+
+}  // namespace experiments

@@ -1,0 +1,237 @@
+// Do the artefacts of blending occur, and how smooth is the skin? Cross-sections of a limb along a joint that is twisted (C04, the candy
+// wrapper of LBS) or bent (C05, the bulge of DQS), the weights of Eq. 2 beside rigid ones (C06), and how often the skin intersects itself.
+//
+//   limb_twist     30 ... 180 deg    o=======o~~~~~~~o      every deformer beside stable neo-Hookean finite elements,
+//   limb_bend      30 ... 150 deg    o=======o              linear elements; the first poses quadratic ones too
+//   BODY_twist_*   45, 90 deg about the bone: elbow, mid-forearm, knee; of frankie, whose knee lies in the belly, the tail
+//   BODY_bend_*    45, 90 deg on the way that the joint bends
+//   BODY_crouch    frame 164 of CMU's clip 01_01, all joints of the left side
+//
+// The quick form has limb, human, and the elbow of the others.
+//
+// Writes DIR/artefacts/CASE/{profiles,sections,intersections,smoothness,iterations,measurements}.csv, and intersections.md, sections.md.
+// The paper says that it does not handle self-intersections: they are counted. sections: where C04 and C05 have a figure, and why not.
+#include "analysis/atomic_file.hpp"
+#include "experiments/studies/artefacts/artefact_figures.hpp"
+#include "experiments/studies/artefacts/smoothness_comparison.hpp"
+#include "experiments/studies/shared/real_bodies.hpp"
+#include "experiments/studies/convergence/path_figures.hpp"
+#include "experiments/studies/study.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <map>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string look_and_record(const ArtefactCase& of, const std::string& folder)
+{
+    const ArtefactBody body(of);
+    const ArtefactRecords records = find_artefacts(of, body);
+    WeightsComparison weights = compare_weights(of);
+    std::vector<analysis::Measurement> figures = of.claim == ArtefactCase::Claim::candy_wrapper
+                                                     ? candy_wrapper_figures(of, body, records.samples)
+                                                     : bulge_figures(of, body, records.samples);
+    figures.insert(figures.end(), weights.figures.begin(), weights.figures.end());
+    const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
+    section_table(of, body, section_outcomes(of, body, records.samples)).write(path("sections.csv"));
+    records.profiles.write(path("profiles.csv"));
+    records.intersections.write(path("intersections.csv"));
+    weights.smoothness.write(path("smoothness.csv"));
+    weights.iterations.write(path("iterations.csv"));
+    analysis::measurement_table(figures).write(path("measurements.csv"));
+    return records.breakdown;
+}
+
+nlohmann::json case_settings(const ArtefactCase& of)
+{
+    auto poses = nlohmann::json::array();
+    for (const ArtefactPose& pose : of.poses) poses.push_back({{"frame", pose.frame}, {"name", pose.name}});
+    nlohmann::json settings = {{"scene", resolved_with_deformers(of.scene)},
+                               {"claim", of.claim == ArtefactCase::Claim::bulge ? "C05" : "C04"},
+                               {"poses", poses},
+                               {"joint", of.joint},
+                               {"other_vertices", of.vertices},
+                               {"second_order_poses", of.second_order_poses},
+                               {"deepest_bend_deg", deepest_bend_deg},
+                               {"widest_over_rest", widest_over_rest},
+                               {"most_weight_iterations", most_weight_iterations},
+                               {"residual_tolerance", residual_tolerance},
+                               {"satisfied_residual", satisfied_residual}};
+    for (const JointByHand& joint : joints_by_hand(of.scene.character.body))
+        settings["joints_by_hand"][name_of(joint)] = {joint.reach_parent, joint.reach_child, joint.no_section};
+    return settings;
+}
+
+StudyRun artefact_run(const std::string& name, const ArtefactCase& of, double cost_s)
+{
+    return {.name = name,
+            .cost_s = cost_s,
+            .work = [of](const std::string& folder) { return look_and_record(of, folder); },
+            .settings = case_settings(of)};
+}
+
+const char* const all_deformers = R"(deformers.use=["lbs","dqs","pbs","delta_mush","xpbd","snh_p1"])";
+const char* const with_second_order = R"(deformers.use=["lbs","dqs","pbs","delta_mush","xpbd","snh_p1","snh_p2"])";
+
+// A sweep in equal steps, from the first one on.
+ArtefactCase sweep(const std::string& scene, std::vector<std::string> overrides, const std::string& what, int step_deg, int poses)
+{
+    ArtefactCase of;
+    overrides.push_back(fmt::format("motion.angle_deg={}", step_deg * poses));
+    overrides.push_back(fmt::format("motion.frames={}", poses + 1));
+    overrides.push_back("reference.name=snh_p1");
+    of.scene = read_scene(scene, overrides);
+    of.claim = what == "twist" ? ArtefactCase::Claim::candy_wrapper : ArtefactCase::Claim::bulge;
+    for (int i = 1; i <= poses; ++i) of.poses.push_back({i, fmt::format("{} {} deg", what, i * step_deg)});
+    return of;
+}
+
+ArtefactCase limb_sweep(const std::string& what, int poses, bool full)
+{
+    ArtefactCase of = sweep("limb_" + what, {with_second_order}, what, 30, poses);
+    of.vertices = full ? std::vector<int>{1200, 2600} : std::vector<int>{1200};
+    of.second_order_poses = what == "twist" && full ? poses : 2;  // from some 70 degrees of bend on, a frame takes minutes
+    return of;
+}
+
+ArtefactCase body_sweep(const std::string& body, const pbs::Skeleton& skeleton, const LimbJoint& joint, const std::string& what)
+{
+    const pbs::Vec3 axis = what == "twist" ? twist_axis(skeleton, joint) : hinge_axis(skeleton, joint);
+    ArtefactCase of = sweep("limb_bend",
+                            {all_deformers, "character.body=" + body, "motion.joint=" + skeleton.bones[joint.child].name,
+                             fmt::format("motion.axis=[{:.9f},{:.9f},{:.9f}]", axis.x(), axis.y(), axis.z())},
+                            what, 45, 2);
+    of.joint = joint.name;
+    return of;
+}
+
+ArtefactCase crouch(const std::string& body)
+{
+    ArtefactCase of;
+    of.scene = read_scene("human_01_01", {all_deformers, "character.body=" + body, "reference.name=snh_p1"});
+    of.poses = {{164, "01_01 crouch"}};
+    return of;
+}
+
+// What is done to the joints of the bodies, which share the human's names; a body with other names has all of its joints turned.
+struct TurnedJoint {
+    enum class QuickFor { no_body, human, every_body };
+
+    std::string name;
+    bool twisted, bent;
+    QuickFor quick_for;
+
+    bool is_turned(const std::string& body, bool full) const
+    {
+        return full || quick_for == QuickFor::every_body || (quick_for == QuickFor::human && body == "human");
+    }
+};
+const TurnedJoint turned_joints[] = {{"upper_arm.L|forearm_upper.L", true, true, TurnedJoint::QuickFor::every_body},
+                                     {"forearm_upper.L|forearm_lower.L", true, false, TurnedJoint::QuickFor::no_body},
+                                     {"thigh.L|shin.L", true, true, TurnedJoint::QuickFor::human},
+                                     {"tail_2|tail_3", true, true, TurnedJoint::QuickFor::no_body}};
+
+std::vector<TurnedJoint> joints_to_turn(const std::vector<LimbJoint>& joints)
+{
+    std::vector<TurnedJoint> turned, all;
+    for (const LimbJoint& joint : joints) {
+        all.push_back({joint.name, true, true, TurnedJoint::QuickFor::every_body});
+        for (const TurnedJoint& known : turned_joints)
+            if (known.name == joint.name) turned.push_back(known);
+    }
+    return turned.empty() ? all : turned;
+}
+
+void plan_body(const std::string& body, bool full, StudyPlan& plan)
+{
+    const pbs::Character character = pbs::make_character({.body = body});
+    const std::vector<LimbJoint> joints = limb_joints(character);
+    const int finer = static_cast<int>(1.3 * static_cast<double>(character.mesh.rest.rows()));
+    const auto add = [&](const std::string& name, ArtefactCase of, double cost_s) {
+        if (full) of.vertices = {finer};
+        plan.runs.push_back(artefact_run(name, of, full ? 1.5 * cost_s : cost_s));
+    };
+    for (const TurnedJoint& turned : joints_to_turn(joints))
+        for (const LimbJoint& joint : joints) {
+            if (joint.name != turned.name || !turned.is_turned(body, full)) continue;
+            const std::string& bone = character.skeleton.bones[joint.child].name;
+            if (turned.twisted) add(body + "_twist_" + bone, body_sweep(body, character.skeleton, joint, "twist"), 4.0);
+            if (turned.bent) add(body + "_bend_" + bone, body_sweep(body, character.skeleton, joint, "bend"), 4.0);
+        }
+    if (full || body == "human") add(body + "_crouch", crouch(body), body == "frankie" ? 8.0 : 4.0);
+}
+
+// How many pairs of triangles of each body's skin meet, a line a deformer, with the pose that has most of them.
+std::string intersections_text(const std::vector<std::string>& finished)
+{
+    std::string text = "| case | pose | surface | deformer | pairs | at rest |\n|---|---|---|---|---|---|\n";
+    for (const std::string& run : finished) {
+        const analysis::CsvTable table = analysis::read_csv((fs::path(run) / "intersections.csv").string());
+        for (int row = 0; row < table.rows(); ++row) {
+            if (table.integer(row, "pairs") == table.integer(row, "pairs_at_rest")) continue;
+            text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", fs::path(run).filename().string(), table.text_at(row, "pose"),
+                                table.text_at(row, "surface"), table.text_at(row, "deformer"), table.integer(row, "pairs"),
+                                table.integer(row, "pairs_at_rest"));
+        }
+    }
+    return text;
+}
+
+// How many sections each claim is judged by, which of them with a remark, and which are left out, and why.
+std::string sections_text(const std::vector<std::string>& finished)
+{
+    std::map<std::string, std::map<std::string, std::vector<std::string>>> sections;  // by claim and outcome
+    std::string remarks;
+    for (const std::string& run : finished) {
+        const analysis::CsvTable table = analysis::read_csv((fs::path(run) / "sections.csv").string());
+        for (int row = 0; row < table.rows(); ++row) {
+            const std::string claim = table.text_at(row, "claim"), outcome = table.text_at(row, "outcome");
+            const std::string of =
+                fmt::format("{} {} {}", table.text_at(row, "body"), table.text_at(row, "pose"), table.text_at(row, "joint"));
+            sections[claim][outcome].push_back(of);
+            if (!table.text_at(row, "remark").empty())
+                remarks += fmt::format("{}: {}, {}: {}\n", claim, of, outcome, table.text_at(row, "remark"));
+        }
+    }
+    std::string text;
+    for (const auto& [claim, outcomes] : sections)
+        for (const auto& [outcome, names] : outcomes) {
+            text += fmt::format("{}: {} sections {}", claim, names.size(), outcome);
+            text += outcome == name_of(SectionOutcome::measured) ? "\n" : fmt::format(": {}\n", fmt::join(names, "; "));
+        }
+    return text + remarks;
+}
+
+}  // namespace
+
+StudyPlan plan_artefacts_study(bool full)
+{
+    StudyPlan plan;
+    plan.runs.push_back(artefact_run("limb_twist", limb_sweep("twist", 6, full), full ? 26.0 : 11.0));
+    plan.runs.push_back(artefact_run("limb_bend", limb_sweep("bend", 5, full), full ? 60.0 : 40.0));
+    for (const std::string& body : installed_bodies(plan.left_out)) {
+        try {
+            plan_body(body, full, plan);
+        } catch (const pbs::InputError& error) {
+            plan.left_out.push_back({body, error.what()});
+        }
+    }
+    return plan;
+}
+
+StudyConclusion conclude_artefacts_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+{
+    const std::string intersections = intersections_text(finished), sections = sections_text(finished);
+    analysis::write_text_atomically((fs::path(folder) / "intersections.md").string(), intersections);
+    analysis::write_text_atomically((fs::path(folder) / "sections.md").string(), sections);
+    return {intersections + "\n" + sections, !finished.empty()};
+}
+
+}  // namespace experiments

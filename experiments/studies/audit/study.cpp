@@ -1,0 +1,55 @@
+// The paper against itself: its mesh sizes, its Table 1, its equations for the volume constraint. Writes DIR/audit/print/printed.csv, from
+// which C13 to C15 are judged, and audit.md.
+#include "analysis/atomic_file.hpp"
+#include "analysis/csv_table.hpp"
+#include "experiments/studies/audit/printed_equations.hpp"
+#include "experiments/studies/shared/table_1.hpp"
+#include "experiments/studies/study.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string audit_print(const std::string& folder)
+{
+    analysis::CsvTable table({"claim", "what", "printed", "least", "most"});
+    for (const auto& figures : {mesh_size_figures(), table_1_figures(), equation_figures()})
+        for (const analysis::PrintedFigure& figure : figures)
+            table.add_row({figure.claim, figure.what, figure.printed, figure.least,
+                           std::isinf(figure.most) ? analysis::CsvTable::Cell(std::nullopt) : analysis::CsvTable::Cell(figure.most)});
+    table.write((fs::path(folder) / "printed.csv").string());
+    return {};
+}
+
+std::string bound_text(const analysis::PrintedFigure& figure)
+{
+    if (std::isinf(figure.most)) return fmt::format("{:.6g} or more", figure.least);
+    if (figure.least == figure.most) return fmt::format("{:.6g}", figure.least);
+    return fmt::format("{:.6g} to {:.6g}", figure.least, figure.most);
+}
+
+}  // namespace
+
+StudyPlan plan_audit_study(bool)
+{
+    return {{{.name = "print", .cost_s = 1.0, .work = audit_print, .settings = {{"tets", 200}, {"seed", 1}}}}, {}};
+}
+
+StudyConclusion conclude_audit_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+{
+    std::string page = "| claim | figure | printed | follows from the rest | consistent |\n|---|---|---|---|---|\n";
+    for (const std::string& run : finished)
+        for (const analysis::PrintedFigure& figure : analysis::printed_figures((fs::path(run) / "printed.csv").string()))
+            page += fmt::format("| {} | {} | {:.6g} | {} | {} |\n", figure.claim, figure.what, figure.printed, bound_text(figure),
+                                figure.least <= figure.printed && figure.printed <= figure.most ? "yes" : "no");
+    analysis::write_text_atomically((fs::path(folder) / "audit.md").string(), page);
+    return {"", !finished.empty()};
+}
+
+}  // namespace experiments

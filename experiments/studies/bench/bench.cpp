@@ -1,0 +1,83 @@
+#include "experiments/studies/bench/bench.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/mesh_io.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+
+namespace experiments {
+namespace {
+
+constexpr int usual_bars[] = {2200, 19'500};  // vertices, of the targets
+constexpr int quick_bar = 300;                // vertices
+constexpr int smallest_tets = 300, largest_tets = 20'000'000;
+
+using BodyMaker = std::function<BenchBody()>;
+
+std::vector<BodyMaker> bodies_of(const BenchOptions& options)
+{
+    if (!options.mesh.empty())
+        return {[path = options.mesh] {
+            return make_bench_body(std::filesystem::path(path).filename().string(), pbs::read_tet_mesh(path).mesh);
+        }};
+    if (options.quick && options.sizes.empty()) return {[] { return bench_bar(quick_bar); }};
+    std::vector<BodyMaker> bodies;
+    if (options.sizes.empty() || options.bars)
+        for (const int vertices : usual_bars) bodies.push_back([vertices] { return bench_bar(vertices); });
+    for (const int tets : options.sizes) bodies.push_back([tets] { return bench_bar_of_tets(tets); });
+    return bodies;
+}
+
+MeshTimingOptions timing_options(const BenchOptions& options)
+{
+    MeshTimingOptions timing;
+    if (options.threads > 1) timing.threads.push_back(options.threads);
+    timing.rounds.seconds = options.seconds;
+    if (options.quick) timing.rounds = {.seconds = 0.0, .fewest = 2, .most = 2};
+    timing.fem = options.sizes.empty() || options.bars;
+    return timing;
+}
+
+double machine_load()
+{
+    double load = 0.0;
+    return getloadavg(&load, 1) == 1 ? load : 0.0;
+}
+
+}  // namespace
+
+BenchRecord run_bench(const BenchOptions& options)
+{
+    BenchRecord record;
+    record.options = options;
+    record.load_before = machine_load();
+    spdlog::info("the machine's limits");
+    record.limits = options.quick ? measure_limits(1e-4, 1e6) : measure_limits(0.05);
+    for (const BodyMaker& make : bodies_of(options)) {
+        const BenchBody body = make();
+        spdlog::info("{}: {} vertices, {} tets", body.character.name, body.mesh().rest.rows(), body.mesh().tets.rows());
+        record.meshes.push_back(time_mesh(body, record.limits, timing_options(options)));
+    }
+    record.load_after = machine_load();
+    if (!options.sizes.empty()) record.scaling = fit_scaling(record.meshes);
+    return record;
+}
+
+int parse_size(const std::string& text)
+{
+    char* end = nullptr;
+    double number = std::strtod(text.c_str(), &end);
+    const std::string unit = end;
+    if (unit == "k" || unit == "K") number *= 1e3;
+    if (unit == "m" || unit == "M") number *= 1e6;
+    const bool known = unit.empty() || unit == "k" || unit == "K" || unit == "m" || unit == "M";
+    if (!known || end == text.c_str() || !(number >= smallest_tets && number <= largest_tets))
+        throw pbs::InputError("", 0, "--sizes", text, "expected numbers of tets from 300 to 20M, e.g. 1K,10K,100K,1M");
+    return static_cast<int>(number);
+}
+
+}  // namespace experiments

@@ -1,0 +1,121 @@
+#include "experiments/studies/convergence/convergence_case.hpp"
+
+#include "experiments/scene/motion_case.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace experiments {
+namespace {
+
+std::vector<int> frame_numbers(const std::vector<NamedFrame>& frames)
+{
+    std::vector<int> numbers;
+    for (const NamedFrame& frame : frames) numbers.push_back(frame.frame);
+    return numbers;
+}
+
+Scene at_size(Scene scene, int vertices)
+{
+    scene.character.vertices = vertices;
+    return scene;
+}
+
+// One mesh of the body.
+class Mesh {
+public:
+    Mesh(const ConvergenceCase& of, const Scene& scene, bool own)
+        : of_(of),
+          own_(own),
+          settings_(own || scene.character.vertices <= of.every_setting_to ? of.settings.size() : 1),
+          posed_(scene, frame_numbers(of.frames)),
+          motion_(make_motion(scene.motion, posed_.character().skeleton, scene.file))
+    {
+        const int vertices = int(posed_.character().mesh.rest.rows());
+        if (of.truth.empty())
+            reference_ = "none";
+        else if (!own && !of.ladder)
+            reference_ = "the scene's own mesh alone";
+        else if (vertices > of.truth_to)
+            reference_ = fmt::format("left out above {} vertices", of.truth_to);
+        else
+            truth_ = posed_.shapes(spec_of(scene, reference_ = of.truth));
+    }
+
+    void add_to(ConvergenceResult& result) const
+    {
+        for (const double k_stretch : of_.k_stretch) {
+            pbs::PbsOptions options = spec_of(of_.scene, "pbs").pbs;
+            options.k_stretch = k_stretch;
+            const std::vector<FrameStarts> starts = starts_of(posed_.character(), motion_, frame_numbers(of_.frames), options);
+            for (std::size_t setting = 0; setting < settings_; ++setting)
+                for (std::size_t frame = 0; frame < starts.size(); ++frame)
+                    add(follow(starts[frame], frame, of_.settings[setting], options), result);
+        }
+    }
+
+private:
+    static void add(ConvergencePaths paths, ConvergenceResult& result)
+    {
+        for (std::size_t start = 0; start < paths.paths.size(); ++start)
+            if (!paths.paths[start].finite)
+                result.breakdown += fmt::format("{} from {} is not finite. ", paths.pose, name_of(static_cast<SolverStart>(start)));
+        result.all.push_back(std::move(paths));
+    }
+
+    ConvergencePaths follow(const FrameStarts& starts, std::size_t frame, const ProjectionSetting& setting, pbs::PbsOptions options) const
+    {
+        options.order = setting.order;
+        options.precision = setting.precision;
+        const pbs::Character& character = posed_.character();
+        const bool has_truth = frame < truth_.size() && truth_[frame].finished;
+        const auto error = [&](const pbs::Positions& shape) { return joint_pct(shape, truth_[frame]); };
+        const IterationRuler ruler(character, starts.bind_points, has_truth ? error : IterationRuler::ErrorPct{});
+        ConvergencePaths paths{of_.scene.character.body,
+                               of_.frames[frame].name,
+                               int(character.mesh.rest.rows()),
+                               int(character.mesh.tets.rows()),
+                               own_,
+                               options.k_stretch,
+                               setting,
+                               !of_.scene.motion.clip.empty(),
+                               of_.frames[frame].twist,
+                               truth_.empty() || has_truth ? reference_ : reference_ + " was not reached",
+                               has_truth && truth_[frame].self_intersects,
+                               {},
+                               {}};
+        paths.paths =
+            iterate(character, options, starts.bind_points, {starts.shapes.begin(), starts.shapes.end()}, of_.most_iterations, ruler);
+        for (const IterationPath& path : paths.paths)
+            paths.limit_from_lbs_pct.push_back(joint_pct(path.last, {paths.paths.front().last, paths.paths.front().finite}));
+        return paths;
+    }
+
+    double joint_pct(const pbs::Positions& shape, const Shape& other) const
+    {
+        return posed_.distance({shape, shape.allFinite()}, other).joint_pct;
+    }
+
+    const ConvergenceCase& of_;
+    bool own_;
+    std::size_t settings_;  // so many of the case's
+    PosedCharacter posed_;
+    pbs::Motion motion_;
+    Shapes truth_;           // one a frame; none
+    std::string reference_;  // its name, or why there is none
+};
+
+}  // namespace
+
+ConvergenceResult measure_convergence(const ConvergenceCase& of)
+{
+    ConvergenceResult result;
+    result.ladder = of.ladder;
+    Mesh(of, of.scene, true).add_to(result);
+    for (const int vertices : of.other_vertices) Mesh(of, at_size(of.scene, vertices), false).add_to(result);
+    return result;
+}
+
+}  // namespace experiments

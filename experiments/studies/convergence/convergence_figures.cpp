@@ -1,0 +1,196 @@
+#include "experiments/studies/convergence/convergence_figures.hpp"
+
+#include "analysis/line_fit.hpp"
+#include "experiments/deformers/option_names.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <set>
+
+namespace experiments {
+namespace {
+
+// A figure of one setting; what it bounds, where a tolerance was not reached.
+struct Figure {
+    double value = 0.0;
+    std::string bound = {};  // "", "at least", "at most"
+};
+using FigureOf = std::function<std::optional<Figure>(const ConvergencePaths&)>;
+using Group = std::vector<const ConvergencePaths*>;  // the default setting first
+
+std::vector<Group> groups_of(const ConvergenceResult& result)
+{
+    std::vector<Group> groups;
+    for (const ConvergencePaths& paths : result.all) {
+        const auto same = [&](const Group& group) {
+            const ConvergencePaths& first = *group.front();
+            return first.pose == paths.pose && first.k_stretch == paths.k_stretch && (!result.ladder || first.vertices == paths.vertices);
+        };
+        if (const auto found = std::find_if(groups.begin(), groups.end(), same); found != groups.end())
+            found->push_back(&paths);
+        else
+            groups.push_back({&paths});
+    }
+    return groups;
+}
+
+std::string words_for(const ConvergencePaths& of)
+{
+    return fmt::format("{}, {}, {} vertices, k_stretch {:g}, {} {}", of.body, of.pose, of.vertices, of.k_stretch,
+                       experiments::name_of(of.setting.order), experiments::name_of(of.setting.precision));
+}
+
+void add(std::vector<analysis::Measurement>& to, const std::string& claim, const std::string& quantity, const std::string& remark,
+         const Group& group, const FigureOf& figure_of, const std::string& unit = "1")
+{
+    const std::optional<Figure> own = figure_of(*group.front());
+    if (!own || !std::isfinite(own->value)) return;
+    analysis::Measurement measured{claim, quantity, words_for(*group.front()) + remark, own->value, own->value, own->value, unit};
+    if (!own->bound.empty()) measured.of += fmt::format("; {} so much", own->bound);
+    int without = 0;
+    for (const ConvergencePaths* other : group) {
+        const std::optional<Figure> figure = figure_of(*other);
+        without += !figure;
+        if (!figure || !std::isfinite(figure->value)) continue;
+        measured.low = std::min(measured.low, figure->value);
+        measured.high = std::max(measured.high, figure->value);
+    }
+    if (without > 0) {
+        measured.of += fmt::format("; neither start arrives in {} of {} settings", without, group.size());
+        measured.low = 0.0;
+        measured.high = std::numeric_limits<double>::infinity();
+    }
+    to.push_back(measured);
+}
+
+struct Tolerance {
+    const char* remark;
+    Reached (*reached)(const ConvergencePaths&, std::size_t start);
+};
+const Tolerance tolerances[] = {
+    {"; tolerance: residual within 5 % of its floor",
+     [](const ConvergencePaths& of, std::size_t start) { return reached_residual(of.paths[start], floor_of(of.paths)); }},
+    {"; tolerance: absolute volume change within 0.5 %",
+     [](const ConvergencePaths& of, std::size_t start) { return reached_volume(of.paths[start]); }}};
+
+FigureOf iterations_to(const Tolerance& tolerance)
+{
+    return [&tolerance](const ConvergencePaths& of) {
+        const Reached lbs = tolerance.reached(of, 0);
+        return Figure{double(lbs.iterations), lbs.within ? "" : "more than"};
+    };
+}
+
+// A start that is there already counts as one iteration.
+FigureOf over_lbs(const Tolerance& tolerance, std::size_t start)
+{
+    return [&tolerance, start](const ConvergencePaths& of) -> std::optional<Figure> {
+        const Reached other = tolerance.reached(of, start), lbs = tolerance.reached(of, 0);
+        if (!other.within && !lbs.within) return {};
+        return Figure{std::max(other.iterations, 1) / double(std::max(lbs.iterations, 1)), !other.within ? "at least"
+                                                                                           : !lbs.within ? "at most"
+                                                                                                         : ""};
+    };
+}
+
+void add_beside(std::vector<analysis::Measurement>& to, const Group& group)
+{
+    const auto figure = [&](const char* quantity, double (*of_lbs)(const IterationPath&)) {
+        add(to, "C12", quantity, "", group, [of_lbs](const ConvergencePaths& of) { return Figure{of_lbs(of.paths[0])}; });
+    };
+    figure("residual after 24 iterations over after 1000",
+           [](const IterationPath& path) { return look_at(path, 24).combined / look_at(path, 1000).combined; });
+    figure("error to the reference after 24 iterations over the least",
+           [](const IterationPath& path) { return look_at(path, 24).error_joint_pct / nearest_to_reference(path).error_joint_pct; });
+    figure("error to the reference after 1000 iterations over the least",
+           [](const IterationPath& path) { return look_at(path, 1000).error_joint_pct / nearest_to_reference(path).error_joint_pct; });
+}
+
+void add_starts(std::vector<analysis::Measurement>& to, const Group& group)
+{
+    const char* in_a_twist = group.front()->twist ? " in a twist" : "";
+    for (std::size_t start = 1; start < group.front()->paths.size(); ++start) {
+        const char* words = words_for(all_starts[start]);
+        for (const Tolerance& tolerance : tolerances)
+            add(to, "C03", fmt::format("iterations to tolerance{}, from {} over from LBS", in_a_twist, words), tolerance.remark, group,
+                over_lbs(tolerance, start));
+        add(to, "C03", fmt::format("error to the reference after 24 iterations, from {} over from LBS", words), "", group,
+            [start](const ConvergencePaths& of) {
+                return Figure{look_at(of.paths[start], 24).error_joint_pct / look_at(of.paths[0], 24).error_joint_pct};
+            });
+    }
+}
+
+// Of all poses, orders and meshes: comparisons with LBS that there is no figure of.
+void add_neither(std::vector<analysis::Measurement>& to, const ConvergenceResult& result)
+{
+    std::set<std::string> poses;
+    for (const ConvergencePaths& paths : result.all) poses.insert(paths.pose);
+    for (const Tolerance& tolerance : tolerances) {
+        int neither = 0, all = 0;
+        for (const ConvergencePaths& paths : result.all)
+            for (std::size_t start = 1; start < paths.paths.size(); ++start, ++all) neither += !over_lbs(tolerance, start)(paths);
+        if (all == 0) continue;
+        const double share = neither / double(all);
+        to.push_back({"C03", "share of figures in which neither start arrives",
+                      fmt::format("{}, {}, {} comparisons{}", result.all.front().body, fmt::join(poses, " and "), all, tolerance.remark),
+                      share, share, share, "1"});
+    }
+}
+
+bool on_one_ladder(const ConvergencePaths& a, const ConvergencePaths& b)
+{
+    return a.pose == b.pose && a.k_stretch == b.k_stretch && a.setting.order == b.setting.order &&
+           a.setting.precision == b.setting.precision;
+}
+
+// iterations ~ vertices^exponent, over the sizes that reach the tolerance, by order.
+void add_exponents(std::vector<analysis::Measurement>& to, const ConvergenceResult& result)
+{
+    for (const ConvergencePaths& first : result.all) {
+        const auto same = [&](const ConvergencePaths& other) { return on_one_ladder(first, other); };
+        if (&*std::find_if(result.all.begin(), result.all.end(), same) != &first) continue;
+        for (const Tolerance& tolerance : tolerances) {
+            std::vector<double> vertices, iterations;
+            for (const ConvergencePaths& paths : result.all)
+                if (const Reached lbs = tolerance.reached(paths, 0); same(paths) && lbs.within && lbs.iterations > 0) {
+                    vertices.push_back(paths.vertices);
+                    iterations.push_back(lbs.iterations);
+                }
+            if (vertices.size() < 3) continue;
+            const analysis::Interval exponent = analysis::observed_order(vertices, iterations).slope;
+            const auto [fewest, most] = std::minmax_element(vertices.begin(), vertices.end());
+            to.push_back({"C12", "exponent of iterations to tolerance over vertices",
+                          fmt::format("{}, {}, {:g} to {:g} vertices, k_stretch {:g}, {} {}{}", first.body, first.pose, *fewest, *most,
+                                      first.k_stretch, experiments::name_of(first.setting.order),
+                                      experiments::name_of(first.setting.precision), tolerance.remark),
+                          exponent.estimate, exponent.low, exponent.high, "1"});
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<analysis::Measurement> convergence_figures(const ConvergenceResult& result)
+{
+    std::vector<analysis::Measurement> figures;
+    const std::vector<Group> groups = groups_of(result);
+    for (const Group& group : groups) {
+        for (const Tolerance& tolerance : tolerances)
+            add(figures, "C12", group.front()->character ? "iterations to tolerance" : "iterations to tolerance, the limb and its sizes",
+                tolerance.remark, group, iterations_to(tolerance));
+        add_beside(figures, group);
+        add_starts(figures, group);
+    }
+    add_neither(figures, result);
+    if (result.ladder) add_exponents(figures, result);
+    return figures;
+}
+
+}  // namespace experiments

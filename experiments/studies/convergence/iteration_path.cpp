@@ -1,0 +1,112 @@
+#include "experiments/studies/convergence/iteration_path.hpp"
+
+#include "experiments/process/cpu_clock.hpp"
+#include "experiments/process/interruption.hpp"
+#include "pbs/solver/particles.hpp"
+#include "pbs/solver/projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace experiments {
+namespace {
+
+template <typename Scalar>
+class IteratedProjection {
+public:
+    IteratedProjection(const pbs::Character& character, const pbs::PbsOptions& options)
+        : projection_(pbs::make_projection<Scalar>(
+              pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, {}, options), character.mesh.tets, options))
+    {
+    }
+
+    IterationPath follow(const pbs::Positions& start, const pbs::Positions& bind_points, const std::vector<int>& looks,
+                         const IterationRuler& ruler)
+    {
+        IterationPath path{{}, start, true};
+        const pbs::Vec3 origin = pbs::local_origin<Scalar>(start);
+        projection_->load(start, bind_points, origin);
+        int iteration = 0;
+        double seconds = 0.0;
+        for (const int look : looks) {
+            stop_if_interrupted();
+            const double start_s = process_cpu_s();
+            for (; iteration < look; ++iteration) {
+                projection_->project_bind_constraints();     // (11)
+                projection_->project_stretch_constraints();  // (12)
+                projection_->project_volume_constraints();   // (13)
+            }
+            seconds += process_cpu_s() - start_s;
+            if (look > 0) projection_->store(origin, path.last);
+            path.finite = path.last.allFinite();
+            path.looks.push_back(ruler.measure(look, path.last));
+            if (!path.finite) break;
+        }
+        path.iteration_ms = 1e3 * seconds / std::max(iteration, 1);
+        return path;
+    }
+
+private:
+    std::unique_ptr<pbs::Projection<Scalar>> projection_;
+};
+
+template <typename Scalar>
+std::vector<IterationPath> iterate_in(const pbs::Character& character, const pbs::PbsOptions& options, const pbs::Positions& bind_points,
+                                      const std::vector<pbs::Positions>& starts, int most, const IterationRuler& ruler)
+{
+    IteratedProjection<Scalar> projection(character, options);
+    std::vector<IterationPath> paths;
+    for (const pbs::Positions& start : starts) paths.push_back(projection.follow(start, bind_points, looked_at(most), ruler));
+    return paths;
+}
+
+}  // namespace
+
+IterationRuler::IterationRuler(const pbs::Character& character, const pbs::Positions& bind_points, ErrorPct error)
+    : ruler_(character.mesh.rest, character.mesh.tets),
+      bind_points_(bind_points),
+      bind_distance_(character.binding.distance),
+      error_(std::move(error))
+{
+}
+
+Look IterationRuler::measure(int iteration, const pbs::Positions& positions) const
+{
+    const analysis::FrameMetrics metrics = ruler_.measure(positions);
+    Look look;
+    look.iteration = iteration;
+    look.stretch_rms = metrics.stretch_rms;
+    look.volume_rms = std::sqrt((ruler_.volume_ratios(positions).array() - 1.0).square().mean());
+    look.bind_rms_m = analysis::bind_rms(positions, bind_points_, bind_distance_);
+    const double bind_rms = look.bind_rms_m / bind_distance_.mean();
+    look.combined = std::sqrt((look.stretch_rms * look.stretch_rms + look.volume_rms * look.volume_rms + bind_rms * bind_rms) / 3.0);
+    look.volume_change_pct = metrics.volume_change_pct;
+    look.volume_abs_change_pct = metrics.volume_abs_change_pct;
+    look.inverted_tets = metrics.inverted_tets;
+    look.error_joint_pct = error_ ? error_(positions) : std::numeric_limits<double>::quiet_NaN();
+    return look;
+}
+
+std::vector<int> looked_at(int most)
+{
+    constexpr int each = 64;
+    constexpr double step = 1.02;
+    std::vector<int> looks;
+    for (int iteration = 0; iteration < most; iteration = iteration < each ? iteration + 1 : int(std::ceil(step * iteration)))
+        looks.push_back(iteration);
+    looks.push_back(most);
+    return looks;
+}
+
+std::vector<IterationPath> iterate(const pbs::Character& character, const pbs::PbsOptions& options, const pbs::Positions& bind_points,
+                                   const std::vector<pbs::Positions>& starts, int most, const IterationRuler& ruler)
+{
+    pbs::PbsOptions own = options;
+    own.jiggle.reset();
+    own.sleep = false;
+    return own.precision == pbs::Precision::f32 ? iterate_in<float>(character, own, bind_points, starts, most, ruler)
+                                                : iterate_in<double>(character, own, bind_points, starts, most, ruler);
+}
+
+}  // namespace experiments

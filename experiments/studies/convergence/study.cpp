@@ -1,0 +1,178 @@
+// C03, C12: how fast the solver converges, from where, and towards what. Every run iterates the paper's constraints far past its 24 from
+// four starts (convergence/starts.hpp) and looks at residuals, volume and the error against the reference on the same tets.
+//
+//   limb_twist, limb_bend   90 and 170 deg, 90 deg; three orders, two precisions, other tessellations of the same size
+//   human, ...              poses of the clip 01_01, every real body that is installed, at Table 1's sizes
+//   ladder_twist, _bend     the limb from 500 vertices to 8,000 in three orders (--full: to 100,000 in one); the reference on the same tets
+//                           to 5,000 vertices (--full: 10,000; the bend 2,500), left out above: rates.csv says so of each mesh
+//
+// Writes DIR/convergence/RUN/residuals.csv, rates.csv, towards.csv, measurements.csv, and convergence.md of all runs.
+#include "analysis/atomic_file.hpp"
+#include "analysis/measurement.hpp"
+#include "experiments/studies/shared/table_1.hpp"
+#include "experiments/studies/shared/real_bodies.hpp"
+#include "experiments/studies/convergence/convergence_figures.hpp"
+#include "experiments/studies/convergence/convergence_records.hpp"
+#include "experiments/deformers/option_names.hpp"
+#include "experiments/studies/study.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<ProjectionSetting> every_setting = {
+    {pbs::Order::ordered, pbs::Precision::f32}, {pbs::Order::grouped, pbs::Precision::f32}, {pbs::Order::plain, pbs::Precision::f32},
+    {pbs::Order::ordered, pbs::Precision::f64}, {pbs::Order::grouped, pbs::Precision::f64}, {pbs::Order::plain, pbs::Precision::f64}};
+const std::vector<ProjectionSetting> orders = {every_setting[0], every_setting[1], every_setting[2]};
+const std::vector<ProjectionSetting> few_settings = {every_setting[0], every_setting[1], every_setting[2],
+                                                     every_setting[3]};  // the orders, and the first one in double
+
+std::string measure_and_record(const ConvergenceCase& of, const std::string& folder)
+{
+    const ConvergenceResult result = measure_convergence(of);
+    const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
+    residual_table(result).write(path("residuals.csv"));
+    rate_table(result).write(path("rates.csv"));
+    towards_table(result).write(path("towards.csv"));
+    analysis::measurement_table(convergence_figures(result)).write(path("measurements.csv"));
+    return result.breakdown;
+}
+
+nlohmann::json settings_of(const ConvergenceCase& of)
+{
+    nlohmann::json frames, settings;
+    for (const NamedFrame& frame : of.frames) frames.push_back({frame.frame, frame.name, frame.twist});
+    for (const ProjectionSetting& setting : of.settings) settings.push_back({name_of(setting.order), name_of(setting.precision)});
+    return {{"scene", resolved_with_deformers(of.scene)},
+            {"frames", frames},
+            {"settings", settings},
+            {"k_stretch", of.k_stretch},
+            {"other_vertices", of.other_vertices},
+            {"every_setting_to", of.every_setting_to},
+            {"ladder", of.ladder},
+            {"looks", looked_at(of.most_iterations)},
+            {"iterations", of.most_iterations},
+            {"truth", of.truth},
+            {"truth_to", of.truth_to},
+            {"residual_tolerance", residual_tolerance},
+            {"satisfied_residual", satisfied_residual},
+            {"volume_tolerance_pct", volume_tolerance_pct}};
+}
+
+StudyRun convergence_run(const std::string& name, const ConvergenceCase& of, double cost_s)
+{
+    return {.name = name,
+            .cost_s = cost_s,
+            .work = [of](const std::string& folder) { return measure_and_record(of, folder); },
+            .settings = settings_of(of)};
+}
+
+const std::vector<NamedFrame> twists = {{18, "twist 90", true}, {34, "twist 170", true}}, bends = {{18, "bend 90"}};  // 5 degrees a frame
+
+StudyRun limb_run(const std::string& scene, const std::vector<NamedFrame>& frames, bool full, double cost_s)
+{
+    ConvergenceCase of;
+    of.scene = read_scene(scene, {});
+    of.frames = frames;
+    of.k_stretch = {0.2, 0.9};
+    of.settings = full ? every_setting : few_settings;
+    of.other_vertices = full ? std::vector<int>{1650, 1700, 1860, 1900} : std::vector<int>{1650, 1900};
+    of.truth = "snh_p1";
+    return convergence_run(scene, of, cost_s);
+}
+
+StudyRun ladder_run(const std::string& name, const std::string& scene, const std::vector<NamedFrame>& frames, bool full, double cost_s)
+{
+    ConvergenceCase of;
+    of.scene = read_scene(scene, {"character.vertices=500"});
+    of.frames = frames;
+    of.k_stretch = {0.2};
+    of.settings = orders;
+    of.every_setting_to = 8000;
+    of.other_vertices = {1000, 2000, 4000, 8000};
+    if (full) of.other_vertices.insert(of.other_vertices.end(), {16000, 32000, 64000, 100000});
+    of.ladder = true;
+    of.truth = "snh_p1";
+    of.truth_to = scene == "limb_bend" ? 2500 : full ? 10000 : 5000;  // beyond, the folded crease takes Newton minutes
+    return convergence_run(name, of, cost_s);
+}
+
+// vertices 0: the body's own default, in the neighbourhood of Table 1's.
+StudyRun body_run(const std::string& body, int vertices, bool full, double cost_s)
+{
+    ConvergenceCase of;
+    of.scene = read_scene("human_01_01", {"character.body=" + body, fmt::format("character.vertices={}", vertices),
+                                          R"(deformers.use=["pbs","snh_p1"])", R"(reference.name="snh_p1")"});
+    of.frames = {{164, "01_01 crouch"}, {708, "01_01 landing"}};
+    if (full)
+        of.frames = {{100, "01_01 at 1 s"},     {164, "01_01 crouch"},  {400, "01_01 at 4 s"},
+                     {672, "01_01 in the air"}, {708, "01_01 landing"}, {1000, "01_01 at 10 s"}};
+    of.k_stretch = {0.2};
+    of.settings = full ? few_settings : std::vector<ProjectionSetting>{every_setting[0], every_setting[2]};
+    of.truth = "snh_p1";
+    return convergence_run(vertices > 0 ? fmt::format("{}_{}", body, vertices) : body, of, cost_s);
+}
+
+// --full: Man and the bunny's stand-in at the sizes of ManHQ and bunnyHQ, too.
+void add_body(StudyPlan& plan, const std::string& body, bool full)
+{
+    plan.runs.push_back(body_run(body, 0, full, full ? 13.5 : 5.0));
+    for (const TableOneRow& row : table_1())
+        if (full && row.model == (body == "man" ? "ManHQ" : body == "frankie" ? "bunnyHQ" : ""))
+            plan.runs.push_back(body_run(body, row.vertices, full, body == "man" ? 30.0 : 60.0));
+}
+
+}  // namespace
+
+StudyPlan plan_convergence_study(bool full)
+{
+    StudyPlan plan;
+    plan.runs.push_back(limb_run("limb_twist", twists, full, full ? 18.0 : 10.0));
+    plan.runs.push_back(limb_run("limb_bend", bends, full, full ? 10.0 : 6.0));
+    plan.runs.push_back(ladder_run("ladder_twist", "limb_twist", {twists.front()}, full, full ? 65.0 : 15.0));
+    plan.runs.push_back(ladder_run("ladder_bend", "limb_bend", bends, full, full ? 60.0 : 16.0));
+    for (const std::string& body : installed_bodies(plan.left_out)) try {
+            add_body(plan, body, full);
+        } catch (const pbs::InputError& error) {  // the clip is not there
+            plan.left_out.push_back({body, error.what()});
+        }
+    return plan;
+}
+
+// From each start, in the default order: residual, iterations and error, a line a pose; -: no rate could be fitted, no reference.
+StudyConclusion conclude_convergence_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+{
+    std::string text = fmt::format("{:8} {:16} {:>8} {:>9} {:15} {:>9} {:>12} {:>12} {:>9} {:>9} {:>9}\n", "body", "pose", "vertices",
+                                   "k_stretch", "start", "rate", "to residual", "to volume", "error 24", "least at", "error end");
+    const auto count = [](const analysis::CsvTable& table, int row, const char* iterations, const char* reached) {
+        return fmt::format("{}{}", table.integer(row, reached) ? "" : "> ", table.integer(row, iterations));
+    };
+    const auto known = [](double value, const char* form) { return std::isfinite(value) ? fmt::format(fmt::runtime(form), value) : "-"; };
+    for (const std::string& run : finished) {
+        const analysis::CsvTable rates = analysis::read_csv((fs::path(run) / "rates.csv").string());
+        const bool is_ladder = fs::path(run).filename().string().starts_with("ladder");
+        for (int row = 0; row < rates.rows(); ++row) {
+            if (rates.text_at(row, "order") != "ordered" || rates.text_at(row, "precision") != "f32") continue;
+            const bool of_lbs = rates.text_at(row, "start") == name_of(SolverStart::lbs);
+            if (is_ladder ? !of_lbs : !rates.integer(row, "own_mesh")) continue;
+            text += fmt::format(
+                "{:8} {:16} {:8} {:9} {:15} {:>9} {:>12} {:>12} {:>9} {:>9} {:>9}\n", rates.text_at(row, "body"),
+                rates.text_at(row, "pose"), rates.integer(row, "vertices"), rates.number(row, "k_stretch"), rates.text_at(row, "start"),
+                known(rates.number(row, "rate_per_iteration"), "{:.4f}"), count(rates, row, "iterations_to_residual", "residual_reached"),
+                count(rates, row, "iterations_to_volume", "volume_reached"), known(rates.number(row, "error_24_pct"), "{:.1f}"),
+                std::isfinite(rates.number(row, "error_24_pct")) ? rates.text_at(row, "least_error_iteration") : "-",
+                known(rates.number(row, "last_error_pct"), "{:.1f}"));
+        }
+    }
+    analysis::write_text_atomically((fs::path(folder) / "convergence.md").string(), "```\n" + text + "```\n");
+    return {text, !finished.empty()};
+}
+
+}  // namespace experiments

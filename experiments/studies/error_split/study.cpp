@@ -1,0 +1,117 @@
+// The error of PBS against the reference, split into solver, model and discretisation (error_split/error_split.hpp).
+//
+//   limb_twist   30, 60, 90 deg (--full: to 150)      o=======o~~~~~~~o)
+//   limb_bend    30, 60, 90 deg (--full: to 110)      o=======o
+//   human_01_01  a crouch, in the air (--full)        MakeHuman's body
+//
+// Writes DIR/error_split/CASE/parts.csv and attachments.csv, and error_split.md.
+#include "analysis/atomic_file.hpp"
+#include "experiments/studies/error_split/error_split.hpp"
+#include "experiments/studies/study.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string split_and_record(const ErrorSplitCase& of, const std::string& folder)
+{
+    const ErrorSplit split = split_error(of);
+    split.parts.write((fs::path(folder) / "parts.csv").string());
+    split.attachments.write((fs::path(folder) / "attachments.csv").string());
+    return split.breakdown;
+}
+
+// Stable neo-Hookean, held by embedded bones, of the scene's own Young's modulus, Poisson's ratio and bones.
+DeformerSpec truth_of(const Scene& scene, int element_order)
+{
+    DeformerSpec spec = spec_of(scene, "fem_p2");
+    spec.name = spec.label = spec.fem.name = fmt::format("snh_p{}", element_order);
+    spec.fem.model = reference_fem::Model::stable_neo_hookean;
+    spec.fem.element_order = element_order;
+    spec.fem.formulation = element_order == 2 ? reference_fem::Formulation::mean_dilatation : reference_fem::Formulation::displacement;
+    return spec;
+}
+
+StudyRun split_run(const std::string& name, const std::string& scene, const std::vector<std::string>& overrides,
+                   const std::vector<int>& frames, bool full, double cost_s)
+{
+    ErrorSplitCase of;
+    of.scene = read_scene(scene, overrides);
+    of.frames = frames;
+    of.pbs = spec_of(of.scene, "pbs");
+    of.truth = truth_of(of.scene, 2);
+    of.twin = truth_of(of.scene, 1);
+    of.k_stretch = {0.05, 0.2, 0.9};
+    of.iterations = {1, 4, 24, 96, 384};
+    of.core_radii = {0.2, 0.5};
+    of.refined_poses = name == "human_01_01" ? 0 : full ? static_cast<int>(frames.size()) : 1;  // some 20 s and 7 GB a Newton step
+    if (full) of.converged_iterations = 32000;
+    return {.name = name,
+            .cost_s = cost_s,
+            .work = [of](const std::string& folder) { return split_and_record(of, folder); },
+            .settings = {{"scene", resolved_with_deformers(of.scene)}, {"frames", frames}, {"full", full}}};
+}
+
+// Not a number: a pose that was not reached.
+std::string told(double value, int digits)
+{
+    return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "\u2013";
+}
+
+}  // namespace
+
+StudyPlan plan_error_split_study(bool full)
+{
+    StudyPlan plan;
+    const std::vector<std::string> twist = {"motion.angle_deg=180", "motion.frames=19"},
+                                   bend = {"motion.angle_deg=120", "motion.frames=13"};
+    const std::vector<int> gentle = {3, 6, 9};  // 10 degrees a frame
+    plan.runs.push_back(
+        split_run("limb_twist", "limb_twist", twist, full ? std::vector<int>{3, 6, 9, 12, 15} : gentle, full, full ? 1800.0 : 300.0));
+    plan.runs.push_back(
+        split_run("limb_bend", "limb_bend", bend, full ? std::vector<int>{3, 6, 9, 11} : gentle, full, full ? 1800.0 : 300.0));
+    if (!full) return plan;
+    try {
+        plan.runs.push_back(split_run("human_01_01", "human_01_01", {}, {164, 672}, full, 600.0));
+    } catch (const pbs::InputError& error) {
+        plan.left_out.push_back({"human_01_01", error.what()});
+    }
+    return plan;
+}
+
+// The parts at the scenes' own 24 iterations, a line a pose.
+StudyConclusion conclude_error_split_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+{
+    std::string table =
+        "| scene | angle | k_stretch | error of PBS 24 [% of the bone distance] | solver | model | discretisation (bound) | bones bind |\n"
+        "|---|---|---|---|---|---|---|---|\n";
+    for (const std::string& run : finished) {
+        const analysis::CsvTable parts = analysis::read_csv((fs::path(run) / "parts.csv").string());
+        const analysis::CsvTable attachments = analysis::read_csv((fs::path(run) / "attachments.csv").string());
+        for (int row = 0; row < parts.rows(); ++row) {
+            if (parts.integer(row, "iterations") != 24) continue;
+            double bind_pct = std::numeric_limits<double>::quiet_NaN();
+            for (int other = 0; other < attachments.rows(); ++other)
+                if (attachments.text_at(other, "attachment") == "bind" &&
+                    attachments.integer(other, "frame") == parts.integer(row, "frame") &&
+                    attachments.number(other, "k_stretch") == parts.number(row, "k_stretch"))
+                    bind_pct = attachments.number(other, "model_pct");
+            table += fmt::format(
+                "| {} | {:.0f} | {} | {} | {} | {} | {} | {} |\n", parts.text_at(row, "scene"), parts.number(row, "angle_deg"),
+                parts.number(row, "k_stretch"), told(parts.number(row, "error_joint_pct"), 1), told(parts.number(row, "solver_pct"), 1),
+                told(parts.number(row, "model_pct"), 1), told(parts.number(row, "discretisation_pct"), 2), told(bind_pct, 1));
+        }
+    }
+    analysis::write_text_atomically((fs::path(folder) / "error_split.md").string(), table);
+    return {table, !finished.empty()};
+}
+
+}  // namespace experiments

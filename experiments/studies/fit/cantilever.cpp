@@ -1,0 +1,104 @@
+#include "experiments/studies/fit/cantilever.hpp"
+
+#include "experiments/deformers/registry.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <algorithm>
+
+namespace experiments {
+namespace {
+
+constexpr double held_share = 0.1;        // of the length
+constexpr double past_the_corners = 2.0;  // capsule radius over the mean distance of the skin
+
+// The capsule of a bone is its middle, from 1/6 to 5/6: it begins before the bar and ends where the held part ends.
+pbs::Skeleton bone_in_held_end(const pbs::Positions& rest)
+{
+    const pbs::Vec3 lower = rest.colwise().minCoeff(), upper = rest.colwise().maxCoeff();
+    const pbs::Vec3 centre = (lower + upper) / 2.0;
+    const double length = upper.x() - lower.x();
+    const double first = lower.x() - 0.01 * length, last = lower.x() + held_share * length, sixth = (last - first) / 4.0;
+    const auto on_axis = [&](double x) { return pbs::Vec3(x, centre.y(), centre.z()); };
+    return {{{"held", -1, on_axis(first - sixth), on_axis(last + sixth)}}};
+}
+
+// Vertices of the tets that lie in the held end whole.
+std::vector<bool> held_vertices(const pbs::TetMesh& bar)
+{
+    const double first = bar.rest.col(0).minCoeff(), last = first + held_share * (bar.rest.col(0).maxCoeff() - first);
+    std::vector<bool> held(bar.rest.rows(), false);
+    for (const auto& tet : bar.tets.rowwise()) {
+        if (!std::all_of(tet.begin(), tet.end(), [&](int v) { return bar.rest(v, 0) <= last; })) continue;
+        for (const int v : tet) held[v] = true;
+    }
+    return held;
+}
+
+std::vector<std::vector<int>> fifths_of(const pbs::Positions& rest, const std::vector<bool>& held)
+{
+    const double last = rest.col(0).maxCoeff(), first = rest.col(0).minCoeff() + held_share * (last - rest.col(0).minCoeff());
+    std::vector<std::vector<int>> fifths(5);
+    for (Eigen::Index v = 0; v < rest.rows(); ++v)
+        if (!held[v])
+            fifths[std::clamp(static_cast<int>(5.0 * (rest(v, 0) - first) / (last - first)), 0, 4)].push_back(static_cast<int>(v));
+    return fifths;
+}
+
+}  // namespace
+
+Cantilever make_cantilever(const pbs::TetMesh& bar)
+{
+    Cantilever cantilever;
+    pbs::Character& character = cantilever.character;
+    character.name = "cantilever";
+    character.mesh = bar;
+    character.skeleton = bone_in_held_end(bar.rest);
+    character.binding = pbs::bind_to_nearest_bone(bar.rest, character.skeleton);
+    character.weights = pbs::rigid_weights(character.binding);
+    character.blended.assign(bar.rest.rows(), false);
+
+    cantilever.held = held_vertices(bar);
+    cantilever.fifths = fifths_of(bar.rest, cantilever.held);
+    cantilever.mass = pbs::lumped_volumes(bar.rest, bar.tets);
+    const pbs::Edges edges = pbs::edges_of(bar.tets);
+    for (const auto& edge : edges.rowwise())
+        cantilever.mean_edge_m += (bar.rest.row(edge(0)) - bar.rest.row(edge(1))).norm() / static_cast<double>(edges.rows());
+    const double end = bar.rest.col(0).maxCoeff() - cantilever.mean_edge_m;
+    for (Eigen::Index v = 0; v < bar.rest.rows(); ++v)
+        if (bar.rest(v, 0) >= end) cantilever.tip.push_back(static_cast<int>(v));
+    return cantilever;
+}
+
+FemOptions held_by_nodes(FemOptions options)
+{
+    options.attachment = FemAttachment::nodes;
+    options.core_radius = past_the_corners;
+    return options;
+}
+
+ElasticSag elastic_sag(const Cantilever& cantilever, FemOptions options)
+{
+    options = held_by_nodes(options);
+    options.model = reference_fem::Model::linear;
+    options.gravity_m_s2 = -pbs::Vec3::UnitZ();
+    DeformerSpec spec;
+    spec.kind = "fem";
+    spec.fem = options;
+    const auto fem = make_deformer(spec);
+    fem->reset(cantilever.character);
+    if (fem->prescribed() != cantilever.held)
+        throw pbs::InputError("cantilever", 0, "held", "", "expected the finite elements to hold the same vertices");
+    fem->advance({Eigen::Isometry3d::Identity()}, 1.0);
+    return {fem->positions() - cantilever.character.mesh.rest, options};
+}
+
+double mean_sag_m(const Cantilever& cantilever, const pbs::Positions& displacement)
+{
+    double sum = 0.0;
+    for (const int v : cantilever.tip) sum -= displacement(v, 2);
+    return sum / static_cast<double>(cantilever.tip.size());
+}
+
+}  // namespace experiments

@@ -1,0 +1,57 @@
+// Poisson's ratio of the elastic body that the skeleton deforms as it deforms another body. With displacement data, free surfaces and no
+// body force Young's modulus cancels, so nu is all there is to fit.
+//   PoissonStudy study(character, poses, fem_options, 7);
+//   for (const PoissonFit& fit : study.fit(positions_of_each_pose)) ...
+#pragma once
+
+#include "analysis/error_norms.hpp"
+#include "analysis/minimise.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/studies/fit/poisson_family.hpp"
+#include "pbs/character/character.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+struct NamedPose {
+    std::string name;  // twist 30
+    pbs::Pose pose;
+};
+
+// The elastic solutions of the poses at several Poisson's ratios. A pose is reached from the one before it, so they go along one path.
+class ElasticPoses {
+public:
+    ElasticPoses(const pbs::Character& character, const std::vector<std::vector<NamedPose>>& paths, const FemOptions& options, int ratios);
+
+    struct Elastic {
+        NamedPose pose;
+        std::optional<PoissonFamily> family;   // none: fewer than four ratios converged
+        double highest_poisson = 0.0;          // of the ratios from 0 on without one that did not converge
+        double interpolation_error_pct = 0.0;  // error_joint between the interpolant and a solve between two ratios, the larger of two
+    };
+    const std::vector<Elastic>& poses() const { return poses_; }
+    const std::vector<bool>& prescribed() const { return prescribed_; }  // #V, or empty
+
+private:
+    void add_path(const pbs::Character& character, const std::vector<NamedPose>& path, const FemOptions& options,
+                  const std::vector<double>& nodes);
+
+    std::vector<Elastic> poses_;
+    std::vector<bool> prescribed_;
+};
+
+struct PoissonFit {
+    analysis::FittedParameter poisson;         // misfits: error_joint [%]; cases: the poses, in order of those that have a family
+    std::vector<std::string> poses;            // their names
+    double highest_poisson = 0.0;              // up to where all of them converged: the fit's upper bound
+    std::vector<analysis::Evaluation> valley;  // misfit of all poses over a fine grid of nu
+};
+
+// positions: of the body to be fitted, one a pose of `elastic`, in that order [m], #V x 3. Nothing where no pose has a family.
+std::optional<PoissonFit> fit_poisson(const pbs::Character& character, const ElasticPoses& elastic,
+                                      const std::vector<pbs::Positions>& positions);
+
+}  // namespace experiments

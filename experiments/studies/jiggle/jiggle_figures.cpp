@@ -1,0 +1,152 @@
+#include "experiments/studies/jiggle/jiggle_figures.hpp"
+
+#include "analysis/statistics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace experiments {
+namespace {
+
+constexpr int least_for_correlation = 4;
+
+using analysis::Interval;
+using analysis::Measurement;
+
+Measurement figure(const std::string& quantity, const std::string& of, const Interval& value, const std::string& unit)
+{
+    return {"C09", quantity, of, value.estimate, value.low, value.high, unit};
+}
+
+Measurement exact_figure(const std::string& quantity, const std::string& of, double value)
+{
+    return {"C09", quantity, of, value, value, value, "1"};
+}
+
+Interval over(const Interval& a, const Interval& b)
+{
+    return {a.estimate / b.estimate, a.low / b.high, a.high / b.low};
+}
+
+const Interval* frequency_at(const std::vector<MeasuredJiggle>& measured, const JiggleSetting& setting)
+{
+    const auto found = std::find_if(measured.begin(), measured.end(), [&](const auto& one) { return one.setting == setting; });
+    return found != measured.end() && found->response.swing.found() ? &found->response.swing.frequency_hz : nullptr;
+}
+
+struct FrequencyRatio {
+    JiggleSetting from;
+    Interval ratio;
+};
+
+// Of the frequency at each setting to that at the setting it is changed from.
+std::vector<FrequencyRatio> ratios(const std::vector<MeasuredJiggle>& measured, void (*change)(JiggleSetting&))
+{
+    std::vector<FrequencyRatio> all;
+    for (const MeasuredJiggle& one : measured) {
+        JiggleSetting changed = one.setting;
+        change(changed);
+        const Interval *at = frequency_at(measured, one.setting), *there = frequency_at(measured, changed);
+        if (at && there) all.push_back({one.setting, over(*there, *at)});
+    }
+    return all;
+}
+
+void add_share(std::vector<Measurement>& figures, const std::string& body, const std::vector<MeasuredJiggle>& measured)
+{
+    int all = 0, swinging = 0;
+    for (const MeasuredJiggle& one : measured) {
+        if (!is_of_the_paper(one.setting)) continue;
+        ++all;
+        swinging += one.response.swing.found();
+    }
+    if (all == 0) return;
+    const std::string of = fmt::format("{}, {} of {} settings", body, swinging, all);
+    figures.push_back(exact_figure("share of settings that swing", of, static_cast<double>(swinging) / all));
+}
+
+void add_setting(std::vector<Measurement>& figures, const std::string& body, const MeasuredJiggle& one)
+{
+    const std::string of = body + ", " + text_of(one.setting);
+    if (one.response.finished) figures.push_back(exact_figure("amplitude", of, one.response.overshoot_over_jolt));
+    if (!one.response.swing.found()) return;
+    const std::string damping = is_of_the_paper(one.setting) ? "damping ratio" : "damping ratio, other readings";
+    figures.push_back(figure(damping, of, one.response.swing.damping_ratio, "1"));
+    figures.push_back(figure("frequency", of, one.response.swing.frequency_hz, "Hz"));
+}
+
+// Those that swing and differ from the first setting in k_stretch alone, the smallest first.
+std::vector<MeasuredJiggle> by_k_stretch(const std::vector<MeasuredJiggle>& measured)
+{
+    std::vector<MeasuredJiggle> chosen;
+    for (const MeasuredJiggle& one : measured)
+        if (one.response.swing.found() && one.setting == JiggleSetting{.k_stretch = one.setting.k_stretch}) chosen.push_back(one);
+    std::stable_sort(chosen.begin(), chosen.end(), [](auto& a, auto& b) { return a.setting.k_stretch < b.setting.k_stretch; });
+    return chosen;
+}
+
+double correlation_without(const std::vector<MeasuredJiggle>& measured, std::size_t left_out)
+{
+    std::vector<double> k, hz;
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+        if (i == left_out) continue;
+        k.push_back(measured[i].setting.k_stretch);
+        hz.push_back(measured[i].response.swing.frequency_hz.estimate);
+    }
+    return std::clamp(analysis::rank_correlation(k, hz), -1.0, 1.0);  // rounding goes beyond
+}
+
+void add_correlation(std::vector<Measurement>& figures, const std::string& body, const std::vector<MeasuredJiggle>& measured)
+{
+    if (static_cast<int>(measured.size()) < least_for_correlation) return;
+    const std::string of = fmt::format("{}, {} values of k_stretch", body, measured.size());
+    Measurement correlation =
+        exact_figure("rank correlation of frequency and k_stretch", of, correlation_without(measured, measured.size()));
+    for (std::size_t left_out = 0; left_out < measured.size(); ++left_out) {
+        const double without = correlation_without(measured, left_out);
+        correlation.low = std::min(correlation.low, without);
+        correlation.high = std::max(correlation.high, without);
+    }
+    figures.push_back(correlation);
+}
+
+void add_range(std::vector<Measurement>& figures, const std::string& body, const std::vector<MeasuredJiggle>& measured)
+{
+    if (measured.size() < 2) return;
+    const MeasuredJiggle &smallest = measured.front(), &largest = measured.back();
+    const std::string of = fmt::format("{}, k_stretch {} over {}", body, largest.setting.k_stretch, smallest.setting.k_stretch);
+    figures.push_back(figure("frequency at the largest k_stretch over at the smallest", of,
+                             over(largest.response.swing.frequency_hz, smallest.response.swing.frequency_hz), "1"));
+}
+
+void add_half_step(std::vector<Measurement>& figures, const std::string& body, const std::vector<MeasuredJiggle>& measured)
+{
+    const std::vector<FrequencyRatio> halvings = ratios(measured, [](JiggleSetting& setting) { setting.time_step_s /= 2.0; });
+    if (halvings.empty()) return;
+    Measurement half = exact_figure("frequency at half the time step over at the whole", "", halvings.front().ratio.estimate);
+    for (const FrequencyRatio& halving : halvings) {
+        half.low = std::min(half.low, halving.ratio.estimate);
+        half.high = std::max(half.high, halving.ratio.estimate);
+    }
+    half.of = fmt::format("{}, from {}, range over {} halvings", body, text_of(halvings.front().from), halvings.size());
+    figures.push_back(half);
+}
+
+}  // namespace
+
+std::vector<Measurement> jiggle_figures(const std::string& body, const std::vector<MeasuredJiggle>& measured)
+{
+    std::vector<Measurement> figures;
+    add_share(figures, body, measured);
+    for (const MeasuredJiggle& one : measured) add_setting(figures, body, one);
+    add_correlation(figures, body, by_k_stretch(measured));
+    add_range(figures, body, by_k_stretch(measured));
+    add_half_step(figures, body, measured);
+    const std::vector<FrequencyRatio> doublings = ratios(measured, [](JiggleSetting& setting) { setting.iterations *= 2; });
+    for (const auto& [from, ratio] : doublings)
+        figures.push_back(figure("frequency at twice the iterations over at the once", body + ", from " + text_of(from), ratio, "1"));
+    return figures;
+}
+
+}  // namespace experiments

@@ -1,0 +1,96 @@
+// C07: do projections conserve linear and angular momentum? Single projections, and a pass over each class in every order, from the LBS
+// shape of a bent limb and of the human's crouch, in both precisions, with equal and unequal masses; Eq. 8-9 as printed, for m_i = 1,
+// beside them; and what the bones take of the bind constraints. Writes DIR/momentum/CASE/measurements.csv.
+#include "experiments/scene/motion_case.hpp"
+#include "experiments/deformers/option_names.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
+#include "experiments/studies/momentum/momentum_drift.hpp"
+#include "experiments/studies/study.hpp"
+
+#include "analysis/measurement.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+struct MomentumCase {
+    std::string name;
+    Scene scene;
+    int frame = 0;
+};
+
+struct Setting {
+    std::string name;
+    pbs::Masses known, counted;  // to the projection; to the momentum
+};
+const Setting settings[] = {{"equal masses", pbs::Masses::unit, pbs::Masses::unit},
+                            {"unequal masses (weighted)", pbs::Masses::lumped, pbs::Masses::lumped},
+                            {"unequal masses (Eq. 8-9 for m = 1)", pbs::Masses::unit, pbs::Masses::lumped}};
+
+const std::pair<ProjectedClass, const char*> classes[] = {
+    {ProjectedClass::stretch, "stretch"}, {ProjectedClass::volume, "volume"}, {ProjectedClass::bind, "bind"}};
+
+class DriftTable {
+public:
+    void add(ProjectedClass projected, const std::string& quantity, const std::string& of, const MomentumDrift& drift)
+    {
+        const std::string bones = projected == ProjectedClass::bind ? "taken by the bones: " : "";
+        rows.push_back({"C07", bones + "linear drift" + quantity, of, drift.linear, drift.linear, drift.linear, "1"});
+        rows.push_back({"C07", bones + "angular drift" + quantity, of, drift.angular, drift.angular, drift.angular, "1"});
+    }
+
+    std::vector<analysis::Measurement> rows;
+};
+
+std::string measure_drift(const MomentumCase& of, const std::string& folder)
+{
+    const pbs::Character character = pbs::make_character(of.scene.character);
+    const pbs::Motion motion = make_motion(of.scene.motion, character.skeleton, of.scene.file);
+    const pbs::Pose& pose = motion.steps.at(static_cast<std::size_t>(of.frame) * motion.steps_per_frame);
+    pbs::PbsOptions options = spec_of(of.scene, "pbs").pbs;
+    options.jiggle.reset();
+    DriftTable table;
+    for (const auto& [precision, precision_name] : OptionNames<pbs::Precision>::table)
+        for (const Setting& setting : settings)
+            for (const auto& [projected, class_name] : classes) {
+                options.precision = precision;
+                options.masses = setting.known;
+                const std::string name = fmt::format("{}, {}, {}, {}", setting.name, of.name, class_name, precision_name);
+                table.add(projected, "", name, drift_of_projections(character, pose, options, projected, setting.counted));
+                for (const auto& [order, order_name] : OptionNames<pbs::Order>::table) {
+                    options.order = order;
+                    table.add(projected, " of a pass", name + ", " + order_name,
+                              drift_of_a_pass(character, pose, options, projected, setting.counted));
+                }
+            }
+    analysis::measurement_table(table.rows).write((std::filesystem::path(folder) / "measurements.csv").string());
+    return {};
+}
+
+StudyRun momentum_run(const MomentumCase& of, double cost_s)
+{
+    return {.name = of.name,
+            .cost_s = cost_s,
+            .work = [of](const std::string& folder) { return measure_drift(of, folder); },
+            .settings = {{"scene", resolved_with_deformers(of.scene)}, {"frame", of.frame}}};
+}
+
+}  // namespace
+
+StudyPlan plan_momentum_study(bool)
+{
+    StudyPlan plan;
+    plan.runs.push_back(momentum_run({"limb", read_scene("limb_bend", {"motion.angle_deg=90", "motion.frames=2"}), 1}, 1.0));
+    try {
+        plan.runs.push_back(momentum_run({"human", read_scene("human_01_01", {}), 164}, 1.0));
+    } catch (const pbs::InputError& error) {
+        plan.left_out.push_back({"human", error.what()});
+    }
+    return plan;
+}
+
+}  // namespace experiments

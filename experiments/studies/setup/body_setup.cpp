@@ -1,0 +1,181 @@
+#include "experiments/studies/setup/body_setup.hpp"
+
+#include "analysis/bootstrap.hpp"
+#include "analysis/statistics.hpp"
+#include "analysis/records/folder_files.hpp"
+#include "analysis/records/kept_record.hpp"
+#include "experiments/run/run.hpp"
+#include "pbs/character/body_cache.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> shared_overrides(double rate_hz)
+{
+    return {fmt::format("motion.rate_hz={:.1f}", rate_hz), R"(deformers.use=["pbs"])", R"(reference.name="")", "output.frames=[]",
+            "output.frame_names=[]"};
+}
+
+void add_differences(const nlohmann::json& a, const nlohmann::json& b, const std::string& key, std::vector<std::string>& changed)
+{
+    if (a == b) return;
+    if (!a.is_object() || !b.is_object()) {
+        changed.push_back(key);
+        return;
+    }
+    nlohmann::json both = a;
+    both.update(b);
+    for (const auto& [name, value] : both.items())
+        add_differences(a.value(name, nlohmann::json()), b.value(name, nlohmann::json()), key.empty() ? name : key + "." + name, changed);
+}
+
+// An empty cache of meshes; what was fetched stays in sight.
+void use_own_cache(const fs::path& cache)
+{
+    const fs::path packages = fs::path(pbs::cache_folder()) / "packages";
+    fs::create_directories(cache);
+    if (fs::exists(packages)) fs::create_directory_symlink(fs::absolute(packages), cache / "packages");
+    setenv("PBSKIN_CACHE", cache.c_str(), 1);
+}
+
+// Every trial meshes anew.
+void forget_meshes(const fs::path& cache)
+{
+    for (const fs::path& file : files_in(cache))
+        if (file.filename() != "packages") fs::remove_all(file);
+}
+
+std::string name_of(const BodySetup& setup, const nlohmann::json& run)
+{
+    return fmt::format("{}, {} vertices, 01_01", setup.body, run.at("character").at("vertices").get<long long>());
+}
+
+std::vector<analysis::Measurement> measured_in(const fs::path& run_folder, const BodySetup& setup, const std::vector<std::string>& changed)
+{
+    const analysis::CsvTable metrics = analysis::read_csv((run_folder / "metrics.csv").string());
+    return from_record((run_folder / "run.json").string(),
+                       [&](const nlohmann::json& run) { return setup_measurements(name_of(setup, run), metrics, run, changed); });
+}
+
+void write_trials(const std::vector<TriedSetup>& tried, const std::string& path)
+{
+    analysis::CsvTable trials({"trial", "further_keys", "failure"});
+    for (std::size_t i = 0; i < tried.size(); ++i)
+        trials.add_row({int(i), fmt::format("{}", fmt::join(tried[i].setup.further, " ")), tried[i].failure});
+    trials.write(path);
+}
+
+}  // namespace
+
+Scene shared_scene(double rate_hz)
+{
+    return read_scene("human_01_01", shared_overrides(rate_hz));
+}
+
+Scene scene_of(const BodySetup& setup, double rate_hz)
+{
+    std::vector<std::string> overrides = shared_overrides(rate_hz);
+    overrides.push_back("character.body=" + setup.body);
+    overrides.push_back("character.vertices=" + std::to_string(setup.vertices));
+    overrides.insert(overrides.end(), setup.further.begin(), setup.further.end());
+    return read_scene("human_01_01", overrides);
+}
+
+std::vector<std::string> keys_changed(const nlohmann::json& shared, const nlohmann::json& own)
+{
+    std::vector<std::string> changed;
+    add_differences(shared, own, "", changed);
+    std::erase_if(changed, [](const auto& key) { return key == "character.body" || key == "character.vertices"; });
+    return changed;
+}
+
+const std::vector<std::vector<std::string>>& further_keys()
+{
+    static const std::vector<std::vector<std::string>> keys = {
+        {}, {R"(skinning.weights="rigid")"}, {R"(pbs.precision="f64")"}, {R"(pbs.precision="f64")", "pbs.k_volume=0.5"}};
+    return keys;
+}
+
+std::vector<TriedSetup> tried_setups(const BodySetup& setup, const Trial& trial)
+{
+    std::vector<TriedSetup> tried;
+    for (const std::vector<std::string>& further : further_keys()) {
+        BodySetup own = setup;
+        own.further.insert(own.further.end(), further.begin(), further.end());
+        try {
+            tried.push_back({own, trial(own)});
+        } catch (const pbs::InputError& error) {
+            tried.push_back({own, error.what()});
+        }
+        if (tried.back().failure.empty()) break;
+    }
+    return tried;
+}
+
+std::vector<analysis::Measurement> setup_measurements(const std::string& of, const analysis::CsvTable& metrics, const nlohmann::json& run,
+                                                      const std::vector<std::string>& changed)
+{
+    const std::vector<double> change_pct = metrics.numbers("volume_change_pct"), inverted = metrics.numbers("inverted_tets");
+    std::vector<bool> good;
+    double largest_pct = 0.0;
+    for (std::size_t frame = 0; frame < change_pct.size(); ++frame) {
+        good.push_back(std::isfinite(change_pct[frame]) && inverted[frame] == 0.0);
+        if (!(std::abs(change_pct[frame]) <= std::abs(largest_pct))) largest_pct = change_pct[frame];
+    }
+    analysis::BootstrapOptions options;
+    options.autocorrelation_time = analysis::integrated_autocorrelation_time(change_pct);
+    const analysis::Interval share = analysis::bootstrap_share(good, options), mean = analysis::bootstrap_mean(change_pct);
+    const nlohmann::json& seconds = run.at("cost").at("cpu_seconds");
+    const double set_up_s = seconds.at("character").get<double>() + seconds.at("motion").get<double>() + seconds.at("set_up").get<double>();
+    const double keys = static_cast<double>(changed.size());
+    return {{"C17", "keys changed besides the body", of, keys, keys, keys, "1"},
+            {"C17", "share of frames finite and without inverted tets", of, share.estimate, share.low, share.high, "1"},
+            {"C17", "mean volume change", of, mean.estimate, mean.low, mean.high, "%"},
+            {"C17", "largest volume change", of, largest_pct, largest_pct, largest_pct, "%"},
+            {"C17", "seconds to set up", of, set_up_s, set_up_s, set_up_s, "s"}};
+}
+
+std::vector<analysis::Measurement> not_set_up(const std::string& of)
+{
+    const double none = analysis::not_known;
+    return {{"C17", "keys changed besides the body", of, none, none, none, "1"},
+            {"C17", "share of frames finite and without inverted tets", of, 0.0, 0.0, 0.0, "1"}};
+}
+
+std::string set_up_and_record(const BodySetup& setup, double rate_hz, const std::string& folder)
+{
+    const fs::path cache = fs::absolute(folder) / "cache", run_folder = fs::path(folder) / "run";
+    fs::remove_all(cache);
+    use_own_cache(cache);
+    const auto run = [&](const BodySetup& own) {
+        forget_meshes(cache);
+        return run_scene(scene_of(own, rate_hz), run_folder.string()).failure();
+    };
+    const std::vector<TriedSetup> tried = tried_setups(setup, run);
+    fs::remove_all(cache);
+
+    const BodySetup& last = tried.back().setup;
+    const bool runs = tried.back().failure.empty();
+    const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
+    const std::vector<std::string> changed = keys_changed(shared_scene(rate_hz).resolved, scene_of(last, rate_hz).resolved);
+    analysis::measurement_table(runs ? measured_in(run_folder, last, changed) : not_set_up(setup.body + ", 01_01"))
+        .write(path("measurements.csv"));
+    analysis::CsvTable keys({"key"});
+    for (const std::string& key : changed) keys.add_row({key});
+    keys.write(path("changed_keys.csv"));
+    write_trials(tried, path("trials.csv"));
+    return tried.back().failure;
+}
+
+}  // namespace experiments

@@ -1,0 +1,84 @@
+#include "experiments/studies/shared/posed_character.hpp"
+
+#include "experiments/scene/motion_case.hpp"
+#include "experiments/run/frame_measurement.hpp"
+#include "experiments/process/interruption.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/meshing.hpp"
+#include "pbs/geometry/topology.hpp"
+#include "pbs/skinning/blend.hpp"
+#include "pbs/solver/poses_solver.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace experiments {
+
+PosedCharacter::PosedCharacter(const Scene& scene, const std::vector<int>& frames)
+    : character_(pbs::make_character(scene.character)),
+      time_step_s_(scene.motion.time_step_s),
+      ruler_(error_domain(character_, {})),
+      boundary_(pbs::boundary_of(character_.mesh.tets))
+{
+    const pbs::Motion motion = make_motion(scene.motion, character_.skeleton, scene.file);
+    for (const int frame : frames) {
+        poses_.push_back(motion.steps.at(static_cast<std::size_t>(frame) * motion.steps_per_frame));
+        angles_deg_.push_back(motion.angle_deg.empty() ? std::numeric_limits<double>::quiet_NaN() : motion.angle_deg[frame]);
+    }
+}
+
+Shapes PosedCharacter::shapes(const DeformerSpec& spec, std::optional<std::size_t> poses) const
+{
+    const std::unique_ptr<Deformer> deformer = make_deformer(spec);
+    deformer->reset(character_);
+    Shapes shapes;
+    const std::size_t count = std::min(poses.value_or(poses_.size()), poses_.size());
+    for (std::size_t pose = 0; pose < count; ++pose) {
+        stop_if_interrupted();
+        const pbs::StepSummary step = deformer->advance(poses_[pose], time_step_s_);
+        const bool finished = step.outcome == pbs::Outcome::finished;
+        shapes.push_back(
+            {deformer->positions(), finished, finished && pbs::self_intersects(deformer->positions(), boundary_), step.seconds});
+    }
+    return shapes;
+}
+
+std::vector<Shapes> PosedCharacter::shapes(const std::vector<pbs::PbsOptions>& options) const
+{
+    stop_if_interrupted();
+    std::vector<pbs::PbsOptions> of_lane;
+    std::vector<pbs::Positions> lbs, bind_points;
+    for (const pbs::PbsOptions& own : options)
+        for (const pbs::Pose& pose : poses_) {
+            of_lane.push_back(own);
+            pbs::linear_blend_skinning(character_.mesh.rest, character_.weights, pose, lbs.emplace_back());
+            bind_points.push_back(pbs::posed_bind_points(character_.binding, pose));
+        }
+    pbs::PosesSolver solver(character_.mesh, character_.binding.distance, {}, of_lane);
+    const std::vector<pbs::StepSummary> steps = solver.advance(lbs, bind_points, time_step_s_);
+    std::vector<Shapes> all(options.size());
+    for (std::size_t lane = 0; lane < steps.size(); ++lane) {
+        const bool finished = steps[lane].outcome == pbs::Outcome::finished;
+        const pbs::Positions& positions = solver.positions(static_cast<int>(lane));
+        all[lane / poses_.size()].push_back(
+            {positions, finished, finished && pbs::self_intersects(positions, boundary_), steps[lane].seconds});
+    }
+    return all;
+}
+
+analysis::ErrorNorms PosedCharacter::distance(const Shape& one, const Shape& other) const
+{
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    if (!one.finished || !other.finished) return {nothing, nothing, nothing};
+    const Eigen::Index vertices = character_.mesh.rest.rows();
+    return ruler_.measure(one.positions.topRows(vertices), other.positions.topRows(vertices));
+}
+
+const DeformerSpec& spec_of(const Scene& scene, const std::string& name)
+{
+    const auto found = std::find_if(scene.deformers.begin(), scene.deformers.end(), [&](const auto& spec) { return spec.name == name; });
+    if (found == scene.deformers.end()) throw pbs::InputError(scene.file, 0, "deformers.use", name, "expected this deformer in the scene");
+    return *found;
+}
+
+}  // namespace experiments

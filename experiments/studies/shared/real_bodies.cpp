@@ -1,0 +1,22 @@
+#include "experiments/studies/shared/real_bodies.hpp"
+
+#include "pbs/character/bodies.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+namespace experiments {
+
+std::vector<std::string> installed_bodies(std::vector<analysis::LeftOut>& left_out)
+{
+    std::vector<std::string> installed;
+    for (const char* body : {"human", "man", "lady", "frankie"}) {
+        try {
+            pbs::require_body(body);
+            installed.push_back(body);
+        } catch (const pbs::InputError& error) {
+            left_out.push_back({body, error.what()});
+        }
+    }
+    return installed;
+}
+
+}  // namespace experiments

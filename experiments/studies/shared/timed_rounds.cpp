@@ -1,0 +1,32 @@
+#include "experiments/studies/shared/timed_rounds.hpp"
+
+#include "analysis/statistics.hpp"
+#include "pbs/geometry/stopwatch.hpp"
+
+namespace experiments {
+
+std::vector<std::vector<std::vector<double>>> take_turns(const std::vector<TimedVariant>& variants, const Rounds& rounds)
+{
+    std::vector<std::vector<std::vector<double>>> samples(variants.size());
+    for (std::size_t i = 0; i < variants.size(); ++i) samples[i].resize(variants[i]().size());
+    const pbs::Stopwatch stopwatch;
+    for (int round = 0; round < rounds.most && (round < rounds.fewest || stopwatch.seconds() < rounds.seconds); ++round)
+        for (std::size_t i = 0; i < variants.size(); ++i) {
+            const std::vector<double> numbers = variants[i]();
+            for (std::size_t k = 0; k < numbers.size(); ++k) samples[i].at(k).push_back(numbers[k]);
+        }
+    return samples;
+}
+
+Spread spread_of(const std::vector<double>& samples)
+{
+    return {analysis::median(samples), analysis::quantile(samples, 0.25), analysis::quantile(samples, 0.75),
+            static_cast<int>(samples.size())};
+}
+
+Spread scaled(const Spread& spread, double factor)
+{
+    return {factor * spread.median, factor * spread.lower, factor * spread.upper, spread.rounds};
+}
+
+}  // namespace experiments

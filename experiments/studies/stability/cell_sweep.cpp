@@ -1,0 +1,101 @@
+#include "experiments/studies/stability/cell_sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace experiments {
+namespace {
+
+constexpr double degrees_a_step = 15.0, turning_s = 0.1;
+
+// The turn takes a tenth of a second or a single step, whatever the time step.
+void set_time_step(StabilityCell& cell, double time_step_s)
+{
+    cell.time_step_s = time_step_s;
+    cell.disturbance.turning_steps = std::max(1, static_cast<int>(std::lround(turning_s / time_step_s)));
+}
+
+void twist(StabilityCell& cell, double angle_deg)
+{
+    cell.disturbance.axis = pbs::Vec3::UnitX();
+    cell.disturbance.angle_deg = angle_deg;
+    cell.disturbance.turning_steps = std::max(1, static_cast<int>(std::ceil(angle_deg / degrees_a_step)));
+}
+
+void jump(StabilityCell& cell, double angle_deg)
+{
+    cell.disturbance.angle_deg = angle_deg;
+    cell.disturbance.turning_steps = 1;
+}
+
+void start(StabilityCell& cell, double value)
+{
+    static const char* const names[] = {"as posed", "flattened", "mirrored", "random", "a point"};
+    cell.disturbance.start = static_cast<Start>(std::lround(value));
+    cell.named = names[std::lround(value)];
+}
+
+template <Defect defect>
+void spoil(StabilityCell& cell, double thinness)
+{
+    cell.defect = defect;
+    cell.thinness = thinness;
+}
+
+std::vector<double> values_of(const Sweep& sweep, bool full)
+{
+    std::vector<double> values = sweep.values;
+    if (full) values.insert(values.end(), sweep.more.begin(), sweep.more.end());
+    std::sort(values.begin(), values.end());
+    return values;
+}
+
+}  // namespace
+
+const Sweep time_steps{"time step", "s", {1e-4, 0.01, 0.1, 1.0}, {1e-3, 3e-3, 0.03, 0.3}, set_time_step};
+const Sweep twists{"twist", "deg", {0.0, 90.0, 180.0, 360.0, 720.0}, {45.0, 135.0, 270.0, 540.0}, twist};
+const Sweep jumps{"bend in one step", "deg", {90.0, 180.0}, {45.0, 135.0}, jump};
+const Sweep teleports{
+    "teleport", "m", {10.0, 1000.0}, {0.1, 1.0}, [](StabilityCell& cell, double value) { cell.disturbance.teleport_m = value; }};
+const Sweep starts{"start", "", {1.0, 2.0, 3.0, 4.0}, {}, start};
+const Sweep slivers{"slivers, height kept", "1", {1e-2, 1e-6}, {1e-1, 1e-3, 1e-4, 1e-5}, spoil<Defect::slivers>};
+const Sweep needles{"needles, edge kept", "1", {1e-2, 1e-6}, {1e-1, 1e-3, 1e-4, 1e-5}, spoil<Defect::needles>};
+
+std::vector<StabilityCell> cells_of(const Sweep& sweep, const StabilityCell& base, bool full)
+{
+    std::vector<StabilityCell> cells;
+    for (const double value : values_of(sweep, full)) {
+        StabilityCell cell = base;
+        cell.factor = sweep.factor;
+        cell.value = value;
+        cell.unit = sweep.unit;
+        cell.as_published = base.as_published && sweep.as_published;
+        sweep.set(cell, value);
+        cells.push_back(std::move(cell));
+    }
+    return cells;
+}
+
+std::vector<StabilityCell> cells_of_map(const Sweep& rows, const Sweep& columns, const StabilityCell& base, bool full)
+{
+    std::vector<StabilityCell> cells;
+    for (const StabilityCell& row : cells_of(rows, base, full))
+        for (const double value : values_of(columns, full)) {
+            StabilityCell cell = row;
+            cell.second_factor = columns.factor;
+            cell.second_value = value;
+            cell.second_unit = columns.unit;
+            cell.as_published = row.as_published && columns.as_published;
+            columns.set(cell, value);
+            cells.push_back(std::move(cell));
+        }
+    return cells;
+}
+
+void append(std::vector<StabilityCell>& cells, std::vector<StabilityCell> more)
+{
+    cells.insert(cells.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+}  // namespace experiments

@@ -1,0 +1,62 @@
+#include "experiments/deformers/option_names.hpp"
+#include "experiments/studies/stability/cell_sweep.hpp"
+#include "experiments/studies/stability/stability_cells.hpp"
+
+namespace experiments {
+namespace {
+
+using reference_fem::Dynamics;
+using reference_fem::Model;
+
+const Sweep youngs{
+    "Young's modulus", "Pa", {1e5, 1e12}, {1.0, 1e3, 1e7, 1e9}, [](StabilityCell& cell, double pa) { cell.spec.fem.young_pa = pa; }};
+const Sweep poissons{"Poisson's ratio", "1", {0.3, 0.4999}, {0.0, 0.45, 0.49, 0.499, 0.499999}, [](StabilityCell& cell, double nu) {
+                         cell.spec.fem.poisson = nu;
+                     }};
+const Sweep gravities{
+    "gravity", "g", {10.0}, {100.0, 1e3, 1e4}, [](StabilityCell& cell, double count) { cell.spec.fem.gravity_m_s2.y() = -g_m_s2 * count; }};
+
+// The smallest are a thousand steps and more.
+const Sweep timed{"time step", "s", {0.01, 0.1, 1.0}, {1e-4, 1e-3}, [](StabilityCell& cell, double s) { time_steps.set(cell, s); }};
+
+// Linear elements on the same tets. In time: generalised-alpha with damping by stiffness, so that it may come to rest.
+StabilityCell base(Model model, Dynamics dynamics)
+{
+    const bool in_time = dynamics != Dynamics::quasi_static;
+    StabilityCell cell;
+    cell.model = "fem_" + name_of(model) + (in_time ? "_in_time" : "");
+    cell.spec.name = cell.spec.label = cell.spec.fem.name = cell.model;
+    cell.spec.kind = "fem";
+    cell.spec.fem.model = model;
+    cell.spec.fem.element_order = 1;
+    cell.spec.fem.dynamics = dynamics;
+    cell.spec.fem.gravity_m_s2 = pbs::Vec3(0.0, -g_m_s2, 0.0);
+    if (in_time) cell.spec.fem.rayleigh_stiffness_s = 0.05;
+    cell.still_steps = 12;
+    return cell;
+}
+
+}  // namespace
+
+std::vector<StabilityCell> fem_static_cells(bool full)
+{
+    std::vector<StabilityCell> cells;
+    for (const Model model : {Model::linear, Model::corotational, Model::stable_neo_hookean})
+        for (const Sweep* sweep : {&youngs, &poissons, &gravities, &twists, &jumps, &teleports, &starts, &slivers})
+            append(cells, cells_of(*sweep, base(model, Dynamics::quasi_static), full));
+    return cells;
+}
+
+std::vector<StabilityCell> fem_dynamic_cells(bool full)
+{
+    std::vector<StabilityCell> cells;
+    for (const Model model : {Model::corotational, Model::stable_neo_hookean}) {
+        if (model == Model::corotational && !full) continue;
+        StabilityCell from = base(model, Dynamics::generalized_alpha);
+        from.still_steps = full ? 300 : 100;
+        for (const Sweep* sweep : {&timed, &youngs, &teleports}) append(cells, cells_of(*sweep, from, full));
+    }
+    return cells;
+}
+
+}  // namespace experiments

@@ -1,0 +1,127 @@
+#include "experiments/studies/study_costs.hpp"
+
+#include "analysis/atomic_file.hpp"
+#include "analysis/csv_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+#include <optional>
+
+namespace experiments {
+namespace {
+
+struct RecordedCost {
+    std::optional<double> cpu_s;  // of its own process, all its threads; not told by records of every version
+    std::optional<double> wall_s;
+};
+
+std::optional<double> number_at(const nlohmann::json& run, const char* pointer)
+{
+    const nlohmann::json::json_pointer place(pointer);
+    return run.contains(place) && run.at(place).is_number() ? std::optional(run.at(place).get<double>()) : std::nullopt;
+}
+
+// Nothing where the run did not end.
+std::optional<RecordedCost> recorded_cost(const std::filesystem::path& folder)
+{
+    if (!std::filesystem::exists(folder / "run.json")) return std::nullopt;
+    const auto run = nlohmann::json::parse(analysis::read_text((folder / "run.json").string()), nullptr, false);
+    const char* cpu_s = run.contains("cost") ? "/cost/cpu_seconds/total" : "/outcome/cpu_seconds";
+    return RecordedCost{number_at(run, cpu_s), number_at(run, "/outcome/wall_s")};
+}
+
+}  // namespace
+
+StudyCosts::StudyCosts(const std::string& folder) : file_((std::filesystem::path(folder) / "costs.csv").string())
+{
+    if (!std::filesystem::exists(file_)) return;
+    const analysis::CsvTable table = analysis::read_csv(file_);
+    for (int row = 0; row < table.rows(); ++row)
+        runs_.push_back({table.text_at(row, "run"), table.number(row, "expected_cpu_s"), table.number(row, "cpu_s"),
+                         table.has_column("wall_s") ? table.number_or_nothing(row, "wall_s") : std::nullopt});
+}
+
+void StudyCosts::add(const std::string& run, double expected_s, double cpu_s)
+{
+    std::erase_if(runs_, [&](const RunCost& cost) { return cost.run == run; });
+    runs_.push_back({run, expected_s, cpu_s});
+}
+
+void StudyCosts::complete(const std::string& folder, const StudyPlan& plan)
+{
+    std::vector<RunCost> ordered;
+    for (const StudyRun& run : plan.runs) {
+        const auto recorded = recorded_cost(std::filesystem::path(folder) / run.name);
+        if (!recorded) continue;
+        const auto row = std::find_if(runs_.begin(), runs_.end(), [&](const RunCost& cost) { return cost.run == run.name; });
+        if (row == runs_.end() && !recorded->cpu_s) continue;
+        ordered.push_back(row != runs_.end() ? *row : RunCost{run.name, run.cost_s, *recorded->cpu_s});
+        ordered.back().wall_s = recorded->wall_s;
+    }
+    runs_ = ordered;
+}
+
+void StudyCosts::write() const
+{
+    analysis::CsvTable table({"run", "expected_cpu_s", "cpu_s", "wall_s"});
+    for (const RunCost& cost : runs_)
+        table.add_row({cost.run, cost.expected_s, cost.cpu_s, cost.wall_s ? analysis::CsvTable::Cell(*cost.wall_s) : std::nullopt});
+    table.write(file_);
+}
+
+double StudyCosts::expected_s() const
+{
+    return std::accumulate(runs_.begin(), runs_.end(), 0.0, [](double sum, const RunCost& cost) { return sum + cost.expected_s; });
+}
+
+double StudyCosts::cpu_s() const
+{
+    return std::accumulate(runs_.begin(), runs_.end(), 0.0, [](double sum, const RunCost& cost) { return sum + cost.cpu_s; });
+}
+
+ExpectedCost expected_cost(const Study& study, const std::vector<StudyRun>& runs, int jobs)
+{
+    ExpectedCost cost{.study = study.name, .runs = static_cast<int>(runs.size())};
+    double longest_s = 0.0;
+    for (const StudyRun& run : runs) {
+        cost.cpu_s += run.cost_s;
+        longest_s = std::max(longest_s, run.cost_s);
+    }
+    cost.wall_s = std::max(longest_s, cost.cpu_s / (study.alone ? 1 : jobs));
+    return cost;
+}
+
+std::string expected_cost_table(const std::vector<ExpectedCost>& costs)
+{
+    std::string table = fmt::format("{:<16} {:>6} {:>14} {:>10}\n", "study", "runs", "s of one core", "wall [min]");
+    ExpectedCost sum{.study = "all"};
+    const auto line = [](const ExpectedCost& cost) {
+        return fmt::format("{:<16} {:>6} {:>14.0f} {:>10.1f}\n", cost.study, cost.runs, cost.cpu_s, cost.wall_s / 60.0);
+    };
+    for (const ExpectedCost& cost : costs) {
+        table += line(cost);
+        sum.runs += cost.runs;
+        sum.cpu_s += cost.cpu_s;
+        sum.wall_s += cost.wall_s;
+    }
+    return table + line(sum);
+}
+
+std::string cost_table(const std::vector<std::pair<std::string, StudyCosts>>& studies)
+{
+    std::string table = fmt::format("{:<16} {:>18} {:>12} {:>7}\n", "study", "expected s of core", "s it took", "ratio");
+    for (const auto& [name, costs] : studies) {
+        constexpr double too_short_to_tell_s = 5.0;
+        const double ratio = costs.cpu_s() / std::max(costs.expected_s(), 1e-9);
+        const bool off = std::abs(costs.cpu_s() - costs.expected_s()) > too_short_to_tell_s && (ratio > 2.0 || ratio < 0.5);
+        table += fmt::format("{:<16} {:>18.0f} {:>12.0f} {:>7.2f}{}\n", name, costs.expected_s(), costs.cpu_s(), ratio,
+                             off ? "  not within a factor of 2" : "");
+    }
+    return table;
+}
+
+}  // namespace experiments

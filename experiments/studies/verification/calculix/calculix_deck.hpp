@@ -1,0 +1,32 @@
+// An elastic problem as an input deck of CalculiX 2.20 (G. Dhondt, CalculiX CrunchiX User's Manual; Debian's calculix-ccx).
+//   write_calculix_deck(stream, problem, {});
+// Elements C3D4 and C3D10, nodes and tets numbered from 1 in our order. A node that is held is held in all three components.
+#pragma once
+
+#include "experiments/studies/verification/calculix/nodal_problem.hpp"
+
+#include <iosfwd>
+#include <string>
+
+namespace experiments {
+
+enum class CalculixAnalysis {
+    linear,
+    // NLGEOM: second Piola-Kirchhoff stress linear in the Green-Lagrange strain, the law of St Venant and Kirchhoff. Data grow linearly
+    // with the fraction of the step.
+    large_strain,
+    none,  // nodes, tets and material without a step: what reading costs
+};
+
+struct DeckOptions {
+    CalculixAnalysis analysis = CalculixAnalysis::linear;
+    double first_increment = 0.1;  // of the step, where large_strain
+    bool restart_file = true;      // CalculiX prints 7 digits; its restart file holds displacements in double
+};
+
+void write_calculix_deck(std::ostream& deck, const NodalProblem& problem, const DeckOptions& options);
+
+// CalculiX reads the first 20 characters of a number and refuses or, worse, cuts the rest: the nearest one that fits. At least 14 digits.
+std::string calculix_number(double value);
+
+}  // namespace experiments

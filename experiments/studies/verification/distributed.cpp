@@ -1,0 +1,156 @@
+// What solves systems that a factor does not fit in memory for, against CHOLMOD on the same cantilever: conjugate gradients with algebraic
+// multigrid in this process, and the program pbskin_distributed on one and two ranks. Without it beside this program, or without mpirun,
+// one row says so.
+#include "experiments/process/scratch_folder.hpp"
+#include "reference_fem/verification/common.hpp"
+#include "reference_fem/verification/structured_mesh.hpp"
+
+#include "analysis/csv_table.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <stdexcept>
+
+namespace experiments {
+namespace {
+
+using namespace reference_fem;
+namespace fs = std::filesystem;
+
+// A residual r is an error of at most |r| over the lowest eigenvalue; a uniform load f across a cantilever has 0.78 of itself in that
+// eigenvalue's mode (R. Blevins, Formulas for natural frequency and mode shape, 1979, Table 8-1), so |error| <= |r| / (0.78 |f|)
+// |solution|.
+constexpr double mode_share = 0.78;
+const std::string bound_text = "both solutions' relative residuals over 0.78, the share of a uniform load in a cantilever's first mode";
+
+// What the shell says, or nothing where the command fails.
+std::optional<std::string> output_of(const std::string& command)
+{
+    FILE* pipe = popen(command.c_str(), "r");
+    if (!pipe) return std::nullopt;
+    std::string text;
+    char part[4096];
+    while (const std::size_t size = std::fread(part, 1, sizeof(part), pipe)) text.append(part, size);
+    if (pclose(pipe) != 0) return std::nullopt;
+    return text;
+}
+
+struct Answer {
+    nlohmann::json record;
+    Eigen::MatrixXd displacement;  // [m], #nodes x 3
+};
+
+class Program {
+public:
+    Program() : path_(fs::read_symlink("/proc/self/exe").parent_path() / "pbskin_distributed") {}
+
+    bool is_there() const { return fs::exists(path_) && output_of("command -v mpirun"); }
+
+    // ranks 0: without mpirun.
+    std::optional<Answer> solve(int ranks, int element_order, const std::string& arguments) const
+    {
+        const ScratchFolder folder;
+        const std::string launch = ranks ? "mpirun --allow-run-as-root --oversubscribe -n " + std::to_string(ranks) + " " : "";
+        const auto text = output_of(launch + "'" + path_.string() + "' --bar 3000 --gravity 0 0 -9.81 --order " +
+                                    std::to_string(element_order) + " --nodes -o " + folder.path() + " " + arguments + " 2>/dev/null");
+        if (!text) return {};
+        return Answer{nlohmann::json::parse(*text), displacement_in(folder / "nodes.csv")};
+    }
+
+private:
+    static Eigen::MatrixXd displacement_in(const std::string& file)
+    {
+        const analysis::CsvTable table = analysis::read_csv(file);
+        Eigen::MatrixXd displacement(table.rows(), 3);
+        for (int c = 0; c < 3; ++c) {
+            const std::vector<double> column = table.numbers(c == 0 ? "x_m" : c == 1 ? "y_m" : "z_m");
+            displacement.col(c) = Eigen::Map<const Eigen::VectorXd>(column.data(), table.rows());
+        }
+        return displacement;
+    }
+
+    fs::path path_;
+};
+
+VerificationRow row_of(int element_order, const std::string& quantity)
+{
+    return {.problem = "distributed",
+            .quantity = "node differences over displacements, root mean square, " + quantity,
+            .elements = elements_name(element_order),
+            .material = linear_material(0.3),
+            .unit = "1",
+            .source = "CHOLMOD, one process",
+            .low = 0.0,
+            .bound_from = bound_text};
+}
+
+VerificationRow multigrid_row(const Effort& effort, int element_order)
+{
+    const Divisions divisions = {31, 4, 4};
+    const pbs::TetMesh mesh = box_mesh({0, 0, 0}, {10, 1, 1}, divisions);
+    BoundaryValueProblem problem;
+    problem.body_force = [](const pbs::Vec3&) -> pbs::Vec3 { return {0, 0, -9810.0}; };
+    problem.held = [](const pbs::Vec3& x) { return x.x() < 1e-9; };
+    problem.element_order = element_order;
+    const BoundaryValueSolution direct = solve(mesh, {1e5, 0.3}, problem);
+    problem.solver = LinearSolver::cg_ml;
+    const BoundaryValueSolution iterative = solve(mesh, solver_material(effort, {1e5, 0.3}), problem);
+    VerificationRow row = row_of(element_order, "cg_ml in one process");
+    row.mesh = text_of(divisions);
+    row.h_m = 1.0 / divisions[1];
+    row.dofs = direct.space->dofs();
+    row.value = (iterative.displacement - direct.displacement).norm() / direct.displacement.norm();
+    row.high = (iterative.residual + direct.residual) / mode_share;
+    return row;
+}
+
+VerificationRow distributed_row(int element_order, int ranks, const std::optional<Answer>& direct, const std::optional<Answer>& distributed)
+{
+    VerificationRow row = row_of(element_order, std::to_string(ranks) + (ranks == 1 ? " rank" : " ranks"));
+    row.mesh = "31 x 4 x 4";
+    row.h_m = 0.25;
+    row.high = 0.0;
+    row.value = std::numeric_limits<double>::quiet_NaN();
+    if (!direct || !distributed) return row;
+    const auto number = [](const Answer& answer, const char* name) { return answer.record[name].get<double>(); };
+    row.dofs = direct->record["dofs"].get<int>();
+    row.value = (distributed->displacement - direct->displacement).norm() / direct->displacement.norm();
+    row.high = (number(*direct, "relative_residual") + number(*distributed, "relative_residual")) / mode_share;
+    row.note = std::to_string(distributed->record["iterations"].get<int>()) + " iterations; at least " +
+               std::to_string(distributed->record["tets_of_rank_min"].get<int>()) + " tets a rank";
+    return row;
+}
+
+}  // namespace
+
+VerificationRows distributed_rows(const Effort& effort)
+{
+    VerificationRows rows = {multigrid_row(effort, 1), multigrid_row(effort, 2)};
+    const Program program;
+    const VerificationRow left_out = {.problem = "distributed",
+                                      .quantity = "several processes",
+                                      .elements = "P1, P2",
+                                      .mesh = "31 x 4 x 4",
+                                      .unit = "1",
+                                      .source = "CHOLMOD, one process",
+                                      .note = "no pbskin_distributed beside this program, or no mpirun"};
+    if (!program.is_there()) {
+        rows.push_back(left_out);
+        return rows;
+    }
+    const ElasticMaterial material = solver_material(effort, {1e5, 0.3});
+    const std::string arguments =
+        "--young " + analysis::number_text(material.young_pa) + " --poisson " + analysis::number_text(material.poisson);
+    for (const int element_order : {1, 2}) {
+        const auto direct = program.solve(0, element_order, "--solver cholmod");
+        for (const int ranks : {1, 2}) {
+            const auto distributed = program.solve(ranks, element_order, arguments);
+            rows.push_back(distributed_row(element_order, ranks, direct, distributed));
+        }
+    }
+    return rows;
+}
+
+}  // namespace experiments

@@ -1,0 +1,151 @@
+// PBS's column of the locking table: what one volume constraint a tet does to the cantilever of cantilever.cpp.
+//   tip deflection   linear tets of a given shear modulus, every volume kept exactly: what P1 tends to as nu goes to 1/2
+//   motions left     by the constraints on the free vertices, by rank; counting has it that fewer than none are left
+//   sag              of PBS itself, settled under its own weight (k_stretch gives the stiffness), with volume constraints over without
+// The latter is 5/6 where the constraints do no more than incompressibility does: edges alone are a body of central forces, nu = 1/4 and
+// E = 2.5 mu, and where no volume changes E = 3 mu.
+#include "experiments/studies/shared/near_rest/settled_state.hpp"
+#include "experiments/studies/verification/volume_constraints.hpp"
+#include "reference_fem/verification/beam_problems.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+namespace experiments {
+namespace {
+
+using pbs::Positions;
+using pbs::Vec3;
+using reference_fem::Formulation;
+
+constexpr double young_pa = 1.0e5, length_m = 10.0;  // of cantilever.cpp
+constexpr int iterations = 24;
+
+struct Clamped {
+    pbs::TetMesh bar;
+    std::vector<bool> held;
+    Divisions divisions;
+};
+
+Clamped clamped_bar(int across)
+{
+    Clamped clamped{box_mesh({0, 0, 0}, {length_m, 1, 1}, {8 * across, across, across}), {}, {8 * across, across, across}};
+    for (const auto& vertex : clamped.bar.rest.rowwise()) clamped.held.push_back(vertex(0) < 1e-9);
+    return clamped;
+}
+
+// A shear traction of 1 N over the end of 1 m^2, along -z [N], #V x 3.
+Positions end_load(const pbs::TetMesh& bar)
+{
+    Positions load = Positions::Zero(bar.rest.rows(), 3);
+    const pbs::Triangles boundary = pbs::boundary_of(bar.tets);
+    for (const auto& triangle : boundary.rowwise()) {
+        const Vec3 a = bar.rest.row(triangle(0)), b = bar.rest.row(triangle(1)), c = bar.rest.row(triangle(2));
+        if (std::min({a.x(), b.x(), c.x()}) < length_m - 1e-9) continue;
+        for (const int v : triangle) load(v, 2) -= (b - a).cross(c - a).norm() / 6.0;
+    }
+    return load;
+}
+
+VerificationRow row_on(const Clamped& clamped, const std::string& quantity)
+{
+    VerificationRow row;
+    row.problem = "locking";
+    row.quantity = quantity;
+    row.elements = "PBS, volumes kept";
+    row.mesh = text_of(clamped.divisions);
+    row.h_m = 1.0 / clamped.divisions[1];
+    row.dofs = 3 * static_cast<int>(clamped.bar.rest.rows());
+    row.unit = "1";
+    return row;
+}
+
+// Deflection is linear in 1 / lambda as lambda grows, with an error of the second order: from two of P1's, a tenth of their difference is a
+// generous bound on what the line misses.
+VerificationRows deflection_rows(const Effort& effort, const Clamped& clamped)
+{
+    const Positions load = end_load(clamped.bar);
+    const VolumeConstraints volumes(clamped.bar, clamped.held);
+    const double deflection_m = volumes.equilibrium(load, young_pa / 3.0).cwiseProduct(load).sum();
+    const auto p1 = [&](double nu) { return cantilever_row(effort, nu, 1, Formulation::displacement, clamped.divisions); };
+    const VerificationRow near = p1(0.4999), nearer = p1(0.49999);
+
+    VerificationRow beam = row_on(clamped, "tip deflection");
+    beam.material = "linear, nu = 0.5";
+    beam.value = deflection_m;
+    beam.reference = nearer.reference;
+    beam.unit = "m";
+    beam.source = nearer.source + ", at nu = 0.49999";
+    beam.note = "the share of bending that one volume constraint a tet leaves";
+
+    VerificationRow limit = beam;
+    limit.quantity = "tip deflection, against P1's limit";
+    const double per_difference = (1.0 - 2.0 * 0.49999) / (2.0 * (0.49999 - 0.4999));  // 1 - 2 nu is in proportion to mu / lambda
+    limit.reference = nearer.value - per_difference * (near.value - nearer.value);
+    limit.low = limit.reference - 0.1 * std::abs(near.value - nearer.value);
+    limit.high = limit.reference + 0.1 * std::abs(near.value - nearer.value);
+    limit.source = "P1 at nu = 0.4999 and 0.49999, extrapolated along 1 / lambda to 0";
+    limit.bound_from = "a tenth of the difference of the two: the line's error is of the second order";
+    limit.note = "the same constraints: grad C of the paper is the divergence of P1";
+    return {beam, limit};
+}
+
+VerificationRow count_row(const Clamped& clamped)
+{
+    const VolumeConstraints volumes(clamped.bar, clamped.held);
+    VerificationRow row = row_on(clamped, "motions left, share of all");
+    const int rank = volumes.rank();
+    row.value = 1.0 - static_cast<double>(rank) / volumes.dofs();
+    row.reference = 1.0 - static_cast<double>(volumes.constraints()) / volumes.dofs();
+    row.source = "counting one constraint a tet, as if all were independent";
+    row.note = fmt::format("{} constraints of rank {} on {} free components", volumes.constraints(), rank, volumes.dofs());
+    return row;
+}
+
+double sag_over_dt2(const Clamped& clamped, double k_stretch, double k_volume)
+{
+    pbs::PbsOptions options;
+    options.iterations = iterations;
+    options.k_stretch = k_stretch;
+    options.k_volume = k_volume;
+    options.masses = pbs::Masses::lumped;
+    const SettledState state = settle(clamped.bar, clamped.held, options, -Vec3::UnitZ());
+    return state.converged ? state.displacement_over_dt2.cwiseAbs().maxCoeff() : std::nan("");
+}
+
+VerificationRows sag_rows(const Clamped& clamped, double k_stretch)
+{
+    VerificationRows rows;
+    const double without = sag_over_dt2(clamped, k_stretch, 0.0);
+    for (const double k_volume : {0.01, 0.1, 1.0}) {
+        VerificationRow row = row_on(clamped, "sag over sag without volume constraints");
+        row.elements = "PBS";
+        row.material = fmt::format("k_stretch {:g}, k_volume {:g}, {} iterations", k_stretch, k_volume, iterations);
+        row.value = sag_over_dt2(clamped, k_stretch, k_volume) / without;
+        row.reference = 5.0 / 6.0;
+        row.source = "closed form: E = 2.5 mu of central forces, 3 mu where no volume changes";
+        row.note = "below the reference: locking";
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+}  // namespace
+
+VerificationRows pbs_locking_rows(const Effort& effort)
+{
+    VerificationRows rows;
+    for (const int across : {2, 3, 6}) {
+        if (across == 6 && !effort.full) continue;
+        const Clamped clamped = clamped_bar(across);
+        for (const VerificationRow& row : deflection_rows(effort, clamped)) rows.push_back(row);
+        if (across < 6) rows.push_back(count_row(clamped));
+        for (const double k_stretch : {0.2, 0.9})
+            for (const VerificationRow& row : sag_rows(clamped, k_stretch)) rows.push_back(row);
+    }
+    return rows;
+}
+
+}  // namespace experiments

@@ -1,0 +1,83 @@
+// The verification of the judge: patch tests, manufactured solutions, closed forms and published benchmarks, each problem a run of its own.
+// No claim rests on it; it says how far the reference itself may be trusted. Rows into DIR/verification/verification.csv, .json, .md.
+#include "analysis/atomic_file.hpp"
+#include "experiments/studies/study.hpp"
+#include "experiments/studies/verification/verification_module.hpp"
+#include "experiments/studies/verification/verification_record.hpp"
+#include "pbs/character/bodies.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/module.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+// deal.II is loaded here, when the study is asked for.
+const std::vector<VerificationProblem>& problems_of_module()
+{
+    return *pbs::load_module("pbskin_fem").function<decltype(pbskin_verification_problems)>("pbskin_verification_problems")();
+}
+
+pbs::Character limb(int vertices, int refinements)
+{
+    return pbs::make_character({.body = "limb", .vertices = vertices, .refinements = refinements});
+}
+
+std::string solve_and_record(const VerificationProblem& problem, const Effort& effort, const std::string& folder)
+{
+    nlohmann::json json = nlohmann::json::array();
+    std::string breakdown;
+    for (const VerificationRow& row : problem.rows(effort)) {
+        json.push_back(to_json(row));
+        if (!std::isfinite(row.value)) breakdown += fmt::format("{} of {} on {} is not finite. ", row.quantity, row.elements, row.mesh);
+    }
+    analysis::write_text_atomically((fs::path(folder) / "rows.json").string(), json.dump(2) + "\n");
+    return breakdown;
+}
+
+}  // namespace
+
+StudyPlan plan_verification_study(bool full)
+{
+    StudyPlan plan;
+    try {
+        for (const VerificationProblem& problem : problems_of_module())
+            plan.runs.push_back(
+                {.name = problem.name,
+                 .cost_s = full ? problem.full_s : problem.quick_s,
+                 .work = [&problem,
+                          full](const std::string& folder) { return solve_and_record(problem, {.full = full, .limb = limb}, folder); },
+                 .settings = {{"problem", problem.name}, {"full", full}}});
+    } catch (const pbs::InputError& error) {
+        plan.left_out.push_back({"verification", error.what()});
+    }
+    return plan;
+}
+
+StudyConclusion conclude_verification_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>&)
+{
+    StudyConclusion conclusion;
+    VerificationRows rows;
+    for (const StudyRun& run : plan.runs) {
+        const fs::path file = fs::path(folder) / run.name / "rows.json";
+        if (!fs::exists(file.parent_path() / "run.json")) {
+            conclusion.text += run.name + ": no rows, its run did not end\n";
+            conclusion.holds = false;
+            continue;
+        }
+        for (const auto& row : nlohmann::json::parse(analysis::read_text(file.string()))) rows.push_back(verification_row(row));
+    }
+    if (rows.empty()) return {"verification: nothing was run\n", false};
+    for (const VerificationRow& row : rows) conclusion.holds &= holds(row).value_or(true);
+    write_verification_record(folder, rows);
+    conclusion.text = verification_table(rows) + conclusion.text;
+    return conclusion;
+}
+
+}  // namespace experiments

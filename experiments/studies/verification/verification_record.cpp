@@ -1,0 +1,167 @@
+#include "experiments/studies/verification/verification_record.hpp"
+
+#include "analysis/atomic_file.hpp"
+#include "analysis/csv_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+
+namespace experiments {
+namespace {
+
+using Cell = analysis::CsvTable::Cell;
+
+const std::vector<std::string> columns = {"problem",    "quantity",       "elements",       "material", "mesh",           "h_m", "dofs",
+                                          "value",      "reference",      "unit",           "source",   "difference_pct", "low", "high",
+                                          "bound_from", "observed_order", "expected_order", "note",     "holds"};
+
+Cell cell(const std::optional<double>& value)
+{
+    return value ? Cell(*value) : Cell(std::nullopt);
+}
+
+std::string verdict_of(const VerificationRow& row)
+{
+    const std::optional<bool> held = holds(row);
+    return !held ? "" : *held ? "yes" : "no";
+}
+
+std::string csv_text(const VerificationRows& rows)
+{
+    analysis::CsvTable table(columns);
+    for (const VerificationRow& row : rows)
+        table.add_row({row.problem, row.quantity, row.elements, row.material, row.mesh, row.h_m, row.dofs, row.value, row.reference,
+                       row.unit, row.source, cell(difference_pct(row)), cell(row.low), cell(row.high), row.bound_from,
+                       cell(row.observed_order), cell(row.expected_order), row.note, verdict_of(row)});
+    return table.text();
+}
+
+std::string number(const std::optional<double>& value, const char* format = "{:.6g}")
+{
+    return value ? fmt::format(fmt::runtime(format), *value) : "";
+}
+
+std::string bounds_text(const VerificationRow& row)
+{
+    return row.low || row.high ? fmt::format("{} to {}", number(row.low, "{:.4g}"), number(row.high, "{:.4g}")) : "";
+}
+
+std::string order_text(const VerificationRow& row)
+{
+    if (!row.observed_order) return "";
+    return number(row.observed_order, "{:.2f}") + (row.expected_order ? " (" + number(row.expected_order, "{:.3g}") + ")" : "");
+}
+
+// Sources and origins of bounds, each once, in the order of the rows.
+std::vector<std::string> footnotes(const VerificationRows& rows)
+{
+    std::vector<std::string> notes;
+    for (const VerificationRow& row : rows)
+        for (const std::string& note : {row.source, row.bound_from})
+            if (!note.empty() && !std::count(notes.begin(), notes.end(), note)) notes.push_back(note);
+    return notes;
+}
+
+std::string marks(const VerificationRow& row, const std::vector<std::string>& notes)
+{
+    std::string text;
+    for (const std::string& note : {row.source, row.bound_from})
+        if (!note.empty())
+            text += fmt::format("{}{}", text.empty() ? "" : ", ", std::find(notes.begin(), notes.end(), note) - notes.begin() + 1);
+    return text;
+}
+
+std::string markdown(const VerificationRows& rows)
+{
+    const std::vector<std::string> notes = footnotes(rows);
+    std::string text =
+        "| problem | quantity | elements | material | mesh | dofs | value | reference | unit | difference [%] | order (theory) | bounds | "
+        "holds | notes |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+    for (const VerificationRow& row : rows)
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.6g} | {} | {} | {} | {} | {} | {} | {} |\n", row.problem,
+                            row.quantity + (row.note.empty() ? "" : " (" + row.note + ")"), row.elements, row.material, row.mesh, row.dofs,
+                            row.value, row.reference == 0.0 ? "0" : number(row.reference), row.unit, number(difference_pct(row), "{:+.3g}"),
+                            order_text(row), bounds_text(row), verdict_of(row), marks(row, notes));
+    text += "\n";
+    for (std::size_t k = 0; k < notes.size(); ++k) text += fmt::format("{}. {}\n", k + 1, notes[k]);
+    return text;
+}
+
+// Of what was seen of a quantity.
+struct Range {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+
+    void add(double value)
+    {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+    std::string text(const char* format) const
+    {
+        if (low > high) return "";
+        return number(low, format) + (low < high ? " to " + number(high, format) : "");
+    }
+};
+
+struct ProblemSummary {
+    int judged = 0, held = 0, beside = 0;
+    Range difference_pct, order_difference;  // of the judged rows
+    std::string failing;                     // a line each
+};
+
+ProblemSummary summarise(const std::string& problem, const VerificationRows& rows)
+{
+    ProblemSummary summary;
+    for (const VerificationRow& row : rows) {
+        if (row.problem != problem) continue;
+        const std::optional<bool> row_holds = holds(row);
+        if (!row_holds) {
+            ++summary.beside;
+            continue;
+        }
+        ++summary.judged;
+        summary.held += *row_holds;
+        if (const auto difference = difference_pct(row)) summary.difference_pct.add(*difference);
+        if (row.expected_order && row.observed_order) summary.order_difference.add(*row.observed_order - *row.expected_order);
+        if (!*row_holds)
+            summary.failing += fmt::format("  does not hold: {}, {}, {}, {}: {} {}, expected {} {}\n", row.quantity, row.elements,
+                                           row.material, row.mesh, number(row.value), row.unit, bounds_text(row), order_text(row));
+    }
+    return summary;
+}
+
+}  // namespace
+
+void write_verification_record(const std::string& folder, const VerificationRows& rows)
+{
+    nlohmann::json json = {{"schema", 1}, {"order_tolerance", order_tolerance}, {"rows", nlohmann::json::array()}};
+    for (const VerificationRow& row : rows) json["rows"].push_back(to_json(row));
+    const std::filesystem::path path(folder);
+    analysis::write_text_atomically((path / "verification.csv").string(), csv_text(rows));
+    analysis::write_text_atomically((path / "verification.json").string(), json.dump(2) + "\n");
+    analysis::write_text_atomically((path / "verification.md").string(), markdown(rows));
+}
+
+std::string verification_table(const VerificationRows& rows)
+{
+    constexpr auto line = "{:<30} {:>8} {:>7}   {:<22} {:<18}\n";
+    std::string text = fmt::format(line, "problem", "hold", "beside", "difference [%]", "order less theory");
+    std::vector<std::string> problems;
+    for (const VerificationRow& row : rows)
+        if (!std::count(problems.begin(), problems.end(), row.problem)) problems.push_back(row.problem);
+    int judged = 0, held = 0;
+    for (const std::string& problem : problems) {
+        const ProblemSummary summary = summarise(problem, rows);
+        judged += summary.judged;
+        held += summary.held;
+        text += fmt::format(line, problem, fmt::format("{}/{}", summary.held, summary.judged), summary.beside,
+                            summary.difference_pct.text("{:+.3g}"), summary.order_difference.text("{:+.2f}")) +
+                summary.failing;
+    }
+    return text + fmt::format("{} of {} rows hold; {} more are there to be seen\n", held, judged, rows.size() - judged);
+}
+
+}  // namespace experiments

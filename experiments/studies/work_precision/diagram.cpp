@@ -1,0 +1,194 @@
+#include "experiments/studies/work_precision/diagram.hpp"
+
+#include "experiments/studies/work_precision/point_setting.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace experiments {
+namespace {
+
+constexpr std::size_t fewest_for_a_mean = 3;
+
+// One pose of one body, as its rows say.
+Diagram diagram_of(const analysis::CsvTable& table)
+{
+    Diagram diagram;
+    diagram.body = table.text_at(0, "body");
+    diagram.pose = table.text_at(0, "pose");
+    diagram.name = diagram.body + ", " + diagram.pose;
+    for (int row = 0; row < table.rows(); ++row) {
+        const auto ms = table.number_or_nothing(row, "ms_median"), error_pct = table.number_or_nothing(row, "error_joint_pct");
+        if (table.text_at(row, "outcome") == "reference") {
+            diagram.reference = table.text_at(row, "reference");
+            diagram.reference_ms = ms;
+            diagram.reference_error_pct = table.number_or_nothing(row, "reference_error_joint_pct");
+            diagram.reference_difference_pct = table.number_or_nothing(row, "error_joint_beside_pct");
+            diagram.self_intersecting = table.number_or_nothing(row, "reference_self_intersects").value_or(0.0) != 0.0;
+        }
+        if (!ms || !error_pct) continue;
+        const auto number = [&](const char* column) { return table.number_or_nothing(row, column); };
+        diagram.points.push_back({table.text_at(row, "deformer"), table.text_at(row, "setting"), *ms, number("ms_q1"), number("ms_q3"),
+                                  *error_pct, number("error_l2_pct"), number("error_linf_m"), number("volume_abs_change_pct"),
+                                  number("error_joint_beside_pct"), number("below_reference_error").value_or(0.0) != 0.0});
+    }
+    return diagram;
+}
+
+std::optional<double> mean_of(const std::vector<Diagram>& poses, std::optional<double> Diagram::*figure)
+{
+    double sum = 0.0;
+    for (const Diagram& pose : poses) {
+        if (!(pose.*figure)) return std::nullopt;
+        sum += *(pose.*figure);
+    }
+    return sum / double(poses.size());
+}
+
+// The same setting in every pose; nothing where it has no error in one of them.
+std::optional<DiagramPoint> mean_of(const std::vector<Diagram>& poses, const DiagramPoint& setting)
+{
+    constexpr std::optional<double> DiagramPoint::*known_or_not[] = {&DiagramPoint::ms_q1,      &DiagramPoint::ms_q3,
+                                                                     &DiagramPoint::l2_pct,     &DiagramPoint::linf_m,
+                                                                     &DiagramPoint::beside_pct, &DiagramPoint::volume_abs_change_pct};
+    DiagramPoint mean{setting.deformer, setting.setting};
+    for (const auto figure : known_or_not) mean.*figure = 0.0;
+    const double share = 1.0 / double(poses.size());
+    for (const Diagram& pose : poses) {
+        const auto same = [&](const DiagramPoint& point) { return point.words() == setting.words(); };
+        const auto found = std::find_if(pose.points.begin(), pose.points.end(), same);
+        if (found == pose.points.end()) return std::nullopt;
+        for (const auto figure : {&DiagramPoint::ms, &DiagramPoint::error_pct}) mean.*figure += share * (*found).*figure;
+        for (const auto figure : known_or_not) {
+            std::optional<double>& sum = mean.*figure;
+            const std::optional<double>& more = (*found).*figure;
+            sum = sum && more ? std::optional(*sum + share * *more) : std::nullopt;
+        }
+    }
+    return mean;
+}
+
+Diagram mean_diagram(const std::string& what, const std::string& over, const std::vector<Diagram>& poses)
+{
+    Diagram mean;
+    mean.name = fmt::format("{}, mean of {} {}", what, poses.size(), over);
+    mean.poses = static_cast<int>(poses.size());
+    for (const Diagram& pose : poses) mean.self_intersecting += pose.self_intersecting;
+    const bool same = std::all_of(poses.begin(), poses.end(), [&](const Diagram& pose) { return pose.reference == poses[0].reference; });
+    mean.reference = same ? poses[0].reference : "of each pose";
+    mean.reference_ms = mean_of(poses, &Diagram::reference_ms);
+    mean.reference_error_pct = mean_of(poses, &Diagram::reference_error_pct);
+    mean.reference_difference_pct = mean_of(poses, &Diagram::reference_difference_pct);
+    for (const DiagramPoint& first : poses[0].points)
+        if (auto point = mean_of(poses, first)) {
+            point->below_reference_error = mean.reference_error_pct && point->error_pct <= *mean.reference_error_pct;
+            mean.points.push_back(*point);
+        }
+    return mean;
+}
+
+// "limb" of "limb twist"
+std::string family_of(const std::string& body)
+{
+    return body.substr(0, body.find(' '));
+}
+
+using Family = std::pair<std::string, std::vector<Diagram>>;
+
+void add_to(std::vector<Family>& families, const std::string& name, const Diagram& diagram)
+{
+    const auto found = std::find_if(families.begin(), families.end(), [&](const Family& family) { return family.first == name; });
+    (found == families.end() ? families.emplace_back(name, std::vector<Diagram>{}) : *found).second.push_back(diagram);
+}
+
+}  // namespace
+
+const std::vector<std::string>& measures()
+{
+    static const std::vector<std::string> names = {"error_joint_pct", "error_l2_pct", "error_linf_m", "volume_abs_change_pct"};
+    return names;
+}
+
+double value_of(const DiagramPoint& point, const std::string& measure)
+{
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    if (measure == "error_joint_pct") return point.error_pct;
+    if (measure == "error_l2_pct") return point.l2_pct.value_or(none);
+    if (measure == "error_linf_m") return point.linf_m.value_or(none);
+    if (measure == "volume_abs_change_pct") return point.volume_abs_change_pct.value_or(none);
+    throw std::logic_error("no such measure: " + measure);
+}
+
+std::vector<analysis::WorkPrecision> Diagram::of(const std::vector<std::string>& deformers, std::vector<std::size_t>& indices,
+                                                 const std::string& measure) const
+{
+    std::vector<analysis::WorkPrecision> chosen;
+    indices.clear();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (std::find(deformers.begin(), deformers.end(), points[i].deformer) == deformers.end()) continue;
+        chosen.push_back({points[i].ms, value_of(points[i], measure)});
+        indices.push_back(i);
+    }
+    return chosen;
+}
+
+std::vector<Diagram> diagrams_of(const std::vector<analysis::CsvTable>& points)
+{
+    std::vector<Diagram> diagrams;
+    std::vector<Family> bodies, poses;  // in the order of the records
+    for (const analysis::CsvTable& table : points) {
+        if (table.rows() == 0) continue;
+        diagrams.push_back(diagram_of(table));
+        if (diagrams.back().reference.empty()) continue;
+        add_to(bodies, family_of(diagrams.back().body), diagrams.back());
+        add_to(poses, diagrams.back().pose, diagrams.back());
+    }
+    for (const auto& [over, families] : {std::pair{"poses", bodies}, {"bodies", poses}})
+        for (const auto& [name, of] : families)
+            if (of.size() >= fewest_for_a_mean) diagrams.push_back(mean_diagram(name, over, of));
+    return diagrams;
+}
+
+std::vector<DiagramPoint> budgets_of(const Diagram& diagram)
+{
+    std::vector<DiagramPoint> budgets;
+    for (const int iterations : {1, 4, 24, 96}) {
+        pbs::PbsOptions options;
+        options.iterations = iterations;
+        for (const DiagramPoint& point : diagram.points)
+            if (point.deformer == "pbs" && point.setting == words_of(options)) budgets.push_back(point);
+    }
+    return budgets;
+}
+
+const DiagramPoint* best_of(const Diagram& diagram, const DeformerGroup& group, double budget_ms)
+{
+    std::vector<std::size_t> indices;
+    const auto best = analysis::best_within(diagram.of(group.deformers, indices), budget_ms);
+    return best ? &diagram.points[indices[*best]] : nullptr;
+}
+
+const std::vector<DeformerGroup>& deformer_groups()
+{
+    static const std::vector<DeformerGroup> groups = {{"LBS", {"lbs"}},
+                                                      {"DQS", {"dqs"}},
+                                                      {"delta mush", {"delta_mush"}},
+                                                      {"PBS", {"pbs"}},
+                                                      {"PBS with exponent", {"pbs_exponent"}},
+                                                      {"XPBD", {"xpbd", "xpbd_small_steps"}},
+                                                      {"linear FEM", {"fem_linear"}},
+                                                      {"nonlinear FEM", {"fem_corotational", "fem_stable_neo_hookean"}}};
+    return groups;
+}
+
+const DeformerGroup& group_of(const std::string& deformer)
+{
+    for (const DeformerGroup& group : deformer_groups())
+        if (std::count(group.deformers.begin(), group.deformers.end(), deformer)) return group;
+    throw std::logic_error("a deformer of no group: " + deformer);
+}
+
+}  // namespace experiments

@@ -1,0 +1,207 @@
+#include "experiments/studies/work_precision/findings.hpp"
+
+#include "experiments/studies/work_precision/certainty.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace experiments {
+namespace {
+
+std::string ms_text(double ms)
+{
+    return ms < 100.0 ? fmt::format("{:.2g} ms", ms) : fmt::format("{:.0f} ms", ms);
+}
+
+std::vector<const DiagramPoint*> front_of(const Diagram& diagram)
+{
+    std::vector<analysis::WorkPrecision> all;
+    for (const DiagramPoint& point : diagram.points) all.push_back({point.ms, point.error_pct});
+    std::vector<const DiagramPoint*> front;
+    for (const std::size_t on_front : analysis::pareto_front(all)) front.push_back(&diagram.points[on_front]);
+    return front;
+}
+
+// Who alone is so quick: the groups that are there before any third one.
+std::string who_is_quickest(const Diagram& diagram)
+{
+    std::vector<std::pair<double, std::string>> first;  // the least time of each group
+    for (const DeformerGroup& group : deformer_groups()) {
+        double least = std::numeric_limits<double>::infinity();
+        std::vector<std::size_t> indices;
+        for (const auto& point : diagram.of(group.deformers, indices)) least = std::min(least, point.cost);
+        if (!indices.empty()) first.emplace_back(least, group.words);
+    }
+    std::sort(first.begin(), first.end());
+    if (first.size() < 3) return "";
+    return fmt::format("below {} a frame only {} and {} are there; {} is the next", ms_text(first[2].first), first[0].second,
+                       first[1].second, first[2].second);
+}
+
+// Stretches of the front that belong to one group, each against the nearest that is quicker.
+std::vector<std::string> who_is_nearest(const Diagram& diagram)
+{
+    const std::vector<const DiagramPoint*> front = front_of(diagram);
+    std::vector<std::string> lines;
+    for (std::size_t begin = 0; begin < front.size();) {
+        const std::string& group = group_of(front[begin]->deformer).words;
+        std::size_t end = begin;
+        while (end < front.size() && group_of(front[end]->deformer).words == group) ++end;
+        const DiagramPoint &from = *front[begin], &to = *front[end - 1];
+        std::string error = fmt::format("{:.1f} %", from.error_pct);
+        if (end > begin + 1) error += fmt::format(" to {:.1f} % at {}", to.error_pct, ms_text(to.ms));
+        const std::string mark = begin > 0 ? words_of(certainty_of(diagram, from, *front[begin - 1]), diagram) : "";
+        lines.push_back(fmt::format("from {} {} is nearest: {} off ({}){}", ms_text(from.ms), group, error, to.words(), mark));
+        begin = end;
+    }
+    return lines;
+}
+
+// At their best, whatever it takes.
+std::string who_stays_behind(const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other)
+{
+    const double any_ms = std::numeric_limits<double>::infinity();
+    const DiagramPoint *behind = best_of(diagram, one, any_ms), *nearer = best_of(diagram, other, any_ms);
+    return fmt::format("{} does not stay nearer than {} however long it takes ({:.1f} and {:.1f} % at best){}", one.words, other.words,
+                       behind->error_pct, nearer->error_pct, words_of(certainty_of(diagram, *nearer, *behind), diagram));
+}
+
+std::string who_passes(const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other)
+{
+    std::vector<std::size_t> of_one, of_other;
+    const auto ones = diagram.of(one.deformers, of_one), others = diagram.of(other.deformers, of_other);
+    if (ones.empty() || others.empty()) return "";
+    const auto crossing = analysis::nearer_from(ones, others);
+    if (!crossing) return who_stays_behind(diagram, one, other);
+    const DiagramPoint& point = diagram.points[of_one[crossing->one]];
+    const std::string when = crossing->from_the_start ? "from the first" : fmt::format("from {} on", ms_text(crossing->from));
+    const std::optional<Certainty> certainty = certainty_from(diagram, one, other, crossing->from);
+    return fmt::format("{} is nearer than {} {} ({}: {:.1f} %){}", one.words, other.words, when, point.setting, point.error_pct,
+                       certainty ? words_of(*certainty, diagram) : "");
+}
+
+const DeformerGroup& group_named(const std::string& words)
+{
+    return *std::find_if(deformer_groups().begin(), deformer_groups().end(), [&](const auto& group) { return group.words == words; });
+}
+
+// Delta mush, which is geometry alone, against PBS and XPBD within the time of `whose`.
+std::string is_physics_worth_it(const Diagram& diagram, double budget_ms, const std::string& whose)
+{
+    const DiagramPoint *mush = best_of(diagram, group_named("delta mush"), budget_ms),
+                       *pbs = best_of(diagram, group_named("PBS"), budget_ms), *xpbd = best_of(diagram, group_named("XPBD"), budget_ms);
+    const auto told = [](const DiagramPoint* point) { return point ? fmt::format("{:.1f} % off", point->error_pct) : "not so quick"; };
+    std::string text =
+        fmt::format("within the {} of {}: delta mush {}, PBS {}, XPBD {}", ms_text(budget_ms), whose, told(mush), told(pbs), told(xpbd));
+    if (!mush || (!pbs && !xpbd)) return text;
+    const DiagramPoint& physics = pbs && (!xpbd || pbs->error_pct <= xpbd->error_pct) ? *pbs : *xpbd;
+    const double gain_pct = 100.0 * (1.0 - physics.error_pct / mush->error_pct);
+    text += fmt::format("; the physics {} {:.0f} % {} the error of geometry alone", gain_pct > 0.0 ? "takes" : "adds", std::abs(gain_pct),
+                        gain_pct > 0.0 ? "off" : "to");
+    if (mush->beside_pct && pbs && pbs->beside_pct)
+        text += fmt::format(" (from the second solution: delta mush {:.1f}, PBS {:.1f} %)", *mush->beside_pct, *pbs->beside_pct);
+    const auto certainty = gain_pct > 0.0 ? certainty_of(diagram, physics, *mush) : certainty_of(diagram, *mush, physics);
+    return text + words_of(certainty, diagram);
+}
+
+std::string what_is_undecided(const Diagram& diagram)
+{
+    const std::string ms = diagram.reference_ms ? fmt::format(", which takes {},", ms_text(*diagram.reference_ms)) : "";
+    if (!diagram.reference_error_pct || !diagram.reference_difference_pct)
+        return fmt::format("the reference {}{} has no second solution beside it, and no error bar", diagram.reference, ms);
+    const auto below = [&](double bar_pct) {
+        return std::count_if(diagram.points.begin(), diagram.points.end(), [&](const auto& point) { return point.error_pct <= bar_pct; });
+    };
+    return fmt::format(
+        "the reference {}{} and the second solution differ by {:.1f} %: {} of {} points lie below that; were it to converge with "
+        "order 1, which is presumed and not observed, it would be up to {:.1f} % off: {} lie below that",
+        diagram.reference, ms, *diagram.reference_difference_pct, below(*diagram.reference_difference_pct), diagram.points.size(),
+        *diagram.reference_error_pct, below(*diagram.reference_error_pct));
+}
+
+// The same law with order 1, on the case's own tets and on those cut into eight.
+std::string what_refinement_does(const Diagram& diagram)
+{
+    const auto with = [&](const std::string& setting) {
+        return std::find_if(diagram.points.begin(), diagram.points.end(),
+                            [&](const auto& point) { return point.deformer == "fem_stable_neo_hookean" && point.setting == setting; });
+    };
+    const auto own = with("P1"), refined = with("P1, tets cut into eight");
+    if (own == diagram.points.end() || refined == diagram.points.end()) return "";
+    return fmt::format(
+        "one refinement: stable neo-Hookean flesh of order 1 is {:.1f} % off on the case's own tets, {:.1f} % on those cut "
+        "into eight",
+        own->error_pct, refined->error_pct);
+}
+
+std::string whose_reference_intersects(const Diagram& diagram)
+{
+    if (diagram.self_intersecting == 0) return "";
+    const std::string whose = diagram.poses == 1 ? fmt::format("the reference {} intersects itself", diagram.reference)
+                                                 : fmt::format("the references of {} of the {} poses intersect themselves",
+                                                               diagram.self_intersecting, diagram.poses);
+    return whose + ": no contact is modelled, and where the flesh overlaps nobody's distance from it says who is right";
+}
+
+}  // namespace
+
+std::vector<std::string> findings(const Diagram& diagram)
+{
+    if (diagram.points.empty()) return {"no reference was reached: there is no error to show"};
+    std::vector<std::string> lines = {who_is_quickest(diagram)};
+    for (const std::string& line : who_is_nearest(diagram)) lines.push_back(line);
+    for (const auto& [one, other] : {std::pair{"PBS", "delta mush"}, {"PBS", "XPBD"}, {"linear FEM", "PBS"}, {"nonlinear FEM", "PBS"}})
+        lines.push_back(who_passes(diagram, group_named(one), group_named(other)));
+    for (const DiagramPoint& budget : budgets_of(diagram))
+        lines.push_back(is_physics_worth_it(diagram, budget.ms, "PBS, " + budget.setting));
+    lines.push_back(physics_text(diagram));
+    lines.push_back(what_is_undecided(diagram));
+    lines.push_back(what_refinement_does(diagram));
+    lines.push_back(whose_reference_intersects(diagram));
+    std::erase(lines, "");
+    return lines;
+}
+
+std::string front_text(const Diagram& diagram)
+{
+    const auto known = [](const std::optional<double>& ms) { return ms ? fmt::format("{:.4g}", *ms) : ""; };
+    std::string text =
+        fmt::format("     {}\n     {:>10} {:>21} {:>9}  {}\n", diagram.name, "ms a frame", "quartiles", "off [%]", "deformer");
+    for (const DiagramPoint* point : front_of(diagram))
+        text += fmt::format("     {:>10.4g} {:>10} {:>10} {:>8.2f}{} {}\n", point->ms, known(point->ms_q1), known(point->ms_q3),
+                            point->error_pct, point->below_reference_error ? "*" : " ", point->words());
+    return text;
+}
+
+std::string best_text(const std::vector<Diagram>& diagrams)
+{
+    std::size_t width = 25;
+    for (const Diagram& diagram : diagrams) width = std::max(width, diagram.name.size());
+    std::string text = fmt::format("     {:<{}}", "off [%] at best, after ms", width);
+    for (const DeformerGroup& group : deformer_groups()) text += fmt::format(" {:>17}", group.words);
+    text += fmt::format(" {:>17} {:>14}\n", "solutions differ", "reference off");
+    for (const Diagram& diagram : diagrams) {
+        text += fmt::format("     {:<{}}", diagram.name, width);
+        for (const DeformerGroup& group : deformer_groups()) {
+            const DiagramPoint* best = best_of(diagram, group, std::numeric_limits<double>::infinity());
+            text += fmt::format(
+                " {:>17}",
+                best ? fmt::format("{:.1f}{} {}", best->error_pct, best->below_reference_error ? "*" : "", ms_text(best->ms)) : "");
+        }
+        const auto &bar_pct = diagram.reference_error_pct, &difference_pct = diagram.reference_difference_pct;
+        text += fmt::format(" {:>17} {:>13}{}\n", difference_pct ? fmt::format("{:.1f}", *difference_pct) : "",
+                            bar_pct ? fmt::format("up to {:.1f}", *bar_pct) : "not known", diagram.self_intersecting > 0 ? "#" : "");
+    }
+    return text;
+}
+
+std::string physics_text(const Diagram& diagram)
+{
+    const DiagramPoint* mush = best_of(diagram, group_named("delta mush"), std::numeric_limits<double>::infinity());
+    return mush ? is_physics_worth_it(diagram, mush->ms, "delta mush at its best, " + mush->setting) : "";
+}
+
+}  // namespace experiments

@@ -1,0 +1,143 @@
+#include "experiments/studies/work_precision/measured_points.hpp"
+
+#include "experiments/scene/motion_case.hpp"
+#include "experiments/run/frame_measurement.hpp"
+#include "experiments/process/interruption.hpp"
+#include "experiments/studies/work_precision/point_row.hpp"
+#include "experiments/studies/work_precision/posed_deformer.hpp"
+#include "pbs/geometry/meshing.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <deque>
+#include <map>
+
+namespace experiments {
+namespace {
+
+// The two poses a frame goes between, on the case's skeleton.
+PosePair poses_of(const WorkPrecisionCase& of, const pbs::Skeleton& skeleton)
+{
+    const pbs::Motion motion = make_motion(of.scene.motion, skeleton, of.scene.file);
+    const auto pose = [&](int frame) { return motion.steps.at(static_cast<std::size_t>(frame) * motion.steps_per_frame); };
+    return {pose(of.frame), pose(of.frame > 0 ? of.frame - 1 : of.frame + 1), motion.time_step_s};
+}
+
+class CaseMeasuring {
+public:
+    explicit CaseMeasuring(const WorkPrecisionCase& of)
+        : of_(of),
+          base_(std::make_shared<pbs::Character>(pbs::make_character(of.scene.character))),
+          poses_(poses_of(of, base_->skeleton)),
+          ruler_(error_domain(*base_, {})),
+          settings_(point_settings(of.scene, of.range)),
+          measured_{analysis::CsvTable(point_columns()), ""}
+    {
+        meshes_.emplace(0, BodyMesh(base_));
+        if (of.range.refined) meshes_.emplace(refined, BodyMesh::refined(*base_));
+        for (const auto* sizes : {&of.range.coarser_vertices, &of.range.finer_vertices})
+            for (const int vertices : *sizes) meshes_.emplace(vertices, BodyMesh(of.scene.character, vertices, *base_));
+    }
+
+    MeasuredPoints measure()
+    {
+        for (const PointSetting& setting : settings_) reach(setting);
+        reference_ = choose_reference(points_, base_->mesh.rest.rows(), ruler_);
+        reference_self_intersects_ =
+            reference_.point && pbs::self_intersects(reference_.point->on_base, pbs::boundary_of(base_->mesh.tets));
+        const std::vector<FrameTime> times = time_all();
+        for (std::size_t i = 0; i < points_.size(); ++i) measured_.table.add_row(row_of(points_[i], times[i]));
+        return measured_;
+    }
+
+private:
+    void reach(const PointSetting& setting)
+    {
+        stop_if_interrupted();
+        const BodyMesh& mesh = meshes_.at(setting.refined ? refined : setting.vertices);
+        PosedDeformer& deformer = deformers_.emplace_back(setting, mesh.character(), poses_);
+        ReachedPoint point{&setting, &mesh, deformer.reach(), {}};
+        point.on_base = mesh.on_base(point.shape.positions);
+        if (!point.shape.finished && setting.spec.kind != "fem") measured_.breakdown += setting.deformer + " is not finite. ";
+        points_.push_back(std::move(point));
+    }
+
+    // Of those that reached the pose; the nonlinear laws by turns among themselves, the others among themselves.
+    std::vector<FrameTime> time_all()
+    {
+        std::vector<FrameTime> times(points_.size());
+        for (const bool newton : {false, true}) {
+            std::vector<std::size_t> which;
+            std::vector<TimedVariant> turns;
+            for (std::size_t i = 0; i < points_.size(); ++i) {
+                if (!points_[i].shape.finished || points_[i].setting->is_newton() != newton) continue;
+                which.push_back(i);
+                turns.push_back([this, i] {
+                    stop_if_interrupted();
+                    return deformers_[i].turn();
+                });
+            }
+            const auto samples = take_turns(turns, newton ? of_.newton_rounds : of_.rounds);
+            for (std::size_t k = 0; k < which.size(); ++k) times[which[k]] = frame_time(samples[k][0]);
+        }
+        return times;
+    }
+
+    std::vector<analysis::CsvTable::Cell> row_of(const ReachedPoint& point, const FrameTime& time)
+    {
+        PointFigures figures{of_.body, of_.pose, time, {}, {}, {}, reference_self_intersects_};
+        const auto error_to = [&](const ReachedPoint& other) { return ruler_.measure(point.on_base, other.on_base); };
+        if (point.shape.finished && reference_.point) {
+            if (&point != reference_.point) figures.error = error_to(*reference_.point);
+            if (reference_.beside && &point != reference_.beside) figures.beside_pct = error_to(*reference_.beside).joint_pct;
+            if (point.setting->deformer == "pbs" && point.setting->on_own_mesh()) figures.parts = parts_of(point);
+        }
+        return point_row(point, reference_, figures);
+    }
+
+    PbsParts parts_of(const ReachedPoint& point)
+    {
+        const auto& [whole, half] = converged(*point.setting);
+        const auto joint_pct = [&](const pbs::Positions& a, const pbs::Positions& b) { return ruler_.measure(a, b).joint_pct; };
+        return {joint_pct(point.on_base, whole), joint_pct(whole, reference_.point->on_base), joint_pct(whole, half)};
+    }
+
+    // By all of the iterations and by half of them.
+    const std::pair<pbs::Positions, pbs::Positions>& converged(PointSetting setting)
+    {
+        const double k_stretch = setting.spec.pbs.k_stretch;
+        const auto found = converged_.find(k_stretch);
+        if (found != converged_.end()) return found->second;
+        setting.spec.pbs.precision = pbs::Precision::f64;
+        setting.spec.pbs.order = pbs::Order::ordered;
+        setting.substeps = 1;
+        const auto after = [&](int iterations) {
+            setting.spec.pbs.iterations = iterations;
+            return PosedDeformer(setting, *base_, poses_).reach().positions;
+        };
+        return converged_.emplace(k_stretch, std::make_pair(after(of_.converged_iterations), after(of_.converged_iterations / 2)))
+            .first->second;
+    }
+
+    const WorkPrecisionCase& of_;
+    std::shared_ptr<const pbs::Character> base_;
+    PosePair poses_;
+    analysis::ErrorRuler ruler_;
+    std::vector<PointSetting> settings_;
+    static constexpr int refined = -1;
+    std::map<int, BodyMesh> meshes_;  // by wanted size; 0: the case's own
+    std::deque<PosedDeformer> deformers_;
+    std::vector<ReachedPoint> points_;
+    ReachedReference reference_;
+    bool reference_self_intersects_ = false;
+    std::map<double, std::pair<pbs::Positions, pbs::Positions>> converged_;  // by k_stretch
+    MeasuredPoints measured_;
+};
+
+}  // namespace
+
+MeasuredPoints measure_points(const WorkPrecisionCase& of)
+{
+    return CaseMeasuring(of).measure();
+}
+
+}  // namespace experiments

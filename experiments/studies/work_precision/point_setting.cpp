@@ -1,0 +1,185 @@
+#include "experiments/studies/work_precision/point_setting.hpp"
+
+#include "experiments/deformers/option_names.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
+#include "pbs/character/body_cache.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace experiments {
+namespace {
+
+constexpr int most_newton_steps = 120;  // of 45 degrees of a joint's turn; a folded crease may ask for any number, minutes each
+
+const DeformerSpec& first_fem(const Scene& scene)
+{
+    const auto found = std::find_if(scene.deformers.begin(), scene.deformers.end(), [](const auto& spec) { return spec.kind == "fem"; });
+    if (found == scene.deformers.end()) throw pbs::InputError(scene.file, 0, "deformers.use", scene.name, "expected a [[fem]] deformer");
+    return *found;
+}
+
+class SettingList {
+public:
+    explicit SettingList(const Scene& scene) : scene_(scene), base_(spec_of(scene, "pbs"))
+    {
+        base_.pbs.jiggle.reset();
+        base_.pbs.threads = 1;
+    }
+
+    void add_geometric()
+    {
+        for (const char* kind : {"lbs", "dqs"}) add({.deformer = kind, .words = "", .spec = named(kind)});
+        for (const int iterations : {0, 1, 2, 5, 10, 20, 50, 100, 200}) {
+            PointSetting setting{"delta_mush", fmt::format("{} iterations", iterations), named("delta_mush")};
+            setting.spec.delta_mush.iterations = iterations;
+            add(setting);
+        }
+    }
+
+    void add_pbs()
+    {
+        for (const double k_stretch : {0.05, 0.2, 0.5, 0.9})
+            for (const int iterations : {1, 2, 4, 8, 24, 48, 96, 192, 384}) add_pbs(pbs_with(iterations, k_stretch));
+        for (const pbs::Order order : {pbs::Order::plain, pbs::Order::ordered, pbs::Order::grouped})
+            for (const pbs::Precision precision : {pbs::Precision::f32, pbs::Precision::f64}) {
+                pbs::PbsOptions options = pbs_with(24, base_.pbs.k_stretch);
+                options.order = order;
+                options.precision = precision;
+                if (order != base_.pbs.order || precision != base_.pbs.precision) add_pbs(options);
+            }
+        for (const int substeps : {2, 4}) add_pbs(pbs_with(24, base_.pbs.k_stretch), substeps);
+    }
+
+    void add_pbs_with_exponent()
+    {
+        for (const double k_stretch : {0.2, 0.9})
+            for (const int iterations : {1, 4, 24, 96, 384}) {
+                pbs::PbsOptions options = pbs_with(iterations, k_stretch);
+                options.stiffness_form = pbs::StiffnessForm::exponent;
+                add_pbs(options);
+            }
+    }
+
+    void add_xpbd()
+    {
+        for (const int count : {1, 2, 4, 8, 16, 24, 48, 96, 384}) {
+            PointSetting setting{"xpbd", fmt::format("{} iterations", count), named("xpbd")};
+            setting.spec.xpbd = {.young_pa = first_fem(scene_).fem.young_pa, .poisson = first_fem(scene_).fem.poisson, .iterations = count};
+            add(setting);
+            setting.deformer = "xpbd_small_steps";
+            setting.words = fmt::format("{} substeps of 1 iteration", count);
+            setting.spec.xpbd.iterations = 1;
+            setting.spec.xpbd.substeps = count;
+            if (count > 1) add(setting);
+        }
+    }
+
+    void add_fem(const SettingRange& range)
+    {
+        using reference_fem::Model;
+        for (const Model model : {Model::linear, Model::corotational, Model::stable_neo_hookean})
+            for (const int element_order : {1, 2}) {
+                const DeformerSpec spec = fem_spec(scene_, model, element_order);
+                const PointSetting setting{"fem_" + name_of(model), fmt::format("P{}", element_order), spec};
+                const bool quadratic = model == Model::corotational ? range.quadratic_corotational : range.quadratic;
+                if (element_order == 1 || model == Model::linear || quadratic) add(setting);
+            }
+        if (!range.refined) return;
+        PointSetting setting{"fem_stable_neo_hookean", "P1, tets cut into eight", fem_spec(scene_, Model::stable_neo_hookean, 1)};
+        setting.refined = setting.spec.fem.nested_start = true;
+        add(setting);
+    }
+
+    void add_other_mesh(int vertices, int quadratic_up_to)
+    {
+        const auto elsewhere = [&](PointSetting setting) {
+            setting.vertices = vertices;
+            setting.words += (setting.words.empty() ? "" : ", ") + fmt::format("mesh of {} vertices", vertices);
+            add(setting);
+        };
+        elsewhere({"lbs", "", named("lbs")});
+        for (const int iterations : {4, 24, 96}) {
+            DeformerSpec spec = base_;
+            spec.pbs = pbs_with(iterations, base_.pbs.k_stretch);
+            elsewhere({"pbs", words_of(spec.pbs), spec});
+        }
+        using reference_fem::Model;
+        for (const Model model : {Model::linear, Model::corotational, Model::stable_neo_hookean})
+            for (const int element_order : {1, 2})
+                if (element_order == 1 || model == Model::linear || vertices <= quadratic_up_to)
+                    elsewhere({"fem_" + name_of(model), fmt::format("P{}", element_order), fem_spec(scene_, model, element_order)});
+    }
+
+    std::vector<PointSetting> settings;
+
+private:
+    static DeformerSpec named(const std::string& kind) { return {.name = kind, .kind = kind, .label = kind, .pbs = {}, .fem = {}}; }
+
+    void add(const PointSetting& setting) { settings.push_back(setting); }
+
+    void add_pbs(const pbs::PbsOptions& options, int substeps = 1)
+    {
+        const bool has_exponent = options.stiffness_form == pbs::StiffnessForm::exponent;
+        PointSetting setting{has_exponent ? "pbs_exponent" : "pbs", words_of(options), base_, substeps};
+        setting.spec.pbs = options;
+        if (substeps > 1) setting.words += fmt::format(", {} substeps", substeps);
+        add(setting);
+    }
+
+    pbs::PbsOptions pbs_with(int iterations, double k_stretch) const
+    {
+        pbs::PbsOptions options = base_.pbs;
+        options.iterations = iterations;
+        options.k_stretch = k_stretch;
+        return options;
+    }
+
+    const Scene& scene_;
+    DeformerSpec base_;
+};
+
+}  // namespace
+
+std::string digest_of(const std::vector<PointSetting>& settings)
+{
+    nlohmann::json all = nlohmann::json::array();
+    for (const PointSetting& setting : settings)
+        all.push_back({setting.deformer, setting.words, to_json(setting.spec), setting.substeps, setting.vertices, setting.refined});
+    return pbs::content_hash(all.dump());
+}
+
+std::string words_of(const pbs::PbsOptions& options)
+{
+    return fmt::format("{} iterations, k_stretch {}, {} {}", options.iterations, options.k_stretch, name_of(options.order),
+                       name_of(options.precision));
+}
+
+DeformerSpec fem_spec(const Scene& scene, reference_fem::Model model, int element_order)
+{
+    DeformerSpec spec = first_fem(scene);
+    spec.name = spec.label = spec.fem.name = fmt::format("{}_p{}", name_of(model), element_order);
+    spec.fem.model = model;
+    spec.fem.element_order = element_order;
+    spec.fem.nested_start = element_order == 2 && model != reference_fem::Model::linear;
+    spec.fem.most_newton_steps = most_newton_steps;
+    spec.fem.formulation = reference_fem::Formulation::displacement;
+    return spec;
+}
+
+std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange& range)
+{
+    SettingList list(scene);
+    list.add_geometric();
+    list.add_pbs();
+    list.add_pbs_with_exponent();
+    list.add_xpbd();
+    list.add_fem(range);
+    for (const int vertices : range.coarser_vertices) list.add_other_mesh(vertices, range.quadratic_up_to);
+    for (const int vertices : range.finer_vertices) list.add_other_mesh(vertices, range.quadratic_up_to);
+    return list.settings;
+}
+
+}  // namespace experiments

@@ -1,0 +1,50 @@
+// What the points of a work-precision diagram are: each deformer at many settings.
+//   for (const PointSetting& setting : point_settings(scene, {.coarser_vertices = {600}})) ...
+// LBS and DQS have nothing to set. Delta mush: iterations of smoothing. PBS: iterations, k_stretch, order and precision, Mueller's
+// exponent, substeps (outside a jiggling zone each begins at LBS anew, so that only the last one counts). XPBD with the reference's
+// material: iterations, and small steps at equal cost. Finite elements: laws, element orders and sizes of mesh. LBS and PBS on coarser and
+// finer meshes of the body as well.
+#pragma once
+
+#include "experiments/scene/scene.hpp"
+
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+struct PointSetting {
+    std::string deformer;  // whose front it counts for: lbs, dqs, delta_mush, pbs, pbs_exponent, xpbd, xpbd_small_steps, fem_linear, ...
+    std::string words;     // what tells it apart from the others of its deformer: "24 iterations, k_stretch 0.2"
+    DeformerSpec spec;
+    int substeps = 1;      // how often the pose is advanced to in a frame
+    int vertices = 0;      // wanted size of another mesh of the body; 0: the case's own
+    bool refined = false;  // on the case's own tets, each cut into eight
+
+    bool on_own_mesh() const { return vertices == 0 && !refined; }
+
+    bool is_newton() const { return spec.kind == "fem" && spec.fem.model != reference_fem::Model::linear; }
+};
+
+struct SettingRange {
+    bool quadratic = true;                   // stable neo-Hookean flesh on quadratic elements too: the reference
+    bool quadratic_corotational = true;      // corotational too
+    std::vector<int> coarser_vertices = {};  // sizes of other meshes of the body
+    std::vector<int> finer_vertices = {};
+    int quadratic_up_to = 1000;  // sizes of other meshes on which the nonlinear laws have quadratic elements too
+    bool refined = false;        // stable neo-Hookean flesh on the case's own tets, each cut into eight
+};
+// The scene gives the options that are not varied: its pbs, and the material and attachment of its first [[fem]].
+std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange& range);
+
+// All that the points hang on, in 32 hexadecimal digits: their words, options, substeps and meshes.
+std::string digest_of(const std::vector<PointSetting>& settings);
+
+// "24 iterations, k_stretch 0.2, ordered f32"
+std::string words_of(const pbs::PbsOptions& options);
+
+// Finite elements of the scene's own material, by law and element order, without mean dilatation: quadratic ones do without at the scenes'
+// Poisson's ratio of 0.45, and with it a body's creases are not reached.
+DeformerSpec fem_spec(const Scene& scene, reference_fem::Model model, int element_order);
+
+}  // namespace experiments

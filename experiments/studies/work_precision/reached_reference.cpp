@@ -1,0 +1,76 @@
+#include "experiments/studies/work_precision/reached_reference.hpp"
+
+#include "analysis/grid_convergence.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace experiments {
+namespace {
+
+double nodes_along(const ReachedPoint& point)
+{
+    const pbs::TetMesh& mesh = point.mesh->character().mesh;
+    const Eigen::Index midpoints = point.setting->spec.fem.element_order == 2 ? pbs::edges_of(mesh.tets).rows() : 0;
+    return std::cbrt(double(mesh.rest.rows() + midpoints));
+}
+
+Eigen::Index vertices_of(const ReachedPoint& point)
+{
+    return point.mesh->character().mesh.rest.rows();
+}
+
+enum class On { own_tets, refined_tets, coarser_mesh };
+
+bool lies(const ReachedPoint& point, On where, Eigen::Index base_vertices)
+{
+    if (where == On::own_tets) return point.setting->on_own_mesh();
+    if (where == On::refined_tets) return point.setting->refined;
+    return point.setting->vertices > 0 && vertices_of(point) < base_vertices;
+}
+
+// The finished stable neo-Hookean solution of that element order there, of several the one on the finest mesh.
+const ReachedPoint* solution(const std::vector<ReachedPoint>& points, int element_order, On where, Eigen::Index base_vertices)
+{
+    const ReachedPoint* found = nullptr;
+    for (const ReachedPoint& point : points) {
+        const DeformerSpec& spec = point.setting->spec;
+        const bool is_law = spec.kind == "fem" && spec.fem.model == reference_fem::Model::stable_neo_hookean;
+        if (!point.shape.finished || !is_law || spec.fem.element_order != element_order || !lies(point, where, base_vertices)) continue;
+        if (!found || vertices_of(point) > vertices_of(*found)) found = &point;
+    }
+    return found;
+}
+
+// Of the same element order, or else the other.
+const ReachedPoint* solution_beside(const std::vector<ReachedPoint>& points, int element_order, Eigen::Index base_vertices)
+{
+    const std::pair<int, On> quadratic[] = {{2, On::coarser_mesh}, {1, On::own_tets}},
+                             linear[] = {{1, On::refined_tets}, {1, On::coarser_mesh}};
+    for (const auto& [order, where] : element_order == 2 ? quadratic : linear)
+        if (const ReachedPoint* found = solution(points, order, where, base_vertices)) return found;
+    return nullptr;
+}
+
+}  // namespace
+
+ReachedReference choose_reference(const std::vector<ReachedPoint>& points, Eigen::Index base_vertices, const analysis::ErrorRuler& ruler)
+{
+    ReachedReference reference;
+    reference.point = solution(points, 2, On::own_tets, base_vertices);
+    if (!reference.point) reference.point = solution(points, 1, On::own_tets, base_vertices);
+    if (reference.point) reference.beside = solution_beside(points, reference.point->setting->spec.fem.element_order, base_vertices);
+    if (!reference.beside) return reference;
+
+    constexpr double presumed_order = 1.0;
+    const double nodes = nodes_along(*reference.point), nodes_beside = nodes_along(*reference.beside);
+    const double ratio = std::max(nodes, nodes_beside) / std::min(nodes, nodes_beside);
+    const int place = nodes > nodes_beside ? 0 : 1;  // the finer one comes first
+    const analysis::ErrorNorms difference = ruler.measure(reference.point->on_base, reference.beside->on_base);
+    const auto bound = [&](double distance) { return analysis::two_fields(distance, ratio, presumed_order).bounds[place]; };
+    reference.bar = {bound(difference.l2_pct), bound(difference.joint_pct), bound(difference.linf_m)};
+    return reference;
+}
+
+}  // namespace experiments

@@ -1,0 +1,169 @@
+// Error against run time: which deformer is nearest to the stable neo-Hookean reference for the time a frame may take.
+//
+//   limb twist  90 deg (--full: and 150)     o=======o~~~~~~~o)
+//   limb bend   60 deg (--full: and 90)      o=======o
+//   human       crouch (--full: crouch and in the air, these also on the tets cut into eight; and standing, landing and the poses at 1/5 to
+//               4/5 of 01_01; and the crouch of every other installed body)
+//
+// Writes DIR/work_precision/CASE/points.csv and, over all cases, points.csv, fronts.csv, crossings.csv, equal_cost.csv, work_precision.md.
+#include "analysis/atomic_file.hpp"
+#include "experiments/scene/motion_case.hpp"
+#include "experiments/studies/shared/real_bodies.hpp"
+#include "experiments/studies/study.hpp"
+#include "experiments/studies/work_precision/diagram_tables.hpp"
+#include "experiments/studies/work_precision/findings.hpp"
+#include "experiments/studies/work_precision/measured_points.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string measure_and_record(const WorkPrecisionCase& of, const std::string& folder)
+{
+    const MeasuredPoints points = measure_points(of);
+    points.table.write((fs::path(folder) / "points.csv").string());
+    return points.breakdown;
+}
+
+nlohmann::json to_json(const Rounds& rounds)
+{
+    return {{"seconds", rounds.seconds}, {"fewest", rounds.fewest}, {"most", rounds.most}};
+}
+
+StudyRun case_run(const std::string& name, const WorkPrecisionCase& of, double cost_s)
+{
+    return {.name = name,
+            .cost_s = cost_s,
+            .work = [of](const std::string& folder) { return measure_and_record(of, folder); },
+            .settings = {{"scene", resolved_with_deformers(of.scene)},
+                         {"body", of.body},
+                         {"pose", of.pose},
+                         {"frame", of.frame},
+                         {"quadratic", of.range.quadratic},
+                         {"quadratic_corotational", of.range.quadratic_corotational},
+                         {"refined", of.range.refined},
+                         {"coarser_vertices", of.range.coarser_vertices},
+                         {"finer_vertices", of.range.finer_vertices},
+                         {"quadratic_up_to", of.range.quadratic_up_to},
+                         {"points", digest_of(point_settings(of.scene, of.range))},
+                         {"rounds", to_json(of.rounds)},
+                         {"newton_rounds", to_json(of.newton_rounds)},
+                         {"converged_iterations", of.converged_iterations}}};
+}
+
+// 5 degrees a frame: the step that a frame is timed on.
+StudyRun limb_run(const std::string& motion, int angle_deg, bool full, double cost_s)
+{
+    const std::string scene = "limb_" + motion;
+    WorkPrecisionCase of;
+    of.body = "limb " + motion;
+    of.pose = fmt::format("{} deg", angle_deg);
+    of.scene = read_scene(scene, {fmt::format("motion.angle_deg={}", angle_deg), fmt::format("motion.frames={}", angle_deg / 5 + 1)});
+    of.frame = angle_deg / 5;
+    of.range.quadratic_corotational = full;
+    of.range.coarser_vertices = {300, 400, 500, 600};
+    if (full && motion == "twist") of.range.finer_vertices = {5000};  // fine creases of a bend take Newton minutes a frame
+    of.rounds = {.seconds = full ? 10.0 : 3.0, .fewest = 5, .most = 31};
+    of.newton_rounds = {.seconds = full ? 10.0 : 0.0, .fewest = full ? 3 : 1, .most = 9};
+    return case_run(fmt::format("{}_{}", scene, angle_deg), of, cost_s);
+}
+
+struct BodyPose {
+    std::string name;
+    int frame = 0;         // of 01_01 at 100 Hz
+    bool refined = false;  // solved on the tets cut into eight as well
+};
+// Four by name, and four that nobody chose: at 1/5, 2/5, 3/5 and 4/5 of the clip.
+std::vector<BodyPose> human_poses(bool full)
+{
+    if (!full) return {{"crouch", 164}};
+    std::vector<BodyPose> poses = {{"standing", 0}, {"crouch", 164, true}, {"in the air", 672, true}, {"landing", 708}};
+    const Scene scene = read_scene("human_01_01", {});
+    const pbs::Motion motion = make_motion(scene.motion, pbs::make_character(scene.character).skeleton, scene.file);
+    const int last = static_cast<int>(motion.steps.size()) / motion.steps_per_frame - 1;
+    for (const int fifths : {1, 2, 3, 4}) poses.push_back({fmt::format("{}/5 of the clip", fifths), last * fifths / 5});
+    return poses;
+}
+
+StudyRun body_run(const std::string& body, const BodyPose& pose, bool full, double cost_s)
+{
+    WorkPrecisionCase of;
+    of.body = body;
+    of.pose = pose.name;
+    of.scene = read_scene("human_01_01", {"character.body=" + body});
+    of.frame = pose.frame;
+    of.range.quadratic_corotational = false;
+    of.range.quadratic_up_to = 1200;
+    of.range.refined = pose.refined;
+    of.range.coarser_vertices = full ? std::vector<int>{500, 600, 700, 800, 900, 1000, 1200} : std::vector<int>{800, 1200};
+    if (full) of.range.finer_vertices = {4650};
+    of.rounds = {.seconds = full ? 10.0 : 3.0, .fewest = 5, .most = 31};
+    of.newton_rounds = {.seconds = full ? 10.0 : 0.0, .fewest = 1, .most = 9};
+    std::string name = body + "_" + pose.name;
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == ' ' || c == '/'; }, '_');
+    return case_run(name, of, cost_s);
+}
+
+}  // namespace
+
+StudyPlan plan_work_precision_study(bool full)
+{
+    StudyPlan plan;
+    plan.runs.push_back(limb_run("twist", 90, full, full ? 70.0 : 28.0));
+    plan.runs.push_back(limb_run("bend", 60, full, full ? 65.0 : 31.0));
+    if (full) {
+        plan.runs.push_back(limb_run("twist", 150, full, 80.0));
+        plan.runs.push_back(limb_run("bend", 90, full, 440.0));
+    }
+    try {
+        for (const BodyPose& pose : human_poses(full)) plan.runs.push_back(body_run("human", pose, full, full ? 145.0 : 50.0));
+    } catch (const pbs::InputError& error) {
+        plan.left_out.push_back({"human", error.what()});
+    }
+    if (!full) return plan;
+    std::vector<analysis::LeftOut> left_out;
+    for (const std::string& body : installed_bodies(left_out)) try {
+            if (body != "human") plan.runs.push_back(body_run(body, {"crouch", 164}, full, 350.0));
+        } catch (const pbs::InputError& error) {  // the clip is not there
+            left_out.push_back({body, error.what()});
+        }
+    for (const auto& other : left_out)
+        if (other.scene != "human") plan.left_out.push_back(other);
+    return plan;
+}
+
+StudyConclusion conclude_work_precision_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+{
+    std::vector<analysis::CsvTable> points;
+    for (const std::string& run : finished) points.push_back(analysis::read_csv((fs::path(run) / "points.csv").string()));
+    if (points.empty()) return {"", false};
+    analysis::CsvTable all{{}};
+    for (const analysis::CsvTable& table : points) all.append(table);
+    all.write((fs::path(folder) / "points.csv").string());
+    const std::vector<Diagram> diagrams = diagrams_of(points);
+    fronts_table(diagrams).write((fs::path(folder) / "fronts.csv").string());
+    crossings_table(diagrams).write((fs::path(folder) / "crossings.csv").string());
+    equal_cost_table(diagrams).write((fs::path(folder) / "equal_cost.csv").string());
+    std::string text = best_text(diagrams) +
+                       "     off: from the reference at the joints, % of the mean bone distance; *: below the reference's own error "
+                       "(bound); #: it intersects itself\n";
+    std::string page;
+    for (const Diagram& diagram : diagrams) {
+        text += fmt::format("     {}: {}\n", diagram.name, physics_text(diagram));
+        page += fmt::format("## {}\n\n```\n{}```\n\n", diagram.name, front_text(diagram));
+        for (const std::string& line : findings(diagram)) page += "- " + line + "\n";
+        page += "\n";
+    }
+    analysis::write_text_atomically((fs::path(folder) / "work_precision.md").string(), page);
+    return {text, !finished.empty()};
+}
+
+}  // namespace experiments

@@ -1,0 +1,196 @@
+#include "experiments/verdicts/check/check_run.hpp"
+
+#include "analysis/atomic_file.hpp"
+#include "analysis/check/check_judgement.hpp"
+#include "analysis/provenance.hpp"
+#include "analysis/records/kept_record.hpp"
+#include "experiments/run/metrics_table.hpp"
+#include "analysis/records/record_text.hpp"
+#include "experiments/run/run.hpp"
+#include "generated/claims_texts.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+using analysis::CheckCase;
+using analysis::CheckRules;
+using analysis::CheckScene;
+using analysis::CheckState;
+using analysis::CheckSuite;
+using analysis::CsvTable;
+
+CheckRules rules_of(const CheckArguments& arguments)
+{
+    std::vector<std::string> metrics;
+    for (const MetricText& metric : metric_texts())
+        if (metric.name != "outcome") metrics.push_back(metric.name);
+    const CheckRules own = analysis::parse_check_rules(::claims::claims_toml, "experiments/verdicts/claims.toml", metrics);
+    if (arguments.bounds.empty()) return own;
+    CheckRules rules = analysis::parse_check_rules(analysis::read_text(arguments.bounds), arguments.bounds, metrics);
+    if (rules.tolerances.empty()) rules.tolerances = own.tolerances;
+    return rules;
+}
+
+struct Baseline {
+    CsvTable table;
+    std::string file;
+};
+
+std::optional<Baseline> baseline_of(const CheckArguments& arguments)
+{
+    if (!arguments.write_baseline.empty()) return std::nullopt;
+    if (!arguments.baseline.empty()) return Baseline{analysis::read_csv(arguments.baseline), arguments.baseline};
+    if (!arguments.bounds.empty()) return std::nullopt;
+    const std::string own = "experiments/verdicts/check/check_baseline.csv";
+    return Baseline{analysis::parse_csv(::claims::check_baseline_csv, own), own};
+}
+
+std::string unit_of(const std::string& metric)
+{
+    for (const MetricText& text : metric_texts())
+        if (text.name == metric) return text.unit;
+    return "";
+}
+
+// A file beside the user's bounds, or a built-in scene.
+std::string file_or_name(const CheckScene& check, const std::string& bounds)
+{
+    const fs::path beside = fs::path(bounds).parent_path() / check.scene;
+    std::error_code error;
+    return !bounds.empty() && fs::is_regular_file(beside, error) ? beside.string() : check.scene;
+}
+
+Scene scene_of(const CheckScene& check, const CheckRules& rules, const CheckArguments& arguments)
+{
+    try {
+        Scene scene = read_scene(file_or_name(check, arguments.bounds), check.set);
+        for (DeformerSpec& spec : scene.deformers) spec.pbs.threads = arguments.threads;
+        return scene;
+    } catch (const pbs::InputError& error) {
+        throw pbs::InputError(rules.file, check.line, "scene", check.scene, error.what());
+    }
+}
+
+CheckSuite suite_left_out(const CheckScene& check, const CheckRules& rules)
+{
+    CheckSuite suite{check.name, 0.0, {}, {}};
+    suite.cases.push_back(
+        {check.name, "runs", CheckState::left_out,
+         fmt::format("left out with its bounds: {} is not installed; `pbskin run {}` tells what it needs", check.needs, check.scene),
+         std::nullopt, std::nullopt, rules.file, check.line});
+    return suite;
+}
+
+class SceneCheck {
+public:
+    SceneCheck(const CheckArguments& arguments, const CheckRules& rules, const std::optional<Baseline>& baseline, CsvTable& measured)
+        : arguments_(arguments), rules_(rules), baseline_(baseline), measured_(measured)
+    {
+    }
+
+    CheckSuite suite(const CheckScene& check, std::vector<std::string>& breakdowns)
+    {
+        const std::string folder = (fs::path(arguments_.folder) / check.name).string();
+        const RunResult result = run_scene(scene_of(check, rules_, arguments_), folder);
+        CheckSuite suite{check.name, result.seconds, {}, {}};
+        const std::string& failure = result.failure();
+        suite.cases.push_back({check.name, "runs", failure.empty() ? CheckState::held : CheckState::broke_down,
+                               failure.empty() ? fmt::format("{} frames", result.frames) : failure, std::nullopt, std::nullopt, rules_.file,
+                               check.line, result.seconds});
+        if (!failure.empty()) breakdowns.push_back(check.name + ": " + failure);
+        const CsvTable metrics = analysis::read_csv((fs::path(folder) / "metrics.csv").string());
+        for (const analysis::CheckBound& bound : rules_.bounds)
+            if (bound.scene == check.name) suite.cases.push_back(judge_bound(bound, unit_of(bound.metric), metrics, rules_.file));
+        add_baseline_cases(suite, metrics, folder);
+        return suite;
+    }
+
+private:
+    void add_baseline_cases(CheckSuite& suite, const CsvTable& metrics, const std::string& folder)
+    {
+        const auto [vertices, tets] = from_record((fs::path(folder) / "run.json").string(), [](const nlohmann::json& run) {
+            return std::pair(run.at("character").at("vertices").get<int>(), run.at("character").at("tets").get<int>());
+        });
+        CsvTable now = analysis::baseline_columns(rules_);
+        analysis::add_baseline_rows(now, rules_, suite.name, metrics, vertices, tets);
+        measured_.append(now);
+        if (baseline_)
+            for (CheckCase& check : analysis::compare_with_baseline(rules_, suite.name, now, baseline_->table, baseline_->file))
+                suite.cases.push_back(std::move(check));
+        suite.properties = analysis::step_times(suite.name, now, baseline_ ? &baseline_->table : nullptr);
+    }
+
+    const CheckArguments& arguments_;
+    const CheckRules& rules_;
+    const std::optional<Baseline>& baseline_;
+    CsvTable& measured_;
+};
+
+nlohmann::json to_json(const CheckCase& check)
+{
+    nlohmann::json json = {{"name", check.name}, {"state", to_string(check.state)}, {"message", check.message}};
+    if (check.frame) json["frame"] = *check.frame;
+    if (check.value) json["value"] = *check.value;
+    if (!check.file.empty()) json["file"] = check.file;
+    if (check.line > 0) json["line"] = check.line;
+    return json;
+}
+
+void write_record(const std::string& folder, const std::vector<CheckSuite>& suites, int threads)
+{
+    nlohmann::json record = {{"schema", 1}, {"provenance", analysis::collect_provenance(threads)}};
+    for (const CheckState state : {CheckState::held, CheckState::failed, CheckState::left_out, CheckState::broke_down})
+        record["outcome"][to_string(state)] = count(suites, state);
+    for (const CheckSuite& suite : suites) {
+        nlohmann::json& json = record["scenes"].emplace_back();
+        json = {{"name", suite.name}, {"seconds", suite.seconds}, {"cases", nlohmann::json::array()}};
+        for (const CheckCase& check : suite.cases) json["cases"].push_back(to_json(check));
+        for (const auto& [name, value] : suite.properties) json["tracked"][name] = value;
+    }
+    analysis::write_text_atomically((fs::path(folder) / "check.json").string(), record_text(record));
+}
+
+bool is_left_out(const CheckScene& check)
+{
+    return !check.needs.empty() && !pbs::body_is_installed(check.needs);
+}
+
+void require_scenes(const CheckRules& rules, bool require_all)
+{
+    const bool none = std::all_of(rules.scenes.begin(), rules.scenes.end(), is_left_out);
+    for (const CheckScene& check : rules.scenes)
+        if (is_left_out(check) && (none || require_all)) pbs::require_body(check.needs);
+}
+
+}  // namespace
+
+CheckResult run_check(const CheckArguments& arguments)
+{
+    const CheckRules rules = rules_of(arguments);
+    const std::optional<Baseline> baseline = baseline_of(arguments);
+    if (baseline) analysis::require_baseline(rules, baseline->table, baseline->file);
+    require_scenes(rules, arguments.require_all);
+
+    CsvTable measured = analysis::baseline_columns(rules);
+    SceneCheck scenes(arguments, rules, baseline, measured);
+    CheckResult result;
+    for (const CheckScene& check : rules.scenes)
+        result.suites.push_back(is_left_out(check) ? suite_left_out(check, rules) : scenes.suite(check, result.breakdowns));
+    if (baseline)
+        for (const CheckCase& gone : scenes_gone(rules, baseline->table, baseline->file))
+            result.suites.push_back({gone.suite, 0.0, {}, {gone}});
+    if (!arguments.write_baseline.empty()) measured.write(arguments.write_baseline);
+    write_record(arguments.folder, result.suites, arguments.threads);
+    return result;
+}
+
+}  // namespace experiments

@@ -1,0 +1,220 @@
+#include "experiments/verdicts/reproduce.hpp"
+
+#include "analysis/atomic_file.hpp"
+#include "analysis/claims_report.hpp"
+#include "analysis/claims_table.hpp"
+#include "experiments/verdicts/claims_text.hpp"
+#include "experiments/process/exit_status.hpp"
+#include "analysis/records/folder_files.hpp"
+#include "experiments/verdicts/marked_frames.hpp"
+#include "experiments/studies/study.hpp"
+#include "experiments/studies/study_run.hpp"
+#include "experiments/process/worker_pool.hpp"
+#include "experiments/studies/study_costs.hpp"
+#include "experiments/verdicts/study_records.hpp"
+#include "experiments/process/terminal.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_named(const Study& study, const std::vector<std::string>& names)
+{
+    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        const auto of_study = [&](const analysis::Claim& claim) { return claim.id == name && claim.study == study.name; };
+        return name == study.name || std::any_of(claims().begin(), claims().end(), of_study);
+    });
+}
+
+// A study that is named is run in the size that is asked for; the others as the set has them.
+Extent asked_for(const Study& study, const std::vector<std::string>& names, bool full)
+{
+    if (names.empty()) return full ? study.sets.full : study.sets.quick;
+    if (!is_named(study, names)) return Extent::none;
+    return full ? Extent::full : Extent::quick;
+}
+
+void refuse_unknown(const std::vector<std::string>& names)
+{
+    std::vector<std::string> known;
+    for (const auto& study : studies()) known.push_back(study.name);
+    for (const auto& claim : claims()) known.push_back(claim.id);
+    for (const auto& name : names)
+        if (!std::count(known.begin(), known.end(), name))
+            throw pbs::InputError("", 0, "reproduce", name,
+                                  "unknown claim or study; expected one of " + fmt::format("{}", fmt::join(known, ", ")));
+}
+
+struct StudyOutcome {
+    std::vector<std::string> folders = {};  // of runs that ended; a failed one is said and left out, so that its verdict cannot be computed
+    bool broke_down = false, failed = false, refused = false;
+    StudyCosts costs;
+};
+
+struct PlannedStudy {
+    const Study* study;
+    StudyPlan plan;
+    std::string folder;
+};
+
+std::vector<PlannedStudy> plan_studies(const ReproduceArguments& arguments)
+{
+    std::vector<PlannedStudy> planned;
+    for (const Study& study : studies()) {
+        const Extent extent = asked_for(study, arguments.names, arguments.full);
+        if (extent == Extent::none) continue;
+        planned.push_back({&study, study.plan(extent == Extent::full), (fs::path(arguments.folder) / study.name).string()});
+        planned.back().plan.extent = extent;
+    }
+    return planned;
+}
+
+// What is not there yet, or all of it.
+std::vector<StudyRun> runs_to_do(const PlannedStudy& planned, bool resume)
+{
+    std::vector<StudyRun> to_do = planned.plan.runs;
+    if (resume) std::erase_if(to_do, [&](const StudyRun& run) { return is_finished(run, (fs::path(planned.folder) / run.name).string()); });
+    return to_do;
+}
+
+void tell_of_breakdown(const std::string& name, const std::string& breakdown, StudyOutcome& outcome)
+{
+    if (breakdown.empty()) return;
+    spdlog::error("pbskin: {}: numerical breakdown: {}", name, breakdown);
+    outcome.broke_down = true;
+}
+
+// Runs kept from before count as those of now do.
+void tell_of_kept_breakdowns(const PlannedStudy& planned, const std::vector<StudyRun>& to_do, StudyOutcome& outcome)
+{
+    for (const StudyRun& run : planned.plan.runs) {
+        const bool kept = std::none_of(to_do.begin(), to_do.end(), [&](const StudyRun& of) { return of.name == run.name; });
+        if (kept) tell_of_breakdown(run.name, breakdown_on_record(run, (fs::path(planned.folder) / run.name).string()), outcome);
+    }
+}
+
+// then_s: expected of the studies after this one, wall time.
+StudyOutcome run_study(const PlannedStudy& planned, const std::vector<StudyRun>& runs, int jobs, double then_s)
+{
+    std::error_code error;
+    fs::create_directories(planned.folder, error);
+    if (error) throw pbs::InputError(planned.folder, 0, "", "", "the output folder cannot be made: " + error.message());
+    analysis::remove_abandoned_files(planned.folder);
+    for (const StudyRun& run : runs) remove_record(fs::path(planned.folder) / run.name / "run.json");
+    write_study_plan(planned.folder, planned.plan);
+    std::vector<PooledWork> work;
+    for (const StudyRun& run : runs)
+        work.push_back(
+            {run.name, run.cost_s, [&run, folder = (fs::path(planned.folder) / run.name).string()] { return carry_out(run, folder); }});
+    spdlog::info("{} runs, {} kept from before", work.size(), planned.plan.runs.size() - work.size());
+    StudyOutcome outcome{.costs = StudyCosts(planned.folder)};
+    tell_of_kept_breakdowns(planned, runs, outcome);
+    for (const PooledResult& result : run_in_pool(work, planned.study->alone ? 1 : jobs, then_s)) {
+        if (!result.finished) spdlog::error("pbskin: {}: {}", result.name, result.failure);
+        tell_of_breakdown(result.name, result.breakdown, outcome);
+        outcome.failed |= !result.finished;
+        outcome.refused |= result.refused;
+        const auto run = std::find_if(runs.begin(), runs.end(), [&](const StudyRun& of) { return of.name == result.name; });
+        if (result.finished) outcome.costs.add(result.name, run->cost_s, result.cpu_s);
+    }
+    outcome.costs.complete(planned.folder, planned.plan);
+    outcome.costs.write();
+    outcome.folders = finished_runs(planned.folder);
+    return outcome;
+}
+
+std::vector<analysis::Verdict> verdicts_of(const Study& study, const std::string& folder, const std::string& root)
+{
+    std::vector<analysis::Verdict> verdicts;
+    const analysis::Records records = read_study_records(folder, root);
+    for (const auto& claim : claims())
+        if (claim.study == study.name) verdicts.push_back(analysis::judge(claim, records));
+    return verdicts;
+}
+
+// The verdicts of all studies, into DIR/claims.json, DIR/claims.md and the terminal; whether each could be computed.
+bool tell_verdicts(std::vector<analysis::Verdict> verdicts, const std::string& folder)
+{
+    std::stable_sort(verdicts.begin(), verdicts.end(), [](const auto& one, const auto& other) { return one.claim.id < other.claim.id; });
+    analysis::write_text_atomically((fs::path(folder) / "claims.json").string(), analysis::claims_json(verdicts).dump(2) + "\n");
+    analysis::write_text_atomically((fs::path(folder) / "claims.md").string(), analysis::claims_markdown(verdicts));
+    fmt::print("{}each case's figures: {}\nall on one page: pbskin report {}\n",
+               analysis::claims_table(verdicts, terminal_width(), terminal_has_colours()), (fs::path(folder) / "claims.md").string(),
+               folder);
+    return std::none_of(verdicts.begin(), verdicts.end(),
+                        [](const auto& verdict) { return verdict.kind == analysis::VerdictKind::not_computable; });
+}
+
+}  // namespace
+
+int reproduce(const ReproduceArguments& arguments)
+{
+    refuse_unknown(arguments.names);
+    const std::vector<PlannedStudy> planned = plan_studies(arguments);
+    std::vector<std::vector<StudyRun>> to_do;
+    std::vector<ExpectedCost> expected;
+    for (const PlannedStudy& of : planned) {
+        to_do.push_back(runs_to_do(of, arguments.resume));
+        expected.push_back(expected_cost(*of.study, to_do.back(), arguments.jobs));
+    }
+    if (arguments.cost_only) return fmt::print("{}", expected_cost_table(expected)), exit_finished;
+    if (planned.size() > 1) spdlog::info("what this will take:\n{}", expected_cost_table(expected));
+
+    analysis::remove_abandoned_files(arguments.folder, false);
+    std::vector<analysis::Verdict> verdicts;
+    std::vector<std::pair<std::string, StudyCosts>> costs;
+    std::string beside;  // what stands below the table of claims
+    bool broke_down = false, refused = false, all_hold = true;
+    for (std::size_t i = 0; i < planned.size(); ++i) {
+        const auto& [study, plan, folder] = planned[i];
+        spdlog::info("study {}: {}", study->name, study->meaning);
+        for (const auto& left_out : plan.left_out) spdlog::warn("left out: {}: {}", left_out.scene, left_out.reason);
+        const double then_s = std::accumulate(expected.begin() + static_cast<std::ptrdiff_t>(i) + 1, expected.end(), 0.0,
+                                              [](double sum, const ExpectedCost& cost) { return sum + cost.wall_s; });
+        const StudyOutcome outcome = run_study(planned[i], to_do[i], arguments.jobs, then_s);
+        costs.emplace_back(study->name, outcome.costs);
+        broke_down |= outcome.broke_down;
+        refused |= outcome.refused;
+        all_hold &= !outcome.failed;
+        beside += marked_frames(outcome.folders);
+        for (auto& verdict : verdicts_of(*study, folder, arguments.folder)) verdicts.push_back(std::move(verdict));
+        if (!study->conclude) continue;
+        const StudyConclusion conclusion = study->conclude(folder, plan, outcome.folders);
+        analysis::write_text_atomically((fs::path(folder) / "conclusion.txt").string(), conclusion.text);
+        beside += conclusion.text;
+        all_hold &= conclusion.holds;
+    }
+    spdlog::info("what it took:\n{}", cost_table(costs));
+    fmt::print("{}", beside);
+    const bool all_computed = verdicts.empty() || tell_verdicts(verdicts, arguments.folder);
+    if (refused) return exit_input;
+    if (broke_down) return exit_breakdown;
+    return all_computed && all_hold ? exit_finished : exit_bound;
+}
+
+int judge_again(const ReproduceArguments& arguments)
+{
+    refuse_unknown(arguments.names);
+    std::vector<analysis::Verdict> verdicts;
+    for (const Study& study : studies()) {
+        const std::string folder = (fs::path(arguments.folder) / study.name).string();
+        if (!has_study_plan(folder) || !(arguments.names.empty() || is_named(study, arguments.names))) continue;
+        for (auto& verdict : verdicts_of(study, folder, arguments.folder)) verdicts.push_back(std::move(verdict));
+    }
+    if (verdicts.empty())
+        throw pbs::InputError(arguments.folder, 0, "reproduce --judge", "",
+                              "no records of a study here: expected a folder that reproduce wrote");
+    return tell_verdicts(verdicts, arguments.folder) ? exit_finished : exit_bound;
+}
+
+}  // namespace experiments

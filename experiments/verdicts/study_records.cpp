@@ -1,0 +1,128 @@
+#include "experiments/verdicts/study_records.hpp"
+
+#include "analysis/atomic_file.hpp"
+#include "analysis/measurement.hpp"
+#include "pbs/character/json_file.hpp"
+
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string plan_file(const std::string& folder)
+{
+    return (fs::path(folder) / "plan.json").string();
+}
+
+// What lies in plan.json, of which somebody else may have made something else.
+class KeptPlan {
+public:
+    explicit KeptPlan(const std::string& folder) : file_(plan_file(folder)) {}
+
+    const nlohmann::json& runs() const { return list("runs"); }
+    const nlohmann::json& left_out() const { return list("left_out"); }
+
+    std::string text(const nlohmann::json& part, const std::string& key) const
+    {
+        const nlohmann::json& value = file_.at(part, key);
+        if (!value.is_string()) file_.refuse(key, "expected a text");
+        return value;
+    }
+
+    bool is_set(const nlohmann::json& part, const std::string& key) const
+    {
+        if (!part.contains(key)) return false;
+        if (!part.at(key).is_boolean()) file_.refuse(key, "expected true or false");
+        return part.at(key);
+    }
+
+private:
+    const nlohmann::json& list(const std::string& key) const
+    {
+        const nlohmann::json& value = file_.at(key);
+        if (!value.is_array()) file_.refuse(key, "expected a list, as reproduce writes it");
+        return value;
+    }
+
+    pbs::JsonFile file_;
+};
+
+void require_record(const fs::path& run_json)
+{
+    pbs::JsonFile(run_json.string()).at("schema");
+}
+
+void add_run(analysis::Records& records, const fs::path& folder, const std::string& name, bool beside)
+{
+    if (const fs::path printed = folder / "printed.csv"; fs::exists(printed))
+        for (auto& figure : analysis::printed_figures(printed.string())) records.printed.push_back(std::move(figure));
+    if (const fs::path measured = folder / "measurements.csv"; fs::exists(measured))
+        for (auto& measurement : analysis::measurements(measured.string())) {
+            measurement.run = name;
+            records.measurements.push_back(std::move(measurement));
+        }
+    if (const fs::path metrics = folder / "metrics.csv"; fs::exists(metrics))
+        for (auto& record : analysis::case_records(analysis::read_csv(metrics.string()), name)) {
+            record.beside = beside;
+            records.cases.push_back(std::move(record));
+        }
+}
+
+}  // namespace
+
+void write_study_plan(const std::string& folder, const StudyPlan& plan)
+{
+    auto runs = nlohmann::json::array(), left_out = nlohmann::json::array();
+    for (const StudyRun& run : plan.runs) {
+        nlohmann::json entry = {{"name", run.name}, {"cost_s", run.cost_s}};
+        if (!run.work) entry["scene"] = run.scene.name;
+        if (run.beside) entry["beside"] = true;
+        runs.push_back(entry);
+    }
+    for (const analysis::LeftOut& out : plan.left_out) left_out.push_back({{"scene", out.scene}, {"reason", out.reason}});
+    const char* extent = plan.extent == Extent::full ? "full" : "quick";
+    fs::create_directories(folder);
+    analysis::write_text_atomically(
+        plan_file(folder), nlohmann::json{{"schema", 1}, {"extent", extent}, {"runs", runs}, {"left_out", left_out}}.dump(2) + "\n");
+}
+
+bool has_study_plan(const std::string& folder)
+{
+    return fs::exists(plan_file(folder));
+}
+
+std::vector<std::string> finished_runs(const std::string& folder)
+{
+    std::vector<std::string> finished;
+    const KeptPlan plan(folder);
+    for (const auto& run : plan.runs()) {
+        const fs::path of_run = fs::path(folder) / plan.text(run, "name");
+        if (fs::exists(of_run / "run.json")) finished.push_back(of_run.string());
+    }
+    return finished;
+}
+
+analysis::Records read_study_records(const std::string& folder, const std::string& root)
+{
+    analysis::Records records;
+    const KeptPlan plan(folder);
+    for (const auto& out : plan.left_out()) records.left_out.push_back({plan.text(out, "scene"), plan.text(out, "reason")});
+    for (const auto& run : plan.runs())
+        if (run.contains("scene")) records.planned_scenes.push_back(plan.text(run, "scene"));
+    for (const auto& out : records.left_out) records.planned_scenes.push_back(out.scene);
+    for (const auto& run : plan.runs()) {
+        const std::string name = plan.text(run, "name");
+        const fs::path of_run = fs::path(folder) / name;
+        if (!fs::exists(of_run / "run.json")) {
+            records.missing_runs.push_back(name);
+            continue;
+        }
+        require_record(of_run / "run.json");
+        add_run(records, of_run, of_run.lexically_relative(root).string(), plan.is_set(run, "beside"));
+    }
+    return records;
+}
+
+}  // namespace experiments

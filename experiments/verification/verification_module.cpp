@@ -1,6 +1,0 @@
-#include "experiments/verification/verification_module.hpp"
-
-const std::vector<experiments::VerificationProblem>* pbskin_verification_problems()
-{
-    return &experiments::verification_problems();
-}

@@ -1,0 +1,60 @@
+#include "reference_fem/verification/common.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace experiments {
+
+using reference_fem::ElasticMaterial;
+
+ElasticMaterial solver_material(const Effort& effort, const ElasticMaterial& material)
+{
+    if (effort.lambda_error == 0.0) return material;
+    const reference_fem::Lame lame = reference_fem::lame_parameters(material.young_pa, material.poisson);
+    const double lambda = (1.0 + effort.lambda_error) * lame.lambda_pa, mu = lame.mu_pa;
+    return {mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu), lambda / (2.0 * (lambda + mu))};
+}
+
+std::string elements_name(int element_order, reference_fem::Formulation formulation)
+{
+    const std::string order = "P" + std::to_string(element_order);
+    if (formulation == reference_fem::Formulation::mean_dilatation) return order + " mean dilatation";
+    if (formulation == reference_fem::Formulation::taylor_hood) return order + " Taylor-Hood";
+    return order;
+}
+
+std::string linear_material(double poisson)
+{
+    char text[64];
+    std::snprintf(text, sizeof text, "linear, nu = %.6g", poisson);
+    return text;
+}
+
+double order_between(double coarse, double fine)
+{
+    return std::log2(std::abs(coarse) / std::abs(fine));
+}
+
+double rounding_bound(const reference_fem::BoundaryValueSolution& solution, const ElasticMaterial& material)
+{
+    std::vector<int> free;
+    for (int dof = 0; dof < solution.space->dofs(); ++dof)
+        if (!solution.held[dof]) free.push_back(dof);
+    const reference_fem::Lame lame = reference_fem::lame_parameters(material.young_pa, material.poisson);
+    const Eigen::MatrixXd stiffness = reference_fem::stiffness_matrix(*solution.space, lame);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(stiffness(free, free), Eigen::EigenvaluesOnly);
+    const double condition = eigen.eigenvalues().tail<1>()(0) / eigen.eigenvalues()(0);
+    return std::sqrt(static_cast<double>(free.size())) * std::numeric_limits<double>::epsilon() * condition;
+}
+
+void bound_by_grade_a(VerificationRow& row)
+{
+    row.low = row.reference - grade_a * std::abs(row.reference);
+    row.high = row.reference + grade_a * std::abs(row.reference);
+    row.bound_from = grade_a_text;
+}
+
+}  // namespace experiments

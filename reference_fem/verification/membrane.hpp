@@ -1,0 +1,15 @@
+// The panel of Cook's membrane: corners (0,0), (48,44), (48,60), (0,44) mm, 1 mm thick. N and mm. Modelled is its half above the middle
+// plane z = 0, where u_z = 0: the whole, being thin, gives way sideways long before the load of the finite-strain benchmark.
+#pragma once
+
+#include "reference_fem/verification/common.hpp"
+#include "reference_fem/verification/structured_mesh.hpp"
+
+namespace experiments {
+
+pbs::TetMesh membrane(int n);  // n x n x 1 cells, 0.5 mm thick
+
+// Clamped on the left, a uniform shear [N/mm^2] on the right; plane strain: u_z held on the outer face, else it is free.
+reference_fem::BoundaryValueProblem membrane_problem(double shear, bool plane_strain, int element_order);
+
+}  // namespace experiments

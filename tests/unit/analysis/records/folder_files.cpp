@@ -1,0 +1,91 @@
+// Truth: what was put on disk. Root may do all that modes forbid, so that a folder stands where a file is to be removed, and the other way
+// round.
+#include "analysis/records/folder_files.hpp"
+
+#include "experiments/command_line/measure/frame_files.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace {
+
+using namespace experiments;
+using test_support::ScratchFolder;
+namespace fs = std::filesystem;
+
+template <typename Work>
+std::string refusal_of(const Work& work)
+{
+    try {
+        work();
+    } catch (const pbs::InputError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(FolderFiles, ARecordIsRemovedWhereItIs)
+{
+    const ScratchFolder folder;
+    const std::string record = folder.file("run.json", "{}");
+    remove_record(record);
+    EXPECT_FALSE(fs::exists(record));
+    remove_record(record);
+}
+
+TEST(FolderFiles, OneThatStaysIsNamedWithTheReason)
+{
+    const ScratchFolder folder;
+    fs::create_directories(folder / "run.json/kept");
+    EXPECT_EQ(refusal_of([&] { remove_record(folder / "run.json"); }),
+              folder / "run.json" + ": an earlier run's record cannot be removed: Directory not empty");
+}
+
+TEST(FolderFiles, FilesOfAFolder)
+{
+    const ScratchFolder folder;
+    folder.file("b", "");
+    folder.file("a", "");
+    std::vector<fs::path> files = files_in(folder.path());
+    std::sort(files.begin(), files.end());
+    EXPECT_EQ(files, (std::vector<fs::path>{folder / "a", folder / "b"}));
+    const std::string file = folder / "a";
+    EXPECT_EQ(refusal_of([&] { files_in(file); }), file + ": the folder cannot be read: Not a directory");
+}
+
+// As somebody else where root runs the tests, whom no mode stops.
+class Locked {
+public:
+    explicit Locked(const std::string& folder) : folder_(folder), self_(geteuid())
+    {
+        chmod(folder_.c_str(), 0);
+        if (self_ == 0 && seteuid(65534) != 0) throw std::runtime_error("cannot become somebody else");
+    }
+    ~Locked()
+    {
+        if (seteuid(self_) == 0) chmod(folder_.c_str(), 0755);
+    }
+
+private:
+    std::string folder_;
+    uid_t self_;
+};
+
+TEST(FolderFiles, AFolderOfFramesThatIsLockedIsNamedWithTheReason)
+{
+    const ScratchFolder folder;
+    fs::permissions(folder.path(), fs::perms(0755));
+    const std::string frames = folder / "frames";
+    fs::create_directories(frames);
+    const Locked locked(frames);
+    EXPECT_EQ(refusal_of([&] { frame_files({frames}); }), frames + ": the folder cannot be read: Permission denied");
+    EXPECT_EQ(refusal_of([&] { frame_files({frames + "/f_%d.vtu"}); }), frames + ": the folder cannot be read: Permission denied");
+}
+
+}  // namespace

@@ -1,0 +1,111 @@
+// One frame's figures, put together. Truth: maps with known answers on the built-in limb.
+#include "experiments/run/frame_measurement.hpp"
+
+#include "pbs/character/bodies.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using experiments::FrameContext;
+using experiments::FrameMeasurer;
+
+pbs::Character small_limb()
+{
+    pbs::CharacterSource source;
+    source.body = "limb";
+    source.vertices = 400;
+    return pbs::make_character(source);
+}
+
+pbs::Pose rest_pose(const pbs::Character& character)
+{
+    return pbs::Pose(character.skeleton.bones.size(), Eigen::Isometry3d::Identity());
+}
+
+TEST(FrameMeasurement, TheRestPoseIsAllZero)
+{
+    const pbs::Character limb = small_limb();
+    const pbs::Pose pose = rest_pose(limb);
+    FrameContext context;
+    context.pose = &pose;
+    context.reference = &limb.mesh.rest;
+    const auto measured = FrameMeasurer(limb, {}, {}).measure(limb.mesh.rest, context);
+    EXPECT_EQ(measured.metrics.volume_change_pct, 0.0);
+    EXPECT_NEAR(measured.bind_rms_m, 0.0, 1e-15);
+    EXPECT_EQ(measured.errors->l2_pct, 0.0);
+    EXPECT_NEAR(*measured.min_section_pct, 100.0, 1e-12);
+    EXPECT_EQ(measured.rotation_deg, 0.0);
+}
+
+// x -> (x, y/2, z/2): sections and volume fall to a quarter.
+TEST(FrameMeasurement, AThinnedLimbHasAQuarterOfItsSection)
+{
+    const pbs::Character limb = small_limb();
+    const pbs::Pose pose = rest_pose(limb);
+    pbs::Positions thinned = limb.mesh.rest;
+    thinned.rightCols(2) *= 0.5;
+    FrameContext context;
+    context.pose = &pose;
+    const auto measured = FrameMeasurer(limb, {}, {}).measure(thinned, context);
+    EXPECT_NEAR(*measured.min_section_pct, 25.0, 1e-9);
+    EXPECT_NEAR(measured.metrics.volume_change_pct, -75.0, 1e-9);
+    EXPECT_FALSE(measured.errors);
+}
+
+TEST(FrameMeasurement, LeavesOutWhatIsNotAsked)
+{
+    const pbs::Character limb = small_limb();
+    const pbs::Pose pose = rest_pose(limb);
+    experiments::OutputSpec output;
+    output.errors = output.sections = output.surface = false;
+    FrameContext context;
+    context.pose = &pose;
+    context.reference = &limb.mesh.rest;
+    const auto measured = FrameMeasurer(limb, output, {}).measure(limb.mesh.rest, context);
+    EXPECT_FALSE(measured.errors);
+    EXPECT_FALSE(measured.min_section_pct);
+}
+
+TEST(FrameMeasurement, RotationIsRelativeToTheRoot)
+{
+    const pbs::Character limb = small_limb();
+    const Eigen::Isometry3d turned(Eigen::AngleAxisd(0.5, pbs::Vec3::UnitY()));
+    FrameContext context;
+    pbs::Pose pose = {turned, turned};
+    context.pose = &pose;
+    EXPECT_NEAR(FrameMeasurer(limb, {}, {}).measure(limb.mesh.rest, context).rotation_deg, 0.0, 1e-6);
+    pose[1] = turned * Eigen::AngleAxisd(0.5, pbs::Vec3::UnitX());
+    EXPECT_NEAR(FrameMeasurer(limb, {}, {}).measure(limb.mesh.rest, context).rotation_deg, 28.6478897565, 1e-6);
+}
+
+TEST(FrameMeasurement, ABrokenFrameIsMeasuredNotRefused)
+{
+    const pbs::Character limb = small_limb();
+    const pbs::Pose pose = rest_pose(limb);
+    pbs::Positions broken = limb.mesh.rest;
+    broken(3, 1) = std::numeric_limits<double>::quiet_NaN();
+    FrameContext context;
+    context.pose = &pose;
+    const auto measured = FrameMeasurer(limb, {}, {}).measure(broken, context);
+    EXPECT_TRUE(std::isnan(measured.metrics.volume_change_pct));
+    EXPECT_FALSE(measured.min_section_pct);
+}
+
+// Judged at the joints; where nothing is blended there is no figure for them, and the whole body decides.
+TEST(FrameMeasurement, AnErrorNotAboveTheReferencesOwnIsMarked)
+{
+    experiments::FrameMeasurement measured;
+    measured.errors = analysis::ErrorNorms{0.1, 2.0, 0.01};
+    EXPECT_FALSE(measured.error_below_reference_error());  // no bar
+    measured.reference_error = analysis::ErrorNorms{0.5, 1.0, 0.5};
+    EXPECT_FALSE(measured.error_below_reference_error());
+    measured.reference_error->joint_pct = 2.0;
+    EXPECT_TRUE(measured.error_below_reference_error());
+    measured.errors->joint_pct = measured.reference_error->joint_pct = std::nan("");
+    EXPECT_TRUE(measured.error_below_reference_error());
+    measured.errors->l2_pct = 0.6;
+    EXPECT_FALSE(measured.error_below_reference_error());
+}
+
+}  // namespace

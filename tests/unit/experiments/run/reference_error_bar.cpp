@@ -1,0 +1,138 @@
+// Which solutions stand beside the reference, and what their differences become. Truth: the grid convergence index worked by hand;
+// stand-ins for the reference with known answers: LBS, which is the same at a vertex on every mesh, and PBS, solved on the refined limb by
+// hand.
+#include "experiments/run/reference_error_bar.hpp"
+
+#include "pbs/character/bodies.hpp"
+#include "pbs/character/refined_character.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using experiments::ErrorBar;
+using experiments::FrameMeasurer;
+using experiments::ReferenceErrorBar;
+
+pbs::Character small_limb()
+{
+    pbs::CharacterSource source;
+    source.body = "limb";
+    source.vertices = 400;
+    return pbs::make_character(source);
+}
+
+experiments::DeformerSpec spec_of(const std::string& kind, int element_order = 2)
+{
+    experiments::DeformerSpec spec{kind, kind, kind, "default", {}, {}};
+    spec.fem.element_order = element_order;
+    return spec;
+}
+
+pbs::Pose bent(const pbs::Character& character)
+{
+    return pbs::joint_sweep(character.skeleton, 1, pbs::Vec3::UnitZ(), 40.0, 2, 0.01).steps.back();
+}
+
+pbs::Positions solved(const std::string& kind, const pbs::Character& character)
+{
+    const auto deformer = experiments::make_deformer(spec_of(kind));
+    deformer->reset(character);
+    deformer->advance(bent(character), 0.01);
+    return deformer->positions();
+}
+
+TEST(ReferenceErrorBar, IsZeroWhereTheMeshMakesNoDifference)
+{
+    const pbs::Character limb = small_limb();
+    const FrameMeasurer measurer(limb, {}, {});
+    const pbs::Positions reference = solved("lbs", limb);
+    for (const ErrorBar kind : {ErrorBar::orders, ErrorBar::refined, ErrorBar::both}) {
+        ReferenceErrorBar bar(kind, spec_of("lbs"), limb);
+        bar.advance(bent(limb), 0.01);
+        const auto bound = bar.bound(reference, measurer);
+        ASSERT_TRUE(bound);
+        EXPECT_EQ(bound->l2_pct, 0.0);
+        EXPECT_EQ(bound->joint_pct, 0.0);
+        EXPECT_EQ(bound->linf_m, 0.0);
+    }
+}
+
+// Two grids of ratio 2, order 1: the coarser is 2 differences from the limit, times 3.
+TEST(ReferenceErrorBar, IsSixTimesTheDifferenceToTheRefinedSolution)
+{
+    const pbs::Character limb = small_limb();
+    const FrameMeasurer measurer(limb, {}, {});
+    const pbs::Positions reference = solved("pbs", limb);
+    const auto difference = measurer.difference(reference, solved("pbs", pbs::refined(limb)).topRows(reference.rows()));
+    ReferenceErrorBar bar(ErrorBar::refined, spec_of("pbs"), limb);
+    bar.advance(bent(limb), 0.01);
+    const auto bound = bar.bound(reference, measurer);
+    ASSERT_TRUE(bound);
+    EXPECT_GT(difference.joint_pct, 0.1);
+    EXPECT_NEAR(bound->l2_pct, 6.0 * difference.l2_pct, 1e-12);
+    EXPECT_NEAR(bound->joint_pct, 6.0 * difference.joint_pct, 1e-12);
+    EXPECT_NEAR(bound->linf_m, 6.0 * difference.linf_m, 1e-12);
+}
+
+// PBS does not ask for the element order: solutions order 1 and 2 are the same one, the third differs. An infinite series of what is seen
+// would not converge, and 3 times the range stands for the error.
+TEST(ReferenceErrorBar, OfSolutionsThatDoNotConvergeIsThreeTimesTheirRange)
+{
+    const pbs::Character limb = small_limb();
+    const FrameMeasurer measurer(limb, {}, {});
+    const pbs::Positions reference = solved("pbs", limb);
+    const auto difference = measurer.difference(reference, solved("pbs", pbs::refined(limb)).topRows(reference.rows()));
+    ReferenceErrorBar bar(ErrorBar::both, spec_of("pbs"), limb);
+    bar.advance(bent(limb), 0.01);
+    EXPECT_NEAR(bar.bound(reference, measurer)->joint_pct, 3.0 * difference.joint_pct, 1e-12);
+    EXPECT_EQ(bar.method()["frames_in_asymptotic_range"]["joint"], 0);
+}
+
+// Orders 1, 2 on the same tets: nodes are V and V + E.
+TEST(ReferenceErrorBar, SaysWhichSolutionsAndRatios)
+{
+    const pbs::Character limb = small_limb();
+    const double vertices = static_cast<double>(limb.mesh.rest.rows());
+    const double between_orders = std::cbrt((vertices + static_cast<double>(pbs::edges_of(limb.mesh.tets).rows())) / vertices);
+    const auto method = [&](ErrorBar kind, int element_order) {
+        return ReferenceErrorBar(kind, spec_of("lbs", element_order), limb).method();
+    };
+
+    for (const int order : {1, 2}) {
+        const auto orders = method(ErrorBar::orders, order), refined = method(ErrorBar::refined, order);
+        ASSERT_EQ(orders["solutions"].size(), 2u);
+        EXPECT_NEAR(orders["ratios"][0].get<double>(), between_orders, 1e-12);
+        EXPECT_EQ(orders["solutions"][0]["element_order"], 2);  // the finest first
+        EXPECT_EQ(orders["solutions"][2 - order]["is_reference"], true);
+        EXPECT_EQ(refined["ratios"], nlohmann::json({2.0}));
+        EXPECT_EQ(refined["solutions"][0]["tets"], 8 * limb.mesh.tets.rows());
+        EXPECT_EQ(refined["solutions"][0]["element_order"], order);
+        EXPECT_EQ(refined["safety_factor"], 3.0);
+        EXPECT_EQ(method(ErrorBar::both, order)["solutions"].size(), 3u);
+        EXPECT_EQ(method(ErrorBar::both, order)["safety_factor"], 3.0);
+        EXPECT_EQ(method(ErrorBar::both, order)["safety_factor_in_asymptotic_range"], 1.25);
+    }
+    const auto first = method(ErrorBar::both, 1)["solutions"], second = method(ErrorBar::both, 2)["solutions"];
+    EXPECT_EQ(first[2]["is_reference"], true);   // order 1, order 1 refined, order 2 refined
+    EXPECT_EQ(second[1]["is_reference"], true);  // order 1, order 2, order 2 refined
+    EXPECT_EQ(first[0]["refinements"], 1);
+    EXPECT_EQ(second[2]["element_order"], 1);
+}
+
+TEST(ReferenceErrorBar, OfASolutionThatBrokeDownIsNone)
+{
+    const pbs::Character limb = small_limb();
+    const FrameMeasurer measurer(limb, {}, {});
+    ReferenceErrorBar bar(ErrorBar::refined, spec_of("pbs"), limb);
+    pbs::Pose broken = bent(limb);
+    broken[1].translation()(0) = std::nan("");
+    bar.advance(broken, 0.01);
+    EXPECT_FALSE(bar.bound(limb.mesh.rest, measurer));
+    EXPECT_EQ(bar.method()["frames_without"], 1);
+}
+
+}  // namespace

@@ -1,0 +1,51 @@
+// surface_rest.vtp and embedding.csv. Truth: an affine map carries barycentric coordinates along, inside a tet and outside.
+#include "experiments/run/surface_record.hpp"
+
+#include "experiments/process/scratch_folder.hpp"
+#include "tests/support/unit_tet.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace {
+
+using namespace experiments;
+
+pbs::EmbeddedSurface triangle(const pbs::TetMesh& mesh)
+{
+    pbs::Positions points(3, 3);
+    points << 0.1, 0.2, 0.3, 0.4, 0.4, 0.1, 0.9, 0.9, 0.9;  // the last lies outside
+    pbs::Triangles triangles(1, 3);
+    triangles << 0, 1, 2;
+    return pbs::embed(points, triangles, mesh);
+}
+
+TEST(SurfaceRecord, ItsSharesCarryThePointsAlong)
+{
+    const pbs::TetMesh mesh = test_support::unit_tet();
+    const pbs::EmbeddedSurface surface = triangle(mesh);
+    const analysis::CsvTable table = embedding_table(surface);
+    const Eigen::RowVector3d shift(0.5, -2.0, 0.25);
+    const pbs::Positions moved = (2.0 * mesh.rest).rowwise() + shift, carried = pbs::embedded_positions(surface, mesh.rest, mesh.tets);
+    ASSERT_EQ(table.rows(), 3);
+    for (int point = 0; point < 3; ++point) {
+        EXPECT_EQ(table.integer(point, "point"), point);
+        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+        for (int corner = 0; corner < 4; ++corner)
+            sum += table.number(point, "barycentric_" + std::to_string(corner)) * moved.row(mesh.tets(table.integer(point, "tet"), corner));
+        EXPECT_LT((sum - (2.0 * carried.row(point) + shift)).norm(), 1e-14);  // four roundings of numbers below four
+    }
+    EXPECT_LT(table.number(2, "barycentric_0"), 0.0);
+}
+
+TEST(SurfaceRecord, BothFilesStandInTheFolder)
+{
+    const ScratchFolder folder;
+    const pbs::TetMesh mesh = test_support::unit_tet();
+    write_surface(triangle(mesh), mesh, folder.path());
+    EXPECT_GT(std::filesystem::file_size(folder.path() + "/surface_rest.vtp"), 0U);
+    EXPECT_EQ(analysis::read_csv(folder.path() + "/embedding.csv").rows(), 3);
+}
+
+}  // namespace

@@ -1,0 +1,120 @@
+// Truth: the words of claim_changes.hpp; figures made up.
+#include "experiments/studies/ambiguity/claim_changes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace {
+
+using analysis::Extent;
+using experiments::ClaimChanges;
+using experiments::JudgedFigure;
+using experiments::Reading;
+using experiments::ReadingFigures;
+
+const Reading reading = {.place = "Eq. 2", .name = "B", .baseline = "A", .options = {}};
+
+JudgedFigure figure(double value, Extent extent, const std::string& remark = "")
+{
+    return {"C09", "damping ratio", "limb", "1", "0.0001 to 1", value, extent, remark};
+}
+
+analysis::CsvTable compared(const ReadingFigures& a, const ReadingFigures& b)
+{
+    ClaimChanges changes;
+    changes.add("limb", "C09", reading, a, b);
+    return changes.table();
+}
+
+TEST(ClaimChanges, HoldBothValuesAndFlipWhereTheBoundJudgesThemOtherwise)
+{
+    const auto table = compared({{figure(0.5, Extent::whole)}}, {{figure(1.25, Extent::none, "at least so much")}});
+    ASSERT_EQ(table.rows(), 1);
+    EXPECT_EQ(table.text_at(0, "place"), "Eq. 2");
+    EXPECT_EQ(table.number(0, "change"), 0.75);
+    EXPECT_EQ(table.number(0, "b_over_a"), 2.5);
+    EXPECT_EQ(table.text_at(0, "holds_a"), "whole");
+    EXPECT_EQ(table.text_at(0, "holds_b"), "nowhere");
+    EXPECT_EQ(table.text_at(0, "verdict_flips"), "yes");
+    EXPECT_EQ(table.text_at(0, "reason"), "B: at least so much");
+}
+
+TEST(ClaimChanges, DoNotFlipWithinTheBound)
+{
+    EXPECT_EQ(compared({{figure(0.5, Extent::whole)}}, {{figure(0.6, Extent::whole)}}).text_at(0, "verdict_flips"), "no");
+}
+
+TEST(ClaimChanges, WithoutAFigureOfEitherSayWhoseIsMissing)
+{
+    const auto of_a_alone = compared({{figure(0.5, Extent::whole)}}, {});
+    EXPECT_EQ(of_a_alone.text_at(0, "verdict_flips"), "no figure");
+    EXPECT_EQ(of_a_alone.text_at(0, "reason"), "B has no such figure");
+    EXPECT_FALSE(of_a_alone.number_or_nothing(0, "b").has_value());
+    EXPECT_FALSE(of_a_alone.number_or_nothing(0, "change").has_value());
+    const auto of_b_alone = compared({}, {{figure(0.5, Extent::whole)}});
+    EXPECT_EQ(of_b_alone.text_at(0, "reason"), "A has no such figure");
+    EXPECT_EQ(of_b_alone.number(0, "b"), 0.5);
+}
+
+TEST(ClaimChanges, OfAClaimWithoutAFigureHaveARowThatSaysSo)
+{
+    const auto table = compared({}, {});
+    ASSERT_EQ(table.rows(), 1);
+    EXPECT_EQ(table.text_at(0, "verdict_flips"), "no figure");
+    EXPECT_EQ(table.text_at(0, "reason"), "neither reading has a figure");
+}
+
+TEST(ClaimChanges, OfAQuantityThatIsLeftOutHaveARowWithTheReason)
+{
+    const ReadingFigures measured = {{figure(0.5, Extent::whole)}, false, {{"C09", "share", "four settings"}, {"C12", "other", "why"}}};
+    const auto table = compared(measured, measured);
+    ASSERT_EQ(table.rows(), 2);
+    EXPECT_EQ(table.text_at(0, "verdict_flips"), "no");
+    EXPECT_EQ(table.text_at(1, "quantity"), "share");
+    EXPECT_EQ(table.text_at(1, "verdict_flips"), "no figure");
+    EXPECT_EQ(table.text_at(1, "reason"), "four settings");
+    EXPECT_FALSE(table.number_or_nothing(1, "b").has_value());
+}
+
+TEST(ClaimChanges, OfAReadingThatBreaksDownFlipWhatHeld)
+{
+    const ReadingFigures broken = {{}, true};
+    const auto held = compared({{figure(0.5, Extent::whole)}}, broken), failed = compared({{figure(2.0, Extent::none)}}, broken);
+    EXPECT_EQ(held.text_at(0, "verdict_flips"), "yes");
+    EXPECT_EQ(failed.text_at(0, "verdict_flips"), "no");
+    EXPECT_EQ(held.text_at(0, "reason"), "B breaks down");
+    EXPECT_FALSE(held.number_or_nothing(0, "b").has_value());
+    const auto with_a_figure =
+        compared({{figure(0.5, Extent::whole)}}, {{figure(std::numeric_limits<double>::quiet_NaN(), Extent::none)}, true});
+    EXPECT_EQ(with_a_figure.text_at(0, "verdict_flips"), "yes");
+    EXPECT_EQ(with_a_figure.text_at(0, "reason"), "B breaks down");
+    EXPECT_EQ(compared({}, broken).text_at(0, "reason"), "B breaks down");
+}
+
+TEST(ClaimChanges, OfAFigureThatWasZeroHaveNoRatio)
+{
+    const auto table = compared({{figure(0.0, Extent::none)}}, {{figure(0.5, Extent::whole)}});
+    EXPECT_FALSE(table.number_or_nothing(0, "b_over_a").has_value());
+    EXPECT_EQ(table.number(0, "change"), 0.5);
+}
+
+TEST(ClaimChanges, OfAReadingThatCannotTouchTheClaimSayWhy)
+{
+    ClaimChanges changes;
+    changes.add_untouched("limb", "C10", reading, "another factor is no more work");
+    EXPECT_EQ(changes.table().text_at(0, "verdict_flips"), "not touched");
+    EXPECT_EQ(changes.table().text_at(0, "reason"), "another factor is no more work");
+}
+
+TEST(ClaimChanges, KeepCasesOfOneQuantityApart)
+{
+    JudgedFigure a = figure(0.5, Extent::whole), other = figure(0.7, Extent::whole);
+    other.of = "human";
+    const auto table = compared({{a, other}}, {{other, a}});
+    ASSERT_EQ(table.rows(), 2);
+    EXPECT_EQ(table.number(0, "change"), 0.0);
+    EXPECT_EQ(table.number(1, "change"), 0.0);
+}
+
+}  // namespace

@@ -1,0 +1,99 @@
+// Truth: claims.toml and the rules of analysis::judge_case.
+#include "experiments/studies/ambiguity/judged_figure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+namespace {
+
+using analysis::Extent;
+using experiments::judged;
+
+TEST(JudgedFigure, IsOfWhatAClaimIsJudgedByAlone)
+{
+    const auto figures =
+        judged({{"C09", "damping ratio", "limb", 0.5, 0.5, 0.5, "1"}, {"C09", "frequency", "limb", 14.0, 14.0, 14.0, "Hz"}});
+    ASSERT_EQ(figures.size(), 1u);
+    EXPECT_EQ(figures[0].quantity, "damping ratio");
+    EXPECT_EQ(figures[0].extent, Extent::whole);
+    EXPECT_EQ(judged({{"C09", "damping ratio", "limb", 2.0, 2.0, 2.0, "1"}})[0].extent, Extent::none);
+}
+
+// Whether a tolerance was reached must not make a figure of A and one of B two different ones.
+TEST(JudgedFigure, KeepsABoundApartFromWhatItIsOf)
+{
+    const std::string quantity = "iterations to tolerance, from the rest pose over from LBS";
+    const auto figures = judged({{"C03", quantity, "limb, bend 90; tolerance: x; at least so much", 30.0, 30.0, 30.0, "1"}});
+    EXPECT_EQ(figures[0].of, "limb, bend 90; tolerance: x");
+    EXPECT_EQ(figures[0].remark, "at least so much");
+}
+
+TEST(JudgedFigure, LeavesOutWhatIsNotMeasured)
+{
+    const auto left_out = experiments::all_but("C12", {}, "why");
+    ASSERT_EQ(left_out.size(), 1u);
+    EXPECT_EQ(left_out[0].quantity, "iterations to tolerance");
+    EXPECT_TRUE(experiments::all_but("C12", {"iterations to tolerance"}, "why").empty());
+}
+
+TEST(DigestOfClaims, IsAnotherWithAnotherBoundAndTheSameWithOtherWords)
+{
+    const analysis::Claim claim = experiments::claim_named("C09");
+    const std::string digest = experiments::digest_of({claim});
+    const auto changed = [&](const auto& change) {
+        analysis::Claim other = claim;
+        change(other);
+        return experiments::digest_of({other});
+    };
+    EXPECT_NE(changed([](auto& c) { c.bounds.at(0).low -= 1e-3; }), digest);
+    EXPECT_NE(changed([](auto& c) { c.bounds.pop_back(); }), digest);
+    EXPECT_NE(changed([](auto& c) { c.low -= 1e-3; }), digest);
+    EXPECT_NE(changed([](auto& c) { c.high += 1e-3; }), digest);
+    EXPECT_NE(changed([](auto& c) { c.share = 0.9; }), digest);
+    EXPECT_NE(changed([](auto& c) { c.metrics.pop_back(); }), digest);
+    EXPECT_EQ(changed([](auto& c) { c.statement += "!"; }), digest);
+    EXPECT_NE(experiments::digest_of({claim, experiments::claim_named("C10")}), digest);
+}
+
+experiments::ReadMotion clip_of(double change_pct)
+{
+    experiments::ReadMotion moved;
+    for (auto* record : {&moved.pbs, &moved.lbs})
+        for (int frame = 0; frame < 100; ++frame) {
+            record->scene = "walk";
+            record->frame.push_back(frame);
+            record->time_s.push_back(0.2 * frame);
+            record->volume_change_pct.push_back(change_pct);
+            record->volume_abs_change_pct.push_back(std::abs(change_pct));
+            record->inverted_tets.push_back(0.0);
+        }
+    moved.pbs.iterations = 24;
+    return moved;
+}
+
+TEST(JudgedFigure, OfVolumeIsTheMeanOfC01AndTheShareOfC02)
+{
+    const auto figures = judged(clip_of(-14.0));
+    ASSERT_EQ(figures.size(), 4u);
+    EXPECT_EQ(figures[0].quantity, "mean volume_loss_pct");
+    EXPECT_EQ(figures[0].value, 14.0);
+    EXPECT_EQ(figures[0].extent, Extent::whole);
+    EXPECT_EQ(figures[2].quantity, "share of frames within, volume_change_pct");
+    EXPECT_EQ(figures[2].value, 0.0);
+    EXPECT_EQ(judged(clip_of(-0.25))[2].value, 1.0);
+    EXPECT_EQ(judged(clip_of(-0.25))[2].extent, Extent::whole);
+}
+
+TEST(JudgedFigure, OfAReadingThatBreaksDownDoesNotHold)
+{
+    for (const auto& figure : judged(clip_of(std::numeric_limits<double>::quiet_NaN()))) EXPECT_EQ(figure.extent, Extent::none);
+}
+
+TEST(JudgedFigure, OfAnUnknownClaimIsRefused)
+{
+    EXPECT_THROW(experiments::claim_named("C99"), std::logic_error);
+}
+
+}  // namespace

@@ -1,0 +1,142 @@
+// Truth: the studies' own functions called by hand, and what a reading cannot change.
+#include "experiments/studies/ambiguity/reading_figures.hpp"
+
+#include "experiments/scene/motion_case.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
+#include "experiments/studies/momentum/momentum_drift.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace {
+
+using analysis::Extent;
+using experiments::JudgedFigure;
+using experiments::Reading;
+using experiments::ReadingFigures;
+using experiments::ReadingsCase;
+
+ReadingsCase small_limb()
+{
+    return {.scene = experiments::read_scene("limb_bend", {"character.vertices=400"}),
+            .frame = 18,
+            .pose = "bend 90",
+            .jolt_direction = pbs::Vec3::UnitX(),
+            .most_iterations = 60,
+            .jolt_steps = 60,
+            .timing_s = 0.05};
+}
+
+Reading own()
+{
+    return {.place = "", .name = "own", .baseline = "own", .options = experiments::spec_of(small_limb().scene, "pbs").pbs};
+}
+
+template <typename Change>
+std::vector<Reading> own_and(const Change& change)
+{
+    std::vector<Reading> readings = {own(), own()};
+    change(readings[1]);
+    return readings;
+}
+
+const JudgedFigure& figure(const ReadingFigures& read, const std::string& quantity)
+{
+    const auto found = std::find_if(read.figures.begin(), read.figures.end(), [&](const auto& one) { return one.quantity == quantity; });
+    if (found == read.figures.end()) throw std::runtime_error("no " + quantity);
+    return *found;
+}
+
+int number_of(const ReadingFigures& read, const std::string& quantity)
+{
+    return int(std::count_if(read.figures.begin(), read.figures.end(), [&](const auto& one) { return one.quantity == quantity; }));
+}
+
+TEST(ReadingFigures, OfStartsAreThreeStartsByTwoTolerancesAtMost)
+{
+    const auto all = figures_of_starts(small_limb(), own_and([](Reading& r) { r.options.k_stretch = 0.9; }));
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_GE(all[0].figures.size(), 3u);
+    EXPECT_LE(all[0].figures.size(), 6u);
+    for (const JudgedFigure& one : all[0].figures) EXPECT_EQ(one.claim, "C03");
+    EXPECT_EQ(figure(all[0], all[1].figures[0].quantity).of, all[1].figures[0].of);
+    ASSERT_EQ(all[0].left_out.size(), 1u);
+    EXPECT_EQ(all[0].left_out[0].claim, "C12");
+    EXPECT_EQ(all[0].left_out[0].reason, "judged on characters alone");
+}
+
+TEST(ReadingFigures, OfProjectionsAreTheMomentumStudysDrifts)
+{
+    const auto all = figures_of_projections(small_limb(), own_and([](Reading& r) { r.options.masses = pbs::Masses::lumped; }));
+    const ReadingsCase of = small_limb();
+    const pbs::Character character = pbs::make_character(of.scene.character);
+    const pbs::Pose pose = experiments::make_motion(of.scene.motion, character.skeleton, of.scene.file).steps.at(18);
+    const auto drift =
+        experiments::drift_of_projections(character, pose, own().options, experiments::ProjectedClass::stretch, pbs::Masses::unit);
+    EXPECT_EQ(figure(all[0], "linear drift").value, drift.linear);
+    EXPECT_EQ(figure(all[0], "angular drift").value, drift.angular);
+    EXPECT_NE(figure(all[1], "linear drift of a pass").value, figure(all[0], "linear drift of a pass").value);
+    EXPECT_EQ(figure(all[1], "linear drift of a pass").extent, Extent::whole);  // masses that the projection knows
+}
+
+// Algorithm 1 has the next position from the last two alone, whatever the step: half the step swings twice as fast.
+TEST(ReadingFigures, OfJoltsHaveTheSameDampingInSubstepsThatAreTheSameSteps)
+{
+    const auto all = figures_of_jolts(small_limb(), own_and([](Reading& r) { r.substeps = 2; }));
+    EXPECT_NEAR(figure(all[0], "frequency at half the time step over at the whole").value, 2.0, 1e-6);
+    // twice the samples of a series that has died away by then
+    EXPECT_NEAR(figure(all[1], "damping ratio").value, figure(all[0], "damping ratio").value, 1e-3);
+}
+
+// LBS moves it by the jolt beforehand, and a body that is moved as a whole violates no constraint.
+TEST(ReadingFigures, OfAJoltThatCarriesTheFleshAlongHaveNoSwing)
+{
+    const auto all = figures_of_jolts(small_limb(), own_and([](Reading& r) { r.options.lbs_entry = pbs::LbsEntry::increment; }));
+    EXPECT_EQ(number_of(all[0], "damping ratio"), 4);  // one a setting
+    EXPECT_TRUE(all[1].figures.empty());
+    EXPECT_FALSE(all[1].broke_down);
+}
+
+// C09's bounds on these are meant for the study's 16 settings.
+TEST(ReadingFigures, OfJoltsLeaveOutWhatIsOfAllSettingsOfTheStudy)
+{
+    const auto all = figures_of_jolts(small_limb(), {own()});
+    std::vector<std::string> left_out;
+    for (const auto& one : all[0].left_out) {
+        left_out.push_back(one.quantity);
+        EXPECT_EQ(one.claim, "C09");
+        EXPECT_EQ(one.reason, "the bound is for the study's 16 settings, a reading is jolted at 4");
+        EXPECT_EQ(number_of(all[0], one.quantity), 0);
+    }
+    EXPECT_EQ(left_out, (std::vector<std::string>{"share of settings that swing", "rank correlation of frequency and k_stretch",
+                                                  "frequency at the largest k_stretch over at the smallest"}));
+    EXPECT_EQ(number_of(all[0], "frequency at half the time step over at the whole"), 1);
+    EXPECT_EQ(number_of(all[0], "frequency at twice the iterations over at the once"), 1);
+}
+
+TEST(ReadingFigures, OfFramesAreOneTimeAReading)
+{
+    const auto all = figures_of_frames(small_limb(), own_and([](Reading& r) { r.substeps = 4; }));
+    ASSERT_EQ(all.size(), 2u);
+    for (const ReadingFigures& read : all) {
+        ASSERT_EQ(read.figures.size(), 1u);
+        EXPECT_EQ(read.figures[0].quantity, "processor time of a frame");
+        EXPECT_EQ(read.figures[0].unit, "ms");
+        EXPECT_GT(read.figures[0].value, 0.0);
+        EXPECT_FALSE(read.broke_down);
+    }
+}
+
+// Weight acts on what is integrated alone: where all is, an infinite one leaves nothing finite; where nothing is, it is not felt.
+TEST(ReadingFigures, OfFramesTellABreakdown)
+{
+    const auto all = figures_of_frames(small_limb(), own_and([](Reading& r) {
+                                           r.options.lbs_entry = pbs::LbsEntry::increment;
+                                           r.options.gravity_m_s2 = pbs::Vec3(0.0, -std::numeric_limits<double>::infinity(), 0.0);
+                                       }));
+    EXPECT_FALSE(all[0].broke_down);
+    EXPECT_TRUE(all[1].broke_down);
+}
+
+}  // namespace

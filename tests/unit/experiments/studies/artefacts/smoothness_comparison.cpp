@@ -1,0 +1,87 @@
+// The weights of Eq. 2 beside rigid ones on a small limb. Truth: the records that the figures are the ratios of; a twist by rigid weights
+// is taken up by one layer of tets; without a pose there is nothing to be smooth; weights do not move what the solver goes to.
+#include "experiments/studies/artefacts/smoothness_comparison.hpp"
+
+#include "tests/support/artefact_samples.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace {
+
+using experiments::WeightsComparison;
+
+WeightsComparison compared(const std::vector<experiments::ArtefactPose>& poses)
+{
+    auto of = test_support::small_limb(experiments::ArtefactCase::Claim::bulge);
+    of.poses = poses;
+    return experiments::compare_weights(of);
+}
+
+const analysis::Measurement* figure(const WeightsComparison& comparison, const std::string& quantity)
+{
+    for (const auto& one : comparison.figures)
+        if (one.quantity == quantity) return &one;
+    return nullptr;
+}
+
+double strain_jump(const WeightsComparison& comparison, const std::string& weights, const std::string& deformer)
+{
+    const auto& table = comparison.smoothness;
+    for (int row = 0; row < table.rows(); ++row)
+        if (table.text_at(row, "weights") == weights && table.text_at(row, "deformer") == deformer)
+            return table.number(row, "strain_jump_rms");
+    return -1.0;
+}
+
+TEST(WeightsComparison, FiguresAreTheRatiosOfTheRecords)
+{
+    const WeightsComparison bent = compared({{2, "bend 60 deg"}});
+    for (const auto& [deformer, title] : {std::pair<std::string, std::string>{"lbs", "LBS"}, {"pbs", "PBS"}}) {
+        const auto* jump = figure(bent, "strain jump at the joint of " + title + ", Eq. 2 over rigid");
+        ASSERT_NE(jump, nullptr);
+        EXPECT_DOUBLE_EQ(jump->value, strain_jump(bent, "paper", deformer) / strain_jump(bent, "rigid", deformer));
+        EXPECT_LE(jump->low, jump->value);
+        EXPECT_GE(jump->high, jump->value);
+        EXPECT_EQ(jump->of, "limb, bend 60 deg, upper|forearm");
+    }
+}
+
+// On tets that are smaller than the region that Eq. 2 blends.
+TEST(WeightsComparison, RigidBlendingShearsOneLayerInATwistWhatEquation2SpreadsOverMany)
+{
+    auto of = test_support::small_limb(experiments::ArtefactCase::Claim::candy_wrapper);
+    of.scene.character.vertices = 1200;
+    of.scene.motion.axis = pbs::Vec3::UnitX();
+    of.poses = {{3, "twist 90 deg"}};
+    const WeightsComparison twisted = experiments::compare_weights(of);
+    EXPECT_LT(figure(twisted, "strain jump at the joint of LBS, Eq. 2 over rigid")->value, 0.8);
+}
+
+// The blend by Eq. 2 is nearer to a crease than two rigid halves that go through each other.
+TEST(WeightsComparison, IterationsAreTheRatioOfTheirRecordAndRigidHalvesTakeMore)
+{
+    auto of = test_support::small_limb(experiments::ArtefactCase::Claim::bulge);
+    of.scene.character.vertices = 1200;
+    of.poses = {{3, "bend 90 deg"}};
+    const WeightsComparison bent = experiments::compare_weights(of);
+    ASSERT_EQ(bent.iterations.rows(), 1);
+    const auto* ratio = figure(bent, "iterations to tolerance, Eq. 2 over rigid");
+    ASSERT_TRUE(bent.iterations.integer(0, "reached_paper"));
+    ASSERT_NE(ratio, nullptr);
+    EXPECT_LT(ratio->value, 1.0);
+    const double paper = std::max(bent.iterations.number(0, "iterations_paper"), 1.0);
+    EXPECT_DOUBLE_EQ(ratio->value, paper / std::max(bent.iterations.number(0, "iterations_rigid"), 1.0));
+}
+
+TEST(WeightsComparison, AtRestThereIsNothingToCompareButTheSameStart)
+{
+    const WeightsComparison rest = compared({{0, "rest"}});
+    EXPECT_EQ(figure(rest, "strain jump at the joint of LBS, Eq. 2 over rigid"), nullptr);  // rounding over rounding
+    EXPECT_LT(strain_jump(rest, "rigid", "lbs"), 1e-12);
+    ASSERT_NE(figure(rest, "iterations to tolerance, Eq. 2 over rigid"), nullptr);
+    EXPECT_DOUBLE_EQ(figure(rest, "iterations to tolerance, Eq. 2 over rigid")->value, 1.0);
+}
+
+}  // namespace

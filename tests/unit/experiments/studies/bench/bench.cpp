@@ -1,0 +1,92 @@
+// Truth: the definitions of sizes and fits; that both builds of the plain loops are the same mathematics; that the body is the twist it
+// says.
+#include "experiments/studies/bench/bench.hpp"
+
+#include "experiments/studies/bench/step_loops.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "tests/support/structured_bar.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace experiments;
+
+TEST(BenchSizes, AreNumbersOfTets)
+{
+    EXPECT_EQ(parse_size("1K"), 1000);
+    EXPECT_EQ(parse_size("20k"), 20'000);
+    EXPECT_EQ(parse_size("1M"), 1'000'000);
+    EXPECT_EQ(parse_size("1.5M"), 1'500'000);
+    EXPECT_EQ(parse_size("5000"), 5000);
+    for (const char* bad : {"", "K", "-1K", "0", "1G", "10", "1e99", "nan", "1K 2K", "99M"})
+        EXPECT_THROW(parse_size(bad), pbs::InputError) << bad;
+}
+
+MeshTimings of_size(int tets, double ms_step)
+{
+    MeshTimings mesh;
+    mesh.tets = tets;
+    mesh.projections.resize(1);
+    mesh.projections[0].variant = "ordered";
+    mesh.projections[0].precision = "f32";
+    mesh.projections[0].ms_step.median = ms_step;
+    return mesh;
+}
+
+// A cost of c n^1.1 has the exponent 1.1, and no width.
+TEST(BenchScaling, ExponentOfAPower)
+{
+    std::vector<MeshTimings> meshes;
+    for (const int tets : {1000, 10'000, 100'000}) meshes.push_back(of_size(tets, 2e-4 * std::pow(tets, 1.1)));
+    const auto fits = fit_scaling(meshes);
+    ASSERT_EQ(fits.size(), 1u);
+    EXPECT_NEAR(fits[0].exponent.estimate, 1.1, 1e-12);
+    EXPECT_NEAR(fits[0].exponent.high - fits[0].exponent.low, 0.0, 1e-6);
+}
+
+TEST(BenchScaling, OneMeshHasNoExponent)
+{
+    EXPECT_TRUE(fit_scaling({of_size(1000, 1.0)}).empty());
+}
+
+TEST(BenchBody, IsTwistedByNinetyDegreesFromTheHeldEnd)
+{
+    const BenchBody body = make_bench_body("bar", test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {8, 2, 2}));
+    const pbs::Positions& rest = body.mesh().rest;
+    const double begin = rest.col(0).minCoeff(), end = rest.col(0).maxCoeff(), y0 = (rest.col(1).maxCoeff() + rest.col(1).minCoeff()) / 2.0,
+                 z0 = (rest.col(2).maxCoeff() + rest.col(2).minCoeff()) / 2.0;
+    for (Eigen::Index i = 0; i < rest.rows(); ++i) {
+        if (rest(i, 0) == begin) {
+            EXPECT_TRUE(body.held[i] && body.twisted.row(i) == rest.row(i));
+        }
+        if (rest(i, 0) != end) continue;
+        EXPECT_FALSE(body.held[i]);
+        EXPECT_NEAR(body.twisted(i, 1) - y0, -(rest(i, 2) - z0), 1e-12);
+        EXPECT_NEAR(body.twisted(i, 2) - z0, rest(i, 1) - y0, 1e-12);
+    }
+}
+
+// Every variant projects the same problem: after a step each is within some per cent of `plain`, whose residuals are of the order of 0.1.
+// The native build differs from the library's by rounding alone.
+TEST(ProjectionVariants, SettleOnTheSameResiduals)
+{
+    const BenchBody body = make_bench_body("bar", test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {8, 2, 2}));
+    std::vector<pbs::Residuals> residuals;
+    const auto variants = projection_variants(body, {1, 2});
+    ASSERT_EQ(variants.size(), 18u);  // of each precision three plain ones, and ordered, grouped, poses by one and by two threads
+    for (const ProjectionVariant& variant : variants) {
+        variant.loops.load();
+        for (int i = 0; i < iterations_a_step; ++i) variant.loops.bind(), variant.loops.stretch(), variant.loops.volume();
+        residuals.push_back(variant.loops.residuals());
+    }
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+        const double share = variants[i].variant == "plain_native" ? 1e-4 : 0.3;
+        EXPECT_NEAR(residuals[i].stretch_rms, residuals[0].stretch_rms, share * residuals[0].stretch_rms) << variants[i].variant;
+        EXPECT_NEAR(residuals[i].volume_rms, residuals[0].volume_rms, share * residuals[0].volume_rms) << variants[i].variant;
+    }
+}
+
+}  // namespace

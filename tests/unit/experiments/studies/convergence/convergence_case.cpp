@@ -1,0 +1,73 @@
+// Truth: LBS' own distance to the reference, measured here; which meshes of a ladder have one.
+#include "experiments/studies/convergence/convergence_case.hpp"
+
+#include "experiments/studies/convergence/convergence_records.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace experiments;
+
+constexpr int fewer = 300, more = 700, between = 500;  // vertices
+
+ConvergenceCase two_sizes(bool ladder)
+{
+    ConvergenceCase of;
+    of.scene = read_scene("limb_twist", {"character.vertices=" + std::to_string(fewer)});
+    of.frames = {{3, "twist 15", true}};
+    of.k_stretch = {0.2};
+    of.settings = {{}};
+    of.other_vertices = {more};
+    of.ladder = ladder;
+    of.most_iterations = 30;
+    of.truth = "snh_p1";
+    return of;
+}
+
+TEST(ConvergenceCase, TheDistanceToTheReferenceBeginsWithThatOfLbs)
+{
+    const ConvergenceResult result = measure_convergence(two_sizes(true));
+    EXPECT_EQ(result.breakdown, "");
+    ASSERT_EQ(result.all.size(), 2u);
+    for (const ConvergencePaths& paths : result.all) {
+        const Scene scene = read_scene("limb_twist", {"character.vertices=" + std::to_string(paths.own_mesh ? fewer : more)});
+        const PosedCharacter limb(scene, {3});
+        ASSERT_EQ(limb.character().mesh.rest.rows(), paths.vertices);
+        const double of_lbs =
+            limb.distance(limb.shapes(spec_of(scene, "snh_p1")).front(), limb.shapes(spec_of(scene, "lbs")).front()).joint_pct;
+        EXPECT_GT(of_lbs, 0.0);
+        EXPECT_NEAR(paths.paths.front().looks.front().error_joint_pct, of_lbs, 1e-9 * of_lbs);
+        EXPECT_EQ(paths.reference, "snh_p1");
+    }
+}
+
+TEST(ConvergenceCase, AboveTruthToThereIsNoReferenceAndTheRecordSaysSo)
+{
+    ConvergenceCase of = two_sizes(true);
+    of.truth_to = between;
+    const ConvergenceResult result = measure_convergence(of);
+    ASSERT_EQ(result.all.size(), 2u);
+    ASSERT_LE(result.all.front().vertices, between);
+    ASSERT_GT(result.all.back().vertices, between);
+    EXPECT_TRUE(std::isfinite(result.all.front().paths.front().looks.back().error_joint_pct));
+    EXPECT_TRUE(std::isnan(result.all.back().paths.front().looks.back().error_joint_pct));
+    EXPECT_EQ(result.all.back().reference, "left out above 500 vertices");
+
+    const analysis::CsvTable rates = rate_table(result), towards = towards_table(result);
+    EXPECT_EQ(rates.text_at(rates.rows() - 1, "reference"), "left out above 500 vertices");
+    ASSERT_GT(towards.rows(), 0);
+    for (int row = 0; row < towards.rows(); ++row) EXPECT_EQ(towards.integer(row, "vertices"), result.all.front().vertices);
+}
+
+TEST(ConvergenceCase, OtherTessellationsOfASizeHaveNone)
+{
+    const ConvergenceResult result = measure_convergence(two_sizes(false));
+    EXPECT_EQ(result.all.front().reference, "snh_p1");
+    EXPECT_EQ(result.all.back().reference, "the scene's own mesh alone");
+}
+
+}  // namespace

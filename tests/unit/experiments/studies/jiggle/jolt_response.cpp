@@ -1,0 +1,70 @@
+// Truth: what cannot be otherwise. Flesh that does not jiggle is where the bones take it; flesh without constraints stays behind, at rest;
+// a jolt the other way round is its mirror image.
+#include "experiments/studies/jiggle/jolt_response.hpp"
+
+#include "experiments/studies/jiggle/jiggle_settings.hpp"
+#include "experiments/studies/jiggle/jiggle_zone_contents.hpp"
+#include "pbs/character/bodies.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+class JoltResponseOfLimb : public testing::Test {
+protected:
+    JoltResponseOfLimb()
+    {
+        spec.kind = spec.name = spec.label = "pbs";
+        spec.pbs.precision = pbs::Precision::f64;
+        jolt.direction = pbs::Vec3::UnitX();
+        jolt.steps = 40;
+    }
+    experiments::JoltResponse response() const { return experiments::jolt_response(limb, spec, probe, jolt); }
+
+    pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 400});
+    std::vector<int> probe = experiments::zone_contents(limb).pieces.front();
+    experiments::DeformerSpec spec;
+    experiments::Jolt jolt;
+};
+
+TEST_F(JoltResponseOfLimb, NothingSwingsWithoutJiggle)
+{
+    spec.pbs.jiggle.reset();
+    const auto still = response();
+    EXPECT_LT(still.peak_over_jolt, 1e-9);
+    EXPECT_FALSE(still.swing.found());
+}
+
+TEST_F(JoltResponseOfLimb, FreeFleshStaysBehind)
+{
+    spec.pbs.k_stretch = spec.pbs.k_volume = spec.pbs.k_bind = 0.0;
+    spec.pbs.jiggle = pbs::Jiggle{.k_stretch = 0.0};
+    const auto free = response();
+    for (const double excursion_m : free.excursion_m) EXPECT_NEAR(excursion_m, -jolt.length_m, 1e-12);
+    EXPECT_NEAR(free.left_over_peak, 1.0, 1e-12);
+    EXPECT_EQ(free.overshoot_over_jolt, 0.0);
+}
+
+// The way from step to step does not know the clock (Algorithm 1, lines 7, 8 and 16).
+TEST_F(JoltResponseOfLimb, WithoutWeightTheSeriesIsTheSameAtEveryTimeStep)
+{
+    spec = experiments::jiggling(spec, {});
+    const auto slow = response();
+    jolt.time_step_s /= 4.0;
+    const auto quick = response();
+    for (std::size_t i = 0; i < slow.excursion_m.size(); ++i) EXPECT_NEAR(quick.excursion_m[i], slow.excursion_m[i], 1e-12) << i;
+}
+
+// The skin is held by its bones: it swings about where they take it, and calms down.
+TEST_F(JoltResponseOfLimb, HeldFleshSwingsAndCalmsDown)
+{
+    spec = experiments::jiggling(spec, {});
+    const auto held = response();
+    EXPECT_TRUE(held.finished);
+    EXPECT_GT(held.peak_over_jolt, 0.05);
+    EXPECT_LT(held.peak_over_jolt, 1.0 + 1e-9);
+    EXPECT_LT(held.left_over_peak, 0.5);
+    EXPECT_LT(held.speed_growth, 1.0);
+}
+
+}  // namespace

@@ -1,0 +1,109 @@
+// Truth: differences of scenes by hand; shares and means of a few frames by hand.
+#include "experiments/studies/setup/body_setup.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using namespace experiments;
+
+TEST(BodySetup, BodyAndVerticesAloneAreTheBody)
+{
+    const Scene shared = shared_scene(5.0);
+    EXPECT_TRUE(keys_changed(shared.resolved, scene_of({"ring", 1200}, 5.0).resolved).empty());
+    EXPECT_EQ(scene_of({"ring", 1200}, 5.0).character.body, "ring");
+    EXPECT_EQ(scene_of({"ring", 1200}, 5.0).character.vertices, 1200);
+}
+
+TEST(BodySetup, CountsEveryFurtherKey)
+{
+    const auto changed = keys_changed(shared_scene(5.0).resolved,
+                                      scene_of({"ring", 0, {"pbs.k_volume=0.5", "pbs.gravity_m_s2=[0.0, 0.0, -9.81]"}}, 5.0).resolved);
+    EXPECT_EQ(changed.size(), 2u);
+    EXPECT_NE(std::find(changed.begin(), changed.end(), "pbs.k_volume"), changed.end());
+    EXPECT_NE(std::find(changed.begin(), changed.end(), "pbs.gravity_m_s2"), changed.end());
+}
+
+TEST(BodySetup, AKeyMoreOrLessIsAChange)
+{
+    const nlohmann::json shared = {{"pbs", {{"iterations", 24}}}}, own = {{"pbs", {{"iterations", 24}, {"jiggle", 0.5}}}};
+    EXPECT_EQ(keys_changed(shared, own), std::vector<std::string>{"pbs.jiggle"});
+    EXPECT_EQ(keys_changed(own, shared), std::vector<std::string>{"pbs.jiggle"});
+}
+
+TEST(BodySetup, OtherKeysOfTheCharacterCountToo)
+{
+    const nlohmann::json shared = {{"character", {{"body", "human"}, {"vertices", 0}, {"skeleton_scale", 1.0}}}},
+                         own = {{"character", {{"body", "ring"}, {"vertices", 1200}, {"skeleton_scale", 0.5}}}};
+    EXPECT_EQ(keys_changed(shared, own), std::vector<std::string>{"character.skeleton_scale"});
+}
+
+TEST(BodySetup, EveryFurtherKeyIsAKeyOfTheScene)
+{
+    for (const auto& further : further_keys())
+        EXPECT_EQ(keys_changed(shared_scene(5.0).resolved, scene_of({"ring", 0, further}, 5.0).resolved).size(), further.size());
+}
+
+TEST(BodySetup, WhatRunsIsNotTriedAgain)
+{
+    const auto tried = tried_setups({"ring"}, [](const BodySetup&) { return std::string(); });
+    ASSERT_EQ(tried.size(), 1u);
+    EXPECT_TRUE(tried[0].setup.further.empty());
+}
+
+TEST(BodySetup, WhatBreaksDownOrIsRefusedIsTriedWithFurtherKeys)
+{
+    const auto tried = tried_setups({"ring"}, [](const BodySetup& setup) -> std::string {
+        if (setup.further.empty()) throw pbs::InputError("", 0, "skinning.weights", "paper", "expected a bone");
+        return setup.further == further_keys()[2] ? "" : "pbs is not finite at frame 3";
+    });
+    ASSERT_EQ(tried.size(), 3u);
+    EXPECT_NE(tried[0].failure.find("expected a bone"), std::string::npos);
+    EXPECT_EQ(tried[1].failure, "pbs is not finite at frame 3");
+    EXPECT_EQ(tried[2].failure, "");
+    EXPECT_EQ(tried[2].setup.further, further_keys()[2]);
+}
+
+TEST(BodySetup, WhatNeverRunsIsNotLeftOut)
+{
+    const auto tried = tried_setups({"ring"}, [](const BodySetup&) { return std::string("broken"); });
+    EXPECT_EQ(tried.size(), further_keys().size());
+    const auto figures = not_set_up("ring, 01_01");
+    ASSERT_EQ(figures.size(), 2u);
+    EXPECT_TRUE(std::isnan(figures[0].value));
+    EXPECT_EQ(figures[1].value, 0.0);
+}
+
+analysis::Measurement figure(const std::vector<analysis::Measurement>& all, const std::string& quantity)
+{
+    return *std::find_if(all.begin(), all.end(), [&](const auto& measured) { return measured.quantity == quantity; });
+}
+
+TEST(BodySetup, AnInvertedTetOrABrokenFrameIsNoGoodFrame)
+{
+    analysis::CsvTable metrics({"volume_change_pct", "inverted_tets"});
+    metrics.add_row({-1.0, 0});
+    metrics.add_row({-3.0, 2});
+    metrics.add_row({1.0, 0});
+    metrics.add_row({1.0, 0});
+    const nlohmann::json run = {{"cost", {{"cpu_seconds", {{"character", 3.0}, {"motion", 0.25}, {"set_up", 0.5}}}}}};
+    const auto figures = setup_measurements("body", metrics, run, {"pbs.k_volume"});
+    EXPECT_EQ(figure(figures, "keys changed besides the body").value, 1.0);
+    EXPECT_DOUBLE_EQ(figure(figures, "share of frames finite and without inverted tets").value, 0.75);
+    EXPECT_LT(figure(figures, "share of frames finite and without inverted tets").low, 0.75);
+    EXPECT_DOUBLE_EQ(figure(figures, "mean volume change").value, -0.5);
+    EXPECT_DOUBLE_EQ(figure(figures, "largest volume change").value, -3.0);
+    EXPECT_DOUBLE_EQ(figure(figures, "seconds to set up").value, 3.75);
+
+    metrics.add_row({std::nan(""), 0});
+    const auto broken = setup_measurements("body", metrics, run, {});
+    EXPECT_DOUBLE_EQ(figure(broken, "share of frames finite and without inverted tets").value, 0.6);
+    EXPECT_TRUE(std::isnan(figure(broken, "largest volume change").value));
+}
+
+}  // namespace

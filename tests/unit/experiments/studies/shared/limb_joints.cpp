@@ -1,0 +1,174 @@
+// Truth: the built-in limb's skeleton, (-1,0,0) -> 0 -> (1,0,0), and a bent one drawn by hand; of joints by hand, the limb under Frankie's
+// names, and where he is installed, his skin.
+#include "experiments/studies/shared/limb_joints.hpp"
+
+#include "analysis/section_outline.hpp"
+#include "pbs/character/bodies.hpp"
+#include "pbs/geometry/meshing.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using pbs::Vec3;
+
+TEST(LimbJoints, LimbHasOneInItsMiddle)
+{
+    const pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 600});
+    const auto joints = experiments::limb_joints(limb);
+    ASSERT_EQ(joints.size(), 1u);
+    EXPECT_EQ(joints[0].name, "upper|forearm");
+    EXPECT_NEAR(joints[0].point.norm(), 0.0, 1e-12);
+    EXPECT_NEAR(joints[0].reach_parent_m, 0.5, 1e-12);
+    EXPECT_NEAR(joints[0].radius_m, 0.15, 1e-3);  // the caps' vertices lie as far from the bones' ends
+    EXPECT_NEAR((experiments::twist_axis(limb.skeleton, joints[0]) - Vec3::UnitX()).norm(), 0.0, 1e-12);
+    EXPECT_NEAR((experiments::hinge_axis(limb.skeleton, joints[0]) - Vec3::UnitZ()).norm(), 0.0, 1e-12);
+}
+
+TEST(LimbJoints, HingeBendsOnTheWayThatTheJointIsBent)
+{
+    pbs::Skeleton skeleton;
+    skeleton.bones = {{"upper", -1, {-1, 0, 0}, {0, 0, 0}}, {"forearm", 0, {0, 0, 0}, {1, 0.2, 0}}};
+    const experiments::LimbJoint joint{"upper|forearm", 0, 1, Vec3::Zero(), 0.1, 0.5, 0.5};
+    EXPECT_NEAR((experiments::hinge_axis(skeleton, joint) - Vec3::UnitZ()).norm(), 0.0, 1e-12);
+    skeleton.bones[1].tail.y() = -0.2;
+    EXPECT_NEAR((experiments::hinge_axis(skeleton, joint) + Vec3::UnitZ()).norm(), 0.0, 1e-12);
+}
+
+TEST(LimbJoints, HingeOfAStraightLimbAlongZIsStillAcrossIt)
+{
+    pbs::Skeleton skeleton;
+    skeleton.bones = {{"upper", -1, {0, 0, -1}, {0, 0, 0}}, {"forearm", 0, {0, 0, 0}, {0, 0, 1}}};
+    const Vec3 axis = experiments::hinge_axis(skeleton, {"upper|forearm", 0, 1, Vec3::Zero(), 0.1, 0.5, 0.5});
+    EXPECT_NEAR(axis.norm(), 1.0, 1e-12);
+    EXPECT_NEAR(axis.z(), 0.0, 1e-12);
+}
+
+TEST(LimbJoints, NearIsWithinAThirdOfEachBone)
+{
+    const pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 600});
+    const auto near = experiments::near_joint(limb, experiments::limb_joints(limb)[0]);
+    for (Eigen::Index v = 0; v < limb.mesh.rest.rows(); ++v)
+        EXPECT_EQ(near[v], std::abs(limb.mesh.rest(v, 0)) <= 1.0 / 3.0) << limb.mesh.rest.row(v);
+}
+
+pbs::Character limb_as_frankie(const std::string& parent, const std::string& child)
+{
+    pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 600});
+    limb.name = "frankie";
+    limb.skeleton.bones[0].name = parent;
+    limb.skeleton.bones[1].name = child;
+    return limb;
+}
+
+// A polygon inscribed in a circle of radius r has at least four fifths of its area here, and no more than all of it.
+TEST(JointsByHand, HaveTheirOwnReachAndTheRadiusOfTheirSection)
+{
+    const auto joints = experiments::limb_joints(limb_as_frankie("upper_arm.L", "forearm_upper.L"));
+    ASSERT_EQ(joints.size(), 1u);
+    EXPECT_EQ(joints[0].name, "upper_arm.L|forearm_upper.L");
+    EXPECT_EQ(joints[0].parent, 0);
+    EXPECT_EQ(joints[0].child, 1);
+    EXPECT_NEAR(joints[0].point.norm(), 0.0, 1e-12);
+    EXPECT_GT(joints[0].radius_m, std::sqrt(0.8) * 0.15);
+    EXPECT_LT(joints[0].radius_m, 0.15 + 1e-9);
+    EXPECT_NEAR(joints[0].reach_parent_m, 0.25, 1e-12);
+    EXPECT_NEAR(joints[0].reach_child_m, 0.5, 1e-12);
+}
+
+TEST(JointsByHand, OneWithoutSectionIsNone)
+{
+    EXPECT_TRUE(experiments::limb_joints(limb_as_frankie("thigh.L", "shin.L")).empty());
+}
+
+TEST(JointsByHand, OneWithoutItsBonesIsNone)
+{
+    EXPECT_TRUE(experiments::limb_joints(limb_as_frankie("upper", "forearm")).empty());
+}
+
+TEST(JointsByHand, OneOutsideTheSkinIsNone)
+{
+    pbs::Character limb = limb_as_frankie("tail_1", "tail_2");
+    ASSERT_EQ(experiments::limb_joints(limb).size(), 1u);
+    limb.mesh.rest.col(0).array() += 10.0;
+    EXPECT_TRUE(experiments::limb_joints(limb).empty());
+}
+
+TEST(JointsByHand, WhatIsLeftOutHasItsReason)
+{
+    pbs::Character limb = limb_as_frankie("tail_1", "tail_2");
+    const auto why = [&](const std::string& child) {
+        for (const auto& joint : experiments::joints_by_hand("frankie"))
+            if (joint.child == child) return experiments::why_left_out(limb, joint);
+        return std::string("not named");
+    };
+    EXPECT_EQ(why("tail_2"), "");
+    EXPECT_EQ(why("tail_3"), "no bone tail_3");
+    EXPECT_EQ(why("hand.L"), "no bone forearm_lower.L");
+    EXPECT_TRUE(why("shin.L").starts_with("no limb's"));
+    limb.mesh.rest.col(0).array() += 10.0;
+    EXPECT_EQ(why("tail_2"), "no flesh round the joint");
+}
+
+TEST(JointsByHand, OtherBodiesFollowTheRule)
+{
+    for (const char* body : {"limb", "bar", "human", "man", "lady", "ring", ""})
+        EXPECT_TRUE(experiments::joints_by_hand(body).empty()) << body;
+}
+
+struct Section {
+    int winding;
+    analysis::OutlineSize size;
+};
+
+Vec3 direction(const pbs::Bone& bone)
+{
+    return (bone.tail - bone.head).normalized();
+}
+
+Section section_across(const pbs::Character& body, const experiments::LimbJoint& joint, double offset_m, const Vec3& normal)
+{
+    const Vec3 point = joint.point + offset_m * direction(body.skeleton.bones[offset_m < 0.0 ? joint.parent : joint.child]);
+    const auto outlines = pbs::section_outlines(body.mesh.rest, pbs::boundary_of(body.mesh.tets), {{point, normal}}).front();
+    const pbs::Positions* own = analysis::enclosing_outline(outlines, {point, normal});
+    return own ? Section{analysis::winding_number(*own, {point, normal}), analysis::outline_size(*own)} : Section{0, {}};
+}
+
+// One limb's: the outline goes round the bone, and nowhere farther from its middle than 2.2 of the joint's radii; the trunk has four.
+// Planes fan out over 3 radii on each side, as those of JointSections.
+TEST(JointsByHand, SectionsOfFrankieAreOneLimbs)
+{
+    if (!pbs::body_is_installed("frankie")) GTEST_SKIP() << "pbskin fetch frankie";
+    const pbs::Character frankie = pbs::make_character({.body = "frankie"});
+    const auto joints = experiments::limb_joints(frankie);
+    ASSERT_EQ(joints.size(), 5u);
+    for (const auto& joint : joints)
+        for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
+            const double offset_m = share * std::min(2.0 * joint.radius_m, share < 0.0 ? joint.reach_parent_m : joint.reach_child_m);
+            const double turned = 0.5 + offset_m / (6.0 * joint.radius_m);
+            const Vec3 normal =
+                (1.0 - turned) * direction(frankie.skeleton.bones[joint.parent]) + turned * direction(frankie.skeleton.bones[joint.child]);
+            const Section section = section_across(frankie, joint, offset_m, normal);
+            EXPECT_EQ(std::abs(section.winding), 1) << joint.name << " " << share;
+            EXPECT_LT(section.size.largest_radius_m, 2.2 * joint.radius_m) << joint.name << " " << share;
+            EXPECT_GT(section.size.smallest_radius_m, 0.4 * joint.radius_m) << joint.name << " " << share;
+        }
+}
+
+TEST(JointsByHand, KneeOfFrankieLiesInTheTrunk)
+{
+    if (!pbs::body_is_installed("frankie")) GTEST_SKIP() << "pbskin fetch frankie";
+    const pbs::Character frankie = pbs::make_character({.body = "frankie"});
+    const int thigh = pbs::find_bone(frankie.skeleton, "thigh.L"), shin = pbs::find_bone(frankie.skeleton, "shin.L");
+    const experiments::LimbJoint knee{"thigh.L|shin.L", thigh, shin, frankie.skeleton.bones[shin].head, 0.0, 0.0, 0.0};
+    const Vec3 along = frankie.skeleton.bones[shin].tail - knee.point;
+    const double trunk_m2 = section_across(frankie, knee, 0.25 * along.norm(), along.normalized()).size.area_m2;
+    const double ankle_m2 = section_across(frankie, knee, 0.7 * along.norm(), along.normalized()).size.area_m2;
+    EXPECT_GT(trunk_m2, 10.0 * ankle_m2);
+}
+
+}  // namespace

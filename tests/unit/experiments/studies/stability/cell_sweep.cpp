@@ -1,0 +1,63 @@
+// Truth: what a sweep is asked for; a cell counts for the claim where its base and every factor of it are the paper's.
+#include "experiments/studies/stability/cell_sweep.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace experiments;
+
+Sweep iterations(bool as_published)
+{
+    return {"iterations", "1", {24.0, 1.0}, {4.0}, [](StabilityCell& cell, double n) { cell.spec.pbs.iterations = int(n); }, as_published};
+}
+
+Sweep mass_ratio(bool as_published)
+{
+    return {"mass ratio", "1", {10.0, 100.0}, {}, [](StabilityCell& cell, double ratio) { cell.mass_ratio = ratio; }, as_published};
+}
+
+TEST(CellSweep, HasItsValuesInOrder)
+{
+    const auto quick = cells_of(iterations(true), {}, false), full = cells_of(iterations(true), {}, true);
+    ASSERT_EQ(quick.size(), 2u);
+    ASSERT_EQ(full.size(), 3u);
+    EXPECT_EQ(full[1].spec.pbs.iterations, 4);
+    EXPECT_EQ(full[1].value, 4.0);
+}
+
+TEST(CellSweep, AMapIsAsPublishedWhereAllOfItIs)
+{
+    for (const bool base : {false, true})
+        for (const bool rows : {false, true})
+            for (const bool columns : {false, true}) {
+                StabilityCell from;
+                from.as_published = base;
+                const auto cells = cells_of_map(iterations(rows), mass_ratio(columns), from, false);
+                ASSERT_EQ(cells.size(), 4u);
+                for (const StabilityCell& cell : cells) EXPECT_EQ(cell.as_published, base && rows && columns);
+                EXPECT_EQ(cells[1].spec.pbs.iterations, 1);
+                EXPECT_EQ(cells[1].mass_ratio, 100.0);
+            }
+}
+
+// --resume compares to_json; undisturbed states are shared by setting_of.
+TEST(CellSweep, ARecordTellsWhatACellStandsForAndItsSettingDoesNot)
+{
+    StabilityCell cell = cells_of_map(iterations(true), mass_ratio(true), {}, false).front();
+    const auto expect_on_record_alone = [&](auto change) {
+        StabilityCell changed = cell;
+        change(changed);
+        EXPECT_NE(to_json(changed), to_json(cell));
+        EXPECT_EQ(setting_of(changed), setting_of(cell));
+    };
+    expect_on_record_alone([](StabilityCell& of) { of.as_published = !of.as_published; });
+    expect_on_record_alone([](StabilityCell& of) { of.unit = std::string("s"); });
+    expect_on_record_alone([](StabilityCell& of) { of.second_factor = std::string("twist"); });
+    expect_on_record_alone([](StabilityCell& of) { of.second_unit = std::string("deg"); });
+    StabilityCell elsewhere = cell;
+    elsewhere.disturbance.angle_deg += 1.0;
+    EXPECT_NE(setting_of(elsewhere), setting_of(cell));
+}
+
+}  // namespace

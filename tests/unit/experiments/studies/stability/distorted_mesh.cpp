@@ -1,0 +1,61 @@
+// Truth: heights and lengths of the tets themselves.
+#include "experiments/studies/stability/distorted_mesh.hpp"
+
+#include "pbs/geometry/tet_volume.hpp"
+#include "tests/support/two_bone_limb.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using experiments::Defect;
+
+const pbs::TetMesh mesh = test_support::two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 0.0).mesh;
+
+double smallest_volume_kept(const pbs::TetMesh& spoilt)
+{
+    return (pbs::tet_volumes(spoilt.rest, spoilt.tets).array() / pbs::tet_volumes(mesh.rest, mesh.tets).array()).minCoeff();
+}
+
+int moved_vertices(const pbs::TetMesh& spoilt)
+{
+    return static_cast<int>(((spoilt.rest - mesh.rest).rowwise().norm().array() > 0.0).count());
+}
+
+TEST(DistortedMesh, NoneChangesNothing)
+{
+    EXPECT_EQ(experiments::distorted(mesh, Defect::none, 1e-3).rest, mesh.rest);
+}
+
+// A tet with a vertex at the share s of its height has s of its volume; with an edge of s of its length, towards the corner it goes to,
+// too. The corners of a thin tet stay where they are, and no other is as thin. Ten roundings of a metre over heights of some centimetres.
+TEST(DistortedMesh, TheThinnestTetKeepsTheWantedShareOfItsVolume)
+{
+    for (const Defect defect : {Defect::slivers, Defect::needles})
+        for (const double thinness : {1e-1, 1e-3, 1e-6})
+            EXPECT_NEAR(smallest_volume_kept(experiments::distorted(mesh, defect, thinness)), thinness, 1e-13);
+}
+
+TEST(DistortedMesh, MovesATwentiethOfTheVerticesAtMostAndAtLeastOne)
+{
+    for (const Defect defect : {Defect::slivers, Defect::needles}) {
+        const int moved = moved_vertices(experiments::distorted(mesh, defect, 1e-3));
+        EXPECT_GT(moved, 0);
+        EXPECT_LE(moved, static_cast<int>(0.05 * static_cast<double>(mesh.rest.rows())));
+    }
+}
+
+TEST(DistortedMesh, TurnsNoTetInsideOut)
+{
+    for (const Defect defect : {Defect::slivers, Defect::needles}) {
+        const pbs::TetMesh spoilt = experiments::distorted(mesh, defect, 1e-6);
+        EXPECT_GT(pbs::tet_volumes(spoilt.rest, spoilt.tets).minCoeff(), 0.0);
+    }
+}
+
+TEST(DistortedMesh, IsTheSameEveryTime)
+{
+    EXPECT_EQ(experiments::distorted(mesh, Defect::slivers, 1e-3).rest, experiments::distorted(mesh, Defect::slivers, 1e-3).rest);
+}
+
+}  // namespace

@@ -1,0 +1,178 @@
+// Truth: stiffnesses made up as powers of what is varied, so that ratios and exponents are known to rounding (1e-12).
+#include "experiments/studies/stiffness/stiffness_ratios.hpp"
+
+#include "experiments/studies/stiffness/stiffness_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace experiments;
+
+constexpr double rounding = 1e-12;
+
+StiffnessRow row(int iterations, double stiffness_n_m)
+{
+    StiffnessRow row;
+    row.body = "limb";
+    row.load = "zone";
+    row.vertices = 600;
+    row.setting.iterations = iterations;
+    row.stiffness_n_m = stiffness_n_m;
+    row.converged = true;
+    return row;
+}
+
+std::vector<StiffnessRow> squares()
+{
+    std::vector<StiffnessRow> rows;
+    for (const int n : {3, 6, 12, 24, 48, 96}) rows.push_back(row(n, 7.0 * n * n));
+    return rows;
+}
+
+TEST(StiffnessRatios, OfASquareIsFourForADoubling)
+{
+    const auto ratios = stiffness_ratios(squares(), Varied::iterations);
+    ASSERT_EQ(ratios.size(), 1u);
+    EXPECT_EQ(ratios[0].claim, "C11");
+    EXPECT_EQ(ratios[0].quantity, "effective stiffness at twice the iterations over at the once");
+    EXPECT_EQ(ratios[0].of, "limb, zone, k_stretch 0.2, 10 ms, 600 vertices, 12 to 48 iterations");
+    for (const double value : {ratios[0].value, ratios[0].low, ratios[0].high}) EXPECT_NEAR(value, 4.0, 4.0 * rounding);
+    const auto exponents = stiffness_exponents(squares(), Varied::iterations);
+    EXPECT_NEAR(exponents.at(0).fit.slope.estimate, 2.0, 10 * rounding);
+    EXPECT_EQ(exponents[0].first, 3.0);
+    EXPECT_EQ(exponents[0].last, 96.0);
+}
+
+TEST(StiffnessRatios, SpreadOverDoublingsAndOrders)
+{
+    std::vector<StiffnessRow> rows = {row(12, 1.0), row(24, 3.0), row(48, 6.0), row(12, 1.0), row(24, 5.0)};
+    rows[3].setting.order_seed = rows[4].setting.order_seed = 1;
+    const auto ratio = stiffness_ratios(rows, Varied::iterations).at(0);
+    EXPECT_NEAR(ratio.value, std::sqrt(6.0), 3.0 * rounding);
+    EXPECT_NEAR(ratio.low, 2.0, 2.0 * rounding);
+    EXPECT_NEAR(ratio.high, 5.0, 5.0 * rounding);
+}
+
+TEST(StiffnessRatios, LeavesOutWhatDidNotConvergeOrHangsUpwards)
+{
+    std::vector<StiffnessRow> rows = squares();
+    rows[3].converged = false;
+    rows[3].stiffness_n_m = 1e6;
+    rows[5].stiffness_n_m = -1.0;
+    EXPECT_NEAR(stiffness_ratios(rows, Varied::iterations).at(0).high, 4.0, 4.0 * rounding);
+    EXPECT_EQ(stiffness_exponents(rows, Varied::iterations).at(0).left_out, 2);
+    for (StiffnessRow& all : rows) all.converged = false;
+    EXPECT_TRUE(stiffness_ratios(rows, Varied::iterations).empty());
+    EXPECT_TRUE(stiffness_exponents(rows, Varied::iterations).empty());
+}
+
+TEST(StiffnessRatios, HalvesTheTimeStep)
+{
+    std::vector<StiffnessRow> rows;
+    for (const double step_s : {0.02, 0.01, 0.005}) {
+        rows.push_back(row(24, 1.0 / (step_s * step_s)));
+        rows.back().setting.time_step_s = step_s;
+    }
+    const auto ratio = stiffness_ratios(rows, Varied::time_step).at(0);
+    EXPECT_EQ(ratio.quantity, "effective stiffness at half the time step over at the whole");
+    EXPECT_NEAR(ratio.value, 4.0, 1e-10);
+    EXPECT_EQ(ratio.of, "limb, zone, k_stretch 0.2, 24 iterations, 600 vertices, 20 to 5 ms");
+}
+
+TEST(StiffnessRatios, OfMeshesThatAreNotQuiteTwiceEachOther)
+{
+    std::vector<StiffnessRow> rows;
+    for (const int vertices : {310, 590, 1205}) {
+        rows.push_back(row(24, 1.0 / vertices));
+        rows.back().vertices = vertices;
+    }
+    const auto ratio = stiffness_ratios(rows, Varied::resolution).at(0);
+    EXPECT_NEAR(ratio.low, 0.5, rounding);
+    EXPECT_NEAR(ratio.high, 0.5, rounding);
+}
+
+// All four at the same settings: none is taken for another.
+TEST(StiffnessRatios, TellTheMethodsApart)
+{
+    std::vector<StiffnessRow> rows;
+    const std::pair<Method, double> constant[] = {
+        {Method::pbs, 0.0}, {Method::exponent, 1.0}, {Method::xpbd, 2.0}, {Method::xpbd_small_steps, 3.0}};
+    for (const auto& [method, power] : constant)
+        for (StiffnessRow of_method : squares()) {
+            of_method.setting.method = method;
+            of_method.stiffness_n_m = std::pow(of_method.setting.iterations, power);
+            rows.push_back(of_method);
+        }
+    const auto ratios = stiffness_ratios(rows, Varied::iterations);
+    ASSERT_EQ(ratios.size(), 4u);
+    for (const auto& ratio : ratios) {
+        EXPECT_NEAR(ratio.low, ratio.high, 1e-10);
+        const bool beside = ratio.quantity != "effective stiffness at twice the iterations over at the once";
+        EXPECT_EQ(beside, ratio.value > 1.5) << ratio.quantity;
+    }
+    const std::string text = stiffness_text({{Varied::iterations, rows}});
+    for (const char* ratio : {"1 [1, 1]", "2 [2, 2]", "4 [4, 4]"}) EXPECT_NE(text.find(ratio), std::string::npos) << ratio;
+}
+
+// 4 for a doubling against bounds of 0.9 to 1.1, beside one that does not change.
+TEST(StiffnessReport, SaysWhetherTheControlIsOne)
+{
+    std::vector<StiffnessRow> rows = squares();
+    for (StiffnessRow& row : rows) row.setting.method = Method::xpbd;
+    for (StiffnessRow steady : squares()) {
+        steady.setting.method = Method::xpbd;
+        steady.body = "human";
+        steady.stiffness_n_m = 7.0;
+        rows.push_back(steady);
+        steady.setting.method = Method::pbs;
+        rows.push_back(steady);  // no control
+    }
+    analysis::Claim claim;
+    claim.low = 0.9;
+    claim.high = 1.1;
+    const std::string text = control_text({{Varied::iterations, rows}}, claim);
+    EXPECT_EQ(
+        text,
+        "the control, XPBD, at twice the iterations: 1 of 2 figures stay within 0.9 to 1.1; farthest 4, of limb, zone, 30 kPa, 10 ms, "
+        "600 vertices, 12 to 48 iterations\n");
+    const std::string page = control_markdown({{Varied::iterations, rows}}, claim);
+    EXPECT_NE(page.find("| twice the iterations | limb, zone, 30 kPa"), std::string::npos);
+    EXPECT_EQ(page.find("human"), std::string::npos);
+    claim.high = 5.0;
+    EXPECT_NE(control_text({{Varied::iterations, rows}}, claim).find("2 of 2 figures"), std::string::npos);
+    EXPECT_NE(control_markdown({{Varied::iterations, rows}}, claim).find("| none |"), std::string::npos);
+}
+
+// Beside the control, in a line and under a quantity of its own: no figure of the control, nor of any claim.
+TEST(StiffnessReport, TellsForgottenMultipliersApart)
+{
+    std::vector<StiffnessRow> rows = squares();
+    for (StiffnessRow& row : rows) row.setting.method = Method::xpbd_forgetting;
+    analysis::Claim claim;
+    claim.low = 0.9;
+    claim.high = 1.1;
+    const std::vector<SweptRows> sweeps = {{Varied::iterations, rows}};
+    EXPECT_EQ(control_text(sweeps, claim).find("the control, XPBD without its multipliers, at twice the iterations: 0 of 1 figures"), 0u);
+    EXPECT_NE(control_markdown(sweeps, claim).find("| none |"), std::string::npos);
+    EXPECT_NE(stiffness_markdown(sweeps).find("30 kPa, multipliers forgotten"), std::string::npos);
+    EXPECT_TRUE(stiffness_ratios(rows, Varied::iterations).at(0).quantity.ends_with("over at the once, xpbd, multipliers forgotten"));
+}
+
+TEST(StiffnessRow, ReadsBackWhatWasWritten)
+{
+    std::vector<StiffnessRow> rows = squares();
+    rows[0].mesh = "wanted, a tenth finer";
+    rows[1].setting.method = Method::xpbd_small_steps;
+    rows[1].setting.time_step_s = 0.00125;
+    const auto read = stiffness_rows(stiffness_table(rows));
+    ASSERT_EQ(read.size(), rows.size());
+    EXPECT_EQ(read[0].mesh, rows[0].mesh);
+    EXPECT_EQ(read[1].setting.method, Method::xpbd_small_steps);
+    EXPECT_DOUBLE_EQ(read[1].setting.time_step_s, 0.00125);
+    EXPECT_EQ(read[2].stiffness_n_m, rows[2].stiffness_n_m);
+}
+
+}  // namespace

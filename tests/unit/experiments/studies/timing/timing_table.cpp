@@ -1,0 +1,90 @@
+// Truth: timings made up; Table 1 as the paper prints it.
+#include "experiments/studies/timing/timing_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace {
+
+using namespace experiments;
+
+Spread spread(double median)
+{
+    return {median, 0.5 * median, 2.0 * median, 5};
+}
+
+FrameTiming of_variant(const char* variant, const char* precision, double total_ms, double wall_ms)
+{
+    FrameTiming timing{.variant = variant, .precision = precision};
+    for (Spread FrameTiming::*part :
+         {&FrameTiming::lbs_ms, &FrameTiming::bind_ms, &FrameTiming::stretch_ms, &FrameTiming::volume_ms, &FrameTiming::rest_ms})
+        timing.*part = spread(0.1);
+    timing.total_ms = spread(total_ms);
+    timing.total_wall_ms = spread(wall_ms);
+    return timing;
+}
+
+TimedMesh man()
+{
+    TimedMesh mesh{.name = "man_1654", .body = "man", .model = "Man"};
+    mesh.vertices = 1654;
+    mesh.edges = 3 * 6342;
+    mesh.tets = 2 * 4998;
+    mesh.cpu_model = "a processor";
+    mesh.timings = {of_variant("plain", "f64", 1.6, 2.0), of_variant("plain", "f32", 1.0, 4.0), of_variant("ordered", "f32", 0.5, 1.0)};
+    return mesh;
+}
+
+double figure(const std::vector<analysis::Measurement>& measured, const std::string& quantity)
+{
+    for (const auto& one : measured)
+        if (one.quantity == quantity) return one.value;
+    ADD_FAILURE() << quantity;
+    return 0.0;
+}
+
+TEST(TimingTable, StandsBesideTableOne)
+{
+    const analysis::CsvTable table = timing_table(man());
+    EXPECT_EQ(table.number(0, "vertices_over_table_1"), 1.0);
+    EXPECT_EQ(table.number(0, "edges_over_table_1"), 3.0);
+    EXPECT_EQ(table.number(0, "tets_over_table_1"), 2.0);
+    EXPECT_EQ(table.number(0, "frames_per_s"), 500.0);
+    EXPECT_EQ(table.number(0, "total_wall_ms_high"), 4.0);
+    EXPECT_EQ(table.text_at(0, "cpu_model"), "a processor");
+    EXPECT_NEAR(table.number(0, "paper_ms"), 1e3 / 90.5, 1e-12);
+    EXPECT_NEAR(table.number(0, "paper_ct_ms"), 0.52, 1e-12);
+    EXPECT_FALSE(table.number_or_nothing(0, "surface_ms"));
+    EXPECT_FALSE(table.number_or_nothing(0, "drawn_frames_per_s"));
+}
+
+TEST(TimingTable, CountsTheSurfaceWhereThereIsOne)
+{
+    TimedMesh mesh = man();
+    mesh.timings[0].drawn_wall_ms = spread(2.5);
+    const analysis::CsvTable table = timing_table(mesh);
+    EXPECT_EQ(table.number(0, "drawn_frames_per_s"), 400.0);
+    EXPECT_EQ(table.number(0, "frames_per_s"), 500.0);
+}
+
+// By wall time; plain and f64 alone are judged.
+TEST(TimingTable, FiguresOfTheClaim)
+{
+    const auto measured = timing_measurements(man());
+    EXPECT_EQ(measured[0].quantity, "frames a second");
+    EXPECT_EQ(measured[0].of, "man, 1654 vertices, 01_01, plain f64, one core");
+    EXPECT_EQ(measured[0].value, 500.0);
+    EXPECT_EQ(measured[0].low, 250.0);
+    EXPECT_EQ(measured[0].high, 1000.0);
+    EXPECT_EQ(std::count_if(measured.begin(), measured.end(), [](const auto& one) { return one.quantity == "frames a second"; }), 1);
+    EXPECT_EQ(figure(measured, "frames a second of processor time"), 625.0);
+    EXPECT_EQ(figure(measured, "frames a second, plain f32"), 250.0);
+    EXPECT_EQ(figure(measured, "frames a second, ordered f32"), 1000.0);
+    EXPECT_NEAR(figure(measured, "frames a second over Table 1's"), 500.0 / 90.5, 1e-12);
+    TimedMesh of_the_ladder = man();
+    of_the_ladder.model.clear();
+    EXPECT_TRUE(timing_measurements(of_the_ladder).empty());
+}
+
+}  // namespace

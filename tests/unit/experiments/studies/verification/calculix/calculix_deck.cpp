@@ -1,0 +1,126 @@
+// Truth: CalculiX's manual. A number has 20 characters at most, *BOUNDARY lists node, first and last component, value; *CLOAD node,
+// component, value; C3D10's middle nodes lie on the edges 12 23 31 14 24 34.
+#include "experiments/studies/verification/calculix/calculix_deck.hpp"
+#include "tests/unit/experiments/studies/verification/calculix/one_tet_problem.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <random>
+#include <sstream>
+
+namespace {
+
+using namespace experiments;
+
+std::string deck_of(const NodalProblem& problem, const DeckOptions& options = {})
+{
+    std::ostringstream deck;
+    write_calculix_deck(deck, problem, options);
+    return deck.str();
+}
+
+// The lines between a card and the next.
+std::vector<std::string> lines_of(const std::string& deck, const std::string& card)
+{
+    std::vector<std::string> lines;
+    std::istringstream text(deck);
+    bool inside = false;
+    for (std::string line; std::getline(text, line);) {
+        if (line.starts_with('*'))
+            inside = line == card;
+        else if (inside)
+            lines.push_back(line);
+    }
+    return lines;
+}
+
+TEST(CalculixNumber, FitsIntoTwentyCharactersWithThirteenDigits)
+{
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> mantissa(-1.0, 1.0), exponent(-200.0, 200.0);
+    for (int i = 0; i < 10000; ++i) {
+        const double value = mantissa(random) * std::pow(10.0, exponent(random));
+        const std::string text = calculix_number(value);
+        ASSERT_LE(text.size(), 20u) << text;
+        ASSERT_NEAR(std::stod(text), value, 1e-12 * std::abs(value)) << text;
+    }
+}
+
+TEST(CalculixNumber, CoordinatesOfAFewMetresKeepEveryDigitOrNearlyEvery)
+{
+    std::mt19937_64 random(2);
+    std::uniform_real_distribution<double> coordinate(-5.0, 5.0);
+    for (int i = 0; i < 10000; ++i) {
+        const double value = coordinate(random);
+        ASSERT_NEAR(std::stod(calculix_number(value)), value, 6e-18 + 1e-16 * std::abs(value));
+    }
+    for (const double exact : {0.0, 1.0, -0.5, 1e5, 0.1, -0.12345678901234567, 1.0 / 3.0})
+        EXPECT_EQ(std::stod(calculix_number(exact)), exact);
+}
+
+TEST(CalculixNumber, ExtremesAreNotCut)
+{
+    for (const double extreme : {-std::numeric_limits<double>::max(), -std::numeric_limits<double>::min(), -1.2345678901234567e-5}) {
+        EXPECT_LE(calculix_number(extreme).size(), 20u);
+        EXPECT_NEAR(std::strtod(calculix_number(extreme).c_str(), nullptr) / extreme, 1.0, 1e-12);
+    }
+}
+
+TEST(CalculixDeck, WritesNodesTetsAndMaterial)
+{
+    const std::string deck = deck_of(test_support::one_tet_problem(1));
+    EXPECT_EQ(lines_of(deck, "*NODE, NSET=NODES"), (std::vector<std::string>{"1, 0, 0, 0", "2, 1, 0, 0", "3, 0, 1, 0", "4, 0, 0, 0.1"}));
+    EXPECT_EQ(lines_of(deck, "*ELEMENT, TYPE=C3D4, ELSET=TETS"), std::vector<std::string>{"1, 1, 2, 3, 4"});
+    EXPECT_EQ(lines_of(deck, "*ELASTIC"), std::vector<std::string>{"2e+05, 0.25"});
+}
+
+TEST(CalculixDeck, PutsMiddleNodesOnTheEdgesOfC3D10)
+{
+    const NodalProblem problem = test_support::one_tet_problem(2);
+    ASSERT_EQ(problem.nodes.rows(), 10);
+    const std::vector<std::string> tets = lines_of(deck_of(problem), "*ELEMENT, TYPE=C3D10, ELSET=TETS");
+    ASSERT_EQ(tets.size(), 1u);
+    std::istringstream words(tets.front());
+    std::vector<int> tet;
+    for (std::string word; std::getline(words, word, ',');) tet.push_back(std::stoi(word));
+    ASSERT_EQ(tet.size(), 11u);
+    const int edges_of_c3d10[6][2] = {{1, 2}, {2, 3}, {3, 1}, {1, 4}, {2, 4}, {3, 4}};
+    const auto position = [&](int place) { return problem.nodes.row(tet[place] - 1).eval(); };
+    for (int k = 0; k < 6; ++k)
+        EXPECT_EQ(position(5 + k), (position(edges_of_c3d10[k][0]) + position(edges_of_c3d10[k][1])) / 2.0) << "middle node " << 5 + k;
+}
+
+TEST(CalculixDeck, HoldsAndLoadsWhatTheProblemSays)
+{
+    const std::string deck = deck_of(test_support::one_tet_problem(1));
+    EXPECT_EQ(lines_of(deck, "*BOUNDARY"),
+              (std::vector<std::string>{"1, 1, 1, 0", "1, 2, 2, 0", "1, 3, 3, 0", "3, 1, 1, 0.5", "3, 2, 2, 0", "3, 3, 3, -0.25"}));
+    EXPECT_EQ(lines_of(deck, "*CLOAD"), (std::vector<std::string>{"4, 1, 0", "4, 2, -1.5", "4, 3, 0"}));
+    EXPECT_EQ(deck.find("*DLOAD"), std::string::npos);
+    EXPECT_EQ(deck.find("*DENSITY"), std::string::npos);
+}
+
+TEST(CalculixDeck, GravityHasItsSizeAndDirection)
+{
+    NodalProblem problem = test_support::one_tet_problem(1);
+    problem.density_kg_m3 = 1000.0;
+    problem.gravity_m_s2 = {0.0, 3.0, -4.0};
+    const std::string deck = deck_of(problem);
+    EXPECT_EQ(lines_of(deck, "*DLOAD"), std::vector<std::string>{"TETS, GRAV, 5, 0, 0.6, -0.8"});
+    EXPECT_EQ(lines_of(deck, "*DENSITY"), std::vector<std::string>{"1000"});
+}
+
+TEST(CalculixDeck, AsksForTheAnalysis)
+{
+    const NodalProblem problem = test_support::one_tet_problem(1);
+    EXPECT_NE(deck_of(problem).find("*STEP\n*STATIC\n"), std::string::npos);
+    EXPECT_NE(deck_of(problem).find("*RESTART, WRITE\n"), std::string::npos);
+    EXPECT_EQ(deck_of(problem, {.analysis = CalculixAnalysis::none}).find("*STEP"), std::string::npos);
+    EXPECT_NE(deck_of(problem, {.analysis = CalculixAnalysis::large_strain}).find("*STEP, NLGEOM"), std::string::npos);
+    EXPECT_EQ(deck_of(problem, {.restart_file = false}).find("*RESTART"), std::string::npos);
+}
+
+}  // namespace

@@ -1,0 +1,247 @@
+// Diagrams, their tables and their words. Truth: a few points whose fronts and crossings are seen by eye; altered points must change what
+// is said.
+#include "experiments/studies/work_precision/diagram.hpp"
+
+#include "experiments/studies/work_precision/certainty.hpp"
+#include "experiments/studies/work_precision/diagram_tables.hpp"
+#include "experiments/studies/work_precision/findings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+namespace {
+
+using namespace experiments;
+using analysis::CsvTable;
+
+struct Row {
+    std::string deformer, setting;
+    double ms;
+    std::optional<double> error_pct;
+    std::string outcome = "finished";
+    double further_from_second_pct = 1.0;
+};
+
+CsvTable points(const std::string& pose, const std::vector<Row>& rows, double bar_pct = 6.0, const std::string& body = "limb")
+{
+    const auto cell = [](const std::optional<double>& value) { return value ? CsvTable::Cell(*value) : CsvTable::Cell(std::nullopt); };
+    CsvTable table({"body", "pose", "deformer", "setting", "outcome", "ms_median", "ms_q1", "ms_q3", "error_joint_pct",
+                    "error_joint_beside_pct", "reference", "reference_error_joint_pct", "below_reference_error", "error_l2_pct",
+                    "error_linf_m", "volume_abs_change_pct", "reference_self_intersects"});
+    for (const Row& row : rows)
+        table.add_row({body, pose, row.deformer, row.setting, row.outcome, row.ms, row.ms, std::nullopt, cell(row.error_pct),
+                       row.error_pct ? CsvTable::Cell(*row.error_pct + row.further_from_second_pct) : CsvTable::Cell(2.0), "snh_p2",
+                       bar_pct, int(row.error_pct.value_or(99.0) <= bar_pct), cell(row.error_pct), std::nullopt, 10.0 / row.ms,
+                       int(pose == "folded")});
+    return analysis::parse_csv(table.text(), "points.csv");
+}
+
+const std::string pbs_24 = "24 iterations, k_stretch 0.2, ordered f32";
+
+std::vector<Row> rows(double mush_pct)
+{
+    return {{"lbs", "", 0.01, 60.0},
+            {"dqs", "", 0.02, 50.0},
+            {"delta_mush", "20 iterations", 0.5, mush_pct},
+            {"pbs", pbs_24, 0.7, 20.0},
+            {"xpbd", "8 iterations", 0.65, 25.0},
+            {"fem_linear", "P1", 5.0, 30.0},
+            {"fem_corotational", "P1", 100.0, 5.0},
+            {"fem_stable_neo_hookean", "P2", 900.0, std::nullopt, "reference"}};
+}
+
+Diagram diagram(double mush_pct)
+{
+    return diagrams_of({points("90 deg", rows(mush_pct))}).front();
+}
+
+bool says(const std::vector<std::string>& lines, const std::string& text)
+{
+    return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) { return line.find(text) != std::string::npos; });
+}
+
+TEST(Diagram, HoldsThePointsWithTimeAndErrorAndTheReferenceBeside)
+{
+    const Diagram read = diagram(30.0);
+    EXPECT_EQ(read.name, "limb, 90 deg");
+    EXPECT_EQ(read.points.size(), 7u);
+    EXPECT_EQ(read.reference, "snh_p2");
+    EXPECT_EQ(read.reference_ms, 900.0);
+    EXPECT_EQ(read.reference_error_pct, 6.0);
+    EXPECT_EQ(read.reference_difference_pct, 2.0);
+    EXPECT_TRUE(read.points.back().below_reference_error);
+}
+
+TEST(Diagram, AMeanTakesThreePosesAndTheSettingsThatAllOfThemHave)
+{
+    std::vector<Row> other = rows(36.0), without = rows(24.0);
+    without.erase(without.begin() + 1);  // no DQS
+    const auto two = diagrams_of({points("a", rows(30.0)), points("b", other)});
+    EXPECT_EQ(two.size(), 2u);
+    const auto three = diagrams_of({points("a", rows(30.0)), points("b", other), points("c", without)});
+    ASSERT_EQ(three.size(), 4u);
+    const Diagram& mean = three[3];
+    EXPECT_EQ(mean.name, "limb, mean of 3 poses");
+    EXPECT_EQ(mean.points.size(), 6u);
+    EXPECT_NEAR(mean.points[1].error_pct, 30.0, 1e-12);
+    EXPECT_NEAR(mean.points[1].beside_pct.value(), 31.0, 1e-12);
+    EXPECT_NEAR(mean.points[1].ms_q1.value(), 0.5, 1e-12);
+    EXPECT_FALSE(mean.points[1].ms_q3);
+}
+
+TEST(Diagram, AMeanThrowsNoBodyOfManyPosesTogetherWithOthersOfOne)
+{
+    std::vector<CsvTable> tables;
+    for (const char* pose : {"crouch", "standing", "folded"}) tables.push_back(points(pose, rows(30.0), 6.0, "human"));
+    for (const char* body : {"man", "lady"}) tables.push_back(points("crouch", rows(60.0), 6.0, body));
+    for (const char* body : {"limb twist", "limb bend"}) tables.push_back(points("90 deg", rows(90.0), 6.0, body));
+    const auto diagrams = diagrams_of(tables);
+    ASSERT_EQ(diagrams.size(), 9u);
+    EXPECT_EQ(diagrams[7].name, "human, mean of 3 poses");
+    EXPECT_NEAR(diagrams[7].points[2].error_pct, 30.0, 1e-12);
+    EXPECT_EQ(diagrams[8].name, "crouch, mean of 3 bodies");
+    EXPECT_NEAR(diagrams[8].points[2].error_pct, 50.0, 1e-12);
+    EXPECT_TRUE(says(findings(diagrams[7]), "the references of 1 of the 3 poses intersect themselves"));
+    EXPECT_TRUE(says(findings(diagrams[2]), "the reference snh_p2 intersects itself"));
+    EXPECT_FALSE(says(findings(diagrams[8]), "intersect"));
+}
+
+TEST(Diagram, WithoutAReferenceHasNoPointsAndSaysSo)
+{
+    std::vector<Row> unreached = rows(30.0);
+    for (Row& row : unreached) row.error_pct.reset(), row.outcome = "finished";
+    unreached.back().outcome = "not_converged";
+    const Diagram empty = diagrams_of({points("90 deg", unreached)}).front();
+    EXPECT_TRUE(empty.points.empty());
+    EXPECT_TRUE(says(findings(empty), "no reference was reached"));
+    EXPECT_EQ(fronts_table({empty}).rows(), 0);
+    EXPECT_EQ(crossings_table({empty}).rows(), 0);
+}
+
+TEST(DiagramTables, FrontsOfAllAndOfEachDeformer)
+{
+    const CsvTable fronts = analysis::parse_csv(fronts_table({diagram(30.0)}).text(), "fronts.csv");
+    std::vector<std::string> all;
+    for (int row = 0; row < fronts.rows(); ++row)
+        if (fronts.text_at(row, "front") == "all" && fronts.text_at(row, "measure") == "error_joint_pct")
+            all.push_back(fronts.text_at(row, "deformer"));
+    EXPECT_EQ(all, (std::vector<std::string>{"lbs", "dqs", "delta_mush", "xpbd", "pbs", "fem_corotational"}));
+    // Joints and L2 are the same here; nothing is known of the maximum; of volume, which falls with time, all points are on the front.
+    EXPECT_EQ(fronts.rows(), 2 * (6 + 7) + (7 + 7));
+    EXPECT_EQ(fronts.text_at(0, "ms_q3"), "");
+    EXPECT_EQ(fronts.text_at(fronts.rows() - 1, "measure"), "volume_abs_change_pct");
+    EXPECT_EQ(fronts.number(fronts.rows() - 1, "value"), 0.1);
+}
+
+// One against another: outcome, from, told apart, holds beside.
+std::vector<std::string> crossing(const Diagram& of, const std::string& one, const std::string& other)
+{
+    const CsvTable table = analysis::parse_csv(crossings_table({of}).text(), "crossings.csv");
+    for (int row = 0; row < table.rows(); ++row)
+        if (table.text_at(row, "deformer") == one && table.text_at(row, "other") == other)
+            return {table.text_at(row, "outcome"), table.text_at(row, "from_ms"), table.text_at(row, "told_apart"),
+                    table.text_at(row, "holds_beside")};
+    return {};
+}
+
+TEST(DiagramTables, CrossingsTurnRoundWithTheErrors)
+{
+    EXPECT_EQ(crossing(diagram(33.0), "PBS", "delta mush"), (std::vector<std::string>{"from", "0.7", "1", "1"}));
+    EXPECT_EQ(crossing(diagram(31.0), "PBS", "delta mush"), (std::vector<std::string>{"from", "0.7", "0", "1"}));  // by less than 2 x 6 %
+    EXPECT_EQ(crossing(diagram(15.0), "PBS", "delta mush"), (std::vector<std::string>{"never", "", "", ""}));
+    EXPECT_EQ(crossing(diagram(15.0), "LBS", "DQS")[0], "never");
+    EXPECT_EQ(crossing(diagram(15.0), "delta mush", "PBS")[0], "always");
+}
+
+Diagram where_pbs_is_further_from_the_second(double by_pct)
+{
+    std::vector<Row> altered = rows(33.0);
+    altered[3].further_from_second_pct = by_pct;
+    return diagrams_of({points("90 deg", altered)}).front();
+}
+
+TEST(Certainty, HangsOnTheBoundAndOnTheSecondSolution)
+{
+    const auto of = [](const Diagram& diagram) { return certainty_of(diagram, diagram.points[3], diagram.points[2]); };
+    EXPECT_EQ(of(diagram(33.0)), Certainty::told_apart);  // 33 - 20 > 2 x 6
+    EXPECT_EQ(of(diagram(31.0)), Certainty::both_solutions);
+    EXPECT_EQ(of(where_pbs_is_further_from_the_second(13.9)), Certainty::told_apart);
+    EXPECT_EQ(of(where_pbs_is_further_from_the_second(14.0)), Certainty::one_solution);  // 34 % both
+    Diagram without = diagram(33.0);
+    without.reference_error_pct.reset();
+    EXPECT_EQ(of(without), Certainty::not_known);
+    Diagram itself = diagram(33.0);
+    itself.points[3].beside_pct.reset();
+    EXPECT_EQ(of(itself), Certainty::not_known);
+}
+
+TEST(Certainty, OfAllTimesIsTheLeast)
+{
+    std::vector<Row> later = rows(33.0);
+    later.push_back({"delta_mush", "50 iterations", 2.0, 21.0});
+    const Diagram closer = diagrams_of({points("90 deg", later)}).front();
+    EXPECT_EQ(certainty_from(diagram(33.0), group_of("pbs"), group_of("delta_mush"), 0.7), Certainty::told_apart);
+    EXPECT_EQ(certainty_from(closer, group_of("pbs"), group_of("delta_mush"), 0.7), Certainty::both_solutions);
+    EXPECT_EQ(certainty_from(closer, group_of("pbs"), group_of("pbs_exponent"), 0.0), std::nullopt);
+}
+
+TEST(Certainty, IsSaidBehindTheSentence)
+{
+    const auto pbs_or_mush = [](const Diagram& diagram) {
+        for (const std::string& line : findings(diagram))
+            if (line.starts_with("PBS is nearer than delta mush")) return line;
+        return std::string();
+    };
+    EXPECT_TRUE(pbs_or_mush(diagram(33.0)).ends_with("20.0 %)"));
+    EXPECT_TRUE(
+        pbs_or_mush(diagram(31.0))
+            .ends_with(
+                "[within the reference's own bar of up to 6.0 %, though so against both solutions; the two solutions differ by 2.0 %]"));
+    EXPECT_TRUE(pbs_or_mush(where_pbs_is_further_from_the_second(20.0)).find("[undecided: not so against the second solution") !=
+                std::string::npos);
+}
+
+TEST(Certainty, OfTheSecondSolutionItselfIsNotKnown)
+{
+    Diagram itself = diagram(33.0);
+    itself.points[3].beside_pct.reset();
+    EXPECT_TRUE(
+        says(findings(itself), "20.0 %) [undecided: one of the two is the second solution itself; the two solutions differ by 2.0 %]"));
+}
+
+TEST(Findings, SayWhatTheFiguresSay)
+{
+    const std::vector<std::string> lines = findings(diagram(30.0));
+    EXPECT_TRUE(says(lines, "below 0.5 ms a frame only LBS and DQS are there; delta mush is the next"));
+    EXPECT_TRUE(says(lines, "from 100 ms nonlinear FEM is nearest: 5.0 % off"));
+    EXPECT_TRUE(says(lines, "PBS is nearer than delta mush from 0.7 ms on"));
+    EXPECT_TRUE(says(lines, "the physics takes 33 % off the error of geometry alone"));
+    EXPECT_TRUE(says(lines, "differ by 2.0 %: 0 of 7 points lie below that"));
+    EXPECT_TRUE(says(lines, "up to 6.0 % off: 1 lie below that"));
+    EXPECT_TRUE(says(lines, "linear FEM does not stay nearer than PBS however long it takes (30.0 and 20.0 % at best) [within"));
+    const std::vector<std::string> other = findings(diagram(16.0));
+    EXPECT_TRUE(says({physics_text(diagram(30.0))},
+                     "within the 0.5 ms of delta mush at its best, 20 iterations: delta mush 30.0 % off, PBS not so quick"));
+    EXPECT_TRUE(says(other, "PBS does not stay nearer than delta mush"));
+    EXPECT_TRUE(says(other, "the physics adds 25 % to the error of geometry alone"));
+}
+
+TEST(Findings, EveryDeformerOfTheStudyHasAGroup)
+{
+    EXPECT_EQ(group_of("xpbd_small_steps").words, "XPBD");
+    EXPECT_THROW(group_of("wishful"), std::logic_error);
+}
+
+TEST(WorkPrecisionFindings, OneRefinementIsToldWhereBothSolutionsAreThere)
+{
+    std::vector<Row> with = rows(30.0);
+    with.push_back({"fem_stable_neo_hookean", "P1", 90.0, 9.0});
+    EXPECT_FALSE(says(findings(diagrams_of({points("90 deg", with)}).front()), "refinement"));
+    with.push_back({"fem_stable_neo_hookean", "P1, tets cut into eight", 800.0, 3.0});
+    EXPECT_TRUE(says(findings(diagrams_of({points("90 deg", with)}).front()), "order 1 is 9.0 % off on the case's own tets, 3.0 %"));
+}
+
+}  // namespace

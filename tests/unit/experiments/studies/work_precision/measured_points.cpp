@@ -1,0 +1,205 @@
+// Where errors are measured and by which reference. Truth: a rigid motion and an affine field are carried exactly by barycentric
+// coordinates; the grid convergence index worked by hand; the choice of the reference by its header.
+#include "experiments/studies/work_precision/reached_reference.hpp"
+
+#include "experiments/run/frame_measurement.hpp"
+#include "experiments/studies/work_precision/measured_points.hpp"
+#include "experiments/studies/work_precision/point_row.hpp"
+#include "experiments/studies/work_precision/posed_deformer.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <set>
+
+namespace {
+
+using namespace experiments;
+
+std::shared_ptr<const pbs::Character> limb(int vertices)
+{
+    return std::make_shared<pbs::Character>(pbs::make_character({.body = "limb", .vertices = vertices}));
+}
+
+pbs::Positions affine(const pbs::Positions& rest)
+{
+    Eigen::Matrix3d gradient;
+    gradient << 0.9, 0.2, -0.1, 0.0, 1.1, 0.3, 0.2, -0.2, 0.8;
+    return (rest * gradient.transpose()).rowwise() + Eigen::RowVector3d(0.3, -1.0, 2.0);
+}
+
+TEST(BodyMesh, CarriesAnAffineFieldExactlyFromACoarserAndFromAFinerMesh)
+{
+    const auto base = limb(400);
+    for (const int vertices : {300, 900}) {
+        const BodyMesh other({.body = "limb"}, vertices, *base);
+        EXPECT_NE(other.character().mesh.rest.rows(), base->mesh.rest.rows());
+        const double error_m = (other.on_base(affine(other.character().mesh.rest)) - affine(base->mesh.rest)).cwiseAbs().maxCoeff();
+        EXPECT_LT(error_m, 1e-12) << vertices;                // some hundred roundings of numbers up to 3
+        EXPECT_LT(other.largest_distance_outside_m(), 0.03);  // a fifth of the radius
+    }
+}
+
+TEST(BodyMesh, OfTheBaseItselfAndCutIntoEightKeepsTheBasesVertices)
+{
+    const auto base = limb(300);
+    const BodyMesh own(base), fine = BodyMesh::refined(*base);
+    EXPECT_EQ(fine.character().mesh.tets.rows(), 8 * base->mesh.tets.rows());
+    for (const BodyMesh* mesh : {&own, &fine}) EXPECT_EQ(mesh->on_base(mesh->character().mesh.rest), base->mesh.rest);
+}
+
+class Choice : public testing::Test {
+protected:
+    void add(int element_order, const BodyMesh& mesh, int vertices, bool refined, double moved_m, bool finished = true)
+    {
+        PointSetting setting{"fem_stable_neo_hookean", "P" + std::to_string(element_order), {}};
+        setting.spec.kind = "fem";
+        setting.spec.fem.model = reference_fem::Model::stable_neo_hookean;
+        setting.spec.fem.element_order = element_order;
+        setting.vertices = vertices;
+        setting.refined = refined;
+        settings_.push_back(std::make_unique<PointSetting>(setting));
+        pbs::Positions moved = base_->mesh.rest;
+        moved.col(1).array() += moved_m;
+        ReachedPoint point;
+        point.setting = settings_.back().get();
+        point.mesh = &mesh;
+        point.shape.finished = finished;
+        point.on_base = moved;
+        points_.push_back(point);
+    }
+    ReachedReference choose() const
+    {
+        return choose_reference(points_, base_->mesh.rest.rows(), analysis::ErrorRuler(error_domain(*base_, {})));
+    }
+
+    std::shared_ptr<const pbs::Character> base_ = limb(400);
+    BodyMesh own_{base_}, coarse_{{.body = "limb"}, 300, *base_}, finer_{{.body = "limb"}, 900, *base_};
+    std::vector<std::unique_ptr<PointSetting>> settings_;
+    std::vector<ReachedPoint> points_;
+};
+
+TEST_F(Choice, AQuadraticSolutionIsTheReferenceTheCoarserQuadraticOneStandsBeside)
+{
+    add(1, own_, 0, false, 0.0);
+    add(2, own_, 0, false, 0.0);
+    add(2, finer_, 900, false, 0.0);
+    add(2, coarse_, 300, false, 0.01);
+    const ReachedReference reference = choose();
+    EXPECT_EQ(reference.point, &points_[1]);
+    EXPECT_EQ(reference.beside, &points_[3]);
+    const auto nodes = [](const BodyMesh& mesh) {
+        return double(mesh.character().mesh.rest.rows() + pbs::edges_of(mesh.character().mesh.tets).rows());
+    };
+    const double ratio = std::cbrt(nodes(own_) / nodes(coarse_));
+    ASSERT_TRUE(reference.bar);
+    EXPECT_NEAR(reference.bar->linf_m, 3.0 * 0.01 / (ratio - 1.0), 1e-12);
+}
+
+TEST_F(Choice, OneThatIsNotReachedGivesWayToTheLinearOne)
+{
+    add(1, own_, 0, false, 0.0);
+    add(2, own_, 0, false, 0.0, false);
+    add(2, coarse_, 300, false, 0.01);
+    const ReachedReference reference = choose();
+    EXPECT_EQ(reference.point, &points_[0]);
+    EXPECT_EQ(reference.beside, nullptr);  // of another element order on another mesh
+    EXPECT_FALSE(reference.bar);
+}
+
+TEST_F(Choice, BesideALinearOneStandsThatOnTetsCutIntoEight)
+{
+    const BodyMesh fine = BodyMesh::refined(*base_);
+    add(1, own_, 0, false, 0.0);
+    add(1, coarse_, 300, false, 0.02);
+    add(1, fine, 0, true, 0.01);
+    const ReachedReference reference = choose();
+    EXPECT_EQ(reference.point, &points_[0]);
+    EXPECT_EQ(reference.beside, &points_[2]);
+    const double ratio = std::cbrt(double(fine.character().mesh.rest.rows()) / double(base_->mesh.rest.rows()));
+    ASSERT_TRUE(reference.bar);
+    EXPECT_NEAR(reference.bar->linf_m, 3.0 * 0.01 * ratio / (ratio - 1.0), 1e-12);  // of the coarser of the two
+}
+
+TEST_F(Choice, WithoutASolutionThereIsNone)
+{
+    add(1, own_, 0, false, 0.0, false);
+    EXPECT_EQ(choose().point, nullptr);
+    points_.clear();
+    EXPECT_EQ(choose().point, nullptr);
+}
+
+TEST(PointSettings, AreEachOnceInWordsAndEightOrMoreOfEachDeformerWithSomethingToSet)
+{
+    SettingRange range;
+    range.coarser_vertices = {300, 400, 500, 600};
+    range.quadratic = range.quadratic_corotational = false;
+    range.quadratic_up_to = 500;
+    const std::vector<PointSetting> settings = point_settings(read_scene("limb_twist", {}), range);
+    std::set<std::string> words;
+    std::map<std::string, int> of_deformer;
+    for (const PointSetting& setting : settings) {
+        EXPECT_TRUE(words.insert(setting.deformer + ": " + setting.words).second) << setting.deformer << ": " << setting.words;
+        ++of_deformer[setting.deformer];
+    }
+    for (const auto& [deformer, count] : of_deformer) EXPECT_GE(count, deformer == "lbs" || deformer == "dqs" ? 1 : 8) << deformer;
+    EXPECT_EQ(of_deformer["lbs"], 5);  // and on the other meshes
+    EXPECT_EQ(of_deformer.size(), 10u);
+}
+
+TEST(PointSettings, HaveADigestOfAllTheyHangOn)
+{
+    std::vector<PointSetting> settings = point_settings(read_scene("limb_twist", {}), {});
+    const std::string digest = digest_of(settings);
+    EXPECT_EQ(digest_of(point_settings(read_scene("limb_twist", {}), {})), digest);
+    settings.back().spec.fem.nested_start = !settings.back().spec.fem.nested_start;
+    EXPECT_NE(digest_of(settings), digest);
+}
+
+TEST(FrameTimes, DropAndCountTheRoundsThatFailed)
+{
+    const double failed = std::nan("");
+    const FrameTime time = frame_time({failed, 1.0, 5.0, failed, 2.0});
+    EXPECT_EQ(time.failed_rounds, 2);
+    ASSERT_TRUE(time.ms);
+    EXPECT_EQ(time.ms->rounds, 3);
+    EXPECT_EQ(time.ms->median, 2.0);
+    EXPECT_FALSE(frame_time({failed, failed}).ms);
+}
+
+TEST_F(Choice, QuartilesAreOfThreeRoundsOrMore)
+{
+    add(1, own_, 0, false, 0.0);
+    points_[0].shape.positions = base_->mesh.rest;
+    for (const std::vector<double>& samples : {std::vector{1.0, 2.0}, {1.0, 2.0, 4.0}}) {
+        analysis::CsvTable table(point_columns());
+        PointFigures figures;
+        figures.time = frame_time(samples);
+        table.add_row(point_row(points_[0], {}, figures));
+        const analysis::CsvTable read = analysis::parse_csv(table.text(), "points.csv");
+        EXPECT_EQ(read.number_or_nothing(0, "ms_q1").has_value(), samples.size() == 3u);
+        EXPECT_EQ(read.number_or_nothing(0, "ms_q3").has_value(), samples.size() == 3u);
+        EXPECT_EQ(read.integer(0, "rounds"), static_cast<long long>(samples.size()));
+    }
+}
+
+TEST(PosedDeformers, TellARoundThatDoesNotArriveAndTheOneThatSetsOutFromThere)
+{
+    const auto body = limb(300);
+    const PointSetting setting{"pbs", "", {.name = "pbs", .kind = "pbs", .label = "pbs", .pbs = {}, .fem = {}}, 2};
+    pbs::Pose rest(body->skeleton.bones.size(), Eigen::Isometry3d::Identity()), nowhere = rest;
+    for (Eigen::Isometry3d& bone : nowhere) bone.translation().setConstant(std::nan(""));
+    const PosePair there_and_back{rest, rest}, there_and_nowhere{rest, nowhere}, nowhere_and_back{nowhere, rest};
+    PosedDeformer good(setting, *body, there_and_back), lost(setting, *body, there_and_nowhere);
+    EXPECT_TRUE(good.reach().finished);
+    EXPECT_GT(good.turn().at(0), 0.0);
+    EXPECT_TRUE(lost.reach().finished);
+    EXPECT_TRUE(std::isnan(lost.turn().at(0)));
+    EXPECT_TRUE(std::isnan(lost.turn().at(0)));  // back, but not from the other pose
+    EXPECT_FALSE(PosedDeformer(setting, *body, nowhere_and_back).reach().finished);
+}
+
+}  // namespace

@@ -1,0 +1,70 @@
+// Truth: what was put into run.json.
+#include "experiments/verdicts/marked_frames.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using experiments::marked_frames;
+
+class MarkedFrames : public testing::Test {
+protected:
+    std::string marks_of(const std::string& run_json)
+    {
+        std::filesystem::create_directories(scratch / "limb_bend");
+        scratch.file("limb_bend/run.json", run_json);
+        return marked_frames({scratch / "limb_bend"});
+    }
+    std::string refusal_of(const std::string& run_json)
+    {
+        try {
+            return "accepted: " + marks_of(run_json);
+        } catch (const pbs::InputError& error) {
+            return error.what();
+        }
+    }
+
+    test_support::ScratchFolder scratch;
+};
+
+TEST_F(MarkedFrames, EachDeformersFirstBrokenFrameIsNamed)
+{
+    EXPECT_EQ(marks_of(R"({"outcome": {"frames": 31, "broken_frames": {
+                  "pbs": [{"frame": 2, "what": "not_finite", "step": 7, "first_vertex": 17, "vertices_not_finite": 120}],
+                  "snh_p1": [{"frame": 18, "what": "inverted", "worst_tet": 812, "volume_ratio": -0.04, "inverted_tets": 3},
+                             {"frame": 19, "what": "not_converged", "worst_tet": 5, "volume_ratio": 0.5, "inverted_tets": 0}]}}})"),
+              "     limb_bend: pbs broke in 1 of 31 frames (1 not finite), the first not finite in frame 2 (in step 7, before it): "
+              "first at vertex 17, 120 not finite\n"
+              "     limb_bend: snh_p1 broke in 2 of 31 frames (1 inverted, 1 not converged), the first inverted in frame 18: worst tet "
+              "812 of volume ratio -0.04, 3 inverted\n");
+}
+
+TEST_F(MarkedFrames, SelfIntersectionsAndErrorsBelowTheReferences)
+{
+    EXPECT_EQ(marks_of(R"({"outcome": {"frames": 31, "self_intersecting_reference_frames": 4,
+                                       "frames_below_reference_error": {"pbs": 2}}})"),
+              "     limb_bend: the reference intersects itself in 4 of 31 frames; their errors are marked\n"
+              "     limb_bend: the error of pbs at the joints is not above the reference's own in 2 of 31 frames\n");
+}
+
+TEST_F(MarkedFrames, WorkAndSoundRunsHaveNone)
+{
+    EXPECT_EQ(marks_of(R"({"outcome": {"finished": true, "breakdown": ""}})"), "");
+    EXPECT_EQ(marks_of(R"({"outcome": {"frames": 31, "broken_frames": {}, "self_intersecting_reference_frames": 0}})"), "");
+}
+
+TEST_F(MarkedFrames, WhatSomebodyElseMadeOfARecordIsRefusedWithItsFile)
+{
+    const std::string refusal =
+        scratch / "limb_bend/run.json" + ": expected a record as this program writes it: it was changed, or cut short";
+    for (const char* text : {"", "{\"outcome\": ", "[]", R"({"outcome": 3})", R"({"outcome": {"self_intersecting_reference_frames": 4}})",
+                             R"({"outcome": {"self_intersecting_reference_frames": "four", "frames": 31}})",
+                             R"({"outcome": {"broken_frames": {"pbs": []}, "frames": 31}})",
+                             R"({"outcome": {"broken_frames": {"pbs": [{"frame": "two"}]}, "frames": 31}})"})
+        EXPECT_EQ(refusal_of(text), refusal) << text;
+}
+
+}  // namespace

@@ -1,0 +1,96 @@
+// Truth: what the plan says and what is put on disk; a verdict rests on runs that ended, and on no others.
+#include "experiments/verdicts/study_records.hpp"
+
+#include "analysis/atomic_file.hpp"
+#include "analysis/measurement.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace {
+
+using namespace experiments;
+using test_support::ScratchFolder;
+
+StudyPlan plan_of(const std::vector<std::string>& names)
+{
+    StudyPlan plan;
+    for (const std::string& name : names) plan.runs.push_back({.name = name, .work = [](const std::string&) { return std::string(); }});
+    return plan;
+}
+
+void finish(const std::string& study, const std::string& run, double value)
+{
+    const std::filesystem::path folder = std::filesystem::path(study) / run;
+    std::filesystem::create_directories(folder);
+    analysis::measurement_table({{"C07", "linear drift", run, value, value, value, "1"}}).write((folder / "measurements.csv").string());
+    analysis::write_text_atomically((folder / "run.json").string(), "{\"schema\": 1}\n");
+}
+
+TEST(StudyRecords, ComeFromRunsThatEnded)
+{
+    const ScratchFolder root;
+    const std::string study = root / "momentum";
+    write_study_plan(study, plan_of({"limb", "human", "man"}));
+    finish(study, "limb", 1.0);
+    finish(study, "man", 3.0);
+    finish(study, "an_earlier_plan", 4.0);
+    std::filesystem::create_directories(std::filesystem::path(study) / "human");  // killed before its run.json
+    const analysis::Records records = read_study_records(study, root.path().string());
+    ASSERT_EQ(records.measurements.size(), 2u);
+    EXPECT_EQ(records.measurements[0].run, "momentum/limb");
+    EXPECT_EQ(records.measurements[1].value, 3.0);
+    EXPECT_EQ(records.missing_runs, std::vector<std::string>{"human"});
+    EXPECT_TRUE(records.planned_scenes.empty());  // work, no scenes
+}
+
+TEST(StudyRecords, KnowWhatWasPlannedAndLeftOut)
+{
+    const ScratchFolder root;
+    StudyPlan plan = plan_of({"limb"});
+    Scene scene;
+    scene.name = "walk";
+    plan.runs.push_back({.name = "a walk", .scene = scene});
+    plan.left_out = {{"man_01_01", "not installed"}};
+    EXPECT_FALSE(has_study_plan(root / "volume"));
+    write_study_plan(root / "volume", plan);
+    EXPECT_TRUE(has_study_plan(root / "volume"));
+    const analysis::Records records = read_study_records(root / "volume", root.path().string());
+    EXPECT_EQ(records.planned_scenes, (std::vector<std::string>{"walk", "man_01_01"}));
+    ASSERT_EQ(records.left_out.size(), 1u);
+    EXPECT_EQ(records.left_out[0].reason, "not installed");
+}
+
+TEST(StudyRecords, WhatSomebodyElseMadeOfThemIsRefusedByFileAndField)
+{
+    const ScratchFolder root;
+    const std::string study = root / "momentum", plan = study + "/plan.json", run = study + "/limb/run.json";
+    write_study_plan(study, plan_of({"limb"}));
+    finish(study, "limb", 1.0);
+    const auto message_with = [&](const std::string& file, const std::string& text) -> std::string {
+        const std::string whole = analysis::read_text(file);
+        analysis::write_text_atomically(file, text);
+        std::string message = "accepted";
+        try {
+            read_study_records(study, root.path().string());
+        } catch (const pbs::InputError& error) {
+            message = error.what();
+        }
+        analysis::write_text_atomically(file, whole);
+        return message;
+    };
+    EXPECT_EQ(message_with(plan, "{\n\"runs\": ["), plan + ":2: no JSON, or cut short, at byte 12");
+    EXPECT_EQ(message_with(plan, "{\"runs\": []}"), plan + ": left_out: missing");
+    EXPECT_EQ(message_with(plan, "[]"), plan + ": left_out: missing");
+    EXPECT_EQ(message_with(plan, R"({"runs": 3, "left_out": []})"), plan + ": runs: expected a list, as reproduce writes it");
+    EXPECT_EQ(message_with(plan, R"({"runs": [{}], "left_out": []})"), plan + ": name: missing");
+    EXPECT_EQ(message_with(plan, R"({"runs": [{"name": 3}], "left_out": []})"), plan + ": name: expected a text");
+    EXPECT_EQ(message_with(run, "{}"), run + ": schema: missing");
+    EXPECT_EQ(message_with(run, "{\"schema\": 1"), run + ":1: no JSON, or cut short, at byte 13");
+    EXPECT_EQ(message_with(run, "{\"schema\": 1}"), "accepted");
+}
+
+}  // namespace

@@ -1,0 +1,70 @@
+// Truth: the closed form of the recurrence. Along an eigenvector of the step matrix S with the real eigenvalue s, Algorithm 1 is
+//   x(t+1) = s (2 x(t) - x(t-1)),  z^2 - 2 s z + s = 0,  z = s +- i sqrt(s (1 - s)):
+// it swings by acos(sqrt s) a step and keeps sqrt(s) of its amplitude. And damped cosines with a known frequency.
+#include "experiments/studies/fit/release_test.hpp"
+
+#include "tests/support/hanging_tet.hpp"
+
+#include <Eigen/Core>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using namespace experiments;
+
+std::vector<double> damped_cosine(double frequency_hz, double damping_ratio, double dt_s, int samples)
+{
+    std::vector<double> signal;
+    const double omega = 2.0 * std::numbers::pi * frequency_hz, decay = damping_ratio / std::sqrt(1.0 - damping_ratio * damping_ratio);
+    for (int i = 0; i < samples; ++i) signal.push_back(std::exp(-decay * omega * i * dt_s) * std::cos(omega * i * dt_s));
+    return signal;
+}
+
+// Linear interpolation at a crossing of slope omega is off by a third-order term: (omega dt)^3 / 16 of a radian at most; peaks between
+// samples are low by (omega dt)^2 / 8.
+TEST(ReleaseTest, MeasuresADampedCosine)
+{
+    const double dt_s = 0.01, f = 1.3;
+    for (const double damping_ratio : {0.0, 0.01, 0.1}) {
+        const auto test = measure_swing(damped_cosine(f, damping_ratio, dt_s, 400), dt_s);
+        ASSERT_EQ(test.outcome, SwingOutcome::finished);
+        EXPECT_EQ(test.half_periods, 9);
+        EXPECT_NEAR(test.frequency_hz, f, 1e-4 * f);
+        EXPECT_NEAR(test.damping_ratio, damping_ratio, 1e-3);
+        EXPECT_NEAR(test.undamped_hz, f / std::sqrt(1.0 - damping_ratio * damping_ratio), 3e-4 * f);
+    }
+}
+
+TEST(ReleaseTest, SaysThatNothingSwings)
+{
+    std::vector<double> fading;
+    for (int i = 0; i < 100; ++i) fading.push_back(std::exp(-0.1 * i));
+    EXPECT_EQ(measure_swing(fading, 0.01).outcome, SwingOutcome::no_crossing);
+    fading[50] = std::nan("");
+    EXPECT_EQ(measure_swing(fading, 0.01).outcome, SwingOutcome::not_finite);
+}
+
+TEST(ReleaseTest, HangingParticleSwingsByTheEigenvalueOfItsStep)
+{
+    const auto tet = test_support::hanging_tet();
+    const double k_stretch = 0.01, dt_s = 0.01;
+    const Eigen::Matrix3d S = test_support::step_matrix(tet, 1, k_stretch);
+    pbs::Vec3 direction(1.0, 2.0, 3.0);  // by the power method, of the slowest mode
+    for (int i = 0; i < 20000; ++i) direction = (S * direction).normalized();
+    const double s = direction.dot(S * direction);
+    ASSERT_LT((S * direction - s * direction).norm(), 1e-14);
+
+    pbs::Positions displacement = pbs::Positions::Zero(4, 3);
+    displacement.row(3) = 1e-6 * direction.transpose();
+    const auto test = release({tet.mesh, tet.held, test_support::stretch_alone(1, k_stretch), displacement, direction, {3}}, dt_s, 6);
+    ASSERT_EQ(test.outcome, SwingOutcome::finished);
+    const double angle = std::acos(std::sqrt(s)), decay = -std::log(s) / 2.0;
+    EXPECT_NEAR(test.frequency_hz, angle / (2.0 * std::numbers::pi * dt_s), 1e-3 * test.frequency_hz);
+    EXPECT_NEAR(test.damping_ratio, decay / std::hypot(angle, decay), 0.02 * test.damping_ratio);
+    EXPECT_NEAR(test.undamped_hz, std::hypot(angle, decay) / (2.0 * std::numbers::pi * dt_s), 1e-3 * test.undamped_hz);
+}
+
+}  // namespace

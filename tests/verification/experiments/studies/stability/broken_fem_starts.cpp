@@ -1,0 +1,85 @@
+// Truth: theory, and the equilibrium that the same body comes to from its rest pose. Finite elements of which Newton's method starts from
+// shapes that are broken.
+#include "experiments/studies/stability/cell_run.hpp"
+#include "experiments/studies/stability/driven_body.hpp"
+#include "experiments/studies/stability/stability_cells.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace experiments;
+using analysis::StabilityOutcome;
+
+// Of the study: a limb of 400 vertices bent by 90 degrees.
+StabilityCell cell_of(const std::string& model, Start start)
+{
+    for (const StabilityCell& cell : fem_static_cells(false))
+        if (cell.model == model && cell.disturbance.start == start) return cell;
+    ADD_FAILURE() << "no such cell of " << model;
+    return {};
+}
+
+pbs::Positions after_a_step(const StabilityCell& cell)
+{
+    StabilityBody body(cell);
+    const auto driven = make_driven_body(cell, body.character());
+    driven->advance(body.drive(0), cell.time_step_s);
+    return driven->positions();
+}
+
+constexpr Start broken_starts[] = {Start::flattened, Start::mirrored, Start::random, Start::point};
+
+TEST(BrokenFemStarts, EveryModelInEquilibriumIsGivenThem)
+{
+    for (const char* model : {"fem_linear", "fem_corotational", "fem_stable_neo_hookean"})
+        for (const Start start : broken_starts) EXPECT_EQ(cell_of(model, start).spec.fem.element_order, 1);
+}
+
+// Theory: one linear system, whatever was before.
+TEST(BrokenFemStarts, ALinearBodyHasNoStart)
+{
+    StabilityCell cell = cell_of("fem_linear", Start::flattened);
+    const pbs::Positions flattened = after_a_step(cell);
+    for (const Start start : {Start::mirrored, Start::random, Start::point}) {
+        cell.disturbance.start = start;
+        EXPECT_EQ((after_a_step(cell) - flattened).cwiseAbs().maxCoeff(), 0.0);
+    }
+    cell.disturbance.start = Start::none;
+    cell.disturbance.stays = true;
+    EXPECT_EQ((after_a_step(cell) - flattened).cwiseAbs().maxCoeff(), 0.0);
+}
+
+// Its energy is defined for tets turned inside out and for those without a volume.
+TEST(BrokenFemStarts, StableNeoHookeanFleshFindsBackFromBeingMirroredAndFromAPoint)
+{
+    for (const Start start : {Start::mirrored, Start::point}) {
+        const CellResult result = run_cell(cell_of("fem_stable_neo_hookean", start));
+        EXPECT_EQ(result.stability.outcome, StabilityOutcome::converged);
+        EXPECT_EQ(result.steps_not_reached, 0);
+        ASSERT_TRUE(result.iterations_until_reached);
+        EXPECT_GT(*result.iterations_until_reached, 1);
+        EXPECT_LT(result.steps.back().from_undisturbed, 1e-7);
+    }
+}
+
+// Corotational energy does not punish a tet for being turned inside out: mirrored flesh ends between, and never within tolerance.
+TEST(BrokenFemStarts, CorotationalFleshStaysMirrored)
+{
+    const CellResult result = run_cell(cell_of("fem_corotational", Start::mirrored));
+    EXPECT_EQ(result.stability.outcome, StabilityOutcome::inverted);
+    EXPECT_FALSE(result.iterations_until_reached);
+}
+
+// Flattened flesh comes to rest in another equilibrium, without an inverted tet: bounded is not right.
+TEST(BrokenFemStarts, AtRestElsewhereIsBounded)
+{
+    const CellResult result = run_cell(cell_of("fem_stable_neo_hookean", Start::flattened));
+    EXPECT_EQ(result.stability.outcome, StabilityOutcome::bounded);
+    EXPECT_TRUE(result.steps.back().solved);
+    EXPECT_EQ(result.steps.back().inverted_tets, 0);
+    EXPECT_LT(result.steps.back().motion, analysis::StabilityBounds{}.rest_motion);
+    EXPECT_GT(result.steps.back().from_undisturbed, analysis::StabilityBounds{}.near_undisturbed);
+}
+
+}  // namespace

@@ -1,0 +1,89 @@
+// Truth: the solvers themselves, stepped until the flesh hangs still under a load so small that a displacement is 1e-5 of an edge, which
+// leaves 1e-5 to the second order; stopped at 1e-6 a step, over one minus the slowest rate, above 1/40 here: stiffnesses within 1e-4. The
+// limb has vertices on its bones, d = 0. And theory: of the position based solver a step does not know dt, so stiffness goes with 1 / dt^2;
+// of XPBD, iterated to the end, it is the material's.
+#include "experiments/studies/stiffness/step_near_rest.hpp"
+
+#include "experiments/studies/stiffness/stepped_flesh.hpp"
+#include "tests/support/limb_character.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace experiments;
+
+LoadedFlesh limb(RestOfBody rest)
+{
+    static const pbs::Character character = test_support::character_of(test_support::two_bone_limb({10, 4, 4}, pbs::Vec3::UnitZ(), 0.0));
+    return jiggling_flesh(character, rest);
+}
+
+double stiffness(const LoadedFlesh& flesh, const StiffnessSetting& setting)
+{
+    const RestingFlesh rest = rest_near_rest(flesh, setting);
+    EXPECT_TRUE(rest.converged);
+    return effective_stiffness_n_m(flesh, rest.displacement, 1.0);
+}
+
+void expect_as_stepped(const LoadedFlesh& flesh, const StiffnessSetting& setting)
+{
+    const RestingFlesh rest = rest_near_rest(flesh, setting);
+    ASSERT_TRUE(rest.converged);
+    const double edge_m = 0.05, gravity_m_s2 = 1e-5 * edge_m / rest.displacement.cwiseAbs().maxCoeff();
+    const SteppedFlesh still = step_until_still(flesh, setting, gravity_m_s2);
+    ASSERT_TRUE(still.converged);
+    const double linear = effective_stiffness_n_m(flesh, rest.displacement, 1.0);
+    EXPECT_NEAR(effective_stiffness_n_m(flesh, still.displacement, gravity_m_s2), linear, 1e-4 * linear);
+}
+
+TEST(StepNearRest, HangsWhereThePositionBasedSolverHangs)
+{
+    for (const RestOfBody rest : {RestOfBody::projected, RestOfBody::held})
+        for (const Method method : {Method::pbs, Method::exponent})
+            expect_as_stepped(limb(rest), {.method = method, .k_stretch = 0.3, .iterations = 6});
+}
+
+TEST(StepNearRest, HangsWhereXpbdHangs)
+{
+    for (const RestOfBody rest : {RestOfBody::projected, RestOfBody::held})
+        for (const Method method : {Method::xpbd, Method::xpbd_forgetting})
+            for (const int iterations : {2, 12}) expect_as_stepped(limb(rest), {.method = method, .iterations = iterations});
+    expect_as_stepped(limb(RestOfBody::held), {.method = Method::xpbd_small_steps, .iterations = 4});
+}
+
+// To the tolerance of the linear solves, 1e-7 of the right-hand side, times a condition below 100 here.
+TEST(StepNearRest, HalfTheStepIsFourTimesTheStiffness)
+{
+    const LoadedFlesh flesh = limb(RestOfBody::projected);
+    StiffnessSetting setting{.k_stretch = 0.3, .iterations = 6};
+    const double whole = stiffness(flesh, setting);
+    setting.time_step_s /= 2.0;
+    EXPECT_NEAR(stiffness(flesh, setting) / whole, 4.0, 4e-5);
+}
+
+// What is held does not move with the step, so all that is left is K x = M g.
+TEST(StepNearRest, XpbdIteratedToTheEndKnowsNeitherIterationsNorStep)
+{
+    const LoadedFlesh flesh = limb(RestOfBody::held);
+    StiffnessSetting setting{.method = Method::xpbd, .iterations = 400};
+    const double once = stiffness(flesh, setting);
+    setting.iterations = 800;
+    EXPECT_NEAR(stiffness(flesh, setting) / once, 1.0, 1e-4);
+    setting.time_step_s /= 4.0;
+    EXPECT_NEAR(stiffness(flesh, setting) / once, 1.0, 1e-4);
+    setting.young_pa *= 2.0;  // of springs and bulk alike; rigid bind constraints take no part of it
+    EXPECT_NEAR(stiffness(flesh, setting) / once, 2.0, 2e-3);
+}
+
+TEST(StepNearRest, ARandomOrderIsRepeatable)
+{
+    const LoadedFlesh flesh = limb(RestOfBody::projected);
+    StiffnessSetting setting{.k_stretch = 0.3, .iterations = 3, .order_seed = 1};
+    const double first = stiffness(flesh, setting);
+    EXPECT_EQ(stiffness(flesh, setting), first);
+    setting.order_seed = 0;
+    EXPECT_NE(stiffness(flesh, setting), first);
+}
+
+}  // namespace
