@@ -1,7 +1,7 @@
 // What a verdict is computed from: the frames of each case as they were written down.
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 
 #include <string>
 #include <vector>

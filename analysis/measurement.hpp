@@ -3,7 +3,7 @@
 #pragma once
 
 #include "analysis/case_judgement.hpp"
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 
 #include <string>
 #include <vector>

@@ -45,7 +45,7 @@ fuzz_target(skeleton fuzz/skeleton.cpp pbs/character/skeleton_file.cpp pbs/chara
 fuzz_target(clip fuzz/clip.cpp pbs/character/clip_bytes.cpp pbs/character/retarget.cpp pbs/character/retarget_plan.cpp
     pbs/character/joint_map.cpp
     pbs/skinning/pose.cpp pbs/skinning/skeleton.cpp pbs/geometry/input_error.cpp)
-fuzz_target(texts fuzz/texts.cpp analysis/csv_reader.cpp analysis/csv_table.cpp analysis/atomic_file.cpp experiments/scene/scene_values.cpp
+fuzz_target(texts fuzz/texts.cpp analysis/records/csv_reader.cpp analysis/records/csv_table.cpp analysis/records/atomic_file.cpp experiments/scene/scene_values.cpp
     experiments/scene/scene_schema.cpp analysis/records/record_text.cpp pbs/character/bvh_header.cpp pbs/geometry/atomic_file.cpp
     pbs/geometry/text_file.cpp pbs/geometry/toml_text.cpp pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
 fuzz_target(files fuzz/files.cpp pbs/character/iqm.cpp pbs/character/weights_file.cpp pbs/skinning/skeleton.cpp

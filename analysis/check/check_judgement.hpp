@@ -3,7 +3,7 @@
 
 #include "analysis/check/check_case.hpp"
 #include "analysis/check/check_rules.hpp"
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 
 namespace analysis {
 

@@ -2,7 +2,7 @@
 
 #include "pbs/geometry/input_error.hpp"
 
-namespace experiments {
+namespace analysis {
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,4 +35,4 @@ std::vector<fs::path> files_in(const fs::path& folder)
     return files;
 }
 
-}  // namespace experiments
+}  // namespace analysis

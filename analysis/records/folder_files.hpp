@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace experiments {
+namespace analysis {
 
 // Of an earlier run, so that it does not lie beside the next one's; one that is not there is removed already.
 void remove_record(const std::filesystem::path& file);
@@ -17,4 +17,4 @@ std::string path_in(const std::string& folder, const std::string& name);
 // In no order.
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);
 
-}  // namespace experiments
+}  // namespace analysis

@@ -1,9 +1,9 @@
 #include "analysis/records/kept_record.hpp"
 
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 
-namespace experiments {
+namespace analysis {
 
 nlohmann::json read_record(const std::string& path)
 {
@@ -17,4 +17,4 @@ void refuse_record(const std::string& path)
     throw pbs::InputError(path, 0, "", "", "expected a record as this program writes it: it was changed, or cut short");
 }
 
-}  // namespace experiments
+}  // namespace analysis

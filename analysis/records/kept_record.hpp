@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace experiments {
+namespace analysis {
 
 nlohmann::json read_record(const std::string& path);       // InputError where it is no JSON
 [[noreturn]] void refuse_record(const std::string& path);  // an InputError
@@ -23,4 +23,4 @@ auto from_record(const std::string& path, const Read& read)
     }
 }
 
-}  // namespace experiments
+}  // namespace analysis

@@ -1,6 +1,6 @@
 #include "analysis/records/record_text.hpp"
 
-namespace experiments {
+namespace analysis {
 
 std::string record_text(const nlohmann::json& record)
 {
@@ -16,4 +16,4 @@ bool is_utf8(const std::string& text)
     }
 }
 
-}  // namespace experiments
+}  // namespace analysis

@@ -6,11 +6,11 @@
 
 #include <string>
 
-namespace experiments {
+namespace analysis {
 
 // Bytes that are not UTF-8 become U+FFFD: a record is never lost over a name.
 std::string record_text(const nlohmann::json& record);
 
 bool is_utf8(const std::string& text);
 
-}  // namespace experiments
+}  // namespace analysis

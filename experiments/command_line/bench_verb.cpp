@@ -1,5 +1,5 @@
 // pbskin bench [--mesh TETS] [--threads N] [--json]: how long a step takes, beside `plain` in the same run and beside the machine's limits.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "experiments/studies/bench/bench.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "pbs/geometry/input_error.hpp"

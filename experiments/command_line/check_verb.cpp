@@ -1,5 +1,5 @@
 // pbskin check [-o DIR] [--junit FILE] [--baseline FILE]: CI validation, volume preservation and the other bounds.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "experiments/verdicts/check/check_reports.hpp"
 #include "experiments/verdicts/check/check_run.hpp"
 #include "experiments/command_line/verbs.hpp"

@@ -1,7 +1,7 @@
 // pbskin measure REST FRAME... [--csv FILE] [--junit FILE] [--max-volume-change PCT]...: the ruler on anybody's result.
 //   pbskin measure rest.msh 'out/frame_%04d.vtu' --max-volume-change 0.5 --max-inverted 0 --junit volume.xml
-#include "analysis/atomic_file.hpp"
-#include "analysis/csv_table.hpp"
+#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "analysis/edge_strain.hpp"
 #include "analysis/frame_metrics.hpp"
 #include "experiments/run/broken_frame.hpp"

@@ -1,5 +1,5 @@
 // pbskin mesh SURFACE -o TETS [--vertices N]: closed or nearly closed surface -> tets of about the wanted size.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/warnings.hpp"
 #include "pbs/geometry/input_error.hpp"

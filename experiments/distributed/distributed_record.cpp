@@ -1,7 +1,7 @@
 #include "experiments/distributed/distributed_record.hpp"
 
-#include "analysis/csv_table.hpp"
-#include "analysis/provenance.hpp"
+#include "analysis/records/csv_table.hpp"
+#include "analysis/records/provenance.hpp"
 
 #include <nlohmann/json.hpp>
 

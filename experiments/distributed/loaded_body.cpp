@@ -19,7 +19,7 @@ pbs::TetMesh bar(int tets)
 {
     const int n = std::max(1, static_cast<int>(std::lround(std::cbrt(tets / 60.0))));
     const int along = std::max(1, static_cast<int>(std::lround(tets / (6.0 * n * n))));
-    return box_mesh({0, 0, 0}, {10, 1, 1}, {along, n, n});
+    return reference_fem::box_mesh({0, 0, 0}, {10, 1, 1}, {along, n, n});
 }
 
 std::vector<int> vertices_where(const pbs::TetMesh& mesh, const auto& holds)

@@ -13,7 +13,7 @@
 #include "experiments/distributed/distributed_record.hpp"
 #include "experiments/process/exit_status.hpp"
 #include "experiments/process/failure.hpp"
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "reference_fem/distributed/distributed_elasticity.hpp"
 #include "reference_fem/distributed/serial_elasticity.hpp"

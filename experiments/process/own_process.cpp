@@ -29,7 +29,7 @@ namespace {
         const Failure failure = caught_failure();
         told = {{"failure", failure.words}, {"status", failure.status}};
     }
-    write_whole(pipe_end, record_text(told));
+    write_whole(pipe_end, analysis::record_text(told));
     std::fflush(nullptr);
     _exit(0);
 }

@@ -1,6 +1,6 @@
 #include "experiments/process/program_run.hpp"
 
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 
 #include <algorithm>
 #include <cerrno>

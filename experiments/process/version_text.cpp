@@ -1,6 +1,6 @@
 #include "experiments/process/version_text.hpp"
 
-#include "analysis/provenance.hpp"
+#include "analysis/records/provenance.hpp"
 
 #include <fmt/format.h>
 

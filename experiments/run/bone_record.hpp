@@ -5,7 +5,7 @@
 //                   its head, 1 at its tail) and how far from it at rest; blended: by Eq. 2, between bones; jiggles: farther than the mean
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "pbs/character/character.hpp"
 
 namespace experiments {

@@ -4,7 +4,7 @@
 //   DistanceRecord record;   record.add(frame, time_s, "pbs", "mesh", positions);   record.table().write("distances.csv");
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "pbs/geometry/types.hpp"
 
 #include <string>

@@ -5,7 +5,7 @@
 //   frame_statistics(metrics).write("frame_statistics.csv");
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 
 namespace experiments {
 

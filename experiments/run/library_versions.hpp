@@ -1,5 +1,5 @@
 // Versions of the libraries that characters and frames were made with, for provenance; empty where the build left one out. The ruler's own
-// are in analysis/provenance.hpp, the reference's in its record.
+// are in analysis/records/provenance.hpp, the reference's in its record.
 #pragma once
 
 #include <map>

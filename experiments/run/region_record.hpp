@@ -6,7 +6,7 @@
 //   own_change_pct                   mean over frames, of the region's own rest volume
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "analysis/region_volume.hpp"
 #include "experiments/run/body_regions.hpp"
 

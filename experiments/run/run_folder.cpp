@@ -1,7 +1,7 @@
 #include "experiments/run/run_folder.hpp"
 
-#include "analysis/atomic_file.hpp"
-#include "analysis/provenance.hpp"
+#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/provenance.hpp"
 #include "experiments/run/frame_statistics.hpp"
 #include "experiments/run/library_versions.hpp"
 #include "analysis/records/folder_files.hpp"
@@ -166,11 +166,11 @@ RunFolder::RunFolder(const Scene& scene, const pbs::Character& character, const 
     if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
     for (const char* old : {"run.json", "metrics.csv", "frame_statistics.csv", "distances.csv", "iterations.csv", "regions.csv",
                             "bones.csv", "bones_rest.csv", "binding.csv", "surface_rest.vtp", "embedding.csv"})
-        remove_record(fs::path(folder) / old);
+        analysis::remove_record(fs::path(folder) / old);
     analysis::remove_abandoned_files(folder, false);
     analysis::remove_abandoned_files((fs::path(folder) / "frames").string(), false);
-    for (const fs::path& file : files_in(fs::path(folder) / "frames"))
-        if (is_own_frame(file)) remove_record(file);
+    for (const fs::path& file : analysis::files_in(fs::path(folder) / "frames"))
+        if (is_own_frame(file)) analysis::remove_record(file);
 }
 
 void RunFolder::add_frame(const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured,
@@ -273,7 +273,7 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
     run["character"] = cost.time("records", [&] { return character_record(character); });
     if (!reference_error_method.is_null()) run["reference_error_method"] = reference_error_method;
     run["cost"] = cost.json();
-    analysis::write_text_atomically((fs::path(folder_) / "run.json").string(), record_text(run));
+    analysis::write_text_atomically((fs::path(folder_) / "run.json").string(), analysis::record_text(run));
 }
 
 }  // namespace experiments

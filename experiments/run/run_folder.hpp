@@ -3,8 +3,8 @@
 // renamed; run.json comes last, so that a folder with run.json is a finished run.
 #pragma once
 
-#include "analysis/csv_table.hpp"
-#include "analysis/state_hash.hpp"
+#include "analysis/records/csv_table.hpp"
+#include "analysis/records/state_hash.hpp"
 #include "experiments/run/bone_record.hpp"
 #include "experiments/run/cost_record.hpp"
 #include "experiments/deformers/registry.hpp"

@@ -5,7 +5,7 @@
 //                      point outside its tet some are negative
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "pbs/character/character.hpp"
 
 #include <string>

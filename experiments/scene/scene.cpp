@@ -341,7 +341,8 @@ Scene read_scene(const std::string& file_or_name, const std::vector<std::string>
     Scene scene;
     scene.file = file;
     scene.name = fs::path(file).stem().string();
-    if (!is_utf8(scene.name)) throw pbs::InputError(file, 0, "", "", "expected a file's name in UTF-8: it names the scene in all records");
+    if (!analysis::is_utf8(scene.name))
+        throw pbs::InputError(file, 0, "", "", "expected a file's name in UTF-8: it names the scene in all records");
     scene.character = read_character(values, folder);
     scene.motion = read_motion(values, folder);
     scene.deformers = read_deformers(values);

@@ -189,7 +189,7 @@ void SceneValues::take_override(const std::string& override)
     if (equals == std::string::npos || equals == 0) throw pbs::InputError("--set", 0, "", override, "expected key=value");
     std::string path = override.substr(0, equals);
     const std::string value = override.substr(equals + 1);
-    if (!is_utf8(override)) throw pbs::InputError("--set", 0, path, value, "expected UTF-8");
+    if (!analysis::is_utf8(override)) throw pbs::InputError("--set", 0, path, value, "expected UTF-8");
     if (path.starts_with(fem_prefix)) {
         if (fem_tables_ > 0 && find_scene_key(path)) path.insert(fem_prefix.size(), "0.");
         if (fem_index(path).value_or(0) >= fem_tables_)

@@ -1,7 +1,7 @@
 #include "experiments/studies/study_costs.hpp"
 
-#include "analysis/atomic_file.hpp"
-#include "analysis/csv_table.hpp"
+#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/csv_table.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "experiments/studies/study_run.hpp"
 
-#include "analysis/atomic_file.hpp"
-#include "analysis/provenance.hpp"
+#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/provenance.hpp"
 #include "experiments/process/cpu_clock.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "analysis/records/kept_record.hpp"
@@ -41,7 +41,7 @@ std::string carry_out_work(const StudyRun& run, const std::string& folder)
     fs::create_directories(folder, error);
     if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
     const fs::path record = fs::path(folder) / "run.json";
-    remove_record(record);
+    analysis::remove_record(record);
     const pbs::Stopwatch stopwatch;
     const double cpu_start_s = process_cpu_s();
     const std::string breakdown = run.work(folder);
@@ -52,7 +52,7 @@ std::string carry_out_work(const StudyRun& run, const std::string& folder)
     nlohmann::json outcome = {{"finished", true}, {"breakdown", breakdown}, {"cpu_seconds", process_cpu_s() - cpu_start_s}};
     outcome.update(run_end(stopwatch.seconds()));
     const nlohmann::json json = {{"schema", 1}, {key, value}, {"provenance", provenance}, {"outcome", outcome}};
-    analysis::write_text_atomically(record.string(), record_text(json));
+    analysis::write_text_atomically(record.string(), analysis::record_text(json));
     return breakdown;
 }
 
@@ -77,7 +77,7 @@ std::string carry_out(const StudyRun& run, const std::string& folder)
 
 std::string breakdown_on_record(const StudyRun& run, const std::string& folder)
 {
-    return from_record((fs::path(folder) / "run.json").string(), [&](const nlohmann::json& json) {
+    return analysis::from_record((fs::path(folder) / "run.json").string(), [&](const nlohmann::json& json) {
         const nlohmann::json& outcome = json.at("outcome");
         const auto breakdown = outcome.at("breakdown").get<std::string>();
         const bool bad_frame_counts = !run.work && !run.bad_frames_are_results && breakdown.empty();

@@ -54,8 +54,8 @@ std::string marked_frames(const std::vector<std::string>& folders)
 {
     std::string lines;
     for (const std::string& folder : folders)
-        lines += from_record((fs::path(folder) / "run.json").string(),
-                             [&](const json& run) { return marks_of(run.at("outcome"), fs::path(folder).filename().string()); });
+        lines += analysis::from_record((fs::path(folder) / "run.json").string(),
+                                       [&](const json& run) { return marks_of(run.at("outcome"), fs::path(folder).filename().string()); });
     return lines;
 }
 

@@ -1,6 +1,6 @@
 #include "experiments/verdicts/reproduce.hpp"
 
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/claims_report.hpp"
 #include "analysis/claims_table.hpp"
 #include "experiments/verdicts/claims_text.hpp"
@@ -110,7 +110,7 @@ StudyOutcome run_study(const PlannedStudy& planned, const std::vector<StudyRun>&
     fs::create_directories(planned.folder, error);
     if (error) throw pbs::InputError(planned.folder, 0, "", "", "the output folder cannot be made: " + error.message());
     analysis::remove_abandoned_files(planned.folder);
-    for (const StudyRun& run : runs) remove_record(fs::path(planned.folder) / run.name / "run.json");
+    for (const StudyRun& run : runs) analysis::remove_record(fs::path(planned.folder) / run.name / "run.json");
     write_study_plan(planned.folder, planned.plan);
     std::vector<PooledWork> work;
     for (const StudyRun& run : runs)

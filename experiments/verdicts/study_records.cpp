@@ -1,6 +1,6 @@
 #include "experiments/verdicts/study_records.hpp"
 
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/measurement.hpp"
 #include "pbs/character/json_file.hpp"
 

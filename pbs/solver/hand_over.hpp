@@ -34,11 +34,21 @@ public:
 private:
     struct Place {};
 #ifdef PBS_TELL_THREAD_SANITIZER
-    static void give(Place& place) { __tsan_release(&place); }
-    static void take(Place& place) { __tsan_acquire(&place); }
+    static void give(Place& place)
+    {
+        __tsan_release(&place);
+    }
+    static void take(Place& place)
+    {
+        __tsan_acquire(&place);
+    }
 #else
-    static void give(Place&) {}
-    static void take(Place&) {}
+    static void give(Place&)
+    {
+    }
+    static void take(Place&)
+    {
+    }
 #endif
 
     Place start_, end_;

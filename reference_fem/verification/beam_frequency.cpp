@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace experiments {
+namespace reference_fem {
 namespace {
 
 double area_m2(const Beam& beam)
@@ -66,4 +66,4 @@ double timoshenko_rad_s(const Beam& beam)
     return (low + high) / 2.0;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

@@ -8,10 +8,9 @@
 // end the warping of the cross-section may be free or held, which is at most the shear deflection of one depth.
 #include "reference_fem/verification/beam_problems.hpp"
 
-namespace experiments {
+namespace reference_fem {
 namespace {
 
-using namespace reference_fem;
 using pbs::Vec3;
 
 constexpr double length_m = 10.0, depth_m = 1.0, force_n = 1.0, young_pa = 1.0e5;
@@ -77,4 +76,4 @@ VerificationRows cantilever_rows(const Effort& effort)
     return rows;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

@@ -6,23 +6,21 @@
 #include <cstdio>
 #include <limits>
 
-namespace experiments {
-
-using reference_fem::ElasticMaterial;
+namespace reference_fem {
 
 ElasticMaterial solver_material(const Effort& effort, const ElasticMaterial& material)
 {
     if (effort.lambda_error == 0.0) return material;
-    const reference_fem::Lame lame = reference_fem::lame_parameters(material.young_pa, material.poisson);
+    const Lame lame = lame_parameters(material.young_pa, material.poisson);
     const double lambda = (1.0 + effort.lambda_error) * lame.lambda_pa, mu = lame.mu_pa;
     return {mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu), lambda / (2.0 * (lambda + mu))};
 }
 
-std::string elements_name(int element_order, reference_fem::Formulation formulation)
+std::string elements_name(int element_order, Formulation formulation)
 {
     const std::string order = "P" + std::to_string(element_order);
-    if (formulation == reference_fem::Formulation::mean_dilatation) return order + " mean dilatation";
-    if (formulation == reference_fem::Formulation::taylor_hood) return order + " Taylor-Hood";
+    if (formulation == Formulation::mean_dilatation) return order + " mean dilatation";
+    if (formulation == Formulation::taylor_hood) return order + " Taylor-Hood";
     return order;
 }
 
@@ -38,13 +36,13 @@ double order_between(double coarse, double fine)
     return std::log2(std::abs(coarse) / std::abs(fine));
 }
 
-double rounding_bound(const reference_fem::BoundaryValueSolution& solution, const ElasticMaterial& material)
+double rounding_bound(const BoundaryValueSolution& solution, const ElasticMaterial& material)
 {
     std::vector<int> free;
     for (int dof = 0; dof < solution.space->dofs(); ++dof)
         if (!solution.held[dof]) free.push_back(dof);
-    const reference_fem::Lame lame = reference_fem::lame_parameters(material.young_pa, material.poisson);
-    const Eigen::MatrixXd stiffness = reference_fem::stiffness_matrix(*solution.space, lame);
+    const Lame lame = lame_parameters(material.young_pa, material.poisson);
+    const Eigen::MatrixXd stiffness = stiffness_matrix(*solution.space, lame);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(stiffness(free, free), Eigen::EigenvaluesOnly);
     const double condition = eigen.eigenvalues().tail<1>()(0) / eigen.eigenvalues()(0);
     return std::sqrt(static_cast<double>(free.size())) * std::numeric_limits<double>::epsilon() * condition;
@@ -57,4 +55,4 @@ void bound_by_grade_a(VerificationRow& row)
     row.bound_from = grade_a_text;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

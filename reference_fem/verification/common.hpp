@@ -1,15 +1,12 @@
 // What the problems share.
 #pragma once
 
-#include "experiments/studies/verification/problem.hpp"
 #include "reference_fem/boundary_value_problem.hpp"
+#include "reference_fem/verification/effort.hpp"
 
-namespace experiments {
+namespace reference_fem {
 
 VerificationRows laws_rows(const Effort& effort);
-VerificationRows attached_limb_rows(const Effort& effort);
-VerificationRows error_split_rows(const Effort& effort);
-VerificationRows grid_convergence_rows(const Effort& effort);
 VerificationRows patch_test_rows(const Effort& effort);
 VerificationRows manufactured_solution_rows(const Effort& effort);
 VerificationRows own_weight_rows(const Effort& effort);
@@ -20,26 +17,23 @@ VerificationRows thick_sphere_rows(const Effort& effort);
 VerificationRows cooks_membrane_rows(const Effort& effort);
 VerificationRows cooks_membrane_finite_strain_rows(const Effort& effort);
 VerificationRows locking_rows(const Effort& effort);
-VerificationRows pbs_locking_rows(const Effort& effort);
 VerificationRows twisted_beam_rows(const Effort& effort);
 VerificationRows thick_plate_rows(const Effort& effort);
 VerificationRows half_turn_rows(const Effort& effort);
 VerificationRows dynamics_rows(const Effort& effort);
 VerificationRows moving_skeleton_rows(const Effort& effort);
-VerificationRows calculix_rows(const Effort& effort);
-VerificationRows distributed_rows(const Effort& effort);
 
 // What the solver is given in place of `material`: the same, unless the effort asks for an error in lambda.
-reference_fem::ElasticMaterial solver_material(const Effort& effort, const reference_fem::ElasticMaterial& material);
+ElasticMaterial solver_material(const Effort& effort, const ElasticMaterial& material);
 
 // P1, P2, P2 mean dilatation, P2 Taylor-Hood
-std::string elements_name(int element_order, reference_fem::Formulation formulation = reference_fem::Formulation::displacement);
+std::string elements_name(int element_order, Formulation formulation = Formulation::displacement);
 std::string linear_material(double poisson);       // linear, nu = 0.3
 double order_between(double coarse, double fine);  // of errors on two meshes, one twice as fine
 
 // sqrt(n) eps cond(K): the relative error that rounding of random sign makes in a backward stable direct solve of n unknowns
 // (N. Higham, Accuracy and stability of numerical algorithms, 2nd ed., SIAM 2002, Theorem 10.4). By dense eigenvalues: small meshes only.
-double rounding_bound(const reference_fem::BoundaryValueSolution& solution, const reference_fem::ElasticMaterial& material);
+double rounding_bound(const BoundaryValueSolution& solution, const ElasticMaterial& material);
 inline const std::string rounding_bound_text =
     "rounding of a direct solve: sqrt(n) eps cond(K), cond(K) by eigenvalues of this very matrix";
 
@@ -49,4 +43,4 @@ inline constexpr double grade_a = 0.02;
 inline const std::string grade_a_text = "within 2 %: grade A of MacNeal and Harder 1985";
 void bound_by_grade_a(VerificationRow& row);
 
-}  // namespace experiments
+}  // namespace reference_fem

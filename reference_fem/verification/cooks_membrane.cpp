@@ -2,9 +2,8 @@
 // (R. Cook, J. Struct. Div. ASCE 100 (1974) 1851-1863). N and mm throughout.
 #include "reference_fem/verification/membrane.hpp"
 
-namespace experiments {
+namespace reference_fem {
 
-using namespace reference_fem;
 using pbs::Vec3;
 
 constexpr double half_thickness = 0.5;
@@ -101,4 +100,4 @@ VerificationRows cooks_membrane_rows(const Effort& effort)
     return rows;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

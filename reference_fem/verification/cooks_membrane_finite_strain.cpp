@@ -7,10 +7,8 @@
 
 #include <limits>
 
-namespace experiments {
+namespace reference_fem {
 namespace {
-
-using namespace reference_fem;
 
 constexpr double shear_modulus = 0.4225, poisson = 0.3;
 
@@ -50,4 +48,4 @@ VerificationRows cooks_membrane_finite_strain_rows(const Effort& effort)
     return rows;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

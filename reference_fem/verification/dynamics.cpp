@@ -12,10 +12,8 @@
 #include <cmath>
 #include <random>
 
-namespace experiments {
+namespace reference_fem {
 namespace {
-
-using namespace reference_fem;
 
 constexpr double young_pa = 1.0e5, poisson = 0.3, density_kg_m3 = 1000.0;
 const Divisions coarse = {10, 1, 1};
@@ -219,4 +217,4 @@ VerificationRows dynamics_rows(const Effort& effort)
     return rows;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

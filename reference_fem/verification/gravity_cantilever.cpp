@@ -4,10 +4,9 @@
 #include "reference_fem/verification/common.hpp"
 #include "reference_fem/verification/structured_mesh.hpp"
 
-namespace experiments {
+namespace reference_fem {
 namespace {
 
-using namespace reference_fem;
 using pbs::Vec3;
 
 constexpr double length_m = 0.6, depth_m = 0.12, density_kg_m3 = 1000.0, gravity_m_s2 = 9.81;
@@ -60,4 +59,4 @@ VerificationRows gravity_cantilever_rows(const Effort& effort)
     return {row_of(effort, 1, 6), row_of(effort, 2, 4), row_of(effort, 2, 8)};
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

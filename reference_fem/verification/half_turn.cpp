@@ -12,10 +12,8 @@
 #include <limits>
 #include <numbers>
 
-namespace experiments {
+namespace reference_fem {
 namespace {
-
-using namespace reference_fem;
 
 const Divisions divisions = {27, 8, 8};
 constexpr double length_m = 3.375, young_pa = 1e5;
@@ -140,4 +138,4 @@ VerificationRows half_turn_rows(const Effort& effort)
     return rows;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

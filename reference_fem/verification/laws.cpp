@@ -8,10 +8,9 @@
 
 #include <cmath>
 
-namespace experiments {
+namespace reference_fem {
 namespace {
 
-using namespace reference_fem;
 using Eigen::Matrix3d;
 
 const ElasticMaterial material = {1e5, 0.4};
@@ -131,4 +130,4 @@ VerificationRows laws_rows(const Effort& effort)
     return rows;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

@@ -5,10 +5,8 @@
 // Judged are the forms that are made for it (reference_fem/formulation.hpp).
 #include "reference_fem/verification/beam_problems.hpp"
 
-namespace experiments {
+namespace reference_fem {
 namespace {
-
-using reference_fem::Formulation;
 
 const std::vector<double> quick_ladder = {0.3, 0.49, 0.499, 0.49999};
 const std::vector<double> full_ladder = {0.3, 0.4, 0.45, 0.49, 0.499, 0.4999, 0.49999};
@@ -46,4 +44,4 @@ VerificationRows locking_rows(const Effort& effort)
     return rows;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

@@ -3,10 +3,9 @@
 #include "reference_fem/verification/common.hpp"
 #include "reference_fem/verification/structured_mesh.hpp"
 
-namespace experiments {
+namespace reference_fem {
 namespace {
 
-using namespace reference_fem;
 using pbs::Vec3;
 
 const ElasticMaterial material{1.0, 0.3};
@@ -85,4 +84,4 @@ VerificationRows manufactured_solution_rows(const Effort& effort)
     return rows;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

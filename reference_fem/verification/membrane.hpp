@@ -5,11 +5,11 @@
 #include "reference_fem/verification/common.hpp"
 #include "reference_fem/verification/structured_mesh.hpp"
 
-namespace experiments {
+namespace reference_fem {
 
 pbs::TetMesh membrane(int n);  // n x n x 1 cells, 0.5 mm thick
 
 // Clamped on the left, a uniform shear [N/mm^2] on the right; plane strain: u_z held on the outer face, else it is free.
-reference_fem::BoundaryValueProblem membrane_problem(double shear, bool plane_strain, int element_order);
+BoundaryValueProblem membrane_problem(double shear, bool plane_strain, int element_order);
 
-}  // namespace experiments
+}  // namespace reference_fem

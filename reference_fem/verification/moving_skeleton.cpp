@@ -14,10 +14,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace experiments {
+namespace reference_fem {
 namespace {
 
-using namespace reference_fem;
 using pbs::Positions;
 
 constexpr double end_s = 0.8, cell_m = 0.1;
@@ -121,4 +120,4 @@ VerificationRows moving_skeleton_rows(const Effort& effort)
     return rows;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

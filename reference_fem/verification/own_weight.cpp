@@ -3,10 +3,9 @@
 #include "reference_fem/verification/common.hpp"
 #include "reference_fem/verification/structured_mesh.hpp"
 
-namespace experiments {
+namespace reference_fem {
 namespace {
 
-using namespace reference_fem;
 using pbs::Vec3;
 
 const ElasticMaterial material{1.0e5, 0.3};
@@ -46,4 +45,4 @@ VerificationRows own_weight_rows(const Effort& effort)
              .bound_from = rounding_bound_text}};
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

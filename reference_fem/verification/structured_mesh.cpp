@@ -6,7 +6,7 @@
 #include <map>
 #include <random>
 
-namespace experiments {
+namespace reference_fem {
 namespace {
 
 // The paths from a cell's corner (0,0,0) to (1,1,1) along the axes in each order; the last three are odd permutations.
@@ -102,4 +102,4 @@ pbs::TetMesh joined(const std::vector<pbs::TetMesh>& meshes)
     return whole;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

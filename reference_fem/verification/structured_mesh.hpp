@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace experiments {
+namespace reference_fem {
 
 using Divisions = std::array<int, 3>;  // cells along x, y, z
 
@@ -26,4 +26,4 @@ pbs::TetMesh mapped(pbs::TetMesh mesh, const std::function<pbs::Vec3(const pbs::
 // One mesh of all; vertices closer than 1e-7 m are one.
 pbs::TetMesh joined(const std::vector<pbs::TetMesh>& meshes);
 
-}  // namespace experiments
+}  // namespace reference_fem

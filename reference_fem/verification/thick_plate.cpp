@@ -9,10 +9,9 @@
 #include <cmath>
 #include <numbers>
 
-namespace experiments {
+namespace reference_fem {
 namespace {
 
-using namespace reference_fem;
 using pbs::Vec3;
 
 constexpr double thickness_m = 0.6, pressure_pa = 1.0e6;
@@ -69,4 +68,4 @@ VerificationRows thick_plate_rows(const Effort& effort)
     return rows;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

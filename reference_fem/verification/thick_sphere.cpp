@@ -4,10 +4,9 @@
 #include "reference_fem/verification/common.hpp"
 #include "reference_fem/verification/structured_mesh.hpp"
 
-namespace experiments {
+namespace reference_fem {
 namespace {
 
-using namespace reference_fem;
 using pbs::Vec3;
 
 constexpr double inner_m = 1.0, outer_m = 2.0, pressure_pa = 1.0;
@@ -107,4 +106,4 @@ VerificationRows thick_sphere_rows(const Effort& effort)
     return rows;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

@@ -7,10 +7,9 @@
 #include <cmath>
 #include <numbers>
 
-namespace experiments {
+namespace reference_fem {
 namespace {
 
-using namespace reference_fem;
 using pbs::Vec3;
 
 constexpr double length_m = 1.0, side_m = 1.0, angle = 1.0e-3, young_pa = 1.0e5;
@@ -83,4 +82,4 @@ VerificationRows torsion_rows(const Effort& effort)
     return rows;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

@@ -11,10 +11,9 @@
 #include <cstdio>
 #include <numbers>
 
-namespace experiments {
+namespace reference_fem {
 namespace {
 
-using namespace reference_fem;
 using pbs::Vec3;
 
 constexpr double length_in = 12.0, width_in = 1.1, thickness_in = 0.32;
@@ -91,4 +90,4 @@ VerificationRows twisted_beam_rows(const Effort& effort)
     return rows;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace experiments {
+namespace reference_fem {
 namespace {
 
 nlohmann::json to_json(const std::optional<double>& value)
@@ -86,4 +86,4 @@ VerificationRow verification_row(const nlohmann::json& json)
     return row;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

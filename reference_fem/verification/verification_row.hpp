@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace experiments {
+namespace reference_fem {
 
 struct VerificationRow {
     std::string problem = {};   // its name in the list of problems
@@ -41,4 +41,4 @@ std::optional<bool> holds(const VerificationRow& row);
 nlohmann::json to_json(const VerificationRow& row);
 VerificationRow verification_row(const nlohmann::json& json);
 
-}  // namespace experiments
+}  // namespace reference_fem

@@ -2,7 +2,7 @@
 // Truth: the rules in experiments/verdicts/claims.toml.
 #include "experiments/studies/convergence/convergence_figures.hpp"
 
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/verdict.hpp"
 #include "tests/support/iteration_paths.hpp"
 

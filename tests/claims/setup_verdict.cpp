@@ -1,6 +1,6 @@
 // C17 is judged from what the setup study measures: alter its figures and the verdict turns round. Truth: the project's own claims.toml;
 // the frames are made up, the figures are computed from them as the study does.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/claims.hpp"
 #include "analysis/verdict.hpp"
 #include "experiments/studies/setup/body_setup.hpp"

@@ -1,5 +1,5 @@
 // C08 judged from records as the stability study writes them: a single cell that runs away turns the verdict.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/claims.hpp"
 #include "analysis/measurement.hpp"
 #include "analysis/verdict.hpp"

@@ -2,7 +2,7 @@
 // claims.toml; the stiffnesses are made up, the figures are the study's own of them.
 #include "analysis/verdict.hpp"
 
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 
 #include <gtest/gtest.h>

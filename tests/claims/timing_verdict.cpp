@@ -2,7 +2,7 @@
 // the times are made up.
 #include "analysis/verdict.hpp"
 
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "experiments/studies/timing/timing_table.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // C01 and C02 are judged from metrics.csv, frame by frame: alter the frames of one body and the verdicts turn round. Truth: the project's
 // own claims.toml; the frames are made up.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/claims.hpp"
 #include "analysis/verdict.hpp"
 

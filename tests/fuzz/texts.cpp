@@ -1,6 +1,6 @@
 // Any text as what the program itself reads, by its first byte: a BVH's header, a CSV record, or --set (one a line) over a scene. What is
 // read, or an InputError, nothing else.
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "experiments/scene/scene_values.hpp"
 #include "pbs/character/bvh_header.hpp"
 #include "pbs/geometry/input_error.hpp"

@@ -3,7 +3,7 @@
 //   judge(test_support::claim("C13"), records)
 #pragma once
 
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/claims.hpp"
 #include "analysis/verdict.hpp"
 #include "experiments/studies/study_run.hpp"

@@ -1,6 +1,6 @@
 #include "experiments/command_line/measure/frame_bounds.hpp"
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>

@@ -85,7 +85,7 @@ std::vector<std::string> in_folder(const std::string& folder)
 {
     std::vector<std::string> files;
     std::error_code gone;
-    for (const fs::path& file : files_in(folder))
+    for (const fs::path& file : analysis::files_in(folder))
         if (fs::is_regular_file(file, gone) && is_mesh(file)) files.push_back(file.string());
     std::sort(files.begin(), files.end());
     return files;
@@ -113,7 +113,7 @@ std::optional<std::vector<NumberedFile>> of_number_pattern(const std::string& pa
     std::vector<NumberedFile> files;
     const fs::path listed = folder.empty() ? "." : folder;
     std::error_code none;
-    for (const fs::path& file : fs::is_directory(listed, none) ? files_in(listed) : std::vector<fs::path>()) {
+    for (const fs::path& file : fs::is_directory(listed, none) ? analysis::files_in(listed) : std::vector<fs::path>()) {
         const std::string name = file.filename().string();
         if (name.size() < before.size() + after.size() + width || !name.starts_with(before) || !name.ends_with(after)) continue;
         const std::string digits = name.substr(before.size(), name.size() - before.size() - after.size());

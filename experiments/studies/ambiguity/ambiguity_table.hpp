@@ -2,7 +2,7 @@
 // bounds. A row a figure.
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "experiments/studies/ambiguity/read_motion.hpp"
 
 namespace experiments {

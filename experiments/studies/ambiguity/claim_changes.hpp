@@ -8,7 +8,7 @@
 // readings has a row with the reason.
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "experiments/studies/ambiguity/judged_figure.hpp"
 
 namespace experiments {

@@ -4,7 +4,7 @@
 // and why others cannot touch it.
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 
 #include <string>
 

@@ -11,7 +11,7 @@
 //
 // Writes DIR/ambiguity/RUN/ambiguity.csv, of the first four also figures.csv (volume, jiggling, distance), and of all of them
 // ambiguity.csv, ambiguity.txt (the table that is printed), figures.csv and figures.md.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "experiments/studies/ambiguity/ambiguity_table.hpp"
 #include "experiments/studies/ambiguity/claim_changes_text.hpp"
 #include "experiments/studies/ambiguity/reading_comparison.hpp"
@@ -74,8 +74,8 @@ std::string read_and_record(const std::string& body, const Scene& scene, const s
         table.add(scene, reading, baseline.moved, moved, baselines.at(own_reading).moved, zone);
         compare_volume(changes, body, reading, baseline, moved);
     }
-    table.table().write(path_in(folder, "figures.csv"));
-    changes.table().write(path_in(folder, "ambiguity.csv"));
+    table.table().write(analysis::path_in(folder, "figures.csv"));
+    changes.table().write(analysis::path_in(folder, "ambiguity.csv"));
     return breakdown;
 }
 
@@ -116,7 +116,7 @@ StudyRun claims_run(const std::string& name, const Scene& scene, const std::vect
     const auto work = [=, body = scene.character.body](const std::string& folder) {
         ReadingComparison comparison(body, readings);
         measure(comparison);
-        comparison.changes().write(path_in(folder, "ambiguity.csv"));
+        comparison.changes().write(analysis::path_in(folder, "ambiguity.csv"));
         return comparison.breakdown();
     };
     return {.name = name, .cost_s = cost_s, .work = work, .settings = all};
@@ -247,7 +247,7 @@ analysis::CsvTable of_all(const std::vector<std::string>& runs, const char* name
 {
     analysis::CsvTable all{{}};
     for (const std::string& run : runs)
-        if (fs::exists(fs::path(run) / name)) all.append(analysis::read_csv(path_in(run, name)));
+        if (fs::exists(fs::path(run) / name)) all.append(analysis::read_csv(analysis::path_in(run, name)));
     return all;
 }
 
@@ -268,11 +268,11 @@ StudyPlan plan_ambiguity_study(bool full)
 StudyConclusion conclude_ambiguity_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
 {
     const analysis::CsvTable changes = of_all(finished, "ambiguity.csv"), figures = of_all(finished, "figures.csv");
-    changes.write(path_in(folder, "ambiguity.csv"));
-    figures.write(path_in(folder, "figures.csv"));
+    changes.write(analysis::path_in(folder, "ambiguity.csv"));
+    figures.write(analysis::path_in(folder, "figures.csv"));
     const std::string text = changes.rows() == 0 ? "" : claim_changes_text(changes);
-    analysis::write_text_atomically(path_in(folder, "ambiguity.txt"), text);
-    analysis::write_text_atomically(path_in(folder, "figures.md"), figures.rows() == 0 ? "" : ambiguity_markdown({figures}));
+    analysis::write_text_atomically(analysis::path_in(folder, "ambiguity.txt"), text);
+    analysis::write_text_atomically(analysis::path_in(folder, "figures.md"), figures.rows() == 0 ? "" : ambiguity_markdown({figures}));
     return {text, !finished.empty()};
 }
 

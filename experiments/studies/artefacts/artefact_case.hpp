@@ -5,7 +5,7 @@
 // reference on the body's other meshes: the spread over them is how sure a figure is.
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "experiments/studies/artefacts/joint_sections.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 

@@ -11,7 +11,7 @@
 //
 // Writes DIR/artefacts/CASE/{profiles,sections,intersections,smoothness,iterations,measurements}.csv, and intersections.md, sections.md.
 // The paper says that it does not handle self-intersections: they are counted. sections: where C04 and C05 have a figure, and why not.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "experiments/studies/artefacts/artefact_figures.hpp"
 #include "experiments/studies/artefacts/smoothness_comparison.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"

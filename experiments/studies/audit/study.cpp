@@ -1,7 +1,7 @@
 // The paper against itself: its mesh sizes, its Table 1, its equations for the volume constraint. Writes DIR/audit/print/printed.csv, from
 // which C13 to C15 are judged, and audit.md.
-#include "analysis/atomic_file.hpp"
-#include "analysis/csv_table.hpp"
+#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "experiments/studies/audit/printed_equations.hpp"
 #include "experiments/studies/shared/table_1.hpp"
 #include "experiments/studies/study.hpp"

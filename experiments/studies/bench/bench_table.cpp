@@ -1,6 +1,6 @@
 #include "experiments/studies/bench/bench.hpp"
 
-#include "analysis/provenance.hpp"
+#include "analysis/records/provenance.hpp"
 #include "pbs/solver/batched/batch_kernels.hpp"
 
 #include <fmt/format.h>

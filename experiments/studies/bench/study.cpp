@@ -1,6 +1,6 @@
 // How long a step takes: every order, precision and number of threads beside plain loops and the machine's limits, over meshes of growing
 // size (bench/bench.hpp). One run, so that nothing of the study runs beside it. Writes DIR/bench/bench.json and bench.txt.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "experiments/studies/bench/bench.hpp"
 #include "experiments/studies/study.hpp"
 

@@ -1,7 +1,7 @@
 // The records of convergence: residuals by iteration, the figures of each path, the way towards the reference.
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"
 
 namespace experiments {

@@ -7,7 +7,7 @@
 //                           to 5,000 vertices (--full: 10,000; the bend 2,500), left out above: rates.csv says so of each mesh
 //
 // Writes DIR/convergence/RUN/residuals.csv, rates.csv, towards.csv, measurements.csv, and convergence.md of all runs.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/measurement.hpp"
 #include "experiments/studies/shared/table_1.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"

@@ -7,7 +7,7 @@
 // by the paper's bind constraint instead of by embedded bones) and of the bones' thickness (core_radius).
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 
 namespace experiments {

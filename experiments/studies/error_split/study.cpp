@@ -5,7 +5,7 @@
 //   human_01_01  a crouch, in the air (--full)        MakeHuman's body
 //
 // Writes DIR/error_split/CASE/parts.csv and attachments.csv, and error_split.md.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"

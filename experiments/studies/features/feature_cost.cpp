@@ -35,7 +35,7 @@ nlohmann::json run_and_tell(const Scene& scene, const Variant& variant, const st
 {
     if (variant.progress) draw_progress_unseen();
     run_scene(scene, folder);
-    return from_record((fs::path(folder) / "run.json").string(), [](const nlohmann::json& run) {
+    return analysis::from_record((fs::path(folder) / "run.json").string(), [](const nlohmann::json& run) {
         nlohmann::json cost = run.at("cost");
         cost["frames"] = run.at("outcome").at("frames");
         cost["breakdown"] = run.at("outcome").at("breakdown");

@@ -2,7 +2,7 @@
 // the machine disturbs less than a ratio of medians.
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/studies/features/feature_cost.hpp"
 

@@ -5,7 +5,7 @@
 //   human  MakeHuman's body, 21 frames of the clip's jump
 //
 // Writes DIR/features/SCENE/features.csv, DIR/features/features.csv and features.md.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "experiments/studies/features/feature_table.hpp"
 #include "experiments/process/own_process.hpp"
 #include "experiments/studies/study.hpp"

@@ -1,7 +1,7 @@
 // What the fit writes down: one row a fitted modulus, swing or Poisson's ratio, and what is told of them together.
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "experiments/studies/fit/poisson_fit.hpp"
 #include "experiments/studies/fit/release_test.hpp"
 #include "experiments/studies/shared/near_rest/settled_state.hpp"

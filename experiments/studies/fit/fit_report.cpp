@@ -1,6 +1,6 @@
 #include "experiments/studies/fit/fit_report.hpp"
 
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/line_fit.hpp"
 #include "experiments/studies/fit/fit_records.hpp"
 

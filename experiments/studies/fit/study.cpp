@@ -5,7 +5,7 @@
 //   swing_N    ###=========~~    the same bar let go: Young's modulus again, by the first frequency, in time
 //   poisson_*  o====o~~~~o       the limb twisted and bent by 30, 60, 90 deg: Poisson's ratio (Young's modulus cancels there) of the
 //                                finite elements nearest to the constraints, after 24 iterations and converged
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "experiments/studies/fit/converged_pbs.hpp"
 #include "experiments/studies/fit/fit_records.hpp"
 #include "experiments/studies/fit/fit_report.hpp"

@@ -1,6 +1,6 @@
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "analysis/statistics.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/deformers/option_names.hpp"
@@ -69,7 +69,7 @@ void write_zone(const std::string& folder, const ZoneContents& zone)
     for (const BoneInZone& bone : zone.bones)
         table.add_row({zone.share, zone.skin_share, static_cast<int>(zone.pieces.size()), static_cast<int>(zone.pieces.front().size()),
                        bone.name, bone.share_of_zone, bone.share_of_bone});
-    table.write(path_in(folder, "zone.csv"));
+    table.write(analysis::path_in(folder, "zone.csv"));
 }
 
 Jolt jolt_at(const JoltCase& of, const JiggleSetting& setting)
@@ -153,9 +153,9 @@ std::string record_jolts(const JoltCase& of, const std::string& folder)
     else
         records.figures = jiggle_figures(character.name, measured);
     write_zone(folder, zone);
-    records.responses.write(path_in(folder, "responses.csv"));
-    records.series.write(path_in(folder, "series.csv"));
-    analysis::measurement_table(records.figures).write(path_in(folder, "measurements.csv"));
+    records.responses.write(analysis::path_in(folder, "responses.csv"));
+    records.series.write(analysis::path_in(folder, "series.csv"));
+    analysis::measurement_table(records.figures).write(analysis::path_in(folder, "measurements.csv"));
     return breakdown;
 }
 
@@ -175,8 +175,8 @@ std::string record_walk(const WalkCase& of, const std::string& folder)
             series.add_row({fmt::format("k_stretch {}", k), static_cast<double>(i + 1) * motion.time_step_s, response.lag_rms_m[i],
                             response.speed_rms_m_s[i]});
     }
-    walk.write(path_in(folder, "walk.csv"));
-    series.write(path_in(folder, "series.csv"));
+    walk.write(analysis::path_in(folder, "walk.csv"));
+    series.write(analysis::path_in(folder, "series.csv"));
     return breakdown;
 }
 

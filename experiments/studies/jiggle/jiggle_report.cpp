@@ -1,6 +1,6 @@
 #include "experiments/studies/jiggle/jiggle_report.hpp"
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "analysis/records/folder_files.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,8 @@ using analysis::CsvTable;
 
 std::string jolt_text(const std::string& run)
 {
-    const CsvTable zone = analysis::read_csv(path_in(run, "zone.csv")), responses = analysis::read_csv(path_in(run, "responses.csv"));
+    const CsvTable zone = analysis::read_csv(analysis::path_in(run, "zone.csv")),
+                   responses = analysis::read_csv(analysis::path_in(run, "responses.csv"));
     std::string text =
         fmt::format("{}: the zone is {:.0f} % of the vertices, {:.0f} % of it skin, in {} pieces;", fs::path(run).filename().string(),
                     100.0 * zone.number(0, "share_of_vertices"), 100.0 * zone.number(0, "share_on_skin"), zone.integer(0, "pieces"));
@@ -39,7 +40,7 @@ std::string jolt_text(const std::string& run)
 
 std::string walk_text(const std::string& run)
 {
-    const CsvTable walk = analysis::read_csv(path_in(run, "walk.csv"));
+    const CsvTable walk = analysis::read_csv(analysis::path_in(run, "walk.csv"));
     std::string text = fs::path(run).filename().string() +
                        "\n\n| k_stretch | lag, rms [mm] | most [mm] | speed left after 1 s, share |\n|---|---|---|---|\n";
     for (int row = 0; row < walk.rows(); ++row)
@@ -52,7 +53,7 @@ std::string walk_text(const std::string& run)
 
 std::string jiggle_report(const std::string& run)
 {
-    return fs::exists(path_in(run, "walk.csv")) ? walk_text(run) : jolt_text(run);
+    return fs::exists(analysis::path_in(run, "walk.csv")) ? walk_text(run) : jolt_text(run);
 }
 
 }  // namespace experiments

@@ -8,7 +8,7 @@
 // The limb is moved along its bones, which is the one way in which the bind constraints leave all of its skin free; bodies are moved up.
 // Jolted flesh has no weight, that it may lie still before; what walks has.
 // Writes DIR/jiggle/RUN/{responses,series,zone,measurements}.csv or walk.csv, and jiggle.md.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/jiggle/jiggle_report.hpp"

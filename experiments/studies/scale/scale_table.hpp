@@ -2,7 +2,7 @@
 // and the exponents p of cost = c constraints^p.
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "analysis/line_fit.hpp"
 
 #include <nlohmann/json.hpp>

@@ -5,7 +5,7 @@
 //
 // The sizes run one after the other, each in a process of its own with nothing beside it, and mesh anew. Writes
 // DIR/scale/sizes/VERTICES/... (a run's directory), DIR/scale/scale.csv and scale.md.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "experiments/process/own_process.hpp"
 #include "analysis/records/kept_record.hpp"
 #include "experiments/run/run.hpp"
@@ -34,7 +34,7 @@ Scene human_of(int vertices)
 ScaleRow row_of(const fs::path& folder)
 {
     const analysis::CsvTable metrics = analysis::read_csv((folder / "metrics.csv").string());
-    return from_record((folder / "run.json").string(), [&](const nlohmann::json& run) { return scale_row(run, metrics); });
+    return analysis::from_record((folder / "run.json").string(), [&](const nlohmann::json& run) { return scale_row(run, metrics); });
 }
 
 std::string run_sizes(const std::vector<int>& sizes, const std::string& folder)

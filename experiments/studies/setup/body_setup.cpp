@@ -52,7 +52,7 @@ void use_own_cache(const fs::path& cache)
 // Every trial meshes anew.
 void forget_meshes(const fs::path& cache)
 {
-    for (const fs::path& file : files_in(cache))
+    for (const fs::path& file : analysis::files_in(cache))
         if (file.filename() != "packages") fs::remove_all(file);
 }
 
@@ -64,8 +64,8 @@ std::string name_of(const BodySetup& setup, const nlohmann::json& run)
 std::vector<analysis::Measurement> measured_in(const fs::path& run_folder, const BodySetup& setup, const std::vector<std::string>& changed)
 {
     const analysis::CsvTable metrics = analysis::read_csv((run_folder / "metrics.csv").string());
-    return from_record((run_folder / "run.json").string(),
-                       [&](const nlohmann::json& run) { return setup_measurements(name_of(setup, run), metrics, run, changed); });
+    return analysis::from_record((run_folder / "run.json").string(),
+                                 [&](const nlohmann::json& run) { return setup_measurements(name_of(setup, run), metrics, run, changed); });
 }
 
 void write_trials(const std::vector<TriedSetup>& tried, const std::string& path)

@@ -2,7 +2,7 @@
 // character.vertices, meshed anew, and run. A body that does not run so is tried again with more keys changed, which are counted.
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "analysis/measurement.hpp"
 #include "experiments/scene/scene.hpp"
 

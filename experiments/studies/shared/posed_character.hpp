@@ -38,7 +38,7 @@ public:
 
     const pbs::Character& character() const { return character_; }
     const pbs::Pose& pose(std::size_t pose) const { return poses_[pose]; }
-    const pbs::Triangles& boundary() const { return boundary_; }  // of its tets
+    const pbs::Triangles& boundary() const { return boundary_; }            // of its tets
     double angle_deg(std::size_t pose) const { return angles_deg_[pose]; }  // of a sweep; of a clip not a number
 
 private:

@@ -1,7 +1,7 @@
 // What the cells of a run came to, as records: cells.csv, the shares that C08 is judged by, and tables for people.
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "experiments/studies/stability/cell_run.hpp"
 
 #include <string>

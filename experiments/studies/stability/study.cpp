@@ -17,7 +17,7 @@
 // "unconditionally". The bind constraint holds what no longer has a right shape, so the shares inverted and still moving stand beside it.
 // Writes DIR/stability/RUN/cells.csv and measurements.csv, and cells.csv, the maps, outcomes.md, criteria.md. It fails where an outcome
 // occurs in no cell, or where the sign as printed does not run away: then the map could not tell stable from unstable.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_body.hpp"

@@ -2,7 +2,7 @@
 //   rows.push_back(linear_stiffness(flesh, {.k_stretch = 0.2, .iterations = 24}));   stiffness_table(rows).write("stiffness.csv");
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "experiments/studies/stiffness/stiffness_setting.hpp"
 
 #include <string>

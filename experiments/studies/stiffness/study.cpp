@@ -8,7 +8,7 @@
 // Judged is the zone on what the solver moves, as the paper runs it; bars and zones on what is held stand beside it ("flesh held").
 // Writes DIR/stiffness/{iterations,time_step,resolution}_BODY/stiffness.csv and measurements.csv; DIR/stiffness/stiffness.csv,
 // exponents.csv and stiffness.md.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/measurement.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/verdicts/claims_text.hpp"

@@ -6,9 +6,9 @@
 //   human                at some of the same sizes, and a ladder of sizes, the largest by cutting every tet into eight
 //
 // One run at once. Writes DIR/timing/BODY_VERTICES/timing.csv and measurements.csv; DIR/timing/timing.csv and timing.md.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/measurement.hpp"
-#include "analysis/provenance.hpp"
+#include "analysis/records/provenance.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/study.hpp"

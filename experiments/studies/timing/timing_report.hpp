@@ -3,7 +3,7 @@
 //   const analysis::CsvTable table = analysis::read_csv("timing.csv");  timing_text(table)
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 
 #include <string>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "analysis/case_record.hpp"
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "experiments/studies/shared/table_1.hpp"
 #include "experiments/studies/timing/frame_timing.hpp"
 

@@ -2,6 +2,7 @@
 //   Young's modulus cancels where displacements alone drive the body; a pose that turns the whole limb leaves its shape alone however
 //   the bones hold it; a fit of Poisson's ratio to the judge's own shape finds the ratio that it was made with; a further frame of the
 //   linear reference costs a re-solve.
+#include "experiments/studies/verification/problem.hpp"
 #include "reference_fem/verification/common.hpp"
 
 #include "analysis/minimise.hpp"
@@ -15,6 +16,9 @@
 #include <numbers>
 
 namespace experiments {
+
+using namespace reference_fem;
+
 namespace {
 
 constexpr int coarse = 500;  // vertices

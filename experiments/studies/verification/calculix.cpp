@@ -6,6 +6,7 @@
 //   limb         (---####---.---####---)      bones (####) hold whole tets; forearm bent or twisted, linear and large strain
 //
 // Besides, the first solve of the cantilever is timed on both sides. Without ccx on the PATH one row says so.
+#include "experiments/studies/verification/problem.hpp"
 #include "experiments/studies/verification/calculix/first_solve_timing.hpp"
 #include "experiments/studies/verification/calculix/second_opinion.hpp"
 #include "reference_fem/verification/common.hpp"
@@ -17,6 +18,9 @@
 #include <limits>
 
 namespace experiments {
+
+using namespace reference_fem;
+
 namespace {
 
 constexpr reference_fem::ElasticMaterial flesh{.young_pa = 1e5, .poisson = 0.3};

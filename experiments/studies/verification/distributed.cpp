@@ -1,11 +1,12 @@
 // What solves systems that a factor does not fit in memory for, against CHOLMOD on the same cantilever: conjugate gradients with algebraic
 // multigrid in this process, and the program pbskin_distributed on one and two ranks. Without it beside this program, or without mpirun,
 // one row says so.
+#include "experiments/studies/verification/problem.hpp"
 #include "experiments/process/scratch_folder.hpp"
 #include "reference_fem/verification/common.hpp"
 #include "reference_fem/verification/structured_mesh.hpp"
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +15,9 @@
 #include <stdexcept>
 
 namespace experiments {
+
+using namespace reference_fem;
+
 namespace {
 
 using namespace reference_fem;

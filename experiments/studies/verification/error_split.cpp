@@ -1,5 +1,6 @@
 // The split of an error into solver, model and discretisation, on a coarse limb whose forearm is twisted: what must hold of its parts
 // whatever the flesh, and what the attachment and the bones' thickness are worth there, to be seen.
+#include "experiments/studies/verification/problem.hpp"
 #include "reference_fem/verification/common.hpp"
 
 #include "analysis/error_norms.hpp"
@@ -14,6 +15,9 @@
 #include <numbers>
 
 namespace experiments {
+
+using namespace reference_fem;
+
 namespace {
 
 constexpr int coarse = 500;  // vertices

@@ -1,10 +1,14 @@
 // The mathematics of the reference's error bar against a published example: pressure recovery on three grids (NPARC Alliance CFD
 // Verification and Validation, tutorial "Examining spatial (grid) convergence", after P. J. Roache 1994).
+#include "experiments/studies/verification/problem.hpp"
 #include "reference_fem/verification/common.hpp"
 
 #include "analysis/grid_convergence.hpp"
 
 namespace experiments {
+
+using namespace reference_fem;
+
 namespace {
 
 VerificationRow row_of(const std::string& quantity, const std::string& unit, double value, double reference, double half_a_digit)

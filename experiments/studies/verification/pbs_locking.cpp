@@ -4,6 +4,7 @@
 //   sag              of PBS itself, settled under its own weight (k_stretch gives the stiffness), with volume constraints over without
 // The latter is 5/6 where the constraints do no more than incompressibility does: edges alone are a body of central forces, nu = 1/4 and
 // E = 2.5 mu, and where no volume changes E = 3 mu.
+#include "experiments/studies/verification/problem.hpp"
 #include "experiments/studies/shared/near_rest/settled_state.hpp"
 #include "experiments/studies/verification/volume_constraints.hpp"
 #include "reference_fem/verification/beam_problems.hpp"
@@ -14,6 +15,9 @@
 #include <Eigen/Geometry>
 
 namespace experiments {
+
+using namespace reference_fem;
+
 namespace {
 
 using pbs::Positions;

@@ -3,6 +3,8 @@
 
 namespace experiments {
 
+using namespace reference_fem;
+
 const std::vector<VerificationProblem>& verification_problems()
 {
     static const std::vector<VerificationProblem> all = {

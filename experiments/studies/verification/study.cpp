@@ -1,6 +1,6 @@
 // The verification of the judge: patch tests, manufactured solutions, closed forms and published benchmarks, each problem a run of its own.
 // No claim rests on it; it says how far the reference itself may be trusted. Rows into DIR/verification/verification.csv, .json, .md.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/verification/verification_module.hpp"
 #include "experiments/studies/verification/verification_record.hpp"
@@ -48,12 +48,13 @@ StudyPlan plan_verification_study(bool full)
     StudyPlan plan;
     try {
         for (const VerificationProblem& problem : problems_of_module())
-            plan.runs.push_back(
-                {.name = problem.name,
-                 .cost_s = full ? problem.full_s : problem.quick_s,
-                 .work = [&problem,
-                          full](const std::string& folder) { return solve_and_record(problem, {.full = full, .limb = limb}, folder); },
-                 .settings = {{"problem", problem.name}, {"full", full}}});
+            plan.runs.push_back({.name = problem.name,
+                                 .cost_s = full ? problem.full_s : problem.quick_s,
+                                 .work =
+                                     [&problem, full](const std::string& folder) {
+                                         return solve_and_record(problem, {{.full = full}, limb}, folder);
+                                     },
+                                 .settings = {{"problem", problem.name}, {"full", full}}});
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({"verification", error.what()});
     }
@@ -71,7 +72,8 @@ StudyConclusion conclude_verification_study(const std::string& folder, const Stu
             conclusion.holds = false;
             continue;
         }
-        for (const auto& row : nlohmann::json::parse(analysis::read_text(file.string()))) rows.push_back(verification_row(row));
+        for (const auto& row : nlohmann::json::parse(analysis::read_text(file.string())))
+            rows.push_back(reference_fem::verification_row(row));
     }
     if (rows.empty()) return {"verification: nothing was run\n", false};
     for (const VerificationRow& row : rows) conclusion.holds &= holds(row).value_or(true);

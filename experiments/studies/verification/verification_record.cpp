@@ -1,7 +1,7 @@
 #include "experiments/studies/verification/verification_record.hpp"
 
-#include "analysis/atomic_file.hpp"
-#include "analysis/csv_table.hpp"
+#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/csv_table.hpp"
 
 #include <fmt/format.h>
 
@@ -137,7 +137,7 @@ ProblemSummary summarise(const std::string& problem, const VerificationRows& row
 
 void write_verification_record(const std::string& folder, const VerificationRows& rows)
 {
-    nlohmann::json json = {{"schema", 1}, {"order_tolerance", order_tolerance}, {"rows", nlohmann::json::array()}};
+    nlohmann::json json = {{"schema", 1}, {"order_tolerance", reference_fem::order_tolerance}, {"rows", nlohmann::json::array()}};
     for (const VerificationRow& row : rows) json["rows"].push_back(to_json(row));
     const std::filesystem::path path(folder);
     analysis::write_text_atomically((path / "verification.csv").string(), csv_text(rows));

@@ -5,6 +5,9 @@
 
 namespace experiments {
 
+using reference_fem::VerificationRow;
+using reference_fem::VerificationRows;
+
 void write_verification_record(const std::string& folder, const VerificationRows& rows);
 
 // One line a problem: how many rows hold, the range of their differences and of their orders less theory; and each row that fails.

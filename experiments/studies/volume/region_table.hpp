@@ -1,7 +1,7 @@
 // Which bones and joints a body loses its volume at: the regions.csv of runs, the greatest losses first.
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 
 #include <string>
 #include <vector>

@@ -11,7 +11,7 @@
 // and, of order 1 at five frames a second, on the human and with --full on the others. Beside the scene's own order of projection, PBS in
 // each other order and precision, so that the report can say whether the verdict hangs on it. Each run writes regions.csv; the study sums
 // them up in regions.csv and regions.txt.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/deformers/option_names.hpp"
 #include "experiments/studies/study.hpp"

@@ -5,7 +5,7 @@
 // On record as a point's error: error_joint_pct, the root mean square over the blended vertices, over their mean distance to the bone.
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "analysis/pareto_front.hpp"
 
 #include <optional>

@@ -6,7 +6,7 @@
 // Of PBS, the error in three parts (error_split/error_split.hpp): solver, model, discretisation.
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/studies/work_precision/point_setting.hpp"
 

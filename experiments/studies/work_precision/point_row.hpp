@@ -1,7 +1,7 @@
 // One row of points.csv: a setting, its time, its error, its volume, the reference it is measured by.
 #pragma once
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/studies/work_precision/reached_reference.hpp"
 

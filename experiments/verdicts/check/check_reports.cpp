@@ -1,6 +1,6 @@
 #include "experiments/verdicts/check/check_reports.hpp"
 
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/check/github_report.hpp"
 #include "analysis/check/junit_report.hpp"
 #include "pbs/geometry/input_error.hpp"

@@ -1,8 +1,8 @@
 #include "experiments/verdicts/check/check_run.hpp"
 
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/check/check_judgement.hpp"
-#include "analysis/provenance.hpp"
+#include "analysis/records/provenance.hpp"
 #include "analysis/records/kept_record.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "analysis/records/record_text.hpp"
@@ -117,7 +117,7 @@ public:
 private:
     void add_baseline_cases(CheckSuite& suite, const CsvTable& metrics, const std::string& folder)
     {
-        const auto [vertices, tets] = from_record((fs::path(folder) / "run.json").string(), [](const nlohmann::json& run) {
+        const auto [vertices, tets] = analysis::from_record((fs::path(folder) / "run.json").string(), [](const nlohmann::json& run) {
             return std::pair(run.at("character").at("vertices").get<int>(), run.at("character").at("tets").get<int>());
         });
         CsvTable now = analysis::baseline_columns(rules_);
@@ -156,7 +156,7 @@ void write_record(const std::string& folder, const std::vector<CheckSuite>& suit
         for (const CheckCase& check : suite.cases) json["cases"].push_back(to_json(check));
         for (const auto& [name, value] : suite.properties) json["tracked"][name] = value;
     }
-    analysis::write_text_atomically((fs::path(folder) / "check.json").string(), record_text(record));
+    analysis::write_text_atomically((fs::path(folder) / "check.json").string(), analysis::record_text(record));
 }
 
 bool is_left_out(const CheckScene& check)

@@ -1,7 +1,7 @@
 // Truth: the file's own documented fields; what is wrong is named with its line.
 #include "analysis/claims.hpp"
 
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,8 @@
-// Verdicts are computed: each kind follows from its records and flips when they are altered. Truth: the rules in experiments/verdicts/claims.toml.
+// Verdicts are computed: each kind follows from its records and flips when they are altered. Truth: the rules in
+// experiments/verdicts/claims.toml.
 #include "analysis/verdict.hpp"
 
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/order_verdicts.hpp"
 
 #include <gtest/gtest.h>

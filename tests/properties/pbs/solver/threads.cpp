@@ -4,7 +4,7 @@
 #include "pbs/solver/batched/batched_constraints.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
-#include "analysis/state_hash.hpp"
+#include "analysis/records/state_hash.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
 #include <gtest/gtest.h>

@@ -34,16 +34,16 @@ TEST(FolderFiles, ARecordIsRemovedWhereItIs)
 {
     const ScratchFolder folder;
     const std::string record = folder.file("run.json", "{}");
-    remove_record(record);
+    analysis::remove_record(record);
     EXPECT_FALSE(fs::exists(record));
-    remove_record(record);
+    analysis::remove_record(record);
 }
 
 TEST(FolderFiles, OneThatStaysIsNamedWithTheReason)
 {
     const ScratchFolder folder;
     fs::create_directories(folder / "run.json/kept");
-    EXPECT_EQ(refusal_of([&] { remove_record(folder / "run.json"); }),
+    EXPECT_EQ(refusal_of([&] { analysis::remove_record(folder / "run.json"); }),
               folder / "run.json" + ": an earlier run's record cannot be removed: Directory not empty");
 }
 
@@ -52,11 +52,11 @@ TEST(FolderFiles, FilesOfAFolder)
     const ScratchFolder folder;
     folder.file("b", "");
     folder.file("a", "");
-    std::vector<fs::path> files = files_in(folder.path());
+    std::vector<fs::path> files = analysis::files_in(folder.path());
     std::sort(files.begin(), files.end());
     EXPECT_EQ(files, (std::vector<fs::path>{folder / "a", folder / "b"}));
     const std::string file = folder / "a";
-    EXPECT_EQ(refusal_of([&] { files_in(file); }), file + ": the folder cannot be read: Not a directory");
+    EXPECT_EQ(refusal_of([&] { analysis::files_in(file); }), file + ": the folder cannot be read: Not a directory");
 }
 
 // As somebody else where root runs the tests, whom no mode stops.

@@ -5,19 +5,20 @@
 
 namespace {
 
-using experiments::is_utf8;
-using experiments::record_text;
+using analysis::is_utf8;
+using analysis::record_text;
 
 TEST(RecordText, KnowsUtf8)
 {
-    for (const char* text : {"", "limb", "Gelenk \xc3\xa4", "\xe2\x82\xac", "\xf0\x9d\x84\x9e"}) EXPECT_TRUE(is_utf8(text)) << text;
+    for (const char* text : {"", "limb", "Gelenk \xc3\xa4", "\xe2\x82\xac", "\xf0\x9d\x84\x9e"})
+        EXPECT_TRUE(analysis::is_utf8(text)) << text;
     for (const char* text : {"\xff", "limb\xfe", "\xc3", "\xc0\xaf", "\xed\xa0\x80", "\xf5\x80\x80\x80"})
-        EXPECT_FALSE(is_utf8(text)) << text;
+        EXPECT_FALSE(analysis::is_utf8(text)) << text;
 }
 
 TEST(RecordText, ANameThatIsNotUtf8LosesNothingElse)
 {
-    const auto record = nlohmann::json::parse(record_text({{"name", "li\xffmb"}, {"frames", 3}}));
+    const auto record = nlohmann::json::parse(analysis::record_text({{"name", "li\xffmb"}, {"frames", 3}}));
     EXPECT_EQ(record.at("name"), "li\xef\xbf\xbdmb");
     EXPECT_EQ(record.at("frames"), 3);
 }

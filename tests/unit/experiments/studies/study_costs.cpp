@@ -1,7 +1,7 @@
 // Truth: sums and maxima by hand.
 #include "experiments/studies/study_costs.hpp"
 
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Truth: what the plan says and what is put on disk; a verdict rests on runs that ended, and on no others.
 #include "experiments/verdicts/study_records.hpp"
 
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/measurement.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/scratch_folder.hpp"

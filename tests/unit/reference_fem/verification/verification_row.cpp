@@ -1,7 +1,7 @@
 // Truth: the rules in the header, by hand.
 #include "experiments/studies/verification/verification_record.hpp"
 
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>

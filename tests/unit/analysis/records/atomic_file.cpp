@@ -1,5 +1,5 @@
 // Truth: what the file system holds after each way in which writing can fail. Whole files or none, never a left-over temporary.
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/scratch_folder.hpp"

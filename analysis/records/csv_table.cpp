@@ -1,6 +1,6 @@
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>

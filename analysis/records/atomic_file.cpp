@@ -1,4 +1,4 @@
-#include "analysis/atomic_file.hpp"
+#include "analysis/records/atomic_file.hpp"
 
 #include "pbs/geometry/atomic_file.hpp"
 #include "pbs/geometry/input_error.hpp"

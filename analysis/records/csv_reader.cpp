@@ -1,4 +1,4 @@
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // Truth: RFC 4180 and the identity: what is written reads back to the same bits.
-#include "analysis/csv_table.hpp"
+#include "analysis/records/csv_table.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -1,5 +1,5 @@
 // Truth: what a reader of a record must find, and what must never be in one (host, user, folders).
-#include "analysis/provenance.hpp"
+#include "analysis/records/provenance.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

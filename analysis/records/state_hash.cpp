@@ -1,4 +1,4 @@
-#include "analysis/state_hash.hpp"
+#include "analysis/records/state_hash.hpp"
 
 #include <xxhash.h>
 

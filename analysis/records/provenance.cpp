@@ -1,4 +1,4 @@
-#include "analysis/provenance.hpp"
+#include "analysis/records/provenance.hpp"
 
 #include "generated/build_facts.hpp"
 
