@@ -38,12 +38,13 @@ public:
     long long integer(int row, const std::string& column) const;                        // no fraction
     std::optional<double> number_or_nothing(int row, const std::string& column) const;  // nothing for an empty cell
     std::vector<double> numbers(const std::string& column) const;                       // #rows
+    // InputError file:line:column with the cell's value.
+    [[noreturn]] void refuse(int row, const std::string& column, const std::string& rule) const;
 
 private:
     friend CsvTable parse_csv(const std::string& text, const std::string& file);
 
     int index_of(const std::string& column) const;
-    [[noreturn]] void refuse(int row, const std::string& column, const std::string& rule) const;
 
     std::string file_;  // as read, for messages
     std::vector<std::string> columns_;

@@ -1,0 +1,66 @@
+#include "analysis/records/typed_table.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <stdexcept>
+
+namespace analysis {
+namespace {
+
+// Units as they stand in names and as they are written; where two endings fit a name, the longer one comes first.
+constexpr std::array<std::pair<const char*, const char*>, 22> units{{{"m_s2", "m/s^2"},   {"m_s", "m/s"},
+                                                                     {"n_m", "N/m"},      {"per_s", "1/s"},
+                                                                     {"kg_m3", "kg/m^3"}, {"m3", "m^3"},
+                                                                     {"m2", "m^2"},       {"pct", "%"},
+                                                                     {"deg", "deg"},      {"rad", "rad"},
+                                                                     {"mm", "mm"},        {"m", "m"},
+                                                                     {"ns", "ns"},        {"us", "us"},
+                                                                     {"ms", "ms"},        {"s", "s"},
+                                                                     {"hz", "Hz"},        {"pa", "Pa"},
+                                                                     {"kg", "kg"},        {"mb", "MB"},
+                                                                     {"n", "N"},          {"diagonals", "diagonals"}}};
+
+// Of the longest ending that is a unit.
+std::string unit_by_ending(const std::string& name)
+{
+    for (const auto& [ending, unit] : units)
+        if (name.ends_with(fmt::format("_{}", ending))) return unit;
+    return "";
+}
+
+bool is_inside(const std::string& name, const std::string& wanted)
+{
+    for (const auto& [part, unit] : units)
+        if (unit == wanted && fmt::format("_{}_", name).find(fmt::format("_{}_", part)) != std::string::npos) return true;
+    return false;
+}
+
+}  // namespace
+
+void require_unit(const std::string& name, const std::string& unit)
+{
+    const std::string ending = unit_by_ending(name);
+    if (unit == ending || (ending.empty() && is_inside(name, unit))) return;
+    throw std::logic_error{fmt::format("column {}: the unit '{}' does not agree with the name, which says '{}'", name, unit, ending)};
+}
+
+nlohmann::json cells_json(const std::vector<std::string>& names, const std::vector<CsvTable::Cell>& cells)
+{
+    nlohmann::json json = nlohmann::json::object();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (const auto* text = std::get_if<std::string>(&cells[i]))
+            json[names[i]] = *text;
+        else if (const auto* number = std::get_if<double>(&cells[i]))
+            json[names[i]] = *number;
+        else if (const auto* whole = std::get_if<int>(&cells[i]))
+            json[names[i]] = *whole;
+        else if (const auto* large = std::get_if<long long>(&cells[i]))
+            json[names[i]] = *large;
+        else
+            json[names[i]] = nullptr;
+    }
+    return json;
+}
+
+}  // namespace analysis

@@ -1,0 +1,218 @@
+// A CSV record that is declared once: a row is a plain struct, and one list of columns names, explains, writes and reads its members.
+//   struct Distance { int frame; double rms_mm; };
+//   const Columns<Distance> distance_columns = {{"frame", &Distance::frame, "", "number of the frame, from 0"},
+//                                               {"rms_mm", &Distance::rms_mm, "mm", "root mean square over the points"}};
+//   table_of(distance_columns, rows).write("distances.csv");
+//   const std::vector<Distance> rows = rows_of(distance_columns, read_csv("distances.csv"));
+// A member is a double, int, long long, bool (0 or 1), std::string, an enum with EnumNames, or std::optional of one (nothing: empty cell).
+#pragma once
+
+#include "analysis/records/csv_table.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace analysis {
+
+// The names of an enum's values in records; a specialisation holds `table`, an array of pairs of value and name.
+template <typename Enum>
+struct EnumNames;
+
+// How a value stands in a cell and in JSON. `read` gives InputError file:line:column for a cell that holds something else.
+template <typename Value>
+struct CellOf;
+
+template <>
+struct CellOf<double> {
+    static CsvTable::Cell cell(double value) { return value; }
+    static double read(const CsvTable& table, int row, const std::string& column) { return table.number(row, column); }
+};
+
+template <>
+struct CellOf<long long> {
+    static CsvTable::Cell cell(long long value) { return value; }
+    static long long read(const CsvTable& table, int row, const std::string& column) { return table.integer(row, column); }
+};
+
+template <>
+struct CellOf<int> {
+    static CsvTable::Cell cell(int value) { return value; }
+    static int read(const CsvTable& table, int row, const std::string& column)
+    {
+        const long long value = table.integer(row, column);
+        if (value != static_cast<int>(value)) table.refuse(row, column, "expected a whole number of at most 31 bits");
+        return static_cast<int>(value);
+    }
+};
+
+template <>
+struct CellOf<bool> {
+    static CsvTable::Cell cell(bool value) { return static_cast<int>(value); }
+    static bool read(const CsvTable& table, int row, const std::string& column)
+    {
+        const std::string& text = table.text_at(row, column);
+        if (text != "0" && text != "1") table.refuse(row, column, "expected 0 or 1");
+        return text == "1";
+    }
+};
+
+template <>
+struct CellOf<std::string> {
+    static CsvTable::Cell cell(const std::string& value) { return value; }
+    static std::string read(const CsvTable& table, int row, const std::string& column) { return table.text_at(row, column); }
+};
+
+template <typename Enum>
+requires std::is_enum_v<Enum>
+struct CellOf<Enum> {
+    static CsvTable::Cell cell(Enum value)
+    {
+        for (const auto& [entry, name] : EnumNames<Enum>::table)
+            if (entry == value) return std::string(name);
+        return std::string();
+    }
+    static Enum read(const CsvTable& table, int row, const std::string& column)
+    {
+        std::string names;
+        for (const auto& [entry, name] : EnumNames<Enum>::table) {
+            if (table.text_at(row, column) == name) return entry;
+            names += (names.empty() ? "" : ", ") + std::string(name);
+        }
+        table.refuse(row, column, "expected one of " + names);
+    }
+};
+
+template <typename Value>
+struct CellOf<std::optional<Value>> {
+    static CsvTable::Cell cell(const std::optional<Value>& value) { return value ? CellOf<Value>::cell(*value) : std::nullopt; }
+    static std::optional<Value> read(const CsvTable& table, int row, const std::string& column)
+    {
+        if (table.text_at(row, column).empty()) return std::nullopt;
+        return CellOf<Value>::read(table, row, column);
+    }
+};
+
+// std::logic_error unless the name ends with its unit or, where it ends with no unit, has it inside: time_s is in s, volume_change_pct
+// in %, step_ms_median in ms. A name that ends with a unit cannot be a pure number.
+void require_unit(const std::string& name, const std::string& unit);
+
+// {"frame": 3, "rms_mm": 0.25}; null for an empty cell.
+nlohmann::json cells_json(const std::vector<std::string>& names, const std::vector<CsvTable::Cell>& cells);
+
+template <typename Row>
+struct Column {
+    // access: a pointer to the member, or a generic function from the row to a reference inside it. unit: "" for a pure number.
+    template <typename Access>
+    Column(std::string its_name, Access access, std::string its_unit, std::string its_meaning)
+        : name(std::move(its_name)), unit(std::move(its_unit)), meaning(std::move(its_meaning))
+    {
+        using Value = std::remove_cvref_t<std::invoke_result_t<Access, Row&>>;
+        require_unit(name, unit);
+        cell = [access](const Row& row) { return CellOf<Value>::cell(std::invoke(access, row)); };
+        read = [access, column = name](Row& row, const CsvTable& table, int r) {
+            std::invoke(access, row) = CellOf<Value>::read(table, r, column);
+        };
+    }
+    // The column of a base class or of a part of the row.
+    template <typename Other, typename Access>
+    Column(const Column<Other>& other, Access access) : name(other.name), unit(other.unit), meaning(other.meaning), group(other.group)
+    {
+        cell = [access, of = other.cell](const Row& row) { return of(std::invoke(access, row)); };
+        read = [access, of = other.read](Row& row, const CsvTable& table, int r) { of(std::invoke(access, row), table, r); };
+    }
+
+    std::string name, unit, meaning;
+    std::string group = {};  // "": in every file; the columns of a group are in a file together or not at all
+    std::function<CsvTable::Cell(const Row&)> cell;
+    std::function<void(Row&, const CsvTable&, int)> read;
+};
+
+template <typename Row>
+class Columns : public std::vector<Column<Row>> {
+public:
+    using std::vector<Column<Row>>::vector;
+
+    // Those of this list, then those of another.
+    Columns operator+(const Columns& more) const
+    {
+        Columns all = *this;
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    Columns in_group(const std::string& group) const
+    {
+        Columns all = *this;
+        for (Column<Row>& column : all) column.group = group;
+        return all;
+    }
+    Columns without(const std::string& group) const
+    {
+        Columns rest = *this;
+        std::erase_if(rest, [&](const Column<Row>& column) { return column.group == group; });
+        return rest;
+    }
+    std::vector<std::string> names() const
+    {
+        std::vector<std::string> all;
+        for (const Column<Row>& column : *this) all.push_back(column.name);
+        return all;
+    }
+};
+
+// The columns of a part of the row, e.g. columns_of_part(&Cell::setting, setting_columns).
+template <typename Row, typename Part>
+Columns<Row> columns_of_part(Part Row::*part, const Columns<Part>& columns)
+{
+    Columns<Row> all;
+    for (const Column<Part>& column : columns) all.emplace_back(column, part);
+    return all;
+}
+
+template <typename Row>
+std::vector<CsvTable::Cell> cells_of(const Columns<Row>& columns, const Row& row)
+{
+    std::vector<CsvTable::Cell> cells;
+    for (const Column<Row>& column : columns) cells.push_back(column.cell(row));
+    return cells;
+}
+
+template <typename Row>
+CsvTable table_of(const Columns<Row>& columns, const std::vector<Row>& rows)
+{
+    CsvTable table(columns.names());
+    for (const Row& row : rows) table.add_row(cells_of(columns, row));
+    return table;
+}
+
+// Further columns of the table are ignored. InputError for a missing column, except those of a group that is missing as a whole.
+template <typename Row>
+std::vector<Row> rows_of(const Columns<Row>& columns, const CsvTable& table)
+{
+    const auto is_present = [&](const std::string& group) {
+        return group.empty() || std::any_of(columns.begin(), columns.end(), [&](const Column<Row>& column) {
+                   return column.group == group && table.has_column(column.name);
+               });
+    };
+    std::vector<Row> rows(table.rows());
+    for (const Column<Row>& column : columns)
+        if (is_present(column.group))
+            for (int r = 0; r < table.rows(); ++r) column.read(rows[r], table, r);
+    return rows;
+}
+
+// Include nlohmann/json.hpp where it is called.
+template <typename Row>
+auto row_json(const Columns<Row>& columns, const Row& row)
+{
+    return cells_json(columns.names(), cells_of(columns, row));
+}
+
+}  // namespace analysis
