@@ -1,5 +1,6 @@
 // pbskin explain NAME: what a metric, claim, scene key or study means.
 #include "analysis/text_columns.hpp"
+#include "experiments/studies/shared/program_claims.hpp"
 #include "experiments/verdicts/claims_text.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/deformers/registry.hpp"

@@ -1,5 +1,5 @@
 // pbskin list [cases, scenes, deformers, studies, claims, metrics]: what there is.
-#include "experiments/verdicts/claims_text.hpp"
+#include "experiments/studies/shared/program_claims.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/run/metrics_table.hpp"

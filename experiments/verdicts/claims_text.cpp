@@ -2,18 +2,11 @@
 
 #include "analysis/claims_report.hpp"
 #include "analysis/measurement.hpp"
-#include "generated/claims_texts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace experiments {
-
-const std::vector<analysis::Claim>& claims()
-{
-    static const std::vector<analysis::Claim> all = analysis::parse_claims(::claims::claims_toml, "claims.toml");
-    return all;
-}
 
 namespace {
 

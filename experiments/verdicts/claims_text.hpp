@@ -1,4 +1,4 @@
-// The claims of claims.toml, which the program carries.
+// A claim in words, for the terminal.
 #pragma once
 
 #include "analysis/claims.hpp"
@@ -8,8 +8,6 @@
 #include <vector>
 
 namespace experiments {
-
-const std::vector<analysis::Claim>& claims();
 
 // What is claimed, where it is measured and what is expected, for `explain`: label and text.
 std::vector<std::pair<std::string, std::string>> claim_lines(const analysis::Claim& claim);

@@ -3,7 +3,7 @@
 #include "analysis/records/atomic_file.hpp"
 #include "analysis/claims_report.hpp"
 #include "analysis/claims_table.hpp"
-#include "experiments/verdicts/claims_text.hpp"
+#include "experiments/studies/shared/program_claims.hpp"
 #include "experiments/process/exit_status.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "experiments/verdicts/marked_frames.hpp"

@@ -3,7 +3,7 @@
 #include "analysis/case_judgement.hpp"
 #include "analysis/statistics.hpp"
 #include "experiments/studies/ambiguity/judged_figure.hpp"
-#include "experiments/verdicts/claims_text.hpp"
+#include "experiments/studies/shared/program_claims.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

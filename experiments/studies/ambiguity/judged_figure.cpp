@@ -1,12 +1,10 @@
 #include "experiments/studies/ambiguity/judged_figure.hpp"
 
-#include "experiments/verdicts/claims_text.hpp"
 #include "pbs/character/body_cache.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace experiments {
 namespace {
@@ -42,13 +40,6 @@ const char* word_for(analysis::Extent extent)
 {
     static constexpr const char* words[] = {"nowhere", "in part", "whole"};
     return words[static_cast<int>(extent)];
-}
-
-const analysis::Claim& claim_named(const std::string& id)
-{
-    const auto found = std::find_if(claims().begin(), claims().end(), [&](const analysis::Claim& claim) { return claim.id == id; });
-    if (found == claims().end()) throw std::logic_error("no claim " + id);
-    return *found;
 }
 
 std::string digest_of(const std::vector<analysis::Claim>& claims)

@@ -5,6 +5,7 @@
 
 #include "analysis/measurement.hpp"
 #include "experiments/studies/ambiguity/read_motion.hpp"
+#include "experiments/studies/shared/program_claims.hpp"
 
 #include <string>
 #include <vector>
@@ -40,8 +41,6 @@ std::vector<JudgedFigure> judged(const std::vector<analysis::Measurement>& measu
 
 // C01: the mean of its metrics over the frames; C02: the share of frames within; both judged as analysis::judge_case does.
 std::vector<JudgedFigure> judged(const ReadMotion& moved);
-
-const analysis::Claim& claim_named(const std::string& id);
 
 // Of all that decides whether a figure holds: another bound is another digest.
 std::string digest_of(const std::vector<analysis::Claim>& claims);

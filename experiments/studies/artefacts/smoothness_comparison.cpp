@@ -3,7 +3,7 @@
 #include "analysis/frame_metrics.hpp"
 #include "analysis/smoothness.hpp"
 #include "analysis/statistics.hpp"
-#include "experiments/studies/convergence/path_figures.hpp"
+#include "experiments/studies/shared/path_figures.hpp"
 #include "experiments/deformers/option_names.hpp"
 #include "pbs/skinning/blend.hpp"
 

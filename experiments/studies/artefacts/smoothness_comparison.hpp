@@ -3,7 +3,7 @@
 //   for (const analysis::Measurement& figure : compare_weights(of).figures) ...
 // At each joint: the jump of strain between neighbouring tets and the bending of the skin (analysis/smoothness.hpp); of the whole body the
 // absolute volume change; and the iterations after which PBS stays within the tolerance of its residual, by the residual and the rule of
-// the study of convergence (convergence/path_figures.hpp), with the blends by both weights as its two starts. Each is given as Eq. 2 over
+// the study of convergence (shared/path_figures.hpp), with the blends by both weights as its two starts. Each is given as Eq. 2 over
 // rigid, with the spread over orders, precisions and meshes; of iterations over meshes alone.
 #pragma once
 

@@ -15,7 +15,7 @@
 #include "experiments/studies/artefacts/artefact_figures.hpp"
 #include "experiments/studies/artefacts/smoothness_comparison.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
-#include "experiments/studies/convergence/path_figures.hpp"
+#include "experiments/studies/shared/path_figures.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 

@@ -2,7 +2,7 @@
 //   const ConvergenceResult result = measure_convergence(case_of_the_limb);
 #pragma once
 
-#include "experiments/studies/convergence/path_figures.hpp"
+#include "experiments/studies/shared/path_figures.hpp"
 #include "experiments/studies/convergence/starts.hpp"
 #include "experiments/scene/scene.hpp"
 

@@ -11,14 +11,13 @@
 #include "analysis/records/atomic_file.hpp"
 #include "analysis/measurement.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
-#include "experiments/verdicts/claims_text.hpp"
+#include "experiments/studies/shared/program_claims.hpp"
 #include "experiments/studies/stiffness/stiffness_report.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/character/bodies.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 
 namespace experiments {
@@ -172,11 +171,6 @@ void plan_body(StudyPlan& plan, const std::string& body, const std::vector<int>&
     if (!ladder.empty()) plan.runs.push_back(sweep_run({Varied::resolution, body, full, ladder}, full ? 60.0 : 5.0));
 }
 
-const analysis::Claim& c11()
-{
-    return *std::find_if(claims().begin(), claims().end(), [](const analysis::Claim& claim) { return claim.id == "C11"; });
-}
-
 }  // namespace
 
 StudyPlan plan_stiffness_study(bool full)
@@ -207,7 +201,7 @@ StudyConclusion conclude_stiffness_study(const std::string& folder, const StudyP
         all.insert(all.end(), rows.begin(), rows.end());
         swept.emplace_back(varied, std::move(rows));
     }
-    const analysis::Claim& claim = c11();
+    const analysis::Claim& claim = claim_named("C11");
     stiffness_table(all).write((fs::path(folder) / "stiffness.csv").string());
     exponents_table(swept).write((fs::path(folder) / "exponents.csv").string());
     analysis::write_text_atomically((fs::path(folder) / "stiffness.md").string(),

@@ -1,4 +1,4 @@
-#include "experiments/studies/convergence/path_figures.hpp"
+#include "experiments/studies/shared/path_figures.hpp"
 
 #include "analysis/line_fit.hpp"
 #include "analysis/statistics.hpp"

@@ -1,4 +1,4 @@
-#include "experiments/studies/convergence/iteration_path.hpp"
+#include "experiments/studies/shared/iteration_path.hpp"
 
 #include "experiments/process/cpu_clock.hpp"
 #include "experiments/process/interruption.hpp"

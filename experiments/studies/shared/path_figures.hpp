@@ -9,7 +9,7 @@
 #pragma once
 
 #include "analysis/bootstrap.hpp"
-#include "experiments/studies/convergence/iteration_path.hpp"
+#include "experiments/studies/shared/iteration_path.hpp"
 
 #include <optional>
 

@@ -1,6 +1,6 @@
 // Truth: the solver's own step for where a path leads, its own residuals for what is measured on positions, and a uniformly scaled body,
 // whose residuals are known.
-#include "experiments/studies/convergence/iteration_path.hpp"
+#include "experiments/studies/shared/iteration_path.hpp"
 
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/limb_character.hpp"
