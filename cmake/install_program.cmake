@@ -19,7 +19,7 @@ install(TARGETS ${modules} LIBRARY DESTINATION lib/pbskin COMPONENT program)
 
 # The scripts that draw, with the viewer where it was built; its sources stay behind.
 install(DIRECTORY paper_figures DESTINATION ${data_folder} COMPONENT program
-    PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE PATTERN viewer/src EXCLUDE PATTERN viewer/*.json EXCLUDE
+    PATTERN __pycache__ EXCLUDE PATTERN readme EXCLUDE PATTERN node_modules EXCLUDE PATTERN viewer/src EXCLUDE PATTERN viewer/*.json EXCLUDE
     PATTERN viewer/*.mjs EXCLUDE PATTERN viewer/.npmrc EXCLUDE)
 install(DIRECTORY experiments/scenes DESTINATION ${data_folder} COMPONENT program FILES_MATCHING PATTERN *.toml)
 install(FILES CITATION.cff experiments/verdicts/claims.toml DESTINATION ${data_folder} COMPONENT program)
@@ -30,19 +30,21 @@ install(DIRECTORY experiments/sweeps DESTINATION ${data_folder} COMPONENT progra
 file(CREATE_LINK ../${data_folder}/sweeps/sweep.py ${PROJECT_BINARY_DIR}/pbskin-sweep SYMBOLIC)
 install(FILES ${PROJECT_BINARY_DIR}/pbskin-sweep DESTINATION bin COMPONENT program)
 
-# The manual page and the completions, from what the program says of itself.
+# The manual pages, the manual of scene files and the completions, from the program's description of itself.
 find_program(PBS_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
 if(PBS_PYTHON)
     set(pages_folder ${PROJECT_BINARY_DIR}/pages)
     set(pages_script ${PROJECT_SOURCE_DIR}/experiments/command_line/pages)
-    add_custom_command(OUTPUT ${pages_folder}/pbskin.1 ${pages_folder}/pbskin ${pages_folder}/_pbskin
+    add_custom_command(OUTPUT ${pages_folder}/pbskin.1 ${pages_folder}/pbskin-scene.5 ${pages_folder}/scene_manual.md
+            ${pages_folder}/pbskin ${pages_folder}/_pbskin
         COMMAND $<TARGET_FILE:pbskin> --describe > command_line.json
         COMMAND ${PBS_PYTHON} -B ${pages_script}/make_pages.py command_line.json ${pages_folder} ${PROJECT_VERSION}
         DEPENDS pbskin ${pages_script}/make_pages.py ${pages_script}/man_page.py ${pages_script}/bash_completion.py
-            ${pages_script}/zsh_completion.py
-        COMMENT "Writing the manual page and the completions" VERBATIM)
+            ${pages_script}/zsh_completion.py ${pages_script}/scene_manual.py
+        COMMENT "Writing the manual pages and the completions" VERBATIM)
     add_custom_target(pbskin_pages ALL DEPENDS ${pages_folder}/pbskin.1)
     install(FILES ${pages_folder}/pbskin.1 DESTINATION share/man/man1 COMPONENT program)
+    install(FILES ${pages_folder}/pbskin-scene.5 DESTINATION share/man/man5 COMPONENT program)
     install(FILES ${pages_folder}/pbskin DESTINATION share/bash-completion/completions COMPONENT program)
     install(FILES ${pages_folder}/_pbskin DESTINATION share/zsh/site-functions COMPONENT program)
 endif()

@@ -1,5 +1,7 @@
 #include "experiments/command_line/description.hpp"
 
+#include "experiments/scene/scene_schema.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <sstream>
@@ -46,6 +48,19 @@ json describe_options(const CLI::App& app)
     return options;
 }
 
+json describe_scene_keys()
+{
+    json keys = json::array();
+    for (const SceneKey& key : scene_keys())
+        keys.push_back({{"table", key.table},
+                        {"name", key.name},
+                        {"meaning", key.meaning},
+                        {"unit", key.unit},
+                        {"rule", key.rule()},
+                        {"default", key.default_json}});
+    return keys;
+}
+
 }  // namespace
 
 std::string describe(const CLI::App& app)
@@ -54,7 +69,11 @@ std::string describe(const CLI::App& app)
     for (const CLI::App* verb : app.get_subcommands(std::function<bool(const CLI::App*)>{}))
         if (!verb->get_group().empty())
             verbs.push_back({{"name", verb->get_name()}, {"meaning", verb->get_description()}, {"options", describe_options(*verb)}});
-    const json all = {{"name", app.get_name()}, {"meaning", app.get_description()}, {"options", describe_options(app)}, {"verbs", verbs}};
+    const json all = {{"name", app.get_name()},
+                      {"meaning", app.get_description()},
+                      {"options", describe_options(app)},
+                      {"verbs", verbs},
+                      {"scene_keys", describe_scene_keys()}};
     return all.dump(1);
 }
 

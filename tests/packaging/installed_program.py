@@ -58,7 +58,8 @@ class InstalledProgram(unittest.TestCase):
 
     def test_what_it_reads_is_there(self):
         for name in ("share/pbskin/paper_figures/make_all.py", "share/pbskin/CITATION.cff", "share/pbskin/claims.toml",
-                     "share/pbskin/scenes/limb_twist.toml", "share/man/man1/pbskin.1", "share/bash-completion/completions/pbskin",
+                     "share/pbskin/scenes/limb_twist.toml", "share/man/man1/pbskin.1", "share/man/man5/pbskin-scene.5",
+                     "share/bash-completion/completions/pbskin",
                      "share/zsh/site-functions/_pbskin", "lib/pbskin/libpbskin_native_plain.so", "bin/pbskin-sweep",
                      "share/pbskin/sweeps/Snakefile", "share/pbskin/sweeps/slurm/config.yaml",
                      "share/pbskin/sweeps/examples/limb_bend.toml"):

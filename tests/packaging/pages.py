@@ -1,7 +1,7 @@
-"""Manual page and completions: every verb and option is in them, and the shells take them.
+"""Manual pages, manual of scene files and completions: every verb, option and scene key is in them, and the shells accept them.
 
-Truth: `pbskin --help` and `pbskin VERB --help`, which CLI11 writes, not the description that the pages were written from; mandoc, man's
-own reader, and bash and zsh themselves.
+Truth: `pbskin --help` and `pbskin VERB --help`, which CLI11 writes, not the description that the pages were written from; the schema's own
+answer to an unknown key; mandoc, a reader of manual pages, and bash and zsh themselves.
 """
 import os
 import re
@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import unittest
 
-from installation import BUILD, folder, run
+from installation import BUILD, SOURCE, folder, run
 
 PBSKIN = BUILD / "bin/pbskin"
 pages = BUILD / "pages"
@@ -52,12 +52,38 @@ class ManPage(unittest.TestCase):
     def test_hidden_options_are_not_there(self):
         self.assertNotIn("--describe", self.text)
 
-    @unittest.skipUnless(shutil.which("mandoc"), "mandoc is not there")
+    @unittest.skipUnless(shutil.which("mandoc"), "mandoc is not installed")
     def test_readers_take_it(self):
-        checked = run("mandoc", "-Tlint", "-Wwarning", pages / "pbskin.1")
-        self.assertEqual(checked.stdout + checked.stderr, "")
+        for page in ("pbskin.1", "pbskin-scene.5"):
+            checked = run("mandoc", "-Tlint", "-Wwarning", pages / page)
+            self.assertEqual(checked.stdout + checked.stderr, "")
         shown = re.sub(".\b", "", run("mandoc", "-Tascii", pages / "pbskin.1").stdout)  # struck twice is bold
         self.assertIn("pbskin measure REST FRAMES ...", shown)
+
+
+class SceneManual(unittest.TestCase):
+    def rows(self):
+        """Table -> keys of the committed manual."""
+        sections = re.split(r"^## ", (SOURCE / "experiments/scene/manual.md").read_text(encoding="utf-8"), flags=re.MULTILINE)[1:]
+        return {section.split("\n")[0].strip("[]"): re.findall(r"^\| `(\w+)` \|", section, re.MULTILINE) for section in sections}
+
+    def test_the_committed_manual_is_current(self):
+        self.assertEqual((SOURCE / "experiments/scene/manual.md").read_text(encoding="utf-8"),
+                         (pages / "scene_manual.md").read_text(encoding="utf-8"),
+                         f"cp {pages}/scene_manual.md experiments/scene/manual.md")
+
+    def test_the_program_explains_every_key_of_it(self):
+        keys = [key if table == "Top level" else f"{table}.{key}" for table, names in self.rows().items() for key in names]
+        self.assertGreater(len(keys), 50)
+        for table in ("pbs", "fem", "output"):
+            explained = re.findall(r"^(\S+) \(scene key\)", run(PBSKIN, "explain", table).stdout, re.MULTILINE)
+            self.assertEqual(sorted(explained), sorted(key for key in keys if key.rpartition(".")[0] == table))
+
+    def test_the_manual_page_has_the_same_keys(self):
+        text = (pages / "pbskin-scene.5").read_text(encoding="utf-8")
+        for names in self.rows().values():
+            for key in names:
+                self.assertIn(f"\n.TP\n\\fB{key}\\fR\n", text)
 
 
 class Bash(unittest.TestCase):

@@ -1,7 +1,7 @@
-"""The manual page and the completions of bash and zsh, written from what the program says of itself.
+"""The manual pages, the manual of scene files and the completions of bash and zsh, written from the program's description of itself.
 
     pbskin --describe > command_line.json
-    python3 make_pages.py command_line.json DIR VERSION     # DIR/pbskin.1, DIR/pbskin, DIR/_pbskin
+    python3 make_pages.py command_line.json DIR VERSION     # DIR/pbskin.1, pbskin-scene.5, scene_manual.md, pbskin, _pbskin
 """
 import json
 import pathlib
@@ -9,6 +9,7 @@ import sys
 
 import bash_completion
 import man_page
+import scene_manual
 import zsh_completion
 
 # What `pbskin list KIND` names, for words that may be such a name as well as a file.
@@ -21,7 +22,9 @@ def main(description, folder, version):
         for option in verb["options"]:
             option["listed"] = listed.get((verb["name"], option["name"]), "")
     folder.mkdir(parents=True, exist_ok=True)
-    for name, text in (("pbskin.1", man_page.text(program, version)), ("pbskin", bash_completion.text(program)),
+    keys = program["scene_keys"]
+    for name, text in (("pbskin.1", man_page.text(program, version)), ("pbskin-scene.5", scene_manual.man(keys, version)),
+                       ("scene_manual.md", scene_manual.markdown(keys)), ("pbskin", bash_completion.text(program)),
                        ("_pbskin", zsh_completion.text(program))):
         (folder / name).write_text(text, encoding="utf-8")
 

@@ -1,4 +1,4 @@
-"""pbskin(1) in the man macros (man(7)), dated today, or by SOURCE_DATE_EPOCH where a build has to repeat to the bit."""
+"""pbskin(1) in the man macros (man(7)), dated today, or by SOURCE_DATE_EPOCH if a build has to repeat to the bit."""
 import datetime
 import os
 import time
@@ -38,9 +38,13 @@ def synopsis(program, verb):
     return " ".join(words + ["[\\fIOPTION\\fR ...]"])
 
 
-def text(program, version):
+def title_line(name, section, version, manual):
     date = datetime.datetime.fromtimestamp(int(os.environ.get("SOURCE_DATE_EPOCH", time.time())), datetime.timezone.utc).date()
-    lines = [f'.TH PBSKIN 1 "{date}" "pbskin {version}" "User Commands"', ".SH NAME",
+    return f'.TH {name} {section} "{date}" "pbskin {version}" "{manual}"'
+
+
+def text(program, version):
+    lines = [title_line("PBSKIN", 1, version, "User Commands"), ".SH NAME",
              f"pbskin \\- {escaped(program['meaning'].removeprefix('pbskin: '))}", ".SH SYNOPSIS"]
     for number, verb in enumerate(program["verbs"]):
         lines += ([".br"] if number else []) + [synopsis(program, verb)]
@@ -58,4 +62,5 @@ def text(program, version):
     lines += [".SH ENVIRONMENT"]
     for name, meaning in variables:
         lines += [".TP", f"\\fB{name}\\fR", escaped(meaning)]
+    lines += [".SH SEE ALSO", "\\fBpbskin\\-scene\\fR(5)"]
     return "\n".join(lines) + "\n"
