@@ -21,7 +21,7 @@ install(TARGETS ${modules} LIBRARY DESTINATION lib/pbskin COMPONENT program)
 install(DIRECTORY paper_figures DESTINATION ${data_folder} COMPONENT program
     PATTERN __pycache__ EXCLUDE PATTERN readme EXCLUDE PATTERN node_modules EXCLUDE PATTERN viewer/src EXCLUDE PATTERN viewer/*.json EXCLUDE
     PATTERN viewer/*.mjs EXCLUDE PATTERN viewer/.npmrc EXCLUDE)
-install(DIRECTORY experiments/scenes DESTINATION ${data_folder} COMPONENT program FILES_MATCHING PATTERN *.toml)
+install(DIRECTORY experiments/scenes DESTINATION ${data_folder} COMPONENT program FILES_MATCHING PATTERN *.toml PATTERN *.obj)
 install(FILES CITATION.cff experiments/verdicts/claims.toml DESTINATION ${data_folder} COMPONENT program)
 
 # Parameter sweeps, as bin/pbskin-sweep; the scaling of the distributed reference is for a checkout.

@@ -1,6 +1,6 @@
-"""The parts of README.md that scripts write, each between two markers of its own. Nobody types them.
+"""The parts of README.md and of other pages that scripts write from records, each between two markers of its own.
 
-    sys.exit(readme_part.main("claims", lines_of, sys.argv, __doc__))  # lines_of(DIR): what is to stand between the markers
+    sys.exit(readme_part.main("claims", lines_of, sys.argv, __doc__))  # lines_of(DIR): the lines between the markers
 """
 import pathlib
 import sys
@@ -8,7 +8,8 @@ import sys
 import records
 import whole_file
 
-own_readme = pathlib.Path(__file__).resolve().parent.parent / "README.md"
+source = pathlib.Path(__file__).resolve().parent.parent
+own_readme = source / "README.md"
 
 
 def markers(name):
@@ -38,7 +39,7 @@ def write(readme, name, lines):
 
 
 def main(name, lines_of, arguments, usage, readme=own_readme):
-    """The exit status: 2 where the one argument, the records or README are not as expected; nothing is written then."""
+    """The exit status: 2 if the one argument, the records or the page are not as expected; nothing is written then."""
     if len(arguments) != 2:
         print(usage, file=sys.stderr)
         return 2

@@ -1,4 +1,4 @@
-"""Copies what the tests of reliability counted, DIR/*.json, into README.md, between its markers. Nobody types that table.
+"""Copies what the tests of reliability counted, DIR/*.json, into the table of tests/README.md, between its markers.
 
     PBS_RELIABILITY_DIR=DIR ./check --long      # each test writes DIR/NAME.json: name, count, of, command, revision
     python3 paper_figures/readme_reliability.py DIR
@@ -8,6 +8,9 @@ import sys
 import readme_part
 import record_shapes
 import records
+
+
+page = readme_part.source / "tests" / "README.md"
 
 
 def line(record):
@@ -25,4 +28,4 @@ def lines_of(folder):
 
 
 if __name__ == "__main__":
-    sys.exit(readme_part.main("reliability", lines_of, sys.argv, __doc__))
+    sys.exit(readme_part.main("reliability", lines_of, sys.argv, __doc__, page))

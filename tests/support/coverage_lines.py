@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tells README's table how many lines of our own code the tests ran, from gcovr's summary; exit status 1 where that is too few.
+"""Counts for tests/README.md how many lines of our own code the tests ran, from gcovr's summary; exit status 1 if that is too few.
 
     PBS_RELIABILITY_DIR=DIR coverage_lines.py results/check/coverage.json
 """

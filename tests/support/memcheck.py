@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the unit tests' programs under valgrind, with a full search for leaks, and tells README's table how many were clean. What other
+"""Runs the unit tests' programs under valgrind with a full search for leaks, and counts for tests/README.md how many were clean. What other
 libraries do is in valgrind_suppressions.txt, with the reason.
 
     PBS_RELIABILITY_DIR=DIR memcheck.py build/valgrind/tests JOBS

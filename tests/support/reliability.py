@@ -1,4 +1,4 @@
-"""What the tests of reliability counted, for README's table: FILE.json in the folder that PBS_RELIABILITY_DIR names; without it, nothing.
+"""What the tests of reliability counted, for tests/README.md: FILE.json in the folder that PBS_RELIABILITY_DIR names; without it, nothing.
 
     reliability.tell("kills", "kills survived", 20, 20, note="seed 2014")
 """
