@@ -61,7 +61,7 @@ class Captions(unittest.TestCase):
             ("pbs_jiggle", "start", "bounded"), ("fem_linear", "gravity", "diverged"), ("fem_linear", "slivers, height kept", "diverged"))]
         text = self.told("stability_cells", rows)
         self.assertIn("undisturbed: PBS in 2 of 3; PBS, jiggle in 0 of 1; linear FEM in 0 of 2 (", text)
-        self.assertIn("in PBS by: gravity; in the jiggling PBS by: none. ", text)
+        self.assertIn("PBS keeps inverted tets after: gravity; the jiggling PBS after: none. ", text)
         self.assertIn("Diverged: linear FEM (gravity and slivers, height kept); ", text)
         self.assertIn("Not finite: none.", text)
 
@@ -71,7 +71,7 @@ class Captions(unittest.TestCase):
         text = self.told("stability_maps", rows)
         self.assertIn("k_stretch: of 2 cells 1 at rest as if undisturbed, 0 bounded, 1 with inverted tets, 0 diverged, 0 not finite.", text)
         self.assertIn("twist: of 1 cells 0 at rest as if undisturbed, 1 bounded, ", text)
-        self.assertIn("the longest took 611 steps", text)
+        self.assertIn("The longest took 611 steps", text)
 
     def test_folds_of_frequency_are_largest_over_smallest(self):
         rows = [{"body": body, "varied": varied, "frequency_hz": hz, "deformer": "snh_p1" if pa else "pbs", "young_pa": pa or "nan"}
@@ -80,10 +80,10 @@ class Captions(unittest.TestCase):
                     ("limb", "iterations", 4, ""), ("limb", "iterations", 6, ""), ("limb_reference", "", 99, ""),
                     ("limb_reference", "", 98, 117e3), ("limb_reference", "", 97, 121e3))]
         text = self.told("jiggle_response", rows)
-        self.assertIn("each with the others at k_stretch 0.1, 10 ms and 24 iterations;", text)
-        self.assertIn("Young's modulus (117 to 121 kPa) is chosen there so that they swing as fast as PBS: the damping alone", text)
-        self.assertIn("moves with k_stretch 2-fold (limb); with the time step, which is no material, none; "
-                      "with iterations 1.5-fold (limb).", text)
+        self.assertIn("each with the others at k_stretch 0.1, 10 ms and 24 iterations.", text)
+        self.assertIn("Young's modulus (117 to 121 kPa) is chosen so that they swing as fast as PBS, so only the damping", text)
+        self.assertIn("changes with k_stretch 2-fold (limb); with the time step, which is no material property, none; "
+                      "with the iterations 1.5-fold (limb).", text)
 
     def test_folds_of_stiffness_are_of_xpbd_over_iterations(self):
         rows = [{"body": body, "varied": varied, "method": method, "iterations": count, "stiffness_n_m": stiffness}
@@ -128,24 +128,24 @@ class Captions(unittest.TestCase):
                 row("twist", 900, 0.75, "nan")]
         text = self.told("convergence_mesh", rows)
         self.assertIn("limb, 300 to 900 vertices, after 24 iterations (filled) and after 1000 (hollow)", text)
-        self.assertIn("Bent, the residual on the coarsest and on the finest mesh is 0.25 and 0.5 after 24 iterations, 0.01 and 0.01",
+        self.assertIn("In the bend, the residual on the coarsest and the finest mesh is 0.25 and 0.5 after 24 iterations and 0.01 and 0.01",
                       text)
-        self.assertIn("reached on 1 of 2 meshes bent, on 2 of 3 twisted", text)
+        self.assertIn("reached on 1 of 2 meshes in the bend and on 2 of 3 in the twist", text)
         self.assertIn("twisted 23 % after 24 and 40 % after 1000 on 300 vertices, 21 % after 24 and 40 % after 1000 on 600 vertices; "
                       "bent no reference on record.", text)
 
     def test_inverted_tets_of_stills_and_clip(self):
         rows = [{"deformer": deformer, "inverted_tets": count} for deformer, count in (
             ("lbs", 73), ("lbs", 109), ("pbs", 0), ("pbs", 1), ("snh_p1", 0), ("snh_p1", 12))]
-        self.assertIn("LBS turns 73 to 109 tets inside out, PBS 0 to 1; the finite elements, which are the reference, 0 to 12",
+        self.assertIn("LBS inverts 73 to 109 tets and PBS 0 to 1; the finite elements, which are the reference, invert 0 to 12",
                       self.told("frames_skin", rows))
-        self.assertIn("in 1 of 2 frames, up to 12; of LBS up to 109, of PBS up to 1.", self.told("clip_jump", rows))
+        self.assertIn("1 of 2 frames have inverted tets, up to 12; LBS has up to 109, PBS up to 1.", self.told("clip_jump", rows))
 
     def test_where_the_jiggling_skin_is_farthest(self):
         rows = [{"largest_mm": mm, "farthest_bone": bone, "time_s": time_s} for mm, bone, time_s in (
             (31.9, "upper_arm.R", 0.0), (65.1, "neck", 1.92))]
         text = self.told("fig_09_jiggle", rows)
-        self.assertIn("Farthest apart: 32 mm at the right upper arm (0.00 s), 65 mm at the neck (1.92 s).", text)
+        self.assertIn("The largest distances: 32 mm at the right upper arm (0.00 s), 65 mm at the neck (1.92 s).", text)
         self.assertIn("moved yet: 32 mm at the right upper arm (0.00 s) is softness", text)
 
     def test_it_is_written_with_the_figure_and_deleted_with_it(self):
@@ -154,7 +154,7 @@ class Captions(unittest.TestCase):
             self.assertEqual(make_all.main(self.figures, "volume_over_iterations"), 0)
         file = self.figures / "figures" / "volume_over_iterations.caption.txt"
         text = file.read_text()
-        self.assertIn("median at \u22122 % and the limb bent by 90 degrees at \u22120.00375 %; 96 leave the one at \u22122 %", text)
+        self.assertIn("the signed change is \u22122 % for the human's median and \u22120.00375 % for the limb bent by 90 degrees; after 96 iterations it is \u22122 %", text)
         self.assertEqual(captions.read(listed["volume_over_iterations"], file.parent), text.rstrip("\n"))
         make_all.delete("volume_over_iterations", file.parent)
         self.assertFalse(file.exists())

@@ -311,8 +311,8 @@ class Report(unittest.TestCase):
 
     def test_no_number_stands_twice_before_a_title(self):
         titles = [figures.numbered(entry, number) for number, entry in enumerate(entries.read(), 1)]
-        self.assertIn("Figure 8: candy wrapper and bulge, with FEM beside them", titles)
-        self.assertIn("Table 1: frame rates, then and here", titles)
+        self.assertIn("Figure 8: candy wrapper and bulge, compared with FEM", titles)
+        self.assertIn("Table 1: frame rates in the paper and here", titles)
         numbers = [re.match(r"(Figure|Table) \d+(?=: )", title)[0] for title in titles]
         self.assertEqual(len(numbers), len(set(numbers)))
 
