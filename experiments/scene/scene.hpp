@@ -1,4 +1,4 @@
-// A scene: which character, what moves it, which deformers, what is written. Read from TOML (interfaces: README, `pbskin explain`).
+// A scene: which character, what moves it, which deformers, what is written. Read from TOML (every key: manual.md, `pbskin explain`).
 #pragma once
 
 #include "experiments/deformers/deformer_spec.hpp"

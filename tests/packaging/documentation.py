@@ -44,7 +44,7 @@ class Documentation(unittest.TestCase):
                 self.assertIn(f" {header.name} ", f" {files} ")
 
     def test_main_page(self):
-        self.assertIn("put to the test", words_of("index.html"))
+        self.assertIn("Position Based Skinning", words_of("index.html"))
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """Every bad input by name, through the program itself: exit status 2 and one line with file, line, field, value and rule, within seconds
-and a gigabyte, and nothing left behind. Truth: the contract in README. The sound files that the bad ones are made of are accepted."""
+and a gigabyte, and nothing left behind. Truth: the contract in experiments/command_line/README.md. The sound files
+that the bad ones are made of are accepted."""
 import unittest
 
 import bad_case

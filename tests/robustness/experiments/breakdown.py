@@ -1,5 +1,5 @@
 """Numerical breakdown is an outcome: the frame and the worst element are on record and said, and the exit status is 3 where the run was
-expected to finish. Truth: the contract in README; the worst tet, found again in the frame that was written."""
+expected to finish. Truth: the contract in experiments/command_line/README.md; the worst tet, found again in the frame that was written."""
 import csv
 import json
 import unittest

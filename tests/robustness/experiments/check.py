@@ -1,5 +1,5 @@
 """`pbskin check` as a CI server meets it: exit status, JUnit (read back by Python's own parser), GitHub's annotations and summary, the
-baseline. Truth: the contract in README; what a bound allows is decided here, from the figures of the frames."""
+baseline. Truth: the contract in experiments/command_line/README.md; what a bound allows is decided here, from the figures of the frames."""
 import csv
 import json
 import os

@@ -1,5 +1,5 @@
 """The command line as its users meet it: exit status 0, 1, 2, 3, messages with place and rule, whole folders, nothing loaded that a scene
-does not need. Truth: the contract in README."""
+does not need. Truth: the contract in experiments/command_line/README.md."""
 import json
 import os
 import signal

@@ -1,6 +1,6 @@
 """Killed at any moment, by any signal, once or several times: what lies there is whole, nothing of the program goes on, and --resume ends
-with the records and the state hashes of a run that nobody killed. Truth: those records; the exit status in README; /proc. Moments come from
-PBS_KILL_SEED."""
+with the records and the state hashes of a run that nobody killed. Truth: those records; the exit status in
+experiments/command_line/README.md; /proc. Moments come from PBS_KILL_SEED."""
 import itertools
 import os
 import pathlib

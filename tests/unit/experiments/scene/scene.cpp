@@ -1,5 +1,5 @@
-// Scenes: what a file, --set and the defaults say together. Truth: the contract of scene files (README, `pbskin explain`) and the options'
-// own defaults.
+// Scenes: what a file, --set and the defaults say together. Truth: the contract of scene files (experiments/scene/manual.md) and the
+// options' own defaults.
 #include "experiments/scene/scene.hpp"
 #include "experiments/scene/scene_schema.hpp"
 #include "tests/support/scratch_folder.hpp"
