@@ -1,42 +1,22 @@
-# Tests of the method: pbs/geometry (topology, quality, volumes), skinning, constraints, solver.
-foreach(name IN ITEMS topology quality refinement tet_volume atomic_file input_error nearest_name text_file toml_text process)
-    pbs_test(unit pbs/geometry/${name} pbs_method)
-endforeach()
-foreach(name IN ITEMS skeleton pose bone_binding weights blend packed_weights blend_skinning)
-    pbs_test(unit pbs/skinning/${name} pbs_method)
-endforeach()
-foreach(name IN ITEMS stretch volume bind volume_printed)
-    pbs_test(unit pbs/constraints/${name} pbs_method)
-endforeach()
-foreach(name IN ITEMS constraint_set particles reordered_projection residuals project_plain algorithm_1 parallel pbs_solver poses_solver)
-    pbs_test(unit pbs/solver/${name} pbs_method)
-endforeach()
-foreach(name IN ITEMS vertex_order constraint_groups grouped_edges grouped_tets batch_schedule batch_program batch_kernels pose_kernels
-        batched_constraints batched_projection)
-    pbs_test(unit pbs/solver/batched/${name} pbs_method)
-endforeach()
-
-pbs_test(properties pbs/geometry/refinement pbs_method)
-pbs_test(properties pbs/constraints/momentum pbs_method)
-pbs_test(properties pbs/constraints/invariance pbs_method)
-pbs_test(properties pbs/skinning/invariance pbs_method)
-pbs_test(properties pbs/skinning/blend_skinning pbs_method)
-pbs_test(properties pbs/solver/invariance pbs_method)
-pbs_test(properties pbs/solver/threads analysis)
+# Tests of the method and of the metrics: they need neither mesh files nor characters, and build where every option is off.
+set(threads)
 if(PBS_WITH_THREADS)
     find_package(TBB REQUIRED)
-    foreach(test IN ITEMS test_properties_pbs_solver_threads test_unit_pbs_solver_parallel)
-        target_link_libraries(${test} PRIVATE TBB::tbb)
-        target_compile_definitions(${test} PRIVATE PBS_WITH_THREADS)
-    endforeach()
+    set(threads TBB::tbb)
 endif()
-foreach(name IN ITEMS left_out sleep)
-    pbs_test(properties pbs/solver/${name} pbs_method)
-endforeach()
-if(PBS_WITH_CGAL)
-    pbs_test(properties pbs/solver/orders pbs_meshing)
-endif()
-pbs_test(robustness pbs/solver/starts pbs_method)
-pbs_test(verification pbs/solver/hanging_particle pbs_method)
 
-pbs_test(claims printed_equations pbs_method)
+pbs_tests(unit pbs_geometry FOLDERS pbs/geometry
+    EXCEPT pbs/geometry/isolated_reader pbs/geometry/mesh_io pbs/geometry/mesh_io_checks pbs/geometry/mesh_io_unavailable
+        pbs/geometry/meshing_builtin pbs/geometry/meshing_count pbs/geometry/meshing_surface pbs/geometry/meshing_unavailable
+        pbs/geometry/module pbs/geometry/self_intersection pbs/geometry/surface_reader
+    LIBRARIES pbs_method)
+pbs_tests(unit pbs_skinning FOLDERS pbs/skinning pbs/constraints LIBRARIES pbs_method)
+pbs_tests(unit pbs_solver FOLDERS pbs/solver LIBRARIES pbs_method ${threads})
+pbs_tests(unit analysis FOLDERS analysis LIBRARIES analysis GSL::gsl)
+set_source_files_properties(unit/analysis/claims.cpp unit/analysis/verdict.cpp PROPERTIES COMPILE_DEFINITIONS ${claims_file})
+pbs_tests(properties method FOLDERS pbs analysis
+    EXCEPT pbs/geometry/meshing_repeats pbs/solver/orders
+    LIBRARIES analysis ${threads})
+pbs_tests(verification method FOLDERS pbs/solver analysis LIBRARIES analysis GSL::gsl)
+pbs_tests(robustness method FOLDERS pbs/solver LIBRARIES pbs_method)
+pbs_tests(claims method FOLDERS pbs LIBRARIES pbs_method)

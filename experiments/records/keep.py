@@ -31,7 +31,7 @@ def rounded(text):
 
 def judged_deformers():
     """Each deformer that claims judge from metrics.csv -> its iterations, None for any."""
-    claims = tomllib.loads((pathlib.Path(__file__).resolve().parents[1] / "claims.toml").read_text(encoding="utf-8"))["claim"]
+    claims = tomllib.loads((pathlib.Path(__file__).resolve().parents[1] / "verdicts" / "claims.toml").read_text(encoding="utf-8"))["claim"]
     return {claim[key]: claim.get("iterations") for claim in claims for key in ("deformer", "orders") if key in claim}
 
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
+#include <sstream>
 
 namespace architecture {
 namespace {
@@ -26,14 +28,51 @@ bool names_word(const std::string& text, const std::string& word)
     return false;
 }
 
-// Registered by pbs_test(KIND FOLDER/NAME), or by pbs_test(KIND FOLDER/${name}) over a list that holds NAME.
+// The words between "pbs_tests(" and ")", a call at a time.
+std::vector<std::vector<std::string>> calls_of_pbs_tests(const std::string& cmake)
+{
+    const std::string opening = "pbs_tests(";
+    std::vector<std::vector<std::string>> calls;
+    for (std::size_t place = cmake.find(opening); place != std::string::npos; place = cmake.find(opening, place + 1)) {
+        const std::size_t start = place + opening.size();
+        std::istringstream words(cmake.substr(start, cmake.find(')', start) - start));
+        calls.emplace_back(std::istream_iterator<std::string>(words), std::istream_iterator<std::string>());
+    }
+    return calls;
+}
+
+bool is_below(const std::string& path, const std::string& folder)
+{
+    return folder == "." || path == folder || path.starts_with(folder + "/");
+}
+
+// pbs_tests(KIND NAME FOLDERS FOLDER... FILES FILE... EXCEPT PATH...) compiles KIND/test.cpp. What an option leaves out is a variable's
+// and not looked at.
+bool compiles(const std::vector<std::string>& call, const std::string& kind, const std::string& test)
+{
+    if (call.empty() || call[0] != kind) return false;
+    std::string section;
+    bool in_folder = false, by_name = false, left_out = false;
+    for (const std::string& word : call) {
+        if (word == "FOLDERS" || word == "FILES" || word == "EXCEPT" || word == "LIBRARIES")
+            section = word;
+        else if (section == "FOLDERS")
+            in_folder |= is_below(test, word);
+        else if (section == "FILES")
+            by_name |= test == word;
+        else if (section == "EXCEPT")
+            left_out |= is_below(test, word);
+    }
+    return by_name || (in_folder && !left_out);
+}
+
 bool is_registered(const std::string& cmake, const std::string& path)
 {
-    std::string test = path.substr(path.find('/') + 1, path.rfind('.') - path.find('/') - 1);  // KIND/FOLDER/NAME
-    if (const std::size_t kind_end = test.find('/'); kind_end != std::string::npos) test[kind_end] = ' ';
-    const std::size_t name = test.find_last_of("/ ") + 1;
-    return names_word(cmake, test) ||
-           (cmake.find(test.substr(0, name) + "${") != std::string::npos && names_word(cmake, test.substr(name)));
+    const std::string test = path.substr(path.find('/') + 1, path.rfind('.') - path.find('/') - 1);  // KIND/FOLDER/NAME
+    const std::size_t kind_end = test.find('/');
+    if (kind_end == std::string::npos) return false;
+    return std::ranges::any_of(calls_of_pbs_tests(cmake),
+                               [&](const auto& call) { return compiles(call, test.substr(0, kind_end), test.substr(kind_end + 1)); });
 }
 
 bool is_built(const std::string& cmake, const std::string& path)

@@ -38,18 +38,28 @@ TEST(BuildLawsBite, NamedOnlyInAnotherFolder)
 
 TEST(BuildLawsBite, UnregisteredTest)
 {
-    const SourceTree planted = {{"tests/method.cmake", "pbs_test(unit geometry/a pbs_method)\n"},
+    const SourceTree planted = {{"tests/method.cmake", "pbs_tests(unit geometry FOLDERS geometry LIBRARIES skinning)\n"},
+                                {"tests/unit/geometry/a.cpp", ""},
+                                {"tests/unit/skinning/b.cpp", ""}};
+    expect_found(orphaned_sources, planted, "tests/unit/skinning/b.cpp");
+}
+
+TEST(BuildLawsBite, TestOfTheSameNameInAnotherKind)
+{
+    const SourceTree planted = {{"tests/method.cmake", "pbs_tests(unit geometry FOLDERS geometry)\n"},
+                                {"tests/unit/geometry/a.cpp", ""},
+                                {"tests/properties/geometry/a.cpp", ""}};
+    expect_found(orphaned_sources, planted, "tests/properties/geometry/a.cpp");
+}
+
+TEST(BuildLawsBite, TestThatItsFolderLeavesOut)
+{
+    const SourceTree planted = {{"tests/method.cmake",
+                                 "pbs_tests(unit geometry FOLDERS geometry\n    EXCEPT geometry/a geometry/b)\n"
+                                 "pbs_tests(unit meshes FILES geometry/a)\n"},
                                 {"tests/unit/geometry/a.cpp", ""},
                                 {"tests/unit/geometry/b.cpp", ""}};
     expect_found(orphaned_sources, planted, "tests/unit/geometry/b.cpp");
-}
-
-TEST(BuildLawsBite, TestOfTheSameNameInAnotherFolder)
-{
-    const SourceTree planted = {{"tests/method.cmake", "foreach(name a b)\n    pbs_test(unit geometry/${name} pbs_method)\nendforeach()\n"},
-                                {"tests/unit/geometry/a.cpp", ""},
-                                {"tests/unit/skinning/a.cpp", ""}};
-    expect_found(orphaned_sources, planted, "tests/unit/skinning/a.cpp");
 }
 
 TEST(BuildLawsBite, UnitTestOfNothing)

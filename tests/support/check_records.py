@@ -24,7 +24,7 @@ def failed(path):
 
 def scenes_of_another_mesh(folder):
     """The scenes of a check's folder whose counts of vertices and tets are not those of the project's own baseline: another CGAL's mesh."""
-    with open(os.path.join(program.SOURCE, "experiments", "check_baseline.csv"), encoding="utf-8", newline="") as file:
+    with open(os.path.join(program.SOURCE, "experiments", "verdicts", "check", "check_baseline.csv"), encoding="utf-8", newline="") as file:
         baseline = {row["scene"]: (int(row["vertices"]), int(row["tets"])) for row in csv.DictReader(file)}
     others = set()
     for scene, counts in baseline.items():

@@ -43,6 +43,9 @@ inline std::string name_of_model(const testing::TestParamInfo<NamedModel>& info)
     return info.param.name;
 }
 
+// Instantiated once, in verification/reference_fem/laws.cpp, for the tests of all files of that program.
+class EveryLaw : public testing::TestWithParam<NamedModel> {};
+
 struct LawPoint {
     std::unique_ptr<const reference_fem::ConstitutiveLaw> law;
 

@@ -32,7 +32,7 @@ def drawn(results, only=None):
 
 class Listing(unittest.TestCase):
     def test_every_entry_tells_what_to_see_and_has_a_script_that_draws(self):
-        claims = {claim["id"] for claim in tomllib.loads((root / "experiments" / "claims.toml").read_text())["claim"]}
+        claims = {claim["id"] for claim in tomllib.loads((root / "experiments" / "verdicts" / "claims.toml").read_text())["claim"]}
         for entry in entries.read():
             with self.subTest(entry.name):
                 self.assertIn(entry.mark, entries.marks)

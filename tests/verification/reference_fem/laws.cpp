@@ -46,7 +46,6 @@ std::vector<Eigen::Matrix3d> states(const NamedModel& model)
 }
 
 class NonlinearLaw : public testing::TestWithParam<NamedModel> {};
-class EveryLaw : public testing::TestWithParam<NamedModel> {};
 
 // With lambda = 0 the sweep sees the shape alone; together with lambda it sees the dilatation, whose mean the elements may take.
 TEST_P(NonlinearLaw, StressIsTheDerivativeOfTheEnergy)

@@ -20,8 +20,6 @@ Eigen::Matrix3d diagonal(double a, double b, double c)
     return Eigen::Vector3d(a, b, c).asDiagonal();
 }
 
-class EveryLaw : public testing::TestWithParam<NamedModel> {};
-
 // F = s I: P = p I.
 TEST_P(EveryLaw, UniformDilation)
 {
@@ -93,8 +91,6 @@ TEST_P(EveryLaw, SimpleShear)
         EXPECT_LE((stress - shear_stress(GetParam().model, g)).norm(), tolerance) << stress << "\n\n" << shear_stress(GetParam().model, g);
     }
 }
-
-INSTANTIATE_TEST_SUITE_P(Laws, EveryLaw, testing::ValuesIn(all_models()), name_of_model);
 
 // The stretch across at which a bar pulled to s is free of stress there, by bisection.
 double free_stretch_across(const LawPoint& point, double s)

@@ -22,7 +22,7 @@ using pbs::require_no_device;
 using pbs::write_atomically;
 using test_support::ScratchFolder;
 
-long analysis::files_in(const fs::path& folder)
+long files_in(const fs::path& folder)
 {
     return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
 }
@@ -34,7 +34,7 @@ TEST(WriteAtomically, WritesAndReplaces)
     write_atomically(path, "old");
     write_atomically(path, bytes);
     EXPECT_EQ(read_text_file(path), bytes);
-    EXPECT_EQ(analysis::files_in(folder.path()), 1);
+    EXPECT_EQ(files_in(folder.path()), 1);
 }
 
 TEST(WriteAtomically, GivesTheUsualPermissions)
@@ -66,7 +66,7 @@ TEST(WriteAtomically, NothingThatLiesThereIsWrittenThrough)
         fs::create_symlink(theirs, folder.path() / "out" / name);
     write_atomically(folder / "out/limb.vtu", "ours");
     EXPECT_EQ(read_text_file(theirs), "theirs");
-    EXPECT_EQ(analysis::files_in(folder.path() / "out"), 3);
+    EXPECT_EQ(files_in(folder.path() / "out"), 3);
 }
 
 TEST(WriteAtomically, ADeviceOrANamedPipeIsLeftThere)
@@ -80,7 +80,7 @@ TEST(WriteAtomically, ADeviceOrANamedPipeIsLeftThere)
     }
     EXPECT_TRUE(fs::is_fifo(folder.path() / "pipe"));
     EXPECT_TRUE(fs::is_symlink(folder.path() / "device"));
-    EXPECT_EQ(analysis::files_in(folder.path()), 2);
+    EXPECT_EQ(files_in(folder.path()), 2);
 }
 
 TEST(WriteAtomically, ThreadsThatWriteOneFileLeaveAWholeOne)
@@ -95,7 +95,7 @@ TEST(WriteAtomically, ThreadsThatWriteOneFileLeaveAWholeOne)
     for (std::thread& writer : writers) writer.join();
     const std::string text = read_text_file(path);
     EXPECT_EQ(text, std::string(300'000, text.front()));
-    EXPECT_EQ(analysis::files_in(folder.path()), 1);
+    EXPECT_EQ(files_in(folder.path()), 1);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace {
 
-using namespace experiments;
+using namespace reference_fem;
 using pbs::Vec3;
 
 double lowest_volume(const pbs::TetMesh& mesh)

@@ -79,7 +79,7 @@ TEST(VerificationRowTest, ComesBackFromJson)
     VerificationRow written = row();
     written.observed_order = 1.9;
     written.value = std::nan("");
-    const VerificationRow read = verification_row(nlohmann::json::parse(to_json(written).dump()));
+    const VerificationRow read = reference_fem::verification_row(nlohmann::json::parse(to_json(written).dump()));
     EXPECT_TRUE(std::isnan(read.value));
     VerificationRow comparable = read;
     comparable.value = written.value = 1.0;

@@ -7,7 +7,7 @@
 
 namespace {
 
-using namespace experiments;
+using namespace reference_fem;
 
 double share_of_shear(double length_m)
 {

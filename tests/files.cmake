@@ -1,0 +1,44 @@
+# Tests of mesh files, meshing, characters and clips. Those of the human and of CMU's clips need Debian's assimp-testmodels and fail
+# without it. What an option leaves out has tests of its own.
+set(left_out)
+if(PBS_WITH_MESH_IO)
+    list(APPEND left_out pbs/geometry/mesh_io_unavailable)
+else()
+    list(APPEND left_out pbs/geometry/isolated_reader pbs/geometry/mesh_io pbs/geometry/mesh_io_checks pbs/geometry/module
+        pbs/geometry/surface_reader pbs/geometry/damaged_meshes pbs/geometry/decimal_comma pbs/geometry/referred_files
+        pbs/character/bodies_from_files pbs/character/body_cache pbs/character/input_file)
+endif()
+if(PBS_WITH_CGAL)
+    list(APPEND left_out pbs/geometry/meshing_unavailable)
+else()
+    list(APPEND left_out pbs/geometry/meshing_builtin pbs/geometry/meshing_count pbs/geometry/meshing_surface
+        pbs/geometry/self_intersection pbs/character/bodies)
+endif()
+if(NOT PBS_WITH_RIG_IMPORT)
+    list(APPEND left_out pbs/character/skeleton_file pbs/character/bvh_header pbs/character/retarget_plan pbs/character/bodies_from_files)
+endif()
+
+pbs_tests(unit pbs_files
+    FILES pbs/geometry/isolated_reader pbs/geometry/mesh_io pbs/geometry/mesh_io_checks pbs/geometry/mesh_io_unavailable
+        pbs/geometry/meshing_builtin pbs/geometry/meshing_count pbs/geometry/meshing_surface pbs/geometry/meshing_unavailable
+        pbs/geometry/module pbs/geometry/self_intersection pbs/geometry/surface_reader
+    EXCEPT ${left_out}
+    LIBRARIES pbs_mesh_io pbs_meshing pbs_module)
+pbs_tests(unit pbs_character FOLDERS pbs/character EXCEPT ${left_out} LIBRARIES pbs_character pbs_mesh_io)
+if(TARGET pbskin_gmsh)
+    add_dependencies(test_unit_pbs_files pbskin_gmsh)
+endif()
+if(PBS_WITH_MESH_IO)
+    pbs_tests(robustness pbs_geometry FOLDERS pbs/geometry LIBRARIES pbs_mesh_io)
+    pbs_tests(verification pbs_geometry FOLDERS pbs/geometry LIBRARIES pbs_mesh_io ${GMSH_LIBRARY})  # Gmsh's library, VTK's Python
+endif()
+if(PBS_WITH_CGAL)
+    pbs_tests(properties pbs_meshing FILES pbs/geometry/meshing_repeats pbs/solver/orders LIBRARIES pbs_meshing)
+endif()
+if(PBS_WITH_RIG_IMPORT)
+    if(NOT PBS_WITH_CGAL OR NOT PBS_WITH_MESH_IO)
+        list(APPEND left_out pbs/character/human pbs/character/fetched_bodies)
+    endif()
+    pbs_tests(robustness pbs_character FOLDERS pbs/character LIBRARIES pbs_character)
+    pbs_tests(verification pbs_character FOLDERS pbs/character EXCEPT ${left_out} LIBRARIES pbs_character)
+endif()
