@@ -13,6 +13,9 @@ endif()
 if(TARGET pbskin)
     pbs_packaging_test(installed_program)
     pbs_packaging_test(pages)
+    if(PBS_WITH_CGAL)
+        pbs_packaging_test(readme_example)  # its mesh is made from a surface
+    endif()
     pbs_packaging_test(debian)
     set_property(TEST packaging/debian PROPERTY RUN_SERIAL ON)  # a whole build, by CMAKE_BUILD_PARALLEL_LEVEL jobs
 endif()

@@ -73,8 +73,7 @@ class Markers(ReadmeTest):
         self.assertEqual(said.getvalue(), "usage\n")
 
     def test_the_projects_own_readme_has_each_pair_once(self):
-        for name, page in (("claims", readme_part.own_readme), ("features", readme_part.own_readme),
-                           ("reliability", readme_reliability.page)):
+        for name, page in (("claims", readme_part.own_readme), ("reliability", readme_reliability.page)):
             self.assertTrue(readme_part.cut(page, name)[1].startswith("\n| "), name)
 
 

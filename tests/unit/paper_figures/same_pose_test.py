@@ -1,0 +1,58 @@
+"""README's picture shows the records' numbers, and a run that disagrees with the records is refused. Truth: the kept records."""
+import csv
+import math
+import pathlib
+import sys
+import tempfile
+import unittest
+
+root = pathlib.Path(__file__).resolve().parents[3]
+sys.path[:0] = [str(root / "paper_figures"), str(root / "paper_figures" / "readme")]
+
+import records  # noqa: E402
+import same_pose  # noqa: E402
+
+
+def shown():
+    with open(same_pose.picture.with_suffix(".csv"), newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+class SamePose(unittest.TestCase):
+    def write_run(self, folder, **changed):
+        """The kept rows of LBS at the first pose as a run's metrics.csv, with these cells changed."""
+        pose = same_pose.poses[0]
+        row = {**same_pose.row_of(same_pose.kept / pose.scene, pose, "lbs"), **changed}
+        with open(folder / "metrics.csv", "w", newline="") as stream:
+            writer = csv.DictWriter(stream, list(row))
+            writer.writeheader()
+            writer.writerow(row)
+        return pose
+
+    def test_each_deformer_is_shown_in_each_pose(self):
+        self.assertEqual([(row["scene"], row["deformer"]) for row in shown()],
+                         [(pose.scene, name) for pose in same_pose.poses for name in ("lbs", "dqs", "pbs", pose.reference)])
+
+    def test_the_numbers_are_those_of_the_records(self):
+        for row in shown():
+            pose = next(pose for pose in same_pose.poses if pose.scene == row["scene"])
+            self.assertEqual(float(row["angle_deg"]), pose.angle_deg)
+            if row["deformer"] in same_pose.on_record:
+                kept = same_pose.row_of(same_pose.kept / pose.scene, pose, row["deformer"])
+                for column in same_pose.compared:
+                    self.assertTrue(math.isclose(float(row[column]), kept.number(column), rel_tol=1e-5), (row, column))
+
+    def test_a_run_that_agrees_with_the_records_is_accepted(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pose = self.write_run(pathlib.Path(folder))
+            self.assertEqual(same_pose.checked_row(pathlib.Path(folder), pose, "lbs")["deformer"], "lbs")
+
+    def test_a_run_that_disagrees_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pose = self.write_run(pathlib.Path(folder), volume_change_pct="-14.7")
+            with self.assertRaisesRegex(records.RecordsMissing, "volume_change_pct of lbs = -14.7: expected -14.8"):
+                same_pose.checked_row(pathlib.Path(folder), pose, "lbs")
+
+
+if __name__ == "__main__":
+    unittest.main()
