@@ -11,7 +11,8 @@ set(DOXYGEN_STRIP_FROM_PATH ${PROJECT_SOURCE_DIR})
 set(DOXYGEN_STRIP_FROM_INC_PATH ${PROJECT_SOURCE_DIR})
 set(DOXYGEN_FULL_PATH_NAMES YES)
 set(DOXYGEN_FILE_PATTERNS *.hpp)  # and the README below, which is named
-set(DOXYGEN_FILTER_PATTERNS "*.hpp=awk -f ${PROJECT_SOURCE_DIR}/cmake/documentation/comments.awk")
+set(DOXYGEN_FILTER_PATTERNS "*.hpp=awk -f ${PROJECT_SOURCE_DIR}/cmake/documentation/comments.awk"
+    "*.md=sed -E -f ${PROJECT_SOURCE_DIR}/cmake/documentation/links.sed")
 set(DOXYGEN_MARKDOWN_SUPPORT NO)   # of comments: they are plain text
 set(DOXYGEN_EXTRACT_ALL YES)
 set(DOXYGEN_EXTRACT_LOCAL_CLASSES NO)
