@@ -7,7 +7,8 @@
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/scene/scene_schema.hpp"
-#include "experiments/studies/study.hpp"
+#include "experiments/command_line/embedded_pages.hpp"
+#include "experiments/studies/study_costs.hpp"
 #include "experiments/process/terminal.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/nearest_name.hpp"
@@ -83,14 +84,26 @@ bool explain_claim(const std::string& name)
     return found;
 }
 
+std::string extent_text(const Study& study, bool full)
+{
+    const ExpectedCost cost = expected_cost(study, study.plan(full).runs, 1);
+    return fmt::format("{} runs, {:.1f} minutes of one core", cost.runs, cost.cpu_s / 60.0);
+}
+
+std::string part_text(Extent extent)
+{
+    return extent == Extent::none ? "no" : extent == Extent::quick ? "in its quick form" : "in its full form";
+}
+
+// Its README, and what the program knows of it: what it costs here, with the bodies that are installed.
 bool explain_study(const std::string& name)
 {
     for (const auto& study : studies()) {
         if (study.name != name) continue;
-        fmt::print("{} (study)\n", study.name);
-        line("meaning", study.meaning);
-        line("claims", study.claims);
-        line("cost", study.cost);
+        fmt::print("{}\n## Cost on this machine\n\n", plain_text(page_of(name)));
+        line("--quick", extent_text(study, false));
+        line("--full", extent_text(study, true));
+        line("part of", fmt::format("reproduce: {}\nreproduce --full: {}", part_text(study.sets.quick), part_text(study.sets.full)));
         return true;
     }
     return false;

@@ -1,5 +1,6 @@
 // pbskin list [cases, scenes, deformers, studies, claims, metrics]: what there is.
 #include "experiments/studies/shared/program_claims.hpp"
+#include "experiments/command_line/embedded_pages.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/run/metrics_table.hpp"
@@ -39,7 +40,7 @@ Lines deformers()
 Lines study_lines()
 {
     Lines lines;
-    for (const auto& study : studies()) lines.emplace_back(study.name, study.meaning);
+    for (const auto& study : studies()) lines.emplace_back(study.name, first_paragraph(page_of(study.name)));
     return lines;
 }
 

@@ -47,7 +47,7 @@ struct Sets {
 };
 
 struct Study {
-    std::string name, meaning = {}, claims = {}, cost = {};
+    std::string name;  // of its folder, whose README.md is its page in `pbskin explain`, and of its records' folder
     StudyPlan (*plan)(bool full) = nullptr;
     Sets sets = {};
     // Of the study's folder and the folders of the runs that ended; writes the records that sum them up.

@@ -177,7 +177,7 @@ int reproduce(const ReproduceArguments& arguments)
     bool broke_down = false, refused = false, all_hold = true;
     for (std::size_t i = 0; i < planned.size(); ++i) {
         const auto& [study, plan, folder] = planned[i];
-        spdlog::info("study {}: {}", study->name, study->meaning);
+        spdlog::info("study {}", study->name);
         for (const auto& left_out : plan.left_out) spdlog::warn("left out: {}: {}", left_out.scene, left_out.reason);
         const double then_s = std::accumulate(expected.begin() + static_cast<std::ptrdiff_t>(i) + 1, expected.end(), 0.0,
                                               [](double sum, const ExpectedCost& cost) { return sum + cost.wall_s; });
