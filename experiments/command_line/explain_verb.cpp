@@ -1,13 +1,13 @@
 // pbskin explain NAME: what a metric, claim, scene key or study means.
 #include "analysis/text_columns.hpp"
 #include "experiments/studies/shared/program_claims.hpp"
-#include "experiments/verdicts/claims_text.hpp"
+#include "experiments/command_line/embedded_pages.hpp"
+#include "experiments/command_line/plain_markdown.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/scene/scene_schema.hpp"
-#include "experiments/command_line/embedded_pages.hpp"
 #include "experiments/studies/study_costs.hpp"
 #include "experiments/process/terminal.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -77,8 +77,7 @@ bool explain_claim(const std::string& name)
     for (const auto& claim : claims()) {
         const bool is_judged_by_it = std::count(claim.metrics.begin(), claim.metrics.end(), name) && !is_metric(name);
         if (claim.id != name && !is_judged_by_it) continue;
-        fmt::print("{} (claim)\n", claim.id);
-        for (const auto& [label, text] : claim_lines(claim)) line(label, text);
+        fmt::print("{}", plain_text(page_of(claim.id), terminal_width()));
         found = true;
     }
     return found;
@@ -100,7 +99,7 @@ bool explain_study(const std::string& name)
 {
     for (const auto& study : studies()) {
         if (study.name != name) continue;
-        fmt::print("{}\n## Cost on this machine\n\n", plain_text(page_of(name)));
+        fmt::print("{}\nCost on this machine\n\n", plain_text(page_of(name), terminal_width()));
         line("--quick", extent_text(study, false));
         line("--full", extent_text(study, true));
         line("part of", fmt::format("reproduce: {}\nreproduce --full: {}", part_text(study.sets.quick), part_text(study.sets.full)));

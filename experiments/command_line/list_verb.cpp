@@ -1,6 +1,7 @@
 // pbskin list [cases, scenes, deformers, studies, claims, metrics]: what there is.
 #include "experiments/studies/shared/program_claims.hpp"
 #include "experiments/command_line/embedded_pages.hpp"
+#include "experiments/command_line/plain_markdown.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/run/metrics_table.hpp"

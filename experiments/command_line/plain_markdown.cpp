@@ -1,0 +1,118 @@
+#include "experiments/command_line/plain_markdown.hpp"
+
+#include "analysis/text_columns.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <regex>
+#include <sstream>
+#include <vector>
+
+namespace experiments {
+namespace {
+
+using Row = std::vector<std::string>;
+
+std::string trimmed(const std::string& text)
+{
+    const std::size_t begin = text.find_first_not_of(' ');
+    return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(' ') - begin + 1);
+}
+
+Row cells_of(const std::string& line)
+{
+    Row cells;
+    std::istringstream text(line.substr(1));
+    for (std::string cell; std::getline(text, cell, '|');) cells.push_back(trimmed(cell));
+    return cells;
+}
+
+// As wide as the widest cells, the widest columns narrowed until all fit side by side.
+std::vector<std::size_t> column_widths(const std::vector<Row>& rows, std::size_t width)
+{
+    constexpr std::size_t gap = 2, least = 6;
+    std::vector<std::size_t> widths(rows.front().size(), 1);
+    for (const Row& row : rows)
+        for (std::size_t i = 0; i < std::min(row.size(), widths.size()); ++i) widths[i] = std::max(widths[i], analysis::characters(row[i]));
+    const auto sum = [&] { return std::accumulate(widths.begin(), widths.end(), gap * (widths.size() - 1)); };
+    for (auto widest = std::max_element(widths.begin(), widths.end()); sum() > width && *widest > least;
+         widest = std::max_element(widths.begin(), widths.end()))
+        --*widest;
+    return widths;
+}
+
+// Collects the lines of a block and writes it when the next one begins.
+class PlainText {
+public:
+    explicit PlainText(std::size_t width) : width_(width) {}
+
+    void add(const std::string& line)
+    {
+        static const std::regex separator(R"(\|[-|]+)"), item(R"(\s*(-|\d+\.) .*)");
+        if (line.starts_with("<!--") || std::regex_match(line, separator)) return;
+        if (line.starts_with("|")) return rows_.push_back(cells_of(line));
+        const bool is_code = line.starts_with("    "), is_heading = line.starts_with("#");
+        if (line.empty() || is_code || is_heading || !rows_.empty() || std::regex_match(line, item)) end_block();
+        if (is_code && analysis::characters(line) <= width_)
+            text_ += line + "\n";
+        else if (line.empty())
+            text_ += text_.ends_with("\n\n") ? "" : "\n";
+        else
+            paragraph_ += (paragraph_.empty() ? "" : " ") + trimmed(is_heading ? line.substr(line.find_first_not_of('#')) : line);
+        if (is_code || is_heading) end_block();
+    }
+
+    std::string end()
+    {
+        end_block();
+        return text_;
+    }
+
+private:
+    void end_block()
+    {
+        if (!rows_.empty()) {
+            const std::vector<std::size_t> widths = column_widths(rows_, width_);
+            for (const Row& row : rows_) {
+                std::vector<analysis::TextColumn> columns;
+                for (std::size_t i = 0; i < std::min(row.size(), widths.size()); ++i) columns.push_back({row[i], widths[i]});
+                text_ += analysis::side_by_side(columns);
+            }
+        }
+        if (!paragraph_.empty()) {
+            static const std::regex item(R"((-|\d+\.) (.*))");
+            std::smatch parts;
+            if (std::regex_match(paragraph_, parts, item))
+                text_ += analysis::side_by_side({{parts[1], parts.length(1)}, {parts[2], width_ - 4}});
+            else
+                text_ += analysis::side_by_side({{paragraph_, width_}});
+        }
+        rows_.clear();
+        paragraph_.clear();
+    }
+
+    std::size_t width_;
+    std::vector<Row> rows_;
+    std::string paragraph_, text_;
+};
+
+}  // namespace
+
+std::string plain_text(const std::string& markdown, std::size_t width)
+{
+    static const std::regex link(R"(\[([^\]]+)\]\([^)]+\))"), code("`");
+    PlainText plain(width);
+    std::istringstream lines(std::regex_replace(std::regex_replace(markdown, link, "$1"), code, ""));
+    for (std::string line; std::getline(lines, line);) plain.add(line);
+    return plain.end();
+}
+
+std::string first_paragraph(const std::string& markdown)
+{
+    const std::size_t begin = markdown.find("\n\n") + 2;
+    std::string paragraph = markdown.substr(begin, markdown.find("\n\n", begin) - begin);
+    std::replace(paragraph.begin(), paragraph.end(), '\n', ' ');
+    return paragraph;
+}
+
+}  // namespace experiments
