@@ -1,0 +1,118 @@
+"""The part of each study's README and of each claim's page that comes from tables and records: what a study serves, draws and cost; what a
+claim's bounds and its verdict are. Nobody types it.
+
+    build/release/bin/pbskin reproduce --judge -o experiments/records/full      # writes claims.json there; git ignores it
+    python3 paper_figures/readme_pages.py experiments/records/full
+"""
+import csv
+import json
+import pathlib
+import sys
+import tomllib
+
+import entries
+import readme_claims
+import readme_part
+import record_shapes
+import records
+
+experiments = readme_part.source / "experiments"
+studies = experiments / "studies"
+claim_pages = experiments / "verdicts" / "claims"
+part = "kept"
+
+
+def listed_claims():
+    return tomllib.loads((experiments / "verdicts" / "claims.toml").read_text(encoding="utf-8"))["claim"]
+
+
+def study_names():
+    """Every folder with a README, except what the studies share."""
+    return sorted(page.parent.name for page in studies.glob("*/README.md") if page.parent.name != "shared")
+
+
+def served_claims(study):
+    served = [claim for claim in listed_claims() if claim["study"] == study]
+    if not served:
+        return ["No claim is judged by this study."]
+    return [f"- [{claim['id']}](../../verdicts/claims/{claim['id']}.md): {claim['statement']}" for claim in served]
+
+
+def drawn_figures(study):
+    drawn = [entry for entry in entries.read() if study in entry.studies()]
+    if not drawn:
+        return ["No figure is drawn from it."]
+    names = ", ".join(f"`{entry.name}`" for entry in drawn)
+    return [f"`paper_figures/make_all.py DIR` draws {names}."]
+
+
+def cost(study, results):
+    file = results / study / "costs.csv"
+    if not file.is_file():
+        return ["The kept records do not have this study."]
+    with file.open(newline="", encoding="utf-8") as rows:
+        seconds = {row["run"]: float(row["cpu_s"]) for row in csv.DictReader(rows)}
+    plan = json.loads((results / study / "plan.json").read_text(encoding="utf-8"))
+    form = {"quick": " in the quick form", "full": " in the full form"}.get(plan.get("extent"), "")
+    longest = max(seconds, key=seconds.get)
+    runs = "one run" if len(seconds) == 1 else f"{len(seconds)} runs"
+    text = f"The kept record{form} has {runs} and took {sum(seconds.values()) / 60:.1f} minutes of processor time"
+    return [text + ("." if len(seconds) == 1 else f", the longest run `{longest}` {seconds[longest] / 60:.1f}.")]
+
+
+def study_lines(study, results):
+    return [*served_claims(study), "", *drawn_figures(study), "", *cost(study, results)]
+
+
+def bound_lines(claim):
+    """The bound of each judged quantity, as claims.toml has it."""
+    bounds = {bound["quantity"]: bound for bound in claim.get("bounds", [])}
+    low, high = (claim.get(key, claim.get(f"{key}_pct")) for key in ("low", "high"))
+    rows = []
+    for quantity in claim.get("metrics", []):
+        bound = bounds.get(quantity, {"low": low, "high": high})
+        rows.append(f"| `{quantity}` | {number(bound.get('low'))} | {number(bound.get('high'))} |")
+    return ["| judged quantity | least | most |", "|---|---|---|", *rows, ""] if rows else []
+
+
+def number(bound):
+    return "" if bound is None or abs(bound) >= 1e9 else f"{bound:g}"
+
+
+def claim_lines(claim, judged):
+    row = dict(zip(readme_claims.columns, cells(readme_claims.row_of(judged))))
+    result = [f"Study: [{claim['study']}](../../studies/{claim['study']}/README.md). Verdict: **{row['verdict']}**.", ""]
+    return [*result, *bound_lines(claim), *([f"Measured: {row['measured']}.", ""] if row["measured"] else [])][:-1]
+
+
+def cells(line):
+    return [cell.strip() for cell in line.strip().strip("|").split(" | ")]
+
+
+def pages(results):
+    """Each page with the lines that stand in it."""
+    file = results / "claims.json"
+    if not file.is_file():
+        raise records.RecordsMissing(f"{file}: not there: `pbskin reproduce --judge -o {results}` writes it")
+    judged = {claim["id"]: claim for claim in record_shapes.read(file, record_shapes.claims)["claims"]}
+    found = {studies / study / "README.md": study_lines(study, results) for study in study_names()}
+    for claim in listed_claims():
+        found[claim_pages / f"{claim['id']}.md"] = claim_lines(claim, judged[claim["id"]])
+    return found
+
+
+def main(arguments):
+    if len(arguments) != 2:
+        print(__doc__, file=sys.stderr)
+        return 2
+    try:
+        for page, lines in pages(pathlib.Path(arguments[1])).items():
+            readme_part.write(page, part, lines)
+    except records.RecordsMissing as error:
+        print(f"readme_pages: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv))
