@@ -16,7 +16,7 @@ endif()
 pbs_tests(claims experiments FOLDERS experiments EXCEPT ${left_out} LIBRARIES experiments)
 target_compile_definitions(test_claims_experiments PRIVATE ${claims_file})
 pbs_tests(unit experiments
-    FOLDERS experiments/process experiments/scene experiments/run experiments/deformers experiments/verdicts
+    FOLDERS experiments/process experiments/scene experiments/run experiments/deformers experiments/verdicts experiments/command_line
     FILES experiments/deformers/fem/fem_module
     EXCEPT experiments/deformers/fem ${left_out}
     LIBRARIES experiments)
@@ -63,5 +63,6 @@ endif()
 pbs_program_test(claims volume)
 pbs_program_test(claims broken_solver)
 pbs_program_test(regression kept_verdicts)
+pbs_program_test(regression pages)
 pbs_program_test(robustness experiments/kept_records)
 pbs_program_test(regression experiments/limb_volume)

@@ -83,7 +83,8 @@ private:
             static const std::regex item(R"((-|\d+\.) (.*))");
             std::smatch parts;
             if (std::regex_match(paragraph_, parts, item))
-                text_ += analysis::side_by_side({{parts[1].str(), parts[1].str().size()}, {parts[2].str(), width_ - 4}});
+                text_ +=
+                    analysis::side_by_side({{parts[1].str(), parts[1].str().size()}, {parts[2].str(), width_ - parts[1].str().size() - 2}});
             else
                 text_ += analysis::side_by_side({{paragraph_, width_}});
         }

@@ -1,0 +1,125 @@
+"""Every study and every claim has its page, with the required sections, whose generated part is current. `pbskin explain` prints each page,
+and the files and columns that the pages quote are those of the kept records. Truth: the kept records, claims.toml and figures.toml."""
+import csv
+import fnmatch
+import pathlib
+import re
+import shutil
+import sys
+import unittest
+
+import program
+
+SOURCE = pathlib.Path(program.SOURCE)
+KEPT = SOURCE / "experiments" / "records" / "full"
+sys.path.insert(0, str(SOURCE / "paper_figures"))
+import readme_pages  # noqa: E402
+import readme_part  # noqa: E402
+
+STUDY_SECTIONS = ["Cases", "Records", "Claims, figures, cost", "What it cannot show"]
+CLAIM_SECTIONS = ["What is measured", "Formula", "Bound", "What would make it fail", "How the paper can be read", "Result"]
+WITHOUT_KEPT_TABLES = {"bench", "frames", "scale"}  # their records are large, and no verdict needs them
+
+
+def sections(text):
+    return re.findall(r"^## (.+)$", text, re.MULTILINE)
+
+
+def quoted_columns(text):
+    """File and columns of each row of the table under `## Records`."""
+    table = text.split("## Records\n", 1)[1].split("\n## ", 1)[0]
+    for line in re.findall(r"^\| `.*$", table, re.MULTILINE):
+        files, _, columns = (cell.strip() for cell in line.strip("|").split("|"))
+        for file in re.findall(r"`([^`]+)`", files):
+            yield file, re.findall(r"`(\w+)`", columns)
+
+
+def kept_tables(study, file):
+    """The kept tables that the name stands for: what is written in capitals is any name."""
+    pattern = re.sub(r"[A-Z][A-Z_]+", "*", file)
+    return [table for table in (KEPT / study).rglob("*.csv")
+            if fnmatch.fnmatch(str(table.relative_to(KEPT / study)), pattern)]
+
+
+def header(table):
+    with table.open(newline="", encoding="utf-8") as rows:
+        return next(csv.reader(rows))
+
+
+class Pages(program.ProgramTest):
+    def studies(self):
+        return [line.split()[0] for line in self.succeeds("list", "studies").stdout.splitlines() if re.match("  [a-z]", line)]
+
+    def claims(self):
+        return {claim["id"]: claim for claim in readme_pages.listed_claims()}
+
+    def explained(self, name):
+        return " ".join(self.succeeds("explain", name).stdout.split())
+
+    def test_each_study_has_a_readme_with_the_sections(self):
+        self.assertEqual(sorted(self.studies()), readme_pages.study_names())
+        for study in self.studies():
+            text = (readme_pages.studies / study / "README.md").read_text(encoding="utf-8")
+            with self.subTest(study):
+                self.assertTrue(text.startswith(f"# {study}\n\n"))
+                self.assertIn("?", text.split("\n\n")[1], "the first paragraph asks the study's question")
+                self.assertEqual(sections(text), STUDY_SECTIONS)
+
+    def test_each_claim_has_a_page_with_the_sections_and_its_own_statement(self):
+        self.assertEqual(sorted(page.stem for page in readme_pages.claim_pages.glob("*.md")), sorted(self.claims()))
+        for name, claim in self.claims().items():
+            text = (readme_pages.claim_pages / f"{name}.md").read_text(encoding="utf-8")
+            with self.subTest(name):
+                self.assertTrue(text.startswith(f"# {name}: {claim['statement']}\n\n"))
+                self.assertEqual(sections(text), CLAIM_SECTIONS)
+
+    def test_the_program_prints_every_page(self):
+        for name in [*self.studies(), *self.claims()]:
+            folder = readme_pages.claim_pages if name in self.claims() else readme_pages.studies / name
+            page = folder / (f"{name}.md" if name in self.claims() else "README.md")
+            printed = self.explained(name)
+            for section in sections(page.read_text(encoding="utf-8")):
+                self.assertIn(section, printed, name)
+        self.assertIn("reproduce --full:", self.explained("volume"))
+
+    def test_quoted_files_and_columns_are_on_record(self):
+        for study in self.studies():
+            rows = list(quoted_columns((readme_pages.studies / study / "README.md").read_text(encoding="utf-8")))
+            self.assertEqual(not rows, study in WITHOUT_KEPT_TABLES, study)
+            for file, columns in rows:
+                with self.subTest(f"{study}/{file}"):
+                    tables = kept_tables(study, file)
+                    self.assertTrue(tables, "no such table among the kept records")
+                    self.assertEqual([column for column in columns if not any(column in header(table) for table in tables)], [])
+
+    def test_generated_parts_are_those_of_the_kept_records(self):
+        copy = pathlib.Path(self.path("kept"))
+        shutil.copytree(KEPT, copy)
+        self.succeeds("reproduce", "--judge", "-o", copy, "--quiet")
+        for page, lines in readme_pages.pages(copy).items():
+            with self.subTest(page.relative_to(SOURCE)):
+                self.assertEqual(readme_part.cut(page, readme_pages.part)[1].splitlines()[1:], lines,
+                                 "python3 paper_figures/readme_pages.py writes it")
+
+    def test_links_between_pages_lead_to_files(self):
+        pages = [*SOURCE.joinpath("experiments").rglob("*.md"), *SOURCE.glob("*.md"), *SOURCE.joinpath("tests").glob("*.md")]
+        self.assertGreater(len(pages), 40)
+        for page in pages:
+            for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", page.read_text(encoding="utf-8")):
+                if "://" not in target:
+                    self.assertTrue((page.parent / target).exists(), f"{page.relative_to(SOURCE)}: {target}")
+
+    def test_files_named_by_the_readmes_of_experiments_are_there(self):
+        for folder in ("", "deformers", "verdicts"):
+            page = SOURCE / "experiments" / folder / "README.md"
+            for name in re.findall(r"`([\w./]+\.(?:cpp|hpp|toml|py|csv))`", page.read_text(encoding="utf-8")):
+                places = [page.parent / name, SOURCE / name]
+                found = any(place.exists() for place in places) or (name.count("/") == 0 and any(page.parent.rglob(name)))
+                self.assertTrue(found or name in WRITTEN, f"{page.relative_to(SOURCE)}: {name}")
+
+
+WRITTEN = {"metrics.csv", "measurements.csv", "printed.csv"}  # by a run
+
+
+if __name__ == "__main__":
+    unittest.main()
