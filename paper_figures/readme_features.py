@@ -1,12 +1,13 @@
-"""Copies the human's rows of DIR/features/features.csv into README.md, between its markers. Nobody types that table.
+"""Copies the human's rows of DIR/features/human/features.csv into the README of the study `features`. Nobody types that table.
 
-    python3 paper_figures/readme_features.py results/features
+    python3 paper_figures/readme_features.py experiments/records/full
 """
 import sys
 
 import readme_part
 import records
 
+page = readme_part.source / "experiments" / "studies" / "features" / "README.md"
 head = ["| feature | ms of processor a frame without | with | ratio [quartiles] | start [s] without | with | peak [MB] without | with "
         "| the answer moves |", "|---|---|---|---|---|---|---|---|---|"]
 
@@ -29,4 +30,4 @@ def lines_of(results):
 
 
 if __name__ == "__main__":
-    sys.exit(readme_part.main("features", lines_of, sys.argv, __doc__))
+    sys.exit(readme_part.main("features", lines_of, sys.argv, __doc__, page))

@@ -60,8 +60,16 @@ def cost(study, results):
     return [text + ("." if len(seconds) == 1 else f", the longest run `{longest}` {seconds[longest] / 60:.1f}.")]
 
 
+def summaries(study, results):
+    """What the study itself wrote for reading."""
+    files = sorted(file.name for file in (results / study).glob("*.md"))
+    links = ", ".join(f"[{file}](../../records/full/{study}/{file})" for file in files)
+    return [f"To read what was found: {links}."] if files else []
+
+
 def study_lines(study, results):
-    return [*served_claims(study), "", *drawn_figures(study), "", *cost(study, results)]
+    parts = [served_claims(study), drawn_figures(study), summaries(study, results), cost(study, results)]
+    return [line for part in parts if part for line in [*part, ""]][:-1]
 
 
 def bound_lines(claim):

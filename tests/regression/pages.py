@@ -13,6 +13,7 @@ import program
 SOURCE = pathlib.Path(program.SOURCE)
 KEPT = SOURCE / "experiments" / "records" / "full"
 sys.path.insert(0, str(SOURCE / "paper_figures"))
+import readme_features  # noqa: E402
 import readme_pages  # noqa: E402
 import readme_part  # noqa: E402
 
@@ -100,6 +101,10 @@ class Pages(program.ProgramTest):
             with self.subTest(page.relative_to(SOURCE)):
                 self.assertEqual(readme_part.cut(page, readme_pages.part)[1].splitlines()[1:], lines,
                                  "python3 paper_figures/readme_pages.py writes it")
+
+    def test_the_table_of_features_is_that_of_the_kept_records(self):
+        _, told, _ = readme_part.cut(readme_features.page, "features")
+        self.assertEqual(told.splitlines()[1:], readme_features.lines_of(KEPT))
 
     def test_links_between_pages_lead_to_files(self):
         pages = [*SOURCE.joinpath("experiments").rglob("*.md"), *SOURCE.glob("*.md"), *SOURCE.joinpath("tests").glob("*.md")]
