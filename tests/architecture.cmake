@@ -2,6 +2,9 @@
 pbs_tests(architecture laws FOLDERS . LIBRARIES pbs_settings)
 set_source_files_properties(architecture/source_tree.cpp PROPERTIES COMPILE_DEFINITIONS PBS_SOURCE_ROOT="${PROJECT_SOURCE_DIR}")
 
+add_test(NAME architecture/readme COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/architecture/readme_test.py)
+set_tests_properties(architecture/readme PROPERTIES LABELS architecture TIMEOUT 60)
+
 find_program(PBS_CPPCHECK NAMES cppcheck)
 if(PBS_CPPCHECK)
     add_test(NAME architecture/static_analysis
