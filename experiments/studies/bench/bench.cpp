@@ -5,6 +5,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -48,7 +49,31 @@ double machine_load()
     return getloadavg(&load, 1) == 1 ? load : 0.0;
 }
 
+bool of_same_kind(const ProjectionTiming& a, const ProjectionTiming& b)
+{
+    return a.variant == b.variant && a.precision == b.precision && a.threads == b.threads;
+}
+
 }  // namespace
+
+std::vector<ScalingFit> fit_scaling(const std::vector<MeshTimings>& meshes)
+{
+    std::vector<ScalingFit> fits;
+    if (meshes.size() < 2) return fits;
+    for (const ProjectionTiming& kind : meshes.front().projections) {
+        std::vector<double> constraints, ms_step;
+        for (const MeshTimings& mesh : meshes) {
+            const auto found = std::find_if(mesh.projections.begin(), mesh.projections.end(),
+                                            [&](const ProjectionTiming& timing) { return of_same_kind(timing, kind); });
+            if (found == mesh.projections.end()) continue;
+            constraints.push_back(mesh.constraints());
+            ms_step.push_back(found->ms_step.median);
+        }
+        if (constraints.size() == meshes.size())
+            fits.push_back({kind.variant, kind.precision, kind.threads, analysis::observed_order(constraints, ms_step).slope});
+    }
+    return fits;
+}
 
 BenchRecord run_bench(const BenchOptions& options)
 {

@@ -3,8 +3,8 @@
 //   fmt::print("{}", bench_table(record));
 #pragma once
 
+#include "analysis/line_fit.hpp"
 #include "experiments/studies/bench/mesh_timings.hpp"
-#include "experiments/studies/bench/scaling.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -21,6 +21,18 @@ struct BenchOptions {
     bool quick = false;      // a few milliseconds, to see that it runs: no figure of it is worth anything
     double seconds = 4.0;    // of rounds on each body, about
 };
+
+// How the cost of a step grows with the mesh: ms_step = c (number of constraints)^exponent, over bodies of growing size.
+struct ScalingFit {
+    std::string variant, precision;
+    int threads = 1;
+    analysis::Interval exponent;  // 95 %; bounds are NaN for two sizes
+};
+
+// One a variant, precision and number of threads that all meshes have; none for fewer than two meshes.
+std::vector<ScalingFit> fit_scaling(const std::vector<MeshTimings>& meshes);
+
+void to_json(nlohmann::json& json, const ScalingFit& fit);
 
 struct BenchRecord {
     BenchOptions options;

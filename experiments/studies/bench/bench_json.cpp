@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace experiments {
 namespace {
 
@@ -33,7 +35,23 @@ nlohmann::json context_of(const BenchRecord& record)
             {"provenance", provenance}};
 }
 
+nlohmann::json bound(double value)
+{
+    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+
 }  // namespace
+
+void to_json(nlohmann::json& json, const ScalingFit& fit)
+{
+    json = {{"variant", fit.variant},
+            {"precision", fit.precision},
+            {"threads", fit.threads},
+            {"exponent", fit.exponent.estimate},
+            {"interval", {bound(fit.exponent.low), bound(fit.exponent.high)}},
+            {"level", fit.exponent.level},
+            {"sizes", fit.exponent.n}};
+}
 
 nlohmann::json bench_json(const BenchRecord& record)
 {

@@ -1,5 +1,6 @@
 #include "experiments/studies/bench/mesh_timings.hpp"
 
+#include "experiments/deformers/registry.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
@@ -11,6 +12,51 @@ namespace experiments {
 namespace {
 
 constexpr int most_fem_tets = 150'000;  // of the reference, whose first solve takes seconds there
+constexpr int further_frames = 5;       // a sample
+
+// First solve and one further frame [s].
+std::vector<double> time_frames(const DeformerSpec& spec, const BenchBody& body)
+{
+    const std::unique_ptr<Deformer> fem = make_deformer(spec);
+    const pbs::Pose rest(body.pose.size(), Eigen::Isometry3d::Identity());
+    const double first = cpu_seconds([&] {
+        fem->reset(body.character);
+        fem->advance(body.pose, 0.01);
+    });
+    const double further = cpu_seconds([&] {
+        for (int frame = 0; frame < further_frames; ++frame) fem->advance(frame % 2 == 0 ? rest : body.pose, 0.01);
+    });
+    return {first, further / further_frames};
+}
+
+// pbs::InputError where the build has no reference, or a bone of the body cannot be gripped.
+FemTiming time_fem(const BenchBody& body, const Rounds& rounds)
+{
+    DeformerSpec spec;
+    spec.name = spec.kind = spec.label = spec.fem.name = "fem";
+    spec.fem.element_order = 1;
+    const auto samples = take_turns({[&] { return time_frames(spec, body); }}, rounds);
+    FemTiming timing;
+    timing.ms_first_solve = scaled(spread_of(samples[0][0]), 1e3);
+    timing.ms_further_frame = scaled(spread_of(samples[0][1]), 1e3);
+    timing.further_to_first = timing.ms_further_frame.median / timing.ms_first_solve.median;
+    return timing;
+}
+
+nlohmann::json fem_json(const FemTiming& timing, double plain_step_ms)
+{
+    nlohmann::json json = {{"variant", "fem"},
+                           {"model", timing.model},
+                           {"element_order", timing.element_order},
+                           {"precision", "f64"},
+                           {"threads", 1},
+                           {"clock", "thread_cpu"},
+                           {"further_to_first", timing.further_to_first},
+                           {"ratio_to_plain", plain_step_ms / timing.ms_further_frame.median}};
+    put_spread(json, "ms_first_solve", timing.ms_first_solve);
+    put_spread(json, "ms_further_frame", timing.ms_further_frame);
+    return json;
+}
 
 Rounds shorter(Rounds rounds)
 {

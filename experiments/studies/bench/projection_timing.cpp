@@ -1,8 +1,9 @@
 #include "experiments/studies/bench/projection_timing.hpp"
 
-#include "experiments/process/cpu_clock.hpp"
 #include "experiments/studies/bench/step_loops.hpp"
 #include "pbs/geometry/stopwatch.hpp"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -60,13 +61,6 @@ std::vector<double> time_step(const ProjectionVariant& variant)
     const double laps = seconds[stretch_s] + seconds[volume_s] + seconds[bind_s];
     for (const Sample of : {stretch_s, volume_s, bind_s}) seconds[of] *= seconds[step_s] / laps;
     return seconds;
-}
-
-Spread spread_of_ratios(const OfRounds& numerator, const OfRounds& denominator, double factor = 1.0)
-{
-    OfRounds ratios;
-    for (std::size_t i = 0; i < numerator.size(); ++i) ratios.push_back(factor * numerator[i] / denominator[i]);
-    return spread_of(ratios);
 }
 
 RooflinePoint roofline_point(const ProjectionTiming& timing, ConstraintClass of, double ns, const BodySize& size,
@@ -133,6 +127,20 @@ ProjectionTiming summed_up(const ProjectionVariant& variant, const Samples& own,
     return timing;
 }
 
+nlohmann::json json_of(const RooflinePoint& point)
+{
+    return {{"flops_per_byte", point.flops_a_byte},
+            {"gflops", point.gflops},
+            {"attainable_gflops", point.attainable_gflops},
+            {"share_of_limit", point.share_of_limit}};
+}
+
+void put_class(nlohmann::json& json, const std::string& name, const ClassTiming& timing)
+{
+    put_spread(json, "ns_" + name, timing.ns);
+    if (timing.roofline) json["roofline"][name] = json_of(*timing.roofline);
+}
+
 }  // namespace
 
 std::vector<ProjectionTiming> time_projections(const BenchBody& body, const std::vector<int>& threads, const MachineLimits& limits,
@@ -160,6 +168,31 @@ std::vector<ProjectionTiming> time_projections(const BenchBody& body, const std:
         timings.push_back(std::move(timing));
     }
     return timings;
+}
+
+void to_json(nlohmann::json& json, const ProjectionTiming& timing)
+{
+    json = {{"variant", timing.variant},
+            {"precision", timing.precision},
+            {"threads", timing.threads},
+            {"poses", timing.poses},
+            {"clock", timing.threads == 1 ? "thread_cpu" : "wall"},
+            {"ms_transfer", timing.ms_transfer},
+            {"working_set_bytes", timing.working_set_bytes}};
+    put_class(json, "stretch", timing.stretch);
+    put_class(json, "volume", timing.volume);
+    put_class(json, "bind", timing.bind);
+    put_spread(json, "ms_step", timing.ms_step);
+    put_spread(json, "ratio_to_plain", timing.ratio_to_plain);
+    put_spread(json, "ratio_to_plain_native", timing.ratio_to_plain_native);
+    put_spread(json, "ratio_to_plain_spread", timing.ratio_to_plain_spread);
+    if (timing.speedup_by_threads) put_spread(json, "speedup_by_threads", *timing.speedup_by_threads);
+    if (timing.ms_floor) json["ms_floor"] = *timing.ms_floor;
+    if (timing.best_speedup_by_threads) json["best_speedup_by_threads"] = *timing.best_speedup_by_threads;
+    json["residuals"] = {{"stretch_rms", timing.residuals.stretch_rms},
+                         {"volume_rms", timing.residuals.volume_rms},
+                         {"bind_rms_m", timing.residuals.bind_rms_m}};
+    if (timing.stretch_fill) json["fill"] = {{"stretch", *timing.stretch_fill}, {"volume", *timing.volume_fill}};
 }
 
 }  // namespace experiments

@@ -1,9 +1,9 @@
 #include "experiments/studies/bench/skinning_timing.hpp"
 
-#include "experiments/process/cpu_clock.hpp"
-#include "experiments/studies/bench/timing_json.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
+
+#include <nlohmann/json.hpp>
 
 #include <functional>
 
@@ -75,14 +75,11 @@ std::vector<SkinningTiming> time_skinning(const BenchBody& body, const MachineLi
     for (std::size_t i = 0; i < variants.size(); ++i) {
         const BlendVariant& variant = variants[i];
         if (variant.variant == "plain") plain = i;
-        std::vector<double> ratios;
-        for (std::size_t round = 0; round < samples[i][0].size(); ++round)
-            ratios.push_back(samples[plain][0][round] / samples[i][0][round]);
         const double vertices = double(body.mesh().rest.rows()), bytes = 2.0 * 3.0 * variant.scalar_bytes * vertices;
         const Spread seconds = spread_of(samples[i][0]);
         const double gb_s = 1e-9 * bytes / seconds.median;
-        timings.push_back({variant.blend, variant.variant, variant.precision, scaled(seconds, 1e9 / vertices), spread_of(ratios), gb_s,
-                           gb_s / bandwidth_at(limits, bytes)});
+        timings.push_back({variant.blend, variant.variant, variant.precision, scaled(seconds, 1e9 / vertices),
+                           spread_of_ratios(samples[plain][0], samples[i][0]), gb_s, gb_s / bandwidth_at(limits, bytes)});
     }
     return timings;
 }

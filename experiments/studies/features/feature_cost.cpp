@@ -60,7 +60,7 @@ double start_of(const nlohmann::json& seconds)
 
 }  // namespace
 
-RunCost cost_of(const Scene& scene, const Variant& variant, const std::string& scratch_folder)
+SceneCost cost_of(const Scene& scene, const Variant& variant, const std::string& scratch_folder)
 {
     const nlohmann::json cost = in_own_process([&] { return run_and_tell(scene, variant, scratch_folder); });
     const nlohmann::json &seconds = cost.at("seconds"), &cpu_seconds = cost.at("cpu_seconds");
@@ -68,7 +68,7 @@ RunCost cost_of(const Scene& scene, const Variant& variant, const std::string& s
     const auto step_of = [&](const nlohmann::json& parts) {
         return ms_a_frame * parts.at("deformers").at(pbs_of(scene).label).at("step").get<double>();
     };
-    RunCost result;
+    SceneCost result;
     result.start_s = start_of(seconds);
     result.frame_ms = ms_a_frame * (seconds.at("total").get<double>() - start_of(seconds));
     result.frame_cpu_ms = ms_a_frame * (cpu_seconds.at("total").get<double>() - start_of(cpu_seconds));

@@ -9,7 +9,7 @@
 namespace experiments {
 
 // One run of a scene.
-struct RunCost {
+struct SceneCost {
     double frame_ms = 0.0;      // everything done a frame, wall time
     double frame_cpu_ms = 0.0;  // the same in processor time of all threads: other work on the machine stretches it less
     double step_ms = 0.0;       // PBS's step alone, wall time
@@ -26,7 +26,7 @@ struct AnswerChange {
     double volume_difference_pct = 0.0;  // largest |difference of volume_change_pct|
 };
 
-RunCost cost_of(const Scene& scene, const Variant& variant, const std::string& scratch_folder);
+SceneCost cost_of(const Scene& scene, const Variant& variant, const std::string& scratch_folder);
 AnswerChange change_between(const Scene& without, const Scene& with);  // of their PBS deformers
 
 }  // namespace experiments

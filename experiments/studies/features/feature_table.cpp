@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <stdexcept>
-
 namespace experiments {
 namespace {
 
@@ -12,11 +9,11 @@ using Cell = analysis::CsvTable::Cell;
 
 struct Figure {
     const char* name;
-    double RunCost::*of;
+    double SceneCost::*of;
 };
-constexpr Figure figures[] = {{"frame_ms", &RunCost::frame_ms}, {"frame_cpu_ms", &RunCost::frame_cpu_ms},
-                              {"step_ms", &RunCost::step_ms},   {"step_cpu_ms", &RunCost::step_cpu_ms},
-                              {"start_s", &RunCost::start_s},   {"peak_mb", &RunCost::peak_mb}};
+constexpr Figure figures[] = {{"frame_ms", &SceneCost::frame_ms}, {"frame_cpu_ms", &SceneCost::frame_cpu_ms},
+                              {"step_ms", &SceneCost::step_ms},   {"step_cpu_ms", &SceneCost::step_cpu_ms},
+                              {"start_s", &SceneCost::start_s},   {"peak_mb", &SceneCost::peak_mb}};
 
 std::vector<std::string> columns()
 {
@@ -51,17 +48,16 @@ std::string change_of(const analysis::CsvTable& table, int row)
 
 }  // namespace
 
-Compared compare(const FeatureRow& row, double RunCost::*figure)
+Compared compare(const FeatureRow& row, double SceneCost::*figure)
 {
-    if (row.without.empty() || row.without.size() != row.with.size())
-        throw std::logic_error("a feature without as many rounds with it as without");
-    std::vector<double> without, with, ratio;
-    for (std::size_t round = 0; round < row.without.size(); ++round) {
-        without.push_back(row.without[round].*figure);
-        with.push_back(row.with[round].*figure);
-        ratio.push_back(with.back() / without.back());
-    }
-    return {spread_of(without), spread_of(with), spread_of(ratio)};
+    const auto of = [&](const std::vector<SceneCost>& costs) {
+        std::vector<double> rounds;
+        for (const SceneCost& cost : costs) rounds.push_back(cost.*figure);
+        return rounds;
+    };
+    const std::vector<double> without = of(row.without), with = of(row.with);
+    const Spread ratio = spread_of_ratios(with, without);
+    return {spread_of(without), spread_of(with), ratio};
 }
 
 analysis::CsvTable features_csv(const std::vector<FeatureRow>& rows)

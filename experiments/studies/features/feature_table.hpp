@@ -14,7 +14,7 @@ namespace experiments {
 
 struct FeatureRow {
     std::string scene, feature;
-    std::vector<RunCost> without, with;  // a round each, as many of both
+    std::vector<SceneCost> without, with;  // a round each, as many of both
     std::optional<AnswerChange> change;
 };
 
@@ -22,7 +22,7 @@ struct FeatureRow {
 struct Compared {
     Spread without, with, ratio;  // ratio: with / without in the same round
 };
-Compared compare(const FeatureRow& row, double RunCost::*figure);
+Compared compare(const FeatureRow& row, double SceneCost::*figure);
 
 analysis::CsvTable features_csv(const std::vector<FeatureRow>& rows);
 std::string features_markdown(const analysis::CsvTable& table);  // of what features_csv wrote

@@ -36,9 +36,9 @@ std::vector<Variant> variants_of(const std::vector<Feature>& asked)
     return variants;
 }
 
-std::vector<std::vector<RunCost>> costs_by_turns(const CutScene& scene, const std::vector<Variant>& variants, const std::string& scratch)
+std::vector<std::vector<SceneCost>> costs_by_turns(const CutScene& scene, const std::vector<Variant>& variants, const std::string& scratch)
 {
-    std::vector<std::vector<RunCost>> costs(variants.size());
+    std::vector<std::vector<SceneCost>> costs(variants.size());
     std::vector<TimedVariant> turns;
     for (std::size_t i = 0; i < variants.size(); ++i)
         turns.push_back([&, i] {
@@ -51,10 +51,10 @@ std::vector<std::vector<RunCost>> costs_by_turns(const CutScene& scene, const st
 }
 
 // The first one's, if any: bad frames are no failure here, a bend of 150 degrees is none that a reference must reach.
-std::string breakdown_among(const std::vector<std::vector<RunCost>>& costs)
+std::string breakdown_among(const std::vector<std::vector<SceneCost>>& costs)
 {
     for (const auto& rounds : costs)
-        for (const RunCost& cost : rounds)
+        for (const SceneCost& cost : rounds)
             if (!cost.breakdown.empty()) return cost.breakdown;
     return "";
 }

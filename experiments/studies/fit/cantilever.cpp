@@ -2,7 +2,6 @@
 
 #include "experiments/deformers/registry.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_volume.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>
@@ -10,7 +9,6 @@
 namespace experiments {
 namespace {
 
-constexpr double held_share = 0.1;        // of the length
 constexpr double past_the_corners = 2.0;  // capsule radius over the mean distance of the skin
 
 // The capsule of a bone is its middle, from 1/6 to 5/6: it begins before the bar and ends where the held part ends.
@@ -24,18 +22,6 @@ pbs::Skeleton bone_in_held_end(const pbs::Positions& rest)
     return {{{"held", -1, on_axis(first - sixth), on_axis(last + sixth)}}};
 }
 
-// Vertices of the tets that lie in the held end whole.
-std::vector<bool> held_vertices(const pbs::TetMesh& bar)
-{
-    const double first = bar.rest.col(0).minCoeff(), last = first + held_share * (bar.rest.col(0).maxCoeff() - first);
-    std::vector<bool> held(bar.rest.rows(), false);
-    for (const auto& tet : bar.tets.rowwise()) {
-        if (!std::all_of(tet.begin(), tet.end(), [&](int v) { return bar.rest(v, 0) <= last; })) continue;
-        for (const int v : tet) held[v] = true;
-    }
-    return held;
-}
-
 std::vector<std::vector<int>> fifths_of(const pbs::Positions& rest, const std::vector<bool>& held)
 {
     const double last = rest.col(0).maxCoeff(), first = rest.col(0).minCoeff() + held_share * (last - rest.col(0).minCoeff());
@@ -46,22 +32,26 @@ std::vector<std::vector<int>> fifths_of(const pbs::Positions& rest, const std::v
     return fifths;
 }
 
-}  // namespace
-
-Cantilever make_cantilever(const pbs::TetMesh& bar)
+// One bone in the held end, whose vertices the finite elements hold exactly.
+pbs::Character gripped(const pbs::TetMesh& bar)
 {
-    Cantilever cantilever;
-    pbs::Character& character = cantilever.character;
+    pbs::Character character;
     character.name = "cantilever";
     character.mesh = bar;
     character.skeleton = bone_in_held_end(bar.rest);
     character.binding = pbs::bind_to_nearest_bone(bar.rest, character.skeleton);
     character.weights = pbs::rigid_weights(character.binding);
     character.blended.assign(bar.rest.rows(), false);
+    return character;
+}
 
-    cantilever.held = held_vertices(bar);
-    cantilever.fifths = fifths_of(bar.rest, cantilever.held);
-    cantilever.mass = pbs::lumped_volumes(bar.rest, bar.tets);
+}  // namespace
+
+Cantilever make_cantilever(const pbs::TetMesh& bar)
+{
+    Cantilever cantilever;
+    cantilever.body = hanging_bar(bar);
+    cantilever.fifths = fifths_of(bar.rest, cantilever.body.held);
     const pbs::Edges edges = pbs::edges_of(bar.tets);
     for (const auto& edge : edges.rowwise())
         cantilever.mean_edge_m += (bar.rest.row(edge(0)) - bar.rest.row(edge(1))).norm() / static_cast<double>(edges.rows());
@@ -71,27 +61,22 @@ Cantilever make_cantilever(const pbs::TetMesh& bar)
     return cantilever;
 }
 
-FemOptions held_by_nodes(FemOptions options)
+ElasticSag elastic_sag(const Cantilever& cantilever, FemOptions options)
 {
     options.attachment = FemAttachment::nodes;
     options.core_radius = past_the_corners;
-    return options;
-}
-
-ElasticSag elastic_sag(const Cantilever& cantilever, FemOptions options)
-{
-    options = held_by_nodes(options);
     options.model = reference_fem::Model::linear;
     options.gravity_m_s2 = -pbs::Vec3::UnitZ();
     DeformerSpec spec;
     spec.kind = "fem";
     spec.fem = options;
+    const pbs::Character character = gripped(cantilever.body.mesh);
     const auto fem = make_deformer(spec);
-    fem->reset(cantilever.character);
-    if (fem->prescribed() != cantilever.held)
+    fem->reset(character);
+    if (fem->prescribed() != cantilever.body.held)
         throw pbs::InputError("cantilever", 0, "held", "", "expected the finite elements to hold the same vertices");
     fem->advance({Eigen::Isometry3d::Identity()}, 1.0);
-    return {fem->positions() - cantilever.character.mesh.rest, options};
+    return {fem->positions() - character.mesh.rest, options};
 }
 
 double mean_sag_m(const Cantilever& cantilever, const pbs::Positions& displacement)

@@ -52,7 +52,7 @@ analysis::CsvTable sag_table()
                       "young_dt2_over_density_edge2_iterations", "tip_sag_over_g_dt2", "settled", "residual", "solver_steps"}));
 }
 
-void add_sag(analysis::CsvTable& table, const FitSetting& setting, const SettledState& state, double tip_sag_over_g_dt2,
+void add_sag(analysis::CsvTable& table, const FitSetting& setting, const RestingState& state, double tip_sag_over_g_dt2,
              const YoungFit& fit)
 {
     const double dt_edge = setting.time_step_s / setting.mean_edge_m;

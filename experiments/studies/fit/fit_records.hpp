@@ -4,7 +4,7 @@
 #include "analysis/records/csv_table.hpp"
 #include "experiments/studies/fit/poisson_fit.hpp"
 #include "experiments/studies/fit/release_test.hpp"
-#include "experiments/studies/shared/near_rest/settled_state.hpp"
+#include "experiments/studies/shared/near_rest/step_near_rest.hpp"
 #include "experiments/studies/fit/young_fit.hpp"
 
 #include <nlohmann/json.hpp>
@@ -23,7 +23,7 @@ struct FitSetting {
 };
 
 analysis::CsvTable sag_table();
-void add_sag(analysis::CsvTable& table, const FitSetting& setting, const SettledState& state, double tip_sag_over_g_dt2,
+void add_sag(analysis::CsvTable& table, const FitSetting& setting, const RestingState& state, double tip_sag_over_g_dt2,
              const YoungFit& fit);
 
 // The modulus by the first frequency beside the one by the sag.

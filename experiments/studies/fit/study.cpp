@@ -50,7 +50,7 @@ Rig make_rig(int vertices)
 FitSetting setting_of(const Rig& rig, double k_stretch, double k_volume, int iterations, double dt_s)
 {
     FitSetting setting{
-        static_cast<int>(rig.cantilever.character.mesh.rest.rows()), rig.cantilever.mean_edge_m, {}, dt_s, density_kg_m3, elastic_poisson};
+        static_cast<int>(rig.cantilever.body.mesh.rest.rows()), rig.cantilever.mean_edge_m, {}, dt_s, density_kg_m3, elastic_poisson};
     setting.pbs.k_stretch = k_stretch;
     setting.pbs.k_volume = k_volume;
     setting.pbs.k_bind = 0.0;
@@ -60,15 +60,15 @@ FitSetting setting_of(const Rig& rig, double k_stretch, double k_volume, int ite
 }
 
 struct Settled {
-    SettledState state;
+    RestingState state;
     YoungFit fit;
     pbs::Positions displacement;  // [m] under 1 m/s^2
 };
 
 Settled settle_and_fit(const Rig& rig, const FitSetting& setting)
 {
-    Settled settled{settle(rig.cantilever.character.mesh, rig.cantilever.held, setting.pbs, -pbs::Vec3::UnitZ()), {}, {}};
-    settled.displacement = setting.time_step_s * setting.time_step_s * settled.state.displacement_over_dt2;
+    Settled settled{settle(rig.cantilever.body.mesh, rig.cantilever.body.held, setting.pbs, -pbs::Vec3::UnitZ()), {}, {}};
+    settled.displacement = setting.time_step_s * setting.time_step_s * settled.state.displacement;
     settled.fit = fit_young(rig.cantilever, rig.elastic, settled.displacement, 1.0);
     return settled;
 }
@@ -82,7 +82,7 @@ std::string record_sags(const std::string& folder, int vertices, const std::vect
             for (const int n : iterations) {
                 const FitSetting setting = setting_of(rig, k_stretch, k_volume, n, time_step_s);
                 const Settled settled = settle_and_fit(rig, setting);
-                add_sag(table, setting, settled.state, mean_sag_m(rig.cantilever, settled.state.displacement_over_dt2), settled.fit);
+                add_sag(table, setting, settled.state, mean_sag_m(rig.cantilever, settled.state.displacement), settled.fit);
             }
     table.write((fs::path(folder) / "sag.csv").string());
     return "";
@@ -93,7 +93,7 @@ double first_frequency_hz(const Rig& rig)
 {
     constexpr double quotient = (576.0 / 20.0) * (45.0 / 104.0), first = 12.362363368;  // EI / (density A L^4), both squared
     const pbs::Positions& sag = rig.elastic.displacement;
-    const double omega_2 = -rig.cantilever.mass.dot(sag.col(2)) / rig.cantilever.mass.dot(sag.rowwise().squaredNorm());
+    const double omega_2 = -rig.cantilever.body.mass_kg.dot(sag.col(2)) / rig.cantilever.body.mass_kg.dot(sag.rowwise().squaredNorm());
     return std::sqrt(omega_2 * first / quotient) / (2.0 * std::numbers::pi);
 }
 
@@ -109,7 +109,7 @@ std::string record_swings(const std::string& folder, int vertices)
                 const Settled settled = settle_and_fit(rig, setting);
                 const double one_per_mille = 2e-3 / mean_sag_m(rig.cantilever, settled.displacement);  // of the bar's 2 m, at the tip
                 SwingYoung swing;
-                swing.test = release({rig.cantilever.character.mesh, rig.cantilever.held, setting.pbs, one_per_mille * settled.displacement,
+                swing.test = release({rig.cantilever.body.mesh, rig.cantilever.body.held, setting.pbs, one_per_mille * settled.displacement,
                                       -pbs::Vec3::UnitZ(), rig.cantilever.tip},
                                      dt_s);
                 swing.elastic_hz = elastic_hz;

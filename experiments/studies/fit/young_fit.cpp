@@ -13,7 +13,7 @@ constexpr double range = 5.0;  // the modulus is looked for within this factor o
 double product(const Cantilever& cantilever, const std::vector<int>& vertices, const pbs::Positions& a, const pbs::Positions& b)
 {
     double sum = 0.0;
-    for (const int v : vertices) sum += cantilever.mass(v) * a.row(v).dot(b.row(v));
+    for (const int v : vertices) sum += cantilever.body.mass_kg(v) * a.row(v).dot(b.row(v));
     return sum;
 }
 

@@ -3,6 +3,10 @@
 #include "analysis/statistics.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
+#include <nlohmann/json.hpp>
+
+#include <stdexcept>
+
 namespace experiments {
 
 std::vector<std::vector<std::vector<double>>> take_turns(const std::vector<TimedVariant>& variants, const Rounds& rounds)
@@ -24,9 +28,24 @@ Spread spread_of(const std::vector<double>& samples)
             static_cast<int>(samples.size())};
 }
 
+Spread spread_of_ratios(const std::vector<double>& numerator, const std::vector<double>& denominator, double factor)
+{
+    if (numerator.empty() || numerator.size() != denominator.size()) throw std::logic_error("ratios of two variants with other rounds");
+    std::vector<double> ratios;
+    for (std::size_t round = 0; round < numerator.size(); ++round) ratios.push_back(factor * numerator[round] / denominator[round]);
+    return spread_of(ratios);
+}
+
 Spread scaled(const Spread& spread, double factor)
 {
     return {factor * spread.median, factor * spread.lower, factor * spread.upper, spread.rounds};
+}
+
+void put_spread(nlohmann::json& json, const std::string& name, const Spread& spread)
+{
+    json[name] = spread.median;
+    json["quartiles"][name] = {spread.lower, spread.upper};
+    json["rounds"] = spread.rounds;
 }
 
 }  // namespace experiments

@@ -1,10 +1,17 @@
 // Timings that can be compared: all variants by turns, A B C A B C ..., so that what disturbs the machine disturbs them alike; of each the
-// median and the quartiles over the rounds.
+// median and the quartiles over the rounds. What a variant costs relative to another is the median of the ratios within a round, which a
+// disturbance of the machine disturbs less than a ratio of medians.
 //   const auto samples = take_turns({[&] { return seconds_of(a); }, [&] { return seconds_of(b); }}, {.seconds = 2.0});
-//   spread_of(samples[0]).median
+//   spread_of(samples[0][0]).median
+//   spread_of_ratios(samples[0][0], samples[1][0]).median   // a over b
 #pragma once
 
+#include "experiments/process/cpu_clock.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace experiments {
@@ -26,6 +33,19 @@ using TimedVariant = std::function<std::vector<double>()>;
 std::vector<std::vector<std::vector<double>>> take_turns(const std::vector<TimedVariant>& variants, const Rounds& rounds);
 
 Spread spread_of(const std::vector<double>& samples);
+Spread spread_of_ratios(const std::vector<double>& numerator, const std::vector<double>& denominator, double factor = 1.0);  // by round
 Spread scaled(const Spread& spread, double factor);
+
+// The median under `name`, its quartiles under "quartiles", and the number of rounds.
+void put_spread(nlohmann::json& json, const std::string& name, const Spread& spread);
+
+// What the calling thread's work takes of its processor [s].
+template <typename Work>
+double cpu_seconds(const Work& work)
+{
+    const double start = thread_cpu_s();
+    work();
+    return thread_cpu_s() - start;
+}
 
 }  // namespace experiments

@@ -1,7 +1,6 @@
 #include "experiments/studies/stiffness/stiffness_row.hpp"
 
-#include "experiments/studies/stiffness/stepped_flesh.hpp"
-#include "experiments/studies/stiffness/step_near_rest.hpp"
+#include "experiments/studies/stiffness/resting_body.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 namespace experiments {
@@ -9,14 +8,14 @@ namespace {
 
 constexpr Method methods[] = {Method::pbs, Method::exponent, Method::xpbd, Method::xpbd_small_steps, Method::xpbd_forgetting};
 
-StiffnessRow row_of(const LoadedFlesh& flesh, const StiffnessSetting& setting)
+StiffnessRow row_of(const LoadedBody& body, const StiffnessSetting& setting)
 {
     StiffnessRow row;
-    row.body = flesh.name;
-    row.load = flesh.load;
-    row.vertices = static_cast<int>(flesh.mesh.rest.rows());
-    row.edges = flesh.edges;
-    row.tets = static_cast<int>(flesh.mesh.tets.rows());
+    row.body = body.name;
+    row.load = body.load;
+    row.vertices = static_cast<int>(body.mesh.rest.rows());
+    row.edges = body.edges;
+    row.tets = static_cast<int>(body.mesh.tets.rows());
     row.setting = setting;
     return row;
 }
@@ -42,24 +41,24 @@ StiffnessSetting setting_at(const analysis::CsvTable& table, int row)
 
 }  // namespace
 
-StiffnessRow linear_stiffness(const LoadedFlesh& flesh, const StiffnessSetting& setting)
+StiffnessRow linear_stiffness(const LoadedBody& body, const StiffnessSetting& setting)
 {
-    const RestingFlesh rest = rest_near_rest(flesh, setting);
-    StiffnessRow row = row_of(flesh, setting);
-    row.force_n = weight_n(flesh, 1.0);
-    row.stiffness_n_m = effective_stiffness_n_m(flesh, rest.displacement, 1.0);
+    const RestingState rest = rest_near_rest(body, setting);
+    StiffnessRow row = row_of(body, setting);
+    row.force_n = weight_n(body, 1.0);
+    row.stiffness_n_m = effective_stiffness_n_m(body, rest.displacement, 1.0);
     row.converged = rest.converged;
     row.steps = rest.steps;
     return row;
 }
 
-StiffnessRow stepped_stiffness(const LoadedFlesh& flesh, const StiffnessSetting& setting)
+StiffnessRow stepped_stiffness(const LoadedBody& body, const StiffnessSetting& setting)
 {
-    const SteppedFlesh still = step_until_still(flesh, setting, still_gravity_m_s2);
-    StiffnessRow row = row_of(flesh, setting);
+    const SteppedBody still = step_until_still(body, setting, still_gravity_m_s2);
+    StiffnessRow row = row_of(body, setting);
     row.by = "stepped";
-    row.force_n = weight_n(flesh, still_gravity_m_s2);
-    row.stiffness_n_m = effective_stiffness_n_m(flesh, still.displacement, still_gravity_m_s2);
+    row.force_n = weight_n(body, still_gravity_m_s2);
+    row.stiffness_n_m = effective_stiffness_n_m(body, still.displacement, still_gravity_m_s2);
     row.converged = still.converged;
     row.steps = still.steps;
     return row;

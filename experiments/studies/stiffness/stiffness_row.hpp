@@ -1,5 +1,5 @@
 // One effective stiffness, measured and as it is written down.
-//   rows.push_back(linear_stiffness(flesh, {.k_stretch = 0.2, .iterations = 24}));   stiffness_table(rows).write("stiffness.csv");
+//   rows.push_back(linear_stiffness(body, {.k_stretch = 0.2, .iterations = 24}));   stiffness_table(rows).write("stiffness.csv");
 #pragma once
 
 #include "analysis/records/csv_table.hpp"
@@ -23,8 +23,8 @@ struct StiffnessRow {
     int steps = 0;  // applications of the linear map, or time steps
 };
 
-StiffnessRow linear_stiffness(const LoadedFlesh& flesh, const StiffnessSetting& setting);
-StiffnessRow stepped_stiffness(const LoadedFlesh& flesh, const StiffnessSetting& setting);
+StiffnessRow linear_stiffness(const LoadedBody& body, const StiffnessSetting& setting);
+StiffnessRow stepped_stiffness(const LoadedBody& body, const StiffnessSetting& setting);
 
 // Columns: body, load, vertices, edges, tets, mesh, method, k_stretch, young_pa, iterations, time_step_ms, order_seed, by, force_n,
 // stiffness_n_m, converged, steps. k_stretch says nothing of xpbd, young_pa nothing of pbs.

@@ -25,12 +25,12 @@ nlohmann::json to_json(const StiffnessSetting& setting)
             {"iterations", setting.iterations},  {"time_step_s", setting.time_step_s}, {"order_seed", setting.order_seed}};
 }
 
-pbs::PbsOptions pbs_options(const LoadedFlesh& flesh, const StiffnessSetting& setting)
+pbs::PbsOptions pbs_options(const LoadedBody& body, const StiffnessSetting& setting)
 {
     pbs::PbsOptions options;
     options.iterations = setting.iterations;
     options.k_stretch = setting.k_stretch;
-    options.k_bind = flesh.bind_distance.size() ? 1.0 : 0.0;
+    options.k_bind = body.bind_distance.size() ? 1.0 : 0.0;
     options.precision = pbs::Precision::f64;
     options.order = pbs::Order::plain;
     options.jiggle = pbs::Jiggle{setting.k_stretch};
@@ -38,7 +38,7 @@ pbs::PbsOptions pbs_options(const LoadedFlesh& flesh, const StiffnessSetting& se
     return options;
 }
 
-XpbdOptions xpbd_options(const LoadedFlesh&, const StiffnessSetting& setting)
+XpbdOptions xpbd_options(const StiffnessSetting& setting)
 {
     XpbdOptions options;
     options.young_pa = setting.young_pa;
@@ -50,9 +50,9 @@ XpbdOptions xpbd_options(const LoadedFlesh&, const StiffnessSetting& setting)
     return options;
 }
 
-Eigen::VectorXd bind_distance_of(const LoadedFlesh& flesh)
+Eigen::VectorXd bind_distance_of(const LoadedBody& body)
 {
-    return flesh.bind_distance.size() ? flesh.bind_distance : Eigen::VectorXd::Zero(flesh.mesh.rest.rows());
+    return body.bind_distance.size() ? body.bind_distance : Eigen::VectorXd::Zero(body.mesh.rest.rows());
 }
 
 }  // namespace experiments

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "experiments/deformers/xpbd/xpbd_solver.hpp"
-#include "experiments/studies/stiffness/loaded_flesh.hpp"
+#include "experiments/studies/shared/loaded_body.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <nlohmann/json.hpp>
@@ -31,9 +31,9 @@ inline bool is_xpbd(Method method)
 }
 
 // In double; gravity zero.
-pbs::PbsOptions pbs_options(const LoadedFlesh& flesh, const StiffnessSetting& setting);
-XpbdOptions xpbd_options(const LoadedFlesh& flesh, const StiffnessSetting& setting);
+pbs::PbsOptions pbs_options(const LoadedBody& body, const StiffnessSetting& setting);
+XpbdOptions xpbd_options(const StiffnessSetting& setting);
 
-Eigen::VectorXd bind_distance_of(const LoadedFlesh& flesh);  // #V: zero where nothing is bound, as the solver asks for one a vertex
+Eigen::VectorXd bind_distance_of(const LoadedBody& body);  // #V: zero where nothing is bound, as the solver asks for one a vertex
 
 }  // namespace experiments

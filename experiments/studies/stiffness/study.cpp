@@ -30,7 +30,7 @@ constexpr double softer_pa = 3.0e4, stiffer_pa = 3.0e5;  // as stiff as few and 
 const std::pair<Varied, const char*> sweeps[] = {
     {Varied::iterations, "iterations"}, {Varied::time_step, "time_step"}, {Varied::resolution, "resolution"}};
 
-std::vector<LoadedFlesh> flesh_of(const std::string& body, int vertices)
+std::vector<LoadedBody> bodies_of(const std::string& body, int vertices)
 {
     if (body == "bar") return {hanging_bar(vertices > 0 ? vertices : 1000)};
     const pbs::Character character = pbs::make_character({.body = body, .vertices = vertices, .surface = false});
@@ -39,9 +39,9 @@ std::vector<LoadedFlesh> flesh_of(const std::string& body, int vertices)
 
 // Small steps only where the rest is held: it would be put back once a step, not once a substep. Not on the bar, whose slowest motion takes
 // more of such steps than the linear solver's Krylov space has.
-bool suits(const LoadedFlesh& flesh, const StiffnessSetting& setting)
+bool suits(const LoadedBody& body, const StiffnessSetting& setting)
 {
-    return setting.method != Method::xpbd_small_steps || flesh.load == "zone on held";
+    return setting.method != Method::xpbd_small_steps || body.load == "zone on held";
 }
 
 std::vector<StiffnessSetting> materials(bool full)
@@ -104,11 +104,11 @@ std::vector<StiffnessSetting> settings_of(const Sweep& sweep)
 }
 
 // By the solver itself too: time steps beside the paper's, of what settles quickly.
-bool is_stepped(const Sweep& sweep, const LoadedFlesh& flesh, const StiffnessSetting& setting)
+bool is_stepped(const Sweep& sweep, const LoadedBody& body, const StiffnessSetting& setting)
 {
     const bool beside_the_paper = setting.time_step_s >= 0.005 && setting.time_step_s <= 0.02;
-    const bool quick_to_settle = flesh.load != "cantilever" && setting.method != Method::xpbd_small_steps;
-    const bool asked = sweep.full || (flesh.load == "zone" && setting.method == Method::pbs && setting.k_stretch == 0.2);
+    const bool quick_to_settle = body.load != "cantilever" && setting.method != Method::xpbd_small_steps;
+    const bool asked = sweep.full || (body.load == "zone" && setting.method == Method::pbs && setting.k_stretch == 0.2);
     return sweep.varied == Varied::time_step && beside_the_paper && quick_to_settle && asked;
 }
 
@@ -131,12 +131,12 @@ std::string measure_and_record(const Sweep& sweep, const std::string& folder)
 {
     std::vector<StiffnessRow> rows;
     for (const Size& size : sizes_of(sweep))
-        for (const LoadedFlesh& flesh : flesh_of(sweep.body, size.vertices))
+        for (const LoadedBody& body : bodies_of(sweep.body, size.vertices))
             for (const StiffnessSetting& setting : settings_of(sweep)) {
-                if (!suits(flesh, setting)) continue;
-                rows.push_back(linear_stiffness(flesh, setting));
+                if (!suits(body, setting)) continue;
+                rows.push_back(linear_stiffness(body, setting));
                 rows.back().mesh = size.mesh;
-                if (is_stepped(sweep, flesh, setting)) rows.push_back(stepped_stiffness(flesh, setting));
+                if (is_stepped(sweep, body, setting)) rows.push_back(stepped_stiffness(body, setting));
             }
     stiffness_table(rows).write((fs::path(folder) / "stiffness.csv").string());
     analysis::measurement_table(stiffness_ratios(rows, sweep.varied)).write((fs::path(folder) / "measurements.csv").string());

@@ -1,6 +1,5 @@
 #include "experiments/studies/timing/frame_timing.hpp"
 
-#include "experiments/process/cpu_clock.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
 #include "pbs/solver/pbs_solver.hpp"
@@ -62,26 +61,23 @@ private:
         seconds[total_s] += end - start;
         seconds[total_wall_s] += wall.seconds();
         if (!character_.surface) return;
-        const double surface_start = thread_cpu_s();
-        surface_ = pbs::embedded_positions(*character_.surface, solver_.positions(), character_.mesh.tets);
-        seconds[surface_s] += thread_cpu_s() - surface_start;
+        seconds[surface_s] +=
+            cpu_seconds([&] { surface_ = pbs::embedded_positions(*character_.surface, solver_.positions(), character_.mesh.tets); });
         seconds[drawn_wall_s] += wall.seconds();
     }
 
     void idle_step(const pbs::Pose& pose, std::vector<double>& seconds)
     {
-        const double start = thread_cpu_s();
-        idle_solver_.advance(lbs_, pbs::posed_bind_points(character_.binding, pose), time_step_s);
-        seconds[rest_s] += thread_cpu_s() - start;
+        seconds[rest_s] += cpu_seconds([&] { idle_solver_.advance(lbs_, pbs::posed_bind_points(character_.binding, pose), time_step_s); });
     }
 
     void parts(const pbs::Pose& pose, std::vector<double>& seconds)
     {
         projection_->load(lbs_, pbs::posed_bind_points(character_.binding, pose), pbs::Vec3::Zero());
         const auto time = [&](Sample of, void (pbs::Projection<Scalar>::*project)()) {
-            const double start = thread_cpu_s();
-            for (int iteration = 0; iteration < timed_iterations; ++iteration) (projection_.get()->*project)();
-            seconds[of] += thread_cpu_s() - start;
+            seconds[of] += cpu_seconds([&] {
+                for (int iteration = 0; iteration < timed_iterations; ++iteration) (projection_.get()->*project)();
+            });
         };
         time(volume_s, &pbs::Projection<Scalar>::project_volume_constraints);
         time(stretch_s, &pbs::Projection<Scalar>::project_stretch_constraints);

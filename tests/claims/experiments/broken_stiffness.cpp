@@ -19,19 +19,19 @@ using namespace experiments;
 using analysis::Measurement;
 using analysis::VerdictKind;
 
-LoadedFlesh held_flesh()
+LoadedBody held_flesh()
 {
     static const pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 300, .surface = false});
     return jiggling_flesh(limb, RestOfBody::held);
 }
 
-LoadedFlesh without_bind(LoadedFlesh flesh)
+LoadedBody without_bind(LoadedBody flesh)
 {
     flesh.bind_distance.resize(0);
     return flesh;
 }
 
-std::vector<Measurement> ratios(const LoadedFlesh& flesh, Method method, Varied varied)
+std::vector<Measurement> ratios(const LoadedBody& flesh, Method method, Varied varied)
 {
     std::vector<StiffnessRow> rows;
     for (const double factor : {0.5, 1.0, 2.0}) {
@@ -72,7 +72,7 @@ TEST(BrokenStiffness, ForgottenMultipliersTurnTheControl)
 
 TEST(BrokenStiffness, ForgottenMultipliersAreStiffenedByIterations)
 {
-    for (const LoadedFlesh& flesh : {held_flesh(), without_bind(held_flesh())}) {
+    for (const LoadedBody& flesh : {held_flesh(), without_bind(held_flesh())}) {
         const Measurement iterations = ratios(flesh, Method::xpbd_forgetting, Varied::iterations).at(0);
         EXPECT_GE(iterations.low, 2.0);
         EXPECT_EQ(iterations.quantity, "effective stiffness at twice the iterations over at the once, xpbd, multipliers forgotten");

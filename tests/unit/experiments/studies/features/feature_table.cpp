@@ -9,7 +9,7 @@ namespace {
 
 using namespace experiments;
 
-RunCost cost(double frame_ms)
+SceneCost cost(double frame_ms)
 {
     return {.frame_ms = frame_ms,
             .frame_cpu_ms = frame_ms,
@@ -31,7 +31,7 @@ FeatureRow row(const std::vector<double>& without, const std::vector<double>& wi
 TEST(FeatureTable, RatioIsTheMedianOfTheRatiosWithinARound)
 {
     // The machine halves its speed in the second round: both runs double, their ratio of 1.5 stays.
-    const Compared compared = compare(row({2.0, 4.0, 2.0}, {3.0, 6.0, 3.0}), &RunCost::frame_ms);
+    const Compared compared = compare(row({2.0, 4.0, 2.0}, {3.0, 6.0, 3.0}), &SceneCost::frame_ms);
     EXPECT_EQ(compared.without.median, 2.0);
     EXPECT_EQ(compared.with.median, 3.0);
     EXPECT_EQ(compared.ratio.median, 1.5);
@@ -42,7 +42,7 @@ TEST(FeatureTable, RatioIsTheMedianOfTheRatiosWithinARound)
 
 TEST(FeatureTable, SpreadIsTheQuartiles)
 {
-    const Compared compared = compare(row({1.0, 1.0, 1.0, 1.0, 1.0}, {1.0, 2.0, 3.0, 4.0, 5.0}), &RunCost::frame_ms);
+    const Compared compared = compare(row({1.0, 1.0, 1.0, 1.0, 1.0}, {1.0, 2.0, 3.0, 4.0, 5.0}), &SceneCost::frame_ms);
     EXPECT_EQ(compared.ratio.lower, 2.0);
     EXPECT_EQ(compared.ratio.median, 3.0);
     EXPECT_EQ(compared.ratio.upper, 4.0);
@@ -50,8 +50,8 @@ TEST(FeatureTable, SpreadIsTheQuartiles)
 
 TEST(FeatureTable, RoundsWithAndWithoutBelongTogether)
 {
-    EXPECT_THROW(compare(row({1.0, 1.0}, {1.0}), &RunCost::frame_ms), std::logic_error);
-    EXPECT_THROW(compare(row({}, {}), &RunCost::frame_ms), std::logic_error);
+    EXPECT_THROW(compare(row({1.0, 1.0}, {1.0}), &SceneCost::frame_ms), std::logic_error);
+    EXPECT_THROW(compare(row({}, {}), &SceneCost::frame_ms), std::logic_error);
 }
 
 TEST(FeatureTable, OnlyAFeatureThatMovesTheAnswerHasAChange)

@@ -1,5 +1,5 @@
 // Truth: timings made up as a power of the size.
-#include "experiments/studies/timing/real_time_end.hpp"
+#include "experiments/studies/timing/timing_report.hpp"
 
 #include <gtest/gtest.h>
 

@@ -26,7 +26,7 @@ FemOptions options_of(double young_pa)
 TEST(Cantilever, HoldsTheFirstTenthAndHasATip)
 {
     const Cantilever cantilever = make_cantilever(bar);
-    for (Eigen::Index v = 0; v < bar.rest.rows(); ++v) EXPECT_EQ(cantilever.held[v], bar.rest(v, 0) < -0.8 + 1e-9) << bar.rest.row(v);
+    for (Eigen::Index v = 0; v < bar.rest.rows(); ++v) EXPECT_EQ(cantilever.body.held[v], bar.rest(v, 0) < -0.8 + 1e-9) << bar.rest.row(v);
     for (const int v : cantilever.tip) EXPECT_GE(bar.rest(v, 0), 0.8);
     std::size_t free = 0;
     for (const auto& fifth : cantilever.fifths) free += fifth.size();

@@ -2,9 +2,8 @@
 // leaves 1e-5 to the second order; stopped at 1e-6 a step, over one minus the slowest rate, above 1/40 here: stiffnesses within 1e-4. The
 // limb has vertices on its bones, d = 0. And theory: of the position based solver a step does not know dt, so stiffness goes with 1 / dt^2;
 // of XPBD, iterated to the end, it is the material's.
-#include "experiments/studies/stiffness/step_near_rest.hpp"
+#include "experiments/studies/stiffness/resting_body.hpp"
 
-#include "experiments/studies/stiffness/stepped_flesh.hpp"
 #include "tests/support/limb_character.hpp"
 
 #include <gtest/gtest.h>
@@ -13,38 +12,38 @@ namespace {
 
 using namespace experiments;
 
-LoadedFlesh limb(RestOfBody rest)
+LoadedBody limb(RestOfBody rest)
 {
     static const pbs::Character character = test_support::character_of(test_support::two_bone_limb({10, 4, 4}, pbs::Vec3::UnitZ(), 0.0));
     return jiggling_flesh(character, rest);
 }
 
-double stiffness(const LoadedFlesh& flesh, const StiffnessSetting& setting)
+double stiffness(const LoadedBody& body, const StiffnessSetting& setting)
 {
-    const RestingFlesh rest = rest_near_rest(flesh, setting);
+    const RestingState rest = rest_near_rest(body, setting);
     EXPECT_TRUE(rest.converged);
-    return effective_stiffness_n_m(flesh, rest.displacement, 1.0);
+    return effective_stiffness_n_m(body, rest.displacement, 1.0);
 }
 
-void expect_as_stepped(const LoadedFlesh& flesh, const StiffnessSetting& setting)
+void expect_as_stepped(const LoadedBody& body, const StiffnessSetting& setting)
 {
-    const RestingFlesh rest = rest_near_rest(flesh, setting);
+    const RestingState rest = rest_near_rest(body, setting);
     ASSERT_TRUE(rest.converged);
     const double edge_m = 0.05, gravity_m_s2 = 1e-5 * edge_m / rest.displacement.cwiseAbs().maxCoeff();
-    const SteppedFlesh still = step_until_still(flesh, setting, gravity_m_s2);
+    const SteppedBody still = step_until_still(body, setting, gravity_m_s2);
     ASSERT_TRUE(still.converged);
-    const double linear = effective_stiffness_n_m(flesh, rest.displacement, 1.0);
-    EXPECT_NEAR(effective_stiffness_n_m(flesh, still.displacement, gravity_m_s2), linear, 1e-4 * linear);
+    const double linear = effective_stiffness_n_m(body, rest.displacement, 1.0);
+    EXPECT_NEAR(effective_stiffness_n_m(body, still.displacement, gravity_m_s2), linear, 1e-4 * linear);
 }
 
-TEST(StepNearRest, HangsWhereThePositionBasedSolverHangs)
+TEST(RestingBody, HangsWhereThePositionBasedSolverHangs)
 {
     for (const RestOfBody rest : {RestOfBody::projected, RestOfBody::held})
         for (const Method method : {Method::pbs, Method::exponent})
             expect_as_stepped(limb(rest), {.method = method, .k_stretch = 0.3, .iterations = 6});
 }
 
-TEST(StepNearRest, HangsWhereXpbdHangs)
+TEST(RestingBody, HangsWhereXpbdHangs)
 {
     for (const RestOfBody rest : {RestOfBody::projected, RestOfBody::held})
         for (const Method method : {Method::xpbd, Method::xpbd_forgetting})
@@ -53,37 +52,37 @@ TEST(StepNearRest, HangsWhereXpbdHangs)
 }
 
 // To the tolerance of the linear solves, 1e-7 of the right-hand side, times a condition below 100 here.
-TEST(StepNearRest, HalfTheStepIsFourTimesTheStiffness)
+TEST(RestingBody, HalfTheStepIsFourTimesTheStiffness)
 {
-    const LoadedFlesh flesh = limb(RestOfBody::projected);
+    const LoadedBody body = limb(RestOfBody::projected);
     StiffnessSetting setting{.k_stretch = 0.3, .iterations = 6};
-    const double whole = stiffness(flesh, setting);
+    const double whole = stiffness(body, setting);
     setting.time_step_s /= 2.0;
-    EXPECT_NEAR(stiffness(flesh, setting) / whole, 4.0, 4e-5);
+    EXPECT_NEAR(stiffness(body, setting) / whole, 4.0, 4e-5);
 }
 
 // What is held does not move with the step, so all that is left is K x = M g.
-TEST(StepNearRest, XpbdIteratedToTheEndKnowsNeitherIterationsNorStep)
+TEST(RestingBody, XpbdIteratedToTheEndKnowsNeitherIterationsNorStep)
 {
-    const LoadedFlesh flesh = limb(RestOfBody::held);
+    const LoadedBody body = limb(RestOfBody::held);
     StiffnessSetting setting{.method = Method::xpbd, .iterations = 400};
-    const double once = stiffness(flesh, setting);
+    const double once = stiffness(body, setting);
     setting.iterations = 800;
-    EXPECT_NEAR(stiffness(flesh, setting) / once, 1.0, 1e-4);
+    EXPECT_NEAR(stiffness(body, setting) / once, 1.0, 1e-4);
     setting.time_step_s /= 4.0;
-    EXPECT_NEAR(stiffness(flesh, setting) / once, 1.0, 1e-4);
+    EXPECT_NEAR(stiffness(body, setting) / once, 1.0, 1e-4);
     setting.young_pa *= 2.0;  // of springs and bulk alike; rigid bind constraints take no part of it
-    EXPECT_NEAR(stiffness(flesh, setting) / once, 2.0, 2e-3);
+    EXPECT_NEAR(stiffness(body, setting) / once, 2.0, 2e-3);
 }
 
-TEST(StepNearRest, ARandomOrderIsRepeatable)
+TEST(RestingBody, ARandomOrderIsRepeatable)
 {
-    const LoadedFlesh flesh = limb(RestOfBody::projected);
+    const LoadedBody body = limb(RestOfBody::projected);
     StiffnessSetting setting{.k_stretch = 0.3, .iterations = 3, .order_seed = 1};
-    const double first = stiffness(flesh, setting);
-    EXPECT_EQ(stiffness(flesh, setting), first);
+    const double first = stiffness(body, setting);
+    EXPECT_EQ(stiffness(body, setting), first);
     setting.order_seed = 0;
-    EXPECT_NE(stiffness(flesh, setting), first);
+    EXPECT_NE(stiffness(body, setting), first);
 }
 
 }  // namespace

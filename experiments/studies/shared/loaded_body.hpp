@@ -1,10 +1,10 @@
-// What an effective stiffness is measured on: part of a body hangs under gravity on the rest of it.
-//   const LoadedFlesh flesh = jiggling_flesh(character, RestOfBody::held);
-//   effective_stiffness_n_m(flesh, displacement, 9.81);
+// A body that hangs under gravity on a part of it: what a stiffness is measured on, and what k is given a unit on.
+//   const LoadedBody body = jiggling_flesh(character, RestOfBody::held);
+//   effective_stiffness_n_m(body, displacement, 9.81);
 //
-//   bone o=========o      a character's jiggling zone (Sec. 4), or the free length of a bar held at one end:
-//        ~ ~ ~ ~ ~ ~      force = mass times gravity,  stiffness = force over the mean displacement along it
-//          | | | |  g
+//   bone o=========o      ####------------------------+   a character's jiggling zone (Sec. 4), or the free length of a bar along x whose
+//        ~ ~ ~ ~ ~ ~      ####      bar, along x      |   first tenth is held
+//          | | | |  g     ####------------------------+   force = mass times gravity, stiffness = force over the mean displacement
 #pragma once
 
 #include "pbs/character/character.hpp"
@@ -15,11 +15,12 @@
 namespace experiments {
 
 inline constexpr double flesh_density_kg_m3 = 1000.0;
+inline constexpr double held_share = 0.1;  // of a bar's length
 
 // Outside the zone particles start each step where LBS puts them, and projections move them (the paper's solver), or they stay there.
 enum class RestOfBody { projected, held };
 
-struct LoadedFlesh {
+struct LoadedBody {
     std::string name;  // limb, human; bar
     std::string load;  // zone, zone on held, cantilever
     pbs::TetMesh mesh;
@@ -32,17 +33,18 @@ struct LoadedFlesh {
     int edges = 0;
 };
 
-LoadedFlesh jiggling_flesh(const pbs::Character& character, RestOfBody rest);
-LoadedFlesh hanging_bar(int vertices);
+LoadedBody jiggling_flesh(const pbs::Character& character, RestOfBody rest);
+LoadedBody hanging_bar(const pbs::TetMesh& bar);  // the tets that lie in the first tenth whole are held
+LoadedBody hanging_bar(int vertices);
 
 // Of the zone, weighted by mass, along gravity [m].
-double mean_displacement_m(const LoadedFlesh& flesh, const pbs::Positions& displacement);
+double mean_displacement_m(const LoadedBody& body, const pbs::Positions& displacement);
 
 // Weight of the zone [N].
-double weight_n(const LoadedFlesh& flesh, double gravity_m_s2);
+double weight_n(const LoadedBody& body, double gravity_m_s2);
 
 // That weight over the zone's mean displacement [N/m]. With m_i = 1 gravity moves every particle alike, so the weight is that of the same
 // flesh at `flesh_density_kg_m3`; in ratios of stiffnesses it cancels.
-double effective_stiffness_n_m(const LoadedFlesh& flesh, const pbs::Positions& displacement, double gravity_m_s2);
+double effective_stiffness_n_m(const LoadedBody& body, const pbs::Positions& displacement, double gravity_m_s2);
 
 }  // namespace experiments

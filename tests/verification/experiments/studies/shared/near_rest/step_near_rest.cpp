@@ -1,5 +1,5 @@
 // Truth: linear algebra for one hanging particle; for a bar, the time stepper itself, which stays where it is said to rest.
-#include "experiments/studies/shared/near_rest/settled_state.hpp"
+#include "experiments/studies/shared/near_rest/step_near_rest.hpp"
 
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/hanging_tet.hpp"
@@ -24,8 +24,8 @@ TEST(SettledState, OfAHangingParticleIsTheFixedPoint)
         const Vec3 expected = (Eigen::Matrix3d::Identity() - S).inverse() * S * acceleration;
         EXPECT_TRUE(state.converged);
         // GMRES to 1e-7 of the right-hand side, times |(I - S)^-1|, below 30 here.
-        EXPECT_LT((state.displacement_over_dt2.row(3).transpose() - expected).norm(), 3e-6 * expected.norm()) << iterations;
-        EXPECT_EQ(state.displacement_over_dt2.topRows(3), Positions::Zero(3, 3));
+        EXPECT_LT((state.displacement.row(3).transpose() - expected).norm(), 3e-6 * expected.norm()) << iterations;
+        EXPECT_EQ(state.displacement.topRows(3), Positions::Zero(3, 3));
     }
 }
 
@@ -43,7 +43,7 @@ TEST(SettledState, OfABarIsWhereTheTimeStepperStays)
     const auto state = settle(bar, held, options, -Vec3::UnitZ());
     ASSERT_TRUE(state.converged);
 
-    const double deflection_m = 1e-5, tip = state.displacement_over_dt2.cwiseAbs().maxCoeff();
+    const double deflection_m = 1e-5, tip = state.displacement.cwiseAbs().maxCoeff();
     for (const double dt_s : {0.01, 0.002}) {
         pbs::PbsOptions stepping = options;
         stepping.precision = pbs::Precision::f64;
@@ -52,7 +52,7 @@ TEST(SettledState, OfABarIsWhereTheTimeStepperStays)
         stepping.jiggle = pbs::Jiggle{options.k_stretch};
         stepping.gravity_m_s2 = -deflection_m / (tip * dt_s * dt_s) * Vec3::UnitZ();  // the same deflection at any time step
         pbs::PbsSolver solver(bar, Eigen::VectorXd::Zero(bar.rest.rows()), free, stepping, held);
-        const Positions start = bar.rest + deflection_m / tip * state.displacement_over_dt2;
+        const Positions start = bar.rest + deflection_m / tip * state.displacement;
         for (int step = 0; step < 200; ++step) solver.advance(step == 0 ? start : bar.rest, bar.rest, dt_s);
         EXPECT_LT((solver.positions() - start).cwiseAbs().maxCoeff(), 1e-3 * deflection_m) << dt_s;
     }

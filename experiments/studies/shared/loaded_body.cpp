@@ -1,0 +1,93 @@
+#include "experiments/studies/shared/loaded_body.hpp"
+
+#include "pbs/character/bodies.hpp"
+#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <algorithm>
+
+namespace experiments {
+namespace {
+
+LoadedBody loaded(const std::string& name, const std::string& load, const pbs::TetMesh& mesh)
+{
+    LoadedBody body;
+    body.name = name;
+    body.load = load;
+    body.mesh = mesh;
+    body.mass_kg = flesh_density_kg_m3 * pbs::lumped_volumes(mesh.rest, mesh.tets);
+    body.edges = static_cast<int>(pbs::edges_of(mesh.tets).rows());
+    return body;
+}
+
+// Vertices of the tets that lie in the held end whole.
+std::vector<bool> held_end(const pbs::TetMesh& bar)
+{
+    const double first = bar.rest.col(0).minCoeff(), last = first + held_share * (bar.rest.col(0).maxCoeff() - first);
+    std::vector<bool> held(bar.rest.rows(), false);
+    for (const auto& tet : bar.tets.rowwise()) {
+        if (!std::all_of(tet.begin(), tet.end(), [&](int v) { return bar.rest(v, 0) <= last; })) continue;
+        for (const int v : tet) held[v] = true;
+    }
+    return held;
+}
+
+std::vector<bool> opposite(std::vector<bool> flags)
+{
+    flags.flip();
+    return flags;
+}
+
+}  // namespace
+
+LoadedBody jiggling_flesh(const pbs::Character& character, RestOfBody rest)
+{
+    const bool is_held = rest == RestOfBody::held;
+    LoadedBody body = loaded(character.name, is_held ? "zone on held" : "zone", character.mesh);
+    body.bind_distance = character.binding.distance;
+    body.bind_point = character.binding.rest_point;
+    body.zone = pbs::jiggle_zone(character.binding);
+    body.held = is_held ? opposite(body.zone) : std::vector<bool>(body.zone.size(), false);
+    body.direction = -pbs::Vec3::UnitY();
+    return body;
+}
+
+LoadedBody hanging_bar(const pbs::TetMesh& bar)
+{
+    LoadedBody body = loaded("bar", "cantilever", bar);
+    body.held = held_end(bar);
+    body.zone = opposite(body.held);
+    body.direction = -pbs::Vec3::UnitZ();
+    return body;
+}
+
+LoadedBody hanging_bar(int vertices)
+{
+    return hanging_bar(pbs::make_character({.body = "bar", .vertices = vertices}).mesh);
+}
+
+double mean_displacement_m(const LoadedBody& body, const pbs::Positions& displacement)
+{
+    double moment = 0.0, mass_kg = 0.0;
+    for (std::size_t v = 0; v < body.zone.size(); ++v) {
+        if (!body.zone[v]) continue;
+        moment += body.mass_kg(v) * displacement.row(v).dot(body.direction);
+        mass_kg += body.mass_kg(v);
+    }
+    return moment / mass_kg;
+}
+
+double weight_n(const LoadedBody& body, double gravity_m_s2)
+{
+    double mass_kg = 0.0;
+    for (std::size_t v = 0; v < body.zone.size(); ++v)
+        if (body.zone[v]) mass_kg += body.mass_kg(v);
+    return mass_kg * gravity_m_s2;
+}
+
+double effective_stiffness_n_m(const LoadedBody& body, const pbs::Positions& displacement, double gravity_m_s2)
+{
+    return weight_n(body, gravity_m_s2) / mean_displacement_m(body, displacement);
+}
+
+}  // namespace experiments

@@ -1,0 +1,73 @@
+// A time step near rest as a linear map of displacements, and where a body comes to rest under a small constant acceleration.
+//   const RestingState state = settle(mesh, held, options, {0.0, 0.0, -9.81});   // the paper's solver
+//   positions = mesh.rest + dt_s * dt_s * state.displacement;
+// Near rest the iterations of a step, lines (10)-(14) of Algorithm 1, are a linear map S of displacements. With lines (7)-(8) and (16) a
+// step is x <- S (2 x - x_before + a dt^2), which rests at x = (I - S)^-1 S a dt^2 whatever the damping. GMRES finds that state; stepping
+// would swing for thousands of steps.
+#pragma once
+
+#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/solver/constraint_set.hpp"
+
+#include <array>
+#include <vector>
+
+namespace experiments {
+
+// S, for the position based solver and for XPBD alike. One projection takes  C = sum g_i . u_i  and does
+//   dlambda = -share (C + alpha / dt^2 lambda) / (sum w |g|^2 + alpha / dt^2),   u_i += w_i g_i dlambda
+// The position based solver has share = k and alpha = 0; XPBD has share = 1 and its compliance alpha. lambda belongs to one step.
+class StepNearRest {
+public:
+    // rest, bind_point: vertices and their material points [m], #V x 3; no bind_point where nothing is bound. forgets_multipliers: lambda
+    // is zero in every iteration.
+    StepNearRest(const pbs::Positions& rest, const pbs::Positions& bind_point, int iterations, double step_s,
+                 bool forgets_multipliers = false);
+
+    // Adds the projection of a bind, stretch or volume constraint behind those that are there. inverse_mass: #V.
+    template <typename Constraint>
+    void add(const Constraint& constraint, double share, double compliance, const std::vector<double>& inverse_mass);
+
+    void apply(pbs::Positions& displacement);  // #V x 3, in place; what the iterations of a step do to it
+    double step_s() const { return step_s_; }
+
+private:
+    struct Projection {
+        int vertices = 0;
+        int vertex[4];
+        double compliance_per_dt2 = 0.0, share = 1.0, denominator = 0.0;
+        pbs::Vec3 gradient[4], moved[4];  // of the constraint at rest; w times it
+        double multiplier = 0.0;
+    };
+    template <typename Constraint, std::size_t count>
+    void add_gradients(const Constraint& constraint, const std::array<pbs::Vec3, count>& gradients, double share, double compliance,
+                       const std::vector<double>& inverse_mass);
+    void forget_multipliers();
+
+    pbs::Positions rest_, bind_point_;
+    int iterations_;
+    double step_s_;
+    bool forgets_;
+    std::vector<Projection> projections_;
+};
+
+struct RestingState {
+    pbs::Positions displacement;  // [m], #V x 3; zero where nothing moves
+    bool converged = false;
+    double residual = 0.0;  // |x - S (x + a dt^2)| / |S a dt^2|
+    int steps = 0;          // applications of S
+};
+
+struct KrylovSpace {
+    int vectors = 400, most_iterations = 800;
+};
+
+// moves: #V, which vertices keep their displacement from one step to the next and are accelerated.
+RestingState rest_of(StepNearRest& step, const std::vector<bool>& moves, const pbs::Vec3& acceleration_m_s2, const KrylovSpace& space = {});
+
+// The paper's solver with a time step of 1 s; a displacement goes with dt^2. Bind constraints are left out, as they would hold the axis. Of
+// the options, iterations, stiffnesses and masses count. held: #V, vertices that do not move.
+RestingState settle(const pbs::TetMesh& mesh, const std::vector<bool>& held, const pbs::PbsOptions& options,
+                    const pbs::Vec3& acceleration_m_s2);
+
+}  // namespace experiments
