@@ -1,4 +1,5 @@
 """The README is short, its picture and its links exist, and so do those of every other page. Truth: the files of the source tree."""
+import os
 import pathlib
 import re
 import struct
@@ -11,7 +12,11 @@ foreign = ("build", "results", "node_modules", "full", ".git")  # folders whose 
 
 
 def pages():
-    return [page for page in source.rglob("*.md") if not set(foreign) & set(page.relative_to(source).parts)]
+    found = []
+    for folder, below, files in os.walk(source):
+        below[:] = [name for name in below if name not in foreign]
+        found += [pathlib.Path(folder, name) for name in files if name.endswith(".md")]
+    return found
 
 
 def prose_of(page):
