@@ -36,9 +36,8 @@ std::vector<double> time_frames(const DeformerSpec& spec, const BenchBody& body)
 
 FemTiming time_fem(const BenchBody& body, const Rounds& rounds)
 {
-    DeformerSpec spec;
-    spec.name = spec.kind = spec.label = spec.fem.name = "fem";
-    spec.fem.element_order = 1;
+    DeformerSpec spec = default_spec("fem");
+    options_of<FemOptions>(spec).element_order = 1;
     const auto samples = take_turns({[&] { return time_frames(spec, body); }}, rounds);
     FemTiming timing;
     timing.ms_first_solve = scaled(spread_of(samples[0][0]), 1e3);

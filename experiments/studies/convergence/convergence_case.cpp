@@ -47,7 +47,7 @@ public:
     void add_to(ConvergenceResult& result) const
     {
         for (const double k_stretch : of_.k_stretch) {
-            pbs::PbsOptions options = spec_of(of_.scene, "pbs").pbs;
+            pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec_of(of_.scene, "pbs"));
             options.k_stretch = k_stretch;
             const std::vector<FrameStarts> starts = starts_of(posed_.character(), motion_, frame_numbers(of_.frames), options);
             for (std::size_t setting = 0; setting < settings_; ++setting)

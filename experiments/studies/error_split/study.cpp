@@ -33,10 +33,11 @@ std::string split_and_record(const ErrorSplitCase& of, const std::string& folder
 DeformerSpec truth_of(const Scene& scene, int element_order)
 {
     DeformerSpec spec = spec_of(scene, "fem_p2");
-    spec.name = spec.label = spec.fem.name = fmt::format("snh_p{}", element_order);
-    spec.fem.model = reference_fem::Model::stable_neo_hookean;
-    spec.fem.element_order = element_order;
-    spec.fem.formulation = element_order == 2 ? reference_fem::Formulation::mean_dilatation : reference_fem::Formulation::displacement;
+    spec.name = spec.label = fmt::format("snh_p{}", element_order);
+    auto& options = options_of<FemOptions>(spec);
+    options.model = reference_fem::Model::stable_neo_hookean;
+    options.element_order = element_order;
+    options.formulation = element_order == 2 ? reference_fem::Formulation::mean_dilatation : reference_fem::Formulation::displacement;
     return spec;
 }
 

@@ -83,9 +83,8 @@ ElasticSag elastic_sag(const Cantilever& cantilever, FemOptions options)
     options = held_by_nodes(options);
     options.model = reference_fem::Model::linear;
     options.gravity_m_s2 = -pbs::Vec3::UnitZ();
-    DeformerSpec spec;
-    spec.kind = "fem";
-    spec.fem = options;
+    DeformerSpec spec = default_spec("fem");
+    spec.options = options;
     const auto fem = make_deformer(spec);
     fem->reset(cantilever.character);
     if (fem->prescribed() != cantilever.held)

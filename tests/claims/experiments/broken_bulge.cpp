@@ -58,7 +58,7 @@ const BentLimb& limb()
 Shapes solved(Broken how)
 {
     experiments::DeformerSpec spec = spec_of(limb().of.scene, "pbs");
-    spec.pbs = broken(spec.pbs, how);
+    experiments::options_of<pbs::PbsOptions>(spec) = broken(experiments::options_of<pbs::PbsOptions>(spec), how);
     return limb().body.posed.shapes(spec);
 }
 

@@ -26,7 +26,8 @@ std::vector<StabilityCell> chosen(const std::vector<StabilityCell>& cells, const
 {
     std::vector<StabilityCell> found;
     for (const StabilityCell& cell : cells)
-        if (cell.factor == factor && cell.second_factor.empty() && (cell.spec.kind != "pbs" || precision_of(cell) == "f32")) {
+        if (cell.factor == factor && cell.second_factor.empty() &&
+            (!options_if<pbs::PbsOptions>(cell.spec) || precision_of(cell) == "f32")) {
             found.push_back(cell);
             found.back().still_steps = still_steps;
         }
@@ -38,7 +39,7 @@ VerdictKind verdict(bool jiggle, Broken how)
 {
     std::vector<MeasuredCell> measured;
     for (StabilityCell cell : chosen(pbs_cells(jiggle, false), "start")) {
-        cell.spec.pbs = broken(cell.spec.pbs, how);
+        options_of<pbs::PbsOptions>(cell.spec) = broken(options_of<pbs::PbsOptions>(cell.spec), how);
         measured.push_back({cell, run_cell(cell)});
     }
     analysis::Records records;
@@ -77,7 +78,7 @@ TEST(BrokenStability, ForgottenMultipliersRunAwayNowhereAndAreNoPartOfTheClaim)
     std::vector<MeasuredCell> measured;
     for (StabilityCell cell : chosen(xpbd_cells(false), "start"))
         for (const bool keep : {true, false}) {
-            cell.spec.xpbd.keep_multipliers = keep;
+            options_of<XpbdOptions>(cell.spec).keep_multipliers = keep;
             measured.push_back({cell, run_cell(cell)});
             EXPECT_FALSE(ran_away(measured.back().result)) << cell.named << (keep ? "" : ", multipliers forgotten");
         }

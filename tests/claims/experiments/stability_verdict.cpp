@@ -18,7 +18,8 @@ using analysis::VerdictKind;
 MeasuredCell cell_of(const std::string& factor, StabilityOutcome outcome, bool as_published = true)
 {
     MeasuredCell measured;
-    measured.cell.model = measured.cell.spec.kind = "pbs";
+    measured.cell.model = "pbs";
+    measured.cell.spec = default_spec("pbs");
     measured.cell.factor = factor;
     measured.cell.as_published = as_published;
     measured.result.stability.outcome = outcome;

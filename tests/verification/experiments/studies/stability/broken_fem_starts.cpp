@@ -33,7 +33,7 @@ constexpr Start broken_starts[] = {Start::flattened, Start::mirrored, Start::ran
 TEST(BrokenFemStarts, EveryModelInEquilibriumIsGivenThem)
 {
     for (const char* model : {"fem_linear", "fem_corotational", "fem_stable_neo_hookean"})
-        for (const Start start : broken_starts) EXPECT_EQ(cell_of(model, start).spec.fem.element_order, 1);
+        for (const Start start : broken_starts) EXPECT_EQ(options_of<FemOptions>(cell_of(model, start).spec).element_order, 1);
 }
 
 // Theory: one linear system, whatever was before.
