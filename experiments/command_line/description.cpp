@@ -57,7 +57,8 @@ json describe_scene_keys()
                         {"meaning", key.meaning},
                         {"unit", key.unit},
                         {"rule", key.rule()},
-                        {"default", key.default_json}});
+                        {"default", key.default_json},
+                        {"in_list", key.in_list}});
     return keys;
 }
 

@@ -1,6 +1,7 @@
 #include "experiments/run/reference_error_bar.hpp"
 
 #include "analysis/grid_convergence.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "pbs/character/refined_character.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/geometry/topology.hpp"

@@ -1,5 +1,6 @@
 #include "experiments/run/run.hpp"
 
+#include "experiments/deformers/registry.hpp"
 #include "experiments/run/broken_frame.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/run/frame_step.hpp"

@@ -182,6 +182,15 @@ std::string read_scene_text(const std::string& path)
 
 }  // namespace
 
+SceneSchema scene_schema()
+{
+    SceneSchema schema{character_and_motion_keys()};
+    const auto append = [&](const std::vector<SceneKey>& keys) { schema.keys.insert(schema.keys.end(), keys.begin(), keys.end()); };
+    for (const DeformerKind& kind : deformer_kinds()) append(kind.keys);
+    append(output_keys());
+    return schema;
+}
+
 bool OutputSpec::writes(int frame) const
 {
     return (frames_every > 0 && frame % frames_every == 0) || std::count(frames.begin(), frames.end(), frame) > 0;

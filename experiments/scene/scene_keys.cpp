@@ -1,7 +1,5 @@
 #include "experiments/scene/scene_keys.hpp"
 
-#include "experiments/deformers/registry.hpp"
-
 namespace experiments {
 namespace {
 
@@ -27,6 +25,8 @@ SceneKey one_of(SceneKey entry, std::vector<std::string> choices)
     entry.choices = std::move(choices);
     return entry;
 }
+
+}  // namespace
 
 std::vector<SceneKey> character_and_motion_keys()
 {
@@ -80,17 +80,6 @@ std::vector<SceneKey> output_keys()
         key("output", "metrics", texts, "[\"all\"]", "",
             "groups of metrics beyond the volume columns: errors, sections, surface, all; [] leaves them out"),
     };
-}
-
-}  // namespace
-
-SceneSchema scene_schema()
-{
-    SceneSchema schema{character_and_motion_keys()};
-    const auto append = [&](const std::vector<SceneKey>& keys) { schema.keys.insert(schema.keys.end(), keys.begin(), keys.end()); };
-    for (const DeformerKind& kind : deformer_kinds()) append(kind.keys);
-    append(output_keys());
-    return schema;
 }
 
 }  // namespace experiments

@@ -2,6 +2,7 @@
 
 #include "experiments/deformers/deformer_spec.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/registry.hpp"
 
 #include <fmt/format.h>
 

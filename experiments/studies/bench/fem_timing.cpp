@@ -1,5 +1,6 @@
 #include "experiments/studies/bench/fem_timing.hpp"
 
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/process/cpu_clock.hpp"
 #include "experiments/studies/bench/timing_json.hpp"
 #include "experiments/deformers/registry.hpp"

@@ -2,6 +2,7 @@
 
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <fmt/format.h>
 

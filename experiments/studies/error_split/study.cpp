@@ -6,6 +6,7 @@
 //
 // Writes DIR/error_split/CASE/parts.csv and attachments.csv, and error_split.md.
 #include "analysis/records/atomic_file.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"

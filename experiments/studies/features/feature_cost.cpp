@@ -7,6 +7,7 @@
 #include "analysis/records/kept_record.hpp"
 #include "experiments/process/progress.hpp"
 #include "experiments/run/run.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

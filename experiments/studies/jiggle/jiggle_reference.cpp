@@ -1,3 +1,5 @@
+#include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "experiments/studies/jiggle/jiggle_reference.hpp"
 
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "experiments/studies/jiggle/walk_response.hpp"
 
 #include "experiments/process/interruption.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <algorithm>
 #include <cmath>

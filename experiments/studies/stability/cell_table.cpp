@@ -2,6 +2,7 @@
 
 #include "analysis/measurement.hpp"
 #include "experiments/studies/stability/share_interval.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <fmt/format.h>
 

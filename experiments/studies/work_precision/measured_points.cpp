@@ -1,5 +1,6 @@
 #include "experiments/studies/work_precision/measured_points.hpp"
 
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/process/interruption.hpp"
@@ -7,6 +8,7 @@
 #include "experiments/studies/work_precision/posed_deformer.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <deque>
 #include <map>

@@ -2,6 +2,7 @@
 
 #include "analysis/frame_metrics.hpp"
 #include "experiments/deformers/delta_mush/delta_mush.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/deformers/xpbd/xpbd_options.hpp"
 

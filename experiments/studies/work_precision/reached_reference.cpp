@@ -1,6 +1,7 @@
 #include "experiments/studies/work_precision/reached_reference.hpp"
 
 #include "analysis/grid_convergence.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>

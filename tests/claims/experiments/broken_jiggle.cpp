@@ -10,6 +10,7 @@
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/jiggle/jiggle_figures.hpp"
 #include "experiments/studies/jiggle/jiggle_zone_contents.hpp"
+#include "pbs/solver/options.hpp"
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/study_claims.hpp"
 

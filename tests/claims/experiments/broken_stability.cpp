@@ -3,8 +3,10 @@
 //   nothing projected    flesh falls freely, g t^2 / 2 = 4.9 m in a second: it runs away; without jiggle nothing moves at all
 //   one class dropped    a projection takes no more than its own error, and what is left still holds on to the body: the verdict stays
 //   multipliers forgot   XPBD is no part of the claim; each of its projections still takes a share below one: as stable as with them
+#include "experiments/deformers/xpbd/xpbd_options.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
+#include "pbs/solver/options.hpp"
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/study_claims.hpp"
 

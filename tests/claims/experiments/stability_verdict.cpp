@@ -3,6 +3,7 @@
 #include "analysis/claims.hpp"
 #include "analysis/measurement.hpp"
 #include "analysis/verdict.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "tests/support/scratch_folder.hpp"

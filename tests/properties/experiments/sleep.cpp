@@ -4,6 +4,7 @@
 #include "experiments/studies/features/feature_cost.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <gtest/gtest.h>
 

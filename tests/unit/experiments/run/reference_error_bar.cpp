@@ -3,6 +3,7 @@
 // hand.
 #include "experiments/run/reference_error_bar.hpp"
 
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/refined_character.hpp"
 #include "pbs/geometry/topology.hpp"

@@ -1,5 +1,6 @@
 // Truth: what one-at-a-time means, and what the paper's own method is (all masses 1, every vertex bound).
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
 #include "experiments/studies/jiggle/jiggle_zone_contents.hpp"
 #include "pbs/character/bodies.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <gtest/gtest.h>
 

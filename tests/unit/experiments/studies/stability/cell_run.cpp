@@ -1,7 +1,10 @@
 // Truth: the sound solver beside one that is broken on purpose. The outcome has to tell them apart.
 #include "experiments/studies/stability/cell_run.hpp"
 
+#include "experiments/deformers/registry.hpp"
+#include "experiments/deformers/xpbd/xpbd_options.hpp"
 #include "experiments/studies/stability/driven_body.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <gtest/gtest.h>
 

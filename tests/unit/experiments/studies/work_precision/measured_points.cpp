@@ -1,5 +1,6 @@
 // Where errors are measured and by which reference. Truth: a rigid motion and an affine field are carried exactly by barycentric
 // coordinates; the grid convergence index worked by hand; the choice of the reference by its header.
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/work_precision/reached_reference.hpp"
 
 #include "experiments/run/frame_measurement.hpp"

@@ -1,5 +1,6 @@
 // Truth: theory, and the equilibrium that the same body comes to from its rest pose. Finite elements of which Newton's method starts from
 // shapes that are broken.
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/stability/cell_run.hpp"
 #include "experiments/studies/stability/driven_body.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
