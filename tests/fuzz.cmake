@@ -32,7 +32,9 @@ function(fuzz_target target library)
 endfunction()
 
 fuzz_target(fuzz/scene.cpp experiments
-    experiments/scene/scene_values.cpp experiments/scene/scene_schema.cpp analysis/records/record_text.cpp pbs/geometry/toml_text.cpp
+    experiments/settings/scene_values.cpp experiments/settings/scene_schema.cpp experiments/scene/scene_keys.cpp
+    experiments/deformers/pbs/pbs_settings.cpp experiments/deformers/fem/fem_settings.cpp analysis/records/record_text.cpp
+    pbs/geometry/toml_text.cpp
     pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/mesh.cpp pbs_mesh_io
     pbs/geometry/guarded_reading.cpp pbs/geometry/isolated_reader.cpp pbs/geometry/reading_limits.cpp pbs/geometry/mesh_io_checks.cpp
@@ -45,8 +47,10 @@ fuzz_target(fuzz/clip.cpp pbs_character
     pbs/character/clip_bytes.cpp pbs/character/retarget.cpp pbs/character/retarget_plan.cpp pbs/character/joint_map.cpp
     pbs/skinning/pose.cpp pbs/skinning/skeleton.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/texts.cpp experiments
-    analysis/records/csv_reader.cpp analysis/records/csv_table.cpp analysis/records/atomic_file.cpp experiments/scene/scene_values.cpp
-    experiments/scene/scene_schema.cpp analysis/records/record_text.cpp pbs/character/bvh_header.cpp pbs/geometry/atomic_file.cpp
+    analysis/records/csv_reader.cpp analysis/records/csv_table.cpp analysis/records/atomic_file.cpp
+    experiments/settings/scene_values.cpp experiments/settings/scene_schema.cpp experiments/scene/scene_keys.cpp
+    experiments/deformers/pbs/pbs_settings.cpp experiments/deformers/fem/fem_settings.cpp analysis/records/record_text.cpp
+    pbs/character/bvh_header.cpp pbs/geometry/atomic_file.cpp
     pbs/geometry/text_file.cpp pbs/geometry/toml_text.cpp pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/files.cpp pbs_character
     pbs/character/iqm.cpp pbs/character/weights_file.cpp pbs/skinning/skeleton.cpp pbs/geometry/tetgen_reader.cpp

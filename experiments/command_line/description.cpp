@@ -1,6 +1,6 @@
 #include "experiments/command_line/description.hpp"
 
-#include "experiments/scene/scene_schema.hpp"
+#include "experiments/scene/scene_keys.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -51,13 +51,14 @@ json describe_options(const CLI::App& app)
 json describe_scene_keys()
 {
     json keys = json::array();
-    for (const SceneKey& key : scene_keys())
+    for (const SceneKey& key : scene_schema().keys)
         keys.push_back({{"table", key.table},
                         {"name", key.name},
                         {"meaning", key.meaning},
                         {"unit", key.unit},
                         {"rule", key.rule()},
-                        {"default", key.default_json}});
+                        {"default", key.default_json},
+                        {"in_list", key.in_list}});
     return keys;
 }
 

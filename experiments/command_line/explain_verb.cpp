@@ -7,7 +7,7 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/scene/scene_schema.hpp"
+#include "experiments/scene/scene_keys.hpp"
 #include "experiments/studies/study_costs.hpp"
 #include "experiments/process/terminal.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -37,7 +37,7 @@ std::string lines_of(std::vector<std::string> texts)
 bool explain_key(const std::string& name)
 {
     bool found = false;
-    for (const auto& key : scene_keys()) {
+    for (const auto& key : scene_schema().keys) {
         if (key.path() != name && key.name != name && key.table != name) continue;
         found = true;
         fmt::print("{} (scene key)\n", key.path());
@@ -111,8 +111,8 @@ bool explain_study(const std::string& name)
 bool explain_deformer_or_scene(const std::string& name)
 {
     for (const auto& kind : deformer_kinds()) {
-        if (kind.kind != name) continue;
-        fmt::print("{} (deformer)\n", kind.kind);
+        if (kind.name != name) continue;
+        fmt::print("{} (deformer)\n", kind.name);
         line("meaning", kind.meaning);
         return true;
     }
@@ -124,14 +124,14 @@ bool explain_deformer_or_scene(const std::string& name)
 std::vector<std::string> known_names()
 {
     std::vector<std::string> names;
-    for (const auto& key : scene_keys()) names.insert(names.end(), {key.path(), key.name});
+    for (const auto& key : scene_schema().keys) names.insert(names.end(), {key.path(), key.name});
     for (const auto& text : metric_texts()) names.push_back(text.name);
     for (const auto& claim : claims()) {
         names.push_back(claim.id);
         names.insert(names.end(), claim.metrics.begin(), claim.metrics.end());
     }
     for (const auto& study : studies()) names.push_back(study.name);
-    for (const auto& kind : deformer_kinds()) names.push_back(kind.kind);
+    for (const auto& kind : deformer_kinds()) names.push_back(kind.name);
     for (const auto& scene : built_in_scenes()) names.push_back(scene.name);
     return names;
 }

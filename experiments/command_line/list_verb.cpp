@@ -34,7 +34,7 @@ Lines scene_lines()
 Lines deformers()
 {
     Lines lines;
-    for (const auto& kind : deformer_kinds()) lines.emplace_back(kind.kind, kind.meaning);
+    for (const auto& kind : deformer_kinds()) lines.emplace_back(kind.name, kind.meaning);
     return lines;
 }
 

@@ -18,7 +18,7 @@ int run(const RunArguments& arguments, const CommonOptions& common)
     if (common.quiet) hide_progress();
     Scene scene = read_scene(arguments.scene, arguments.overrides);
     const std::string folder = arguments.folder.empty() ? "results/" + scene.name : arguments.folder;
-    for (DeformerSpec& spec : scene.deformers) spec.pbs.threads = common.threads;
+    for (DeformerSpec& spec : scene.deformers) spec.threads = common.threads;
     const RunResult result = run_scene(scene, folder);
     for (const auto& line : result.lines) spdlog::info("{}", line);
     spdlog::info("{}: {} frames, {:.1f} s, records in {}", scene.name, result.frames, result.seconds, folder);

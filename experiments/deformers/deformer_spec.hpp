@@ -1,13 +1,11 @@
 // Which deformer, with which options, under which name in the records.
+//   DeformerSpec spec = default_spec("fem");               registry.hpp; with the default options of the kind
+//   options_of<FemOptions>(spec).element_order = 1;        the options of a kind that the caller knows
+//   if (const auto* pbs = options_if<pbs::PbsOptions>(spec)) ...   a deformer of any kind
 #pragma once
 
-#include "experiments/deformers/delta_mush/delta_mush.hpp"
-#include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/deformers/xpbd/xpbd_options.hpp"
-#include "pbs/solver/options.hpp"
-
-#include <nlohmann/json.hpp>
-
+#include <any>
+#include <stdexcept>
 #include <string>
 
 namespace experiments {
@@ -17,12 +15,28 @@ struct DeformerSpec {
     std::string kind;                 // registered kind
     std::string label;                // one for one deformer of a run: keys of run.json, names of frame files; e.g. pbs, pbs_96
     std::string variant = "default";  // e.g. jiggle, labels_relative
-    pbs::PbsOptions pbs;              // of kind pbs
-    FemOptions fem;                   // of kind fem
-    XpbdOptions xpbd = {};            // of kinds xpbd, xpbd_small_steps
-    DeltaMushOptions delta_mush = {};
+    std::any options = {};            // the struct of options of the kind; empty where it has none
+    int threads = 1;                  // at most, of a step; results do not depend on them
 };
 
-nlohmann::json to_json(const DeformerSpec& spec);
+// The options, where they are of this type; null otherwise.
+template <typename Options>
+const Options* options_if(const DeformerSpec& spec)
+{
+    return std::any_cast<Options>(&spec.options);
+}
+
+template <typename Options>
+Options& options_of(DeformerSpec& spec)
+{
+    if (Options* options = std::any_cast<Options>(&spec.options)) return *options;
+    throw std::logic_error("the deformer " + spec.name + " of kind " + spec.kind + " has other options than those asked for");
+}
+
+template <typename Options>
+const Options& options_of(const DeformerSpec& spec)
+{
+    return options_of<Options>(const_cast<DeformerSpec&>(spec));
+}
 
 }  // namespace experiments

@@ -1,23 +1,59 @@
-// The deformers there are. A new one is one folder and one line in registry.cpp; where it has options of its own, also a member of
-// DeformerSpec and its keys in scene_schema.cpp and scene.cpp.
+// The deformers that there are. To add one:
+//   1. Write a folder with a Deformer, a struct of its options if it has any, and a function that returns its DeformerKind. The options'
+//      keys, defaults, ranges and meanings are declared once, with OptionFields (experiments/settings/option_fields.hpp).
+//   2. Add that function to the list in registry.cpp, and the folder to CMakeLists.txt.
+// Scenes, `pbskin list`, `explain`, records, metrics and studies take it from there: no other code depends on its name.
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/deformers/deformer_spec.hpp"
+#include "experiments/settings/scene_schema.hpp"
+
+#include <nlohmann/json.hpp>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace experiments {
 
-struct DeformerKind {
-    std::string kind;
-    std::string meaning;
-    bool has_options;  // read from tables of its own; the others are used by the name of their kind
-    std::unique_ptr<Deformer> (*make)(const DeformerSpec& spec);
-};
-const std::vector<DeformerKind>& deformer_kinds();
+class SceneValues;
 
+// What code that knows no kinds asks about a deformer.
+struct DeformerTraits {
+    std::string order = {};              // order of projection, in the records; empty: projects nothing
+    std::string precision = "f64";       // of its arithmetic
+    std::optional<int> iterations = {};  // per frame
+    int threads = 1;                     // that a step uses at most
+    bool sleeps = false;                 // its records have a share of sleeping constraints
+    bool has_small_strain = false;       // takes rotations for strain, by 1 - cos
+    bool is_negative_control = false;    // breaks down as expected: a result, not a failure
+    bool solves_equations = false;       // a frame with inverted tets, or one that did not converge, is no solution
+};
+
+struct DeformerKind {
+    std::string name;     // in scenes and records
+    std::string meaning;  // a line of `pbskin list deformers`
+    std::unique_ptr<Deformer> (*make)(const DeformerSpec& spec) = nullptr;
+
+    // For a kind with options:
+    std::any options = {};            // by default
+    std::vector<SceneKey> keys = {};  // of its tables in a scene
+    bool has_list = false;            // each [[kind]] table of a scene is a deformer, named by the table's key `name`
+    // Sets options and variant from a table of a scene (pbs, fem.0). Contradicting keys are an InputError.
+    void (*read)(const SceneValues& values, const std::string& table, DeformerSpec& spec) = nullptr;
+    nlohmann::json (*options_json)(const DeformerSpec& spec) = nullptr;
+    DeformerTraits (*traits)(const DeformerSpec& spec) = nullptr;  // null: the default ones
+};
+
+const std::vector<DeformerKind>& deformer_kinds();
+void add_deformer_kind(DeformerKind kind);  // for programs that bring their own
+
+const DeformerKind* find_deformer_kind(const std::string& name);  // null where there is none
+
+DeformerSpec default_spec(const std::string& kind);  // named and labelled by its kind
 std::unique_ptr<Deformer> make_deformer(const DeformerSpec& spec);
+DeformerTraits traits_of(const DeformerSpec& spec);
+nlohmann::json to_json(const DeformerSpec& spec);  // name, label, kind, variant and options, for records
 
 }  // namespace experiments

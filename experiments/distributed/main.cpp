@@ -9,7 +9,7 @@
 //
 // Prints the record and writes it to DIR/record.json (and DIR/nodes.csv, every node's displacement). Seconds for 10,000 tets, about a
 // minute for 1,000,000 on 2 ranks.
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/distributed/distributed_record.hpp"
 #include "experiments/process/exit_status.hpp"
 #include "experiments/process/failure.hpp"

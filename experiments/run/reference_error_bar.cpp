@@ -1,6 +1,7 @@
 #include "experiments/run/reference_error_bar.hpp"
 
 #include "analysis/grid_convergence.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "pbs/character/refined_character.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/geometry/topology.hpp"
@@ -40,7 +41,7 @@ nlohmann::json spread(std::vector<double> values)
 ReferenceErrorBar::ReferenceErrorBar(ErrorBar kind, const DeformerSpec& reference, const pbs::Character& character)
     : kind_(kind), character_(character)
 {
-    const int order = reference.fem.element_order, other_order = 3 - order;
+    const int order = options_of<FemOptions>(reference).element_order, other_order = 3 - order;
     const bool graded_by_orders = kind == ErrorBar::orders || (kind == ErrorBar::both && order == 2);
     add_solution(reference, order, 0);
     if (graded_by_orders) add_solution(reference, other_order, 0);
@@ -60,7 +61,7 @@ void ReferenceErrorBar::add_solution(const DeformerSpec& reference, int element_
     solution.nodes_along = nodes_along(character_.mesh.tets, character_.mesh.rest.rows(), element_order, refinements);
     if (!solutions_.empty()) {  // the first is the reference itself
         DeformerSpec spec = reference;
-        spec.fem.element_order = element_order;
+        options_of<FemOptions>(spec).element_order = element_order;
         if (refinements > 0) solution.character = std::make_shared<const pbs::Character>(pbs::refined(character_));
         solution.deformer = make_deformer(spec);
         solution.deformer->reset(solution.character ? *solution.character : character_);

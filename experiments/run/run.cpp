@@ -1,5 +1,6 @@
 #include "experiments/run/run.hpp"
 
+#include "experiments/deformers/registry.hpp"
 #include "experiments/run/broken_frame.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/run/frame_step.hpp"
@@ -26,6 +27,7 @@ namespace {
 // One deformer of the run and what its steps since the last frame were.
 struct Runner {
     DeformerSpec spec;
+    DeformerTraits traits;
     std::unique_ptr<Deformer> deformer;
     FrameStep steps = {};
     double lowest_change_pct = std::numeric_limits<double>::infinity(), highest_change_pct = -lowest_change_pct;
@@ -37,7 +39,7 @@ std::vector<Runner> make_runners(const Scene& scene, const pbs::Character& chara
     std::vector<Runner> runners;
     for (const DeformerSpec& spec : scene.deformers) {
         cost.time("set_up", spec.label, [&] {
-            runners.push_back({spec, make_deformer(spec), {}});
+            runners.push_back({spec, traits_of(spec), make_deformer(spec)});
             runners.back().deformer->reset(character);
         });
         stop_if_interrupted();
@@ -65,13 +67,6 @@ void refuse_frames_beyond(const pbs::Motion& motion, const Scene& scene)
         if (frame >= motion.frames())
             throw pbs::InputError(scene.file, 0, "output.frames", std::to_string(frame),
                                   fmt::format("expected less than the motion's {} frames", motion.frames()));
-}
-
-// The printed forms, and linear elasticity at large rotations: their breakdown is on record, no failure.
-bool is_negative_control(const DeformerSpec& spec)
-{
-    const bool linear = spec.kind == "fem" && spec.fem.model == reference_fem::Model::linear;
-    return linear || spec.pbs.volume_form != pbs::VolumeForm::derived;
 }
 
 // Without a reference there are no errors to be measured.
@@ -196,7 +191,7 @@ private:
             ++frames_below_reference_error_[runner.spec.label];
         if (step.outcome == pbs::Outcome::not_converged) not_converged_[runner.spec.label].push_back(frame);
         if (step.outcome == pbs::Outcome::not_finite) breakdowns_[runner.spec.label].push_back(frame);
-        if (step.outcome != pbs::Outcome::finished || (runner.spec.kind == "fem" && measured.metrics.inverted_tets > 0))
+        if (step.outcome != pbs::Outcome::finished || (runner.traits.solves_equations && measured.metrics.inverted_tets > 0))
             record_breakdown(runner, frame);
         if (scene_.output.writes(frame))
             cost_.time("frames", [&] {
@@ -213,7 +208,7 @@ private:
         BrokenFrame broken = broken_frame(frame, outcome, positions, measurer_.volume_ratios(positions));
         if (const int step = static_cast<int>(runner.steps.worst_step()); step != frame * motion_.steps_per_frame) broken.step = step;
         broken_frames_[runner.spec.label].push_back(broken);
-        if (is_negative_control(runner.spec)) return;
+        if (runner.traits.is_negative_control) return;
         const std::string text = fmt::format("{} is {}", runner.spec.label, text_of(broken));
         if (outcome == pbs::Outcome::not_finite) {
             if (breakdown_.empty()) breakdown_ = text;
@@ -225,7 +220,7 @@ private:
     // A reference that has not reached its pose stands in another one: it has no error.
     static FrameContext context_for(const Runner& runner, FrameContext context)
     {
-        if (runner.spec.kind == "fem" && runner.steps.summary().outcome == pbs::Outcome::not_converged) context.reference = nullptr;
+        if (runner.traits.solves_equations && runner.steps.summary().outcome == pbs::Outcome::not_converged) context.reference = nullptr;
         return context;
     }
 

@@ -55,13 +55,13 @@ const std::vector<std::string> sleep_columns = {"sleeping_share", "wakings"};
 int most_threads(const Scene& scene)
 {
     int threads = 1;
-    for (const DeformerSpec& spec : scene.deformers) threads = std::max(threads, spec.pbs.threads);
+    for (const DeformerSpec& spec : scene.deformers) threads = std::max(threads, spec.threads);
     return threads;
 }
 
 bool anything_sleeps(const Scene& scene)
 {
-    return std::any_of(scene.deformers.begin(), scene.deformers.end(), [](const DeformerSpec& spec) { return spec.pbs.sleep; });
+    return std::any_of(scene.deformers.begin(), scene.deformers.end(), [](const DeformerSpec& spec) { return traits_of(spec).sleeps; });
 }
 
 std::vector<std::string> columns_of(const Scene& scene)
@@ -81,17 +81,10 @@ Cell cell(const std::optional<double>& value)
 
 std::vector<Cell> spec_cells(const Scene& scene, const DeformerSpec& spec)
 {
-    const nlohmann::json options = to_json(spec).value("options", nlohmann::json::object());
-    const Cell iterations = spec.kind == "pbs"              ? Cell(spec.pbs.iterations)
-                            : spec.kind.starts_with("xpbd") ? Cell(spec.xpbd.iterations * spec.xpbd.substeps)
-                                                            : Cell(std::nullopt);
-    return {scene.name,
-            spec.name,
-            spec.variant,
-            options.value("order", ""),
-            options.value("precision", spec.kind == "pbs" ? "" : "f64"),
-            iterations,
-            spec.kind == "pbs" ? spec.pbs.threads : 1};
+    const DeformerTraits traits = traits_of(spec);
+    return {scene.name,    spec.name,        spec.variant,
+            traits.order,  traits.precision, traits.iterations ? Cell(*traits.iterations) : Cell(std::nullopt),
+            traits.threads};
 }
 
 std::vector<Cell> error_cells(const FrameMeasurement& measured)
@@ -184,8 +177,7 @@ void RunFolder::add_frame(const DeformerSpec& spec, int frame, double time_s, co
     cells.insert(cells.end(), figures.begin(), figures.end());
     if (!scene_.reference.empty())
         for (const Cell& error : error_cells(measured)) cells.push_back(error);
-    const bool small_strain = spec.kind == "fem" && spec.fem.model == reference_fem::Model::linear;
-    const Cell strain = small_strain ? Cell(fictitious_strain(measured.rotation_deg)) : Cell(std::nullopt);
+    const Cell strain = traits_of(spec).has_small_strain ? Cell(fictitious_strain(measured.rotation_deg)) : Cell(std::nullopt);
     for (const Cell& further : std::vector<Cell>{cell(measured.angle_deg), measured.rotation_deg, strain, cell(measured.min_section_pct),
                                                  cell(measured.surface_volume_change_pct), std::string(to_string(step.outcome))})
         cells.push_back(further);
@@ -208,7 +200,7 @@ void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, 
     fields.point_vectors["rest_position"] = character.mesh.rest;
     fields.point_vectors["displacement"] = positions - character.mesh.rest;
     fields.cell_scalars["volume_ratio"] = volume_ratios;
-    if (spec.kind == "fem") {
+    if (traits_of(spec).solves_equations) {
         std::vector<int> flags(positions.rows(), 0);
         std::copy(prescribed.begin(), prescribed.end(), flags.begin());
         fields.point_flags["prescribed"] = std::move(flags);

@@ -1,7 +1,7 @@
 // Which further solutions tell how far the reference is from the limit of ever finer tets.
 #pragma once
 
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/settings/option_names.hpp"
 
 namespace experiments {
 

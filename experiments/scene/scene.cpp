@@ -1,16 +1,16 @@
 #include "experiments/scene/scene.hpp"
 
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "analysis/records/record_text.hpp"
-#include "experiments/scene/scene_values.hpp"
+#include "experiments/scene/scene_keys.hpp"
+#include "experiments/settings/scene_values.hpp"
 #include "generated/scenes_texts.hpp"
 #include "pbs/character/clip.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/text_file.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 
@@ -81,162 +81,44 @@ MotionSpec read_motion(const SceneValues& values, const std::string& folder)
     return motion;
 }
 
-// The printed forms are written in the plain order alone.
-void take_as_printed(const SceneValues& values, DeformerSpec& spec)
+// A deformer of that kind with the options of a table.
+DeformerSpec read_spec(const SceneValues& values, const DeformerKind& kind, const std::string& table, const std::string& name)
 {
-    if (values.given("pbs.order") && spec.pbs.order != pbs::Order::plain)
-        values.refuse("pbs.order", "expected plain with a printed volume_form");
-    spec.pbs.order = pbs::Order::plain;
-    spec.variant = name_of(spec.pbs.volume_form);
-}
-
-DeformerSpec pbs_spec(const SceneValues& values)
-{
-    DeformerSpec spec{"pbs", "pbs", "pbs", "default", {}, {}};
-    pbs::PbsOptions& options = spec.pbs;
-    options.iterations = values.integer("pbs.iterations");
-    options.k_stretch = values.number("pbs.k_stretch");
-    options.k_volume = values.number("pbs.k_volume");
-    options.k_bind = values.number("pbs.k_bind");
-    options.gravity_m_s2 = vec3(values.numbers("pbs.gravity_m_s2"));
-    options.order = option_of<pbs::Order>(values.text("pbs.order"));
-    options.precision = option_of<pbs::Precision>(values.text("pbs.precision"));
-    options.masses = option_of<pbs::Masses>(values.text("pbs.masses"));
-    options.sleep = values.boolean("pbs.sleep");
-    if (options.sleep && options.order == pbs::Order::plain)
-        values.refuse("pbs.sleep", "expected false with order plain, which projects all");
-    options.sleep_tolerance = values.number("pbs.sleep_tolerance");
-    options.stop_residual = values.number("pbs.stop_residual");
-    options.record_iterations = values.boolean("pbs.record_iterations");
-    if (values.has_table("pbs.jiggle")) {
-        options.jiggle = pbs::Jiggle{values.number("pbs.jiggle.k_stretch")};
-        spec.variant = "jiggle";
-    }
-    if (values.has_table("pbs.variant")) {
-        options.stiffness_form = option_of<pbs::StiffnessForm>(values.text("pbs.variant.stiffness"));
-        if (options.stiffness_form != pbs::StiffnessForm::per_iteration) spec.variant = name_of(options.stiffness_form);
-        options.class_order = option_of<pbs::ClassOrder>(values.text("pbs.variant.class_order"));
-        options.lbs_entry = option_of<pbs::LbsEntry>(values.text("pbs.variant.lbs_entry"));
-        options.bind_on_bone = option_of<pbs::BindOnBone>(values.text("pbs.variant.bind_on_bone"));
-        if (options.class_order != pbs::ClassOrder::bind_stretch_volume) spec.variant = name_of(options.class_order);
-        if (options.lbs_entry != pbs::LbsEntry::start) spec.variant = name_of(options.lbs_entry);
-        if (options.bind_on_bone != pbs::BindOnBone::pinned) spec.variant = name_of(options.bind_on_bone);
-        options.volume_form = option_of<pbs::VolumeForm>(values.text("pbs.variant.volume_form"));
-        if (options.volume_form != pbs::VolumeForm::derived) take_as_printed(values, spec);
-    }
+    DeformerSpec spec = default_spec(kind.name);
+    spec.name = spec.label = name;
+    if (kind.read) kind.read(values, table, spec);
     return spec;
 }
 
-// The same iterations, or as many substeps, as pbs; what jiggles there jiggles here.
-DeformerSpec xpbd_spec(const SceneValues& values, const std::string& kind)
+// The deformers of all [[kind]] tables, used or not.
+std::vector<DeformerSpec> read_listed_deformers(const SceneValues& values)
 {
-    DeformerSpec spec{kind, kind, kind, "default", {}, {}};
-    const int iterations = values.integer("pbs.iterations");
-    const bool small_steps = kind == "xpbd_small_steps";
-    spec.xpbd = {.young_pa = values.number("xpbd.young_pa"),
-                 .poisson = values.number("xpbd.poisson"),
-                 .density_kg_m3 = values.number("xpbd.density_kg_m3"),
-                 .iterations = small_steps ? 1 : iterations,
-                 .substeps = small_steps ? std::max(iterations, 1) : 1,
-                 .gravity_m_s2 = vec3(values.numbers("pbs.gravity_m_s2")),
-                 .jiggle = values.has_table("pbs.jiggle")};
-    if (spec.xpbd.jiggle) spec.variant = "jiggle";
-    return spec;
-}
-
-DeformerSpec delta_mush_spec(const SceneValues& values)
-{
-    DeformerSpec spec{"delta_mush", "delta_mush", "delta_mush", "default", {}, {}};
-    spec.delta_mush = {.iterations = values.integer("delta_mush.iterations"), .step = values.number("delta_mush.step")};
-    return spec;
-}
-
-// Rules that more than one key takes part in.
-void check_fem_keys(const SceneValues& values, const std::string& at, const FemOptions& options)
-{
-    const bool linear = options.model == reference_fem::Model::linear;
-    const bool quasi_static = options.dynamics == reference_fem::Dynamics::quasi_static;
-    if (linear && options.attachment == FemAttachment::bind)
-        values.refuse(at + "attachment", "expected embedded or nodes with model linear: the bind constraint is not linear");
-    if (!linear && options.solver != reference_fem::LinearSolver::cholmod)
-        values.refuse(at + "solver",
-                      "expected cholmod with a nonlinear model: Newton must be told of a matrix that is not positive definite");
-    if (options.formulation == reference_fem::Formulation::taylor_hood)
-        if (!linear || !quasi_static || options.element_order != 2 || !(options.poisson > 0.0) ||
-            options.solver == reference_fem::LinearSolver::cg_ml)
-            values.refuse(
-                at + "formulation",
-                "expected taylor_hood only with model linear, dynamics quasi_static, element_order 2, poisson > 0 and a direct solver");
-    if (quasi_static && (options.rayleigh_mass_1_s > 0.0 || options.rayleigh_stiffness_s > 0.0))
-        values.refuse(at + "rayleigh", "expected [0, 0] with dynamics quasi_static: nothing moves there that could be damped");
-    if (options.nested_start && (linear || !quasi_static || (options.element_order != 2 && values.integer("character.refine") == 0)))
-        values.refuse(at + "nested_start",
-                      "expected false unless element_order is 2 or character.refine > 0, the model nonlinear and dynamics quasi_static");
-    if (!quasi_static && !(options.density_kg_m3 > 0.0)) values.refuse(at + "density_kg_m3", "expected a density > 0 with dynamics");
-}
-
-FemOptions fem_options(const SceneValues& values, const std::string& at)
-{
-    FemOptions options;
-    options.name = values.text(at + "name");
-    options.model = option_of<reference_fem::Model>(values.text(at + "model"));
-    options.element_order = values.integer(at + "element_order");
-    options.formulation = option_of<reference_fem::Formulation>(values.text(at + "formulation"));
-    options.young_pa = values.number(at + "young_pa");
-    options.poisson = values.number(at + "poisson");
-    options.density_kg_m3 = values.number(at + "density_kg_m3");
-    options.gravity_m_s2 = vec3(values.numbers(at + "gravity_m_s2"));
-    options.dynamics = option_of<reference_fem::Dynamics>(values.text(at + "dynamics"));
-    const std::vector<double> rayleigh = values.numbers(at + "rayleigh");
-    if (rayleigh.size() != 2) values.refuse(at + "rayleigh", "expected two numbers, [mass, stiffness]");
-    options.rayleigh_mass_1_s = rayleigh[0];
-    options.rayleigh_stiffness_s = rayleigh[1];
-    options.attachment = option_of<FemAttachment>(values.text(at + "attachment"));
-    options.core_radius = values.number(at + "core_radius");
-    options.spring_factor = values.number(at + "spring_factor");
-    options.solver = option_of<reference_fem::LinearSolver>(values.text(at + "solver"));
-    options.nested_start = values.boolean(at + "nested_start");
-    options.most_newton_steps = values.integer(at + "most_newton_steps");
-    check_fem_keys(values, at, options);
-    return options;
-}
-
-DeformerSpec fem_spec(const SceneValues& values, int index)
-{
-    const std::string at = "fem." + std::to_string(index) + ".";
-    const std::string name = values.text(at + "name");
-    const auto is_plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
-    if (name.empty() || !std::all_of(name.begin(), name.end(), is_plain) || name.starts_with("pbs"))
-        values.refuse(at + "name", "expected letters, digits and underscores, not beginning with pbs: it names files");
+    std::vector<DeformerSpec> listed;
     for (const DeformerKind& kind : deformer_kinds())
-        if (name == kind.kind && kind.kind != "fem") values.refuse(at + "name", "is the name of another deformer");
-    return {name, "fem", name, "default", {}, fem_options(values, at)};
+        for (int i = 0; kind.has_list && i < values.tables(kind.name); ++i) {
+            const std::string table = kind.name + "." + std::to_string(i), name = values.text(table + ".name");
+            const DeformerSpec spec = read_spec(values, kind, table, name);
+            if (name != kind.name && find_deformer_kind(name)) values.refuse(table + ".name", "is the name of another deformer");
+            for (const DeformerSpec& earlier : listed)
+                if (earlier.name == name) values.refuse(table + ".name", "is used twice");
+            listed.push_back(spec);
+        }
+    return listed;
 }
 
 std::vector<DeformerSpec> read_deformers(const SceneValues& values)
 {
-    std::vector<DeformerSpec> references, used;
-    for (int i = 0; i < values.fem_tables(); ++i) {
-        references.push_back(fem_spec(values, i));
-        for (int j = 0; j < i; ++j)
-            if (references[j].name == references[i].name) values.refuse("fem." + std::to_string(i) + ".name", "is used twice");
-    }
+    const std::vector<DeformerSpec> listed = read_listed_deformers(values);
+    std::vector<DeformerSpec> used;
     for (const std::string& name : values.texts("deformers.use")) {
         const auto same = [&](const DeformerSpec& spec) { return spec.name == name; };
         if (std::any_of(used.begin(), used.end(), same)) values.refuse("deformers.use", "names " + name + " twice");
-        const auto reference = std::find_if(references.begin(), references.end(), same);
-        const auto kind = std::find_if(deformer_kinds().begin(), deformer_kinds().end(),
-                                       [&](const DeformerKind& entry) { return entry.kind == name && !entry.has_options; });
-        if (kind != deformer_kinds().end())
-            used.push_back({name, name, name, "default", {}, {}});
-        else if (name == "pbs")
-            used.push_back(pbs_spec(values));
-        else if (name == "xpbd" || name == "xpbd_small_steps")
-            used.push_back(xpbd_spec(values, name));
-        else if (name == "delta_mush")
-            used.push_back(delta_mush_spec(values));
-        else if (reference != references.end())
-            used.push_back(*reference);
+        const auto of_list = std::find_if(listed.begin(), listed.end(), same);
+        const DeformerKind* kind = find_deformer_kind(name);
+        if (of_list != listed.end())
+            used.push_back(*of_list);
+        else if (kind && !kind->has_list)
+            used.push_back(read_spec(values, *kind, name, name));
         else
             values.refuse("deformers.use", "expected a deformer of `pbskin list deformers` or the name of a [[fem]] table, not " + name);
     }
@@ -276,13 +158,14 @@ ErrorBar read_error_bar(const SceneValues& values, const std::string& reference,
                         const OutputSpec& output)
 {
     const ErrorBar error_bar = option_of<ErrorBar>(values.text("reference.error_bar"));
-    const auto reference_spec = std::find_if(deformers.begin(), deformers.end(),
-                                             [&](const DeformerSpec& spec) { return spec.name == reference && spec.kind == "fem"; });
     if (error_bar == ErrorBar::none) return error_bar;
-    if (reference_spec == deformers.end())
+    const auto reference_spec =
+        std::find_if(deformers.begin(), deformers.end(), [&](const DeformerSpec& spec) { return spec.name == reference; });
+    const FemOptions* fem = reference_spec == deformers.end() ? nullptr : options_if<FemOptions>(*reference_spec);
+    if (!fem)
         values.refuse("reference.error_bar", "expected none where the reference is not a [[fem]] table: it has no elements to refine");
     const bool other_order = error_bar == ErrorBar::orders || error_bar == ErrorBar::both;
-    if (other_order && reference_spec->fem.formulation == reference_fem::Formulation::taylor_hood)
+    if (other_order && fem->formulation == reference_fem::Formulation::taylor_hood)
         values.refuse("reference.error_bar", "expected none or refined with formulation taylor_hood, which is of order 2 alone");
     if (!output.errors)
         values.refuse("reference.error_bar", "expected none where output.metrics leaves out the errors that it stands beside");
@@ -298,6 +181,15 @@ std::string read_scene_text(const std::string& path)
 }
 
 }  // namespace
+
+SceneSchema scene_schema()
+{
+    SceneSchema schema{character_and_motion_keys()};
+    const auto append = [&](const std::vector<SceneKey>& keys) { schema.keys.insert(schema.keys.end(), keys.begin(), keys.end()); };
+    for (const DeformerKind& kind : deformer_kinds()) append(kind.keys);
+    append(output_keys());
+    return schema;
+}
 
 bool OutputSpec::writes(int frame) const
 {
@@ -336,7 +228,7 @@ Scene read_scene(const std::string& file_or_name, const std::vector<std::string>
     const bool from_file = found == built_in.end();
     const std::string file = from_file ? file_or_name : file_or_name + ".toml";
     const std::string folder = from_file ? fs::path(file).parent_path().string() : "";
-    const SceneValues values(from_file ? read_scene_text(file) : found->text, file, overrides);
+    const SceneValues values(from_file ? read_scene_text(file) : found->text, file, overrides, scene_schema());
 
     Scene scene;
     scene.file = file;

@@ -6,6 +6,8 @@
 #include "pbs/character/bodies.hpp"
 #include "pbs/skinning/pose.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <string>
 #include <vector>
 
@@ -39,6 +41,15 @@ struct Scene {
     OutputSpec output;
     nlohmann::json resolved;  // every key and value, for run.json; paths as the scene has them
 };
+
+// The first deformer with options of this type; null where there is none.
+template <typename Options>
+const DeformerSpec* find_deformer_with(const Scene& scene)
+{
+    for (const DeformerSpec& spec : scene.deformers)
+        if (options_if<Options>(spec)) return &spec;
+    return nullptr;
+}
 
 // Reads a scene file, or a built-in scene by name (`pbskin list scenes`).
 Scene read_scene(const std::string& file_or_name, const std::vector<std::string>& overrides);

@@ -92,4 +92,24 @@ Violations figures_compute(const SourceTree& tree)
     return violations;
 }
 
+Violations deformers_tested_by_name(const SourceTree& tree)
+{
+    static const std::regex compares(
+        R"re(\bkind(\(\))?\s*([!=]=\s*["']|(\.|->)(starts_with|ends_with|find|compare)\()|["']\s*[!=]=\s*[\w.>-]*\bkind\b)re");
+    Violations violations;
+    for (const auto& [path, text] : tree) {
+        const bool is_source = is_cpp(path) || path.ends_with(".py");
+        if (!is_source || !starts_with_any(path, {"experiments/", "analysis/", "paper_figures/"}) ||
+            path.starts_with("experiments/deformers/"))
+            continue;
+        int number = 0;
+        for (const std::string& line : lines_of(text)) {
+            ++number;
+            if (std::regex_search(line, compares))
+                violations.push_back(at(path, number, "depends on the name of a deformer's kind: ask its traits or options"));
+        }
+    }
+    return violations;
+}
+
 }  // namespace architecture

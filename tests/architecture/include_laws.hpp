@@ -9,5 +9,6 @@ namespace architecture {
 Violations include_direction(const SourceTree& tree);
 Violations include_form(const SourceTree& tree);  // ours from the root in quotes, and there; headers with #pragma once
 Violations figures_compute(const SourceTree& tree);
+Violations deformers_tested_by_name(const SourceTree& tree);  // outside experiments/deformers/: their traits and options are asked instead
 
 }  // namespace architecture

@@ -17,6 +17,10 @@ TEST(IncludeLaws, FiguresComputeNothing)
 {
     expect_lawful(figures_compute);
 }
+TEST(IncludeLaws, DeformersAreNotTestedByName)
+{
+    expect_lawful(deformers_tested_by_name);
+}
 TEST(IncludeLaws, HeavyHeadersStayAtHome)
 {
     expect_lawful(heavy_headers);
@@ -66,6 +70,16 @@ TEST(IncludeLawsBite, HeaderWithoutPragmaOnce)
 TEST(IncludeLawsBite, AFigureRunsTheSolver)
 {
     expect_found(figures_compute, {{"paper_figures/x.py", "import csv\nimport subprocess\n"}}, "paper_figures/x.py:2: subprocess");
+}
+
+TEST(IncludeLawsBite, AStudyTestsForADeformersName)
+{
+    const std::string found = ":1: depends on the name of a deformer's kind";
+    for (const char* line :
+         {"if (spec.kind == \"pbs\") f();\n", "return a.kind != \"fem\";\n", "return spec.kind.starts_with(\"xpbd\");\n"})
+        expect_found(deformers_tested_by_name, {{"experiments/studies/x/y.cpp", line}}, "experiments/studies/x/y.cpp" + found);
+    EXPECT_TRUE(deformers_tested_by_name({{"experiments/deformers/x/y.cpp", "if (spec.kind == \"pbs\") f();\n"}}).empty());
+    EXPECT_TRUE(deformers_tested_by_name({{"experiments/studies/x/y.cpp", "of.kind = \"pbs\";\n"}}).empty());
 }
 
 TEST(IncludeLawsBite, HeavyHeaderThroughAHeader)

@@ -1,6 +1,7 @@
 // Any text as a scene: a scene or an InputError, nothing else.
-#include "experiments/scene/scene_values.hpp"
+#include "experiments/settings/scene_values.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "tests/fuzz/fuzzed_schema.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +9,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     try {
-        const experiments::SceneValues values(std::string(reinterpret_cast<const char*>(data), size), "scene.toml", {});
+        const experiments::SceneValues values(std::string(reinterpret_cast<const char*>(data), size), "scene.toml", {}, fuzzed_schema());
         values.resolved();
     } catch (const pbs::InputError&) {
     }

@@ -1,9 +1,10 @@
 // Any text as what the program itself reads, by its first byte: a BVH's header, a CSV record, or --set (one a line) over a scene. What is
 // read, or an InputError, nothing else.
 #include "analysis/records/csv_table.hpp"
-#include "experiments/scene/scene_values.hpp"
+#include "experiments/settings/scene_values.hpp"
 #include "pbs/character/bvh_header.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "tests/fuzz/fuzzed_schema.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +33,7 @@ void try_settings(const std::string& text)
     std::vector<std::string> settings;
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line) && settings.size() < 50;) settings.push_back(line);
-    experiments::SceneValues(scene, "scene.toml", settings).resolved();
+    experiments::SceneValues(scene, "scene.toml", settings, fuzzed_schema()).resolved();
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // The paper's solver, broken on purpose: what a claim's figures have to tell from the sound one.
-//   spec.pbs = test_support::broken(spec.pbs, Broken::volume_sign);
+//   options = test_support::broken(options, Broken::volume_sign);
 #pragma once
 
 #include "analysis/measurement.hpp"
@@ -46,7 +46,7 @@ inline pbs::PbsOptions broken(pbs::PbsOptions options, Broken how)
 inline experiments::Scene broken(experiments::Scene scene, Broken how)
 {
     for (experiments::DeformerSpec& spec : scene.deformers)
-        if (spec.kind == "pbs") spec.pbs = broken(spec.pbs, how);
+        if (const auto* options = experiments::options_if<pbs::PbsOptions>(spec)) spec.options = broken(*options, how);
     return scene;
 }
 

@@ -26,7 +26,6 @@ tables = {
     "reference": "The deformer against which errors are measured.",
     "deformers": "Which deformers run.",
     "output": "What a run writes."}
-arrays = ("fem",)  # of tables: [[fem]]
 
 further = {
     "Skeleton files": (
@@ -57,8 +56,8 @@ def grouped(keys):
     return {table: found[table] for table in sorted(found, key=lambda name: (order.index(name) if name in order else len(order), name))}
 
 
-def heading(table):
-    return "Top level" if not table else f"[[{table}]]" if table in arrays else f"[{table}]"
+def heading(table, keys):
+    return "Top level" if not table else f"[[{table}]]" if keys[0]["in_list"] else f"[{table}]"
 
 
 def default_of(key):
@@ -73,7 +72,7 @@ def markdown(keys):
     lines = ["# Scene files: every key", "", "<!-- Written by experiments/command_line/pages/scene_manual.py from the program's own list. -->",
              "", *introduction]
     for table, of_table in grouped(keys).items():
-        lines += ["", f"## {heading(table)}", "", *([tables[table], ""] if table in tables else []),
+        lines += ["", f"## {heading(table, of_table)}", "", *([tables[table], ""] if table in tables else []),
                   "| key | default | value [unit] | meaning |", "|---|---|---|---|"]
         for key in of_table:
             cells = (f"`{key['name']}`", f"`{default_of(key)}`" if key["default"] else "none", rule_of(key), key["meaning"])
@@ -87,7 +86,7 @@ def man(keys, version):
     lines = [title_line("PBSKIN-SCENE", 5, version, "File Formats"), ".SH NAME", "pbskin-scene \\- scene files of pbskin", ".SH DESCRIPTION",
              *(escaped(line.replace("`", "")) for line in introduction)]
     for table, of_table in grouped(keys).items():
-        lines += [f".SH {escaped(heading(table).upper() if not table else heading(table))}", escaped(tables.get(table, "").replace("`", ""))]
+        lines += [f".SH {escaped("TOP LEVEL" if not table else heading(table, of_table))}", escaped(tables.get(table, "").replace("`", ""))]
         for key in of_table:
             lines += [".TP", f"\\fB{escaped(key['name'])}\\fR", escaped(f"{key['meaning']}."),
                       escaped(f"Value: {rule_of(key)}. Default: {default_of(key)}.")]

@@ -20,4 +20,20 @@ pbs::StepSummary BlendDeformer::advance(const pbs::Pose& pose, double /*dt_s*/)
     return summary;
 }
 
+DeformerKind lbs_kind()
+{
+    return {.name = "lbs", .meaning = "linear blend skinning, Eq. 1", .make = [](const DeformerSpec&) -> std::unique_ptr<Deformer> {
+                return std::make_unique<BlendDeformer>(&pbs::BlendSkinning<double>::linear);
+            }};
+}
+
+DeformerKind dqs_kind()
+{
+    return {.name = "dqs",
+            .meaning = "dual quaternion skinning (Kavan 2007), the paper's comparison",
+            .make = [](const DeformerSpec&) -> std::unique_ptr<Deformer> {
+                return std::make_unique<BlendDeformer>(&pbs::BlendSkinning<double>::dual_quaternion);
+            }};
+}
+
 }  // namespace experiments

@@ -1,7 +1,7 @@
 // LBS and DQS as deformers: no state but the last pose's positions.
 #pragma once
 
-#include "experiments/deformers/deformer.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
 
 #include <optional>
@@ -22,5 +22,8 @@ private:
     std::optional<pbs::BlendSkinning<double>> skinning_;
     pbs::Positions positions_;
 };
+
+DeformerKind lbs_kind();
+DeformerKind dqs_kind();
 
 }  // namespace experiments

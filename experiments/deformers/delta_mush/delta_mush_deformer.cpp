@@ -1,8 +1,22 @@
 #include "experiments/deformers/delta_mush/delta_mush_deformer.hpp"
 
+#include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 namespace experiments {
+namespace {
+
+const OptionFields<DeltaMushOptions>& delta_mush_fields()
+{
+    static const OptionFields<DeltaMushOptions> fields =
+        OptionFields<DeltaMushOptions>("delta_mush")
+            .add("iterations", &DeltaMushOptions::iterations, {.lowest = 0, .highest = 1e6, .meaning = "iterations of Laplacian smoothing"})
+            .add("step", &DeltaMushOptions::step,
+                 {.lowest = 0, .highest = 1, .meaning = "share of the way to the neighbours' mean in each"});
+    return fields;
+}
+
+}  // namespace
 
 void DeltaMushDeformer::reset(const pbs::Character& character)
 {
@@ -20,6 +34,20 @@ pbs::StepSummary DeltaMushDeformer::advance(const pbs::Pose& pose, double /*dt_s
     summary.seconds = stopwatch.seconds();
     if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
     return summary;
+}
+
+DeformerKind delta_mush_kind()
+{
+    return {.name = "delta_mush",
+            .meaning = "LBS, smoothed, with the rest shape's detail put back (Mancewicz 2014): geometry alone",
+            .make = [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
+                return std::make_unique<DeltaMushDeformer>(options_of<DeltaMushOptions>(spec));
+            },
+            .options = DeltaMushOptions{},
+            .keys = delta_mush_fields().keys(),
+            .read = [](const SceneValues& values, const std::string& table,
+                       DeformerSpec& spec) { spec.options = delta_mush_fields().read(values, table); },
+            .options_json = [](const DeformerSpec& spec) { return delta_mush_fields().json(options_of<DeltaMushOptions>(spec)); }};
 }
 
 }  // namespace experiments

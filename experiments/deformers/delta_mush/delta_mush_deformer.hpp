@@ -1,8 +1,8 @@
 // LBS, then delta mush.
 #pragma once
 
-#include "experiments/deformers/deformer.hpp"
 #include "experiments/deformers/delta_mush/delta_mush.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
 
 #include <optional>
@@ -23,5 +23,7 @@ private:
     std::optional<DeltaMush> mush_;
     pbs::Positions lbs_, positions_;
 };
+
+DeformerKind delta_mush_kind();
 
 }  // namespace experiments

@@ -8,8 +8,6 @@
 
 #include "pbs/geometry/types.hpp"
 
-#include <string>
-
 namespace experiments {
 
 // embedded: each bone is a rigid capsule inside the flesh, tied to it by springs. nodes: whole tets inside the capsule are prescribed.
@@ -17,7 +15,6 @@ namespace experiments {
 enum class FemAttachment { embedded, nodes, bind };
 
 struct FemOptions {
-    std::string name = "fem";
     reference_fem::Model model = reference_fem::Model::linear;
     int element_order = 2;  // 1, 2
     reference_fem::Formulation formulation = reference_fem::Formulation::displacement;

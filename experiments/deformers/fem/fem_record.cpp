@@ -1,6 +1,6 @@
 #include "experiments/deformers/fem/fem_record.hpp"
 
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/fem/fem_option_names.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 

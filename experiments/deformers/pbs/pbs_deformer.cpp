@@ -1,5 +1,6 @@
 #include "experiments/deformers/pbs/pbs_deformer.hpp"
 
+#include "experiments/deformers/pbs/pbs_settings.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <algorithm>
@@ -62,6 +63,30 @@ pbs::StepSummary PbsDeformer::advance(const pbs::Pose& pose, double dt_s)
     pbs::StepSummary summary = solver_->advance(lbs_, pbs::posed_bind_points(character_->binding, pose), dt_s);
     summary.seconds = stopwatch.seconds();
     return summary;
+}
+
+DeformerKind pbs_kind()
+{
+    return {.name = "pbs",
+            .meaning = "the paper: LBS, then bind, stretch and volume constraints (Algorithm 1)",
+            .make = [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
+                pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec);
+                options.threads = spec.threads;
+                return std::make_unique<PbsDeformer>(options);
+            },
+            .options = pbs::PbsOptions{},
+            .keys = pbs_fields().keys(),
+            .read = read_pbs,
+            .options_json = [](const DeformerSpec& spec) { return pbs_fields().json(options_of<pbs::PbsOptions>(spec)); },
+            .traits = [](const DeformerSpec& spec) -> DeformerTraits {
+                const auto& options = options_of<pbs::PbsOptions>(spec);
+                return {.order = name_of(options.order),
+                        .precision = name_of(options.precision),
+                        .iterations = options.iterations,
+                        .threads = spec.threads,
+                        .sleeps = options.sleep,
+                        .is_negative_control = options.volume_form != pbs::VolumeForm::derived};
+            }};
 }
 
 }  // namespace experiments

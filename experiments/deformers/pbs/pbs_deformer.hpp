@@ -1,7 +1,7 @@
 // The paper's two-layered deformer: LBS, then position based dynamics (Algorithm 1).
 #pragma once
 
-#include "experiments/deformers/deformer.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "pbs/solver/poses_solver.hpp"
@@ -38,5 +38,7 @@ private:
     std::vector<pbs::StepSummary> steps_ahead_;  // of them
     int done_ahead_ = 0;
 };
+
+DeformerKind pbs_kind();
 
 }  // namespace experiments

@@ -1,7 +1,7 @@
 // LBS, then extended position based dynamics with a material.
 #pragma once
 
-#include "experiments/deformers/deformer.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "experiments/deformers/xpbd/xpbd_solver.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
 
@@ -26,5 +26,9 @@ private:
     std::unique_ptr<XpbdSolver> solver_;
     pbs::Positions lbs_;
 };
+
+// At equal cost: the iterations of PBS, or as many substeps of one iteration. What jiggles in PBS jiggles here.
+DeformerKind xpbd_kind();
+DeformerKind xpbd_small_steps_kind();
 
 }  // namespace experiments

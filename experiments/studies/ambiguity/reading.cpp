@@ -1,7 +1,8 @@
 #include "experiments/studies/ambiguity/reading.hpp"
 
 #include "experiments/deformers/deformer_spec.hpp"
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/registry.hpp"
 
 #include <fmt/format.h>
 
@@ -68,9 +69,7 @@ void add_class_orders(Readings& readings)
 
 nlohmann::json to_json(const Reading& reading)
 {
-    DeformerSpec spec;
-    spec.kind = "pbs";
-    spec.pbs = reading.options;
+    const DeformerSpec spec{.name = "", .kind = "pbs", .label = "", .options = reading.options};
     return {{"place", reading.place},
             {"name", reading.name},
             {"baseline", reading.baseline},

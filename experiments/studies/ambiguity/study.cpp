@@ -19,7 +19,7 @@
 #include "experiments/studies/ambiguity/untouched.hpp"
 #include "experiments/studies/artefacts/artefact_figures.hpp"
 #include "experiments/studies/shared/path_figures.hpp"
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -90,7 +90,7 @@ nlohmann::json settings_of(const Scene& scene, const std::vector<Reading>& readi
 
 std::vector<Reading> all_readings(const Scene& scene)
 {
-    const pbs::PbsOptions own = spec_of(scene, "pbs").pbs;
+    const pbs::PbsOptions own = options_of<pbs::PbsOptions>(spec_of(scene, "pbs"));
     std::vector<Reading> readings = readings_of_a_step(own);
     for (const Reading& reading : readings_of_motion(own))
         if (reading.name != own_reading) readings.push_back(reading);
@@ -228,8 +228,9 @@ void plan_human(bool full, StudyPlan& plan)
     std::vector<std::string> moving = five_a_second;
     if (!full) moving.insert(moving.end(), {"motion.start_s=1.0", "motion.duration_s=6.0"});
     const Scene each = read_scene("human_01_01", five_a_second), every = read_scene("human_01_01", moving);
-    plan.runs.push_back(volume_run("human", "human", each, readings_of_a_step(spec_of(each, "pbs").pbs), 4.5));
-    plan.runs.push_back(volume_run("human_moving", "human", every, readings_of_motion(spec_of(every, "pbs").pbs), full ? 31.0 : 10.0));
+    plan.runs.push_back(volume_run("human", "human", each, readings_of_a_step(options_of<pbs::PbsOptions>(spec_of(each, "pbs"))), 4.5));
+    plan.runs.push_back(volume_run("human_moving", "human", every, readings_of_motion(options_of<pbs::PbsOptions>(spec_of(every, "pbs"))),
+                                   full ? 31.0 : 10.0));
     const std::string elbow = "upper_arm.L|forearm_upper.L";
     plan.runs.push_back(sections_run("human_joint_twist", turned("human", elbow, "twist", 45, 2), 1.1));
     plan.runs.push_back(sections_run("human_joint_bend", turned("human", elbow, "bend", 45, 2), 2.0));

@@ -1,11 +1,13 @@
 #include "experiments/studies/artefacts/artefact_case.hpp"
 
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/fem/fem_option_names.hpp"
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
 
 #include <fmt/format.h>
 
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace experiments {
@@ -42,13 +44,21 @@ std::vector<int> frames_of(const ArtefactCase& of)
 
 std::string group_of(const DeformerSpec& spec)
 {
-    return spec.kind == "fem" ? "reference" : spec.kind;
+    return options_if<FemOptions>(spec) ? "reference" : spec.kind;
+}
+
+// Of finite elements; 0 of other deformers.
+int element_order_of(const DeformerSpec& spec)
+{
+    const FemOptions* fem = options_if<FemOptions>(spec);
+    return fem ? fem->element_order : 0;
 }
 
 // Deformers whose sections are part of a claim.
 bool is_on_other_meshes(const DeformerSpec& spec)
 {
-    return spec.kind == "fem" ? spec.fem.element_order == 1 : spec.kind != "delta_mush" && spec.kind != "xpbd";
+    static const std::set<std::string> claimed = {"lbs", "dqs", "pbs"};
+    return claimed.contains(spec.kind) || element_order_of(spec) == 1;
 }
 
 class Search {
@@ -82,20 +92,20 @@ private:
 
     std::optional<std::size_t> poses_of(const DeformerSpec& spec) const
     {
-        if (spec.kind != "fem" || spec.fem.element_order == 1) return {};
+        if (element_order_of(spec) < 2) return {};
         return static_cast<std::size_t>(of_.second_order_poses);
     }
 
     static void add_deformer(std::vector<analysis::CsvTable::Cell>& row, const DeformerSpec& spec)
     {
-        const bool pbs = spec.kind == "pbs";
-        row.insert(row.end(), {spec.name, pbs ? name_of(spec.pbs.order) : "", pbs ? name_of(spec.pbs.precision) : ""});
+        row.push_back(spec.name);
+        for (const std::string& setting : projection_of(spec)) row.push_back(setting);
     }
 
     void add_profile(const ArtefactBody& body, const DeformerSpec& spec, const Shape& shape, std::size_t pose, std::size_t joint)
     {
         const JointProfile profile = body.sections[joint].measure(shape.positions, body.posed.pose(pose));
-        records_.samples.push_back({group_of(spec), pose, joint, extremes_of(profile), spec.kind == "fem" ? spec.fem.element_order : 0});
+        records_.samples.push_back({group_of(spec), pose, joint, extremes_of(profile), element_order_of(spec)});
         for (const JointSection& section : profile) {
             auto row = row_head(body, pose);
             row.push_back(body.joints[joint].name);
@@ -135,15 +145,23 @@ private:
 
 }  // namespace
 
+std::array<std::string, 2> projection_of(const DeformerSpec& spec)
+{
+    const auto* pbs = options_if<pbs::PbsOptions>(spec);
+    if (!pbs) return {};
+    return {name_of(pbs->order), name_of(pbs->precision)};
+}
+
 std::vector<DeformerSpec> other_orders(const DeformerSpec& pbs)
 {
     std::vector<DeformerSpec> others;
-    for (const auto& [precision, precision_name] : OptionNames<pbs::Precision>::table)
-        for (const auto& [order, order_name] : OptionNames<pbs::Order>::table) {
-            if (order == pbs.pbs.order && precision == pbs.pbs.precision) continue;
+    const auto& own = options_of<pbs::PbsOptions>(pbs);
+    for (const pbs::Precision precision : {pbs::Precision::f32, pbs::Precision::f64})
+        for (const pbs::Order order : {pbs::Order::ordered, pbs::Order::grouped, pbs::Order::plain}) {
+            if (order == own.order && precision == own.precision) continue;
             others.push_back(pbs);
-            others.back().pbs.order = order;
-            others.back().pbs.precision = precision;
+            options_of<pbs::PbsOptions>(others.back()).order = order;
+            options_of<pbs::PbsOptions>(others.back()).precision = precision;
         }
     return others;
 }

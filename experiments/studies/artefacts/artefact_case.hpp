@@ -9,6 +9,7 @@
 #include "experiments/studies/artefacts/joint_sections.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,9 @@ struct ArtefactRecords {
 
 // PBS as it is there in every other order and precision.
 std::vector<DeformerSpec> other_orders(const DeformerSpec& pbs);
+
+// Its order and precision of projection, for records; empty texts for other deformers.
+std::array<std::string, 2> projection_of(const DeformerSpec& spec);
 
 ArtefactRecords find_artefacts(const ArtefactCase& of, const ArtefactBody& body);
 

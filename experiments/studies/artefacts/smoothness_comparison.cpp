@@ -4,7 +4,7 @@
 #include "analysis/smoothness.hpp"
 #include "analysis/statistics.hpp"
 #include "experiments/studies/shared/path_figures.hpp"
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "pbs/skinning/blend.hpp"
 
 #include <fmt/format.h>
@@ -70,7 +70,7 @@ public:
                 add("strain jump at the joint of " + title(spec) + ", Eq. 2 over rigid", at, smooth.strain_jump_rms, rough.strain_jump_rms);
                 add("curvature of the skin of " + title(spec) + ", Eq. 2 over rigid", at, smooth.bending_rms_rad, rough.bending_rms_rad);
             }
-            if (spec.kind == "pbs")
+            if (options_if<pbs::PbsOptions>(spec))
                 add("absolute volume change of PBS, Eq. 2 over rigid", whole_body(twin, pose), volume_change_pct(twin.paper, paper[pose]),
                     volume_change_pct(twin.rigid, rigid[pose]));
         }
@@ -106,7 +106,7 @@ public:
     }
 
 private:
-    static std::string title(const DeformerSpec& spec) { return spec.kind == "pbs" ? "PBS" : "LBS"; }
+    static std::string title(const DeformerSpec& spec) { return options_if<pbs::PbsOptions>(spec) ? "PBS" : "LBS"; }
     static std::string body_name(const Twin& twin) { return twin.paper.posed.character().name; }
     std::string whole_body(const Twin& twin, std::size_t pose) const
     {
@@ -148,11 +148,10 @@ private:
         const pbs::Character& character = body.posed.character();
         const analysis::SmoothnessRuler ruler(character.mesh.rest, character.mesh.tets, near_joint(character, body.joints[joint]));
         const analysis::Smoothness smoothness = ruler.measure(shape.positions);
-        const bool pbs = spec.kind == "pbs";
+        const auto [order, precision] = projection_of(spec);
         result_.smoothness.add_row({character.name, static_cast<int>(character.mesh.rest.rows()), weights, of_.poses[pose].name,
-                                    body.joints[joint].name, spec.name, pbs ? name_of(spec.pbs.order) : "",
-                                    pbs ? name_of(spec.pbs.precision) : "", smoothness.strain_jump_rms, smoothness.bending_rms_rad,
-                                    volume_change_pct(body, shape)});
+                                    body.joints[joint].name, spec.name, order, precision, smoothness.strain_jump_rms,
+                                    smoothness.bending_rms_rad, volume_change_pct(body, shape)});
         return smoothness;
     }
 
@@ -173,7 +172,7 @@ WeightsComparison compare_weights(const ArtefactCase& of)
         const Twin twin = twin_of(of, vertices);
         comparison.compare(twin, spec_of(of.scene, "lbs"));
         comparison.compare(twin, pbs);
-        comparison.compare_convergence(twin, pbs.pbs);
+        comparison.compare_convergence(twin, options_of<pbs::PbsOptions>(pbs));
         if (vertices != 0) continue;
         for (const DeformerSpec& other : other_orders(pbs)) comparison.compare(twin, other);
     }

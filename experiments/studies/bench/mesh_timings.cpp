@@ -1,5 +1,6 @@
 #include "experiments/studies/bench/mesh_timings.hpp"
 
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/pbs_solver.hpp"
@@ -32,9 +33,8 @@ std::vector<double> time_frames(const DeformerSpec& spec, const BenchBody& body)
 // pbs::InputError where the build has no reference, or a bone of the body cannot be gripped.
 FemTiming time_fem(const BenchBody& body, const Rounds& rounds)
 {
-    DeformerSpec spec;
-    spec.name = spec.kind = spec.label = spec.fem.name = "fem";
-    spec.fem.element_order = 1;
+    DeformerSpec spec = default_spec("fem");
+    options_of<FemOptions>(spec).element_order = 1;
     const auto samples = take_turns({[&] { return time_frames(spec, body); }}, rounds);
     FemTiming timing;
     timing.ms_first_solve = scaled(spread_of(samples[0][0]), 1e3);

@@ -2,6 +2,7 @@
 
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <fmt/format.h>
 
@@ -47,7 +48,7 @@ public:
     void add_to(ConvergenceResult& result) const
     {
         for (const double k_stretch : of_.k_stretch) {
-            pbs::PbsOptions options = spec_of(of_.scene, "pbs").pbs;
+            pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec_of(of_.scene, "pbs"));
             options.k_stretch = k_stretch;
             const std::vector<FrameStarts> starts = starts_of(posed_.character(), motion_, frame_numbers(of_.frames), options);
             for (std::size_t setting = 0; setting < settings_; ++setting)

@@ -13,7 +13,7 @@
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/convergence/convergence_figures.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 

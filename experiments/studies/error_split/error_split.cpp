@@ -1,7 +1,8 @@
 #include "experiments/studies/error_split/error_split.hpp"
 
 #include "analysis/grid_convergence.hpp"
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/fem/fem_option_names.hpp"
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
 
 #include <fmt/format.h>
 
@@ -31,7 +32,7 @@ const std::vector<std::string> attachment_columns = {"scene",      "frame",     
 
 pbs::PbsOptions in_double(const DeformerSpec& spec, double k_stretch, int iterations)
 {
-    pbs::PbsOptions options = spec.pbs;
+    pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec);
     options.precision = pbs::Precision::f64;
     options.k_stretch = k_stretch;
     options.iterations = iterations;
@@ -62,12 +63,12 @@ References solve_references(const ErrorSplitCase& of, const PosedCharacter& base
     if (of.refined_poses > 0) references.truth_refined = fine.shapes(of.truth, of.refined_poses);
     for (const double core_radius : of.core_radii) {
         DeformerSpec other = of.twin;
-        other.fem.core_radius = core_radius;
+        options_of<FemOptions>(other).core_radius = core_radius;
         other.label = fmt::format("{}_core_{}", of.twin.label, core_radius);
         references.variants.push_back({other, base.shapes(other)});
     }
     DeformerSpec bound = of.twin;
-    bound.fem.attachment = FemAttachment::bind;
+    options_of<FemOptions>(bound).attachment = FemAttachment::bind;
     bound.label = of.twin.label + "_bind";
     references.variants.push_back({bound, base.shapes(bound)});
     return references;
@@ -146,9 +147,10 @@ private:
 
     void add_attachment(double k_stretch, const Converged& converged, const DeformerSpec& spec, const Shapes& shapes)
     {
+        const auto& fem = options_of<FemOptions>(spec);
         for (std::size_t pose = 0; pose < shapes.size(); ++pose)
-            split_.attachments.add_row({of_.scene.name, of_.frames[pose], base_.angle_deg(pose), spec.label, name_of(spec.fem.attachment),
-                                        spec.fem.core_radius, base_.distance(shapes[pose], references_.twin[pose]).joint_pct, k_stretch,
+            split_.attachments.add_row({of_.scene.name, of_.frames[pose], base_.angle_deg(pose), spec.label, name_of(fem.attachment),
+                                        fem.core_radius, base_.distance(shapes[pose], references_.twin[pose]).joint_pct, k_stretch,
                                         base_.distance(converged.shapes[pose], shapes[pose]).joint_pct, int(shapes[pose].finished),
                                         int(shapes[pose].self_intersects)});
     }

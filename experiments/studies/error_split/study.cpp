@@ -6,6 +6,7 @@
 //
 // Writes DIR/error_split/CASE/parts.csv and attachments.csv, and error_split.md.
 #include "analysis/records/atomic_file.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -33,10 +34,11 @@ std::string split_and_record(const ErrorSplitCase& of, const std::string& folder
 DeformerSpec truth_of(const Scene& scene, int element_order)
 {
     DeformerSpec spec = spec_of(scene, "fem_p2");
-    spec.name = spec.label = spec.fem.name = fmt::format("snh_p{}", element_order);
-    spec.fem.model = reference_fem::Model::stable_neo_hookean;
-    spec.fem.element_order = element_order;
-    spec.fem.formulation = element_order == 2 ? reference_fem::Formulation::mean_dilatation : reference_fem::Formulation::displacement;
+    spec.name = spec.label = fmt::format("snh_p{}", element_order);
+    auto& options = options_of<FemOptions>(spec);
+    options.model = reference_fem::Model::stable_neo_hookean;
+    options.element_order = element_order;
+    options.formulation = element_order == 2 ? reference_fem::Formulation::mean_dilatation : reference_fem::Formulation::displacement;
     return spec;
 }
 

@@ -106,7 +106,7 @@ Scene scene_of(const std::string& name, const std::vector<std::string>& cut, con
     overrides.insert(overrides.end(), cut.begin(), cut.end());
     overrides.insert(overrides.end(), variant.overrides.begin(), variant.overrides.end());
     Scene scene = read_scene(name, overrides);
-    for (DeformerSpec& spec : scene.deformers) spec.pbs.threads = variant.threads;
+    for (DeformerSpec& spec : scene.deformers) spec.threads = variant.threads;
     return scene;
 }
 

@@ -7,6 +7,7 @@
 #include "analysis/records/kept_record.hpp"
 #include "experiments/process/progress.hpp"
 #include "experiments/run/run.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -45,9 +46,9 @@ nlohmann::json run_and_tell(const Scene& scene, const Variant& variant, const st
 
 const DeformerSpec& pbs_of(const Scene& scene)
 {
-    const auto found = std::find_if(scene.deformers.begin(), scene.deformers.end(), [](const auto& spec) { return spec.kind == "pbs"; });
-    if (found == scene.deformers.end()) throw std::logic_error("a scene without PBS");
-    return *found;
+    const DeformerSpec* pbs = find_deformer_with<pbs::PbsOptions>(scene);
+    if (!pbs) throw std::logic_error("a scene without PBS");
+    return *pbs;
 }
 
 // Seconds before the first frame.

@@ -67,9 +67,8 @@ ElasticSag elastic_sag(const Cantilever& cantilever, FemOptions options)
     options.core_radius = past_the_corners;
     options.model = reference_fem::Model::linear;
     options.gravity_m_s2 = -pbs::Vec3::UnitZ();
-    DeformerSpec spec;
-    spec.kind = "fem";
-    spec.fem = options;
+    DeformerSpec spec = default_spec("fem");
+    spec.options = options;
     const pbs::Character character = gripped(cantilever.body.mesh);
     const auto fem = make_deformer(spec);
     fem->reset(character);

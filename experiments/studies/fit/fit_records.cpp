@@ -1,6 +1,6 @@
 #include "experiments/studies/fit/fit_records.hpp"
 
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
 
 #include <cmath>
 

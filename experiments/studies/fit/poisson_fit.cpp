@@ -30,9 +30,8 @@ struct Solved {
 Solved solve(const pbs::Character& character, const std::vector<NamedPose>& path, FemOptions options, double poisson)
 {
     options.poisson = poisson;
-    DeformerSpec spec;
-    spec.kind = "fem";
-    spec.fem = options;
+    DeformerSpec spec = default_spec("fem");
+    spec.options = options;
     const std::unique_ptr<Deformer> fem = make_deformer(spec);
     fem->reset(character);
     Solved solved;

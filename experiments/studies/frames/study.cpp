@@ -9,10 +9,9 @@
 // Writes DIR/frames/RUN/frames/*.vtu, .vtp and metrics.csv, bones.csv, bones_rest.csv, binding.csv, surface_rest.vtp, embedding.csv beside.
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 
 namespace experiments {
 namespace {
@@ -30,11 +29,10 @@ StudyRun shown(const std::string& name, const std::string& scene, std::vector<st
 
 StudyRun with_pbs(StudyRun run, const std::string& label, const std::string& variant, auto&& change)
 {
-    DeformerSpec spec =
-        *std::find_if(run.scene.deformers.begin(), run.scene.deformers.end(), [](const auto& s) { return s.kind == "pbs"; });
+    DeformerSpec spec = *find_deformer_with<pbs::PbsOptions>(run.scene);
     spec.label = label;
     spec.variant = variant;
-    change(spec.pbs);
+    change(options_of<pbs::PbsOptions>(spec));
     run.scene.deformers.push_back(spec);
     return run;
 }

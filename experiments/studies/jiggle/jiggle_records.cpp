@@ -1,9 +1,9 @@
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "analysis/records/csv_table.hpp"
 #include "analysis/statistics.hpp"
 #include "experiments/scene/motion_case.hpp"
-#include "experiments/deformers/option_names.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "experiments/studies/jiggle/jiggle_figures.hpp"

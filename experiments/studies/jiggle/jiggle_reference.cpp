@@ -1,3 +1,5 @@
+#include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "experiments/studies/jiggle/jiggle_reference.hpp"
 
 #include <cmath>
@@ -20,8 +22,9 @@ std::optional<JiggleReference> match_reference(const pbs::Character& character, 
 {
     const JoltResponse first = at_frequency(character, fem, probe, jolt, frequency_hz);
     if (!first.finished || !first.swing.found()) return std::nullopt;
-    fem.fem.young_pa *= std::pow(frequency_hz / first.swing.frequency_hz.estimate, 2);
-    JiggleReference matched{fem.fem.young_pa, 1.0 / (reference_steps_a_period * frequency_hz),
+    double& young_pa = options_of<FemOptions>(fem).young_pa;
+    young_pa *= std::pow(frequency_hz / first.swing.frequency_hz.estimate, 2);
+    JiggleReference matched{young_pa, 1.0 / (reference_steps_a_period * frequency_hz),
                             at_frequency(character, fem, probe, jolt, frequency_hz)};
     if (!matched.response.finished || !matched.response.swing.found()) return std::nullopt;
     return matched;
@@ -29,12 +32,12 @@ std::optional<JiggleReference> match_reference(const pbs::Character& character, 
 
 DeformerSpec dynamic_reference(double young_pa)
 {
-    DeformerSpec spec;
-    spec.name = spec.kind = spec.label = "fem";
-    spec.fem.model = reference_fem::Model::stable_neo_hookean;
-    spec.fem.element_order = 1;
-    spec.fem.dynamics = reference_fem::Dynamics::generalized_alpha;
-    spec.fem.young_pa = young_pa;
+    DeformerSpec spec = default_spec("fem");
+    auto& options = options_of<FemOptions>(spec);
+    options.model = reference_fem::Model::stable_neo_hookean;
+    options.element_order = 1;
+    options.dynamics = reference_fem::Dynamics::generalized_alpha;
+    options.young_pa = young_pa;
     return spec;
 }
 

@@ -1,6 +1,6 @@
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
 
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
 
 #include <fmt/format.h>
 
@@ -24,10 +24,11 @@ bool is_of_the_paper(const JiggleSetting& setting)
 
 DeformerSpec jiggling(DeformerSpec pbs, const JiggleSetting& setting)
 {
-    pbs.pbs.k_stretch = 1.0;
-    pbs.pbs.jiggle = pbs::Jiggle{.k_stretch = setting.k_stretch, .k_bind = setting.k_bind};
-    pbs.pbs.iterations = setting.iterations;
-    pbs.pbs.masses = setting.masses;
+    auto& options = options_of<pbs::PbsOptions>(pbs);
+    options.k_stretch = 1.0;
+    options.jiggle = pbs::Jiggle{.k_stretch = setting.k_stretch, .k_bind = setting.k_bind};
+    options.iterations = setting.iterations;
+    options.masses = setting.masses;
     return pbs;
 }
 

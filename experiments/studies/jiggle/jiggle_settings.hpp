@@ -3,6 +3,7 @@
 #pragma once
 
 #include "experiments/deformers/registry.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <string>
 #include <vector>

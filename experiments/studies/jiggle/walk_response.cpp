@@ -1,6 +1,7 @@
 #include "experiments/studies/jiggle/walk_response.hpp"
 
 #include "experiments/process/interruption.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +45,7 @@ WalkResponse walk_response(const pbs::Character& character, const pbs::Motion& m
                            const std::vector<bool>& zone, int still_steps)
 {
     DeformerSpec without = spec;
-    without.pbs.jiggle.reset();
+    options_of<pbs::PbsOptions>(without).jiggle.reset();
     const std::unique_ptr<Deformer> jiggling = make_deformer(spec), stiff = make_deformer(without);
     jiggling->reset(character);
     stiff->reset(character);

@@ -2,7 +2,7 @@
 // shape of a bent limb and of the human's crouch, in both precisions, with equal and unequal masses; Eq. 8-9 as printed, for m_i = 1,
 // beside them; and what the bones take of the bind constraints. Writes DIR/momentum/CASE/measurements.csv.
 #include "experiments/scene/motion_case.hpp"
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "experiments/studies/study.hpp"
@@ -51,7 +51,7 @@ std::string measure_drift(const MomentumCase& of, const std::string& folder)
     const pbs::Character character = pbs::make_character(of.scene.character);
     const pbs::Motion motion = make_motion(of.scene.motion, character.skeleton, of.scene.file);
     const pbs::Pose& pose = motion.steps.at(static_cast<std::size_t>(of.frame) * motion.steps_per_frame);
-    pbs::PbsOptions options = spec_of(of.scene, "pbs").pbs;
+    pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec_of(of.scene, "pbs"));
     options.jiggle.reset();
     DriftTable table;
     for (const auto& [precision, precision_name] : OptionNames<pbs::Precision>::table)
@@ -61,9 +61,9 @@ std::string measure_drift(const MomentumCase& of, const std::string& folder)
                 options.masses = setting.known;
                 const std::string name = fmt::format("{}, {}, {}, {}", setting.name, of.name, class_name, precision_name);
                 table.add(projected, "", name, drift_of_projections(character, pose, options, projected, setting.counted));
-                for (const auto& [order, order_name] : OptionNames<pbs::Order>::table) {
+                for (const pbs::Order order : {pbs::Order::ordered, pbs::Order::grouped, pbs::Order::plain}) {
                     options.order = order;
-                    table.add(projected, " of a pass", name + ", " + order_name,
+                    table.add(projected, " of a pass", name + ", " + name_of(order),
                               drift_of_a_pass(character, pose, options, projected, setting.counted));
                 }
             }

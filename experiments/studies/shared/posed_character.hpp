@@ -7,6 +7,7 @@
 #include "analysis/error_norms.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <optional>
 #include <vector>

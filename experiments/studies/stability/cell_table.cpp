@@ -2,6 +2,7 @@
 
 #include "analysis/measurement.hpp"
 #include "experiments/studies/stability/share_interval.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <fmt/format.h>
 
@@ -47,6 +48,12 @@ const std::vector<std::string> columns = {"body",
 
 using Keyed = std::vector<std::pair<std::string, std::vector<const MeasuredCell*>>>;
 
+bool jiggles(const StabilityCell& cell)
+{
+    const auto* pbs = options_if<pbs::PbsOptions>(cell.spec);
+    return pbs && pbs->jiggle;
+}
+
 // Sweeps in order of first appearance.
 Keyed by_sweep(const std::vector<MeasuredCell>& cells)
 {
@@ -56,7 +63,7 @@ Keyed by_sweep(const std::vector<MeasuredCell>& cells)
         if (!cell.as_published) continue;
         const std::string factor = cell.second_factor.empty() ? cell.factor : cell.factor + " x " + cell.second_factor;
         const std::string key =
-            fmt::format("{}, {}, {}, {}", cell.body, cell.spec.pbs.jiggle ? "jiggling" : "no jiggle", factor, precision_of(cell));
+            fmt::format("{}, {}, {}, {}", cell.body, jiggles(cell) ? "jiggling" : "no jiggle", factor, precision_of(cell));
         auto found = std::find_if(sweeps.begin(), sweeps.end(), [&](const auto& sweep) { return sweep.first == key; });
         if (found == sweeps.end()) found = sweeps.insert(sweeps.end(), {key, {}});
         found->second.push_back(&measured);

@@ -60,7 +60,7 @@ private:
 
 std::unique_ptr<DrivenBody> make_pbs(const StabilityCell& cell, const pbs::Character& character)
 {
-    const pbs::PbsOptions& options = cell.spec.pbs;
+    const auto& options = options_of<pbs::PbsOptions>(cell.spec);
     std::vector<bool> zone = zone_of(character, options.jiggle.has_value());
     const pbs::TetMesh& mesh = character.mesh;
     const Eigen::VectorXd& distance = character.binding.distance;
@@ -74,10 +74,10 @@ std::unique_ptr<DrivenBody> make_pbs(const StabilityCell& cell, const pbs::Chara
 
 std::unique_ptr<DrivenBody> make_driven_body(const StabilityCell& cell, const pbs::Character& character)
 {
-    if (cell.spec.kind == "pbs") return make_pbs(cell, character);
-    if (cell.spec.kind == "fem") return std::make_unique<Posed>(cell, character);
-    return std::make_unique<Solved<XpbdSolver>>(character.mesh, character.binding.distance, zone_of(character, cell.spec.xpbd.jiggle),
-                                                cell.spec.xpbd);
+    if (options_if<pbs::PbsOptions>(cell.spec)) return make_pbs(cell, character);
+    if (const auto* xpbd = options_if<XpbdOptions>(cell.spec))
+        return std::make_unique<Solved<XpbdSolver>>(character.mesh, character.binding.distance, zone_of(character, xpbd->jiggle), *xpbd);
+    return std::make_unique<Posed>(cell, character);
 }
 
 }  // namespace experiments

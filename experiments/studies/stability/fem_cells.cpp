@@ -1,4 +1,4 @@
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/studies/stability/cell_sweep.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 
@@ -8,13 +8,18 @@ namespace {
 using reference_fem::Dynamics;
 using reference_fem::Model;
 
+FemOptions& fem_of(StabilityCell& cell)
+{
+    return options_of<FemOptions>(cell.spec);
+}
+
 const Sweep youngs{
-    "Young's modulus", "Pa", {1e5, 1e12}, {1.0, 1e3, 1e7, 1e9}, [](StabilityCell& cell, double pa) { cell.spec.fem.young_pa = pa; }};
+    "Young's modulus", "Pa", {1e5, 1e12}, {1.0, 1e3, 1e7, 1e9}, [](StabilityCell& cell, double pa) { fem_of(cell).young_pa = pa; }};
 const Sweep poissons{"Poisson's ratio", "1", {0.3, 0.4999}, {0.0, 0.45, 0.49, 0.499, 0.499999}, [](StabilityCell& cell, double nu) {
-                         cell.spec.fem.poisson = nu;
+                         fem_of(cell).poisson = nu;
                      }};
 const Sweep gravities{
-    "gravity", "g", {10.0}, {100.0, 1e3, 1e4}, [](StabilityCell& cell, double count) { cell.spec.fem.gravity_m_s2.y() = -g_m_s2 * count; }};
+    "gravity", "g", {10.0}, {100.0, 1e3, 1e4}, [](StabilityCell& cell, double count) { fem_of(cell).gravity_m_s2.y() = -g_m_s2 * count; }};
 
 // The smallest are a thousand steps and more.
 const Sweep timed{"time step", "s", {0.01, 0.1, 1.0}, {1e-4, 1e-3}, [](StabilityCell& cell, double s) { time_steps.set(cell, s); }};
@@ -25,13 +30,13 @@ StabilityCell base(Model model, Dynamics dynamics)
     const bool in_time = dynamics != Dynamics::quasi_static;
     StabilityCell cell;
     cell.model = "fem_" + name_of(model) + (in_time ? "_in_time" : "");
-    cell.spec.name = cell.spec.label = cell.spec.fem.name = cell.model;
-    cell.spec.kind = "fem";
-    cell.spec.fem.model = model;
-    cell.spec.fem.element_order = 1;
-    cell.spec.fem.dynamics = dynamics;
-    cell.spec.fem.gravity_m_s2 = pbs::Vec3(0.0, -g_m_s2, 0.0);
-    if (in_time) cell.spec.fem.rayleigh_stiffness_s = 0.05;
+    FemOptions options;
+    options.model = model;
+    options.element_order = 1;
+    options.dynamics = dynamics;
+    options.gravity_m_s2 = pbs::Vec3(0.0, -g_m_s2, 0.0);
+    if (in_time) options.rayleigh_stiffness_s = 0.05;
+    cell.spec = {.name = cell.model, .kind = "fem", .label = cell.model, .options = options};
     cell.still_steps = 12;
     return cell;
 }

@@ -1,4 +1,4 @@
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/studies/stability/cell_sweep.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 
@@ -9,10 +9,15 @@ namespace {
 
 constexpr pbs::Precision both_precisions[] = {pbs::Precision::f32, pbs::Precision::f64};
 
+pbs::PbsOptions& pbs_of(StabilityCell& cell)
+{
+    return options_of<pbs::PbsOptions>(cell.spec);
+}
+
 void set_k_stretch(StabilityCell& cell, double k)
 {
-    cell.spec.pbs.k_stretch = k;
-    if (cell.spec.pbs.jiggle) cell.spec.pbs.jiggle->k_stretch = k;
+    pbs_of(cell).k_stretch = k;
+    if (pbs_of(cell).jiggle) pbs_of(cell).jiggle->k_stretch = k;
 }
 
 void set_mass_ratio(StabilityCell& cell, double ratio)
@@ -22,21 +27,21 @@ void set_mass_ratio(StabilityCell& cell, double ratio)
 
 const Sweep k_stretches{"k_stretch", "1", {0.0, 0.2, 0.6, 1.0}, {0.01, 0.1, 0.4, 0.8, 0.9}, set_k_stretch};
 const Sweep k_volumes{
-    "k_volume", "1", {0.0, 0.5, 1.0}, {0.1, 0.25, 0.75}, [](StabilityCell& cell, double k) { cell.spec.pbs.k_volume = k; }};
-const Sweep k_binds{"k_bind", "1", {0.0, 0.5, 1.0}, {0.1, 0.25, 0.75}, [](StabilityCell& cell, double k) { cell.spec.pbs.k_bind = k; }};
+    "k_volume", "1", {0.0, 0.5, 1.0}, {0.1, 0.25, 0.75}, [](StabilityCell& cell, double k) { pbs_of(cell).k_volume = k; }};
+const Sweep k_binds{"k_bind", "1", {0.0, 0.5, 1.0}, {0.1, 0.25, 0.75}, [](StabilityCell& cell, double k) { pbs_of(cell).k_bind = k; }};
 const Sweep iterations{"iterations", "1", {1.0, 24.0, 1000.0}, {2.0, 4.0, 8.0, 96.0, 384.0}, [](StabilityCell& cell, double count) {
-                           cell.spec.pbs.iterations = static_cast<int>(count);
+                           pbs_of(cell).iterations = static_cast<int>(count);
                        }};
 const Sweep iterations_of_maps{"iterations", "1", {1.0, 4.0, 24.0, 96.0}, {2.0, 8.0, 384.0}, iterations.set};
 const Sweep clip_time_steps{
     "time step", "s", {1e-4, 0.1, 1.0}, {1e-3, 0.01}, [](StabilityCell& cell, double value) { cell.time_step_s = value; }};
 const Sweep gravities{"gravity", "g", {1.0, 100.0, 1e4}, {10.0, 1e3}, [](StabilityCell& cell, double count) {
-                          cell.spec.pbs.gravity_m_s2.y() = -g_m_s2 * count;
+                          pbs_of(cell).gravity_m_s2.y() = -g_m_s2 * count;
                       }};
 const Sweep mass_ratios{"mass ratio", "1", {1e2, 1e8}, {1e4, 1e6}, set_mass_ratio, false};
 const Sweep held_ends{"held end", "1", {1.0}, {}, [](StabilityCell& cell, double) { cell.held_end = true; }, false};
 const Sweep orders{"order", "", {1.0, 2.0}, {}, [](StabilityCell& cell, double value) {
-                       cell.spec.pbs.order = value == 1.0 ? pbs::Order::plain : pbs::Order::grouped;
+                       pbs_of(cell).order = value == 1.0 ? pbs::Order::plain : pbs::Order::grouped;
                        cell.named = value == 1.0 ? "plain" : "grouped";
                    }};
 
@@ -47,12 +52,12 @@ void teleport(StabilityCell& cell, double metres)
 
 void set_form(StabilityCell& cell, double value)
 {
-    cell.spec.pbs.volume_form = static_cast<pbs::VolumeForm>(std::lround(value));
-    cell.named = name_of(cell.spec.pbs.volume_form);
+    pbs_of(cell).volume_form = static_cast<pbs::VolumeForm>(std::lround(value));
+    cell.named = name_of(pbs_of(cell).volume_form);
 }
 
 const Sweep printed_forms{"printed form", "", {1.0, 2.0, 3.0, 4.0}, {}, set_form, false};
-const Sweep without_bind{"sign, k_bind", "1", {0.0}, {}, [](StabilityCell& cell, double k) { cell.spec.pbs.k_bind = k; }, false};
+const Sweep without_bind{"sign, k_bind", "1", {0.0}, {}, [](StabilityCell& cell, double k) { pbs_of(cell).k_bind = k; }, false};
 // Where the square of a distance has no number in f32, and in f64: a limit of the numbers, not of the method.
 const Sweep beyond_numbers{"teleport beyond numbers", "m", {1e25, 1e160}, {}, teleport, false};
 
@@ -61,11 +66,11 @@ StabilityCell base(const std::string& body, bool jiggle, pbs::Precision precisio
     StabilityCell cell;
     cell.body = body;
     cell.model = jiggle ? "pbs_jiggle" : "pbs";
-    cell.spec.name = cell.spec.kind = cell.spec.label = "pbs";
-    cell.spec.variant = jiggle ? "jiggle" : "default";
-    cell.spec.pbs.precision = precision;
-    cell.spec.pbs.gravity_m_s2 = pbs::Vec3(0.0, -g_m_s2, 0.0);
-    if (jiggle) cell.spec.pbs.jiggle = pbs::Jiggle{cell.spec.pbs.k_stretch};
+    pbs::PbsOptions options;
+    options.precision = precision;
+    options.gravity_m_s2 = pbs::Vec3(0.0, -g_m_s2, 0.0);
+    if (jiggle) options.jiggle = pbs::Jiggle{options.k_stretch};
+    cell.spec = {.name = "pbs", .kind = "pbs", .label = "pbs", .variant = jiggle ? "jiggle" : "default", .options = options};
     cell.still_steps = full ? 800 : 600;
     cell.as_published = true;
     return cell;
@@ -135,11 +140,11 @@ std::vector<StabilityCell> negative_controls(bool)
         for (const pbs::Precision precision : both_precisions) {
             StabilityCell from = base("limb", jiggle, precision, false);
             from.still_steps = 60;
-            from.spec.pbs.order = pbs::Order::plain;
+            pbs_of(from).order = pbs::Order::plain;
             if (!jiggle) from = without_memory(from);
             append(cells, cells_of(printed_forms, from, false));
             if (jiggle) append(cells, cells_of(beyond_numbers, from, false));
-            from.spec.pbs.volume_form = pbs::VolumeForm::sign;
+            pbs_of(from).volume_form = pbs::VolumeForm::sign;
             append(cells, cells_of(without_bind, from, false));
         }
     return cells;

@@ -1,12 +1,12 @@
 #include "experiments/studies/stability/stability_cell.hpp"
 
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/registry.hpp"
 
 namespace experiments {
 
 std::string precision_of(const StabilityCell& cell)
 {
-    return cell.spec.kind == "pbs" ? name_of(cell.spec.pbs.precision) : "f64";
+    return traits_of(cell.spec).precision;
 }
 
 nlohmann::json to_json(const StabilityCell& cell)

@@ -4,6 +4,8 @@
 #include "experiments/deformers/deformer_spec.hpp"
 #include "pbs/geometry/types.hpp"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 #include <vector>
 

@@ -1,28 +1,36 @@
+#include "experiments/deformers/xpbd/xpbd_options.hpp"
 #include "experiments/studies/stability/cell_sweep.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 
 namespace experiments {
 namespace {
 
+XpbdOptions& xpbd_of(StabilityCell& cell)
+{
+    return options_of<XpbdOptions>(cell.spec);
+}
+
 const Sweep youngs{
-    "Young's modulus", "Pa", {1.0, 1e12}, {1e3, 1e7, 1e9}, [](StabilityCell& cell, double pa) { cell.spec.xpbd.young_pa = pa; }};
+    "Young's modulus", "Pa", {1.0, 1e12}, {1e3, 1e7, 1e9}, [](StabilityCell& cell, double pa) { xpbd_of(cell).young_pa = pa; }};
 const Sweep poissons{"Poisson's ratio", "1", {0.25, 0.499999}, {0.45, 0.49, 0.499, 0.4999}, [](StabilityCell& cell, double nu) {
-                         cell.spec.xpbd.poisson = nu;
+                         xpbd_of(cell).poisson = nu;
                      }};
 const Sweep gravities{
-    "gravity", "g", {1.0, 1e4}, {100.0}, [](StabilityCell& cell, double count) { cell.spec.xpbd.gravity_m_s2.y() = -g_m_s2 * count; }};
+    "gravity", "g", {1.0, 1e4}, {100.0}, [](StabilityCell& cell, double count) { xpbd_of(cell).gravity_m_s2.y() = -g_m_s2 * count; }};
 const Sweep iterations{"iterations", "1", {1.0, 96.0}, {4.0, 384.0}, [](StabilityCell& cell, double count) {
-                           cell.spec.xpbd.iterations = static_cast<int>(count);
+                           xpbd_of(cell).iterations = static_cast<int>(count);
                        }};
 
 // As PBS with jiggle: the same zone, cost and gravity.
 StabilityCell base(bool small_steps, bool full)
 {
     StabilityCell cell;
-    cell.model = cell.spec.name = cell.spec.kind = cell.spec.label = small_steps ? "xpbd_small_steps" : "xpbd";
-    cell.spec.xpbd.jiggle = true;
-    cell.spec.xpbd.gravity_m_s2 = pbs::Vec3(0.0, -g_m_s2, 0.0);
-    if (small_steps) std::swap(cell.spec.xpbd.iterations, cell.spec.xpbd.substeps);
+    cell.model = small_steps ? "xpbd_small_steps" : "xpbd";
+    XpbdOptions options;
+    options.jiggle = true;
+    options.gravity_m_s2 = pbs::Vec3(0.0, -g_m_s2, 0.0);
+    if (small_steps) std::swap(options.iterations, options.substeps);
+    cell.spec = {.name = cell.model, .kind = cell.model, .label = cell.model, .options = options};
     cell.still_steps = full ? 300 : 100;
     return cell;
 }

@@ -13,7 +13,7 @@
 // them up in regions.csv and regions.txt.
 #include "analysis/records/atomic_file.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/volume/region_table.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -28,26 +28,27 @@ constexpr int iteration_ladder[] = {1, 2, 4, 8, 12, 48, 96, 192, 384};  // besid
 
 DeformerSpec with_iterations(DeformerSpec spec, int iterations)
 {
-    spec.pbs.iterations = iterations;
+    options_of<pbs::PbsOptions>(spec).iterations = iterations;
     spec.label += "_" + std::to_string(iterations);
     return spec;
 }
 
 DeformerSpec pbs_of(const Scene& scene)
 {
-    return *std::find_if(scene.deformers.begin(), scene.deformers.end(), [](const auto& spec) { return spec.kind == "pbs"; });
+    return *find_deformer_with<pbs::PbsOptions>(scene);
 }
 
 StudyRun with_orders(StudyRun run)
 {
     const DeformerSpec own = pbs_of(run.scene);
+    const auto& own_options = options_of<pbs::PbsOptions>(own);
     for (const auto order : {pbs::Order::plain, pbs::Order::ordered, pbs::Order::grouped})
         for (const auto precision : {pbs::Precision::f32, pbs::Precision::f64}) {
-            if (order == own.pbs.order && precision == own.pbs.precision) continue;
+            if (order == own_options.order && precision == own_options.precision) continue;
             DeformerSpec spec = own;
             spec.name = "pbs_orders";
-            spec.pbs.order = order;
-            spec.pbs.precision = precision;
+            options_of<pbs::PbsOptions>(spec).order = order;
+            options_of<pbs::PbsOptions>(spec).precision = precision;
             spec.label += "_" + name_of(order) + "_" + name_of(precision);
             run.scene.deformers.push_back(spec);
         }
@@ -58,16 +59,17 @@ DeformerSpec jiggling(DeformerSpec spec)
 {
     spec.label += "_jiggle";
     spec.variant = "jiggle";
-    spec.pbs.k_stretch = 1.0;            // where Table 1's "jiggling" stands for k_stretch in the zone, outside it is 1
-    spec.pbs.jiggle = pbs::Jiggle{0.9};  // Table 1, Man
+    auto& options = options_of<pbs::PbsOptions>(spec);
+    options.k_stretch = 1.0;            // where Table 1's "jiggling" stands for k_stretch in the zone, outside it is 1
+    options.jiggle = pbs::Jiggle{0.9};  // Table 1, Man
     return spec;
 }
 
 DeformerSpec in_print(DeformerSpec spec, pbs::VolumeForm form)
 {
     spec.name = "pbs_printed";
-    spec.pbs.volume_form = form;
-    spec.pbs.order = pbs::Order::plain;
+    options_of<pbs::PbsOptions>(spec).volume_form = form;
+    options_of<pbs::PbsOptions>(spec).order = pbs::Order::plain;
     spec.variant = name_of(form);
     spec.label += "_" + spec.variant;
     return spec;

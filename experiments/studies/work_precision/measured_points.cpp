@@ -1,5 +1,6 @@
 #include "experiments/studies/work_precision/measured_points.hpp"
 
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/process/interruption.hpp"
@@ -7,6 +8,7 @@
 #include "experiments/studies/work_precision/posed_deformer.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <deque>
 #include <map>
@@ -57,7 +59,7 @@ private:
         PosedDeformer& deformer = deformers_.emplace_back(setting, mesh.character(), poses_);
         ReachedPoint point{&setting, &mesh, deformer.reach(), {}};
         point.on_base = mesh.on_base(point.shape.positions);
-        if (!point.shape.finished && setting.spec.kind != "fem") measured_.breakdown += setting.deformer + " is not finite. ";
+        if (!point.shape.finished && !options_if<FemOptions>(setting.spec)) measured_.breakdown += setting.deformer + " is not finite. ";
         points_.push_back(std::move(point));
     }
 
@@ -104,14 +106,15 @@ private:
     // By all of the iterations and by half of them.
     const std::pair<pbs::Positions, pbs::Positions>& converged(PointSetting setting)
     {
-        const double k_stretch = setting.spec.pbs.k_stretch;
+        auto& options = options_of<pbs::PbsOptions>(setting.spec);
+        const double k_stretch = options.k_stretch;
         const auto found = converged_.find(k_stretch);
         if (found != converged_.end()) return found->second;
-        setting.spec.pbs.precision = pbs::Precision::f64;
-        setting.spec.pbs.order = pbs::Order::ordered;
+        options.precision = pbs::Precision::f64;
+        options.order = pbs::Order::ordered;
         setting.substeps = 1;
         const auto after = [&](int iterations) {
-            setting.spec.pbs.iterations = iterations;
+            options.iterations = iterations;
             return PosedDeformer(setting, *base_, poses_).reach().positions;
         };
         return converged_.emplace(k_stretch, std::make_pair(after(of_.converged_iterations), after(of_.converged_iterations / 2)))

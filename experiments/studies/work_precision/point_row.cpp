@@ -1,7 +1,10 @@
 #include "experiments/studies/work_precision/point_row.hpp"
 
 #include "analysis/frame_metrics.hpp"
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/delta_mush/delta_mush.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/xpbd/xpbd_options.hpp"
 
 #include <cmath>
 
@@ -21,12 +24,11 @@ Cells cells_of(const PointSetting& setting)
 {
     const DeformerSpec& spec = setting.spec;
     Cells cells(6, std::nullopt);  // iterations, k_stretch, order, precision, substeps, element_order
-    if (spec.kind == "delta_mush") cells[0] = spec.delta_mush.iterations;
-    if (spec.kind == "xpbd") cells[0] = spec.xpbd.iterations, cells[4] = spec.xpbd.substeps;
-    if (spec.kind == "fem") cells[5] = spec.fem.element_order;
-    if (spec.kind == "pbs")
-        cells = {spec.pbs.iterations,         spec.pbs.k_stretch, name_of(spec.pbs.order),
-                 name_of(spec.pbs.precision), setting.substeps,   std::nullopt};
+    if (const auto* mush = options_if<DeltaMushOptions>(spec)) cells[0] = mush->iterations;
+    if (const auto* xpbd = options_if<XpbdOptions>(spec)) cells[0] = xpbd->iterations, cells[4] = xpbd->substeps;
+    if (const auto* fem = options_if<FemOptions>(spec)) cells[5] = fem->element_order;
+    if (const auto* pbs = options_if<pbs::PbsOptions>(spec))
+        cells = {pbs->iterations, pbs->k_stretch, name_of(pbs->order), name_of(pbs->precision), setting.substeps, std::nullopt};
     return cells;
 }
 
@@ -55,7 +57,7 @@ Cells reference_cells(const ReachedReference& reference, const PointFigures& fig
 {
     if (!reference.point) return Cells(7, std::nullopt);
     Cells cells(7, std::nullopt);
-    cells[0] = reference.point->setting->spec.fem.name;
+    cells[0] = reference.point->setting->spec.name;
     cells[6] = int(figures.reference_self_intersects);
     if (!reference.bar) return cells;
     cells[1] = reference.bar->joint_pct;

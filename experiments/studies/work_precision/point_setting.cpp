@@ -1,6 +1,10 @@
 #include "experiments/studies/work_precision/point_setting.hpp"
 
-#include "experiments/deformers/option_names.hpp"
+#include "experiments/deformers/delta_mush/delta_mush.hpp"
+#include "experiments/deformers/fem/fem_option_names.hpp"
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/deformers/xpbd/xpbd_options.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -16,25 +20,25 @@ constexpr int most_newton_steps = 120;  // of 45 degrees of a joint's turn; a fo
 
 const DeformerSpec& first_fem(const Scene& scene)
 {
-    const auto found = std::find_if(scene.deformers.begin(), scene.deformers.end(), [](const auto& spec) { return spec.kind == "fem"; });
-    if (found == scene.deformers.end()) throw pbs::InputError(scene.file, 0, "deformers.use", scene.name, "expected a [[fem]] deformer");
-    return *found;
+    const DeformerSpec* fem = find_deformer_with<FemOptions>(scene);
+    if (!fem) throw pbs::InputError(scene.file, 0, "deformers.use", scene.name, "expected a [[fem]] deformer");
+    return *fem;
 }
 
 class SettingList {
 public:
     explicit SettingList(const Scene& scene) : scene_(scene), base_(spec_of(scene, "pbs"))
     {
-        base_.pbs.jiggle.reset();
-        base_.pbs.threads = 1;
+        options_of<pbs::PbsOptions>(base_).jiggle.reset();
+        base_.threads = 1;
     }
 
     void add_geometric()
     {
-        for (const char* kind : {"lbs", "dqs"}) add({.deformer = kind, .words = "", .spec = named(kind)});
+        for (const char* kind : {"lbs", "dqs"}) add({.deformer = kind, .words = "", .spec = default_spec(kind)});
         for (const int iterations : {0, 1, 2, 5, 10, 20, 50, 100, 200}) {
-            PointSetting setting{"delta_mush", fmt::format("{} iterations", iterations), named("delta_mush")};
-            setting.spec.delta_mush.iterations = iterations;
+            PointSetting setting{"delta_mush", fmt::format("{} iterations", iterations), default_spec("delta_mush")};
+            options_of<DeltaMushOptions>(setting.spec).iterations = iterations;
             add(setting);
         }
     }
@@ -45,12 +49,12 @@ public:
             for (const int iterations : {1, 2, 4, 8, 24, 48, 96, 192, 384}) add_pbs(pbs_with(iterations, k_stretch));
         for (const pbs::Order order : {pbs::Order::plain, pbs::Order::ordered, pbs::Order::grouped})
             for (const pbs::Precision precision : {pbs::Precision::f32, pbs::Precision::f64}) {
-                pbs::PbsOptions options = pbs_with(24, base_.pbs.k_stretch);
+                pbs::PbsOptions options = pbs_with(24, own_pbs().k_stretch);
                 options.order = order;
                 options.precision = precision;
-                if (order != base_.pbs.order || precision != base_.pbs.precision) add_pbs(options);
+                if (order != own_pbs().order || precision != own_pbs().precision) add_pbs(options);
             }
-        for (const int substeps : {2, 4}) add_pbs(pbs_with(24, base_.pbs.k_stretch), substeps);
+        for (const int substeps : {2, 4}) add_pbs(pbs_with(24, own_pbs().k_stretch), substeps);
     }
 
     void add_pbs_with_exponent()
@@ -66,13 +70,16 @@ public:
     void add_xpbd()
     {
         for (const int count : {1, 2, 4, 8, 16, 24, 48, 96, 384}) {
-            PointSetting setting{"xpbd", fmt::format("{} iterations", count), named("xpbd")};
-            setting.spec.xpbd = {.young_pa = first_fem(scene_).fem.young_pa, .poisson = first_fem(scene_).fem.poisson, .iterations = count};
+            PointSetting setting{"xpbd", fmt::format("{} iterations", count), default_spec("xpbd")};
+            const auto& flesh = options_of<FemOptions>(first_fem(scene_));
+            XpbdOptions options = {.young_pa = flesh.young_pa, .poisson = flesh.poisson, .iterations = count};
+            setting.spec.options = options;
             add(setting);
             setting.deformer = "xpbd_small_steps";
             setting.words = fmt::format("{} substeps of 1 iteration", count);
-            setting.spec.xpbd.iterations = 1;
-            setting.spec.xpbd.substeps = count;
+            options.iterations = 1;
+            options.substeps = count;
+            setting.spec.options = options;
             if (count > 1) add(setting);
         }
     }
@@ -89,7 +96,7 @@ public:
             }
         if (!range.refined) return;
         PointSetting setting{"fem_stable_neo_hookean", "P1, tets cut into eight", fem_spec(scene_, Model::stable_neo_hookean, 1)};
-        setting.refined = setting.spec.fem.nested_start = true;
+        setting.refined = options_of<FemOptions>(setting.spec).nested_start = true;
         add(setting);
     }
 
@@ -100,11 +107,12 @@ public:
             setting.words += (setting.words.empty() ? "" : ", ") + fmt::format("mesh of {} vertices", vertices);
             add(setting);
         };
-        elsewhere({"lbs", "", named("lbs")});
+        elsewhere({"lbs", "", default_spec("lbs")});
         for (const int iterations : {4, 24, 96}) {
             DeformerSpec spec = base_;
-            spec.pbs = pbs_with(iterations, base_.pbs.k_stretch);
-            elsewhere({"pbs", words_of(spec.pbs), spec});
+            const pbs::PbsOptions options = pbs_with(iterations, own_pbs().k_stretch);
+            spec.options = options;
+            elsewhere({"pbs", words_of(options), spec});
         }
         using reference_fem::Model;
         for (const Model model : {Model::linear, Model::corotational, Model::stable_neo_hookean})
@@ -116,22 +124,22 @@ public:
     std::vector<PointSetting> settings;
 
 private:
-    static DeformerSpec named(const std::string& kind) { return {.name = kind, .kind = kind, .label = kind, .pbs = {}, .fem = {}}; }
-
     void add(const PointSetting& setting) { settings.push_back(setting); }
 
     void add_pbs(const pbs::PbsOptions& options, int substeps = 1)
     {
         const bool has_exponent = options.stiffness_form == pbs::StiffnessForm::exponent;
         PointSetting setting{has_exponent ? "pbs_exponent" : "pbs", words_of(options), base_, substeps};
-        setting.spec.pbs = options;
+        setting.spec.options = options;
         if (substeps > 1) setting.words += fmt::format(", {} substeps", substeps);
         add(setting);
     }
 
+    const pbs::PbsOptions& own_pbs() const { return options_of<pbs::PbsOptions>(base_); }
+
     pbs::PbsOptions pbs_with(int iterations, double k_stretch) const
     {
-        pbs::PbsOptions options = base_.pbs;
+        pbs::PbsOptions options = own_pbs();
         options.iterations = iterations;
         options.k_stretch = k_stretch;
         return options;
@@ -160,12 +168,13 @@ std::string words_of(const pbs::PbsOptions& options)
 DeformerSpec fem_spec(const Scene& scene, reference_fem::Model model, int element_order)
 {
     DeformerSpec spec = first_fem(scene);
-    spec.name = spec.label = spec.fem.name = fmt::format("{}_p{}", name_of(model), element_order);
-    spec.fem.model = model;
-    spec.fem.element_order = element_order;
-    spec.fem.nested_start = element_order == 2 && model != reference_fem::Model::linear;
-    spec.fem.most_newton_steps = most_newton_steps;
-    spec.fem.formulation = reference_fem::Formulation::displacement;
+    spec.name = spec.label = fmt::format("{}_p{}", name_of(model), element_order);
+    auto& options = options_of<FemOptions>(spec);
+    options.model = model;
+    options.element_order = element_order;
+    options.nested_start = element_order == 2 && model != reference_fem::Model::linear;
+    options.most_newton_steps = most_newton_steps;
+    options.formulation = reference_fem::Formulation::displacement;
     return spec;
 }
 

@@ -6,7 +6,9 @@
 // finer meshes of the body as well.
 #pragma once
 
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/scene/scene.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <string>
 #include <vector>
@@ -23,7 +25,11 @@ struct PointSetting {
 
     bool on_own_mesh() const { return vertices == 0 && !refined; }
 
-    bool is_newton() const { return spec.kind == "fem" && spec.fem.model != reference_fem::Model::linear; }
+    bool is_newton() const
+    {
+        const FemOptions* fem = options_if<FemOptions>(spec);
+        return fem && fem->model != reference_fem::Model::linear;
+    }
 };
 
 struct SettingRange {

@@ -1,6 +1,7 @@
 #include "experiments/studies/work_precision/reached_reference.hpp"
 
 #include "analysis/grid_convergence.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace {
 double nodes_along(const ReachedPoint& point)
 {
     const pbs::TetMesh& mesh = point.mesh->character().mesh;
-    const Eigen::Index midpoints = point.setting->spec.fem.element_order == 2 ? pbs::edges_of(mesh.tets).rows() : 0;
+    const Eigen::Index midpoints = options_of<FemOptions>(point.setting->spec).element_order == 2 ? pbs::edges_of(mesh.tets).rows() : 0;
     return std::cbrt(double(mesh.rest.rows() + midpoints));
 }
 
@@ -36,8 +37,9 @@ const ReachedPoint* solution(const std::vector<ReachedPoint>& points, int elemen
     const ReachedPoint* found = nullptr;
     for (const ReachedPoint& point : points) {
         const DeformerSpec& spec = point.setting->spec;
-        const bool is_law = spec.kind == "fem" && spec.fem.model == reference_fem::Model::stable_neo_hookean;
-        if (!point.shape.finished || !is_law || spec.fem.element_order != element_order || !lies(point, where, base_vertices)) continue;
+        const FemOptions* fem = options_if<FemOptions>(spec);
+        const bool is_law = fem && fem->model == reference_fem::Model::stable_neo_hookean;
+        if (!point.shape.finished || !is_law || fem->element_order != element_order || !lies(point, where, base_vertices)) continue;
         if (!found || vertices_of(point) > vertices_of(*found)) found = &point;
     }
     return found;
@@ -60,7 +62,8 @@ ReachedReference choose_reference(const std::vector<ReachedPoint>& points, Eigen
     ReachedReference reference;
     reference.point = solution(points, 2, On::own_tets, base_vertices);
     if (!reference.point) reference.point = solution(points, 1, On::own_tets, base_vertices);
-    if (reference.point) reference.beside = solution_beside(points, reference.point->setting->spec.fem.element_order, base_vertices);
+    if (reference.point)
+        reference.beside = solution_beside(points, options_of<FemOptions>(reference.point->setting->spec).element_order, base_vertices);
     if (!reference.beside) return reference;
 
     constexpr double presumed_order = 1.0;

@@ -73,7 +73,7 @@ Scene scene_of(const CheckScene& check, const CheckRules& rules, const CheckArgu
 {
     try {
         Scene scene = read_scene(file_or_name(check, arguments.bounds), check.set);
-        for (DeformerSpec& spec : scene.deformers) spec.pbs.threads = arguments.threads;
+        for (DeformerSpec& spec : scene.deformers) spec.threads = arguments.threads;
         return scene;
     } catch (const pbs::InputError& error) {
         throw pbs::InputError(rules.file, check.line, "scene", check.scene, error.what());

@@ -8,6 +8,8 @@
 //   flesh taken too thick the solver's own rest state is 1.2 times as thick round the joint, its tets 1.44 times as large there, which all
 //                         constraints ask for: sections are 1.2 times as wide and 1.44 times as large at rest, by geometry, and bending
 //                         changes a section of the sound solver by far less than that
+#include "experiments/deformers/registry.hpp"
+#include "pbs/solver/options.hpp"
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/hand_cut_sections.hpp"
 #include "tests/support/study_claims.hpp"
@@ -58,7 +60,7 @@ const BentLimb& limb()
 Shapes solved(Broken how)
 {
     experiments::DeformerSpec spec = spec_of(limb().of.scene, "pbs");
-    spec.pbs = broken(spec.pbs, how);
+    experiments::options_of<pbs::PbsOptions>(spec) = broken(experiments::options_of<pbs::PbsOptions>(spec), how);
     return limb().body.posed.shapes(spec);
 }
 

@@ -10,6 +10,7 @@
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/jiggle/jiggle_figures.hpp"
 #include "experiments/studies/jiggle/jiggle_zone_contents.hpp"
+#include "pbs/solver/options.hpp"
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/study_claims.hpp"
 
@@ -39,8 +40,8 @@ const std::vector<MeasuredJiggle>& jolted(Broken how)
     std::vector<MeasuredJiggle>& measured = kept[how];
     for (const JiggleSetting& setting : settings) {
         DeformerSpec spec = jiggling(spec_of(scene, "pbs"), setting);
-        spec.pbs = broken(spec.pbs, how);
-        spec.pbs.precision = pbs::Precision::f64;
+        options_of<pbs::PbsOptions>(spec) = broken(options_of<pbs::PbsOptions>(spec), how);
+        options_of<pbs::PbsOptions>(spec).precision = pbs::Precision::f64;
         const Jolt jolt{.direction = pbs::Vec3::UnitX(), .length_m = 0.002, .time_step_s = setting.time_step_s};
         measured.push_back({setting, jolt_response(character, spec, probe, jolt)});
     }

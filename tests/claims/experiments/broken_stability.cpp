@@ -3,8 +3,10 @@
 //   nothing projected    flesh falls freely, g t^2 / 2 = 4.9 m in a second: it runs away; without jiggle nothing moves at all
 //   one class dropped    a projection takes no more than its own error, and what is left still holds on to the body: the verdict stays
 //   multipliers forgot   XPBD is no part of the claim; each of its projections still takes a share below one: as stable as with them
+#include "experiments/deformers/xpbd/xpbd_options.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
+#include "pbs/solver/options.hpp"
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/study_claims.hpp"
 
@@ -26,7 +28,8 @@ std::vector<StabilityCell> chosen(const std::vector<StabilityCell>& cells, const
 {
     std::vector<StabilityCell> found;
     for (const StabilityCell& cell : cells)
-        if (cell.factor == factor && cell.second_factor.empty() && (cell.spec.kind != "pbs" || precision_of(cell) == "f32")) {
+        if (cell.factor == factor && cell.second_factor.empty() &&
+            (!options_if<pbs::PbsOptions>(cell.spec) || precision_of(cell) == "f32")) {
             found.push_back(cell);
             found.back().still_steps = still_steps;
         }
@@ -38,7 +41,7 @@ VerdictKind verdict(bool jiggle, Broken how)
 {
     std::vector<MeasuredCell> measured;
     for (StabilityCell cell : chosen(pbs_cells(jiggle, false), "start")) {
-        cell.spec.pbs = broken(cell.spec.pbs, how);
+        options_of<pbs::PbsOptions>(cell.spec) = broken(options_of<pbs::PbsOptions>(cell.spec), how);
         measured.push_back({cell, run_cell(cell)});
     }
     analysis::Records records;
@@ -77,7 +80,7 @@ TEST(BrokenStability, ForgottenMultipliersRunAwayNowhereAndAreNoPartOfTheClaim)
     std::vector<MeasuredCell> measured;
     for (StabilityCell cell : chosen(xpbd_cells(false), "start"))
         for (const bool keep : {true, false}) {
-            cell.spec.xpbd.keep_multipliers = keep;
+            options_of<XpbdOptions>(cell.spec).keep_multipliers = keep;
             measured.push_back({cell, run_cell(cell)});
             EXPECT_FALSE(ran_away(measured.back().result)) << cell.named << (keep ? "" : ", multipliers forgotten");
         }

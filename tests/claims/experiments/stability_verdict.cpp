@@ -3,6 +3,7 @@
 #include "analysis/claims.hpp"
 #include "analysis/measurement.hpp"
 #include "analysis/verdict.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -18,7 +19,8 @@ using analysis::VerdictKind;
 MeasuredCell cell_of(const std::string& factor, StabilityOutcome outcome, bool as_published = true)
 {
     MeasuredCell measured;
-    measured.cell.model = measured.cell.spec.kind = "pbs";
+    measured.cell.model = "pbs";
+    measured.cell.spec = default_spec("pbs");
     measured.cell.factor = factor;
     measured.cell.as_published = as_published;
     measured.result.stability.outcome = outcome;

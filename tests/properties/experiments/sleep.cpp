@@ -4,6 +4,7 @@
 #include "experiments/studies/features/feature_cost.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +42,7 @@ TEST(SleepOnTheHuman, ChangesThePoseByLessThanItsTolerance)
     if (!awake || !asleep) GTEST_SKIP() << "assimp-testmodels is not installed";
     const AnswerChange change = change_between(*awake, *asleep);
     const double edge_m = mean_edge_m(pbs::make_character(awake->character).mesh);
-    const pbs::PbsOptions& options = asleep->deformers.front().pbs;
+    const pbs::PbsOptions& options = experiments::options_of<pbs::PbsOptions>(asleep->deformers.front());
     std::printf("largest change %.3g m, %.3g mean edges\n", change.distance_m, change.distance_m / edge_m);
     EXPECT_LT(change.distance_m, options.iterations * options.sleep_tolerance * edge_m);
     EXPECT_LT(change.volume_difference_pct, 0.05);  // a tenth of the claim's bound

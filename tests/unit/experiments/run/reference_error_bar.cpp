@@ -3,6 +3,7 @@
 // hand.
 #include "experiments/run/reference_error_bar.hpp"
 
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/refined_character.hpp"
 #include "pbs/geometry/topology.hpp"
@@ -25,11 +26,26 @@ pbs::Character small_limb()
     return pbs::make_character(source);
 }
 
+// The reference that ReferenceErrorBar refines, with another deformer's positions.
+template <const char* Kind>
+std::unique_ptr<experiments::Deformer> make_stand_in(const experiments::DeformerSpec&)
+{
+    return experiments::make_deformer(experiments::default_spec(Kind));
+}
+
+constexpr char lbs[] = "lbs", pbs_name[] = "pbs";
+
 experiments::DeformerSpec spec_of(const std::string& kind, int element_order = 2)
 {
-    experiments::DeformerSpec spec{kind, kind, kind, "default", {}, {}};
-    spec.fem.element_order = element_order;
-    return spec;
+    static const bool registered = [] {
+        experiments::add_deformer_kind({.name = "stand_in_lbs", .meaning = "LBS", .make = make_stand_in<lbs>});
+        experiments::add_deformer_kind({.name = "stand_in_pbs", .meaning = "PBS", .make = make_stand_in<pbs_name>});
+        return true;
+    }();
+    EXPECT_TRUE(registered);
+    experiments::FemOptions options;
+    options.element_order = element_order;
+    return {.name = kind, .kind = "stand_in_" + kind, .label = kind, .options = options};
 }
 
 pbs::Pose bent(const pbs::Character& character)

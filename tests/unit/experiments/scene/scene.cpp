@@ -1,13 +1,18 @@
 // Scenes: what a file, --set and the defaults say together. Truth: the contract of scene files (experiments/scene/manual.md) and the
 // options' own defaults.
 #include "experiments/scene/scene.hpp"
-#include "experiments/scene/scene_schema.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/scene/scene_keys.hpp"
+#include "pbs/solver/options.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
 namespace {
 
+using experiments::FemOptions;
+using experiments::options_of;
 using experiments::read_scene;
 using experiments::Scene;
 
@@ -20,7 +25,7 @@ TEST(Scene, DefaultsOfPbsAreThoseOfItsOptions)
     const test_support::ScratchFolder folder;
     const auto read = read_scene(folder.file("scene.toml", smallest + "[deformers]\nuse = [\"pbs\"]\n"), {}).deformers.at(0);
     experiments::DeformerSpec untouched = read;
-    untouched.pbs = pbs::PbsOptions{};  // `stated` says the same where the scene has no default
+    untouched.options = pbs::PbsOptions{};  // `stated` says the same where the scene has no default
     EXPECT_EQ(to_json(read), to_json(untouched));
 }
 
@@ -29,7 +34,7 @@ TEST(Scene, DefaultsOfFemAreThoseOfItsOptions)
     const test_support::ScratchFolder folder;
     const auto read = read_scene(folder.file("scene.toml", smallest + "[deformers]\nuse = [\"fem\"]\n[[fem]]\n"), {}).deformers.at(0);
     experiments::DeformerSpec untouched = read;
-    untouched.fem = experiments::FemOptions{};
+    untouched.options = FemOptions{};
     EXPECT_EQ(to_json(read), to_json(untouched));
 }
 
@@ -47,10 +52,10 @@ TEST(Scene, ReferencesKeepTheirOwnOptions)
 {
     const Scene scene = read_scene("limb_twist", {"fem.1.poisson=0.3"});
     ASSERT_EQ(scene.deformers[3].name, "fem_p1");
-    EXPECT_EQ(scene.deformers[3].fem.element_order, 1);
-    EXPECT_EQ(scene.deformers[4].fem.element_order, 2);
-    EXPECT_DOUBLE_EQ(scene.deformers[3].fem.poisson, 0.45);
-    EXPECT_DOUBLE_EQ(scene.deformers[4].fem.poisson, 0.3);
+    EXPECT_EQ(options_of<FemOptions>(scene.deformers[3]).element_order, 1);
+    EXPECT_EQ(options_of<FemOptions>(scene.deformers[4]).element_order, 2);
+    EXPECT_DOUBLE_EQ(options_of<FemOptions>(scene.deformers[3]).poisson, 0.45);
+    EXPECT_DOUBLE_EQ(options_of<FemOptions>(scene.deformers[4]).poisson, 0.3);
 }
 
 TEST(Scene, OverridesWinOverTheFile)
@@ -58,19 +63,19 @@ TEST(Scene, OverridesWinOverTheFile)
     const Scene scene =
         read_scene("limb_twist", {"pbs.iterations=96", "pbs.k_stretch=0.05", "deformers.use=[\"pbs\"]", "reference.name=\"\""});
     EXPECT_EQ(scene.deformers.size(), 1u);
-    EXPECT_EQ(scene.deformers[0].pbs.iterations, 96);
-    EXPECT_DOUBLE_EQ(scene.deformers[0].pbs.k_stretch, 0.05);
+    EXPECT_EQ(options_of<pbs::PbsOptions>(scene.deformers[0]).iterations, 96);
+    EXPECT_DOUBLE_EQ(options_of<pbs::PbsOptions>(scene.deformers[0]).k_stretch, 0.05);
 }
 
 TEST(Scene, ABareWordIsAText)
 {
-    EXPECT_EQ(read_scene("limb_twist", {"pbs.precision=f64"}).deformers[2].pbs.precision, pbs::Precision::f64);
+    EXPECT_EQ(options_of<pbs::PbsOptions>(read_scene("limb_twist", {"pbs.precision=f64"}).deformers[2]).precision, pbs::Precision::f64);
 }
 
 TEST(Scene, JiggleIsOffUnlessItsTableIsThere)
 {
-    EXPECT_FALSE(read_scene("limb_twist", {}).deformers[2].pbs.jiggle);
-    const auto jiggle = read_scene("limb_twist", {"pbs.jiggle.k_stretch=0.9"}).deformers[2].pbs.jiggle;
+    EXPECT_FALSE(options_of<pbs::PbsOptions>(read_scene("limb_twist", {}).deformers[2]).jiggle);
+    const auto jiggle = options_of<pbs::PbsOptions>(read_scene("limb_twist", {"pbs.jiggle.k_stretch=0.9"}).deformers[2]).jiggle;
     ASSERT_TRUE(jiggle);
     EXPECT_DOUBLE_EQ(jiggle->k_stretch, 0.9);
 }
@@ -108,7 +113,7 @@ TEST(Scene, OutputNamesFrames)
 
 TEST(Scene, EveryKeyIsDocumented)
 {
-    for (const auto& key : experiments::scene_keys()) {
+    for (const auto& key : experiments::scene_schema().keys) {
         EXPECT_FALSE(key.meaning.empty()) << key.path();
         EXPECT_FALSE(key.rule().empty()) << key.path();
     }

@@ -29,7 +29,7 @@ pbs::Positions posed_by(const Reading& reading)
 
 TEST(ReadDeformer, OfThePapersReadingIsTheRegisteredOne)
 {
-    const auto registered = experiments::make_deformer({.name = "pbs", .kind = "pbs", .label = "pbs", .pbs = {}, .fem = {}});
+    const auto registered = experiments::make_deformer(experiments::default_spec("pbs"));
     registered->reset(character);
     registered->advance(limb.pose, 0.01);
     EXPECT_EQ(posed_by(own()), registered->positions());

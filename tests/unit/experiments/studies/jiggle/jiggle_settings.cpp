@@ -1,5 +1,6 @@
 // Truth: what one-at-a-time means, and what the paper's own method is (all masses 1, every vertex bound).
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <gtest/gtest.h>
 
@@ -32,10 +33,11 @@ TEST(JiggleSettings, LooseFleshAndLumpedMassesAreNotThePapers)
 
 TEST(JiggleSettings, LeaveGravityAsItIs)
 {
-    experiments::DeformerSpec spec;
-    spec.pbs.gravity_m_s2 = {0.0, -9.81, 0.0};
-    EXPECT_EQ(jiggling(spec, {.iterations = 6}).pbs.gravity_m_s2, spec.pbs.gravity_m_s2);
-    EXPECT_EQ(jiggling(spec, {.iterations = 6}).pbs.iterations, 6);
+    experiments::DeformerSpec spec = experiments::default_spec("pbs");
+    experiments::options_of<pbs::PbsOptions>(spec).gravity_m_s2 = {0.0, -9.81, 0.0};
+    const auto jiggling = experiments::options_of<pbs::PbsOptions>(experiments::jiggling(spec, {.iterations = 6}));
+    EXPECT_EQ(jiggling.gravity_m_s2, pbs::Vec3(0.0, -9.81, 0.0));
+    EXPECT_EQ(jiggling.iterations, 6);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
 #include "experiments/studies/jiggle/jiggle_zone_contents.hpp"
 #include "pbs/character/bodies.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,22 +15,22 @@ class JoltResponseOfLimb : public testing::Test {
 protected:
     JoltResponseOfLimb()
     {
-        spec.kind = spec.name = spec.label = "pbs";
-        spec.pbs.precision = pbs::Precision::f64;
+        options().precision = pbs::Precision::f64;
         jolt.direction = pbs::Vec3::UnitX();
         jolt.steps = 40;
     }
+    pbs::PbsOptions& options() { return experiments::options_of<pbs::PbsOptions>(spec); }
     experiments::JoltResponse response() const { return experiments::jolt_response(limb, spec, probe, jolt); }
 
     pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 400});
     std::vector<int> probe = experiments::zone_contents(limb).pieces.front();
-    experiments::DeformerSpec spec;
+    experiments::DeformerSpec spec = experiments::default_spec("pbs");
     experiments::Jolt jolt;
 };
 
 TEST_F(JoltResponseOfLimb, NothingSwingsWithoutJiggle)
 {
-    spec.pbs.jiggle.reset();
+    options().jiggle.reset();
     const auto still = response();
     EXPECT_LT(still.peak_over_jolt, 1e-9);
     EXPECT_FALSE(still.swing.found());
@@ -37,8 +38,8 @@ TEST_F(JoltResponseOfLimb, NothingSwingsWithoutJiggle)
 
 TEST_F(JoltResponseOfLimb, FreeFleshStaysBehind)
 {
-    spec.pbs.k_stretch = spec.pbs.k_volume = spec.pbs.k_bind = 0.0;
-    spec.pbs.jiggle = pbs::Jiggle{.k_stretch = 0.0};
+    options().k_stretch = options().k_volume = options().k_bind = 0.0;
+    options().jiggle = pbs::Jiggle{.k_stretch = 0.0};
     const auto free = response();
     for (const double excursion_m : free.excursion_m) EXPECT_NEAR(excursion_m, -jolt.length_m, 1e-12);
     EXPECT_NEAR(free.left_over_peak, 1.0, 1e-12);

@@ -1,7 +1,10 @@
 // Truth: the sound solver beside one that is broken on purpose. The outcome has to tell them apart.
 #include "experiments/studies/stability/cell_run.hpp"
 
+#include "experiments/deformers/registry.hpp"
+#include "experiments/deformers/xpbd/xpbd_options.hpp"
 #include "experiments/studies/stability/driven_body.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +18,7 @@ using analysis::StabilityOutcome;
 StabilityCell pbs_cell()
 {
     StabilityCell cell;
-    cell.spec.kind = "pbs";
+    cell.spec = default_spec("pbs");
     cell.disturbance.turning_steps = 3;
     cell.still_steps = 12;
     return cell;
@@ -37,9 +40,9 @@ TEST(CellRun, SoundSolverConverges)
 TEST(CellRun, SignOfTheVolumeGradientAsPrintedDiverges)
 {
     StabilityCell cell = pbs_cell();
-    cell.spec.pbs.order = pbs::Order::plain;
+    options_of<pbs::PbsOptions>(cell.spec).order = pbs::Order::plain;
     EXPECT_EQ(outcome(cell), StabilityOutcome::converged);
-    cell.spec.pbs.volume_form = pbs::VolumeForm::sign;
+    options_of<pbs::PbsOptions>(cell.spec).volume_form = pbs::VolumeForm::sign;
     EXPECT_EQ(outcome(cell), StabilityOutcome::diverged);
 }
 
@@ -47,17 +50,17 @@ TEST(CellRun, SignOfTheVolumeGradientAsPrintedDiverges)
 TEST(CellRun, ATeleportBeyondTheNumbersIsNotFinite)
 {
     StabilityCell cell = pbs_cell();
-    cell.spec.pbs.jiggle = pbs::Jiggle{0.2};
+    options_of<pbs::PbsOptions>(cell.spec).jiggle = pbs::Jiggle{0.2};
     cell.disturbance.teleport_m = 1e25;
     EXPECT_EQ(outcome(cell), StabilityOutcome::not_finite);
-    cell.spec.pbs.precision = pbs::Precision::f64;
+    options_of<pbs::PbsOptions>(cell.spec).precision = pbs::Precision::f64;
     EXPECT_NE(outcome(cell), StabilityOutcome::not_finite);
 }
 
 TEST(CellRun, WithoutVolumeConstraintsTetsStayInverted)
 {
     StabilityCell cell = pbs_cell();
-    cell.spec.pbs.k_volume = 0.0;
+    options_of<pbs::PbsOptions>(cell.spec).k_volume = 0.0;
     EXPECT_EQ(outcome(cell), StabilityOutcome::inverted);
 }
 
@@ -66,11 +69,12 @@ TEST(CellRun, WithoutAnyConstraintWhatJigglesFallsAway)
 {
     StabilityCell cell = pbs_cell();
     cell.still_steps = 120;
-    cell.spec.pbs.gravity_m_s2 = pbs::Vec3(0.0, -9.81, 0.0);
-    cell.spec.pbs.jiggle = pbs::Jiggle{0.2};
+    options_of<pbs::PbsOptions>(cell.spec).gravity_m_s2 = pbs::Vec3(0.0, -9.81, 0.0);
+    options_of<pbs::PbsOptions>(cell.spec).jiggle = pbs::Jiggle{0.2};
     const StabilityOutcome sound = outcome(cell);
     EXPECT_TRUE(sound == StabilityOutcome::bounded || sound == StabilityOutcome::converged);
-    cell.spec.pbs.k_volume = cell.spec.pbs.k_bind = cell.spec.pbs.k_stretch = cell.spec.pbs.jiggle->k_stretch = 0.0;
+    options_of<pbs::PbsOptions>(cell.spec).k_volume = options_of<pbs::PbsOptions>(cell.spec).k_bind =
+        options_of<pbs::PbsOptions>(cell.spec).k_stretch = options_of<pbs::PbsOptions>(cell.spec).jiggle->k_stretch = 0.0;
     EXPECT_EQ(outcome(cell), StabilityOutcome::diverged);
 }
 
@@ -88,8 +92,8 @@ TEST(CellRun, WithoutJiggleTheTimeStepDoesNotEnter)
 TEST(CellRun, ForgottenMultipliersEndElsewhere)
 {
     StabilityCell cell = pbs_cell();
-    cell.spec.kind = "xpbd";
-    cell.spec.xpbd.young_pa = 1e4;
+    cell.spec = default_spec("xpbd");
+    options_of<XpbdOptions>(cell.spec).young_pa = 1e4;
     cell.disturbance.angle_deg = 45.0;
     const auto last_positions = [&] {
         StabilityBody body(cell);
@@ -98,7 +102,7 @@ TEST(CellRun, ForgottenMultipliersEndElsewhere)
         return driven->positions();
     };
     const pbs::Positions sound = last_positions();
-    cell.spec.xpbd.keep_multipliers = false;
+    options_of<XpbdOptions>(cell.spec).keep_multipliers = false;
     StabilityBody body(cell);
     const pbs::Positions broken = last_positions();
     const Drive last = body.drive(body.steps() - 1);
@@ -119,10 +123,10 @@ TEST(CellRun, WithJiggleTheTimeStepEntersBesideGravityAlone)
     StabilityCell cell = pbs_cell();
     cell.still_steps = 5;
     cell.disturbance.stays = true;
-    cell.spec.pbs.precision = pbs::Precision::f64;
-    cell.spec.pbs.jiggle = pbs::Jiggle{0.2};
+    options_of<pbs::PbsOptions>(cell.spec).precision = pbs::Precision::f64;
+    options_of<pbs::PbsOptions>(cell.spec).jiggle = pbs::Jiggle{0.2};
     const auto steps_under = [&](double gravity_m_s2, double time_step_s) {
-        cell.spec.pbs.gravity_m_s2 = pbs::Vec3(0.0, -gravity_m_s2, 0.0);
+        options_of<pbs::PbsOptions>(cell.spec).gravity_m_s2 = pbs::Vec3(0.0, -gravity_m_s2, 0.0);
         cell.time_step_s = time_step_s;
         return run_cell(cell).steps;
     };
@@ -137,7 +141,7 @@ TEST(CellRun, ABrokenStartTellsTheIterationsUntilItWasReached)
     StabilityCell cell = pbs_cell();
     EXPECT_FALSE(run_cell(cell).iterations_until_reached);
     cell.disturbance.start = Start::mirrored;
-    EXPECT_EQ(run_cell(cell).iterations_until_reached, cell.spec.pbs.iterations);
+    EXPECT_EQ(run_cell(cell).iterations_until_reached, options_of<pbs::PbsOptions>(cell.spec).iterations);
 }
 
 TEST(CellRun, TeleportIsForgottenWithoutJiggle)

@@ -1,5 +1,6 @@
 // Where errors are measured and by which reference. Truth: a rigid motion and an affine field are carried exactly by barycentric
 // coordinates; the grid convergence index worked by hand; the choice of the reference by its header.
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/work_precision/reached_reference.hpp"
 
 #include "experiments/run/frame_measurement.hpp"
@@ -56,9 +57,9 @@ protected:
     void add(int element_order, const BodyMesh& mesh, int vertices, bool refined, double moved_m, bool finished = true)
     {
         PointSetting setting{"fem_stable_neo_hookean", "P" + std::to_string(element_order), {}};
-        setting.spec.kind = "fem";
-        setting.spec.fem.model = reference_fem::Model::stable_neo_hookean;
-        setting.spec.fem.element_order = element_order;
+        setting.spec = default_spec("fem");
+        options_of<FemOptions>(setting.spec).model = reference_fem::Model::stable_neo_hookean;
+        options_of<FemOptions>(setting.spec).element_order = element_order;
         setting.vertices = vertices;
         setting.refined = refined;
         settings_.push_back(std::make_unique<PointSetting>(setting));
@@ -155,7 +156,7 @@ TEST(PointSettings, HaveADigestOfAllTheyHangOn)
     std::vector<PointSetting> settings = point_settings(read_scene("limb_twist", {}), {});
     const std::string digest = digest_of(settings);
     EXPECT_EQ(digest_of(point_settings(read_scene("limb_twist", {}), {})), digest);
-    settings.back().spec.fem.nested_start = !settings.back().spec.fem.nested_start;
+    options_of<FemOptions>(settings.back().spec).nested_start = !options_of<FemOptions>(settings.back().spec).nested_start;
     EXPECT_NE(digest_of(settings), digest);
 }
 
@@ -189,7 +190,7 @@ TEST_F(Choice, QuartilesAreOfThreeRoundsOrMore)
 TEST(PosedDeformers, TellARoundThatDoesNotArriveAndTheOneThatSetsOutFromThere)
 {
     const auto body = limb(300);
-    const PointSetting setting{"pbs", "", {.name = "pbs", .kind = "pbs", .label = "pbs", .pbs = {}, .fem = {}}, 2};
+    const PointSetting setting{"pbs", "", default_spec("pbs"), 2};
     pbs::Pose rest(body->skeleton.bones.size(), Eigen::Isometry3d::Identity()), nowhere = rest;
     for (Eigen::Isometry3d& bone : nowhere) bone.translation().setConstant(std::nan(""));
     const PosePair there_and_back{rest, rest}, there_and_nowhere{rest, nowhere}, nowhere_and_back{nowhere, rest};

@@ -1,5 +1,6 @@
 // Truth: theory, and the equilibrium that the same body comes to from its rest pose. Finite elements of which Newton's method starts from
 // shapes that are broken.
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/stability/cell_run.hpp"
 #include "experiments/studies/stability/driven_body.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
@@ -33,7 +34,7 @@ constexpr Start broken_starts[] = {Start::flattened, Start::mirrored, Start::ran
 TEST(BrokenFemStarts, EveryModelInEquilibriumIsGivenThem)
 {
     for (const char* model : {"fem_linear", "fem_corotational", "fem_stable_neo_hookean"})
-        for (const Start start : broken_starts) EXPECT_EQ(cell_of(model, start).spec.fem.element_order, 1);
+        for (const Start start : broken_starts) EXPECT_EQ(options_of<FemOptions>(cell_of(model, start).spec).element_order, 1);
 }
 
 // Theory: one linear system, whatever was before.

@@ -1,22 +1,15 @@
-// The words that options have in scenes and records.
+// The words that options of PBS have in scenes and records.
 #pragma once
 
-#include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/settings/option_names.hpp"
 #include "pbs/solver/options.hpp"
 
-#include <array>
-#include <string>
-#include <utility>
-
 namespace experiments {
-
-template <typename Enum>
-struct OptionNames;
 
 template <>
 struct OptionNames<pbs::Order> {
     static constexpr std::array<std::pair<pbs::Order, const char*>, 3> table{
-        {{pbs::Order::ordered, "ordered"}, {pbs::Order::grouped, "grouped"}, {pbs::Order::plain, "plain"}}};
+        {{pbs::Order::plain, "plain"}, {pbs::Order::ordered, "ordered"}, {pbs::Order::grouped, "grouped"}}};
 };
 template <>
 struct OptionNames<pbs::Precision> {
@@ -61,56 +54,5 @@ struct OptionNames<pbs::VolumeForm> {
                                                                                    {pbs::VolumeForm::sign, "sign"},
                                                                                    {pbs::VolumeForm::as_printed, "as_printed"}}};
 };
-template <>
-struct OptionNames<reference_fem::Model> {
-    static constexpr std::array<std::pair<reference_fem::Model, const char*>, 5> table{
-        {{reference_fem::Model::linear, "linear"},
-         {reference_fem::Model::corotational, "corotational"},
-         {reference_fem::Model::stable_neo_hookean, "stable_neo_hookean"},
-         {reference_fem::Model::neo_hookean, "neo_hookean"},
-         {reference_fem::Model::st_venant_kirchhoff, "st_venant_kirchhoff"}}};
-};
-template <>
-struct OptionNames<reference_fem::Formulation> {
-    static constexpr std::array<std::pair<reference_fem::Formulation, const char*>, 3> table{
-        {{reference_fem::Formulation::displacement, "displacement"},
-         {reference_fem::Formulation::mean_dilatation, "mean_dilatation"},
-         {reference_fem::Formulation::taylor_hood, "taylor_hood"}}};
-};
-template <>
-struct OptionNames<reference_fem::Dynamics> {
-    static constexpr std::array<std::pair<reference_fem::Dynamics, const char*>, 3> table{
-        {{reference_fem::Dynamics::quasi_static, "quasi_static"},
-         {reference_fem::Dynamics::newmark, "newmark"},
-         {reference_fem::Dynamics::generalized_alpha, "generalized_alpha"}}};
-};
-template <>
-struct OptionNames<FemAttachment> {
-    static constexpr std::array<std::pair<FemAttachment, const char*>, 3> table{
-        {{FemAttachment::embedded, "embedded"}, {FemAttachment::nodes, "nodes"}, {FemAttachment::bind, "bind"}}};
-};
-template <>
-struct OptionNames<reference_fem::LinearSolver> {
-    static constexpr std::array<std::pair<reference_fem::LinearSolver, const char*>, 3> table{
-        {{reference_fem::LinearSolver::cholmod, "cholmod"},
-         {reference_fem::LinearSolver::umfpack, "umfpack"},
-         {reference_fem::LinearSolver::cg_ml, "cg_ml"}}};
-};
-
-template <typename Enum>
-std::string name_of(Enum value)
-{
-    for (const auto& [entry, name] : OptionNames<Enum>::table)
-        if (entry == value) return name;
-    return "";
-}
-
-template <typename Enum>
-Enum option_of(const std::string& name)  // the schema has checked the name
-{
-    for (const auto& [entry, text] : OptionNames<Enum>::table)
-        if (name == text) return entry;
-    return OptionNames<Enum>::table.front().first;
-}
 
 }  // namespace experiments

@@ -1,8 +1,9 @@
 // A scene as checked values: every key of the schema with what the file, --set or the default says, and where it was said.
 #pragma once
 
+#include "experiments/settings/scene_schema.hpp"
+
 #include <nlohmann/json.hpp>
-#include <toml++/toml.h>
 
 #include <map>
 #include <string>
@@ -14,7 +15,7 @@ class SceneValues {
 public:
     // Reads TOML text; `file` stands for it in errors; overrides are KEY=VALUE with VALUE in TOML (a bare word is a text). Unknown keys,
     // wrong types and values out of range are InputErrors with the line.
-    SceneValues(const std::string& text, const std::string& file, const std::vector<std::string>& overrides);
+    SceneValues(const std::string& text, const std::string& file, const std::vector<std::string>& overrides, SceneSchema schema);
 
     double number(const std::string& path) const { return value(path).get<double>(); }
     int integer(const std::string& path) const { return static_cast<int>(value(path).get<double>()); }
@@ -26,7 +27,8 @@ public:
 
     bool given(const std::string& path) const { return values_.count(path) && !values_.at(path).is_default; }
     bool has_table(const std::string& table) const;
-    int fem_tables() const { return fem_tables_; }  // paths fem.0.young_pa, fem.1.young_pa, ...
+    // How many [[list]] tables there are; the paths of their keys are fem.0.young_pa, fem.1.young_pa, ...
+    int tables(const std::string& list) const { return lists_.count(list) ? lists_.at(list) : 0; }
 
     [[noreturn]] void refuse(const std::string& path, const std::string& rule) const;  // an InputError at the key's place
     nlohmann::json resolved() const;                                                   // nested, for run.json
@@ -40,15 +42,15 @@ private:
         bool is_default = false;
     };
     const nlohmann::json& value(const std::string& path) const;
-    void take_table(const toml::table& table, const std::string& prefix);
-    void take_override(const std::string& override);
-    void take_value(const std::string& path, const toml::node& node, const std::string& source, int line);
-    void add_defaults();
+    int index_in_list(const std::string& path) const;
+    std::string schema_path(const std::string& path) const;
+    friend class SceneReader;  // fills it
 
+    SceneSchema schema_;
     std::string file_;
     std::map<std::string, Entry> values_;
     std::vector<std::string> tables_;
-    int fem_tables_ = 0;
+    std::map<std::string, int> lists_;  // how many tables each has
 };
 
 }  // namespace experiments

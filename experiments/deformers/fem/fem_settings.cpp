@@ -1,0 +1,133 @@
+#include "experiments/deformers/fem/fem_settings.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace experiments {
+namespace {
+
+void add_material_keys(OptionFields<FemOptions>& fields)
+{
+    fields.key("name", KeyType::text, "fem", {.meaning = "the name this reference has in the records"})
+        .add("model", &FemOptions::model,
+             {.meaning =
+                  "constitutive model; linear strain is fictitious by 1 - cos of the rotation and st_venant_kirchhoff gives way under "
+                  "compression: both are negative controls at large rotations"})
+        .add("element_order", &FemOptions::element_order, {.lowest = 1, .highest = 2, .meaning = "polynomial order of the simplices"})
+        .add("formulation", &FemOptions::formulation,
+             {.meaning =
+                  "how volume enters: displacement; mean_dilatation (one volume constraint a tet), which on order 1 is the same; "
+                  "taylor_hood (order 2 with a continuous pressure, the most accurate near nu = 1/2; of the linear model, quasi-static)"})
+        .add("young_pa", &FemOptions::young_pa,
+             {.unit = "Pa",
+              .lowest = above_zero,
+              .highest = 1e15,
+              .meaning = "Young's modulus; cancels where displacements alone drive the body"})
+        .add("poisson", &FemOptions::poisson, {.lowest = 0, .highest = 0.4999999, .meaning = "Poisson's ratio"})
+        .add("density_kg_m3", &FemOptions::density_kg_m3,
+             {.unit = "kg/m^3", .lowest = 0, .highest = 1e6, .meaning = "density, for gravity and dynamics"})
+        .add("gravity_m_s2", &FemOptions::gravity_m_s2, {.unit = "m/s^2", .meaning = "gravity on the reference"})
+        .add("dynamics", &FemOptions::dynamics,
+             {.meaning = "time integration: quasi_static (equilibrium in every frame), newmark (average acceleration), generalized_alpha"});
+}
+
+// One key, two members.
+void add_rayleigh_key(OptionFields<FemOptions>& fields)
+{
+    const auto read = [](FemOptions& options, const SceneValues& values, const std::string& path) {
+        const std::vector<double> rayleigh = values.numbers(path);
+        if (rayleigh.size() != 2) values.refuse(path, "expected two numbers, [mass, stiffness]");
+        options.rayleigh_mass_1_s = rayleigh[0];
+        options.rayleigh_stiffness_s = rayleigh[1];
+    };
+    const auto write = [](const FemOptions& options, nlohmann::json& record) {
+        record["rayleigh"] = {options.rayleigh_mass_1_s, options.rayleigh_stiffness_s};
+    };
+    const FemOptions by_default;
+    fields.add("rayleigh", KeyType::numbers, {by_default.rayleigh_mass_1_s, by_default.rayleigh_stiffness_s},
+               {.unit = "1/s, s",
+                .lowest = 0,
+                .highest = 1e6,
+                .meaning = "Rayleigh damping [mass, stiffness]: C = mass M + stiffness K(rest); without dynamics, zero"},
+               read, write);
+}
+
+void add_solution_keys(OptionFields<FemOptions>& fields)
+{
+    fields
+        .add(
+            "attachment", &FemOptions::attachment,
+            {.meaning = "embedded: bones as rigid capsules tied to the flesh by springs; nodes: whole tets inside the capsules prescribed; "
+                        "bind: the paper's bind constraint as an energy on every vertex, for nonlinear models"})
+        .add("core_radius", &FemOptions::core_radius,
+             {.lowest = 0.01, .highest = 1, .meaning = "radius of the bone's capsule over the local limb radius"})
+        .add("spring_factor", &FemOptions::spring_factor,
+             {.lowest = 1e-3,
+              .highest = 1e9,
+              .meaning = "q: the attachment's density is q E / r^2, r the capsule's radius (embedded) or the local limb radius (bind)"})
+        .add("solver", &FemOptions::solver,
+             {.meaning = "cholmod; umfpack is the second opinion on the linear model; cg_ml: conjugate gradients with algebraic multigrid, "
+                         "linear model, for what a factor does not fit in memory for"})
+        .add("most_newton_steps", &FemOptions::most_newton_steps,
+             {.lowest = 0,
+              .highest = 1e9,
+              .meaning =
+                  "nonlinear model, dynamics quasi_static: a stage of the way to a pose that has taken so many of Newton's steps ends, "
+                  "and the pose is not reached; 0: no limit"})
+        .add("nested_start", &FemOptions::nested_start,
+             {.meaning =
+                  "element_order 2 or a refined character, nonlinear model: to a pose in which a bone is turned by more than 15 degrees "
+                  "from "
+                  "the last, Newton's iterations start from the solution with order 1, of the unrefined one: a shorter way to the same "
+                  "solution"});
+}
+
+// Rules that more than one key takes part in.
+void check(const SceneValues& values, const std::string& table, const FemOptions& options)
+{
+    const bool linear = options.model == reference_fem::Model::linear;
+    const bool quasi_static = options.dynamics == reference_fem::Dynamics::quasi_static;
+    if (linear && options.attachment == FemAttachment::bind)
+        values.refuse(table + ".attachment", "expected embedded or nodes with model linear: the bind constraint is not linear");
+    if (!linear && options.solver != reference_fem::LinearSolver::cholmod)
+        values.refuse(table + ".solver",
+                      "expected cholmod with a nonlinear model: Newton must be told of a matrix that is not positive definite");
+    if (options.formulation == reference_fem::Formulation::taylor_hood)
+        if (!linear || !quasi_static || options.element_order != 2 || !(options.poisson > 0.0) ||
+            options.solver == reference_fem::LinearSolver::cg_ml)
+            values.refuse(
+                table + ".formulation",
+                "expected taylor_hood only with model linear, dynamics quasi_static, element_order 2, poisson > 0 and a direct solver");
+    if (quasi_static && (options.rayleigh_mass_1_s > 0.0 || options.rayleigh_stiffness_s > 0.0))
+        values.refuse(table + ".rayleigh", "expected [0, 0] with dynamics quasi_static: nothing moves there that could be damped");
+    if (options.nested_start && (linear || !quasi_static || (options.element_order != 2 && values.integer("character.refine") == 0)))
+        values.refuse(table + ".nested_start",
+                      "expected false unless element_order is 2 or character.refine > 0, the model nonlinear and dynamics quasi_static");
+    if (!quasi_static && !(options.density_kg_m3 > 0.0)) values.refuse(table + ".density_kg_m3", "expected a density > 0 with dynamics");
+}
+
+}  // namespace
+
+const OptionFields<FemOptions>& fem_fields()
+{
+    static const OptionFields<FemOptions> fields = [] {
+        OptionFields<FemOptions> declared("fem", true);
+        add_material_keys(declared);
+        add_rayleigh_key(declared);
+        add_solution_keys(declared);
+        return declared;
+    }();
+    return fields;
+}
+
+void read_fem(const SceneValues& values, const std::string& table, DeformerSpec& spec)
+{
+    const auto is_plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
+    if (spec.name.empty() || !std::all_of(spec.name.begin(), spec.name.end(), is_plain) || spec.name.starts_with("pbs"))
+        values.refuse(table + ".name", "expected letters, digits and underscores, not beginning with pbs: it names files");
+    const FemOptions options = fem_fields().read(values, table);
+    check(values, table, options);
+    spec.options = options;
+}
+
+}  // namespace experiments

@@ -1,0 +1,85 @@
+#include "experiments/scene/scene_keys.hpp"
+
+namespace experiments {
+namespace {
+
+using enum KeyType;
+
+SceneKey key(std::string table, std::string name, KeyType type, std::string default_json, std::string unit, std::string meaning)
+{
+    return {.table = std::move(table),
+            .name = std::move(name),
+            .type = type,
+            .default_json = std::move(default_json),
+            .unit = std::move(unit),
+            .meaning = std::move(meaning)};
+}
+SceneKey within(SceneKey entry, double lowest, double highest)
+{
+    entry.lowest = lowest;
+    entry.highest = highest;
+    return entry;
+}
+SceneKey one_of(SceneKey entry, std::vector<std::string> choices)
+{
+    entry.choices = std::move(choices);
+    return entry;
+}
+
+}  // namespace
+
+std::vector<SceneKey> character_and_motion_keys()
+{
+    return {
+        within(key("", "schema", integer, "", "", "version of this format"), 1, 1),
+        one_of(key("character", "body", text, "\"\"", "",
+                   "built-in limb, bar or ring (with a handle), human (MakeHuman's body from Debian's assimp-testmodels), or man, lady, "
+                   "frankie (`pbskin fetch`); empty: from files"),
+               {"", "limb", "bar", "ring", "human", "man", "lady", "frankie"}),
+        key("character", "mesh", text, "\"\"", "", "tet mesh file, relative to the scene: .msh .vtu .vtk .mesh .ele"),
+        key("character", "skeleton", text, "\"\"", "",
+            "skeleton file, relative to the scene: .toml with [[joint]] tables, or a clip's zero pose (.bvh .gltf .glb .fbx)"),
+        within(key("character", "skeleton_scale", number, "1.0", "m", "metres a unit of the skeleton file; CMU's clips: 0.0254 / 0.45"),
+               above_zero, 1e6),
+        within(key("character", "vertices", integer, "0", "", "wanted number of vertices of a named body; 0: its own default"), 0, 1e7),
+        within(key("character", "refine", integer, "0", "",
+                   "how often every tet is cut into eight (8 and 64 times the tets); bones' sizes stay, the other metrics are of the finer "
+                   "mesh"),
+               0, 2),
+        key("motion", "joint", text, "\"\"", "", "the joint a sweep turns"),
+        key("motion", "axis", vec3, "[1.0, 0.0, 0.0]", "", "axis of a sweep in rest world axes"),
+        within(key("motion", "angle_deg", number, "0.0", "deg", "angle of a sweep's last frame; frame i has angle_deg * i / (frames - 1)"),
+               -7200, 7200),
+        within(key("motion", "frames", integer, "18", "", "frames of a sweep, the rest pose included"), 2, 1e6),
+        key("motion", "clip", text, "\"\"", "",
+            "motion capture clip: relative to the scene, or by name from Debian's assimp-testmodels (01_01.bvh)"),
+        within(key("motion", "start_s", number, "0.0", "s", "where in the clip the motion starts, its T-pose frame dropped"), 0, 1e6),
+        within(key("motion", "duration_s", number, "0.0", "s", "how much of the clip is played; 0: to its end"), 0, 1e6),
+        within(key("motion", "rate_hz", number, "100.0", "1/s", "frames a second; rate_hz * pbs.time_step_s must be 1/n: n steps a frame"),
+               1e-3, 1e5),
+        within(key("pbs", "time_step_s", number, "0.01", "s", "time step of Algorithm 1"), 1e-9, 1e3),
+        key("skinning", "weights", text, "\"paper\"", "", "paper (Eq. 2), rigid (nearest bone), or a CSV file vertex,joint,weight"),
+    };
+}
+
+std::vector<SceneKey> output_keys()
+{
+    return {
+        key("reference", "name", text, "\"\"", "", "the deformer that errors are measured against; empty: none"),
+        one_of(
+            key("reference", "error_bar", text, "\"none\"", "",
+                "the reference's own discretisation error beside the deformers' errors: orders (solved again with the other element order "
+                "on the same tets: cheap for order 2), refined (on tets cut into eight: some 30 times the time of order 2), both (three "
+                "solutions, the order of convergence observed); bounds by the grid convergence index, see run.json"),
+            {"none", "orders", "refined", "both"}),
+        key("deformers", "use", texts, "[\"lbs\", \"pbs\"]", "",
+            "what moves the character: names of `pbskin list deformers` and of the [[fem]] tables"),
+        within(key("output", "frames_every", integer, "1", "", "write every n-th frame as VTU; 0: none"), 0, 1e9),
+        within(key("output", "frames", integers, "[]", "", "further frames to write, by number"), 0, 1e9),
+        key("output", "frame_names", texts, "[]", "", "what `frames` show, in the same order: titles of stills"),
+        key("output", "metrics", texts, "[\"all\"]", "",
+            "groups of metrics beyond the volume columns: errors, sections, surface, all; [] leaves them out"),
+    };
+}
+
+}  // namespace experiments

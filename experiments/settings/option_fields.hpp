@@ -1,0 +1,193 @@
+// The fields of an options struct, each declared once: its key in a scene, its default, range and meaning, and its name in a record.
+//   static const auto fields = OptionFields<XpbdOptions>("xpbd")
+//                                  .add("young_pa", &XpbdOptions::young_pa, {.unit = "Pa", .lowest = above_zero, .meaning = "..."})
+//                                  .record("substeps", &XpbdOptions::substeps);
+//   fields.keys()               the keys, for a schema; the defaults are those of XpbdOptions{}
+//   fields.read(values, "xpbd") the options as a scene states them
+//   fields.json(options)        all fields by name, for a record
+// A member is a number, a truth value, a text, a Vec3, or an enumeration with OptionNames.
+#pragma once
+
+#include "experiments/settings/option_names.hpp"
+#include "experiments/settings/scene_values.hpp"
+#include "pbs/geometry/types.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace experiments {
+
+// A member's value as JSON: an enumeration by its word.
+template <typename Value>
+nlohmann::json option_json(const Value& value)
+{
+    if constexpr (std::is_enum_v<Value>)
+        return name_of(value);
+    else if constexpr (std::is_same_v<Value, pbs::Vec3>)
+        return {value.x(), value.y(), value.z()};
+    else
+        return value;
+}
+
+template <typename Value>
+constexpr KeyType key_type()
+{
+    if constexpr (std::is_same_v<Value, bool>)
+        return KeyType::boolean;
+    else if constexpr (std::is_same_v<Value, int>)
+        return KeyType::integer;
+    else if constexpr (std::is_same_v<Value, double>)
+        return KeyType::number;
+    else if constexpr (std::is_same_v<Value, pbs::Vec3>)
+        return KeyType::vec3;
+    else
+        return KeyType::text;
+}
+
+template <typename Value>
+Value read_option(const SceneValues& values, const std::string& path)
+{
+    if constexpr (std::is_enum_v<Value>)
+        return option_of<Value>(values.text(path));
+    else if constexpr (std::is_same_v<Value, pbs::Vec3>)
+        return pbs::Vec3::Map(values.numbers(path).data());
+    else if constexpr (std::is_same_v<Value, bool>)
+        return values.boolean(path);
+    else if constexpr (std::is_same_v<Value, int>)
+        return values.integer(path);
+    else if constexpr (std::is_same_v<Value, double>)
+        return values.number(path);
+    else
+        return values.text(path);
+}
+
+// The words that an enumeration may have in a scene; none for other types.
+template <typename Value>
+std::vector<std::string> choices_of()
+{
+    std::vector<std::string> choices;
+    if constexpr (std::is_enum_v<Value>)
+        for (const auto& [value, name] : OptionNames<Value>::table) choices.emplace_back(name);
+    return choices;
+}
+
+struct FieldText {
+    std::string unit = {};
+    double lowest = -infinite, highest = infinite;
+    bool is_stated = false;  // a scene has to state it: there is no default
+    std::string meaning = {};
+};
+
+template <typename Options>
+class OptionFields {
+public:
+    using Reader = std::function<void(Options& options, const SceneValues& values, const std::string& path)>;
+    using Writer = std::function<void(const Options& options, nlohmann::json& record)>;
+
+    explicit OptionFields(std::string table, bool in_list = false) : table_(table), root_(std::move(table)), in_list_(in_list) {}
+
+    // The fields that follow are in this table within the first one: they are read only where a scene has it.
+    OptionFields& in_table(const std::string& name)
+    {
+        table_ = root_ + "." + name;
+        return *this;
+    }
+
+    template <typename Member>
+    OptionFields& add(const std::string& name, Member Options::*member, const FieldText& text)
+    {
+        SceneKey key = key_of(name, key_type<Member>(), text, option_json(Options{}.*member));
+        key.choices = choices_of<Member>();
+        return add(
+            key,
+            [member](Options& options, const SceneValues& values, const std::string& path) {
+                options.*member = read_option<Member>(values, path);
+            },
+            [name, member](const Options& options, nlohmann::json& record) { record[name] = option_json(options.*member); });
+    }
+
+    // A key that is kept in another way than in one member.
+    OptionFields& add(const std::string& name, KeyType type, const nlohmann::json& default_value, const FieldText& text, Reader read,
+                      Writer write)
+    {
+        return add(key_of(name, type, text, default_value), std::move(read), std::move(write));
+    }
+
+    // A key that somebody else reads.
+    OptionFields& key(const std::string& name, KeyType type, const nlohmann::json& default_value, const FieldText& text)
+    {
+        return add(key_of(name, type, text, default_value), nullptr, nullptr);
+    }
+
+    // A member that no scene sets: studies do.
+    template <typename Member>
+    OptionFields& record(const std::string& name, Member Options::*member)
+    {
+        fields_.push_back(
+            {{}, nullptr, [name, member](const Options& options, nlohmann::json& json) { json[name] = option_json(options.*member); }});
+        return *this;
+    }
+
+    std::vector<SceneKey> keys() const
+    {
+        std::vector<SceneKey> keys;
+        for (const Field& field : fields_)
+            if (!field.key.name.empty()) keys.push_back(field.key);
+        return keys;
+    }
+
+    // `table`: the fields' own, or one of a list, e.g. fem.0.
+    Options read(const SceneValues& values, const std::string& table) const
+    {
+        Options options;
+        for (const Field& field : fields_) {
+            const bool is_there = field.key.table == root_ || values.has_table(field.key.table);
+            if (field.read && is_there) field.read(options, values, table + field.key.path().substr(root_.size()));
+        }
+        return options;
+    }
+
+    nlohmann::json json(const Options& options) const
+    {
+        nlohmann::json record = nlohmann::json::object();
+        for (const Field& field : fields_)
+            if (field.write) field.write(options, record);
+        return record;
+    }
+
+private:
+    struct Field {
+        SceneKey key;  // without a name: none
+        Reader read;
+        Writer write;
+    };
+
+    OptionFields& add(SceneKey key, Reader read, Writer write)
+    {
+        fields_.push_back({std::move(key), std::move(read), std::move(write)});
+        return *this;
+    }
+
+    SceneKey key_of(const std::string& name, KeyType type, const FieldText& text, const nlohmann::json& default_value) const
+    {
+        return {.table = table_,
+                .name = name,
+                .type = type,
+                .default_json = text.is_stated ? "" : default_text(default_value),
+                .unit = text.unit,
+                .lowest = text.lowest,
+                .highest = text.highest,
+                .meaning = text.meaning,
+                .in_list = in_list_};
+    }
+
+    std::string table_, root_;
+    bool in_list_;
+    std::vector<Field> fields_;
+};
+
+}  // namespace experiments

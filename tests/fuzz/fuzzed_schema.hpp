@@ -1,0 +1,18 @@
+// The keys of the scenes that are fuzzed: all types of value, tables in tables and lists of tables. The registry is left out, for it would
+// bring every deformer into the instrumented program.
+#pragma once
+
+#include "experiments/deformers/fem/fem_settings.hpp"
+#include "experiments/deformers/pbs/pbs_settings.hpp"
+#include "experiments/scene/scene_keys.hpp"
+
+inline const experiments::SceneSchema& fuzzed_schema()
+{
+    static const experiments::SceneSchema schema = [] {
+        experiments::SceneSchema all{experiments::character_and_motion_keys()};
+        for (const auto& keys : {experiments::pbs_fields().keys(), experiments::fem_fields().keys(), experiments::output_keys()})
+            all.keys.insert(all.keys.end(), keys.begin(), keys.end());
+        return all;
+    }();
+    return schema;
+}
