@@ -7,13 +7,13 @@ claim's bounds and its verdict are. Nobody types it.
 import csv
 import json
 import pathlib
+import re
 import sys
 import tomllib
 
 import entries
 import readme_claims
 import readme_part
-import record_shapes
 import records
 
 experiments = readme_part.source / "experiments"
@@ -87,22 +87,21 @@ def number(bound):
     return "" if bound is None or abs(bound) >= 1e9 else f"{bound:g}"
 
 
-def claim_lines(claim, judged):
-    row = dict(zip(readme_claims.columns, cells(readme_claims.row_of(judged))))
+def claim_lines(claim, row):
+    """row: column of README's table of claims -> its text."""
     result = [f"Study: [{claim['study']}](../../studies/{claim['study']}/README.md). Verdict: **{row['verdict']}**.", ""]
     return [*result, *bound_lines(claim), *([f"Measured: {row['measured']}.", ""] if row["measured"] else [])][:-1]
 
 
-def cells(line):
-    return [cell.strip() for cell in line.strip().strip("|").split(" | ")]
+def judged_claims(results):
+    """README's table of claims: id -> column -> text."""
+    rows = [re.split(r"(?<!\\)\|", line)[1:-1] for line in readme_claims.table_lines(results)[2:]]
+    return {row[0].strip(): dict(zip(readme_claims.columns, map(str.strip, row))) for row in rows}
 
 
 def pages(results):
     """Each page with the lines that stand in it."""
-    file = results / "claims.json"
-    if not file.is_file():
-        raise records.RecordsMissing(f"{file}: not there: `pbskin reproduce --judge -o {results}` writes it")
-    judged = {claim["id"]: claim for claim in record_shapes.read(file, record_shapes.claims)["claims"]}
+    judged = judged_claims(results)
     found = {studies / study / "README.md": study_lines(study, results) for study in study_names()}
     for claim in listed_claims():
         found[claim_pages / f"{claim['id']}.md"] = claim_lines(claim, judged[claim["id"]])

@@ -1,5 +1,7 @@
 #include "tests/architecture/include_laws.hpp"
 
+#include <algorithm>
+#include <optional>
 #include <regex>
 
 namespace architecture {
@@ -8,21 +10,69 @@ namespace {
 struct Law {
     std::string folder;
     std::vector<std::string> may_include;
+    std::vector<std::string> but_not = {};
 };
 
+// The first whose folder holds a file is the file's law.
 const std::vector<Law> laws = {
     {"pbs/geometry/", {"pbs/geometry/"}},
     {"pbs/skinning/", {"pbs/geometry/", "pbs/skinning/"}},
     {"pbs/constraints/", {"pbs/geometry/", "pbs/constraints/"}},
     {"pbs/solver/", {"pbs/geometry/", "pbs/constraints/", "pbs/solver/"}},
     {"pbs/character/", {"pbs/"}},
-    {"reference_fem/", {"pbs/geometry/", "reference_fem/"}},
+    {"reference_fem/verification/", {"pbs/geometry/", "reference_fem/"}},
+    {"reference_fem/", {"pbs/geometry/", "reference_fem/"}, {"reference_fem/verification/"}},
+    {"analysis/records/", {"pbs/geometry/", "analysis/records/"}},
     {"analysis/", {"pbs/geometry/", "analysis/"}},
     {"experiments/", {"pbs/", "reference_fem/", "analysis/", "experiments/"}},
     {"tests/", {"pbs/", "reference_fem/", "analysis/", "experiments/", "tests/"}},
 };
 const std::vector<std::string> ours = {"pbs/", "reference_fem/", "analysis/", "experiments/", "tests/", "paper_figures/"};
 const std::string generated = "generated/";  // written by the build
+
+// The folders of experiments from the bottom up. A file includes its own folder and lower ones; folders of one line do not include each
+// other.
+const std::vector<std::vector<std::string>> layers = {
+    {"experiments/process/"},
+    {"experiments/settings/"},
+    {"experiments/deformers/"},
+    {"experiments/scene/"},
+    {"experiments/run/"},
+    {"experiments/studies/shared/"},
+    {"experiments/studies/"},   // its own files: study.hpp, the list of studies, plans and costs
+    {"experiments/studies/*"},  // the folder of each study
+    {"experiments/verdicts/", "experiments/distributed/", "experiments/sweeps/"},
+    {"experiments/command_line/"},
+};
+const std::string includes_studies = "experiments/studies/ambiguity/";  // measures each claim by the functions of the claim's own study
+
+// "experiments/studies/volume/" of "experiments/studies/volume/study.cpp"; of any other file the first two folders; "" of none.
+std::string room_of(const std::string& path)
+{
+    const std::string studies = "experiments/studies/";
+    const std::size_t from = path.starts_with(studies) ? studies.size() : std::string("experiments/").size();
+    const std::size_t end = path.find('/', from);
+    if (end != std::string::npos) return path.substr(0, end + 1);
+    return path.starts_with(studies) ? studies : "";
+}
+
+// The place of a room in `layers`; nothing where no layer has it.
+std::optional<std::size_t> layer_of(const std::string& room)
+{
+    std::optional<std::size_t> of_studies;
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        if (std::find(layers[i].begin(), layers[i].end(), room) != layers[i].end()) return i;
+        if (layers[i].front() == "experiments/studies/*" && room.starts_with("experiments/studies/")) of_studies = i;
+    }
+    return of_studies;
+}
+
+bool may_include(const std::string& room, const std::string& other)
+{
+    const auto layer = layer_of(room), other_layer = layer_of(other);
+    const bool both_studies = other_layer == layer_of("experiments/studies/*");
+    return room == other || (other_layer && *other_layer < *layer) || (room == includes_studies && both_studies);
+}
 
 const Law* law_for(const std::string& path)
 {
@@ -57,8 +107,26 @@ Violations include_direction(const SourceTree& tree)
             continue;
         }
         for (const Include& include : includes_of(text))
-            if (starts_with_any(include.target, ours) && !starts_with_any(include.target, law->may_include))
+            if (starts_with_any(include.target, ours) &&
+                (!starts_with_any(include.target, law->may_include) || starts_with_any(include.target, law->but_not)))
                 violations.push_back(at(path, include.line, law->folder + " may not include " + include.target));
+    }
+    return violations;
+}
+
+Violations layer_direction(const SourceTree& tree)
+{
+    Violations violations;
+    for (const auto& [path, text] : tree) {
+        if (!is_cpp(path) || !path.starts_with("experiments/")) continue;
+        const std::string room = room_of(path);
+        if (!layer_of(room)) {
+            violations.push_back(at(path, 1, "in a folder of experiments that no layer knows"));
+            continue;
+        }
+        for (const Include& include : includes_of(text))
+            if (include.target.starts_with("experiments/") && !may_include(room, room_of(include.target)))
+                violations.push_back(at(path, include.line, room + " may not include " + include.target));
     }
     return violations;
 }

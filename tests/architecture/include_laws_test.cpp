@@ -9,6 +9,10 @@ TEST(IncludeLaws, PointOneWay)
 {
     expect_lawful(include_direction);
 }
+TEST(IncludeLaws, ExperimentsPointOneWay)
+{
+    expect_lawful(layer_direction);
+}
 TEST(IncludeLaws, AreWrittenFromTheRootInQuotes)
 {
     expect_lawful(include_form);
@@ -50,6 +54,60 @@ TEST(IncludeLawsBite, TheMethodIncludesTests)
 TEST(IncludeLawsBite, SourcesInAFolderNobodyKnows)
 {
     expect_found(include_direction, {{"extras/x.cpp", ""}}, "no include law knows");
+}
+
+TEST(IncludeLawsBite, TheReferenceIncludesItsVerification)
+{
+    expect_found(include_direction, {{"reference_fem/x.cpp", "#include \"reference_fem/verification/a.hpp\"\n"}},
+                 "reference_fem/ may not include reference_fem/verification/a.hpp");
+}
+
+TEST(IncludeLawsBite, RecordsIncludeVerdicts)
+{
+    expect_found(include_direction, {{"analysis/records/x.cpp", "#include \"analysis/verdict.hpp\"\n"}},
+                 "analysis/records/ may not include analysis/verdict.hpp");
+}
+
+TEST(IncludeLawsBite, AStudyIncludesAnother)
+{
+    expect_found(layer_direction, {{"experiments/studies/stiffness/x.cpp", "\n#include \"experiments/studies/fit/a.hpp\"\n"}},
+                 "experiments/studies/stiffness/x.cpp:2: experiments/studies/stiffness/ may not include experiments/studies/fit/a.hpp");
+}
+
+TEST(IncludeLawsBite, AmbiguityAloneIncludesStudies)
+{
+    const SourceTree planted = {{"experiments/studies/ambiguity/x.cpp",
+                                 "#include \"experiments/studies/jiggle/a.hpp\"\n#include \"experiments/verdicts/b.hpp\"\n"}};
+    expect_found(layer_direction, planted, "x.cpp:2: experiments/studies/ambiguity/ may not include experiments/verdicts/b.hpp");
+}
+
+TEST(IncludeLawsBite, WhatStudiesShareIncludesAStudy)
+{
+    expect_found(layer_direction, {{"experiments/studies/shared/x.cpp", "#include \"experiments/studies/volume/a.hpp\"\n"}},
+                 "experiments/studies/shared/ may not include");
+}
+
+TEST(IncludeLawsBite, EachLayerIncludesTheNext)
+{
+    const std::vector<std::string> rooms = {"process",        "settings", "deformers",      "scene",    "run",
+                                            "studies/shared", "studies",  "studies/volume", "verdicts", "command_line"};
+    for (std::size_t i = 0; i + 1 < rooms.size(); ++i) {
+        const std::string lower = "experiments/" + rooms[i] + "/", upper = "experiments/" + rooms[i + 1] + "/";
+        expect_found(layer_direction, {{lower + "x.hpp", "#include \"" + upper + "a.hpp\"\n"}}, lower + " may not include " + upper);
+        EXPECT_TRUE(layer_direction({{upper + "x.hpp", "#include \"" + lower + "a.hpp\"\n"}}).empty()) << upper;
+    }
+}
+
+TEST(IncludeLawsBite, SweepsAndVerdictsStandBesideEachOther)
+{
+    expect_found(layer_direction, {{"experiments/verdicts/x.cpp", "#include \"experiments/distributed/a.hpp\"\n"}},
+                 "experiments/verdicts/ may not include experiments/distributed/");
+}
+
+TEST(IncludeLawsBite, AFolderOfExperimentsWithoutALayer)
+{
+    expect_found(layer_direction, {{"experiments/extras/x.cpp", ""}}, "no layer knows");
+    expect_found(layer_direction, {{"experiments/x.cpp", ""}}, "no layer knows");
 }
 
 TEST(IncludeLawsBite, RelativeInclude)
