@@ -11,10 +11,9 @@ import sys
 import tomllib
 
 import entries
-import readme_claims
 import readme_part
-import record_shapes
 import records
+import sentences
 
 experiments = readme_part.source / "experiments"
 studies = experiments / "studies"
@@ -77,7 +76,7 @@ def bound_lines(claim):
     bounds = {bound["quantity"]: bound for bound in claim.get("bounds", [])}
     low, high = (claim.get(key, claim.get(f"{key}_pct")) for key in ("low", "high"))
     rows = []
-    for quantity in claim.get("metrics", []):
+    for quantity in claim.get("metrics", []) if claim["rule"] != "printed" else []:  # there each value has bounds of its own
         bound = bounds.get(quantity, {"low": low, "high": high})
         rows.append(f"| `{quantity}` | {number(bound.get('low'))} | {number(bound.get('high'))} |")
     return ["| judged quantity | least | most |", "|---|---|---|", *rows, ""] if rows else []
@@ -88,13 +87,9 @@ def number(bound):
 
 
 def claim_lines(claim, judged):
-    row = dict(zip(readme_claims.columns, cells(readme_claims.row_of(judged))))
-    result = [f"Study: [{claim['study']}](../../studies/{claim['study']}/README.md). Verdict: **{row['verdict']}**.", ""]
-    return [*result, *bound_lines(claim), *([f"Measured: {row['measured']}.", ""] if row["measured"] else [])][:-1]
-
-
-def cells(line):
-    return [cell.strip() for cell in line.strip().strip("|").split(" | ")]
+    verdict, measured = sentences.names[judged["verdict"]], sentences.measured_in_line(judged).replace("\u2212", "-")
+    result = [f"Study: [{claim['study']}](../../studies/{claim['study']}/README.md). Verdict: **{verdict}**.", ""]
+    return [*result, *bound_lines(claim), *([f"Measured: {measured}.", ""] if measured else [])][:-1]
 
 
 def pages(results):
@@ -102,7 +97,7 @@ def pages(results):
     file = results / "claims.json"
     if not file.is_file():
         raise records.RecordsMissing(f"{file}: not there: `pbskin reproduce --judge -o {results}` writes it")
-    judged = {claim["id"]: claim for claim in record_shapes.read(file, record_shapes.claims)["claims"]}
+    judged = {claim["id"]: claim for claim in sentences.claims_of(file)}
     found = {studies / study / "README.md": study_lines(study, results) for study in study_names()}
     for claim in listed_claims():
         found[claim_pages / f"{claim['id']}.md"] = claim_lines(claim, judged[claim["id"]])

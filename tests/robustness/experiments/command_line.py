@@ -52,7 +52,7 @@ class CommandLine(program.ProgramTest):
         for claim, text in texts.items():
             self.assertTrue(text.startswith(f"{claim}: "), text)
             self.assertNotRegex(text, r"<!--|\]\(|`")
-        self.assertEqual(self.succeeds("explain", "damping ratio").stdout, texts["C09"])
+        self.assertEqual(self.succeeds("explain", "damping_ratio").stdout, texts["C09"])
         self.assertEqual(self.succeeds("explain", "volume_loss_pct").stdout, texts["C01"])
 
     def test_explains_a_formula_with_its_symbols_within_the_terminals_width(self):
