@@ -99,6 +99,18 @@ void find_extremes(const std::vector<double>& values, CaseJudgement& result)
     result.most = broken ? not_known : *std::max_element(values.begin(), values.end());
 }
 
+CaseKey key_of(const CaseRecord& record)
+{
+    CaseKey key = record.place;
+    if (key.body.empty()) key.body = record.scene;
+    key.deformer = record.deformer;
+    key.variant = record.variant == "default" ? "" : record.variant;
+    key.order = record.order;
+    key.precision = record.precision;
+    if (record.iterations > 0) key.iterations = record.iterations;
+    return key;
+}
+
 }  // namespace
 
 CaseJudgement judge_case(const Claim& claim, const CaseRecord& record, const std::string& metric)
@@ -111,6 +123,7 @@ CaseJudgement judge_case(const Claim& claim, const CaseRecord& record, const std
     result.deformer = record.deformer;
     result.variant = record.variant;
     result.metric = metric;
+    result.of = key_of(record);
     result.run = record.run;
     result.iterations = record.iterations;
     result.frames = static_cast<int>(values.size());

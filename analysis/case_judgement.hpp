@@ -20,9 +20,10 @@ struct FailingFrame {
     double frame = 0.0, time_s = 0.0, angle_deg = 0.0, value = 0.0, inverted_tets = 0.0;  // value: of the metric; angle_deg NaN for clips
 };
 
-// A record without frames gives extent none and figures of 0.
+// A record without frames gives extent none and values of 0.
 struct CaseJudgement {
     std::string scene, deformer, variant, metric, run;  // as in the record; the metric as the claim names it
+    CaseKey of = {};                                    // body, motion, deformer and settings of the record
     ClaimRule rule = ClaimRule::share_within;           // share_within or mean_within
     int iterations = 0, frames = 0;                     // iterations a step, 0: the deformer has none; frames judged
     bool sweep = false;                                 // of angles, not a clip
@@ -38,9 +39,5 @@ struct CaseJudgement {
 
 // By the claim's low, high, share, part and level. InputError as metric_series.
 CaseJudgement judge_case(const Claim& claim, const CaseRecord& record, const std::string& metric);
-
-std::string case_name(const CaseJudgement& judgement);      // limb_twist, or limb_twist (jiggle)
-std::string short_text(const CaseJudgement& judgement);     // limb_twist up to 116 of 170 deg;  walk (6.2 % of frames within)
-std::string measured_text(const CaseJudgement& judgement);  // with intervals, ranges and the worst frame
 
 }  // namespace analysis

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
 #include <map>
 
 namespace analysis {
@@ -80,10 +82,29 @@ std::vector<PrintedFigure> printed_figures(const std::string& csv)
     const CsvTable table = read_csv(csv);
     std::vector<PrintedFigure> figures;
     for (int row = 0; row < table.rows(); ++row)
-        figures.push_back({table.text_at(row, "claim"), table.text_at(row, "what"), table.number(row, "printed"),
+        figures.push_back({table.text_at(row, "claim"), table.text_at(row, "quantity"), case_key(table, row), table.number(row, "printed"),
                            table.number(row, "least"),
                            table.number_or_nothing(row, "most").value_or(std::numeric_limits<double>::infinity())});
     return figures;
+}
+
+CsvTable printed_table(const std::vector<PrintedFigure>& figures)
+{
+    std::vector<const CaseKey*> keys;
+    for (const PrintedFigure& figure : figures) keys.push_back(&figure.of);
+    const auto fields = used_fields(keys);
+    std::vector<std::string> columns = {"claim", "quantity"};
+    for (const CaseKeyField* field : fields) columns.emplace_back(field->name);
+    columns.insert(columns.end(), {"printed", "least", "most"});
+    CsvTable table(columns);
+    for (const PrintedFigure& figure : figures) {
+        std::vector<CsvTable::Cell> cells = {figure.claim, figure.quantity};
+        for (const CaseKeyField* field : fields) cells.push_back(cell_of(*field, figure.of));
+        cells.insert(cells.end(), {CsvTable::Cell(figure.printed), CsvTable::Cell(figure.least),
+                                   std::isinf(figure.most) ? CsvTable::Cell(std::nullopt) : CsvTable::Cell(figure.most)});
+        table.add_row(cells);
+    }
+    return table;
 }
 
 std::vector<double> metric_series(const CaseRecord& record, const std::string& metric)

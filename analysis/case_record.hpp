@@ -1,6 +1,7 @@
 // What a verdict is computed from: the frames of each case as they were written down.
 #pragma once
 
+#include "analysis/case_key.hpp"
 #include "analysis/records/csv_table.hpp"
 
 #include <string>
@@ -11,13 +12,14 @@ namespace analysis {
 // One deformer on one scene: a row of metrics.csv a frame.
 struct CaseRecord {
     std::string scene, deformer, variant;          // as in metrics.csv; the variant may be empty or "default"
+    CaseKey place = {};                            // body and motion of the scene; empty where its study's plan does not give them
     std::string order = "", precision = "";        // of projection; both empty: the deformer has none
     int iterations = 0;                            // 0: the deformer has none
     std::vector<double> frame, time_s, angle_deg;  // #frames each; angle_deg is empty for clips
     int frames_not_converged = 0;                  // left out of the series
     std::vector<double> volume_change_pct, volume_abs_change_pct, inverted_tets;  // #frames each, by FrameMetrics
     std::string run;                                                              // the folder it came from, as to be named in reports
-    bool beside = false;  // the same body and motion once more (another mesh, another reference): shown, no part of a verdict
+    bool beside = false;  // the same body and motion once more (another mesh, another reference): reported, no part of a verdict
 
     bool is_sweep() const { return !angle_deg.empty(); }  // of one joint through angle_deg
 };
@@ -27,21 +29,30 @@ struct LeftOut {
     std::string scene, reason;  // the reason in words, for reports
 };
 
-// A figure in print and the bounds that other figures of the paper put on it.
+// A value in print and the bounds that other values of the paper put on it: a row of printed.csv.
 struct PrintedFigure {
     std::string claim;                              // its id
-    std::string what;                               // the figure in words
+    std::string quantity;                           // snake_case
+    CaseKey of;                                     // the row of Table 1 or the equation
     double printed = 0.0, least = 0.0, most = 0.0;  // in print, and its bounds; most may be infinite
+
+    bool is_consistent() const { return least <= printed && printed <= most; }
 };
 
-// A figure that a study measured for a claim: a row of measurements.csv.
+// What a value says of the quantity where a tolerance was not reached: the quantity is at least or at most that value, or more than it.
+enum class Limit { none, at_least, at_most, more_than };
+
+// A value that a study measured for a claim: a row of measurements.csv.
 struct Measurement {
     std::string claim;                          // its id
     std::string quantity;                       // as the claim's `metrics` name it
-    std::string of;                             // the case: character, pose, setting
+    CaseKey of;                                 // the case: character, pose, setting
     double value = 0.0, low = 0.0, high = 0.0;  // in `unit`, with its interval; where there is none, low and high are the value
     std::string unit;                           // 1 where there is none
     std::string run = {};                       // the folder it came from
+    Limit limit = Limit::none;                  // of the value
+    int n = 0;                                  // settings, cells or comparisons that it is computed from; 0: one
+    int not_reached = 0;                        // of these n, those in which no initial guess reaches the tolerance
 };
 
 // All that a claim is judged from.
@@ -60,9 +71,10 @@ struct Records {
 // InputError for a missing column, for what is no number, and for a case with angles in some frames only. run: for CaseRecord::run.
 std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string& run);
 
-// The figures of a file printed.csv: claim, what, printed, least, most; an empty most is no bound. InputError as read_csv, for a missing
-// column and what is no number.
+// The rows of a file printed.csv: claim, quantity, fields of the key, printed, least, most; an empty most is no bound. InputError as
+// read_csv, for a missing column and what is no number.
 std::vector<PrintedFigure> printed_figures(const std::string& csv);
+CsvTable printed_table(const std::vector<PrintedFigure>& figures);  // what printed_figures() reads
 
 // The series that a metric of a claim names, #frames; InputError for an unknown name or a record with series of different lengths.
 std::vector<double> metric_series(const CaseRecord& record, const std::string& metric);

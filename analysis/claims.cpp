@@ -22,6 +22,27 @@ const std::map<std::string, ClaimRule> rules = {{"share_within", ClaimRule::shar
 
 const std::set<std::string> measurable = {"volume_loss_pct", "volume_change_pct", "volume_abs_change_pct"};
 
+// of = { deformer = "pbs", ... }
+CaseKey read_key(TomlKeys& claim, const std::string& file)
+{
+    claim.mark_read("of");
+    const toml::node* node = claim.node("of");
+    CaseKey key;
+    if (!node) return key;
+    if (!node->is_table()) claim.refuse("of", "expected { field = value }");
+    TomlKeys fields(*node->as_table(), file, "key");
+    for (const CaseKeyField& field : case_key_fields()) {
+        if (field.text)
+            fields.optional(field.name, key.*field.text);
+        else if (double value = 0.0; fields.has(field.name)) {
+            fields.optional(field.name, value);
+            key.*field.number = value;
+        }
+    }
+    fields.require_nothing_unknown();
+    return key;
+}
+
 // [{ quantity, low, high }, ...]
 std::vector<QuantityBound> read_bounds(TomlKeys& claim, const std::string& file)
 {
@@ -63,8 +84,11 @@ void require_judgeable(const Claim& claim, const TomlKeys& reader)
     if (measured && claim.metrics.empty()) reader.refuse("metrics", "expected at least one");
     if (measured && !(claim.low <= claim.high)) reader.refuse("low", "expected low <= high");
     if (measured) require_bounds(claim, reader);
+    if (!case_key_field(claim.subject)) reader.refuse("subject", "expected a field of a key, as body or masses");
+    for (const std::string& field : claim.each)
+        if (!case_key_field(field)) reader.refuse("each", field + ": expected fields of a key, as body, deformer or joint");
     for (const auto& metric : claim.metrics)
-        if (!measured && !measurable.contains(metric))
+        if (by_records && !measurable.contains(metric))
             reader.refuse("metrics", fmt::format("{}: expected one of {}", metric, fmt::join(measurable, ", ")));
     if (by_records && claim.deformer.empty()) reader.refuse("deformer", "missing in this claim");
     if (by_records && !(claim.low < claim.high)) reader.refuse("low_pct", "expected low_pct < high_pct");
@@ -88,7 +112,11 @@ Claim read_claim(const toml::table& table, const std::string& file)
     reader.required("rule", rule);
     reader.optional("metrics", claim.metrics);
     reader.optional("deformer", claim.deformer);
-    reader.optional("beside", claim.beside);
+    claim.of = read_key(reader, file);
+    reader.optional("subject", claim.subject);
+    reader.optional("each", claim.each);
+    reader.optional("compared", claim.compared);
+    reader.optional("reported", claim.reported);
     reader.optional("orders", claim.orders);
     claim.bounds = read_bounds(reader, file);
     reader.optional("iterations", claim.iterations);
@@ -109,21 +137,58 @@ Claim read_claim(const toml::table& table, const std::string& file)
     return claim;
 }
 
+// [quantity] NAME = { title, unit }
+std::vector<Quantity> read_quantities(const toml::table& document, const std::string& file)
+{
+    std::vector<Quantity> quantities;
+    const toml::node* node = document.get("quantity");
+    if (!node) return quantities;
+    if (!node->is_table()) throw InputError(file, static_cast<int>(node->source().begin.line), "quantity", "", "expected a table");
+    for (const auto& [name, entry] : *node->as_table()) {
+        if (!entry.is_table())
+            throw InputError(file, static_cast<int>(entry.source().begin.line), std::string(name.str()), "", "expected { title, unit }");
+        TomlKeys keys(*entry.as_table(), file, "quantity");
+        Quantity& quantity = quantities.emplace_back();
+        quantity.name = name.str();
+        keys.required("title", quantity.title);
+        keys.required("unit", quantity.unit);
+        keys.require_nothing_unknown();
+    }
+    return quantities;
+}
+
+std::vector<Quantity> named_by(const Claim& claim, const std::vector<Quantity>& quantities)
+{
+    std::vector<Quantity> named;
+    for (const auto& names : {claim.metrics, claim.reported})
+        for (const std::string& name : names)
+            for (const Quantity& quantity : quantities)
+                if (quantity.name == name) named.push_back(quantity);
+    return named;
+}
+
 }  // namespace
 
 std::vector<Claim> parse_claims(const std::string& text, const std::string& file)
 {
-    const toml::table document = parse_toml_document(text, file, {"check", "claim"});
+    const toml::table document = parse_toml_document(text, file, {"check", "claim", "quantity"});
     const std::vector<const toml::table*> tables = toml_tables(document, "claim", file);
     if (tables.empty()) throw InputError(file, 0, "claim", "", "expected [[claim]] tables");
+    const std::vector<Quantity> quantities = read_quantities(document, file);
     std::vector<Claim> claims;
     for (const toml::table* table : tables) {
         claims.push_back(read_claim(*table, file));
+        claims.back().quantities = named_by(claims.back(), quantities);
         const auto same = [&](const Claim& other) { return other.id == claims.back().id; };
         if (std::count_if(claims.begin(), claims.end(), same) > 1)
             throw InputError(file, static_cast<int>(table->source().begin.line), "id", claims.back().id, "expected each claim once");
     }
     return claims;
+}
+
+const char* name_of(ClaimRule rule)
+{
+    return std::find_if(rules.begin(), rules.end(), [&](const auto& entry) { return entry.second == rule; })->first.c_str();
 }
 
 }  // namespace analysis

@@ -1,5 +1,5 @@
-// Verdicts as files: claims.json for programs, claims.md for pages.
-//   write_text_atomically(folder + "/claims.json", claims_json(verdicts).dump(2) + "\n");
+// Verdicts as files: claims.json holds the facts for programs, claims.md the most important of them as a table.
+//   write_text_atomically(folder + "/claims.json", claims_json(verdicts, revision).dump(2) + "\n");
 //   write_text_atomically(folder + "/claims.md", claims_markdown(verdicts));
 #pragma once
 
@@ -9,15 +9,18 @@
 
 namespace analysis {
 
-// {"schema": 1, "claims": [{id, statement, place, study, expected, verdict, text, measured, interval, interval_of, runs, cases, beside,
-// orders}]};
-// figures that are not known are null.
-nlohmann::json claims_json(const std::vector<Verdict>& verdicts);
+// {"schema": 2, "revision", "quantities": {NAME: {"title", "unit"}}, "claims": [{id, statement, place, study, rule, verdict, ...}]}: facts
+// alone, no sentence. Fields of a key (case_key.hpp) are members of what they belong to; values that are not known or not finite are null.
+// revision: of the program that judged.
+nlohmann::json claims_json(const std::vector<Verdict>& verdicts, const std::string& revision);
 
-// A table with the columns id, statement, expected, measured, interval, verdict, runs: one row a claim, and under it one a case, which has
-// its name, metric and where the claim holds in the columns statement, expected and verdict.
+// A table with one row per claim: id, verdict, how many of its values hold, and the primary value with its interval, bound and case.
 std::string claims_markdown(const std::vector<Verdict>& verdicts);
 
-std::string expected_text(const Claim& claim);  // 14 % (12 to 16 %)
+// The primary value in columns of text; all are empty where there is none.
+struct PrimaryTexts {
+    std::string quantity, value, interval, bound, of;  // volume_change_pct, share_of_frames; 0.42; [0.31, 0.5]; 0.95 to 1; human, 01_01
+};
+PrimaryTexts texts_of_primary(const Verdict& verdict);
 
 }  // namespace analysis

@@ -1,7 +1,5 @@
 #include "analysis/claims_table.hpp"
 
-#include "analysis/case_row.hpp"
-#include "analysis/case_texts.hpp"
 #include "analysis/claims_report.hpp"
 #include "analysis/text_columns.hpp"
 
@@ -39,49 +37,40 @@ const char* colour_of(VerdictKind kind)
 }
 
 struct Layout {
-    std::size_t id, verdict, statement, found;
+    std::size_t id, verdict, statement, facts;
 };
 
 Layout layout_of(const std::vector<Verdict>& verdicts, std::size_t width)
 {
-    Layout layout = {.id = 2, .verdict = 14, .statement = 0, .found = 0};
+    Layout layout = {.id = 2, .verdict = 14, .statement = 0, .facts = 0};
     for (const Verdict& verdict : verdicts) layout.id = std::max(layout.id, characters(verdict.claim.id));
     const std::size_t rest = std::max<std::size_t>(width, 60) - layout.id - layout.verdict - 6;
     layout.statement = rest * 2 / 5;
-    layout.found = rest - layout.statement;
+    layout.facts = rest - layout.statement;
     return layout;
 }
 
-// By the claim's own metric: a clip's share of frames or its mean and range, a sweep's angles.
-std::string case_line(const Claim& claim, const CaseJudgement& judged)
+std::string spoken(VerdictKind kind)
 {
-    constexpr std::array<const char*, 3> extents = {"no", "in part", "yes"};
-    const CaseRow row = case_row(claim, judged);
-    const std::string figures = judged.sweep                            ? row.holds
-                                : claim.rule == ClaimRule::share_within ? row.interval + inverted_text(judged)
-                                                                        : row.measured + inverted_text(judged);
-    return fmt::format("{}: {}, {}\n", row.name, extents[static_cast<std::size_t>(judged.extent)], figures);
+    std::string name = name_of(kind);
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
 }
 
-// A line a case; of figures, a line for what holds and one for what does not.
-std::string found_text(const Verdict& verdict)
+// One line each: how many values hold; the primary value with its bound; its case; what is missing.
+std::string facts_text(const Verdict& verdict)
 {
-    std::string text;
-    for (const CaseJudgement& judged : verdict.cases)
-        if (judged.metric == verdict.claim.metrics.front()) text += case_line(verdict.claim, judged);
-    if (!text.empty()) return text;
-    text = verdict.summary;
-    if (text.starts_with(label(verdict.kind))) text.erase(0, label(verdict.kind).size());
-    text.erase(0, std::min(text.find_first_not_of(": "), text.size()));
-    for (const char* part : {"; not for ", "; farthest: ", "; beside it: "})
-        if (const std::size_t place = text.find(part); place != std::string::npos) text.replace(place, 2, "\n");
-    return verdict.measured.empty() ? text : verdict.measured + "\n" + text;
-}
-
-std::string statement_text(const Verdict& verdict)
-{
-    const std::string expected = expected_text(verdict.claim);
-    return fmt::format("{} ({}){}", verdict.claim.statement, verdict.claim.place, expected.empty() ? "" : "\nexpected: " + expected);
+    std::vector<std::string> lines;
+    if (verdict.n > 0) lines.push_back(fmt::format("within the bound: {} of {}", verdict.within, verdict.n));
+    if (const PrimaryTexts primary = texts_of_primary(verdict); !primary.value.empty()) {
+        const std::string interval = primary.interval.empty() ? "" : " " + primary.interval;
+        lines.push_back(fmt::format("{}: {}{}; bound {}", primary.quantity, primary.value, interval, primary.bound));
+        if (!primary.of.empty()) lines.push_back(fmt::format("of: {}", primary.of));
+    }
+    if (!verdict.claim.reason.empty()) lines.push_back("reason: " + verdict.claim.reason);
+    if (!verdict.missing.empty()) lines.push_back(fmt::format("no record: {}", fmt::join(verdict.missing, ", ")));
+    for (const LeftOut& out : verdict.left_out) lines.push_back(fmt::format("left out: {}: {}", out.scene, out.reason));
+    return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
 std::string counts_text(const std::vector<Verdict>& verdicts)
@@ -91,7 +80,7 @@ std::string counts_text(const std::vector<Verdict>& verdicts)
         const auto same = [kind](const Verdict& verdict) { return verdict.kind == kind; };
         const auto count = std::count_if(verdicts.begin(), verdicts.end(), same);
         const char* rest = kind == VerdictKind::reproduced_only_for ? " some" : "";
-        if (count > 0) counts.push_back(fmt::format("{} {}{}", count, label(kind), rest));
+        if (count > 0) counts.push_back(fmt::format("{} {}{}", count, spoken(kind), rest));
     }
     return fmt::format("{} claim{}: {}", verdicts.size(), verdicts.size() == 1 ? "" : "s", fmt::join(counts, ", "));
 }
@@ -102,13 +91,13 @@ std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width
 {
     const Layout layout = layout_of(verdicts, width);
     const std::size_t whole = std::max<std::size_t>(width, 60);
-    std::string table = side_by_side({{"", layout.id}, {"verdict", layout.verdict}, {"claim", layout.statement}, {"found", layout.found}});
+    std::string table = side_by_side({{"", layout.id}, {"verdict", layout.verdict}, {"claim", layout.statement}, {"facts", layout.facts}});
     table += std::string(whole, '-') + "\n";
     for (const Verdict& verdict : verdicts)
         table += side_by_side({{verdict.claim.id, layout.id},
-                               {label(verdict.kind), layout.verdict, colours ? colour_of(verdict.kind) : ""},
-                               {statement_text(verdict), layout.statement},
-                               {found_text(verdict), layout.found}}) +
+                               {spoken(verdict.kind), layout.verdict, colours ? colour_of(verdict.kind) : ""},
+                               {fmt::format("{} ({})", verdict.claim.statement, verdict.claim.place), layout.statement},
+                               {facts_text(verdict), layout.facts}}) +
                  "\n";
     for (const std::string& line : wrapped(counts_text(verdicts), whole)) table += line + "\n";
     return table;

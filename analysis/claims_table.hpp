@@ -6,9 +6,9 @@
 
 namespace analysis {
 
-// Columns claim, verdict, statement (with what was asked for) and what was found, wrapped so that no line is longer than `width`
-// characters (below 60: 60); under it how many claims have which verdict. colours: green reproduced, yellow in part, red not, magenta
-// inconsistent, grey otherwise. Each case's figures stand in claims_markdown.
+// Columns claim, verdict, statement and facts: how many values lie within the bound, and the primary value with its interval, bound and
+// case. Wrapped so that no line is longer than `width` characters (below 60: 60). The last lines count the verdicts. colours: green for
+// reproduced, yellow in part, red not, magenta inconsistent, grey otherwise. claims.json holds all values.
 std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width, bool colours);
 
 }  // namespace analysis

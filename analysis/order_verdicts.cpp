@@ -1,7 +1,5 @@
 #include "analysis/order_verdicts.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace analysis {
@@ -38,8 +36,7 @@ void add_case(const Claim& claim, const CaseRecord& other, const CaseRecord& own
     for (const std::string& metric : claim.metrics) {
         verdict.cases.push_back(judge_case(claim, other, metric));
         verdict.own_cases.push_back(judge_case(claim, own, metric));
-        if (verdict.cases.back().extent != verdict.own_cases.back().extent)
-            verdict.differing.push_back(fmt::format("{} by {}", other.scene, metric));
+        if (verdict.cases.back().extent != verdict.own_cases.back().extent) verdict.differing.push_back(verdict.cases.size() - 1);
     }
 }
 
@@ -58,38 +55,6 @@ std::vector<OrderVerdict> judge_orders(const Claim& claim, const Records& record
         verdict.own_kind = kind_of(claim, verdict.own_cases);
     }
     return verdicts;
-}
-
-std::string name_of(const OrderVerdict& verdict)
-{
-    return verdict.order + " " + verdict.precision;
-}
-
-std::string measured_in(const OrderVerdict& verdict)
-{
-    std::vector<std::string> entries;
-    for (const CaseJudgement& judged : verdict.cases)
-        if (judged.metric == verdict.cases.front().metric) entries.push_back(short_text(judged));
-    return fmt::format("{}", fmt::join(entries, ", "));
-}
-
-std::string text_of(const OrderVerdict& verdict)
-{
-    if (verdict.same()) return "the same verdict";
-    const std::string where = fmt::format("{}", fmt::join(verdict.differing, ", "));
-    if (verdict.kind == verdict.own_kind) return fmt::format("{} elsewhere ({})", label(verdict.kind), where);
-    return fmt::format("{} instead of {} ({})", label(verdict.kind), label(verdict.own_kind), where);
-}
-
-std::string text_of(const std::vector<OrderVerdict>& verdicts)
-{
-    std::vector<std::string> same, parts;
-    for (const OrderVerdict& verdict : verdicts)
-        if (verdict.same()) same.push_back(name_of(verdict));
-    if (!same.empty()) parts.push_back(fmt::format("the same in {}", fmt::join(same, ", ")));
-    for (const OrderVerdict& verdict : verdicts)
-        if (!verdict.same()) parts.push_back(fmt::format("another in {}: {}", name_of(verdict), text_of(verdict)));
-    return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 }  // namespace analysis

@@ -6,7 +6,7 @@ import math
 import entries
 import records
 import style
-from report.markup import figure, span
+from number_words import figure, span
 
 ladders = {"ladder_twist": "twist 90\u00b0", "ladder_bend": "bend 90\u00b0"}
 panels = [("residual_24", "last_residual", "combined residual [1]"),

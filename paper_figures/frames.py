@@ -7,7 +7,7 @@ import recorded_frames
 import records
 import rendering
 import style
-from report.markup import span
+from number_words import span
 
 pixels = (560, 800)  # of a still
 most_stills = 4

@@ -4,7 +4,7 @@ parameter at all; the elements beside swing almost undamped."""
 import entries
 import records
 import style
-from report.markup import figure, listed, span
+from number_words import figure, listed, span
 
 columns = {"deformer", "k_stretch", "time_step_ms", "iterations", "masses", "k_bind", "outcome", "frequency_hz", "frequency_low_hz",
            "frequency_high_hz", "damping_ratio", "damping_low", "damping_high", "young_pa"}

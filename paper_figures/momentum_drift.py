@@ -5,23 +5,20 @@ import entries
 import records
 import style
 
-quantities = {"linear drift": "linear momentum", "angular drift": "angular momentum", "taken by the bones: linear drift": "linear momentum",
-              "taken by the bones: angular drift": "angular momentum"}
-masses = {"equal masses": "equal masses", "unequal masses (weighted)": "unequal, weighted",
-          "unequal masses (Eq. 8-9 for m = 1)": "unequal, Eq. 8\u20139"}
+quantities = {"linear_drift": "linear momentum", "angular_drift": "angular momentum", "linear_drift_taken_by_bones": "linear momentum",
+              "angular_drift_taken_by_bones": "angular momentum"}
+masses = {"equal": "equal masses", "unequal": "unequal, weighted", "unequal_by_eq_8_9": "unequal, Eq. 8\u20139"}
 bodies = ("limb", "human")
 looks = {("limb", "f32"): (style.vermillion, "v", "limb, f32"), ("limb", "f64"): (style.vermillion, "^", "limb, f64"),
          ("human", "f32"): (style.blue, "o", "human, f32"), ("human", "f64"): (style.blue, "s", "human, f64")}
 
 
 def rows_of(file, body):
-    """One row a class, masses and precision: `of` reads "equal masses, limb, stretch, f32"."""
-    found = []
-    for row in records.table(file, {"quantity", "of", "value"}):
-        parts = row["of"].split(", ")
-        if row["quantity"] in quantities and len(parts) == 4 and parts[0] in masses and parts[1] == body:
-            found.append({"momentum": quantities[row["quantity"]], "masses": parts[0], "body": body, "constraints": parts[2],
-                          "precision": parts[3], "drift": row["value"]})
+    """One row per class of constraints, masses and precision: of single projections."""
+    found = [{"momentum": quantities[row["quantity"]], "masses": row["masses"], "body": body, "constraints": row["constraint"],
+              "precision": row["precision"], "drift": row["value"]}
+             for row in records.table(file, {"quantity", "body", "masses", "constraint", "precision", "value"})
+             if row["quantity"] in quantities and row["body"] == body]
     if not found:
         raise records.RecordsMissing(f"{file}: no drift of {body}")
     return found

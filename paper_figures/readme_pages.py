@@ -12,9 +12,9 @@ import sys
 import tomllib
 
 import entries
-import readme_claims
 import readme_part
 import records
+import sentences
 
 experiments = readme_part.source / "experiments"
 studies = experiments / "studies"
@@ -77,7 +77,7 @@ def bound_lines(claim):
     bounds = {bound["quantity"]: bound for bound in claim.get("bounds", [])}
     low, high = (claim.get(key, claim.get(f"{key}_pct")) for key in ("low", "high"))
     rows = []
-    for quantity in claim.get("metrics", []):
+    for quantity in claim.get("metrics", []) if claim["rule"] != "printed" else []:  # there each value has bounds of its own
         bound = bounds.get(quantity, {"low": low, "high": high})
         rows.append(f"| `{quantity}` | {number(bound.get('low'))} | {number(bound.get('high'))} |")
     return ["| judged quantity | least | most |", "|---|---|---|", *rows, ""] if rows else []
@@ -87,21 +87,18 @@ def number(bound):
     return "" if bound is None or abs(bound) >= 1e9 else f"{bound:g}"
 
 
-def claim_lines(claim, row):
-    """row: column of README's table of claims -> its text."""
-    result = [f"Study: [{claim['study']}](../../studies/{claim['study']}/README.md). Verdict: **{row['verdict']}**.", ""]
-    return [*result, *bound_lines(claim), *([f"Measured: {row['measured']}.", ""] if row["measured"] else [])][:-1]
-
-
-def judged_claims(results):
-    """README's table of claims: id -> column -> text."""
-    rows = [re.split(r"(?<!\\)\|", line)[1:-1] for line in readme_claims.table_lines(results)[2:]]
-    return {row[0].strip(): dict(zip(readme_claims.columns, map(str.strip, row))) for row in rows}
+def claim_lines(claim, judged):
+    verdict, measured = sentences.names[judged["verdict"]], sentences.measured_in_line(judged).replace("\u2212", "-")
+    result = [f"Study: [{claim['study']}](../../studies/{claim['study']}/README.md). Verdict: **{verdict}**.", ""]
+    return [*result, *bound_lines(claim), *([f"Measured: {measured}.", ""] if measured else [])][:-1]
 
 
 def pages(results):
     """Each page with the lines that stand in it."""
-    judged = judged_claims(results)
+    file = results / "claims.json"
+    if not file.is_file():
+        raise records.RecordsMissing(f"{file}: not there: `pbskin reproduce --judge -o {results}` writes it")
+    judged = {claim["id"]: claim for claim in sentences.claims_of(file)}
     found = {studies / study / "README.md": study_lines(study, results) for study in study_names()}
     for claim in listed_claims():
         found[claim_pages / f"{claim['id']}.md"] = claim_lines(claim, judged[claim["id"]])

@@ -3,7 +3,8 @@
     run = record_shapes.read(folder / "run.json", record_shapes.run)
 
 A shape is a Rule for a single value; {"key": shape, "other?": shape} for an object, of which `other` may be missing and what is not named
-here is not looked at; {"*": shape} for an object of any keys; [shape] for a list; (shape, shape) for a list of so many.
+here is not looked at; {"*": shape} for an object of any keys; [shape] for a list; (shape, shape) for a list of so many; Cases for an object
+of one of two shapes; OrNull for a shape or null.
 """
 import json
 import sys
@@ -19,6 +20,19 @@ most_shown = 60  # characters of a value
 class Rule:
     words: str
     holds: Callable
+
+
+@dataclass(frozen=True)
+class Cases:
+    """An object of one shape where it has this member, else of another shape."""
+    member: str
+    having: object
+    other: object
+
+
+@dataclass(frozen=True)
+class OrNull:
+    shape: object
 
 
 def one_of(*words):
@@ -47,6 +61,11 @@ def check(file, value, shape, field=""):
     if isinstance(shape, Rule):
         if not shape.holds(value):
             refuse(file, field, value, shape.words)
+    elif isinstance(shape, Cases):
+        check(file, value, shape.having if isinstance(value, dict) and shape.member in value else shape.other, field)
+    elif isinstance(shape, OrNull):
+        if value is not None:
+            check(file, value, shape.shape, field)
     elif isinstance(shape, dict):
         if not isinstance(value, dict):
             refuse(file, field, value, "an object")
@@ -91,16 +110,34 @@ posed_run = {"work?": {"settings?": {"scene?": {"pbs?": {"k_stretch?": number}}}
 
 plan = {"extent?": text, "runs": [{"name": text}], "left_out?": [{"scene": text, "reason": text}]}
 
+extent = one_of("whole", "part", "none")
+verdict = one_of("reproduced", "reproduced_only_for", "not_reproduced", "inconsistent_in_print", "cannot_be_tested_here", "not_computable")
+key = {name + "?": text for name in ("body", "motion", "pose", "joint", "deformer", "variant", "reference", "order", "precision", "masses",
+                                     "constraint", "initial_guess", "tolerance", "load", "ladder", "factor", "second_factor", "model",
+                                     "equation", "gradient_of", "reading")}
+key |= {name + "?": number for name in ("angle_deg", "time_s", "vertices", "vertices_to", "k_stretch", "k_stretch_to", "k_bind", "young_pa",
+                                        "iterations", "iterations_to", "time_step_s", "time_step_to_s")}
 interval = {"estimate": figure, "low": figure, "high": figure}
-case = {"deformer": text, "variant": text, "metric": text, "run": text, "holds": one_of("whole", "part", "none"), "mean": interval,
-        "share_of_frames": interval, "angles_deg": [(number, number)], "least": figure, "most": figure, "text": text,
-        "holding_with_inverted_tets": whole, "deepest": [{"time_s": figure, "angle_deg": figure, "value": figure}]}
-measurement = {"quantity": text, "of": text, "value": figure, "low": figure, "high": figure, "unit": text, "run": text,
-               "holds?": one_of("whole", "part", "none")}
-order = {"order": text, "precision": text, "verdict": text, "same": truth, "differing": [text]}
-claim = {"id": text, "statement": text, "place": text, "study": text, "expected": text, "verdict": text, "text": text, "measured": text,
-         "interval_of": text, "runs": [text], "cases": [case], "beside": [case], "orders": [order], "measurements": [measurement],
-         "measured_beside": [measurement]}
-claims = {"claims": [claim]}
+judged_frames = {"scene": text, "sweep": truth, "deformer": text, "mean": interval, "share_of_frames": interval, "last_angle_deg": figure,
+                 "held_angles_deg": [(number, number)], "least": figure, "most": figure, "holding_with_inverted_tets": whole,
+                 "deepest": [{"time_s": figure, "angle_deg": figure, "value": figure}]}  # of a run of a scene
+measured = {"value": figure, "low": figure, "high": figure, "quantity": text}
+value = key | measured | {"unit?": text, "run?": text, "holds?": extent, "limit?": one_of("at_least", "at_most", "more_than"), "n?": whole,
+                          "not_reached?": whole, "frames?": whole, "bound_low?": figure, "bound_high?": figure}
+run_of_a_scene = key | measured | judged_frames | {"unit": text, "run": text, "holds": extent, "frames": whole}
+a_value = Cases("frames", run_of_a_scene, Cases("bound_low", key | measured | {"bound_low": figure, "bound_high": figure, "holds": extent},
+                                                value | {"unit": text, "run": text}))
+primary = key | measured | {"unit": text, "statistic": one_of("share_of_frames", "mean", "value", "printed"), "bound_low": figure,
+                            "bound_high": figure}
+reading = {"order": text, "precision": text, "verdict": verdict, "own_verdict": verdict, "same": truth, "differing": [whole],
+           "cases": [run_of_a_scene]}
+claim = {"id": text, "statement": text, "place": text, "study": text,
+         "rule": one_of("share_within", "mean_within", "measured", "printed", "untestable"), "reason": text, "verdict": verdict,
+         "primary": OrNull(primary), "n": whole, "within": whole, "bounds": [{"quantity": text, "low": figure, "high": figure}],
+         "expected": figure, "subject": text, "subjects": [{"name": text, "within": whole, "n": whole, "holds": extent}], "each": [text],
+         "of": key, "cases": [a_value], "controls": [a_value], "readings": [reading], "left_out": [{"scene": text, "reason": text}],
+         "missing": [text], "runs": [text]}
+claims = {"schema": Rule("2", lambda value: value == 2 and value is not True), "quantities": {"*": {"title": text, "unit": text}},
+          "claims": [claim]}
 
 reliability = {"name": text, "count": number, "of": number, "command": text, "revision": text, "note?": text}

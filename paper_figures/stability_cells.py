@@ -5,7 +5,7 @@ import entries
 import outcomes
 import records
 import style
-from report.markup import listed
+from number_words import listed
 
 models = {"pbs": "PBS", "pbs_no_memory": "PBS, no\nmemory", "pbs_jiggle": "PBS,\njiggle", "xpbd": "XPBD",
           "xpbd_small_steps": "XPBD, small\nsteps", "fem_linear": "linear\nFEM", "fem_corotational": "corotat.\nFEM",

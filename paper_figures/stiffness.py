@@ -6,7 +6,7 @@ import sys
 import entries
 import records
 import style
-from report.markup import figure, listed
+from number_words import figure, listed
 
 bodies = [("bar", "cantilever", "bar, held at one end"), ("limb", "zone on held", "limb, flesh on a held core"),
           ("human", "zone on held", "human, flesh on a held core")]

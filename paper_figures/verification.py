@@ -5,7 +5,7 @@ import re
 import entries
 import records
 import style
-from report.markup import figure, span
+from number_words import figure, span
 
 looks = {"P1": (style.vermillion, "v"), "P2": (style.blue, "o"), "P2 mean dilatation": (style.orange, "s"),
          "P2 Taylor-Hood": (style.green, "D")}

@@ -3,7 +3,7 @@ human, single poses for the limb."""
 import entries
 import records
 import style
-from report.markup import figure
+from number_words import figure
 
 poses = [("limb_twist", 90, "limb, twist 90\u00b0"), ("limb_twist", 180, "limb, twist 180\u00b0"), ("limb_bend", 90, "limb, bend 90\u00b0"),
          ("limb_bend", 150, "limb, bend 150\u00b0")]

@@ -45,5 +45,7 @@ add_test(NAME unit/paper_figures/readme_part
 set_tests_properties(unit/paper_figures/readme_part PROPERTIES LABELS unit TIMEOUT 120)
 add_test(NAME unit/paper_figures/same_pose COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/same_pose_test.py)
 set_tests_properties(unit/paper_figures/same_pose PROPERTIES LABELS unit TIMEOUT 120)
+add_test(NAME unit/paper_figures/sentences COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/sentences_test.py)
+set_tests_properties(unit/paper_figures/sentences PROPERTIES LABELS unit TIMEOUT 120)
 add_test(NAME unit/paper_figures/whole_file COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/whole_file_test.py)
 set_tests_properties(unit/paper_figures/whole_file PROPERTIES LABELS unit TIMEOUT 120)

@@ -6,6 +6,7 @@
 #include "experiments/studies/shared/program_claims.hpp"
 #include "experiments/process/exit_status.hpp"
 #include "analysis/records/folder_files.hpp"
+#include "analysis/records/provenance.hpp"
 #include "experiments/verdicts/marked_frames.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/study_run.hpp"
@@ -146,11 +147,11 @@ std::vector<analysis::Verdict> verdicts_of(const Study& study, const std::string
 bool tell_verdicts(std::vector<analysis::Verdict> verdicts, const std::string& folder)
 {
     std::stable_sort(verdicts.begin(), verdicts.end(), [](const auto& one, const auto& other) { return one.claim.id < other.claim.id; });
-    analysis::write_text_atomically((fs::path(folder) / "claims.json").string(), analysis::claims_json(verdicts).dump(2) + "\n");
+    analysis::write_text_atomically((fs::path(folder) / "claims.json").string(),
+                                    analysis::claims_json(verdicts, analysis::collect_provenance(1).git_revision).dump(2) + "\n");
     analysis::write_text_atomically((fs::path(folder) / "claims.md").string(), analysis::claims_markdown(verdicts));
-    fmt::print("{}each case's figures: {}\nall on one page: pbskin report {}\n",
-               analysis::claims_table(verdicts, terminal_width(), terminal_has_colours()), (fs::path(folder) / "claims.md").string(),
-               folder);
+    fmt::print("{}all values: {}\nreport: pbskin report {}\n", analysis::claims_table(verdicts, terminal_width(), terminal_has_colours()),
+               (fs::path(folder) / "claims.json").string(), folder);
     return std::none_of(verdicts.begin(), verdicts.end(),
                         [](const auto& verdict) { return verdict.kind == analysis::VerdictKind::not_computable; });
 }

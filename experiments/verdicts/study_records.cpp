@@ -54,7 +54,29 @@ void require_record(const fs::path& run_json)
     pbs::JsonFile(run_json.string()).at("schema");
 }
 
-void add_run(analysis::Records& records, const fs::path& folder, const std::string& name, bool beside)
+// The limb's bones lie along x.
+std::string name_of_sweep(const Scene& scene)
+{
+    if (scene.character.body != "limb") return "turn";
+    return scene.motion.axis.normalized().cwiseAbs().x() > 0.5 ? "twist" : "bend";
+}
+
+analysis::CaseKey key_of(const Scene& scene)
+{
+    analysis::CaseKey key = {.body = scene.character.body, .joint = scene.motion.joint};
+    key.motion = scene.motion.clip.empty() ? name_of_sweep(scene) : fs::path(scene.motion.clip).stem().string();
+    if (scene.character.vertices > 0) key.vertices = scene.character.vertices;
+    return key;
+}
+
+// Body and motion of a run of a scene, as write_study_plan() writes them; empty where the plan has none.
+analysis::CaseKey place_of(const nlohmann::json& run, const std::string& file)
+{
+    if (!run.contains("of")) return {};
+    return analysis::case_key(run.at("of"), file);
+}
+
+void add_run(analysis::Records& records, const fs::path& folder, const std::string& name, const analysis::CaseKey& place, bool beside)
 {
     if (const fs::path printed = folder / "printed.csv"; fs::exists(printed))
         for (auto& figure : analysis::printed_figures(printed.string())) records.printed.push_back(std::move(figure));
@@ -66,6 +88,7 @@ void add_run(analysis::Records& records, const fs::path& folder, const std::stri
     if (const fs::path metrics = folder / "metrics.csv"; fs::exists(metrics))
         for (auto& record : analysis::case_records(analysis::read_csv(metrics.string()), name)) {
             record.beside = beside;
+            record.place = place;
             records.cases.push_back(std::move(record));
         }
 }
@@ -77,7 +100,10 @@ void write_study_plan(const std::string& folder, const StudyPlan& plan)
     auto runs = nlohmann::json::array(), left_out = nlohmann::json::array();
     for (const StudyRun& run : plan.runs) {
         nlohmann::json entry = {{"name", run.name}, {"cost_s", run.cost_s}};
-        if (!run.work) entry["scene"] = run.scene.name;
+        if (!run.work) {
+            entry["scene"] = run.scene.name;
+            entry["of"] = to_json_of(key_of(run.scene));
+        }
         if (run.beside) entry["beside"] = true;
         runs.push_back(entry);
     }
@@ -120,7 +146,7 @@ analysis::Records read_study_records(const std::string& folder, const std::strin
             continue;
         }
         require_record(of_run / "run.json");
-        add_run(records, of_run, of_run.lexically_relative(root).string(), plan.is_set(run, "beside"));
+        add_run(records, of_run, of_run.lexically_relative(root).string(), place_of(run, plan_file(folder)), plan.is_set(run, "beside"));
     }
     return records;
 }

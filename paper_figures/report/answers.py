@@ -1,13 +1,16 @@
 """The first screen: do the claims hold, when not, how far from the finite elements, at what cost. Every sentence is put together from
 claims.json, work_precision/*/points.csv, timing/timing.csv and the studies' costs."""
 import record_shapes
+import sentences
 from report import costs, verdicts
-from report.markup import Markup, counted, element, escaped, figure, items, joined, span, table
+from number_words import counted, figure, span
+from report.markup import Markup, element, escaped, items, joined, table
 from report.record_set import not_run, number
 from report.verdict_names import mark_of
 
-who = "Of each claim the bodies that it was tried on; in brackets how many of a body\u2019s figures are within the claim\u2019s bound."
-failing = ("not reproduced", "reproduced only for", "inconsistent in print", "not computable")
+who = ("Each entry lists the bodies that the claim was tried on; in brackets how many of a body\u2019s values lie within the claim\u2019s "
+       "bound.")
+failing = ("not_reproduced", "reproduced_only_for", "inconsistent_in_print", "not_computable")
 
 
 def do_they_hold(found):
@@ -18,7 +21,7 @@ def do_they_hold(found):
 
 
 def entry(claim, words):
-    """Mark, claim, statement; then the verdict by its name, and for whom or what beside it."""
+    """Mark, claim, statement; then the verdict by its name, and for whom or what was measured for comparison."""
     symbol, colour, name = mark_of(claim["verdict"])
     link = element("a", claim["id"], href=f"#{claim['id']}")
     sign = Markup(f'<span class="{colour}" aria-hidden="true">{symbol}</span>')
@@ -28,11 +31,11 @@ def entry(claim, words):
 
 
 def when_not(found):
-    """Every claim that does not hold throughout, with where it does; of those that hold what was measured beside."""
+    """Every claim that does not hold throughout, with where it does; for those that hold, what was measured for comparison."""
     failed = [claim for kind in failing for claim in found.claims or [] if claim["verdict"] == kind]
-    but = [claim for claim in found.claims or [] if claim["verdict"] == "reproduced" and verdicts.beside(claim)]
-    entries = [entry(claim, f": {verdicts.outcome(claim, in_short=True)}.") for claim in failed]
-    entries += [entry(claim, f"; beside it: {verdicts.beside(claim)}.") for claim in but]
+    compared = [claim for claim in found.claims or [] if claim["verdict"] == "reproduced" and sentences.controls(claim)]
+    entries = [entry(claim, f": {sentences.outcome(claim, in_short=True)}.") for claim in failed]
+    entries += [entry(claim, f"; for comparison: {sentences.controls(claim)}.") for claim in compared]
     if not entries:
         return element("p", "Every claim that could be tested is reproduced." if found.claims else "Not known without verdicts.")
     return joined([element("p", who, class_="who"), items(entries, "when")])

@@ -1,5 +1,6 @@
 """What the studies cost: processor time expected beforehand and taken, and wall time, from each study's costs.csv."""
-from report.markup import counted, details, element, figure, joined, table
+from number_words import counted, figure
+from report.markup import details, element, joined, table
 from report.record_set import number
 
 

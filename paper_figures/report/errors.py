@@ -1,7 +1,8 @@
 """How far the deformers are from nonlinear finite elements over whole sweeps and clips, from frame_statistics.csv."""
 import record_shapes
 import records
-from report.markup import beside_the_page, element, escaped, figure, folder_link, items, joined, span_of_thousandths, table
+from number_words import figure, span_of_thousandths
+from report.markup import beside_the_page, element, escaped, folder_link, items, joined, table
 from report.record_set import not_run, number
 
 shown = (("lbs", "LBS"), ("dqs", "DQS"), ("pbs", "PBS, 24 iterations"), ("snh_p1", "neo-Hookean FEM, P1"))

@@ -63,31 +63,3 @@ def folder_link(results, name):
 def beside_the_page(what):
     """To be said of links that a page takes nowhere: it travels alone."""
     return f"{what} beside this page: where it was moved without them, their links lead nowhere"
-
-
-def figure(value):
-    """Three digits, as in the table of claims; minus as a minus."""
-    if value is None or value != value:
-        return "\u2013"
-    digits = f"{value:.0f}" if 1000 <= abs(value) < 1e6 else f"{value:.3g}"
-    return digits.replace("-", "\u2212")
-
-
-def span(values, scale=1):
-    """6.44 to 13, or the one figure; None, which is not finite, is left out."""
-    known = [scale * value for value in values if value is not None]
-    low, high = figure(min(known, default=None)), figure(max(known, default=None))
-    return low if low == high else f"{low} to {high}"
-
-
-def span_of_thousandths(values):
-    return span([round(value, 3) for value in values if value is not None])
-
-
-def listed(parts, between=", "):
-    """In one line, or that there is none."""
-    return between.join(parts) or "none"
-
-
-def counted(number, one, many=None):
-    return f"{number} {one if number == 1 else many or one + 's'}"

@@ -1,5 +1,6 @@
 """Where the records come from: revision, machine, libraries, inputs; what was left out; licences of what is shown."""
-from report.markup import counted, details, element, escaped, items, joined, table
+from number_words import counted
+from report.markup import details, element, escaped, items, joined, table
 
 facts = {"version": "version", "git_revision": "revision", "compiler": "compiler", "flags": "flags", "build_type": "build",
          "cpu_model": "processor", "logical_cpus": "processors seen", "threads": "threads of a deformer"}

@@ -5,6 +5,7 @@
 """
 import record_shapes
 import records
+import sentences
 
 
 class RecordSet:
@@ -23,7 +24,7 @@ class RecordSet:
     def _claims(self):
         """None where no claim was judged."""
         file = self.results / "claims.json"
-        return record_shapes.read(file, record_shapes.claims)["claims"] if file.is_file() else None
+        return sentences.claims_of(file) if file.is_file() else None
 
     def run(self, name, shape):
         """The record of a run from which more is read than of all."""

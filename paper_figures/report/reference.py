@@ -1,25 +1,41 @@
-"""The finite element reference's own verification, where that study is on record: its table, and the notes below it."""
-import re
+"""The finite element reference's own verification, where that study is on record: its values, with the sources and the origins of bounds."""
+from number_words import counted, figure
+from report.markup import element, inline, joined, table
+from report.record_set import not_run, number
 
-import claims_table
-from report.markup import counted, element, inline, joined, table
-from report.record_set import not_run
+header = ["problem", "quantity", "elements", "material", "mesh", "degrees of freedom", "value", "reference", "unit", "difference [%]",
+          "order (theory)", "bounds", "holds", "notes"]
 
 
-def verdict(header, rows):
-    """Of the rows that have a bound, how many keep it."""
-    held = [row[header.index("holds")].strip() for row in rows]
-    bounded = [word for word in held if word]
-    return (f"{bounded.count('yes')} of {counted(len(bounded), 'figure')} with a bound set beforehand keep it; "
-            f"{len(held) - len(bounded)} more have none and are there to be seen.")
+def verdict(rows):
+    """How many of the values that have a bound keep it."""
+    bounded = [row["holds"] for row in rows if row["holds"]]
+    return (f"{bounded.count('yes')} of {counted(len(bounded), 'value')} with a bound set beforehand keep it; "
+            f"{len(rows) - len(bounded)} more have no bound and are reported only.")
+
+
+def notes_of(rows):
+    """Sources and origins of bounds, each once, in the order of the rows."""
+    return list(dict.fromkeys(row[column] for row in rows for column in ("source", "bound_from") if row[column]))
+
+
+def cells(row, notes):
+    ends = [number(row, "low"), number(row, "high")]
+    order = "" if number(row, "observed_order") is None else f"{number(row, 'observed_order'):.2f}"
+    theory = f" ({figure(number(row, 'expected_order'))})" if order and number(row, "expected_order") is not None else ""
+    difference = number(row, "difference_pct")
+    marks = [str(notes.index(row[column]) + 1) for column in ("source", "bound_from") if row[column]]
+    return [row["problem"], inline(row["quantity"] + (f" ({row['note']})" if row["note"] else "")), row["elements"], row["material"],
+            row["mesh"], row["dofs"], figure(number(row, "value")), figure(number(row, "reference")), row["unit"],
+            "" if difference is None else f"{difference:+.3g}".replace("-", "\u2212"), order + theory,
+            "" if ends == [None, None] else f"{figure(ends[0])} to {figure(ends[1])}", row["holds"], ", ".join(marks)]
 
 
 def section(found):
-    file = found.results / "verification" / "verification.md"
-    if not file.is_file():
+    rows = found.rows("verification/verification.csv")
+    if not rows:
         return element("p", f"The reference against theory and benchmarks is {not_run(found, 'verification')}.", class_="missing")
-    header, _, *rows = [claims_table.cells(line) for line in claims_table.lines_of_first_table(file)]
-    notes = [line.split(". ", 1)[1] for line in file.read_text().splitlines() if re.match(r"[0-9]+\. ", line)]
-    shown = table("The reference against theory and published benchmarks", header, [[inline(cell) for cell in row] for row in rows], "tall")
-    answer = element("p", verdict(header, rows), class_="answer")
+    notes = notes_of(rows)
+    shown = table("The reference against theory and published benchmarks", header, [cells(row, notes) for row in rows], "tall")
+    answer = element("p", verdict(rows), class_="answer")
     return joined([answer, shown, element("ol", joined(element("li", inline(note)) for note in notes)) if notes else ""])

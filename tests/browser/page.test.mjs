@@ -6,9 +6,9 @@ import { open_viewer, settle } from "./browser.mjs";
 import { claims, file, pictures, rows_of, undrawn } from "./records.mjs";
 import { rows_about, stand_in } from "./standing.mjs";
 
-const named = { "reproduced": "reproduced", "reproduced only for": "reproduced in part", "not reproduced": "not reproduced",
-                "inconsistent in print": "inconsistent in print", "cannot be tested here": "cannot be tested here",
-                "not computable": "not computable" };
+const named = { reproduced: "reproduced", reproduced_only_for: "reproduced in part", not_reproduced: "not reproduced",
+                inconsistent_in_print: "inconsistent in print", cannot_be_tested_here: "cannot be tested here",
+                not_computable: "not computable" };
 let opened, page;
 
 before(async () => {
@@ -22,14 +22,14 @@ test("the first screen answers four questions, as claims.json does", async () =>
     assert.deepEqual(await page.locator(".first-screen > .card > h2").allTextContents(),
                      ["Do the paper\u2019s claims hold?", "When not?", "How far from the finite elements?", "At what cost?"]);
     const answer = await page.locator(".card.hold .answer").textContent();
-    assert.ok(answer.startsWith(`Of ${claims.length} claims `), answer);
+    assert.ok(answer.startsWith(`There are ${claims.length} claims: `), answer);
     for (const [verdict, words] of Object.entries(named)) {
         const count = claims.filter((claim) => claim.verdict === verdict).length;
         const told = answer.match(new RegExp(`(\\d+) (?:is |are )?${words}(?=[,.])`));
         assert.equal(count, told ? Number(told[1]) : 0, `${verdict}: ${answer}`);
     }
-    const is_told = ({ verdict, measured_beside: beside }) =>
-        verdict === "reproduced" ? beside.length > 0 : verdict !== "cannot be tested here";
+    const is_told = ({ verdict, controls }) =>
+        verdict === "reproduced" ? controls.some((control) => !("frames" in control)) : verdict !== "cannot_be_tested_here";
     const told = claims.filter(is_told).map(({ id }) => id).sort();
     assert.deepEqual((await page.locator(".card.not .when > li > a").allTextContents()).sort(), told);
 });

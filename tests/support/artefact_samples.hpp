@@ -10,7 +10,8 @@ inline experiments::ArtefactCase small_limb(experiments::ArtefactCase::Claim cla
     experiments::ArtefactCase of;
     of.scene = experiments::read_scene("limb_bend", {"character.vertices=400", "motion.angle_deg=150", "motion.frames=6"});
     of.claim = claim;
-    of.poses = {{1, "bend 30 deg"}, {3, "bend 90 deg"}, {5, "bend 150 deg"}};
+    for (const int frame : {1, 3, 5})
+        of.poses.push_back({frame, "bend " + std::to_string(30 * frame) + " deg", {.motion = "bend", .angle_deg = 30.0 * frame}});
     return of;
 }
 

@@ -5,7 +5,7 @@ from bad_case import Case
 from bad_tets import NOISE
 
 PLAN = {"schema": 1, "extent": "quick", "runs": [{"name": "limb", "cost_s": 1}, {"name": "human", "cost_s": 1}], "left_out": []}
-MEASUREMENTS = "claim,quantity,of,value,low,high,unit\nC07,linear drift,limb,1e-6,1e-6,1e-6,1\nC07,linear drift,bar,2e-6,2e-6,2e-6,1\n"
+MEASUREMENTS = "claim,quantity,body,value,low,high,unit\nC07,linear_drift,limb,1e-6,1e-6,1e-6,1\nC07,linear_drift,bar,2e-6,2e-6,2e-6,1\n"
 RUN = json.dumps({"schema": 1, "provenance": {}})
 FILES = {"plan.json": json.dumps(PLAN), "limb/run.json": RUN, "limb/measurements.csv": MEASUREMENTS,
          "human/run.json": RUN, "human/measurements.csv": MEASUREMENTS}
@@ -60,7 +60,7 @@ def cases():
         yield Case(f"judge {name}", records, ["reproduce", "--judge", "-o", "records"], (f"records/momentum/{file}", judged))
         if reported is not None:
             yield Case(f"report {name}", records, ["report", "records"], (f"records/momentum/{file}", reported))
-    verdicts = {"records": study(FILES | {"../claims.json": json.dumps({"claims": "all hold"})})}
+    verdicts = {"records": study(FILES | {"../claims.json": json.dumps({"schema": 2, "quantities": {}, "claims": "all hold"})})}
     yield Case("report verdicts that are a text", verdicts, ["report", "records"],
                ('records/claims.json: claims = "all hold": expected a list',))
     yield Case("report of nothing", {}, ["report", "none"], ("none", "no such folder"))

@@ -50,13 +50,13 @@ inline experiments::Scene broken(experiments::Scene scene, Broken how)
     return scene;
 }
 
-// Those whose quantity and case hold the words.
+// Those of the quantity whose key has these fields.
 inline std::vector<analysis::Measurement> figures_of(const std::vector<analysis::Measurement>& measured, const std::string& quantity,
-                                                     const std::string& of = "")
+                                                     const analysis::CaseKey& of = {})
 {
     std::vector<analysis::Measurement> found;
     for (const analysis::Measurement& figure : measured)
-        if (figure.quantity.find(quantity) != std::string::npos && figure.of.find(of) != std::string::npos) found.push_back(figure);
+        if (figure.quantity == quantity && analysis::matches(figure.of, of)) found.push_back(figure);
     return found;
 }
 

@@ -26,9 +26,11 @@ std::string why(const JudgedFigure* a, const JudgedFigure* b, bool b_broke_down)
 {
     if (b_broke_down) return "B breaks down";
     if (!a || !b) return std::string(a ? "B" : "A") + " has no such figure";
-    std::string remarks = a->remark.empty() ? "" : "A: " + a->remark;
-    if (!b->remark.empty()) remarks += (remarks.empty() ? "B: " : "; B: ") + b->remark;
-    return remarks;
+    const auto limit = [](const char* which, const JudgedFigure& of) {
+        return of.limit == analysis::Limit::none ? "" : std::string(which) + ": " + analysis::name_of(of.limit);
+    };
+    const std::string of_a = limit("A", *a), of_b = limit("B", *b);
+    return of_a + (of_a.empty() || of_b.empty() ? "" : "; ") + of_b;
 }
 
 std::string flips(const JudgedFigure* a, const JudgedFigure* b, bool b_broke_down)
@@ -43,7 +45,7 @@ Cells compared(const JudgedFigure* a, const JudgedFigure* b, bool b_broke_down)
     const JudgedFigure& one = a ? *a : *b;
     const double nothing = std::nan(""), value_a = a ? a->value : nothing, value_b = b ? b->value : nothing;
     return {one.quantity,
-            one.of,
+            text_of(one.of),
             one.unit,
             one.bound,
             cell(a, value_a),

@@ -9,25 +9,13 @@
 namespace experiments {
 namespace {
 
-// What the study of convergence adds to `of` where a tolerance is not reached.
-constexpr const char* bounding_remarks[] = {"; at least so much", "; at most so much", "; more than so much"};
-
-void take_remark(JudgedFigure& figure)
-{
-    for (const std::string remark : bounding_remarks)
-        if (figure.of.ends_with(remark)) {
-            figure.remark = remark.substr(2);
-            figure.of.resize(figure.of.size() - remark.size());
-        }
-}
-
 JudgedFigure of_case(const analysis::Claim& claim, const analysis::CaseRecord& record, const std::string& metric)
 {
     const analysis::CaseJudgement judgement = analysis::judge_case(claim, record, metric);
     const bool of_share = claim.rule == analysis::ClaimRule::share_within;
     return {claim.id,
-            (of_share ? "share of frames within, " : "mean ") + metric,
-            record.scene,
+            (of_share ? "share_of_frames_by_" : "mean_") + metric,
+            {.body = record.scene},
             of_share ? "1" : "%",
             of_share ? analysis::bound_text({"", claim.share, 1.0}) : analysis::bound_text({"", claim.low, claim.high}),
             of_share ? judgement.share.estimate : judgement.mean.estimate,
@@ -66,10 +54,9 @@ std::vector<JudgedFigure> judged(const std::vector<analysis::Measurement>& measu
     std::vector<JudgedFigure> figures;
     for (const analysis::Measurement& one : measured) {
         const analysis::Claim& claim = claim_named(one.claim);
-        if (std::find(claim.metrics.begin(), claim.metrics.end(), one.quantity) == claim.metrics.end()) continue;
+        if (!analysis::is_judged(claim, one)) continue;
         figures.push_back({one.claim, one.quantity, one.of, one.unit, analysis::bound_text(analysis::bound_of(claim, one.quantity)),
-                           one.value, analysis::extent_of(claim, one)});
-        take_remark(figures.back());
+                           one.value, analysis::extent_of(claim, one), one.limit});
     }
     return figures;
 }

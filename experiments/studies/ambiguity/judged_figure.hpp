@@ -13,10 +13,12 @@
 namespace experiments {
 
 struct JudgedFigure {
-    std::string claim, quantity, of, unit, bound;
+    std::string claim, quantity;
+    analysis::CaseKey of;
+    std::string unit, bound;
     double value = 0.0;
-    analysis::Extent extent = analysis::Extent::none;  // of the claim, by this figure
-    std::string remark = {};                           // "at least so much": the value bounds the figure
+    analysis::Extent extent = analysis::Extent::none;  // of the claim, by this value
+    analysis::Limit limit = analysis::Limit::none;     // where the value only bounds the quantity
 };
 
 // A quantity that a claim is judged by and that is not measured of readings.

@@ -46,6 +46,7 @@ ConvergencePaths paths_of(const ReadingsCase& of, const MovedBody& body, const R
     ConvergencePaths paths;
     paths.body = of.scene.character.body;
     paths.pose = of.pose;
+    paths.key = of.key;
     paths.vertices = static_cast<int>(character.mesh.rest.rows());
     paths.tets = static_cast<int>(character.mesh.tets.rows());
     paths.setting = {reading.options.order, reading.options.precision};
@@ -95,8 +96,8 @@ std::vector<MeasuredJiggle> jolts_of(const ReadingsCase& of, const MovedBody& bo
 }
 
 // Of one setting or of two, which few settings give as many do.
-const std::vector<std::string> quantities_of_few_settings = {"damping ratio", "frequency at half the time step over at the whole",
-                                                             "frequency at twice the iterations over at the once"};
+const std::vector<std::string> quantities_of_few_settings = {"damping_ratio", "frequency_ratio_at_half_time_step",
+                                                             "frequency_ratio_at_twice_iterations"};
 
 ReadingFigures of_jolts(const std::string& body, const std::vector<MeasuredJiggle>& measured)
 {
@@ -154,12 +155,12 @@ JudgedFigure of_frame(const std::string& body, int vertices, double ms)
 {
     const analysis::Claim& claim = claim_named("C10");
     const double frames_s = 1e3 / ms;
-    const analysis::Measurement pace{"C10", claim.metrics.front(), "", frames_s, frames_s, frames_s, "1/s"};
+    const analysis::Measurement pace{"C10", claim.metrics.front(), {}, frames_s, frames_s, frames_s, "1/s"};
     return {"C10",
-            "processor time of a frame",
-            fmt::format("{}, {} vertices, plain f64", body, vertices),
+            "processor_time_of_a_frame_ms",
+            {.body = body, .order = "plain", .precision = "f64", .vertices = vertices},
             "ms",
-            fmt::format("{} frames a second", analysis::bound_text(analysis::bound_of(claim, pace.quantity))),
+            fmt::format("{} frames per second", analysis::bound_text(analysis::bound_of(claim, pace.quantity))),
             ms,
             analysis::extent_of(claim, pace)};
 }
@@ -189,16 +190,19 @@ std::vector<ReadingFigures> figures_of_projections(const ReadingsCase& of, const
         const pbs::PbsOptions& options = reading.options;
         std::vector<analysis::Measurement> figures;
         const auto add = [&](const char* which, const std::string& name, double drift) {
-            figures.push_back({"C07", name, fmt::format("{}, {}, {}", of.scene.character.body, of.pose, which), drift, drift, drift, "1"});
+            analysis::CaseKey key = of.key;
+            key.body = of.scene.character.body;
+            key.constraint = which;
+            figures.push_back({"C07", name, key, drift, drift, drift, "1"});
         };
         for (const auto& [projected, which] :
              {std::pair{ProjectedClass::stretch, "stretch"}, std::pair{ProjectedClass::volume, "volume"}}) {
             const MomentumDrift single = drift_of_projections(character, body.pose_at(of.frame), options, projected, options.masses);
             const MomentumDrift pass = drift_of_a_pass(character, body.pose_at(of.frame), options, projected, options.masses);
-            add(which, "linear drift", single.linear);
-            add(which, "angular drift", single.angular);
-            add(which, "linear drift of a pass", pass.linear);
-            add(which, "angular drift of a pass", pass.angular);
+            add(which, "linear_drift", single.linear);
+            add(which, "angular_drift", single.angular);
+            add(which, "linear_drift_of_a_pass", pass.linear);
+            add(which, "angular_drift_of_a_pass", pass.angular);
         }
         all.push_back({judged(figures), false});
     }

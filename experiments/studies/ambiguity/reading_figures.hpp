@@ -14,6 +14,7 @@ struct ReadingsCase {
     Scene scene;
     int frame = 0;  // of the scene's motion
     std::string pose;
+    analysis::CaseKey key = {};  // motion, angle or pose
     pbs::Vec3 jolt_direction = pbs::Vec3::UnitY();
     int most_iterations = 1000;  // of paths
     int jolt_steps = 150;        // from the jolt's own on

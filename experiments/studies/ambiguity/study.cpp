@@ -199,7 +199,9 @@ ArtefactCase turned(const std::string& body, const std::string& joint, const std
                                            R"(deformers.use=["lbs","pbs","snh_p1"])", "reference.name=snh_p1"});
     of.joint = joint;
     of.claim = what == "twist" ? ArtefactCase::Claim::candy_wrapper : ArtefactCase::Claim::bulge;
-    for (int i = 1; i <= looks; ++i) of.poses.push_back({i * look_deg / frame_deg, fmt::format("{} {} deg", what, i * look_deg)});
+    for (int i = 1; i <= looks; ++i)
+        of.poses.push_back(
+            {i * look_deg / frame_deg, fmt::format("{} {} deg", what, i * look_deg), {.motion = what, .angle_deg = double(i * look_deg)}});
     return of;
 }
 
@@ -214,6 +216,7 @@ void plan_limb(bool full, StudyPlan& plan)
     const ReadingsCase of = {.scene = bend,
                              .frame = 18,
                              .pose = "bend 90",
+                             .key = {.motion = "bend", .angle_deg = 90.0},
                              .jolt_direction = pbs::Vec3::UnitX(),
                              .most_iterations = full ? 1000 : 400,
                              .jolt_steps = full ? 150 : 60,
@@ -237,6 +240,7 @@ void plan_human(bool full, StudyPlan& plan)
     const ReadingsCase of = {.scene = read_scene("human_01_01", {"output.frames=[]", "output.frame_names=[]"}),
                              .frame = 164,
                              .pose = "01_01 crouch",
+                             .key = {.motion = "01_01", .pose = "crouch"},
                              .most_iterations = full ? 1000 : 400,
                              .jolt_steps = full ? 150 : 60,
                              .timing_s = full ? 6.0 : 1.0};

@@ -2,9 +2,10 @@
 //   const ArtefactRecords records = find_artefacts(of);
 //   records.profiles.write("profiles.csv");
 // Every deformer of the scene is run on the body's own mesh. PBS is run in the other orders and precisions too; PBS, the blends and the
-// reference on the body's other meshes: the spread over them is how sure a figure is.
+// reference on the body's other meshes: their spread is the uncertainty of a value.
 #pragma once
 
+#include "analysis/case_key.hpp"
 #include "analysis/records/csv_table.hpp"
 #include "experiments/studies/artefacts/joint_sections.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
@@ -17,7 +18,8 @@ namespace experiments {
 
 struct ArtefactPose {
     int frame = 0;
-    std::string name;  // "twist 90 deg", "01_01 crouch"
+    std::string name;            // "twist 90 deg", "01_01 crouch"
+    analysis::CaseKey key = {};  // motion, angle or pose
 };
 
 struct ArtefactCase {

@@ -59,15 +59,13 @@ std::string remark_on_width(const std::vector<ArtefactSample>& samples, std::siz
     return fmt::format("{}", fmt::join(remarks, "; "));
 }
 
-std::string of_text(const ArtefactCase& of, const ArtefactBody& body, std::size_t pose, std::size_t joint)
+analysis::CaseKey key_of(const ArtefactCase& of, const ArtefactBody& body, std::size_t pose, std::size_t joint, const std::string& group)
 {
-    return fmt::format("{}, {}, {}", body.posed.character().name, of.poses[pose].name, body.joints[joint].name);
-}
-
-// The claim's own quantity is that of pbs; the others' carry their names.
-std::string quantity_of(const std::string& quantity, const std::string& group)
-{
-    return group == "pbs" ? quantity : quantity + ", " + group;
+    analysis::CaseKey key = of.poses[pose].key;
+    key.body = body.posed.character().name;
+    key.joint = body.joints[joint].name;
+    key.deformer = group;
+    return key;
 }
 
 std::string reference_name(const std::vector<ArtefactSample>& samples, std::size_t pose, std::size_t joint)
@@ -85,13 +83,13 @@ std::vector<analysis::Measurement> candy_wrapper_figures(const ArtefactCase& of,
     for (const auto& [pose, joint, reference, outcome, remark] : section_outcomes(of, body, samples))
         for (const std::string group : {"pbs", "lbs", "dqs", "reference"})
             for (const auto& [quantity, extreme] :
-                 {std::pair{"smallest section radius over rest", &SectionExtremesOverRest::smallest_radius},
-                  {"smallest section area over rest", &SectionExtremesOverRest::smallest_area}}) {
+                 {std::pair{"smallest_section_radius_over_rest", &SectionExtremesOverRest::smallest_radius},
+                  {"smallest_section_area_over_rest", &SectionExtremesOverRest::smallest_area}}) {
                 const std::vector<double> values = sizes(chosen(samples, group, pose, joint), extreme);
                 if (values.empty()) continue;
-                const std::string which = group == "reference" ? ", " + reference : "";
-                figures.push_back({"C04", quantity_of(quantity, group), of_text(of, body, pose, joint) + which, values.front(),
-                                   least(values), most(values), "1"});
+                analysis::CaseKey key = key_of(of, body, pose, joint, group);
+                if (group == "reference") key.reference = reference;
+                figures.push_back({"C04", quantity, key, values.front(), least(values), most(values), "1"});
             }
     return figures;
 }
@@ -103,16 +101,17 @@ std::vector<analysis::Measurement> bulge_figures(const ArtefactCase& of, const A
     for (const auto& [pose, joint, reference_name, outcome, remark] : section_outcomes(of, body, samples)) {
         if (outcome != SectionOutcome::measured && outcome != SectionOutcome::pbs_did_not_finish) continue;
         for (const auto& [quantity, extreme] :
-             {std::pair{"largest section radius over the reference's", &SectionExtremesOverRest::largest_radius},
-              {"largest section area over the reference's", &SectionExtremesOverRest::largest_area}}) {
+             {std::pair{"largest_section_radius_over_reference", &SectionExtremesOverRest::largest_radius},
+              {"largest_section_area_over_reference", &SectionExtremesOverRest::largest_area}}) {
             const std::vector<double> reference = sizes(chosen(samples, "reference", pose, joint), extreme);
             for (const std::string group : {"pbs", "lbs", "dqs"}) {
                 const std::vector<ArtefactSample> own = chosen(samples, group, pose, joint);
                 if (own.empty()) continue;
                 const std::vector<double> values = sizes(own, extreme);
-                figures.push_back({"C05", quantity_of(quantity, group), of_text(of, body, pose, joint) + ", over " + reference_name,
-                                   values.front() / reference.front(), least(values) / most(reference), most(values) / least(reference),
-                                   "1"});
+                analysis::CaseKey key = key_of(of, body, pose, joint, group);
+                key.reference = reference_name;
+                figures.push_back({"C05", quantity, key, values.front() / reference.front(), least(values) / most(reference),
+                                   most(values) / least(reference), "1"});
             }
         }
     }

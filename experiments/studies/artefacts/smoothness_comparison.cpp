@@ -49,7 +49,9 @@ Twin twin_of(ArtefactCase of, int vertices)
 // A figure by mesh and order, its own first; not a number where there is none.
 struct Ratios {
     std::vector<double> values = {};
-    std::string remark = {};  // on its own
+    analysis::Limit limit = analysis::Limit::none;  // of the first value
+    std::string quantity = {};
+    analysis::CaseKey of = {};
 };
 
 class Comparison {
@@ -66,13 +68,13 @@ public:
             for (std::size_t joint = 0; joint < twin.paper.joints.size(); ++joint) {
                 const analysis::Smoothness smooth = measure(twin.paper, spec, paper[pose], pose, joint, "paper"),
                                            rough = measure(twin.rigid, spec, rigid[pose], pose, joint, "rigid");
-                const std::string at = fmt::format("{}, {}, {}", body_name(twin), of_.poses[pose].name, twin.paper.joints[joint].name);
-                add("strain jump at the joint of " + title(spec) + ", Eq. 2 over rigid", at, smooth.strain_jump_rms, rough.strain_jump_rms);
-                add("curvature of the skin of " + title(spec) + ", Eq. 2 over rigid", at, smooth.bending_rms_rad, rough.bending_rms_rad);
+                const analysis::CaseKey at = key_of(twin, pose, twin.paper.joints[joint].name, spec.kind);
+                add("strain_jump_over_rigid_weights", at, smooth.strain_jump_rms, rough.strain_jump_rms);
+                add("curvature_over_rigid_weights", at, smooth.bending_rms_rad, rough.bending_rms_rad);
             }
             if (options_if<pbs::PbsOptions>(spec))
-                add("absolute volume change of PBS, Eq. 2 over rigid", whole_body(twin, pose), volume_change_pct(twin.paper, paper[pose]),
-                    volume_change_pct(twin.rigid, rigid[pose]));
+                add("volume_abs_change_over_rigid_weights", key_of(twin, pose, of_.joint, "pbs"),
+                    volume_change_pct(twin.paper, paper[pose]), volume_change_pct(twin.rigid, rigid[pose]));
         }
     }
 
@@ -92,9 +94,10 @@ public:
 
     WeightsComparison result() &&
     {
-        for (const auto& [key, ratios] : ratios_) {
+        for (const auto& [text, ratios] : ratios_) {
             analysis::Measurement figure{
-                "C06", key.first, key.second + ratios.remark, ratios.values.front(), ratios.values.front(), ratios.values.front(), "1"};
+                "C06", ratios.quantity, ratios.of, ratios.values.front(), ratios.values.front(), ratios.values.front(), "1"};
+            figure.limit = ratios.limit;
             if (!std::isfinite(figure.value)) continue;
             for (const double ratio : ratios.values) {
                 figure.low = std::fmin(figure.low, ratio);
@@ -106,16 +109,27 @@ public:
     }
 
 private:
-    static std::string title(const DeformerSpec& spec) { return options_if<pbs::PbsOptions>(spec) ? "PBS" : "LBS"; }
     static std::string body_name(const Twin& twin) { return twin.paper.posed.character().name; }
-    std::string whole_body(const Twin& twin, std::size_t pose) const
+    analysis::CaseKey key_of(const Twin& twin, std::size_t pose, const std::string& joint, const std::string& deformer) const
     {
-        return fmt::format("{}, {}", body_name(twin), of_.poses[pose].name) + (of_.joint.empty() ? "" : ", " + of_.joint);
+        analysis::CaseKey key = of_.poses[pose].key;
+        key.body = body_name(twin);
+        key.joint = joint;
+        key.deformer = deformer;
+        return key;
     }
 
-    void add(const std::string& quantity, const std::string& at, double paper, double rigid)
+    Ratios& ratios_of(const std::string& quantity, const analysis::CaseKey& of)
     {
-        ratios_[{quantity, at}].values.push_back(rigid > rounding ? paper / rigid : analysis::not_known);
+        Ratios& ratios = ratios_[{quantity, text_of(of)}];
+        ratios.quantity = quantity;
+        ratios.of = of;
+        return ratios;
+    }
+
+    void add(const std::string& quantity, const analysis::CaseKey& at, double paper, double rigid)
+    {
+        ratios_of(quantity, at).values.push_back(rigid > rounding ? paper / rigid : analysis::not_known);
     }
 
     static pbs::Positions blended(const pbs::Character& character, const pbs::Pose& pose)
@@ -130,9 +144,10 @@ private:
     {
         result_.iterations.add_row({body_name(twin), static_cast<int>(twin.paper.posed.character().mesh.rest.rows()), of_.poses[pose].name,
                                     paper.iterations, static_cast<int>(paper.within), rigid.iterations, static_cast<int>(rigid.within)});
-        Ratios& ratios = ratios_[{"iterations to tolerance, Eq. 2 over rigid", whole_body(twin, pose)}];
+        Ratios& ratios = ratios_of("iterations_over_rigid_weights", key_of(twin, pose, of_.joint, "pbs"));
         const bool some = paper.within || rigid.within;
-        if (ratios.values.empty() && some && paper.within != rigid.within) ratios.remark = paper.within ? "; at most" : "; at least";
+        if (ratios.values.empty() && some && paper.within != rigid.within)
+            ratios.limit = paper.within ? analysis::Limit::at_most : analysis::Limit::at_least;
         ratios.values.push_back(some ? std::max(paper.iterations, 1) / double(std::max(rigid.iterations, 1)) : analysis::not_known);
     }
 
@@ -156,7 +171,7 @@ private:
     }
 
     const ArtefactCase& of_;
-    std::map<std::pair<std::string, std::string>, Ratios> ratios_;  // by quantity and what it is of
+    std::map<std::pair<std::string, std::string>, Ratios> ratios_;  // by quantity and the text of the key
     WeightsComparison result_;
 };
 

@@ -57,7 +57,7 @@ struct RandomTets {
 constexpr double rounding = 1e-10;
 
 template <typename Gradient>
-analysis::PrintedFigure gradient_figure(const std::string& what, int corner, int tets, unsigned seed, Gradient gradient)
+analysis::PrintedFigure gradient_figure(const analysis::CaseKey& of, int corner, int tets, unsigned seed, Gradient gradient)
 {
     RandomTets random(seed);
     double largest = 0.0;
@@ -66,11 +66,11 @@ analysis::PrintedFigure gradient_figure(const std::string& what, int corner, int
         const Point quotient = difference_quotient(tet, p, corner);
         largest = std::max(largest, (gradient(tet, p)[corner] - quotient).norm() / quotient.norm());
     }
-    return {"C15", what, largest, 0.0, rounding};
+    return {"C15", "gradient_error", of, largest, 0.0, rounding};
 }
 
 template <typename Projection>
-analysis::PrintedFigure correction_figure(const std::string& what, int tets, unsigned seed, Projection project)
+analysis::PrintedFigure correction_figure(const analysis::CaseKey& of, int tets, unsigned seed, Projection project)
 {
     RandomTets random(seed);
     double largest = 0.0;
@@ -80,7 +80,7 @@ analysis::PrintedFigure correction_figure(const std::string& what, int tets, uns
         project(tet, p);
         largest = std::max(largest, std::abs(value_at(tet, p) / before));
     }
-    return {"C15", what, largest, 0.0, 1.0};
+    return {"C15", "constraint_after_over_before", of, largest, 0.0, 1.0};
 }
 
 template <pbs::Printed form>
@@ -100,21 +100,24 @@ auto printed_projection()
 std::vector<analysis::PrintedFigure> equation_figures(int tets, unsigned seed)
 {
     using pbs::Printed;
-    const std::array<std::string, 4> equations = {"Eq. 15-16", "Eq. 12", "Eq. 13", "Eq. 14"};
+    const std::array<std::string, 4> equations = {"15-16", "12", "13", "14"};
+    const auto gradient = [&](int corner, const std::string& reading) {
+        return analysis::CaseKey{.equation = equations[corner], .gradient_of = "p" + std::to_string(corner + 1), .reading = reading};
+    };
     std::vector<analysis::PrintedFigure> figures;
     for (int corner = 0; corner < 4; ++corner)
-        figures.push_back(gradient_figure(equations[corner] + ", gradient printed for p" + std::to_string(corner + 1) + ": error", corner,
-                                          tets, seed, printed_gradient<Printed::labels_absolute>()));
+        figures.push_back(
+            gradient_figure(gradient(corner, "as_printed"), corner, tets, seed, printed_gradient<Printed::labels_absolute>()));
     for (int corner = 1; corner < 4; ++corner)
-        figures.push_back(gradient_figure(equations[corner] + ", read relative to p1, for p" + std::to_string(corner + 1) + ": error",
-                                          corner, tets, seed, printed_gradient<Printed::labels_relative>()));
-    figures.push_back(
-        correction_figure("Eq. 17-20 with the derived gradients: |C| after over before", tets, seed, printed_projection<Printed::sign>()));
-    figures.push_back(
-        correction_figure("Eq. 12-20 as printed: |C| after over before", tets, seed, printed_projection<Printed::as_printed>()));
-    figures.push_back(correction_figure("Eq. 8 with the derived gradients (not in print): |C| after over before", tets, seed,
-                                        [](const Tet& tet, Corners& p) { pbs::project(tet, 1.0, 1.0, 1.0, 1.0, p[0], p[1], p[2], p[3]); }));
-    figures.back().claim = "beside C15";
+        figures.push_back(
+            gradient_figure(gradient(corner, "relative_to_p1"), corner, tets, seed, printed_gradient<Printed::labels_relative>()));
+    const auto correction = [&](const std::string& equation, const std::string& reading, auto project) {
+        figures.push_back(correction_figure({.equation = equation, .reading = reading}, tets, seed, project));
+    };
+    correction("17-20", "derived_gradients", printed_projection<Printed::sign>());
+    correction("12-20", "as_printed", printed_projection<Printed::as_printed>());
+    correction("8", "derived_gradients", [](const Tet& tet, Corners& p) { pbs::project(tet, 1.0, 1.0, 1.0, 1.0, p[0], p[1], p[2], p[3]); });
+    figures.back().claim = "control of C15";
     return figures;
 }
 

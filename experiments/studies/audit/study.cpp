@@ -18,12 +18,10 @@ namespace fs = std::filesystem;
 
 std::string audit_print(const std::string& folder)
 {
-    analysis::CsvTable table({"claim", "what", "printed", "least", "most"});
+    std::vector<analysis::PrintedFigure> all;
     for (const auto& figures : {mesh_size_figures(), table_1_figures(), equation_figures()})
-        for (const analysis::PrintedFigure& figure : figures)
-            table.add_row({figure.claim, figure.what, figure.printed, figure.least,
-                           std::isinf(figure.most) ? analysis::CsvTable::Cell(std::nullopt) : analysis::CsvTable::Cell(figure.most)});
-    table.write((fs::path(folder) / "printed.csv").string());
+        all.insert(all.end(), figures.begin(), figures.end());
+    analysis::printed_table(all).write((fs::path(folder) / "printed.csv").string());
     return {};
 }
 
@@ -43,11 +41,11 @@ StudyPlan plan_audit_study(bool)
 
 StudyConclusion conclude_audit_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
 {
-    std::string page = "| claim | figure | printed | follows from the rest | consistent |\n|---|---|---|---|---|\n";
+    std::string page = "| claim | quantity | of | printed | follows from the rest | consistent |\n|---|---|---|---|---|---|\n";
     for (const std::string& run : finished)
         for (const analysis::PrintedFigure& figure : analysis::printed_figures((fs::path(run) / "printed.csv").string()))
-            page += fmt::format("| {} | {} | {:.6g} | {} | {} |\n", figure.claim, figure.what, figure.printed, bound_text(figure),
-                                figure.least <= figure.printed && figure.printed <= figure.most ? "yes" : "no");
+            page += fmt::format("| {} | {} | {} | {:.6g} | {} | {} |\n", figure.claim, figure.quantity, text_of(figure.of), figure.printed,
+                                bound_text(figure), figure.is_consistent() ? "yes" : "no");
     analysis::write_text_atomically((fs::path(folder) / "audit.md").string(), page);
     return {"", !finished.empty()};
 }

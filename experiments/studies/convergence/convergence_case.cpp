@@ -76,6 +76,7 @@ private:
         const IterationRuler ruler(character, starts.bind_points, has_truth ? error : IterationRuler::ErrorPct{});
         ConvergencePaths paths{of_.scene.character.body,
                                of_.frames[frame].name,
+                               of_.frames[frame].key,
                                int(character.mesh.rest.rows()),
                                int(character.mesh.tets.rows()),
                                own_,

@@ -2,6 +2,7 @@
 //   const ConvergenceResult result = measure_convergence(case_of_the_limb);
 #pragma once
 
+#include "analysis/case_key.hpp"
 #include "experiments/studies/shared/path_figures.hpp"
 #include "experiments/studies/convergence/starts.hpp"
 #include "experiments/scene/scene.hpp"
@@ -13,8 +14,9 @@ namespace experiments {
 
 struct NamedFrame {
     int frame = 0;
-    std::string name;    // "twist 90", "01_01 crouch"
-    bool twist = false;  // about a bone's own axis, which no constraint feels
+    std::string name;            // "twist 90", "01_01 crouch"
+    analysis::CaseKey key = {};  // motion, angle, time or pose
+    bool twist = false;          // about a bone's own axis, which no constraint feels
 };
 
 struct ProjectionSetting {
@@ -38,6 +40,7 @@ struct ConvergenceCase {
 
 struct ConvergencePaths {
     std::string body, pose;
+    analysis::CaseKey key = {};  // of the pose, as NamedFrame has it
     int vertices = 0, tets = 0;
     bool own_mesh = true;  // the scene's
     double k_stretch = 0.0;

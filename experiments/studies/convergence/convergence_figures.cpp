@@ -3,15 +3,11 @@
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "analysis/line_fit.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
-#include <set>
 
 namespace experiments {
 namespace {
@@ -19,7 +15,7 @@ namespace {
 // A figure of one setting; what it bounds, where a tolerance was not reached.
 struct Figure {
     double value = 0.0;
-    std::string bound = {};  // "", "at least", "at most"
+    analysis::Limit limit = analysis::Limit::none;
 };
 using FigureOf = std::function<std::optional<Figure>(const ConvergencePaths&)>;
 using Group = std::vector<const ConvergencePaths*>;  // the default setting first
@@ -40,19 +36,32 @@ std::vector<Group> groups_of(const ConvergenceResult& result)
     return groups;
 }
 
-std::string words_for(const ConvergencePaths& of)
+analysis::CaseKey key_of(const ConvergencePaths& of)
 {
-    return fmt::format("{}, {}, {} vertices, k_stretch {:g}, {} {}", of.body, of.pose, of.vertices, of.k_stretch,
-                       experiments::name_of(of.setting.order), experiments::name_of(of.setting.precision));
+    analysis::CaseKey key = of.key;
+    key.body = of.body;
+    key.deformer = "pbs";
+    key.order = experiments::name_of(of.setting.order);
+    key.precision = experiments::name_of(of.setting.precision);
+    key.vertices = of.vertices;
+    key.k_stretch = of.k_stretch;
+    return key;
 }
 
-void add(std::vector<analysis::Measurement>& to, const std::string& claim, const std::string& quantity, const std::string& remark,
-         const Group& group, const FigureOf& figure_of, const std::string& unit = "1")
+// What the value is of, apart from what a group has in common.
+struct What {
+    std::string claim, quantity;
+    std::string tolerance = {}, initial_guess = {};
+};
+
+void add(std::vector<analysis::Measurement>& to, const What& what, const Group& group, const FigureOf& figure_of)
 {
     const std::optional<Figure> own = figure_of(*group.front());
     if (!own || !std::isfinite(own->value)) return;
-    analysis::Measurement measured{claim, quantity, words_for(*group.front()) + remark, own->value, own->value, own->value, unit};
-    if (!own->bound.empty()) measured.of += fmt::format("; {} so much", own->bound);
+    analysis::Measurement measured{what.claim, what.quantity, key_of(*group.front()), own->value, own->value, own->value, "1"};
+    measured.of.tolerance = what.tolerance;
+    measured.of.initial_guess = what.initial_guess;
+    measured.limit = own->limit;
     int without = 0;
     for (const ConvergencePaths* other : group) {
         const std::optional<Figure> figure = figure_of(*other);
@@ -62,7 +71,8 @@ void add(std::vector<analysis::Measurement>& to, const std::string& claim, const
         measured.high = std::max(measured.high, figure->value);
     }
     if (without > 0) {
-        measured.of += fmt::format("; neither start arrives in {} of {} settings", without, group.size());
+        measured.not_reached = without;
+        measured.n = static_cast<int>(group.size());
         measured.low = 0.0;
         measured.high = std::numeric_limits<double>::infinity();
     }
@@ -70,20 +80,18 @@ void add(std::vector<analysis::Measurement>& to, const std::string& claim, const
 }
 
 struct Tolerance {
-    const char* remark;
+    const char* name;  // as a key has it
     Reached (*reached)(const ConvergencePaths&, std::size_t start);
 };
 const Tolerance tolerances[] = {
-    {"; tolerance: residual within 5 % of its floor",
-     [](const ConvergencePaths& of, std::size_t start) { return reached_residual(of.paths[start], floor_of(of.paths)); }},
-    {"; tolerance: absolute volume change within 0.5 %",
-     [](const ConvergencePaths& of, std::size_t start) { return reached_volume(of.paths[start]); }}};
+    {"residual", [](const ConvergencePaths& of, std::size_t start) { return reached_residual(of.paths[start], floor_of(of.paths)); }},
+    {"volume", [](const ConvergencePaths& of, std::size_t start) { return reached_volume(of.paths[start]); }}};
 
 FigureOf iterations_to(const Tolerance& tolerance)
 {
     return [&tolerance](const ConvergencePaths& of) {
         const Reached lbs = tolerance.reached(of, 0);
-        return Figure{double(lbs.iterations), lbs.within ? "" : "more than"};
+        return Figure{double(lbs.iterations), lbs.within ? analysis::Limit::none : analysis::Limit::more_than};
     };
 }
 
@@ -93,54 +101,55 @@ FigureOf over_lbs(const Tolerance& tolerance, std::size_t start)
     return [&tolerance, start](const ConvergencePaths& of) -> std::optional<Figure> {
         const Reached other = tolerance.reached(of, start), lbs = tolerance.reached(of, 0);
         if (!other.within && !lbs.within) return {};
-        return Figure{std::max(other.iterations, 1) / double(std::max(lbs.iterations, 1)), !other.within ? "at least"
-                                                                                           : !lbs.within ? "at most"
-                                                                                                         : ""};
+        return Figure{std::max(other.iterations, 1) / double(std::max(lbs.iterations, 1)), !other.within ? analysis::Limit::at_least
+                                                                                           : !lbs.within ? analysis::Limit::at_most
+                                                                                                         : analysis::Limit::none};
     };
 }
 
 void add_beside(std::vector<analysis::Measurement>& to, const Group& group)
 {
     const auto figure = [&](const char* quantity, double (*of_lbs)(const IterationPath&)) {
-        add(to, "C12", quantity, "", group, [of_lbs](const ConvergencePaths& of) { return Figure{of_lbs(of.paths[0])}; });
+        add(to, {"C12", quantity}, group, [of_lbs](const ConvergencePaths& of) { return Figure{of_lbs(of.paths[0])}; });
     };
-    figure("residual after 24 iterations over after 1000",
+    figure("residual_after_24_over_1000_iterations",
            [](const IterationPath& path) { return look_at(path, 24).combined / look_at(path, 1000).combined; });
-    figure("error to the reference after 24 iterations over the least",
+    figure("error_after_24_iterations_over_least",
            [](const IterationPath& path) { return look_at(path, 24).error_joint_pct / nearest_to_reference(path).error_joint_pct; });
-    figure("error to the reference after 1000 iterations over the least",
+    figure("error_after_1000_iterations_over_least",
            [](const IterationPath& path) { return look_at(path, 1000).error_joint_pct / nearest_to_reference(path).error_joint_pct; });
 }
 
 void add_starts(std::vector<analysis::Measurement>& to, const Group& group)
 {
-    const char* in_a_twist = group.front()->twist ? " in a twist" : "";
+    const std::string in_a_twist = group.front()->twist ? "_in_a_twist" : "";
     for (std::size_t start = 1; start < group.front()->paths.size(); ++start) {
-        const char* words = words_for(all_starts[start]);
+        const char* guess = name_of(all_starts[start]);
         for (const Tolerance& tolerance : tolerances)
-            add(to, "C03", fmt::format("iterations to tolerance{}, from {} over from LBS", in_a_twist, words), tolerance.remark, group,
-                over_lbs(tolerance, start));
-        add(to, "C03", fmt::format("error to the reference after 24 iterations, from {} over from LBS", words), "", group,
-            [start](const ConvergencePaths& of) {
-                return Figure{look_at(of.paths[start], 24).error_joint_pct / look_at(of.paths[0], 24).error_joint_pct};
-            });
+            add(to, {"C03", "iterations_over_lbs_guess" + in_a_twist, tolerance.name, guess}, group, over_lbs(tolerance, start));
+        add(to, {"C03", "error_after_24_iterations_over_lbs_guess", "", guess}, group, [start](const ConvergencePaths& of) {
+            return Figure{look_at(of.paths[start], 24).error_joint_pct / look_at(of.paths[0], 24).error_joint_pct};
+        });
     }
 }
 
 // Of all poses, orders and meshes: comparisons with LBS that there is no figure of.
 void add_neither(std::vector<analysis::Measurement>& to, const ConvergenceResult& result)
 {
-    std::set<std::string> poses;
-    for (const ConvergencePaths& paths : result.all) poses.insert(paths.pose);
     for (const Tolerance& tolerance : tolerances) {
         int neither = 0, all = 0;
         for (const ConvergencePaths& paths : result.all)
             for (std::size_t start = 1; start < paths.paths.size(); ++start, ++all) neither += !over_lbs(tolerance, start)(paths);
         if (all == 0) continue;
         const double share = neither / double(all);
-        to.push_back({"C03", "share of figures in which neither start arrives",
-                      fmt::format("{}, {}, {} comparisons{}", result.all.front().body, fmt::join(poses, " and "), all, tolerance.remark),
-                      share, share, share, "1"});
+        to.push_back({"C03",
+                      "share_of_ratios_not_reached",
+                      {.body = result.all.front().body, .tolerance = tolerance.name},
+                      share,
+                      share,
+                      share,
+                      "1"});
+        to.back().n = all;
     }
 }
 
@@ -166,11 +175,11 @@ void add_exponents(std::vector<analysis::Measurement>& to, const ConvergenceResu
             if (vertices.size() < 3) continue;
             const analysis::Interval exponent = analysis::observed_order(vertices, iterations).slope;
             const auto [fewest, most] = std::minmax_element(vertices.begin(), vertices.end());
-            to.push_back({"C12", "exponent of iterations to tolerance over vertices",
-                          fmt::format("{}, {}, {:g} to {:g} vertices, k_stretch {:g}, {} {}{}", first.body, first.pose, *fewest, *most,
-                                      first.k_stretch, experiments::name_of(first.setting.order),
-                                      experiments::name_of(first.setting.precision), tolerance.remark),
-                          exponent.estimate, exponent.low, exponent.high, "1"});
+            analysis::CaseKey key = key_of(first);
+            key.tolerance = tolerance.name;
+            key.vertices = *fewest;
+            key.vertices_to = *most;
+            to.push_back({"C12", "exponent_of_iterations_over_vertices", key, exponent.estimate, exponent.low, exponent.high, "1"});
         }
     }
 }
@@ -183,8 +192,8 @@ std::vector<analysis::Measurement> convergence_figures(const ConvergenceResult& 
     const std::vector<Group> groups = groups_of(result);
     for (const Group& group : groups) {
         for (const Tolerance& tolerance : tolerances)
-            add(figures, "C12", group.front()->character ? "iterations to tolerance" : "iterations to tolerance, the limb and its sizes",
-                tolerance.remark, group, iterations_to(tolerance));
+            add(figures, {"C12", group.front()->character ? "iterations_to_tolerance" : "iterations_to_tolerance_of_limbs", tolerance.name},
+                group, iterations_to(tolerance));
         add_beside(figures, group);
         add_starts(figures, group);
     }

@@ -51,12 +51,6 @@ const char* name_of(SolverStart start)
     return names[static_cast<int>(start)];
 }
 
-const char* words_for(SolverStart start)
-{
-    static constexpr const char* words[] = {"LBS", "the previous frame", "the rest pose", "the rigid bind"};
-    return words[static_cast<int>(start)];
-}
-
 std::vector<FrameStarts> starts_of(const pbs::Character& character, const pbs::Motion& motion, const std::vector<int>& frames,
                                    const pbs::PbsOptions& options)
 {

@@ -21,8 +21,7 @@ enum class SolverStart { lbs, previous_frame, rest_pose, rigid_bind };
 inline constexpr std::array<SolverStart, 4> all_starts = {SolverStart::lbs, SolverStart::previous_frame, SolverStart::rest_pose,
                                                           SolverStart::rigid_bind};
 
-const char* name_of(SolverStart start);    // lbs, previous_frame, ...: in records
-const char* words_for(SolverStart start);  // "LBS", "the previous frame", ...: in the claims' quantities
+const char* name_of(SolverStart start);  // lbs, previous_frame, ...: in records and keys
 
 struct FrameStarts {
     pbs::Positions bind_points;            // posed q_i [m], #V x 3

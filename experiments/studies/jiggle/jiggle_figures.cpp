@@ -2,8 +2,6 @@
 
 #include "analysis/statistics.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace experiments {
@@ -14,12 +12,12 @@ constexpr int least_for_correlation = 4;
 using analysis::Interval;
 using analysis::Measurement;
 
-Measurement figure(const std::string& quantity, const std::string& of, const Interval& value, const std::string& unit)
+Measurement figure(const std::string& quantity, const analysis::CaseKey& of, const Interval& value, const std::string& unit)
 {
     return {"C09", quantity, of, value.estimate, value.low, value.high, unit};
 }
 
-Measurement exact_figure(const std::string& quantity, const std::string& of, double value)
+Measurement exact_figure(const std::string& quantity, const analysis::CaseKey& of, double value)
 {
     return {"C09", quantity, of, value, value, value, "1"};
 }
@@ -62,18 +60,18 @@ void add_share(std::vector<Measurement>& figures, const std::string& body, const
         swinging += one.response.swing.found();
     }
     if (all == 0) return;
-    const std::string of = fmt::format("{}, {} of {} settings", body, swinging, all);
-    figures.push_back(exact_figure("share of settings that swing", of, static_cast<double>(swinging) / all));
+    figures.push_back(exact_figure("share_of_settings_that_swing", {.body = body}, static_cast<double>(swinging) / all));
+    figures.back().n = all;
 }
 
 void add_setting(std::vector<Measurement>& figures, const std::string& body, const MeasuredJiggle& one)
 {
-    const std::string of = body + ", " + text_of(one.setting);
+    const analysis::CaseKey of = key_of(body, one.setting);
     if (one.response.finished) figures.push_back(exact_figure("amplitude", of, one.response.overshoot_over_jolt));
     if (!one.response.swing.found()) return;
-    const std::string damping = is_of_the_paper(one.setting) ? "damping ratio" : "damping ratio, other readings";
+    const std::string damping = is_of_the_paper(one.setting) ? "damping_ratio" : "damping_ratio_in_other_readings";
     figures.push_back(figure(damping, of, one.response.swing.damping_ratio, "1"));
-    figures.push_back(figure("frequency", of, one.response.swing.frequency_hz, "Hz"));
+    figures.push_back(figure("frequency_hz", of, one.response.swing.frequency_hz, "Hz"));
 }
 
 // Those that swing and differ from the first setting in k_stretch alone, the smallest first.
@@ -100,9 +98,9 @@ double correlation_without(const std::vector<MeasuredJiggle>& measured, std::siz
 void add_correlation(std::vector<Measurement>& figures, const std::string& body, const std::vector<MeasuredJiggle>& measured)
 {
     if (static_cast<int>(measured.size()) < least_for_correlation) return;
-    const std::string of = fmt::format("{}, {} values of k_stretch", body, measured.size());
     Measurement correlation =
-        exact_figure("rank correlation of frequency and k_stretch", of, correlation_without(measured, measured.size()));
+        exact_figure("rank_correlation_of_frequency_and_k_stretch", {.body = body}, correlation_without(measured, measured.size()));
+    correlation.n = static_cast<int>(measured.size());
     for (std::size_t left_out = 0; left_out < measured.size(); ++left_out) {
         const double without = correlation_without(measured, left_out);
         correlation.low = std::min(correlation.low, without);
@@ -115,21 +113,22 @@ void add_range(std::vector<Measurement>& figures, const std::string& body, const
 {
     if (measured.size() < 2) return;
     const MeasuredJiggle &smallest = measured.front(), &largest = measured.back();
-    const std::string of = fmt::format("{}, k_stretch {} over {}", body, largest.setting.k_stretch, smallest.setting.k_stretch);
-    figures.push_back(figure("frequency at the largest k_stretch over at the smallest", of,
-                             over(largest.response.swing.frequency_hz, smallest.response.swing.frequency_hz), "1"));
+    const analysis::CaseKey of = {.body = body, .k_stretch = smallest.setting.k_stretch, .k_stretch_to = largest.setting.k_stretch};
+    figures.push_back(
+        figure("frequency_ratio_over_k_stretch", of, over(largest.response.swing.frequency_hz, smallest.response.swing.frequency_hz), "1"));
 }
 
 void add_half_step(std::vector<Measurement>& figures, const std::string& body, const std::vector<MeasuredJiggle>& measured)
 {
     const std::vector<FrequencyRatio> halvings = ratios(measured, [](JiggleSetting& setting) { setting.time_step_s /= 2.0; });
     if (halvings.empty()) return;
-    Measurement half = exact_figure("frequency at half the time step over at the whole", "", halvings.front().ratio.estimate);
+    Measurement half =
+        exact_figure("frequency_ratio_at_half_time_step", key_of(body, halvings.front().from), halvings.front().ratio.estimate);
     for (const FrequencyRatio& halving : halvings) {
         half.low = std::min(half.low, halving.ratio.estimate);
         half.high = std::max(half.high, halving.ratio.estimate);
     }
-    half.of = fmt::format("{}, from {}, range over {} halvings", body, text_of(halvings.front().from), halvings.size());
+    half.n = static_cast<int>(halvings.size());
     figures.push_back(half);
 }
 
@@ -145,7 +144,7 @@ std::vector<Measurement> jiggle_figures(const std::string& body, const std::vect
     add_half_step(figures, body, measured);
     const std::vector<FrequencyRatio> doublings = ratios(measured, [](JiggleSetting& setting) { setting.iterations *= 2; });
     for (const auto& [from, ratio] : doublings)
-        figures.push_back(figure("frequency at twice the iterations over at the once", body + ", from " + text_of(from), ratio, "1"));
+        figures.push_back(figure("frequency_ratio_at_twice_iterations", key_of(body, from), ratio, "1"));
     return figures;
 }
 

@@ -95,13 +95,15 @@ void add_reference(const JoltCase& of, const pbs::Character& character, const st
     const auto& swing = reference->response.swing;
     add_response(records.responses, measured.setting, reference->young_pa, reference->time_step_s, reference->response);
     add_series(records.series, "snh_p1 beside " + text_of(measured.setting), reference->time_step_s, reference->response);
-    const std::string at = fmt::format("{}, {}, {:.3g} Pa", character.name, text_of(measured.setting), reference->young_pa);
+    analysis::CaseKey at = key_of(character.name, measured.setting);
+    at.reference = "snh_p1";
+    at.young_pa = reference->young_pa;
     const double pace = hz / swing.frequency_hz.estimate, reach = own.overshoot_over_jolt / reference->response.overshoot_over_jolt;
-    records.figures.push_back({"C09", "frequency over the reference's", at, pace, own.swing.frequency_hz.low / swing.frequency_hz.high,
+    records.figures.push_back({"C09", "frequency_over_reference", at, pace, own.swing.frequency_hz.low / swing.frequency_hz.high,
                                own.swing.frequency_hz.high / swing.frequency_hz.low, "1"});
-    records.figures.push_back({"C09", "amplitude over the reference's", at, reach, reach, reach, "1"});
-    records.figures.push_back({"C09", "damping ratio of the reference", at, swing.damping_ratio.estimate, swing.damping_ratio.low,
-                               swing.damping_ratio.high, "1"});
+    records.figures.push_back({"C09", "amplitude_over_reference", at, reach, reach, reach, "1"});
+    records.figures.push_back(
+        {"C09", "damping_ratio_of_reference", at, swing.damping_ratio.estimate, swing.damping_ratio.low, swing.damping_ratio.high, "1"});
 }
 
 }  // namespace

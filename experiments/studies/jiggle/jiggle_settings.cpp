@@ -32,6 +32,17 @@ DeformerSpec jiggling(DeformerSpec pbs, const JiggleSetting& setting)
     return pbs;
 }
 
+analysis::CaseKey key_of(const std::string& body, const JiggleSetting& setting)
+{
+    analysis::CaseKey key = {.body = body,
+                             .k_stretch = setting.k_stretch,
+                             .masses = name_of(setting.masses),
+                             .iterations = setting.iterations,
+                             .time_step_s = setting.time_step_s};
+    if (setting.k_bind < 1.0) key.k_bind = setting.k_bind;
+    return key;
+}
+
 std::string text_of(const JiggleSetting& setting)
 {
     const std::string bind = setting.k_bind < 1.0 ? fmt::format(", k_bind {}", setting.k_bind) : "";

@@ -2,6 +2,7 @@
 //   for (const JiggleSetting& setting : jiggle_settings()) responses.push_back(jolt_response(character, jiggling(pbs, setting), ...));
 #pragma once
 
+#include "analysis/case_key.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "pbs/solver/options.hpp"
 
@@ -26,6 +27,7 @@ std::vector<JiggleSetting> jiggle_settings();
 bool is_of_the_paper(const JiggleSetting& setting);
 
 DeformerSpec jiggling(DeformerSpec pbs, const JiggleSetting& setting);  // gravity as it has it
+analysis::CaseKey key_of(const std::string& body, const JiggleSetting& setting);
 std::string text_of(const JiggleSetting& setting);  // "k_stretch 0.1, 10 ms, 24 iterations, unit masses"; a k_bind below 1 behind it
 
 }  // namespace experiments

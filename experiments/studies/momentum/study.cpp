@@ -10,8 +10,6 @@
 #include "analysis/measurement.hpp"
 #include "pbs/geometry/input_error.hpp"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 
 namespace experiments {
@@ -27,20 +25,21 @@ struct Setting {
     std::string name;
     pbs::Masses known, counted;  // to the projection; to the momentum
 };
-const Setting settings[] = {{"equal masses", pbs::Masses::unit, pbs::Masses::unit},
-                            {"unequal masses (weighted)", pbs::Masses::lumped, pbs::Masses::lumped},
-                            {"unequal masses (Eq. 8-9 for m = 1)", pbs::Masses::unit, pbs::Masses::lumped}};
+const Setting settings[] = {{"equal", pbs::Masses::unit, pbs::Masses::unit},
+                            {"unequal", pbs::Masses::lumped, pbs::Masses::lumped},
+                            {"unequal_by_eq_8_9", pbs::Masses::unit, pbs::Masses::lumped}};
 
 const std::pair<ProjectedClass, const char*> classes[] = {
     {ProjectedClass::stretch, "stretch"}, {ProjectedClass::volume, "volume"}, {ProjectedClass::bind, "bind"}};
 
 class DriftTable {
 public:
-    void add(ProjectedClass projected, const std::string& quantity, const std::string& of, const MomentumDrift& drift)
+    // The bones take up the momentum of bind constraints: no part of the claim.
+    void add(ProjectedClass projected, const std::string& suffix, const analysis::CaseKey& of, const MomentumDrift& drift)
     {
-        const std::string bones = projected == ProjectedClass::bind ? "taken by the bones: " : "";
-        rows.push_back({"C07", bones + "linear drift" + quantity, of, drift.linear, drift.linear, drift.linear, "1"});
-        rows.push_back({"C07", bones + "angular drift" + quantity, of, drift.angular, drift.angular, drift.angular, "1"});
+        const std::string bones = projected == ProjectedClass::bind ? "_taken_by_bones" : "";
+        rows.push_back({"C07", "linear_drift" + suffix + bones, of, drift.linear, drift.linear, drift.linear, "1"});
+        rows.push_back({"C07", "angular_drift" + suffix + bones, of, drift.angular, drift.angular, drift.angular, "1"});
     }
 
     std::vector<analysis::Measurement> rows;
@@ -59,12 +58,12 @@ std::string measure_drift(const MomentumCase& of, const std::string& folder)
             for (const auto& [projected, class_name] : classes) {
                 options.precision = precision;
                 options.masses = setting.known;
-                const std::string name = fmt::format("{}, {}, {}, {}", setting.name, of.name, class_name, precision_name);
-                table.add(projected, "", name, drift_of_projections(character, pose, options, projected, setting.counted));
+                analysis::CaseKey key = {.body = of.name, .precision = precision_name, .masses = setting.name, .constraint = class_name};
+                table.add(projected, "", key, drift_of_projections(character, pose, options, projected, setting.counted));
                 for (const pbs::Order order : {pbs::Order::ordered, pbs::Order::grouped, pbs::Order::plain}) {
                     options.order = order;
-                    table.add(projected, " of a pass", name + ", " + name_of(order),
-                              drift_of_a_pass(character, pose, options, projected, setting.counted));
+                    key.order = name_of(order);
+                    table.add(projected, "_of_a_pass", key, drift_of_a_pass(character, pose, options, projected, setting.counted));
                 }
             }
     analysis::measurement_table(table.rows).write((std::filesystem::path(folder) / "measurements.csv").string());

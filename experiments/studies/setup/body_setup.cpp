@@ -56,16 +56,23 @@ void forget_meshes(const fs::path& cache)
         if (file.filename() != "packages") fs::remove_all(file);
 }
 
-std::string name_of(const BodySetup& setup, const nlohmann::json& run)
+analysis::CaseKey key_of(const BodySetup& setup)
 {
-    return fmt::format("{}, {} vertices, 01_01", setup.body, run.at("character").at("vertices").get<long long>());
+    return {.body = setup.body, .motion = "01_01", .deformer = "pbs"};
+}
+
+analysis::CaseKey key_of(const BodySetup& setup, const nlohmann::json& run)
+{
+    analysis::CaseKey key = key_of(setup);
+    key.vertices = run.at("character").at("vertices").get<double>();
+    return key;
 }
 
 std::vector<analysis::Measurement> measured_in(const fs::path& run_folder, const BodySetup& setup, const std::vector<std::string>& changed)
 {
     const analysis::CsvTable metrics = analysis::read_csv((run_folder / "metrics.csv").string());
     return analysis::from_record((run_folder / "run.json").string(),
-                                 [&](const nlohmann::json& run) { return setup_measurements(name_of(setup, run), metrics, run, changed); });
+                                 [&](const nlohmann::json& run) { return setup_measurements(key_of(setup, run), metrics, run, changed); });
 }
 
 void write_trials(const std::vector<TriedSetup>& tried, const std::string& path)
@@ -123,8 +130,8 @@ std::vector<TriedSetup> tried_setups(const BodySetup& setup, const Trial& trial)
     return tried;
 }
 
-std::vector<analysis::Measurement> setup_measurements(const std::string& of, const analysis::CsvTable& metrics, const nlohmann::json& run,
-                                                      const std::vector<std::string>& changed)
+std::vector<analysis::Measurement> setup_measurements(const analysis::CaseKey& of, const analysis::CsvTable& metrics,
+                                                      const nlohmann::json& run, const std::vector<std::string>& changed)
 {
     const std::vector<double> change_pct = metrics.numbers("volume_change_pct"), inverted = metrics.numbers("inverted_tets");
     std::vector<bool> good;
@@ -139,18 +146,17 @@ std::vector<analysis::Measurement> setup_measurements(const std::string& of, con
     const nlohmann::json& seconds = run.at("cost").at("cpu_seconds");
     const double set_up_s = seconds.at("character").get<double>() + seconds.at("motion").get<double>() + seconds.at("set_up").get<double>();
     const double keys = static_cast<double>(changed.size());
-    return {{"C17", "keys changed besides the body", of, keys, keys, keys, "1"},
-            {"C17", "share of frames finite and without inverted tets", of, share.estimate, share.low, share.high, "1"},
-            {"C17", "mean volume change", of, mean.estimate, mean.low, mean.high, "%"},
-            {"C17", "largest volume change", of, largest_pct, largest_pct, largest_pct, "%"},
-            {"C17", "seconds to set up", of, set_up_s, set_up_s, set_up_s, "s"}};
+    return {{"C17", "keys_changed", of, keys, keys, keys, "1"},
+            {"C17", "share_of_sound_frames", of, share.estimate, share.low, share.high, "1"},
+            {"C17", "mean_volume_change_pct", of, mean.estimate, mean.low, mean.high, "%"},
+            {"C17", "largest_volume_change_pct", of, largest_pct, largest_pct, largest_pct, "%"},
+            {"C17", "set_up_s", of, set_up_s, set_up_s, set_up_s, "s"}};
 }
 
-std::vector<analysis::Measurement> not_set_up(const std::string& of)
+std::vector<analysis::Measurement> not_set_up(const analysis::CaseKey& of)
 {
     const double none = analysis::not_known;
-    return {{"C17", "keys changed besides the body", of, none, none, none, "1"},
-            {"C17", "share of frames finite and without inverted tets", of, 0.0, 0.0, 0.0, "1"}};
+    return {{"C17", "keys_changed", of, none, none, none, "1"}, {"C17", "share_of_sound_frames", of, 0.0, 0.0, 0.0, "1"}};
 }
 
 std::string set_up_and_record(const BodySetup& setup, double rate_hz, const std::string& folder)
@@ -169,8 +175,7 @@ std::string set_up_and_record(const BodySetup& setup, double rate_hz, const std:
     const bool runs = tried.back().failure.empty();
     const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
     const std::vector<std::string> changed = keys_changed(shared_scene(rate_hz).resolved, scene_of(last, rate_hz).resolved);
-    analysis::measurement_table(runs ? measured_in(run_folder, last, changed) : not_set_up(setup.body + ", 01_01"))
-        .write(path("measurements.csv"));
+    analysis::measurement_table(runs ? measured_in(run_folder, last, changed) : not_set_up(key_of(setup))).write(path("measurements.csv"));
     analysis::CsvTable keys({"key"});
     for (const std::string& key : changed) keys.add_row({key});
     keys.write(path("changed_keys.csv"));

@@ -39,10 +39,10 @@ std::vector<TriedSetup> tried_setups(const BodySetup& setup, const Trial& trial)
 std::vector<std::string> keys_changed(const nlohmann::json& shared, const nlohmann::json& own);
 
 // The figures of C17, of a run's metrics.csv and run.json and the keys that were changed for it.
-std::vector<analysis::Measurement> setup_measurements(const std::string& of, const analysis::CsvTable& metrics, const nlohmann::json& run,
-                                                      const std::vector<std::string>& changed);
+std::vector<analysis::Measurement> setup_measurements(const analysis::CaseKey& of, const analysis::CsvTable& metrics,
+                                                      const nlohmann::json& run, const std::vector<std::string>& changed);
 // Of a body that did not run with any of further_keys(): no number of keys does, and no frame is good.
-std::vector<analysis::Measurement> not_set_up(const std::string& of);
+std::vector<analysis::Measurement> not_set_up(const analysis::CaseKey& of);
 
 // Runs it in `folder`/run, with a cache of meshes of its own that is removed afterwards, and writes measurements.csv, changed_keys.csv and
 // trials.csv. Returns what broke down. It sets this process's PBSKIN_CACHE.

@@ -42,13 +42,14 @@ std::map<std::string, analysis::Measurement> figures_of(const std::string& run)
 
 std::string line_of(const std::map<std::string, analysis::Measurement>& figures)
 {
-    const auto& keys = figures.at("keys changed besides the body");
-    const auto& share = figures.at("share of frames finite and without inverted tets");
-    if (!figures.contains("mean volume change")) return fmt::format("{:<36} did not run with any of the further keys\n", keys.of);
-    const auto& mean = figures.at("mean volume change");
-    return fmt::format("{:<36} {:>5.0f} {:>9.1f} [{:>5.1f}, {:>5.1f}] {:>8.2f} [{:>5.2f}, {:>5.2f}] {:>10.2f} {:>9.1f}\n", keys.of,
+    const auto& keys = figures.at("keys_changed");
+    const auto& share = figures.at("share_of_sound_frames");
+    if (!figures.contains("mean_volume_change_pct"))
+        return fmt::format("{:<36} did not run with any of the further keys\n", text_of(keys.of));
+    const auto& mean = figures.at("mean_volume_change_pct");
+    return fmt::format("{:<36} {:>5.0f} {:>9.1f} [{:>5.1f}, {:>5.1f}] {:>8.2f} [{:>5.2f}, {:>5.2f}] {:>10.2f} {:>9.1f}\n", text_of(keys.of),
                        keys.value, 100.0 * share.value, 100.0 * share.low, 100.0 * share.high, mean.value, mean.low, mean.high,
-                       figures.at("largest volume change").value, figures.at("seconds to set up").value);
+                       figures.at("largest_volume_change_pct").value, figures.at("set_up_s").value);
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ const std::array<TableOneRow, 5>& table_1()
 
 std::vector<PrintedFigure> mesh_size_figures()
 {
-    const auto range = [](const std::string& what, double printed, auto count, auto counted) {
-        PrintedFigure figure{"C13", what, printed, std::numeric_limits<double>::infinity(), 0.0};
+    const auto range = [](const std::string& quantity, double printed, auto count, auto counted) {
+        PrintedFigure figure{"C13", quantity, {}, printed, std::numeric_limits<double>::infinity(), 0.0};
         for (const TableOneRow& row : table_1()) {
             if (!counted(row)) continue;
             figure.least = std::min<double>(figure.least, count(row));
@@ -32,8 +32,8 @@ std::vector<PrintedFigure> mesh_size_figures()
     const auto tets = [](const TableOneRow& row) { return row.tets; };
     const auto any = [](const TableOneRow&) { return true; };
     const auto some_2k = [](const TableOneRow& row) { return row.vertices >= 1500 && row.vertices < 2500; };
-    return {range("vertices of a mesh, by Sec. 4", 2000.0, vertices, any), range("tets of a mesh, by Sec. 4", 10000.0, tets, any),
-            range("tets, by Sec. 4, of the meshes with roughly 2K vertices", 10000.0, tets, some_2k)};
+    return {range("vertices", 2000.0, vertices, any), range("tets", 10000.0, tets, any),
+            range("tets_of_meshes_with_2k_vertices", 10000.0, tets, some_2k)};
 }
 
 std::vector<PrintedFigure> table_1_figures()
@@ -42,12 +42,12 @@ std::vector<PrintedFigure> table_1_figures()
     const double infinite = std::numeric_limits<double>::infinity();
     std::vector<PrintedFigure> figures;
     for (const TableOneRow& row : table_1()) {
+        const analysis::CaseKey of = {.model = row.model};
         figures.push_back(
-            {"C14", row.model + ": stretch constraints", double(row.stretch), double(row.vertices + row.tets + 1), double(6 * row.tets)});
-        figures.push_back({"C14", row.model + ": bind constraints", double(row.bind), double(row.vertices), double(row.vertices)});
-        figures.push_back({"C14", row.model + ": CT total [ms], which holds CT stretch and CT volume", row.total_ms,
-                           row.stretch_ms + row.volume_ms - 3.0 * half_a_digit_ms, infinite});
-        figures.push_back({"C14", row.model + ": CT total of 1 s [ms], by the frame rate", row.total_ms,
+            {"C14", "stretch_constraints", of, double(row.stretch), double(row.vertices + row.tets + 1), double(6 * row.tets)});
+        figures.push_back({"C14", "bind_constraints", of, double(row.bind), double(row.vertices), double(row.vertices)});
+        figures.push_back({"C14", "ct_total_ms", of, row.total_ms, row.stretch_ms + row.volume_ms - 3.0 * half_a_digit_ms, infinite});
+        figures.push_back({"C14", "ct_total_of_1_s_ms", of, row.total_ms,
                            steps_in_1_s * 1e3 / (row.frames_per_s + half_a_digit_fps) - half_a_digit_ms,
                            steps_in_1_s * 1e3 / (row.frames_per_s - half_a_digit_fps) + half_a_digit_ms});
     }

@@ -46,7 +46,7 @@ const std::vector<std::string> columns = {"body",
                                           "as_published",
                                           "cpu_s"};
 
-using Keyed = std::vector<std::pair<std::string, std::vector<const MeasuredCell*>>>;
+using Keyed = std::vector<std::pair<analysis::CaseKey, std::vector<const MeasuredCell*>>>;
 
 bool jiggles(const StabilityCell& cell)
 {
@@ -61,9 +61,12 @@ Keyed by_sweep(const std::vector<MeasuredCell>& cells)
     for (const MeasuredCell& measured : cells) {
         const StabilityCell& cell = measured.cell;
         if (!cell.as_published) continue;
-        const std::string factor = cell.second_factor.empty() ? cell.factor : cell.factor + " x " + cell.second_factor;
-        const std::string key =
-            fmt::format("{}, {}, {}, {}", cell.body, jiggles(cell) ? "jiggling" : "no jiggle", factor, precision_of(cell));
+        const analysis::CaseKey key = {.body = cell.body,
+                                       .deformer = "pbs",
+                                       .variant = jiggles(cell) ? "jiggle" : "",
+                                       .precision = precision_of(cell),
+                                       .factor = cell.factor,
+                                       .second_factor = cell.second_factor};
         auto found = std::find_if(sweeps.begin(), sweeps.end(), [&](const auto& sweep) { return sweep.first == key; });
         if (found == sweeps.end()) found = sweeps.insert(sweeps.end(), {key, {}});
         found->second.push_back(&measured);
@@ -154,15 +157,15 @@ CsvTable stability_measurements(const std::vector<MeasuredCell>& cells)
 {
     std::vector<analysis::Measurement> rows;
     for (const auto& [sweep, of] : by_sweep(cells)) {
-        const std::string name = fmt::format("{}, n = {}", sweep, of.size());
-        const auto add = [&](const std::string& quantity, const ShareInterval& share) {
-            rows.push_back({"C08", quantity, name, share.value, share.low, share.high, "1"});
+        const auto add = [&, key = sweep, n = static_cast<int>(of.size())](const std::string& quantity, const ShareInterval& share) {
+            rows.push_back({"C08", quantity, key, share.value, share.low, share.high, "1"});
+            rows.back().n = n;
         };
         const double away = share(of, ran_away).value;
-        add("share of cells diverged or not finite", {away, away, away});
-        add("share of cells inverted", share(of, [](const CellResult& result) { return is(result, StabilityOutcome::inverted); }));
-        add("share of cells not at rest", share(of, never_rests));
-        add("share of cells converged", share(of, [](const CellResult& result) { return is(result, StabilityOutcome::converged); }));
+        add("share_of_cells_diverged", {away, away, away});
+        add("share_of_cells_inverted", share(of, [](const CellResult& result) { return is(result, StabilityOutcome::inverted); }));
+        add("share_of_cells_in_motion", share(of, never_rests));
+        add("share_of_cells_at_rest", share(of, [](const CellResult& result) { return is(result, StabilityOutcome::converged); }));
     }
     return analysis::measurement_table(rows);
 }

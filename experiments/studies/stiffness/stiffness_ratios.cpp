@@ -34,39 +34,35 @@ Window beside_the_paper(Varied varied)
     return {0.0, 1e9};
 }
 
-// Only the jiggling zone on what the paper's solver moves is what the paper runs.
-std::string suffix_of(Method method, const std::string& load)
+const char* deformer_of(Method method)
 {
-    if (method == Method::exponent) return ", exponent";
-    if (method == Method::xpbd_forgetting) return ", xpbd, multipliers forgotten";
-    if (is_xpbd(method)) return ", xpbd";
-    return load == "zone" ? "" : ", flesh held";
+    if (method == Method::exponent) return "pbs_exponent";
+    if (method == Method::xpbd_forgetting) return "xpbd_forgetting_multipliers";
+    if (method == Method::xpbd_small_steps) return "xpbd_small_steps";
+    return is_xpbd(method) ? "xpbd" : "pbs";
 }
 
-std::string quantity_of(Varied varied, const std::string& suffix)
+std::string quantity_of(Varied varied)
 {
-    const char* changed = varied == Varied::iterations  ? "twice the iterations over at the once"
-                          : varied == Varied::time_step ? "half the time step over at the whole"
-                                                        : "twice the resolution over at the once";
-    return fmt::format("effective stiffness at {}{}", changed, suffix);
+    return varied == Varied::iterations  ? "stiffness_ratio_at_twice_iterations"
+           : varied == Varied::time_step ? "stiffness_ratio_at_half_time_step"
+                                         : "stiffness_ratio_at_twice_resolution";
 }
 
-std::string material_of(const StiffnessSetting& setting)
+// Everything that is not varied, except for a repetition in another order or on the second ladder.
+analysis::CaseKey key_of(const StiffnessRow& row, Varied varied)
 {
-    if (setting.method == Method::xpbd) return fmt::format("{:.4g} kPa", 1e-3 * setting.young_pa);
-    if (setting.method == Method::xpbd_small_steps) return fmt::format("{:.4g} kPa in small steps", 1e-3 * setting.young_pa);
-    if (setting.method == Method::xpbd_forgetting) return fmt::format("{:.4g} kPa, multipliers forgotten", 1e-3 * setting.young_pa);
-    return fmt::format("k_stretch {:.4g}{}", setting.k_stretch, setting.method == Method::exponent ? " with the exponent" : "");
-}
-
-// Everything that is not varied, nor a repetition in another order or on the second ladder.
-std::string case_of(const StiffnessRow& row, Varied varied)
-{
-    std::string text = fmt::format("{}, {}, {}", row.body, row.load, material_of(row.setting));
-    if (varied != Varied::iterations) text += fmt::format(", {} iterations", row.setting.iterations);
-    if (varied != Varied::time_step) text += fmt::format(", {:.4g} ms", 1e3 * row.setting.time_step_s);
-    if (varied != Varied::resolution) text += fmt::format(", {} vertices", row.vertices);
-    return text + (row.by == "stepped" ? ", stepped" : "");
+    const StiffnessSetting& setting = row.setting;
+    analysis::CaseKey key = {.body = row.body, .deformer = deformer_of(setting.method), .load = row.load};
+    if (is_xpbd(setting.method))
+        key.young_pa = setting.young_pa;
+    else
+        key.k_stretch = setting.k_stretch;
+    if (varied != Varied::iterations) key.iterations = setting.iterations;
+    if (varied != Varied::time_step) key.time_step_s = setting.time_step_s;
+    if (varied != Varied::resolution) key.vertices = row.vertices;
+    if (row.by == "stepped") key.ladder = row.by;
+    return key;
 }
 
 struct Point {
@@ -75,7 +71,7 @@ struct Point {
 using Series = std::map<std::string, std::vector<Point>>;  // of a case, by order and ladder
 
 struct Case {
-    std::string suffix;  // of the figure's name
+    analysis::CaseKey key;
     Series series;
     int left_out = 0;
 };
@@ -84,8 +80,9 @@ std::map<std::string, Case> cases_of(const std::vector<StiffnessRow>& rows, Vari
 {
     std::map<std::string, Case> cases;
     for (const StiffnessRow& row : rows) {
-        Case& found = cases[case_of(row, varied)];
-        found.suffix = suffix_of(row.setting.method, row.load);
+        const analysis::CaseKey key = key_of(row, varied);
+        Case& found = cases[text_of(key)];
+        found.key = key;
         const bool usable = row.converged && std::isfinite(row.stiffness_n_m) && row.stiffness_n_m > 0.0;
         found.left_out += !usable;
         if (usable) found.series[fmt::format("{} {}", row.setting.order_seed, row.mesh)].push_back({x_of(row, varied), row.stiffness_n_m});
@@ -110,20 +107,33 @@ double for_one_doubling(const Point& once, const Point& more)
     return std::pow(more.stiffness / once.stiffness, std::log(2.0) / std::log(more.x / once.x));
 }
 
-std::optional<analysis::Measurement> ratio_of(const std::string& of, const Case& measured, Varied varied)
+// The settings between which the ratio is taken.
+analysis::CaseKey over_range(analysis::CaseKey key, Varied varied, double first, double last)
+{
+    if (varied == Varied::iterations) {
+        key.iterations = first;
+        key.iterations_to = last;
+    } else if (varied == Varied::time_step) {
+        key.time_step_s = 1.0 / first;
+        key.time_step_to_s = 1.0 / last;
+    } else {
+        key.vertices = first;
+        key.vertices_to = last;
+    }
+    return key;
+}
+
+std::optional<analysis::Measurement> ratio_of(const Case& measured, Varied varied)
 {
     std::optional<analysis::Measurement> result;
     for (const auto& [key, all] : measured.series) {  // file order on the wanted meshes comes first
         const std::vector<Point> points = within(all, beside_the_paper(varied));
         if (points.size() < 2) continue;
         const double overall = for_one_doubling(points.front(), points.back());
-        if (!result) {
-            const std::string to = varied == Varied::resolution ? fmt::format("{} to {} vertices", points.front().x, points.back().x)
-                                   : varied == Varied::iterations
-                                       ? fmt::format("{} to {} iterations", points.front().x, points.back().x)
-                                       : fmt::format("{:.4g} to {:.4g} ms", 1e3 / points.front().x, 1e3 / points.back().x);
-            result = {"C11", quantity_of(varied, measured.suffix), of + ", " + to, overall, overall, overall, "1"};
-        }
+        if (!result)
+            result = {
+                "C11", quantity_of(varied), over_range(measured.key, varied, points.front().x, points.back().x), overall, overall, overall,
+                "1"};
         for (std::size_t i = 1; i < points.size(); ++i) {
             const double single = for_one_doubling(points[i - 1], points[i]);
             result->low = std::min(result->low, single);
@@ -139,7 +149,7 @@ std::vector<analysis::Measurement> stiffness_ratios(const std::vector<StiffnessR
 {
     std::vector<analysis::Measurement> measured;
     for (const auto& [of, found] : cases_of(rows, varied))
-        if (const auto ratio = ratio_of(of, found, varied)) measured.push_back(*ratio);
+        if (const auto ratio = ratio_of(found, varied)) measured.push_back(*ratio);
     return measured;
 }
 

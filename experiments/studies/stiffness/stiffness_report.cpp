@@ -99,7 +99,7 @@ std::string stiffness_markdown(const std::vector<SweptRows>& sweeps)
     for (const auto& [varied, rows] : sweeps) {
         text += fmt::format("\n## Ratio at {}\n\n| case | ratio | least to most |\n|---|---|---|\n", doubled(varied));
         for (const auto& measured : stiffness_ratios(rows, varied))
-            text += fmt::format("| {} | {:.4g} | {:.4g} to {:.4g} |\n", measured.of, measured.value, measured.low, measured.high);
+            text += fmt::format("| {} | {:.4g} | {:.4g} to {:.4g} |\n", text_of(measured.of), measured.value, measured.low, measured.high);
         text += fmt::format("\n## Stiffness ~ ({})^p\n\n| case | from | to | p | 95 % | left out |\n|---|---|---|---|---|---|\n",
                             name_of(varied));
         for (const StiffnessExponent& found : stiffness_exponents(rows, varied))
@@ -134,9 +134,10 @@ std::string control_text(const std::vector<SweptRows>& sweeps, const analysis::C
             const auto& farthest = *std::max_element(measured.begin(), measured.end(), [](const auto& a, const auto& b) {
                 return std::abs(std::log(farther_end(a))) < std::abs(std::log(farther_end(b)));
             });
-            text += fmt::format("the control, {}, at {}: {} of {} figures stay within {}; farthest {:.3g}, of {}\n", name,
-                                doubled(sweep.first), within, measured.size(),
-                                analysis::bound_text(analysis::bound_of(claim, farthest.quantity)), farther_end(farthest), farthest.of);
+            text +=
+                fmt::format("the control, {}, at {}: {} of {} values stay within {}; farthest {:.3g}, of {}\n", name, doubled(sweep.first),
+                            within, measured.size(), analysis::bound_text(analysis::bound_of(claim, farthest.quantity)),
+                            farther_end(farthest), text_of(farthest.of));
         }
     return text;
 }
@@ -147,7 +148,7 @@ std::string control_markdown(const std::vector<SweptRows>& sweeps, const analysi
     for (const SweptRows& sweep : sweeps)
         for (const auto& measured : control_ratios(sweep, Multipliers::kept))
             if (!stays(claim, measured))
-                text += fmt::format("| {} | {} | {:.4g} | {:.4g} to {:.4g} |\n", doubled(sweep.first), measured.of, measured.value,
+                text += fmt::format("| {} | {} | {:.4g} | {:.4g} to {:.4g} |\n", doubled(sweep.first), text_of(measured.of), measured.value,
                                     measured.low, measured.high);
     if (text.empty()) text = "| none | | | |\n";
     return "\n## Where XPBD, the control, leaves the claim's bounds\n\n| at | case | ratio | least to most |\n|---|---|---|---|\n" + text;

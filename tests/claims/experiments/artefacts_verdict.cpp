@@ -30,7 +30,7 @@ void expect_the_claims_quantities(const std::string& id, const std::vector<Measu
     std::set<std::string> known(claim.metrics.begin(), claim.metrics.end()), written;
     for (const Measurement& figure : measured) written.insert(figure.quantity);
     for (const std::string& quantity : known) EXPECT_TRUE(written.contains(quantity)) << quantity;
-    known.insert(claim.beside.begin(), claim.beside.end());
+    known.insert(claim.reported.begin(), claim.reported.end());
     for (const std::string& quantity : written) EXPECT_TRUE(known.contains(quantity)) << quantity;
 }
 
@@ -103,14 +103,14 @@ TEST_F(ArtefactsVerdict, ARatioAboveOneIsNotSmoother)
     bent.poses = {{2, "bend 60 deg"}};
     std::vector<Measurement> measured = experiments::compare_weights(bent).figures;
     expect_the_claims_quantities("C06", measured);
-    const auto put = [&](const std::string& quantity, double ratio) {
+    const auto put = [&](const std::string& quantity, const analysis::CaseKey& of, double ratio) {
         for (Measurement& figure : measured)
-            if (figure.quantity.starts_with(quantity)) figure.value = figure.low = figure.high = ratio;
+            if (figure.quantity == quantity && analysis::matches(figure.of, of)) figure.value = figure.low = figure.high = ratio;
     };
-    put("strain jump", 0.5);
-    put("curvature", 9.0);  // beside
+    put("strain_jump_over_rigid_weights", {}, 0.5);
+    put("curvature_over_rigid_weights", {}, 9.0);  // reported
     EXPECT_EQ(verdict("C06", measured), VerdictKind::reproduced);
-    put("strain jump at the joint of PBS", 1.1);
+    put("strain_jump_over_rigid_weights", {.deformer = "pbs"}, 1.1);
     EXPECT_EQ(verdict("C06", measured), VerdictKind::not_reproduced);
 }
 

@@ -39,7 +39,7 @@ TEST(AuditVerdict, WhatCannotBeTestedSaysWhy)
 {
     const analysis::Verdict verdict = judge(claim("C16"), {});
     EXPECT_EQ(verdict.kind, VerdictKind::cannot_be_tested_here);
-    EXPECT_NE(verdict.text.find("no figure"), std::string::npos) << verdict.text;
+    EXPECT_NE(verdict.claim.reason.find("no figure"), std::string::npos) << verdict.claim.reason;
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ using test_support::Broken;
 using test_support::figures_of;
 using test_support::hand_cut_widest;
 
-const std::string radius = "largest section radius over the reference's", area = "largest section area over the reference's";
+const std::string radius = "largest_section_radius_over_reference", area = "largest_section_area_over_reference";
 
 experiments::ArtefactCase small_bend()
 {

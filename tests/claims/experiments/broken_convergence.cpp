@@ -27,7 +27,7 @@ using test_support::Broken;
 using test_support::claim;
 using test_support::figures_of;
 
-const char* const by_volume = "absolute volume change";
+const analysis::CaseKey by_volume = {.tolerance = "volume"};
 
 const experiments::ConvergenceResult& bend(Broken how)
 {
@@ -58,22 +58,22 @@ VerdictKind verdict_of_c03(const std::vector<Measurement>& measured)
     return judge(claim("C03"), records).kind;
 }
 
-// The limb stands beside C12; judged as a character's figure would be.
+// The limb is reported with C12; judged as a character's value would be.
 analysis::Extent twenty_four_suffice(Broken how)
 {
-    Measurement figure = figures_of(figures(how), "iterations to tolerance, the limb and its sizes", by_volume).at(0);
-    figure.quantity = "iterations to tolerance";
+    Measurement figure = figures_of(figures(how), "iterations_to_tolerance_of_limbs", by_volume).at(0);
+    figure.quantity = "iterations_to_tolerance";
     return analysis::extent_of(claim("C12"), figure);
 }
 
 double share_without_arrival(Broken how)
 {
-    return figures_of(figures(how), "neither start arrives", by_volume).at(0).value;
+    return figures_of(figures(how), "share_of_ratios_not_reached", by_volume).at(0).value;
 }
 
 double from_rest_over_lbs_by_volume(Broken how)
 {
-    return figures_of(figures(how), "iterations to tolerance, from the rest pose over from LBS", by_volume).at(0).value;
+    return figures_of(figures(how), "iterations_over_lbs_guess", {.initial_guess = "rest_pose", .tolerance = "volume"}).at(0).value;
 }
 
 TEST(BrokenConvergence, AsItIsEveryStartArrivesByVolume)
@@ -98,8 +98,8 @@ TEST(BrokenConvergence, WithoutVolumeNoStartArrivesByVolume)
 {
     EXPECT_EQ(share_without_arrival(Broken::volume_dropped), 1.0);
     EXPECT_EQ(twenty_four_suffice(Broken::volume_dropped), analysis::Extent::none);
-    EXPECT_TRUE(figures_of(figures(Broken::volume_dropped), "over from LBS", by_volume).empty());
-    EXPECT_FALSE(figures_of(figures(Broken::nothing), "over from LBS", by_volume).empty());
+    EXPECT_TRUE(figures_of(figures(Broken::volume_dropped), "iterations_over_lbs_guess", by_volume).empty());
+    EXPECT_FALSE(figures_of(figures(Broken::nothing), "iterations_over_lbs_guess", by_volume).empty());
 }
 
 TEST(BrokenConvergence, WithoutBindTheRestPoseStaysAndIsThereAtOnce)

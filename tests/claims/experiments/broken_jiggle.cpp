@@ -56,9 +56,9 @@ std::vector<Extent> extents(Broken how, const std::string& quantity)
     return found;
 }
 
-const char* const share = "share of settings that swing";
-const char* const correlation = "rank correlation of frequency and k_stretch";
-const char* const range = "frequency at the largest k_stretch over at the smallest";
+const char* const share = "share_of_settings_that_swing";
+const char* const correlation = "rank_correlation_of_frequency_and_k_stretch";
+const char* const range = "frequency_ratio_over_k_stretch";
 
 TEST(BrokenJiggle, AsItIsKStretchSetsTheFrequency)
 {
@@ -103,7 +103,8 @@ TEST(BrokenJiggle, TheSignTurnedRoundDoesNotComeToRest)
 TEST(BrokenJiggle, WithOneClassLessItSwingsMoreSlowly)
 {
     const auto frequency = [](Broken how) {
-        return figures_of(jiggle_figures("limb", jolted(how)), "frequency", "k_stretch 0.1, 10 ms, 24 iterations").at(0);
+        return figures_of(jiggle_figures("limb", jolted(how)), "frequency_hz", {.k_stretch = 0.1, .iterations = 24.0, .time_step_s = 0.01})
+            .at(0);
     };
     for (const Broken how : {Broken::bind_dropped, Broken::stretch_dropped, Broken::volume_dropped}) {
         EXPECT_EQ(extents(how, share), extents(Broken::nothing, share)) << name_of(how);
@@ -115,7 +116,7 @@ TEST(BrokenJiggle, WhicheverClassIsDroppedAStepIsAStep)
 {
     for (const Broken how : {Broken::nothing, Broken::bind_dropped, Broken::stretch_dropped, Broken::volume_dropped}) {
         const auto measured = jiggle_figures("limb", jolted(how));
-        EXPECT_NEAR(figures_of(measured, "frequency at half the time step").at(0).value, 2.0, 1e-6) << name_of(how);
+        EXPECT_NEAR(figures_of(measured, "frequency_ratio_at_half_time_step").at(0).value, 2.0, 1e-6) << name_of(how);
     }
 }
 

@@ -27,8 +27,7 @@ using test_support::Broken;
 using test_support::figures_of;
 using test_support::hand_strain_jump;
 
-const std::string of_pbs = "strain jump at the joint of PBS, Eq. 2 over rigid",
-                  of_lbs = "strain jump at the joint of LBS, Eq. 2 over rigid";
+const std::string of_pbs = "pbs", of_lbs = "lbs", strain_jump = "strain_jump_over_rigid_weights";
 
 constexpr int vertices = 1200;  // tets smaller than the region that Eq. 2 blends
 
@@ -84,16 +83,16 @@ VerdictKind verdict(const std::vector<Measurement>& measured)
     return judge(test_support::claim("C06"), records).kind;
 }
 
-// By one quantity alone.
-VerdictKind verdict(const WeightsComparison& comparison, const std::string& quantity)
+// By one deformer alone.
+VerdictKind verdict(const WeightsComparison& comparison, const std::string& deformer)
 {
-    EXPECT_EQ(figures_of(comparison.figures, quantity).size(), 1u);
-    return verdict(figures_of(comparison.figures, quantity));
+    EXPECT_EQ(figures_of(comparison.figures, strain_jump, {.deformer = deformer}).size(), 1u);
+    return verdict(figures_of(comparison.figures, strain_jump, {.deformer = deformer}));
 }
 
-Measurement figure(const WeightsComparison& comparison, const std::string& quantity)
+Measurement figure(const WeightsComparison& comparison, const std::string& deformer)
 {
-    return figures_of(comparison.figures, quantity).at(0);
+    return figures_of(comparison.figures, strain_jump, {.deformer = deformer}).at(0);
 }
 
 // Eq. 1 by hand, blended by Eq. 2 or not at all: the forearm is turned about the limb's axis, the upper arm stays.
@@ -112,7 +111,7 @@ pbs::Positions turned(bool is_by_eq_2)
 TEST(BrokenWeights, AsTheyAreTheResultIsSmoother)
 {
     EXPECT_EQ(verdict(sound().figures), VerdictKind::reproduced);
-    for (const std::string& quantity : {of_pbs, of_lbs}) EXPECT_EQ(verdict(sound(), quantity), VerdictKind::reproduced) << quantity;
+    for (const std::string& deformer : {of_pbs, of_lbs}) EXPECT_EQ(verdict(sound(), deformer), VerdictKind::reproduced) << deformer;
 }
 
 TEST(BrokenWeights, TheFigureOfLbsIsTheRatioOfStrainsByHand)
@@ -126,16 +125,16 @@ TEST(BrokenWeights, TheFigureOfLbsIsTheRatioOfStrainsByHand)
 TEST(BrokenWeights, Equation2FromAFileIsEquation2)
 {
     const WeightsComparison from_file = twisted_with([](int) { return 0.5; });
-    for (const std::string& quantity : {of_pbs, of_lbs}) EXPECT_EQ(figure(from_file, quantity).value, figure(sound(), quantity).value);
+    for (const std::string& deformer : {of_pbs, of_lbs}) EXPECT_EQ(figure(from_file, deformer).value, figure(sound(), deformer).value);
 }
 
 TEST(BrokenWeights, RigidOnesInTheirPlaceAreNotSmoother)
 {
     const WeightsComparison rigid = twisted_with([](int v) { return limb().binding.bone[v]; });
     EXPECT_EQ(verdict(rigid.figures), VerdictKind::not_reproduced);
-    for (const std::string& quantity : {of_pbs, of_lbs}) {
-        EXPECT_EQ(figure(rigid, quantity).value, 1.0);
-        EXPECT_EQ(verdict(rigid, quantity), VerdictKind::not_reproduced) << quantity;
+    for (const std::string& deformer : {of_pbs, of_lbs}) {
+        EXPECT_EQ(figure(rigid, deformer).value, 1.0);
+        EXPECT_EQ(verdict(rigid, deformer), VerdictKind::not_reproduced) << deformer;
     }
 }
 

@@ -46,7 +46,7 @@ TEST(JiggleVerdict, EveryJudgedQuantityIsWrittenAndNoneUnknown)
     std::set<std::string> known(claim.metrics.begin(), claim.metrics.end()), written;
     for (const auto& figure : experiments::jiggle_figures("limb", flesh(elastic_hz))) written.insert(figure.quantity);
     for (const std::string& quantity : known) EXPECT_TRUE(written.contains(quantity)) << quantity;
-    known.insert(claim.beside.begin(), claim.beside.end());
+    known.insert(claim.reported.begin(), claim.reported.end());
     for (const std::string& quantity : written) EXPECT_TRUE(known.contains(quantity)) << quantity;
 }
 

@@ -19,7 +19,9 @@ TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndNotByEquationsForOneMass)
 {
     const analysis::Verdict verdict = judge(claim("C07"), limb());
     EXPECT_EQ(verdict.kind, VerdictKind::reproduced_only_for);
-    EXPECT_NE(verdict.text.find("not for unequal masses (Eq. 8-9 for m = 1)"), std::string::npos) << verdict.text;
+    ASSERT_EQ(verdict.subjects.size(), 3u);
+    EXPECT_EQ(verdict.subjects[2].name, "unequal_by_eq_8_9");
+    for (const auto& subject : verdict.subjects) EXPECT_EQ(subject.extent == analysis::Extent::none, subject.name == "unequal_by_eq_8_9");
 }
 
 TEST(MomentumVerdict, TurnsWithItsFigures)

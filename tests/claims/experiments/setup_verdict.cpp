@@ -19,7 +19,7 @@ std::vector<analysis::Measurement> body(const std::string& name, int every, cons
     analysis::CsvTable metrics({"volume_change_pct", "inverted_tets"});
     for (int frame = 0; frame < 100; ++frame) metrics.add_row({-0.1 * (frame % 7), every && frame % every == 0 ? 1 : 0});
     const nlohmann::json run = {{"cost", {{"cpu_seconds", {{"character", 3.0}, {"motion", 0.25}, {"set_up", 0.5}}}}}};
-    return experiments::setup_measurements(name, metrics, run, changed);
+    return experiments::setup_measurements({.body = name}, metrics, run, changed);
 }
 
 VerdictKind verdict(const std::vector<std::vector<analysis::Measurement>>& bodies)
@@ -55,8 +55,8 @@ TEST(SetupVerdict, ABodyThatNeedsAFurtherKeyFlipsIt)
 
 TEST(SetupVerdict, ABodyThatNeverRunsFlipsIt)
 {
-    EXPECT_EQ(verdict({body("human", 0), experiments::not_set_up("ring, 01_01")}), VerdictKind::reproduced_only_for);
-    EXPECT_EQ(verdict({experiments::not_set_up("ring, 01_01")}), VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict({body("human", 0), experiments::not_set_up({.body = "ring"})}), VerdictKind::reproduced_only_for);
+    EXPECT_EQ(verdict({experiments::not_set_up({.body = "ring"})}), VerdictKind::not_reproduced);
 }
 
 TEST(SetupVerdict, NothingMeasuredIsNoVerdict)

@@ -99,7 +99,8 @@ TEST(StabilityVerdict, SharesAreOfTheCellsOfTheirSweep)
 {
     const analysis::CsvTable shares = stability_measurements(altered(0, StabilityOutcome::diverged));
     ASSERT_EQ(shares.rows(), 8);
-    EXPECT_EQ(shares.text_at(0, "of"), "limb, no jiggle, time step, f32, n = 2");
+    EXPECT_EQ(analysis::text_of(analysis::case_key(shares, 0)), "limb, pbs, f32, time step");
+    EXPECT_EQ(shares.integer(0, "n"), 2);
     EXPECT_EQ(shares.number(0, "value"), 0.5);  // one of two
     EXPECT_EQ(shares.number(1, "value"), 0.5);  // the inverted one
     EXPECT_EQ(shares.number(2, "value"), 0.0);
@@ -108,11 +109,11 @@ TEST(StabilityVerdict, SharesAreOfTheCellsOfTheirSweep)
 }
 
 // Theory: nothing of n is at most 1 - 0.025^(1 / n), all of n at least that.
-TEST(StabilityVerdict, SharesBesideHaveAnIntervalAndTheJudgedOneHasNone)
+TEST(StabilityVerdict, ReportedSharesHaveAnIntervalAndTheJudgedOneHasNone)
 {
     const analysis::CsvTable shares = stability_measurements(stable);
     for (int row = 0; row < shares.rows(); row += 4) EXPECT_EQ(shares.number(row, "high"), shares.number(row, "value"));
-    EXPECT_EQ(shares.text_at(5, "quantity"), "share of cells inverted");  // none of one
+    EXPECT_EQ(shares.text_at(5, "quantity"), "share_of_cells_inverted");  // none of one
     EXPECT_NEAR(shares.number(5, "high"), 0.975, 1e-9);
     EXPECT_EQ(shares.number(5, "low"), 0.0);
 }
@@ -128,7 +129,7 @@ TEST(StabilityVerdict, WhatMovesToTheEndIsNotAtRest)
     };
     const auto share = [](const MeasuredCell& cell) {
         const analysis::CsvTable shares = stability_measurements({cell});
-        EXPECT_EQ(shares.text_at(2, "quantity"), "share of cells not at rest");
+        EXPECT_EQ(shares.text_at(2, "quantity"), "share_of_cells_in_motion");
         return shares.number(2, "value");
     };
     const std::vector<double> still(12, 0.0), to_the_end(12, 1e-4);

@@ -66,15 +66,15 @@ TEST(StiffnessVerdict, TurnsWithTheFigures)
 }
 
 // Not as the paper runs it.
-TEST(StiffnessVerdict, FleshHeldStandsBeside)
+TEST(StiffnessVerdict, FleshHeldIsAControl)
 {
     for (const char* load : {"zone on held", "cantilever"}) {
         auto both = measured(Method::pbs, 0.0, 0.0, 0.0);
         for (const auto& held : measured(Method::pbs, 1.0, 2.0, -0.7, "bar", load)) both.push_back(held);
         const analysis::Verdict judged = verdict(both);
         EXPECT_EQ(judged.kind, VerdictKind::reproduced);
-        ASSERT_EQ(judged.measured_beside.size(), 3u);
-        for (const auto& held : judged.measured_beside) EXPECT_TRUE(held.quantity.ends_with(", flesh held")) << held.quantity;
+        ASSERT_EQ(judged.controls.size(), 3u);
+        for (const auto& held : judged.controls) EXPECT_EQ(held.of.load, load);
     }
 }
 
@@ -85,7 +85,7 @@ TEST(StiffnessVerdict, IsOfThePaperAlone)
     const analysis::Verdict judged = verdict(both);
     EXPECT_EQ(judged.kind, VerdictKind::not_reproduced);
     EXPECT_EQ(judged.measurements.size(), 3u);
-    EXPECT_EQ(judged.measured_beside.size(), 3u);
+    EXPECT_EQ(judged.controls.size(), 3u);
 }
 
 TEST(StiffnessVerdict, NeedsFigures)

@@ -81,7 +81,7 @@ TEST(Claims, BrokenFilesAreNamedWithTheirLine)
     EXPECT_EQ(message_of(head + "rule = \"mean_within\"\nmetrics = [\"volume_loss_pct\", 1.5]\n"),
               "claims.toml:9: metrics = [volume_loss_pct, 1.5]: expected a text at each place of the list");
     EXPECT_EQ(message_of("schema = 1\nverdict = \"reproduced\"\n"),
-              "claims.toml:2: verdict: unknown key: expected schema or check or claim");
+              "claims.toml:2: verdict: unknown key: expected schema or check or claim or quantity");
     EXPECT_EQ(message_of("schema = 2\n"), "claims.toml:1: schema = 2: expected 1");
     EXPECT_EQ(message_of("schema = \"1\"\n"), "claims.toml:1: schema = 1: expected 1");
     EXPECT_EQ(message_of("[[claim]]\n"), "claims.toml: schema: missing: expected schema = 1");

@@ -17,7 +17,7 @@ std::vector<Verdict> three_verdicts()
     const Claim claim = test_support::volume_claim("Volume is kept within half a per cent of what it was");
     Claim measured = claim;
     measured.rule = ClaimRule::measured;
-    measured.metrics = {"frames a second"};
+    measured.metrics = {"frames_per_s"};
     measured.low = 30;
     measured.high = 1e12;
     Claim other = claim;
@@ -25,8 +25,8 @@ std::vector<Verdict> three_verdicts()
     other.rule = ClaimRule::untestable;
     other.reason = "no figures";
     Records timed;
-    timed.measurements = {{"C02", "frames a second", "man, plain", 60, 59, 61, "1/s"},
-                          {"C02", "frames a second", "giant, plain", 9, 8, 10, "1/s"}};
+    timed.measurements = {{"C02", "frames_per_s", {.body = "man"}, 60, 59, 61, "1/s"},
+                          {"C02", "frames_per_s", {.body = "giant"}, 9, 8, 10, "1/s"}};
     return {judge(claim, {.cases = {test_support::walk()}}), judge(measured, timed), judge(other, {})};
 }
 
@@ -47,18 +47,18 @@ TEST(ClaimsTable, NoLineIsLongerThanTheTerminals)
 TEST(ClaimsTable, ColumnsBeginAtTheSamePlace)
 {
     const auto lines = lines_of(claims_table(three_verdicts(), 100, false));
-    const std::size_t verdict = lines.at(0).find("verdict"), claim = lines.at(0).find("claim"), found = lines.at(0).find("found");
+    const std::size_t verdict = lines.at(0).find("verdict"), claim = lines.at(0).find("claim"), facts = lines.at(0).find("facts");
     EXPECT_EQ(lines.at(2).find("not reproduced"), verdict);
     EXPECT_EQ(lines.at(2).find("Volume is"), claim);
-    EXPECT_EQ(lines.at(2).find("walk"), found);
+    EXPECT_EQ(lines.at(2).find("within the bound: 0 of 1"), facts);
 }
 
-TEST(ClaimsTable, SaysWhatWasFoundForWhomAndHowMany)
+TEST(ClaimsTable, GivesTheFactsAndCountsTheVerdicts)
 {
     const std::string text = claims_table(three_verdicts(), 160, false);
-    for (const char* part :
-         {"reproduced", "1 of 2 figures within", "man", "not for giant", "farthest: frames a second of giant", "cannot be", "no figures",
-          "expected: 30 or more", "3 claims: 1 reproduced only for some, 1 not reproduced, 1 cannot be tested here"})
+    for (const char* part : {"reproduced", "within the bound: 1 of 2", "frames_per_s: 9 1/s [8, 10]; bound 30 or more", "of: giant",
+                             "cannot be", "reason: no figures", "share_of_frames of volume_change_pct: 0.75 [",
+                             "3 claims: 1 reproduced only for some, 1 not reproduced, 1 cannot be tested here"})
         EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 

@@ -1,6 +1,8 @@
 #include "analysis/measurement.hpp"
 
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/verdict.hpp"
+#include "pbs/geometry/input_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -18,30 +20,49 @@ analysis::Claim drift_claim()
     analysis::Claim claim;
     claim.id = "C07";
     claim.rule = analysis::ClaimRule::measured;
-    claim.metrics = {"linear drift", "angular drift"};
+    claim.metrics = {"linear_drift", "angular_drift"};
     claim.low = 0.0;
     claim.high = 1e-3;
     return claim;
 }
 
-Measurement drift(const std::string& of, double value)
+Measurement drift_of(const analysis::CaseKey& of, double value)
 {
-    return {"C07", "linear drift", of, value, value, value, "1"};
+    return {"C07", "linear_drift", of, value, value, value, "1"};
+}
+
+Measurement drift(const std::string& body, double value)
+{
+    return drift_of({.body = body}, value);
 }
 
 TEST(Measurement, ComesBackFromItsTable)
 {
     const test_support::ScratchFolder folder;
     const std::string path = folder / "measurements.csv";
-    const Measurement written{"C07", "linear, drift", "limb \"bent\"", 1.0 / 3.0, 0.25, 0.5, "m"};
+    const analysis::CaseKey key = {
+        .body = "limb \"soft\", thin", .motion = "bend", .angle_deg = 1.0 / 3.0, .deformer = "pbs", .iterations = 24.0};
+    const Measurement written{"C07", "linear_drift", key, 1.0 / 3.0, 0.25, 0.5, "m", "", analysis::Limit::more_than, 4, 1};
     analysis::measurement_table({written, drift("human", 1e-300)}).write(path);
     const auto read = analysis::measurements(path);
     ASSERT_EQ(read.size(), 2u);
     EXPECT_EQ(read[0].quantity, written.quantity);
     EXPECT_EQ(read[0].of, written.of);
+    EXPECT_EQ(read[0].limit, analysis::Limit::more_than);
+    EXPECT_EQ(read[0].n, 4);
+    EXPECT_EQ(read[0].not_reached, 1);
+    EXPECT_EQ(read[1].of, analysis::CaseKey{.body = "human"});
+    EXPECT_EQ(read[1].limit, analysis::Limit::none);
     EXPECT_EQ(read[0].value, written.value);
     EXPECT_EQ(read[0].high, written.high);
     EXPECT_EQ(read[1].value, 1e-300);
+}
+
+TEST(Measurement, AnUnknownLimitIsRefused)
+{
+    const test_support::ScratchFolder folder;
+    analysis::write_text_atomically(folder / "m.csv", "claim,quantity,value,low,high,unit,limit\nC07,linear_drift,1,1,1,1,roughly\n");
+    EXPECT_THROW(analysis::measurements(folder / "m.csv"), pbs::InputError);
 }
 
 TEST(Measurement, HoldsWholeInPartOrNot)
@@ -57,12 +78,19 @@ TEST(Measurement, HoldsWholeInPartOrNot)
 TEST(Measurement, AlteredRecordsFlipTheVerdict)
 {
     analysis::Records records;
-    records.measurements = {drift("limb", 1e-6), drift("human", 1e-5), {"C99", "linear drift", "another's", 9.0, 9.0, 9.0, "1"}};
+    records.measurements = {drift("limb", 1e-6), drift("human", 1e-5), {"C99", "linear_drift", {.body = "another"}, 9.0, 9.0, 9.0, "1"}};
     EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::reproduced);
     records.measurements[1].value = 0.5;
     const analysis::Verdict in_part = judge(drift_claim(), records);
     EXPECT_EQ(in_part.kind, VerdictKind::reproduced_only_for);
-    EXPECT_EQ(in_part.text, "reproduced only for limb; not for human; farthest: linear drift of human is 0.5");
+    ASSERT_EQ(in_part.subjects.size(), 2u);
+    EXPECT_EQ(in_part.subjects[0].name, "human");
+    EXPECT_EQ(in_part.subjects[0].extent, Extent::none);
+    EXPECT_EQ(in_part.subjects[1].extent, Extent::whole);
+    ASSERT_TRUE(in_part.primary);
+    EXPECT_EQ(in_part.primary->of.body, "human");
+    EXPECT_EQ(in_part.primary->value, 0.5);
+    EXPECT_EQ(in_part.primary->bound_high, 1e-3);
     records.measurements[0].value = 0.5;
     EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::not_reproduced);
     records.measurements.clear();
@@ -74,44 +102,83 @@ TEST(Measurement, AlteredRecordsFlipTheVerdict)
 TEST(Measurement, AQuantityMayHaveABoundOfItsOwn)
 {
     analysis::Claim claim = drift_claim();
-    claim.bounds = {{"angular drift", 0.5, 2.0}};
-    EXPECT_EQ(analysis::bound_of(claim, "linear drift").high, 1e-3);
-    EXPECT_EQ(analysis::extent_of(claim, {"C07", "angular drift", "limb", 1.0, 0.5, 2.0, "1"}), Extent::whole);
-    EXPECT_EQ(analysis::extent_of(claim, {"C07", "angular drift", "limb", 1e-4, 1e-4, 1e-4, "1"}), Extent::none);
+    claim.bounds = {{"angular_drift", 0.5, 2.0}};
+    EXPECT_EQ(analysis::bound_of(claim, "linear_drift").high, 1e-3);
+    EXPECT_EQ(analysis::extent_of(claim, {"C07", "angular_drift", {}, 1.0, 0.5, 2.0, "1"}), Extent::whole);
+    EXPECT_EQ(analysis::extent_of(claim, {"C07", "angular_drift", {}, 1e-4, 1e-4, 1e-4, "1"}), Extent::none);
     EXPECT_EQ(analysis::bound_text({"", 0.0, 0.0}), "0");
     EXPECT_EQ(analysis::bound_text({"", 30.0, 1e9}), "30 or more");
     EXPECT_EQ(analysis::bound_text({"", 0.9, 1.1}), "0.9 to 1.1");
 }
 
-TEST(Measurement, WhatStandsBesideIsNoPartOfTheVerdict)
+TEST(Measurement, WhatIsReportedIsNoPartOfTheVerdict)
 {
     analysis::Claim claim = drift_claim();
-    claim.beside = {"energy"};
+    claim.reported = {"energy"};
     analysis::Records records;
-    records.measurements = {drift("limb", 1e-6), {"C07", "energy", "limb", 9.0, 9.0, 9.0, "J"}};
+    records.measurements = {drift("limb", 1e-6), {"C07", "energy", {.body = "limb"}, 9.0, 9.0, 9.0, "J"}};
     const analysis::Verdict verdict = judge(claim, records);
     EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
-    ASSERT_EQ(verdict.measured_beside.size(), 1u);
-    EXPECT_EQ(verdict.measured_beside[0].quantity, "energy");
+    ASSERT_EQ(verdict.controls.size(), 1u);
+    EXPECT_EQ(verdict.controls[0].quantity, "energy");
 }
 
-TEST(Measurement, AVerdictCountsFiguresBySubject)
+TEST(Measurement, AVerdictCountsValuesBySubject)
 {
     analysis::Records records;
-    records.measurements = {drift("limb, bent", 1e-6), drift("limb, straight", 0.25), drift("human, crouch", 1e-5),
-                            drift("bar", std::nan(""))};
-    EXPECT_EQ(judge(drift_claim(), records).text,
-              "reproduced only for human, limb (1 of 2 figures); not for bar; farthest: linear drift of bar is nan");
+    records.measurements = {drift_of({.body = "limb", .pose = "bent"}, 1e-6), drift_of({.body = "limb", .pose = "straight"}, 0.25),
+                            drift("human", 1e-5), drift("bar", std::nan(""))};
+    analysis::Claim claim = drift_claim();
+    const analysis::Verdict verdict = judge(claim, records);
+    std::vector<std::string> names;
+    for (const auto& subject : verdict.subjects) names.push_back(subject.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"bar", "human", "limb"}));
+    EXPECT_EQ(verdict.subjects[2].within, 1);
+    EXPECT_EQ(verdict.subjects[2].all, 2);
+    EXPECT_EQ(verdict.subjects[2].extent, Extent::part);
+    EXPECT_EQ(verdict.primary->of.body, "bar");  // what is not a number is farthest
+    claim.subject = "pose";
+    EXPECT_EQ(judge(claim, records).subjects.size(), 3u);  // bent, straight, none
+}
+
+TEST(Measurement, OfTheSameQuantityOtherKeysAreControls)
+{
+    analysis::Claim claim = drift_claim();
+    claim.of = {.deformer = "pbs"};
+    analysis::Records records;
+    records.measurements = {drift_of({.body = "limb", .deformer = "pbs"}, 1e-6), drift_of({.body = "limb", .deformer = "lbs"}, 0.5)};
+    const analysis::Verdict verdict = judge(claim, records);
+    EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
+    EXPECT_EQ(verdict.n, 1);
+    ASSERT_EQ(verdict.controls.size(), 1u);
+    EXPECT_EQ(verdict.controls[0].of.deformer, "lbs");
+}
+
+TEST(Measurement, ASubjectHoldsForEachValueOfAFieldThatIsCountedApart)
+{
+    analysis::Claim claim = drift_claim();
+    analysis::Records records;
+    records.measurements = {drift_of({.body = "limb", .deformer = "pbs"}, 1e-6), drift_of({.body = "limb", .deformer = "lbs"}, 0.5)};
+    EXPECT_EQ(judge(claim, records).kind, VerdictKind::reproduced_only_for);
+    claim.each = {"deformer"};
+    EXPECT_EQ(judge(claim, records).kind, VerdictKind::not_reproduced);
+}
+
+TEST(Measurement, WhereAllHoldTheOneNearestToItsBoundIsPrimary)
+{
+    analysis::Records records;
+    records.measurements = {drift("limb", 1e-6), drift("human", 9e-4), drift("man", 1e-5)};
+    EXPECT_EQ(judge(drift_claim(), records).primary->of.body, "human");
 }
 
 TEST(Measurement, AClaimOfSeveralQuantitiesAsksForAllOfThem)
 {
-    const auto angular = [](const std::string& of, double value) {
-        return Measurement{"C07", "angular drift", of, value, value, value, "1"};
+    const auto angular = [](const analysis::CaseKey& of, double value) {
+        return Measurement{"C07", "angular_drift", of, value, value, value, "1"};
     };
+    const analysis::CaseKey bent = {.body = "limb", .pose = "bent"}, straight = {.body = "limb", .pose = "straight"};
     analysis::Records records;
-    records.measurements = {drift("limb, bent", 1e-6), drift("limb, straight", 1e-6), angular("limb, bent", 0.5),
-                            angular("limb, straight", 0.5)};
+    records.measurements = {drift_of(bent, 1e-6), drift_of(straight, 1e-6), angular(bent, 0.5), angular(straight, 0.5)};
     EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::not_reproduced);
     records.measurements[3].value = records.measurements[3].low = records.measurements[3].high = 1e-6;
     EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::reproduced_only_for);
@@ -124,17 +191,7 @@ TEST(Measurement, WithoutAPlannedRunNothingIsJudged)
     records.missing_runs = {"human"};
     const analysis::Verdict verdict = judge(drift_claim(), records);
     EXPECT_EQ(verdict.kind, VerdictKind::not_computable);
-    EXPECT_EQ(verdict.text, "not computable: no record of human");
-}
-
-TEST(Measurement, WhatHoldsIsToldWithWhatStandsBesideIt)
-{
-    analysis::Claim claim = drift_claim();
-    claim.beside = {"energy"};
-    analysis::Records records;
-    records.measurements = {
-        drift("limb", 1e-6), {"C07", "energy", "limb", 9.0, 9.0, 9.0, "J"}, {"C07", "energy", "limb", 2.0, 2.0, 2.0, "J"}};
-    EXPECT_EQ(judge(claim, records).text, "reproduced: limb; beside it: energy 2 J to 9 J");
+    EXPECT_EQ(verdict.missing, std::vector<std::string>{"human"});
 }
 
 }  // namespace

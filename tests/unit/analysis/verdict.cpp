@@ -71,7 +71,12 @@ TEST(VolumeIsPreserved, ReproducedWhereEveryCaseHolds)
     EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
     EXPECT_EQ(verdict.runs, (std::vector<std::string>{"volume/twist", "volume/walk"}));
     EXPECT_EQ(verdict.interval.estimate, 1.0);
-    EXPECT_EQ(verdict.interval_of, "share of frames, walk");
+    ASSERT_TRUE(verdict.primary);
+    EXPECT_EQ(verdict.primary->statistic, "share_of_frames");
+    EXPECT_EQ(verdict.primary->of.body, "walk");
+    EXPECT_EQ(verdict.primary->bound_low, 0.95);
+    EXPECT_EQ(verdict.within, 2);
+    EXPECT_EQ(verdict.n, 2);
     EXPECT_EQ(verdict.cases.size(), 4u);  // two cases under two metrics
 }
 
@@ -109,8 +114,11 @@ TEST(VolumeIsPreserved, SweepHoldsUpToItsFirstFailure)
     EXPECT_EQ(verdict.cases[0].deepest.size(), 2u);
     EXPECT_EQ(verdict.cases[0].deepest[0].angle_deg, 60.0);
     EXPECT_EQ(verdict.cases[0].deepest[0].value, -0.9);
-    EXPECT_EQ(verdict.text, "reproduced only for twist up to 30 of 60 deg; by volume_abs_change_pct: twist up to 20 of 60 deg");
-    EXPECT_EQ(verdict.measured, "twist: within at 0 to 30 deg of 60, -0.9 to 0 %, worst -0.9 % at 60 deg");
+    EXPECT_EQ(verdict.cases[0].last_angle_deg, 60.0);
+    EXPECT_EQ(verdict.cases[0].extent, Extent::part);
+    EXPECT_EQ(verdict.cases[1].metric, "volume_abs_change_pct");
+    EXPECT_EQ(verdict.cases[1].angles.at(0).to_deg, 20.0);
+    EXPECT_FALSE(verdict.primary);  // sweeps alone
 
     set_change(twist, 4, -0.5);
     EXPECT_EQ(judge(claim_of("C02"), {.cases = {twist}}).cases[0].angles[0].to_deg, 50.0);
@@ -141,7 +149,8 @@ TEST(VolumeIsPreserved, RestPoseAloneIsNoSweep)
 {
     const Verdict verdict = judge(claim_of("C02"), {.cases = {sweep("twist", "pbs", 24, {0.0})}});
     EXPECT_EQ(verdict.kind, VerdictKind::not_reproduced);
-    EXPECT_EQ(verdict.text, "not reproduced: twist (0 to 0 %); by volume_abs_change_pct: nowhere");
+    EXPECT_EQ(verdict.within, 0);
+    for (const CaseJudgement& judged : verdict.cases) EXPECT_EQ(judged.extent, Extent::none) << judged.metric;
 }
 
 TEST(VolumeIsPreserved, InvertedTetsInFramesThatHoldAreTold)
@@ -150,7 +159,6 @@ TEST(VolumeIsPreserved, InvertedTetsInFramesThatHoldAreTold)
     bend.inverted_tets[7] = bend.inverted_tets[9] = 15.0;
     const Verdict verdict = judge(claim_of("C02"), {.cases = {bend}});
     EXPECT_EQ(verdict.cases[0].holding_with_inverted_tets, 2);
-    EXPECT_NE(verdict.text.find("inverted tets in 2 of the frames within"), std::string::npos);
 }
 
 TEST(VolumeIsPreserved, BreakdownDoesNotHold)
@@ -172,15 +180,15 @@ TEST(VolumeIsPreserved, OnlyTheAskedDeformerAndIterationsAreJudged)
     EXPECT_EQ(kind_for("C02", {other, few}), VerdictKind::not_computable);
 }
 
-TEST(VolumeIsPreserved, OtherDeformersStandBesideAndDecideNothing)
+TEST(VolumeIsPreserved, OtherDeformersAreComparedAndDecideNothing)
 {
     const auto good = clip("walk", "pbs", 24, constant(100, 0.0)), reference = clip("walk", "fem_p2", 0, constant(100, 7.0));
     const Verdict verdict = judge(claim_of("C02"), {.cases = {good, reference}});
     EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
-    ASSERT_EQ(verdict.beside.size(), 1u);
-    EXPECT_EQ(verdict.beside[0].deformer, "fem_p2");
-    EXPECT_EQ(verdict.beside[0].extent, Extent::none);
-    EXPECT_NEAR(verdict.beside[0].mean.estimate, 7.0, 1e-12);
+    ASSERT_EQ(verdict.compared.size(), 1u);
+    EXPECT_EQ(verdict.compared[0].deformer, "fem_p2");
+    EXPECT_EQ(verdict.compared[0].extent, Extent::none);
+    EXPECT_NEAR(verdict.compared[0].mean.estimate, 7.0, 1e-12);
 }
 
 TEST(LossOfLbs, ReproducedWhereTheMeansLieInTheBand)
@@ -188,7 +196,10 @@ TEST(LossOfLbs, ReproducedWhereTheMeansLieInTheBand)
     const Verdict verdict = judge(claim_of("C01"), {.cases = {clip("walk", "lbs", 0, {-13, -14, -15, -14, -13, -14})}});
     EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
     EXPECT_NEAR(verdict.interval.estimate, 83.0 / 6.0, 1e-12);
-    EXPECT_EQ(verdict.interval_of, "mean of volume_loss_pct, walk");
+    ASSERT_TRUE(verdict.primary);
+    EXPECT_EQ(verdict.primary->statistic, "mean");
+    EXPECT_EQ(verdict.primary->quantity, "volume_loss_pct");
+    EXPECT_EQ(verdict.primary->bound_high, 16.0);
     EXPECT_LE(verdict.interval.low, verdict.interval.estimate);
 }
 
@@ -203,9 +214,9 @@ TEST(LossOfLbs, FlipsWithTheMean)
     walk.volume_abs_change_pct = constant(20, 12.5);
     const Verdict verdict = judge(claim_of("C01"), {.cases = {walk}});
     EXPECT_EQ(verdict.kind, VerdictKind::reproduced_only_for);
-    EXPECT_EQ(verdict.text,
-              "reproduced only for another measure than volume_loss_pct, which fails for walk (mean -14 % [-14, -14]); by "
-              "volume_abs_change_pct: walk (mean 12.5 % [12.5, 12.5])");
+    EXPECT_EQ(verdict.within, 0);  // by the claim's own metric
+    EXPECT_EQ(verdict.cases.at(1).metric, "volume_abs_change_pct");
+    EXPECT_EQ(verdict.cases.at(1).extent, Extent::whole);
 }
 
 TEST(LossOfLbs, MeanOutsideWithFramesInTheBandIsAPart)
@@ -228,7 +239,7 @@ TEST(LossOfLbs, SweepTellsTheAnglesThatReachTheBand)
     EXPECT_EQ(verdict.cases[0].angles[0].from_deg, 30.0);
     EXPECT_EQ(verdict.cases[0].angles[0].to_deg, 40.0);
     EXPECT_EQ(verdict.cases[0].angles[1].from_deg, 60.0);
-    EXPECT_EQ(verdict.text, "reproduced only for twist at 30 to 40, 60 deg; by volume_abs_change_pct: nowhere");
+    EXPECT_EQ(verdict.cases.at(1).extent, Extent::none);
 }
 
 TEST(Verdict, MissingRecordsAreNoResult)
@@ -238,7 +249,7 @@ TEST(Verdict, MissingRecordsAreNoResult)
     Records records{.cases = {clip("walk", "lbs", 0, constant(20, -14.0))}, .planned_scenes = {"walk", "twist"}};
     const Verdict verdict = judge(claim_of("C01"), records);
     EXPECT_EQ(verdict.kind, VerdictKind::not_computable);
-    EXPECT_EQ(verdict.text, "not computable: no record of lbs on twist");
+    EXPECT_EQ(verdict.missing, std::vector<std::string>{"twist"});
     records.left_out = {{"twist", "package missing"}};
     EXPECT_EQ(judge(claim_of("C01"), records).kind, VerdictKind::reproduced);
 }
@@ -246,25 +257,29 @@ TEST(Verdict, MissingRecordsAreNoResult)
 TEST(Verdict, WhatWasLeftOutIsTold)
 {
     Records records{.cases = {clip("walk", "lbs", 0, constant(20, -14.0))}, .left_out = {{"man", "man-data is not installed"}}};
-    EXPECT_NE(judge(claim_of("C01"), records).text.find("; left out: man (man-data is not installed)"), std::string::npos);
+    EXPECT_EQ(judge(claim_of("C01"), records).left_out.at(0).reason, "man-data is not installed");
     records.cases.clear();
     const Verdict verdict = judge(claim_of("C01"), records);
     EXPECT_EQ(verdict.kind, VerdictKind::cannot_be_tested_here);
-    EXPECT_EQ(verdict.text, "cannot be tested here: man (man-data is not installed)");
+    EXPECT_EQ(verdict.left_out.at(0).scene, "man");
 }
 
-TEST(Verdict, FiguresInPrintFlipWithTheirBounds)
+TEST(Verdict, ValuesInPrintFlipWithTheirBounds)
 {
     Claim claim = claim_of("C01");
     claim.rule = ClaimRule::printed;
     const double infinity = std::numeric_limits<double>::infinity();
-    Records records{.printed = {{claim.id, "edges of Man", 6342, 6653, infinity},
-                                {claim.id, "edges of Lady", 9387, 7862, infinity},
-                                {"C00", "another's", 1, 2, 3}}};
+    Records records{.printed = {{claim.id, "edges", {.model = "Man"}, 6342, 6653, infinity},
+                                {claim.id, "edges", {.model = "Lady"}, 9387, 7862, infinity},
+                                {"C00", "another", {}, 1, 2, 3}}};
     const Verdict verdict = judge(claim, records);
     EXPECT_EQ(verdict.kind, VerdictKind::inconsistent_in_print);
-    EXPECT_EQ(verdict.text, "inconsistent in print: edges of Man is 6342, but the rest asks for 6653 or more");
-    EXPECT_EQ(verdict.measured, "1 of 2 figures consistent");
+    ASSERT_TRUE(verdict.primary);
+    EXPECT_EQ(verdict.primary->of.model, "Man");
+    EXPECT_EQ(verdict.primary->value, 6342.0);
+    EXPECT_EQ(verdict.primary->bound_low, 6653.0);
+    EXPECT_EQ(verdict.within, 1);
+    EXPECT_EQ(verdict.n, 2);
     records.printed[0].printed = 6653;
     EXPECT_EQ(judge(claim, records).kind, VerdictKind::reproduced);
     EXPECT_EQ(judge(claim, {}).kind, VerdictKind::not_computable);
@@ -276,7 +291,7 @@ TEST(Verdict, UntestableClaimsSayWhy)
     claim.rule = ClaimRule::untestable;
     claim.reason = "no published figures";
     EXPECT_EQ(judge(claim, {}).kind, VerdictKind::cannot_be_tested_here);
-    EXPECT_EQ(judge(claim, {}).text, "cannot be tested here: no published figures");
+    EXPECT_EQ(judge(claim, {}).claim.reason, "no published figures");
 }
 
 CaseRecord in_order(CaseRecord record, const std::string& order, const std::string& precision)
@@ -296,8 +311,10 @@ TEST(OtherOrders, AreJudgedByThemselvesAndAreNoPartOfTheVerdict)
     EXPECT_EQ(verdict.cases.size(), 2u);  // one case under two metrics
     ASSERT_EQ(verdict.orders.size(), 1u);
     EXPECT_EQ(verdict.orders[0].kind, VerdictKind::not_reproduced);
-    EXPECT_EQ(text_of(verdict.orders[0]), "not reproduced instead of reproduced (walk by volume_change_pct)");
-    EXPECT_NE(verdict.text.find("in other orders of projection another in plain f64: not reproduced instead of"), std::string::npos);
+    EXPECT_EQ(verdict.orders[0].own_kind, VerdictKind::reproduced);
+    ASSERT_EQ(verdict.orders[0].differing, std::vector<std::size_t>{0});  // the absolute change holds in neither
+    EXPECT_EQ(verdict.orders[0].cases[0].metric, "volume_change_pct");
+    EXPECT_EQ(verdict.orders[0].cases[0].of.order, "plain");
 }
 
 TEST(OtherOrders, FlipWhenTheirRecordsAreAltered)
@@ -319,7 +336,7 @@ TEST(OtherOrders, AreComparedOnTheScenesTheyWereRecordedOn)
     EXPECT_EQ(verdict.kind, VerdictKind::reproduced_only_for);
     ASSERT_EQ(verdict.orders.size(), 2u);
     EXPECT_EQ(verdict.orders[0].own_kind, VerdictKind::reproduced);
-    EXPECT_EQ(text_of(verdict.orders), "the same in grouped f32, grouped f64");
+    for (const OrderVerdict& other : verdict.orders) EXPECT_TRUE(other.same()) << other.precision;
 }
 
 TEST(OtherOrders, OfOtherIterationsAreNotLookedAt)
@@ -338,8 +355,8 @@ TEST(VolumeIsPreserved, TheSameBodyOnAnotherMeshIsShownAndNotJudged)
     const Verdict verdict = judge(claim_of("C02"), {.cases = {walk, finer}});
     EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
     EXPECT_EQ(verdict.cases.size(), 2u);  // one case under two metrics
-    ASSERT_EQ(verdict.beside.size(), 1u);
-    EXPECT_EQ(verdict.beside[0].scene, "walk_4800");
+    ASSERT_EQ(verdict.compared.size(), 1u);
+    EXPECT_EQ(verdict.compared[0].scene, "walk_4800");
     finer.beside = false;
     EXPECT_EQ(judge(claim_of("C02"), {.cases = {walk, finer}}).kind, VerdictKind::reproduced_only_for);
 }

@@ -10,7 +10,6 @@ import unittest
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
-import claims_table  # noqa: E402
 import make_all  # noqa: E402
 import records  # noqa: E402
 import synthetic_records  # noqa: E402
@@ -82,11 +81,6 @@ class Figures(unittest.TestCase):
         self.assert_missing("3 rows of deformer pbs, variant default, expected one", lambda: human.statistics("pbs"))
         self.assert_missing("0 rows of deformer pbs, variant jiggle, 24 iterations, expected one",
                             lambda: human.statistics("pbs", 24, "jiggle"))
-
-    def test_table_of_claims(self):
-        header, _, row = claims_table.table_lines(self.results)
-        self.assertEqual(claims_table.cells(header), ["id", "measured"])
-        self.assertEqual(claims_table.cells(row), ["C01", "9 | 17 %, *signed*"])
 
     def test_a_study_that_was_not_run_is_left_out(self):
         said = io.StringIO()

@@ -49,17 +49,19 @@ REFUSED = (
     (PLAN, ("left_out",), {"walk": "long"}, 'left_out = {"walk": "long"}: expected a list'),
     (PLAN, ("left_out", 0, "reason"), 3, "left_out[0].reason = 3: expected a text"),
     (PLAN, ("extent",), True, "extent = true: expected a text"),
-    (CLAIMS, (), {}, "claims: missing"),
+    (CLAIMS, (), {}, "schema: missing"),
+    (CLAIMS, ("schema",), 1, "schema = 1: expected 2"),
+    (CLAIMS, ("quantities",), [], "quantities = []: expected an object"),
     (CLAIMS, ("claims",), {}, "claims = {}: expected a list"),
     (CLAIMS, ("claims", 1), "C10", 'claims[1] = "C10": expected an object'),
-    (CLAIMS, ("claims", 1, "verdict"), None, "claims[1].verdict = null: expected a text"),
+    (CLAIMS, ("claims", 1, "verdict"), None, "claims[1].verdict = null: expected one of reproduced, reproduced_only_for"),
     (CLAIMS, ("claims", 1, "runs"), "limb", 'claims[1].runs = "limb": expected a list'),
     (CLAIMS, ("claims", 0, "cases"), "limb", 'claims[0].cases = "limb": expected a list'),
     (CLAIMS, ("claims", 0, "cases", 2, "holds"), "maybe", 'claims[0].cases[2].holds = "maybe": expected one of whole, part, none'),
     (CLAIMS, ("claims", 0, "cases", 1, "mean"), 3, "claims[0].cases[1].mean = 3: expected an object"),
     (CLAIMS, ("claims", 0, "cases", 1, "mean", "low"), "3", 'claims[0].cases[1].mean.low = "3": expected a number or null'),
-    (CLAIMS, ("claims", 0, "cases", 0, "angles_deg"), [[1, 2, 3]], "claims[0].cases[0].angles_deg[0] = [1, 2, 3]: expected a list of 2"),
-    (CLAIMS, ("claims", 1, "measurements", 0, "value"), True, "claims[1].measurements[0].value = true: expected a number or null"),
+    (CLAIMS, ("claims", 0, "cases", 0, "held_angles_deg"), [[1, 2, 3]], "claims[0].cases[0].held_angles_deg[0] = [1, 2, 3]: expected a list of 2"),
+    (CLAIMS, ("claims", 1, "cases", 0, "value"), True, "claims[1].cases[0].value = true: expected a number or null"),
 )
 
 

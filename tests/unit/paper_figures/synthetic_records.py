@@ -51,7 +51,6 @@ def write_study(results):
     for iterations in (1, 24, 96):
         write_frame_statistics(results / "volume" / "human_01_01", "pbs", iterations)
     write_regions(results)
-    (results / "claims.md").write_text("# Claims\n\n| id | measured |\n|---|---|\n| C01 | 9 \\| 17 %, *signed* |\n\nmore text\n")
 
 
 def write_regions(results):
@@ -66,7 +65,7 @@ def write_regions(results):
 
 
 verification_columns = ["problem", "quantity", "elements", "material", "mesh", "h_m", "dofs", "value", "reference", "unit",
-                        "difference_pct"]
+                        "difference_pct", "source", "bound_from", "low", "high", "observed_order", "expected_order", "note", "holds"]
 
 
 def write_verification(results):
@@ -85,8 +84,9 @@ def write_verification(results):
             for dofs, difference in ((10, -30.0), (20, -10.0 / order ** 4)):
                 writer.writerow({"problem": "cantilever", "quantity": "tip deflection", "elements": f"P{order}", "h_m": 1, "dofs": dofs,
                                  "value": 1, "reference": 1, "material": "linear, nu = 0.3", "difference_pct": difference})
-    rows = ["| problem | holds |", "|---|---|", "| cantilever | yes |", "| sphere | no |", "| plate |  |", "", "1. closed form: a beam", ""]
-    (folder / "verification.md").write_text("\n".join(rows))
+        for problem, holds in (("beam", "yes"), ("sphere", "no")):
+            writer.writerow({"problem": problem, "quantity": "deflection", "elements": "P1", "h_m": 1, "dofs": 9, "value": 2, "reference": 1,
+                             "material": "linear, nu = 0.3", "source": "closed form: a beam", "low": 0.5, "high": 1.5, "holds": holds})
 
 
 def write_fit(results):
@@ -169,38 +169,59 @@ def write_table(file, rows):
         writer.writerows(rows)
 
 
+def interval(estimate, low=None, high=None):
+    return {"estimate": estimate, "low": low, "high": high, "level": 0.95, "n": 50, "block": 1}
+
+
+def judged_run(body, motion, holds, mean, share, angles=None):
+    """A run of a scene as claims.json has it; angles: of a sweep."""
+    return {"body": body, "motion": motion, "deformer": "pbs", "iterations": 24, "quantity": "volume_change_pct",
+            "statistic": "share_of_frames", "unit": "1", "value": share["estimate"], "low": share["low"], "high": share["high"],
+            "holds": holds, "scene": f"{body}_{motion}", "run": "volume/limb_twist", "frames": 50, "sweep": angles is not None,
+            "mean": mean, "share_of_frames": share, "held_angles_deg": angles or [], "last_angle_deg": None if angles is None else 180.0,
+            "least": -0.9, "most": 0.0, "holding_with_inverted_tets": 0,
+            "deepest": [{"frame": 3, "time_s": 0.1, "angle_deg": None, "value": -0.9, "inverted_tets": 0}]}
+
+
+def claim(name, verdict, **others):
+    empty = {"statement": "Volume is kept.", "place": "Sec. 4", "study": "volume", "rule": "measured", "reason": "", "primary": None, "n": 0,
+             "within": 0, "bounds": [], "expected": None, "required_share": None, "interval": None, "subject": "body", "subjects": [],
+             "each": [], "of": {}, "cases": [], "controls": [], "readings": [], "left_out": [], "missing": [], "runs": []}
+    return {**empty, "id": name, "verdict": verdict, **others}
+
+
+def subject(name, within, n, holds):
+    return {"name": name, "within": within, "n": n, "holds": holds}
+
+
+def value(quantity, number, low=None, high=None, unit="1", **key):
+    low, high = number if low is None else low, number if high is None else high
+    return {**key, "quantity": quantity, "value": number, "low": low, "high": high, "unit": unit, "run": "timing/man"}
+
+
 def write_claims(results, statement="Volume is kept."):
     """One claim of each kind: kept in part over a sweep and two clips, real time, in print, untestable."""
-    def interval(estimate, low=None, high=None):
-        return {"estimate": estimate, "low": low, "high": high, "level": 0.95, "n": 50, "block": 1}
-
-    def case(scene, holds, mean, share, angles=()):
-        return {"scene": scene, "deformer": "pbs", "variant": "default", "iterations": 24, "metric": "volume_change_pct",
-                "run": "volume/limb_twist",
-                "frames": 50, "holds": holds, "mean": mean, "share_of_frames": share, "angles_deg": list(angles), "least": -0.9,
-                "most": 0.0,
-                "holding_with_inverted_tets": 0, "text": f"{scene}: as told",
-                "deepest": [{"frame": 3, "time_s": 0.1, "angle_deg": None, "value": -0.9,
-                                                                                        "inverted_tets": 0}]}
-
-    def claim(name, verdict, **others):
-        empty = {"place": "Sec. 4", "study": "volume", "expected": "0.5 % (-0.5 to 0.5 %)", "text": verdict, "measured": "",
-                 "interval": None,
-                 "interval_of": "", "runs": [], "cases": [], "beside": [], "orders": [], "measurements": [], "measured_beside": []}
-        return {**empty, "id": name, "statement": statement, "verdict": verdict, **others}
-
-    cases = [case("limb_twist", "part", interval(-0.2), interval(0.9), [[0.0, 175.0]]),
-             case("walk", "none", interval(-0.6, -0.7, -0.5), interval(0.4, 0.3, 0.5)),
-             case("jump", "whole", interval(-0.1, -0.2, 0.0), interval(0.975, 0.96, 0.99))]
-    rates = [{"quantity": "frames a second", "of": f"{body}, plain", "value": value, "low": low, "high": high, "unit": "1/s",
-              "run": "timing/man"}
-             for body, value, low, high in (("man", 233.0, 230.0, 240.0), ("frankie", 107.0, 100.0, 110.0))]
-    judged = [claim("C02", "reproduced only for", cases=cases, runs=["volume/limb_twist"], interval=interval(0.4, 0.3, 0.5),
-                    interval_of="share of frames, walk"),
-              claim("C10", "reproduced", text="reproduced: man, frankie; beside it: much", measured="2 of 2 figures within",
-                    measurements=rates),
-              claim("C13", "inconsistent in print", measured="2 of 3 figures consistent"), claim("C16", "cannot be tested here")]
-    (results / "claims.json").write_text(json.dumps({"schema": 1, "claims": judged}))
+    runs = [judged_run("limb", "twist", "part", interval(-0.2), interval(0.9), [[0.0, 175.0]]),
+            judged_run("human", "walk", "none", interval(-0.6, -0.7, -0.5), interval(0.4, 0.3, 0.5)),
+            judged_run("human", "jump", "whole", interval(-0.1, -0.2, 0.0), interval(0.975, 0.96, 0.99))]
+    rates = [value("frames_per_s", 233.0, 230.0, 240.0, "1/s", body="man", holds="whole"),
+             value("frames_per_s", 107.0, 100.0, 110.0, "1/s", body="frankie", holds="whole")]
+    printed = [{"quantity": "tets", "model": "Man", "value": 5000.0, "low": 5000.0, "high": 5000.0, "bound_low": 1.0, "bound_high": bound,
+                "holds": holds} for bound, holds in ((None, "whole"), (9.0, "none"))]
+    judged = [claim("C02", "reproduced_only_for", rule="share_within", cases=runs, runs=["volume/limb_twist"], n=3, within=1, expected=0.5,
+                    bounds=[{"quantity": "volume_change_pct", "low": -0.5, "high": 0.5}], interval=interval(0.4, 0.3, 0.5),
+                    primary={"body": "human", "motion": "walk", "quantity": "volume_change_pct", "statistic": "share_of_frames", "unit": "1",
+                             "value": 0.4, "low": 0.3, "high": 0.5, "n": 3, "within": 1, "bound_low": 0.95, "bound_high": 1.0,
+                             "share": 1 / 3}),
+              claim("C10", "reproduced", cases=rates, n=2, within=2, subjects=[subject("man", 1, 1, "whole"), subject("frankie", 1, 1, "whole")],
+                    bounds=[{"quantity": "frames_per_s", "low": 30.0, "high": None}],
+                    primary={"body": "frankie", "quantity": "frames_per_s", "statistic": "value", "unit": "1/s", "value": 107.0, "low": 100.0,
+                             "high": 110.0, "n": 2, "within": 2, "bound_low": 30.0, "bound_high": None, "share": 1.0}),
+              claim("C13", "inconsistent_in_print", rule="printed", cases=printed, n=2, within=1),
+              claim("C16", "cannot_be_tested_here", rule="untestable", reason="no value is in print")]
+    titles = {"volume_change_pct": {"title": "volume change", "unit": "%"}, "frames_per_s": {"title": "frames per second", "unit": "1/s"}}
+    document = {"schema": 2, "revision": revision, "quantities": titles, "claims": [{**one, "statement": statement} for one in judged]}
+    (results / "claims.json").write_text(json.dumps(document))
 
 
 def write_poses(results):

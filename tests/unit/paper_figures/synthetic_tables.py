@@ -131,13 +131,14 @@ def write_stiffness(study):
 
 def write_momentum(study):
     """Rounding where masses weigh, a quarter where they do not; all to the bones."""
-    masses = {"equal masses": 1e-6, "unequal masses (weighted)": 1e-6, "unequal masses (Eq. 8-9 for m = 1)": 0.25}
+    masses = {"equal": 1e-6, "unequal": 1e-6, "unequal_by_eq_8_9": 0.25}
     for body in ("limb", "human"):
         write_origin(study / body)
-        rows = [{"claim": "C07", "quantity": ("taken by the bones: " if of == "bind" else "") + f"{momentum} drift{of_pass}",
-                 "of": f"{mass}, {body}, {of}, {precision}" + (", plain" if of_pass else ""), "value": 1.0 if of == "bind" else drift}
+        rows = [{"claim": "C07", "quantity": f"{momentum}_drift{of_pass}" + ("_taken_by_bones" if of == "bind" else ""), "body": body,
+                 "order": "plain" if of_pass else "", "precision": precision, "masses": mass, "constraint": of,
+                 "value": 1.0 if of == "bind" else drift}
                 for mass, drift in masses.items() for of in ("stretch", "volume", "bind") for momentum in ("linear", "angular")
-                for precision in ("f32", "f64") for of_pass in ("", " of a pass")]
+                for precision in ("f32", "f64") for of_pass in ("", "_of_a_pass")]
         write(study / body / "measurements.csv", rows)
 
 

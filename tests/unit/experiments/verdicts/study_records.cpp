@@ -26,7 +26,8 @@ void finish(const std::string& study, const std::string& run, double value)
 {
     const std::filesystem::path folder = std::filesystem::path(study) / run;
     std::filesystem::create_directories(folder);
-    analysis::measurement_table({{"C07", "linear drift", run, value, value, value, "1"}}).write((folder / "measurements.csv").string());
+    analysis::measurement_table({{"C07", "linear_drift", {.body = run}, value, value, value, "1"}})
+        .write((folder / "measurements.csv").string());
     analysis::write_text_atomically((folder / "run.json").string(), "{\"schema\": 1}\n");
 }
 
@@ -53,6 +54,8 @@ TEST(StudyRecords, KnowWhatWasPlannedAndLeftOut)
     StudyPlan plan = plan_of({"limb"});
     Scene scene;
     scene.name = "walk";
+    scene.character.body = "man";
+    scene.motion.clip = "clips/01_03.bvh";
     plan.runs.push_back({.name = "a walk", .scene = scene});
     plan.left_out = {{"man_01_01", "not installed"}};
     EXPECT_FALSE(has_study_plan(root / "volume"));
@@ -62,6 +65,28 @@ TEST(StudyRecords, KnowWhatWasPlannedAndLeftOut)
     EXPECT_EQ(records.planned_scenes, (std::vector<std::string>{"walk", "man_01_01"}));
     ASSERT_EQ(records.left_out.size(), 1u);
     EXPECT_EQ(records.left_out[0].reason, "not installed");
+}
+
+TEST(StudyRecords, ARecordIsOfTheBodyAndMotionThatThePlanGives)
+{
+    const ScratchFolder root;
+    const std::string study = root / "volume", run = study + "/walk";
+    StudyPlan plan;
+    Scene scene;
+    scene.name = "walk";
+    scene.character.body = "man";
+    scene.motion.clip = "clips/01_03.bvh";
+    plan.runs.push_back({.name = "walk", .scene = scene});
+    write_study_plan(study, plan);
+    std::filesystem::create_directories(run);
+    analysis::write_text_atomically(run + "/metrics.csv",
+                                    "scene,deformer,variant,order,precision,iterations,threads,frame,time_s,volume_change_pct,"
+                                    "volume_abs_change_pct,inverted_tets\nwalk,pbs,default,plain,f64,24,1,0,0,0,0,0\n");
+    analysis::write_text_atomically(run + "/run.json", "{\"schema\": 1}\n");
+    const analysis::Records records = read_study_records(study, root.path().string());
+    ASSERT_EQ(records.cases.size(), 1u);
+    EXPECT_EQ(records.cases[0].place.body, "man");
+    EXPECT_EQ(records.cases[0].place.motion, "01_03");
 }
 
 TEST(StudyRecords, WhatSomebodyElseMadeOfThemIsRefusedByFileAndField)
@@ -88,6 +113,8 @@ TEST(StudyRecords, WhatSomebodyElseMadeOfThemIsRefusedByFileAndField)
     EXPECT_EQ(message_with(plan, R"({"runs": 3, "left_out": []})"), plan + ": runs: expected a list, as reproduce writes it");
     EXPECT_EQ(message_with(plan, R"({"runs": [{}], "left_out": []})"), plan + ": name: missing");
     EXPECT_EQ(message_with(plan, R"({"runs": [{"name": 3}], "left_out": []})"), plan + ": name: expected a text");
+    EXPECT_EQ(message_with(plan, R"({"runs": [{"name": "limb", "scene": "limb", "of": {"body": 3}}], "left_out": []})"),
+              plan + ": of.body = 3: expected a text");
     EXPECT_EQ(message_with(run, "{}"), run + ": schema: missing");
     EXPECT_EQ(message_with(run, "{\"schema\": 1"), run + ":1: no JSON, or cut short, at byte 13");
     EXPECT_EQ(message_with(run, "{\"schema\": 1}"), "accepted");

@@ -13,29 +13,29 @@ using experiments::judged;
 
 TEST(JudgedFigure, IsOfWhatAClaimIsJudgedByAlone)
 {
-    const auto figures =
-        judged({{"C09", "damping ratio", "limb", 0.5, 0.5, 0.5, "1"}, {"C09", "frequency", "limb", 14.0, 14.0, 14.0, "Hz"}});
+    const auto figures = judged({{"C09", "damping_ratio", {.body = "limb"}, 0.5, 0.5, 0.5, "1"},
+                                 {"C09", "frequency_hz", {.body = "limb"}, 14.0, 14.0, 14.0, "Hz"}});
     ASSERT_EQ(figures.size(), 1u);
-    EXPECT_EQ(figures[0].quantity, "damping ratio");
+    EXPECT_EQ(figures[0].quantity, "damping_ratio");
     EXPECT_EQ(figures[0].extent, Extent::whole);
-    EXPECT_EQ(judged({{"C09", "damping ratio", "limb", 2.0, 2.0, 2.0, "1"}})[0].extent, Extent::none);
+    EXPECT_EQ(judged({{"C09", "damping_ratio", {.body = "limb"}, 2.0, 2.0, 2.0, "1"}})[0].extent, Extent::none);
 }
 
 // Whether a tolerance was reached must not make a figure of A and one of B two different ones.
 TEST(JudgedFigure, KeepsABoundApartFromWhatItIsOf)
 {
-    const std::string quantity = "iterations to tolerance, from the rest pose over from LBS";
-    const auto figures = judged({{"C03", quantity, "limb, bend 90; tolerance: x; at least so much", 30.0, 30.0, 30.0, "1"}});
-    EXPECT_EQ(figures[0].of, "limb, bend 90; tolerance: x");
-    EXPECT_EQ(figures[0].remark, "at least so much");
+    const analysis::CaseKey of = {.body = "limb", .initial_guess = "rest_pose"};
+    const auto figures = judged({{"C03", "iterations_over_lbs_guess", of, 30.0, 30.0, 30.0, "1", "", analysis::Limit::at_least}});
+    EXPECT_EQ(figures[0].of, of);
+    EXPECT_EQ(figures[0].limit, analysis::Limit::at_least);
 }
 
 TEST(JudgedFigure, LeavesOutWhatIsNotMeasured)
 {
     const auto left_out = experiments::all_but("C12", {}, "why");
     ASSERT_EQ(left_out.size(), 1u);
-    EXPECT_EQ(left_out[0].quantity, "iterations to tolerance");
-    EXPECT_TRUE(experiments::all_but("C12", {"iterations to tolerance"}, "why").empty());
+    EXPECT_EQ(left_out[0].quantity, "iterations_to_tolerance");
+    EXPECT_TRUE(experiments::all_but("C12", {"iterations_to_tolerance"}, "why").empty());
 }
 
 TEST(DigestOfClaims, IsAnotherWithAnotherBoundAndTheSameWithOtherWords)
@@ -77,10 +77,10 @@ TEST(JudgedFigure, OfVolumeIsTheMeanOfC01AndTheShareOfC02)
 {
     const auto figures = judged(clip_of(-14.0));
     ASSERT_EQ(figures.size(), 4u);
-    EXPECT_EQ(figures[0].quantity, "mean volume_loss_pct");
+    EXPECT_EQ(figures[0].quantity, "mean_volume_loss_pct");
     EXPECT_EQ(figures[0].value, 14.0);
     EXPECT_EQ(figures[0].extent, Extent::whole);
-    EXPECT_EQ(figures[2].quantity, "share of frames within, volume_change_pct");
+    EXPECT_EQ(figures[2].quantity, "share_of_frames_by_volume_change_pct");
     EXPECT_EQ(figures[2].value, 0.0);
     EXPECT_EQ(judged(clip_of(-0.25))[2].value, 1.0);
     EXPECT_EQ(judged(clip_of(-0.25))[2].extent, Extent::whole);

@@ -18,7 +18,7 @@ ConvergenceCase two_sizes(bool ladder)
 {
     ConvergenceCase of;
     of.scene = read_scene("limb_twist", {"character.vertices=" + std::to_string(fewer)});
-    of.frames = {{3, "twist 15", true}};
+    of.frames = {{3, "twist 15", {}, true}};
     of.k_stretch = {0.2};
     of.settings = {{}};
     of.other_vertices = {more};

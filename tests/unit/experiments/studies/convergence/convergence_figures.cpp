@@ -13,11 +13,11 @@ using namespace experiments;
 using analysis::Measurement;
 using test_support::starts_at_rates;
 
-std::vector<Measurement> figures_named(const std::vector<Measurement>& all, const std::string& quantity)
+std::vector<Measurement> figures_named(const std::vector<Measurement>& all, const std::string& quantity, const std::string& guess = "")
 {
     std::vector<Measurement> named;
     for (const Measurement& measured : all)
-        if (measured.quantity == quantity) named.push_back(measured);
+        if (measured.quantity == quantity && (guess.empty() || measured.of.initial_guess == guess)) named.push_back(measured);
     return named;
 }
 
@@ -27,33 +27,32 @@ TEST(ConvergenceFigures, ValueIsOfTheFirstSettingAndTheOthersItsInterval)
                                     starts_at_rates(1650, {0.91, 0.95, 0.9, 0.8})},
                                    false,
                                    ""};
-    const auto iterations = figures_named(convergence_figures(result), "iterations to tolerance");
+    const auto iterations = figures_named(convergence_figures(result), "iterations_to_tolerance");
     ASSERT_EQ(iterations.size(), 2u);  // by residual; by volume, which stays at 1 %
     EXPECT_EQ(iterations[0].value, 29.0);
     EXPECT_EQ(iterations[0].low, 24.0);
     EXPECT_EQ(iterations[0].high, 32.0);
     EXPECT_EQ(iterations[1].value, 1000.0);
-    EXPECT_NE(iterations[1].of.find("more than so much"), std::string::npos);
+    EXPECT_EQ(iterations[1].limit, analysis::Limit::more_than);
 }
 
 TEST(ConvergenceFigures, StartsAreComparedWithLbs)
 {
     const ConvergenceResult result{{starts_at_rates(1780, {0.9, 0.95, 0.9, 0.8})}, false, ""};
     const auto all = convergence_figures(result);
-    EXPECT_EQ(figures_named(all, "iterations to tolerance, from the previous frame over from LBS").at(0).value, 59.0 / 29.0);
-    EXPECT_EQ(figures_named(all, "iterations to tolerance, from the rest pose over from LBS").at(0).value, 1.0);
-    EXPECT_EQ(figures_named(all, "iterations to tolerance, from the rigid bind over from LBS").at(0).value, 14.0 / 29.0);
+    EXPECT_EQ(figures_named(all, "iterations_over_lbs_guess", "previous_frame").at(0).value, 59.0 / 29.0);
+    EXPECT_EQ(figures_named(all, "iterations_over_lbs_guess", "rest_pose").at(0).value, 1.0);
+    EXPECT_EQ(figures_named(all, "iterations_over_lbs_guess", "rigid_bind").at(0).value, 14.0 / 29.0);
 }
 
 TEST(ConvergenceFigures, AStartThatNeverArrivesGivesABound)
 {
     ConvergencePaths paths = starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9});
     paths.paths[2] = test_support::path_to_floor(1000, 2.0, 1.0, 0.9);
-    const auto ratio =
-        figures_named(convergence_figures({{paths}, false, ""}), "iterations to tolerance, from the rest pose over from LBS");
+    const auto ratio = figures_named(convergence_figures({{paths}, false, ""}), "iterations_over_lbs_guess", "rest_pose");
     ASSERT_EQ(ratio.size(), 1u);
     EXPECT_EQ(ratio[0].value, 1000.0 / 29.0);
-    EXPECT_NE(ratio[0].of.find("at least so much"), std::string::npos);
+    EXPECT_EQ(ratio[0].limit, analysis::Limit::at_least);
 }
 
 // Volume stays at 1 % from every start: three comparisons of three.
@@ -61,14 +60,13 @@ TEST(ConvergenceFigures, WhereNeitherArrivesThereIsNoneAndItIsCounted)
 {
     const auto all = convergence_figures({{starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})}, false, ""});
     for (const Measurement& measured : all)
-        EXPECT_TRUE(!measured.quantity.starts_with("iterations to tolerance, from") ||
-                    measured.of.find("volume change") == std::string::npos)
-            << measured.of;
-    const auto neither = figures_named(all, "share of figures in which neither start arrives");
+        EXPECT_FALSE(measured.quantity == "iterations_over_lbs_guess" && measured.of.tolerance == "volume") << text_of(measured.of);
+    const auto neither = figures_named(all, "share_of_ratios_not_reached");
     ASSERT_EQ(neither.size(), 2u);
     EXPECT_EQ(neither[0].value, 0.0);
     EXPECT_EQ(neither[1].value, 1.0);
-    EXPECT_EQ(neither[1].of.substr(0, 36), "human, 01_01 crouch, 3 comparisons; ");
+    EXPECT_EQ(neither[1].of, (analysis::CaseKey{.body = "human", .tolerance = "volume"}));
+    EXPECT_EQ(neither[1].n, 3);
 }
 
 // From LBS and from the previous frame the second order is never within 0.5 %.
@@ -79,25 +77,26 @@ TEST(ConvergenceFigures, AnOrderInWhichNeitherArrivesOpensTheInterval)
         for (Look& look : path.looks) look.volume_abs_change_pct = look.iteration < 8 ? 1.0 : 0.0;
     for (const std::size_t start : {2, 3}) lost.paths[start] = arriving.paths[start];
     const auto all = convergence_figures({{arriving, lost}, false, ""});
-    const auto previous = figures_named(all, "iterations to tolerance, from the previous frame over from LBS").at(1);
+    const auto previous = figures_named(all, "iterations_over_lbs_guess", "previous_frame").at(1);
     EXPECT_EQ(previous.value, 1.0);
     EXPECT_EQ(previous.low, 0.0);
     EXPECT_EQ(previous.high, std::numeric_limits<double>::infinity());
-    EXPECT_NE(previous.of.find("neither start arrives in 1 of 2 settings"), std::string::npos) << previous.of;
-    EXPECT_EQ(figures_named(all, "iterations to tolerance, from the rest pose over from LBS").at(1).low, 8.0 / 1000.0);
-    EXPECT_EQ(figures_named(all, "share of figures in which neither start arrives").at(1).value, 1.0 / 6.0);
+    EXPECT_EQ(previous.not_reached, 1);
+    EXPECT_EQ(previous.n, 2);
+    EXPECT_EQ(figures_named(all, "iterations_over_lbs_guess", "rest_pose").at(1).low, 8.0 / 1000.0);
+    EXPECT_EQ(figures_named(all, "share_of_ratios_not_reached").at(1).value, 1.0 / 6.0);
 }
 
-TEST(ConvergenceFigures, TwistsAndTheLimbAreBesideWhatIsJudged)
+TEST(ConvergenceFigures, TwistsAndTheLimbAreReportedAndNotJudged)
 {
     ConvergencePaths twist = starts_at_rates(1780, {0.9, 0.95, 0.9, 0.8});
     twist.character = false;
     twist.twist = true;
     const auto all = convergence_figures({{twist}, false, ""});
-    EXPECT_TRUE(figures_named(all, "iterations to tolerance").empty());
-    EXPECT_TRUE(figures_named(all, "iterations to tolerance, from the previous frame over from LBS").empty());
-    EXPECT_EQ(figures_named(all, "iterations to tolerance, the limb and its sizes").at(0).value, 29.0);
-    EXPECT_EQ(figures_named(all, "iterations to tolerance in a twist, from the previous frame over from LBS").at(0).value, 59.0 / 29.0);
+    EXPECT_TRUE(figures_named(all, "iterations_to_tolerance").empty());
+    EXPECT_TRUE(figures_named(all, "iterations_over_lbs_guess", "previous_frame").empty());
+    EXPECT_EQ(figures_named(all, "iterations_to_tolerance_of_limbs").at(0).value, 29.0);
+    EXPECT_EQ(figures_named(all, "iterations_over_lbs_guess_in_a_twist", "previous_frame").at(0).value, 59.0 / 29.0);
 }
 
 // Rates exp(-1 / sqrt(vertices)) need log 20 sqrt(vertices) iterations, rounded up: 1 of 67 at most, 1.5 % at one end of a factor of 64.
@@ -111,13 +110,13 @@ TEST(ConvergenceFigures, ExponentOfALadderIsThatOfTheFormula)
             ladder.all.push_back(starts_at_rates(vertices, {rate, 0.5, 0.5, 0.5}, 4000));
             ladder.all.back().setting.order = order;
         }
-    const auto exponent = figures_named(convergence_figures(ladder), "exponent of iterations to tolerance over vertices");
+    const auto exponent = figures_named(convergence_figures(ladder), "exponent_of_iterations_over_vertices");
     ASSERT_EQ(exponent.size(), 2u);  // each order its own
     EXPECT_EQ(exponent[1].value, 0.0);
     EXPECT_NEAR(exponent[0].value, 0.5, 0.015 / std::log(64.0) * 2.0);
     EXPECT_LE(exponent[0].low, exponent[0].value);
     EXPECT_GE(exponent[0].high, exponent[0].value);
-    EXPECT_EQ(figures_named(convergence_figures(ladder), "iterations to tolerance").size(), 8u);  // each size its own, by two tolerances
+    EXPECT_EQ(figures_named(convergence_figures(ladder), "iterations_to_tolerance").size(), 8u);  // each size its own, by two tolerances
 }
 
 TEST(ConvergenceFigures, ErrorsOfNoReferenceAreLeftOut)

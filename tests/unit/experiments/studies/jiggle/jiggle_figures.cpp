@@ -17,10 +17,10 @@ std::vector<analysis::Measurement> of_quantity(const std::vector<MeasuredJiggle>
     return chosen;
 }
 
-const char* const share = "share of settings that swing";
-const char* const half_step = "frequency at half the time step over at the whole";
-const char* const correlation = "rank correlation of frequency and k_stretch";
-const char* const range = "frequency at the largest k_stretch over at the smallest";
+const char* const share = "share_of_settings_that_swing";
+const char* const half_step = "frequency_ratio_at_half_time_step";
+const char* const correlation = "rank_correlation_of_frequency_and_k_stretch";
+const char* const range = "frequency_ratio_over_k_stretch";
 
 TEST(JiggleFigures, WhatDoesNotSwingCountsInTheShare)
 {
@@ -29,7 +29,8 @@ TEST(JiggleFigures, WhatDoesNotSwingCountsInTheShare)
                                     share);
     ASSERT_EQ(shares.size(), 1u);
     EXPECT_DOUBLE_EQ(shares[0].value, 0.5);
-    EXPECT_EQ(shares[0].of, "limb, 2 of 4 settings");
+    EXPECT_EQ(shares[0].of, analysis::CaseKey{.body = "limb"});
+    EXPECT_EQ(shares[0].n, 4);
 }
 
 TEST(JiggleFigures, WhatDoesNotSwingHasNeitherFrequencyNorDamping)
@@ -53,8 +54,8 @@ TEST(JiggleFigures, OtherReadingsHaveTheirOwnDampingRatio)
 {
     const std::vector<MeasuredJiggle> measured = {swinging({}, 3.0), swinging({.k_bind = 0.0}, 3.0),
                                                   swinging({.masses = pbs::Masses::lumped}, 3.0)};
-    EXPECT_EQ(of_quantity(measured, "damping ratio").size(), 1u);
-    EXPECT_EQ(of_quantity(measured, "damping ratio, other readings").size(), 2u);
+    EXPECT_EQ(of_quantity(measured, "damping_ratio").size(), 1u);
+    EXPECT_EQ(of_quantity(measured, "damping_ratio_in_other_readings").size(), 2u);
     EXPECT_DOUBLE_EQ(of_quantity(measured, share)[0].value, 1.0);
 }
 
@@ -67,13 +68,13 @@ TEST(JiggleFigures, HalfTheStepIsOneFigureWithTheRangeOverAllHalvings)
     EXPECT_DOUBLE_EQ(ratios[0].value, 12.0 / 6.0);
     EXPECT_DOUBLE_EQ(ratios[0].low, 6.0 / 4.0);
     EXPECT_DOUBLE_EQ(ratios[0].high, 27.0 / 12.0);
-    EXPECT_EQ(ratios[0].of, "limb, from k_stretch 0.1, 10 ms, 24 iterations, unit masses, range over 3 halvings");
+    EXPECT_EQ(text_of(ratios[0].of), "limb, k_stretch 0.1, unit masses, 24 iterations, step 0.01 s");
+    EXPECT_EQ(ratios[0].n, 3);
 }
 
 TEST(JiggleFigures, RatioOfTwiceTheIterationsHasTheEndsOfBothIntervals)
 {
-    const auto ratios =
-        of_quantity({swinging({}, 6.0), swinging({.iterations = 48}, 9.0)}, "frequency at twice the iterations over at the once");
+    const auto ratios = of_quantity({swinging({}, 6.0), swinging({.iterations = 48}, 9.0)}, "frequency_ratio_at_twice_iterations");
     ASSERT_EQ(ratios.size(), 1u);
     EXPECT_DOUBLE_EQ(ratios[0].value, 1.5);
     EXPECT_NEAR(ratios[0].low, 1.5 * 0.9 / 1.1, 1e-12);
@@ -114,7 +115,7 @@ TEST(JiggleFigures, RangeIsOfTheEndsThatSwing)
     EXPECT_DOUBLE_EQ(of_quantity(measured, range)[0].value, 6.0);
     measured[1] = creeping({.k_stretch = 1.0});
     EXPECT_DOUBLE_EQ(of_quantity(measured, range)[0].value, 2.0);
-    EXPECT_EQ(of_quantity(measured, range)[0].of, "limb, k_stretch 0.5 over 0.05");
+    EXPECT_EQ(text_of(of_quantity(measured, range)[0].of), "limb, k_stretch 0.05, to k_stretch 0.5");
     EXPECT_TRUE(of_quantity({swinging({}, 3.0)}, range).empty());
 }
 

@@ -80,10 +80,10 @@ TEST(ReadingSections, HaveTheNarrowestSectionThatPlainSlicingFinds)
         }
         const auto& figures = all[reading].figures;
         const auto figure =
-            std::find_if(figures.begin(), figures.end(), [](const auto& one) { return one.quantity == "smallest section area over rest"; });
+            std::find_if(figures.begin(), figures.end(), [](const auto& one) { return one.quantity == "smallest_section_area_over_rest"; });
         ASSERT_NE(figure, figures.end());
         // The shape: rounding of LBS, blended in another order, in f32 projections. An area of it: 1e-6 of its size.
-        EXPECT_NEAR(figure->value, narrowest[reading], 1e-5) << figure->of;
+        EXPECT_NEAR(figure->value, narrowest[reading], 1e-5) << text_of(figure->of);
     }
     EXPECT_GT(std::abs(narrowest[1] - narrowest[0]), 1e-3);  // so that the two readings are told apart
 }

@@ -1,0 +1,84 @@
+"""What a value of claims.json is of, in words: its body, motion, joint and settings. The key is a set of fields, as analysis/case_key.hpp
+declares them.
+
+    case_words.of({"body": "limb", "motion": "bend", "angle_deg": 90, "k_stretch": 0.2})  # limb, bend 90°, k_stretch 0.2
+"""
+limbs = {"twist": "limb twisted", "bend": "limb bent"}  # whole sweeps
+bodies_by = {"lbs": "LBS", "dqs": "DQS", "pbs": "PBS", "reference": "reference", "pbs_exponent": "PBS, k by the exponent", "xpbd": "XPBD",
+             "xpbd_small_steps": "XPBD in small steps", "xpbd_forgetting_multipliers": "XPBD that forgets its multipliers"}
+precisions = {"f32": "single precision", "f64": "double precision"}
+masses = {"equal": "equal masses", "unequal": "unequal masses", "unequal_by_eq_8_9": "unequal masses by Eq. 8\u20139, which are for m = 1",
+          "unit": "unit masses", "lumped": "lumped masses"}
+tolerances = {"residual": "tolerance on the residual", "volume": "tolerance on the volume"}
+guesses = {"previous_frame": "from the previous frame", "rest_pose": "from the rest pose", "rigid_bind": "from the rigid bind"}
+readings = {"as_printed": "as printed", "relative_to_p1": "read relative to p1", "derived_gradients": "with the derived gradients"}
+variants = {"jiggle": "jiggling flesh"}
+limits = {"at_least": "at least ", "at_most": "at most ", "more_than": "more than "}
+
+
+def number(value):
+    return f"{value:.4g}"
+
+
+def in_range(case, field, words):
+    """k_stretch 0.05 to 1, or the one value; words: with {} for it."""
+    first, last = case.get(field), case.get(f"{field.removesuffix('_s')}_to{'_s' if field.endswith('_s') else ''}")
+    if first is None:
+        return ""
+    return words.format(number(first) if last is None else f"{number(first)} to {number(last)}")
+
+
+def motion(case):
+    """bend 90°; clip 01_01, crouch; clip 01_01 at 1 s; clip 01_01."""
+    name = case.get("motion")
+    if name is None:
+        return ""
+    if "angle_deg" in case:
+        return f"{name} {number(case['angle_deg'])}\u00b0"
+    if "time_s" in case:
+        return f"clip {name} at {number(case['time_s'])} s"
+    if "pose" in case:
+        return f"clip {name}, {in_plain(case['pose'])}"
+    return name if name in (*limbs, "turn") else f"clip {name}"
+
+
+def in_plain(identifier):
+    return identifier.replace("_", " ")
+
+
+def of_field(field, value):
+    """One field by itself: deformer lbs is LBS."""
+    known = {"deformer": bodies_by, "precision": precisions, "masses": masses, "tolerance": tolerances, "initial_guess": guesses,
+             "reading": readings, "variant": variants}
+    return known.get(field, {}).get(value, in_plain(str(value)))
+
+
+def settings(case):
+    """How it was computed, without the body and its motion."""
+    of = [of_field(field, case[field]) for field in ("deformer", "variant", "order", "precision", "masses", "load", "ladder", "tolerance",
+                                                     "initial_guess") if field in case]
+    of += [f"{case['constraint']} constraints"] if "constraint" in case else []
+    of += [f"compared with {case['reference']}"] if "reference" in case else []
+    of += [in_range(case, "vertices", "{} vertices"), in_range(case, "k_stretch", "k_stretch {}"), in_range(case, "k_bind", "k_bind {}")]
+    of += [f"{number(case['young_pa'] / 1000)} kPa"] if "young_pa" in case else []
+    of += [in_range(case, "iterations", "{} iterations")]
+    step_ms = {name: case[name] * 1000 for name in ("time_step_s", "time_step_to_s") if name in case}
+    of += [in_range(step_ms, "time_step_s", "steps of {} ms")]
+    of += [" and ".join(case[field] for field in ("factor", "second_factor") if field in case)]
+    of += [f"Eq. {case['equation']}"] if "equation" in case else []
+    of += [of_field(field, case[field]) for field in ("gradient_of", "reading", "model") if field in case]
+    return [part for part in of if part]
+
+
+def of(case):
+    place = [case.get("body", ""), motion(case), case.get("joint", "")]
+    return ", ".join([part for part in place if part] + settings(case))
+
+
+def run(case):
+    """A judged run of a scene: limb twisted; human, clip 01_01, jiggling flesh."""
+    if case.get("body") == "limb" and case.get("motion") in limbs:
+        name = limbs[case["motion"]]
+    else:
+        name = ", ".join(part for part in (case.get("body", ""), motion(case)) if part)
+    return name + (f", {of_field('variant', case['variant'])}" if "variant" in case else "")

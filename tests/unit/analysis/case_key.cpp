@@ -1,0 +1,108 @@
+// Truth: the definition; a key comes back from its cells and from JSON, and every member has one field.
+#include "analysis/case_key.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <set>
+
+namespace {
+
+using namespace analysis;
+
+CaseKey bent_limb()
+{
+    return {.body = "limb", .motion = "bend", .joint = "upper|forearm", .angle_deg = 90.0, .deformer = "pbs", .k_stretch = 0.2};
+}
+
+CaseKey with_every_field()
+{
+    CaseKey key;
+    double number = 0.5;
+    for (const CaseKeyField& field : case_key_fields()) {
+        if (field.text)
+            key.*field.text = field.name;
+        else
+            key.*field.number = number += 1.0;
+    }
+    return key;
+}
+
+TEST(CaseKey, EachFieldHasANameAndAMemberOfItsOwn)
+{
+    std::set<std::string> names;
+    for (const CaseKeyField& field : case_key_fields()) {
+        EXPECT_NE(field.text == nullptr, field.number == nullptr) << field.name;
+        names.insert(field.name);
+    }
+    EXPECT_EQ(names.size(), case_key_fields().size());
+    const CaseKey key = with_every_field();
+    for (const CaseKeyField& field : case_key_fields())
+        if (field.text) EXPECT_EQ(key.*field.text, field.name);
+    EXPECT_EQ(case_key_field("joint")->text, &CaseKey::joint);
+    EXPECT_EQ(case_key_field("colour"), nullptr);
+}
+
+TEST(CaseKey, ComesBackFromItsCells)
+{
+    const CaseKey key = with_every_field();
+    std::vector<std::string> columns;
+    std::vector<CsvTable::Cell> cells;
+    for (const CaseKeyField* field : used_fields({&key})) {
+        columns.emplace_back(field->name);
+        cells.push_back(cell_of(*field, key));
+    }
+    CsvTable table(columns);
+    table.add_row(cells);
+    EXPECT_EQ(case_key(parse_csv(table.text(), "m.csv"), 0), key);
+}
+
+TEST(CaseKey, HasColumnsForWhatIsSetAlone)
+{
+    const CaseKey limb = bent_limb(), body = {.body = "man"};
+    std::vector<std::string> names;
+    for (const CaseKeyField* field : used_fields({&body, &limb})) names.emplace_back(field->name);
+    EXPECT_EQ(names, (std::vector<std::string>{"body", "motion", "joint", "angle_deg", "deformer", "k_stretch"}));
+    EXPECT_TRUE(used_fields({}).empty());
+}
+
+TEST(CaseKey, ComesBackFromJson)
+{
+    EXPECT_EQ(case_key(to_json_of(with_every_field()), "plan.json"), with_every_field());
+    EXPECT_EQ(to_json_of(CaseKey{.body = "man"}).size(), 1u);
+}
+
+TEST(CaseKey, WhatIsNoKeyIsRefusedByFileAndField)
+{
+    const auto message = [](const char* text) -> std::string {
+        try {
+            case_key(nlohmann::json::parse(text), "plan.json");
+        } catch (const pbs::InputError& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    EXPECT_NE(message("[]").find("plan.json: of = []: expected an object"), std::string::npos) << message("[]");
+    EXPECT_NE(message(R"({"colour": "red"})").find("of.colour"), std::string::npos);
+    EXPECT_NE(message(R"({"body": 3})").find("of.body = 3: expected a text"), std::string::npos);
+    EXPECT_NE(message(R"({"angle_deg": "90"})").find("expected a number"), std::string::npos);
+}
+
+TEST(CaseKey, MatchesWhatAsksForNoMore)
+{
+    EXPECT_TRUE(matches(bent_limb(), {}));
+    EXPECT_TRUE(matches(bent_limb(), {.deformer = "pbs", .k_stretch = 0.2}));
+    EXPECT_FALSE(matches(bent_limb(), {.deformer = "lbs"}));
+    EXPECT_FALSE(matches(bent_limb(), {.k_stretch = 0.9}));
+    EXPECT_FALSE(matches(bent_limb(), {.order = "plain"}));
+}
+
+TEST(CaseKey, ItsTextNamesWhatIsSet)
+{
+    EXPECT_EQ(text_of(bent_limb()), "limb, bend, upper|forearm, 90 deg, pbs, k_stretch 0.2");
+    EXPECT_EQ(text_of({}), "");
+}
+
+}  // namespace
