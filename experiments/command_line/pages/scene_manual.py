@@ -86,7 +86,7 @@ def man(keys, version):
     lines = [title_line("PBSKIN-SCENE", 5, version, "File Formats"), ".SH NAME", "pbskin-scene \\- scene files of pbskin", ".SH DESCRIPTION",
              *(escaped(line.replace("`", "")) for line in introduction)]
     for table, of_table in grouped(keys).items():
-        lines += [f".SH {escaped("TOP LEVEL" if not table else heading(table, of_table))}", escaped(tables.get(table, "").replace("`", ""))]
+        lines += [".SH " + escaped(heading(table, of_table) if table else "TOP LEVEL"), escaped(tables.get(table, "").replace("`", ""))]
         for key in of_table:
             lines += [".TP", f"\\fB{escaped(key['name'])}\\fR", escaped(f"{key['meaning']}."),
                       escaped(f"Value: {rule_of(key)}. Default: {default_of(key)}.")]
