@@ -7,7 +7,6 @@ claim's bounds and its verdict are. Nobody types it.
 import csv
 import json
 import pathlib
-import re
 import sys
 import tomllib
 
