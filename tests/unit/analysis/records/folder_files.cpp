@@ -2,7 +2,6 @@
 // round.
 #include "analysis/records/folder_files.hpp"
 
-#include "experiments/command_line/measure/frame_files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -10,12 +9,8 @@
 
 #include <algorithm>
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 namespace {
 
-using namespace experiments;
 using test_support::ScratchFolder;
 namespace fs = std::filesystem;
 
@@ -57,35 +52,6 @@ TEST(FolderFiles, FilesOfAFolder)
     EXPECT_EQ(files, (std::vector<fs::path>{folder / "a", folder / "b"}));
     const std::string file = folder / "a";
     EXPECT_EQ(refusal_of([&] { analysis::files_in(file); }), file + ": the folder cannot be read: Not a directory");
-}
-
-// As somebody else where root runs the tests, whom no mode stops.
-class Locked {
-public:
-    explicit Locked(const std::string& folder) : folder_(folder), self_(geteuid())
-    {
-        chmod(folder_.c_str(), 0);
-        if (self_ == 0 && seteuid(65534) != 0) throw std::runtime_error("cannot become somebody else");
-    }
-    ~Locked()
-    {
-        if (seteuid(self_) == 0) chmod(folder_.c_str(), 0755);
-    }
-
-private:
-    std::string folder_;
-    uid_t self_;
-};
-
-TEST(FolderFiles, AFolderOfFramesThatIsLockedIsNamedWithTheReason)
-{
-    const ScratchFolder folder;
-    fs::permissions(folder.path(), fs::perms(0755));
-    const std::string frames = folder / "frames";
-    fs::create_directories(frames);
-    const Locked locked(frames);
-    EXPECT_EQ(refusal_of([&] { frame_files({frames}); }), frames + ": the folder cannot be read: Permission denied");
-    EXPECT_EQ(refusal_of([&] { frame_files({frames + "/f_%d.vtu"}); }), frames + ": the folder cannot be read: Permission denied");
 }
 
 }  // namespace
