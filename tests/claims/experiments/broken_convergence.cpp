@@ -36,7 +36,7 @@ const experiments::ConvergenceResult& bend(Broken how)
     experiments::ConvergenceCase of;
     of.scene = broken(experiments::read_scene("limb_bend", {"character.vertices=300"}), how);
     of.frames = {{3, "bend 15"}};
-    of.k_stretch = {experiments::spec_of(of.scene, "pbs").pbs.k_stretch};
+    of.k_stretch = {experiments::options_of<pbs::PbsOptions>(experiments::spec_of(of.scene, "pbs")).k_stretch};
     of.settings = {{pbs::Order::plain, pbs::Precision::f32}};
     return kept.emplace(how, experiments::measure_convergence(of)).first->second;
 }

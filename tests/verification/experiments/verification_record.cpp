@@ -58,7 +58,7 @@ TEST_P(WrongLameParameter, DoesNotPass)
 {
     const auto [name, quantity] = GetParam();
     bool failed = false;
-    for (const VerificationRow& row : problem(name).rows({.lambda_error = 0.05}))
+    for (const VerificationRow& row : problem(name).rows({{.lambda_error = 0.05}}))
         failed |= row.quantity.starts_with(quantity) && !holds(row).value_or(true);
     EXPECT_TRUE(failed);
 }

@@ -22,7 +22,7 @@ Reading named(const std::string& name)
 
 ReadingFigures with(const std::string& claim, double value, Extent extent)
 {
-    return {{{claim, "quantity", "limb", "1", "1 or more", value, extent}}, false};
+    return {{{claim, "quantity", {.body = "limb"}, "1", "1 or more", value, extent}}, false};
 }
 
 bool has(const std::string& text, const std::string& part)
@@ -47,8 +47,8 @@ TEST(ClaimChangesText, ShowsTheFigureThatFlips)
 {
     ClaimChanges changes;
     ReadingFigures a = with("C02", 1.0, Extent::whole), b = with("C02", 9.0, Extent::whole);
-    a.figures.push_back({"C02", "other", "limb", "1", "", 1.0, Extent::whole});
-    b.figures.push_back({"C02", "other", "limb", "1", "", 1.1, Extent::part});
+    a.figures.push_back({"C02", "other", {.body = "limb"}, "1", "", 1.0, Extent::whole});
+    b.figures.push_back({"C02", "other", {.body = "limb"}, "1", "", 1.1, Extent::part});
     changes.add("limb", "C02", named("B"), a, b);
     EXPECT_TRUE(has(experiments::claim_changes_text(changes.table()), "x1.1!"));
 }

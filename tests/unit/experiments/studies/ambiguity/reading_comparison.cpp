@@ -28,7 +28,7 @@ TEST(ReadingComparison, MeasuresWhatTouchesTheClaimAndItsBaselineOnce)
         for (const Reading& reading : touching) {
             measured.push_back(reading.name);
             const double ms = reading.name == "own" ? 2.0 : 3.0;
-            figures.push_back({{{"C10", "ms", "limb", "ms", "", ms, analysis::Extent::whole}}, false});
+            figures.push_back({{{"C10", "ms", {.body = "limb"}, "ms", "", ms, analysis::Extent::whole}}, false});
         }
         return figures;
     });

@@ -30,7 +30,10 @@ ReadingsCase small_limb()
 
 Reading own()
 {
-    return {.place = "", .name = "own", .baseline = "own", .options = experiments::spec_of(small_limb().scene, "pbs").pbs};
+    return {.place = "",
+            .name = "own",
+            .baseline = "own",
+            .options = experiments::options_of<pbs::PbsOptions>(experiments::spec_of(small_limb().scene, "pbs"))};
 }
 
 template <typename Change>

@@ -22,7 +22,10 @@ experiments::ArtefactCase twisted()
 
 Reading own()
 {
-    return {.place = "", .name = "own", .baseline = "own", .options = experiments::spec_of(twisted().scene, "pbs").pbs};
+    return {.place = "",
+            .name = "own",
+            .baseline = "own",
+            .options = experiments::options_of<pbs::PbsOptions>(experiments::spec_of(twisted().scene, "pbs"))};
 }
 
 TEST(ReadingSections, AreTwoFiguresAPoseThatTheReadingChanges)

@@ -58,7 +58,10 @@ pbs::Positions shape_by_hand(const pbs::Character& character, const pbs::Pose& p
 TEST(ReadingSections, HaveTheNarrowestSectionThatPlainSlicingFinds)
 {
     const experiments::ArtefactCase of = twisted();
-    Reading own = {.place = "", .name = "own", .baseline = "own", .options = experiments::spec_of(of.scene, "pbs").pbs};
+    Reading own = {.place = "",
+                   .name = "own",
+                   .baseline = "own",
+                   .options = experiments::options_of<pbs::PbsOptions>(experiments::spec_of(of.scene, "pbs"))};
     Reading looser = own;
     looser.options.k_bind = 0.1;
     const auto all = figures_of_sections(of, {own, looser});
