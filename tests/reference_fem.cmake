@@ -8,7 +8,7 @@ pbs_tests(unit reference_fem FOLDERS reference_fem EXCEPT reference_fem/laws LIB
 pbs_tests(verification reference_fem_laws FILES reference_fem/laws reference_fem/laws_closed_form LIBRARIES reference_fem_laws)
 pbs_tests(verification reference_fem FOLDERS reference_fem
     EXCEPT reference_fem/laws reference_fem/laws_closed_form
-    LIBRARIES reference_fem)
+    LIBRARIES reference_fem_verification)
 if(NOT TARGET fem_verification)
     return()
 endif()

@@ -66,6 +66,7 @@ void to_json(nlohmann::json& document, const Provenance& provenance)
                 {"threads", provenance.threads},
                 {"libraries", provenance.libraries},
                 {"input_hashes", provenance.input_hashes}};
+    if (!provenance.blas.empty()) document["blas"] = provenance.blas;
 }
 
 }  // namespace analysis

@@ -21,6 +21,7 @@ struct Provenance {
     int logical_cpus = 0;                             // 0 where the system does not tell
     int threads = 0;                                  // the run's
     std::map<std::string, std::string> libraries;     // name -> version; those of this module, others are added
+    std::map<std::string, std::string> blas;          // library, core_type and who selected it; empty: the run used none
     std::map<std::string, std::string> input_hashes;  // file name -> pbs::content_hash
 };
 

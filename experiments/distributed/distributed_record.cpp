@@ -2,6 +2,7 @@
 
 #include "analysis/records/csv_table.hpp"
 #include "analysis/records/provenance.hpp"
+#include "experiments/process/blas_kernels.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -21,6 +22,14 @@ pbs::Vec3 tip_displacement(const pbs::TetMesh& mesh, const reference_fem::Elasti
         ++vertices;
     }
     return sum / vertices;
+}
+
+// On one thread each rank, with the kernels of the BLAS under the direct solvers.
+analysis::Provenance provenance()
+{
+    analysis::Provenance provenance = analysis::collect_provenance(1);
+    provenance.blas = blas_in_use();
+    return provenance;
 }
 
 }  // namespace
@@ -63,7 +72,7 @@ nlohmann::json to_json(const LoadedBody& body, const reference_fem::ElasticSolut
             {"compliance_j", summary.compliance_j},
             {"tip_displacement_m", {tip.x(), tip.y(), tip.z()}},
             {"largest_displacement_m", solution.displacement.rowwise().norm().maxCoeff()},
-            {"provenance", analysis::collect_provenance(1)}};
+            {"provenance", provenance()}};
 }
 
 void write_nodes(const std::string& path, const reference_fem::ElasticSolution& solution)

@@ -11,6 +11,7 @@
 // minute for 1,000,000 on 2 ranks.
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/distributed/distributed_record.hpp"
+#include "experiments/process/blas_kernels.hpp"
 #include "experiments/process/exit_status.hpp"
 #include "experiments/process/failure.hpp"
 #include "analysis/records/atomic_file.hpp"
@@ -139,6 +140,7 @@ int parse_and_act(const reference_fem::MpiSession& session, int argc, char** arg
 
 int main(int argc, char** argv)
 {
+    experiments::restart_with_better_blas_kernels(argv);
     const reference_fem::MpiSession session(argc, argv);
     try {
         return experiments::parse_and_act(session, argc, argv);

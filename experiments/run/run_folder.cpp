@@ -2,6 +2,7 @@
 
 #include "analysis/records/atomic_file.hpp"
 #include "analysis/records/provenance.hpp"
+#include "experiments/process/blas_kernels.hpp"
 #include "experiments/run/frame_statistics.hpp"
 #include "experiments/run/library_versions.hpp"
 #include "analysis/records/folder_files.hpp"
@@ -257,6 +258,7 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
     });
     analysis::Provenance provenance = analysis::collect_provenance(most_threads(scene_));
     for (const auto& [library, version] : library_versions()) provenance.libraries[library] = version;
+    provenance.blas = blas_in_use();
     provenance.input_hashes = pbs::hashes_by_name(character.inputs);
 
     nlohmann::json run = {{"schema", 1}, {"scene", resolved_with_deformers(scene_)}, {"provenance", provenance}, {"outcome", outcome}};

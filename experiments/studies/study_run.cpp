@@ -2,6 +2,7 @@
 
 #include "analysis/records/atomic_file.hpp"
 #include "analysis/records/provenance.hpp"
+#include "experiments/process/blas_kernels.hpp"
 #include "experiments/process/cpu_clock.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "analysis/records/kept_record.hpp"
@@ -48,6 +49,7 @@ std::string carry_out_work(const StudyRun& run, const std::string& folder)
 
     analysis::Provenance provenance = analysis::collect_provenance(1);
     for (const auto& [library, version] : library_versions()) provenance.libraries[library] = version;
+    provenance.blas = blas_in_use();
     const auto [key, value] = identity(run);
     nlohmann::json outcome = {{"finished", true}, {"breakdown", breakdown}, {"cpu_seconds", process_cpu_s() - cpu_start_s}};
     outcome.update(run_end(stopwatch.seconds()));

@@ -1,10 +1,7 @@
 #include "reference_fem/verification/common.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
 namespace reference_fem {
 
@@ -34,18 +31,6 @@ std::string linear_material(double poisson)
 double order_between(double coarse, double fine)
 {
     return std::log2(std::abs(coarse) / std::abs(fine));
-}
-
-double rounding_bound(const BoundaryValueSolution& solution, const ElasticMaterial& material)
-{
-    std::vector<int> free;
-    for (int dof = 0; dof < solution.space->dofs(); ++dof)
-        if (!solution.held[dof]) free.push_back(dof);
-    const Lame lame = lame_parameters(material.young_pa, material.poisson);
-    const Eigen::MatrixXd stiffness = stiffness_matrix(*solution.space, lame);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(stiffness(free, free), Eigen::EigenvaluesOnly);
-    const double condition = eigen.eigenvalues().tail<1>()(0) / eigen.eigenvalues()(0);
-    return std::sqrt(static_cast<double>(free.size())) * std::numeric_limits<double>::epsilon() * condition;
 }
 
 void bound_by_grade_a(VerificationRow& row)

@@ -31,12 +31,6 @@ std::string elements_name(int element_order, Formulation formulation = Formulati
 std::string linear_material(double poisson);       // linear, nu = 0.3
 double order_between(double coarse, double fine);  // of errors on two meshes, one twice as fine
 
-// sqrt(n) eps cond(K): the relative error that rounding of random sign makes in a backward stable direct solve of n unknowns
-// (N. Higham, Accuracy and stability of numerical algorithms, 2nd ed., SIAM 2002, Theorem 10.4). By dense eigenvalues: small meshes only.
-double rounding_bound(const BoundaryValueSolution& solution, const ElasticMaterial& material);
-inline const std::string rounding_bound_text =
-    "rounding of a direct solve: sqrt(n) eps cond(K), cond(K) by eigenvalues of this very matrix";
-
 // R. MacNeal, R. Harder, A proposed standard set of problems to test finite element accuracy, Finite Elements in Analysis and Design 1
 // (1985) 3-20, Table 13: an element that is within 2 % of the reference is given an A.
 inline constexpr double grade_a = 0.02;

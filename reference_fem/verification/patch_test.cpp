@@ -1,6 +1,7 @@
 // A displacement that is affine in x has a constant stress, needs no body force and lies in both finite element spaces: the solver must
 // return it on any mesh, from displacements and from tractions on the boundary (B. Irons, A. Razzaque, 1972).
 #include "reference_fem/verification/common.hpp"
+#include "reference_fem/verification/rounding_bound.hpp"
 #include "reference_fem/verification/structured_mesh.hpp"
 
 namespace reference_fem {
@@ -54,7 +55,7 @@ VerificationRow row_of(const Effort& effort, const std::string& data, const Boun
             .unit = "1",
             .source = "closed form: an affine displacement is its own finite element solution",
             .low = 0.0,
-            .high = rounding_bound(solution, material),
+            .high = rounding_bound(spectrum(solution, material)),
             .bound_from = rounding_bound_text};
 }
 

@@ -2,7 +2,7 @@
 
 #include "experiments/deformers/fem/fem_module.hpp"
 #include "experiments/deformers/fem/fem_settings.hpp"
-#include "pbs/geometry/module.hpp"
+#include "experiments/process/blas_kernels.hpp"
 
 namespace experiments {
 namespace {
@@ -10,7 +10,7 @@ namespace {
 // deal.II and some 200 shared objects: loaded when a scene first asks for a reference.
 std::unique_ptr<Deformer> make_fem(const DeformerSpec& spec)
 {
-    const auto make = pbs::load_module("pbskin_fem").function<decltype(pbskin_make_fem)>("pbskin_make_fem");
+    const auto make = load_module_with_blas("pbskin_fem").function<decltype(pbskin_make_fem)>("pbskin_make_fem");
     return std::unique_ptr<Deformer>(make(options_of<FemOptions>(spec)));
 }
 

@@ -1,12 +1,12 @@
 // The verification of the judge: patch tests, manufactured solutions, closed forms and published benchmarks, each problem a run of its own.
 // No claim rests on it; it says how far the reference itself may be trusted. Rows into DIR/verification/verification.csv, .json, .md.
 #include "analysis/records/atomic_file.hpp"
+#include "experiments/process/blas_kernels.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/verification/verification_module.hpp"
 #include "experiments/studies/verification/verification_record.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/module.hpp"
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 // deal.II is loaded here, when the study is asked for.
 const std::vector<VerificationProblem>& problems_of_module()
 {
-    return *pbs::load_module("pbskin_fem").function<decltype(pbskin_verification_problems)>("pbskin_verification_problems")();
+    return *load_module_with_blas("pbskin_fem").function<decltype(pbskin_verification_problems)>("pbskin_verification_problems")();
 }
 
 pbs::Character limb(int vertices, int refinements)

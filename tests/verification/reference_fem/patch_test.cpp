@@ -1,15 +1,11 @@
 // Truth: theory. A displacement that is affine in x has constant stress, needs no body force and lies in both finite element spaces, so
-// the solver must return it on any mesh (B. Irons, A. Razzaque, 1972). Tolerance: the relative error of a backward stable direct solve
-// is below n eps cond(K) with n the number of unknowns; sqrt(n) is what rounding of random sign gives, and what is asked here, with
-// cond(K) from the eigenvalues of the very matrix.
+// the solver must return it on any mesh (B. Irons, A. Razzaque, 1972). Tolerance: rounding of a direct solve, sqrt(n) eps cond(K).
 #include "reference_fem/boundary_value_problem.hpp"
 
+#include "tests/support/solve_rounding.hpp"
 #include "tests/verification/reference_fem/jittered_cube.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
-
-#include <limits>
 
 namespace {
 
@@ -25,20 +21,6 @@ Vec3 affine(const Vec3& x)
     return Vec3(0.1, -0.05, 0.03) + gradient * x;
 }
 
-// Largest over smallest eigenvalue of the stiffness between the cube's inner nodes.
-double condition_of_inner_stiffness(const SimplexSpace& space)
-{
-    const Eigen::MatrixXd stiffness = stiffness_matrix(space, lame_parameters(material.young_pa, material.poisson));
-    std::vector<int> inner;
-    for (int node = 0; node < space.nodes(); ++node) {
-        const auto point = space.node_positions().row(node).array();
-        if (point.minCoeff() < 1e-9 || point.maxCoeff() > 1.0 - 1e-9) continue;
-        for (int c = 0; c < 3; ++c) inner.push_back(3 * node + c);
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(stiffness(inner, inner), Eigen::EigenvaluesOnly);
-    return eigen.eigenvalues().tail<1>()(0) / eigen.eigenvalues()(0);
-}
-
 class PatchTest : public testing::TestWithParam<std::tuple<int, LinearSolver>> {};
 
 TEST_P(PatchTest, ReturnsAnAffineDisplacementToRounding)
@@ -47,11 +29,7 @@ TEST_P(PatchTest, ReturnsAnAffineDisplacementToRounding)
     const pbs::TetMesh mesh = test_support::jittered_cube(element_order == 1 ? 5 : 3, 0.45);
     const BoundaryValueSolution solution = solve(mesh, material, {{}, affine, {}, element_order, solver});
 
-    double largest_displacement = 0.0;
-    for (const auto& point : mesh.rest.rowwise()) largest_displacement = std::max(largest_displacement, affine(point.transpose()).norm());
-    const double relative = solution.largest_nodal_error(affine) / largest_displacement;
-    const double bound =
-        std::sqrt(double(solution.space->dofs())) * std::numeric_limits<double>::epsilon() * condition_of_inner_stiffness(*solution.space);
+    const double relative = test_support::relative_error(solution, affine), bound = rounding_bound(spectrum(solution, material));
     RecordProperty("relative_error", std::to_string(relative / 1e-16) + "e-16");
     RecordProperty("bound", std::to_string(bound / 1e-16) + "e-16");
     EXPECT_LT(relative, bound);
