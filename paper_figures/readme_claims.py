@@ -1,5 +1,5 @@
-"""One line per claim of DIR/claims.json into README.md, between its markers: what is expected, measured and found. Nobody types that table;
-sentences.py composes it, and DIR/claims.json holds every value behind a line.
+"""One line per claim of DIR/claims.json into README.md, between its markers: verdict, key number and the page of the claim. sentences.py
+composes the texts, and DIR/claims.json holds every value behind a line.
 
     python3 paper_figures/readme_claims.py results/reproduce
 """
@@ -10,7 +10,8 @@ import record_shapes
 import records
 import sentences
 
-columns = ("id", "statement", "expected", "measured", "verdict")
+columns = ("claim", "verdict", "values within the bound; the farthest from it [95 % interval]", "page")
+pages = "experiments/verdicts/claims"
 
 
 def line(*cells):
@@ -26,8 +27,8 @@ def table_lines(results):
 
 
 def row_of(claim):
-    return line(claim["id"], f"{claim['statement']} ({claim['place']})", sentences.expected_in_line(claim),
-                sentences.measured_in_line(claim), sentences.names[claim["verdict"]])
+    return line(f"{claim['statement']} ({claim['place']})", sentences.names[claim["verdict"]], sentences.key_number(claim),
+                f"[{claim['id']}]({pages}/{claim['id']}.md)")
 
 
 def revisions(results):

@@ -288,3 +288,18 @@ def measured_in_line(claim):
         return f"{range_of(values)}; {within(claim)}"
     ranges = [range_of([value for value in values if value["quantity"] == of["quantity"]]) for of in claim["bounds"]]
     return "; ".join([*filter(None, ranges), within(claim)])
+
+
+def key_number(claim):
+    """How many values hold; then the value farthest outside its bound, or nearest to it if all hold, with its interval and body."""
+    primary = claim["primary"]
+    if primary is None or primary["statistic"] == "printed":
+        return within(claim) if claim["n"] else ""
+    by_share = primary["statistic"] == "share_of_frames"
+    ends = (None, None) if primary["low"] == primary["high"] else (primary["low"], primary["high"])
+    value = with_interval({"estimate": primary["value"], "low": ends[0], "high": ends[1]}, 100 if by_share else 1)
+    name = title(claim, primary["quantity"])
+    named = {"share_of_frames": "share of frames", "mean": f"mean {name}"}.get(primary["statistic"], name)
+    place = ", ".join(part for part in (primary.get("body", ""), case_words.motion(primary)) if part)
+    unit = " %" if by_share else with_unit(primary["unit"])
+    return f"{claim['within']} of {claim['n']} within; {named} {value}{unit}" + (f" ({place})" if place else "")

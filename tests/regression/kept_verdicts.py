@@ -11,6 +11,7 @@ SOURCE = pathlib.Path(program.SOURCE)
 KEPT = SOURCE / "experiments" / "records" / "full"
 sys.path.insert(0, str(SOURCE / "paper_figures"))
 import readme_claims  # noqa: E402
+import readme_findings  # noqa: E402
 import readme_part  # noqa: E402
 import sentences  # noqa: E402
 
@@ -36,9 +37,11 @@ class KeptVerdicts(program.ProgramTest):
         for file in judged - kept:
             self.assertIn(f"/experiments/records/full/{file}", ignored)
 
-    def test_readme_tells_the_same_in_a_line_a_claim(self):
-        _, told, _ = readme_part.cut(SOURCE / "README.md", "claims")
-        self.assertEqual(told.split("\n\n")[0].splitlines()[1:], readme_claims.table_lines(self.judged()))
+    def test_readme_states_each_claim_and_finding_as_the_records_have_it(self):
+        judged = self.judged()
+        for name, lines_of in (("claims", readme_claims.table_lines), ("findings", readme_findings.lines_of)):
+            _, stated, _ = readme_part.cut(SOURCE / "README.md", name)
+            self.assertEqual(stated.strip().split("\n\n")[0].splitlines(), lines_of(judged))
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
 import readme_claims  # noqa: E402
 import readme_features  # noqa: E402
+import readme_findings  # noqa: E402
 import readme_part  # noqa: E402
 import readme_reliability  # noqa: E402
 import records  # noqa: E402
@@ -73,7 +74,8 @@ class Markers(ReadmeTest):
         self.assertEqual(said.getvalue(), "usage\n")
 
     def test_the_projects_own_readme_has_each_pair_once(self):
-        for name, page in (("claims", readme_part.own_readme), ("reliability", readme_reliability.page)):
+        for name, page in (("claims", readme_part.own_readme), ("features", readme_features.page),
+                           ("reliability", readme_reliability.page)):
             self.assertTrue(readme_part.cut(page, name)[1].startswith("\n| "), name)
 
 
@@ -90,10 +92,18 @@ class Tables(ReadmeTest):
         synthetic_records.write_study(self.results)
         synthetic_records.write_claims(self.results)
         self.assert_written("claims", readme_claims.lines_of,
-                            "| C02 | Volume is kept. (Sec. 4) | 0.5 % (-0.5 to 0.5 %) | limb twisted: -0.9 to 0 % over the angle; "
-                            "2 clips: 40 to 97.5 % of the frames within the bound; 1 of 3 runs within the bound, 1 in part | reproduced in part |",
-                            "| 107 to 233 1/s; 2 of 2 values within the bound | reproduced |",
+                            "| Volume is kept. (Sec. 4) | reproduced in part | 1 of 3 within; share of frames 40 [30, 50] % "
+                            "(human, clip walk) | [C02](experiments/verdicts/claims/C02.md) |",
+                            "| 2 of 2 within; frames per second 107 [100, 110] 1/s (frankie) | [C10](experiments/verdicts/claims/C10.md) |",
+                            "| 1 of 2 values consistent | [C13](experiments/verdicts/claims/C13.md) |",
                             f"\nMeasured at revision {synthetic_records.revision[:12]}.")
+
+    def test_findings_without_the_values_that_they_state_are_refused(self):
+        synthetic_records.write_study(self.results)
+        synthetic_records.write_claims(self.results)
+        status, said = self.written("findings", readme_findings.lines_of)
+        self.assertEqual(status, 2)
+        self.assertRegex(said, r"claims.json: C02: 0 with .*human_01_01.*: expected one")
 
     def test_features(self):
         synthetic_records.write_study(self.results)
