@@ -95,7 +95,7 @@ void require_once(const std::vector<Entry>& entries, std::string Entry::*name, c
 
 CheckRules parse_check_rules(const std::string& text, const std::string& file, const std::vector<std::string>& metrics)
 {
-    const toml::table document = parse_toml_document(text, file, {"check", "claim"});
+    const toml::table document = parse_toml_document(text, file, {"check", "claim", "quantity"});
     const toml::table* check = document["check"].as_table();
     if (!check) throw pbs::InputError(file, 0, "check", "", "expected [[check.scene]] and [[check.bound]] tables");
     TomlKeys keys(*check, file, "check");
