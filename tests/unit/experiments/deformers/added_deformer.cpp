@@ -116,7 +116,7 @@ protected:
 
 TEST_F(AddedDeformer, ReadsItsOwnKeys)
 {
-    const auto& options = options_of<LiftOptions>(scene({"lift.direction=down"}).deformers.at(1));
+    const LiftOptions options = options_of<LiftOptions>(scene({"lift.direction=down"}).deformers.at(1));
     EXPECT_EQ(options.height_m, 0.25);
     EXPECT_EQ(options.steps, 3);
     EXPECT_EQ(options.direction, Direction::down);
