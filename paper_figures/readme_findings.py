@@ -32,7 +32,8 @@ def volume(results, claims):
     of_human = only(of(claims, "C02")["cases"], "claims.json: C02", quantity="volume_change_pct", scene="human_01_01", variant=None)
     share = of_human["share_of_frames"]
     return ("**Volume.** PBS with 24 iterations stays within 0.5 % of the human's volume in "
-            f"{100 * share['estimate']:.0f} % of the frames of a jump (95 % interval {100 * share['low']:.0f} to {100 * share['high']:.0f} %).")
+            f"{100 * share['estimate']:.0f} % of the frames of a jump "
+            f"(95 % interval {100 * share['low']:.0f} to {100 * share['high']:.0f} %).")
 
 
 def artefacts(results, claims):

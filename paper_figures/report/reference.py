@@ -1,4 +1,4 @@
-"""The finite element reference's own verification, where that study is on record: its values, with the sources and the origins of bounds."""
+"""The finite element reference's own verification, if that study is on record: its values, their sources and the origins of bounds."""
 from number_words import counted, figure
 from report.markup import element, inline, joined, table
 from report.record_set import not_run, number

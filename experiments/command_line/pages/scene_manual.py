@@ -1,4 +1,4 @@
-"""The manual of scene files, from the program's own list of keys: as a page of Markdown, experiments/scene/manual.md, and as pbskin-scene(5).
+"""The manual of scene files, from the program's own list of keys: a page of Markdown, experiments/scene/manual.md, and pbskin-scene(5).
 
     text = scene_manual.markdown(program["scene_keys"])
 """
@@ -29,8 +29,8 @@ tables = {
 
 further = {
     "Skeleton files": (
-        "A skeleton is a TOML file with one `[[joint]]` table per bone: `name`, `parent` (empty for a root), `head_m` and `tail_m`, the end "
-        "points of the bone at rest in metres.",
+        "A skeleton is a TOML file with one `[[joint]]` table per bone: `name`, `parent` (empty for a root), `head_m` and "
+        "`tail_m`, the end points of the bone at rest in metres.",
         "Rest rotations are the identity, so axes are those of the world.",
         "A clip (.bvh, .gltf, .glb, .fbx) can serve as skeleton: its zero pose is the rest pose."),
     "Weight files": (
@@ -39,11 +39,12 @@ further = {
         "Tet meshes are read from .msh (Gmsh 2.2 and 4.1), .vtu, .vtk, .mesh (MEDIT) and .node with .ele (TetGen).",
         "`pbskin mesh` makes one from a surface (.obj, .ply, .off, .stl, .gltf).",
         "Coordinates are in metres. A body of less than 1 mm or more than 100 m gets a warning, for files do not state a unit.",
-        "Accepted with a warning: a tet mesh of several parts (each is skinned by itself); inverted tets (they are turned back); a surface with "
-        "unused points or triangles without area (they are left out), with holes or crossing triangles (it is wrapped), or facing inwards.",
+        "Accepted with a warning: a tet mesh of several parts (each is skinned by itself); inverted tets (they are turned back); "
+        "a surface with unused points or triangles without area (they are left out), with holes or crossing triangles (it is wrapped), "
+        "or facing inwards.",
         "Refused: an index out of range, a coordinate that is not a number, an edge of a surface in three or more triangles, a surface "
-        "without volume, a triangle that occurs twice; in a tet mesh an unused vertex, two vertices at one place, or a boundary that is not "
-        "manifold or intersects itself.",
+        "without volume, a triangle that occurs twice; in a tet mesh an unused vertex, two vertices at one place, or a boundary "
+        "that is not manifold or intersects itself.",
         "Points of a surface at the same place are joined without a message, since exporters split them at texture seams.")}
 
 
@@ -69,7 +70,8 @@ def rule_of(key):
 
 
 def markdown(keys):
-    lines = ["# Scene files: every key", "", "<!-- Written by experiments/command_line/pages/scene_manual.py from the program's own list. -->",
+    lines = ["# Scene files: every key", "",
+             "<!-- Written by experiments/command_line/pages/scene_manual.py from the program's own list. -->",
              "", *introduction]
     for table, of_table in grouped(keys).items():
         lines += ["", f"## {heading(table, of_table)}", "", *([tables[table], ""] if table in tables else []),
@@ -83,8 +85,8 @@ def markdown(keys):
 
 
 def man(keys, version):
-    lines = [title_line("PBSKIN-SCENE", 5, version, "File Formats"), ".SH NAME", "pbskin-scene \\- scene files of pbskin", ".SH DESCRIPTION",
-             *(escaped(line.replace("`", "")) for line in introduction)]
+    lines = [title_line("PBSKIN-SCENE", 5, version, "File Formats"), ".SH NAME", "pbskin-scene \\- scene files of pbskin",
+             ".SH DESCRIPTION", *(escaped(line.replace("`", "")) for line in introduction)]
     for table, of_table in grouped(keys).items():
         lines += [".SH " + escaped(heading(table, of_table) if table else "TOP LEVEL"), escaped(tables.get(table, "").replace("`", ""))]
         for key in of_table:

@@ -154,7 +154,8 @@ class Captions(unittest.TestCase):
             self.assertEqual(make_all.main(self.figures, "volume_over_iterations"), 0)
         file = self.figures / "figures" / "volume_over_iterations.caption.txt"
         text = file.read_text()
-        self.assertIn("the signed change is \u22122 % for the human's median and \u22120.00375 % for the limb bent by 90 degrees; after 96 iterations it is \u22122 %", text)
+        self.assertIn("the signed change is \u22122 % for the human's median and \u22120.00375 % for the limb bent by 90 degrees; "
+                      "after 96 iterations it is \u22122 %", text)
         self.assertEqual(captions.read(listed["volume_over_iterations"], file.parent), text.rstrip("\n"))
         make_all.delete("volume_over_iterations", file.parent)
         self.assertFalse(file.exists())
