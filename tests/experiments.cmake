@@ -24,6 +24,8 @@ pbs_tests(unit experiments_studies FOLDERS experiments/studies
     EXCEPT experiments/studies/verification/calculix ${left_out}
     LIBRARIES experiments)
 pbs_tests(properties experiments FOLDERS experiments LIBRARIES experiments)
+pbs_tests(regression experiments FOLDERS experiments LIBRARIES experiments)
+target_compile_definitions(test_regression_experiments PRIVATE PBS_KEPT_RECORDS="${PROJECT_SOURCE_DIR}/experiments/records/full")
 pbs_tests(robustness experiments FOLDERS experiments LIBRARIES experiments)
 pbs_tests(verification experiments FOLDERS experiments
     EXCEPT experiments/deformers/fem experiments/studies/verification/calculix experiments/verification_record ${left_out}

@@ -15,6 +15,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -116,17 +117,30 @@ struct Column {
     {
         using Value = std::remove_cvref_t<std::invoke_result_t<Access, Row&>>;
         require_unit(name, unit);
+        if constexpr (std::is_same_v<Value, bool> || std::is_same_v<Value, std::optional<bool>>) unit = "0/1";
         cell = [access](const Row& row) { return CellOf<Value>::cell(std::invoke(access, row)); };
         read = [access, column = name](Row& row, const CsvTable& table, int r) {
             std::invoke(access, row) = CellOf<Value>::read(table, r, column);
         };
     }
-    // The column of a base class or of a part of the row.
-    template <typename Other, typename Access>
-    Column(const Column<Other>& other, Access access) : name(other.name), unit(other.unit), meaning(other.meaning), group(other.group)
+    // The column of a part of the row.
+    template <typename Part>
+    Column(const Column<Part>& other, Part Row::*part) : name(other.name), unit(other.unit), meaning(other.meaning), group(other.group)
     {
-        cell = [access, of = other.cell](const Row& row) { return of(std::invoke(access, row)); };
-        read = [access, of = other.read](Row& row, const CsvTable& table, int r) { of(std::invoke(access, row), table, r); };
+        cell = [part, of = other.cell](const Row& row) { return of(row.*part); };
+        read = [part, of = other.read](Row& row, const CsvTable& table, int r) { of(row.*part, table, r); };
+    }
+    // The column of a part that a row may lack: then all its cells are empty.
+    template <typename Part>
+    Column(const Column<Part>& other, std::optional<Part> Row::*part)
+        : name(other.name), unit(other.unit), meaning(other.meaning), group(other.group)
+    {
+        cell = [part, of = other.cell](const Row& row) { return row.*part ? of(*(row.*part)) : std::nullopt; };
+        read = [part, column = name, of = other.read](Row& row, const CsvTable& table, int r) {
+            if (table.text_at(r, column).empty()) return;
+            if (!(row.*part)) (row.*part).emplace();
+            of(*(row.*part), table, r);
+        };
     }
 
     std::string name, unit, meaning;
@@ -159,6 +173,12 @@ public:
         std::erase_if(rest, [&](const Column<Row>& column) { return column.group == group; });
         return rest;
     }
+    const Column<Row>& named(const std::string& name) const  // std::out_of_range where there is none
+    {
+        for (const Column<Row>& column : *this)
+            if (column.name == name) return column;
+        throw std::out_of_range("no column " + name);
+    }
     std::vector<std::string> names() const
     {
         std::vector<std::string> all;
@@ -167,9 +187,9 @@ public:
     }
 };
 
-// The columns of a part of the row, e.g. columns_of_part(&Cell::setting, setting_columns).
-template <typename Row, typename Part>
-Columns<Row> columns_of_part(Part Row::*part, const Columns<Part>& columns)
+// The columns of a part of the row, or of a part that a row may lack: within(&Frame::errors, error_columns).
+template <typename Row, typename Member, typename Part>
+Columns<Row> within(Member Row::*part, const Columns<Part>& columns)
 {
     Columns<Row> all;
     for (const Column<Part>& column : columns) all.emplace_back(column, part);

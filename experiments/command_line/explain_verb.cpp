@@ -56,7 +56,7 @@ bool explain_metric(const std::string& name)
         fmt::print("{} (metric)\n", text.name);
         line("meaning", text.meaning);
         line("formula", text.formula);
-        line("", lines_of(symbols_of(text)));
+        line("", lines_of(text.symbols));
         line("unit", text.unit);
         line("source", text.source);
         line("cost", text.cost);

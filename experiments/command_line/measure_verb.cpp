@@ -1,7 +1,7 @@
 // pbskin measure REST FRAME... [--csv FILE] [--junit FILE] [--max-volume-change PCT]...: the ruler on anybody's result.
 //   pbskin measure rest.msh 'out/frame_%04d.vtu' --max-volume-change 0.5 --max-inverted 0 --junit volume.xml
 #include "analysis/records/atomic_file.hpp"
-#include "analysis/records/csv_table.hpp"
+#include "analysis/records/typed_table.hpp"
 #include "analysis/edge_strain.hpp"
 #include "analysis/frame_metrics.hpp"
 #include "experiments/run/broken_frame.hpp"
@@ -44,16 +44,23 @@ FrameFigures figures_of(const RestMesh& rest, const analysis::Ruler& ruler, cons
             analysis::largest_edge_strain(rest.mesh().rest, rest.edges(), positions)};
 }
 
-const std::vector<std::string> columns = {
-    "frame", "volume_change_pct", "volume_abs_change_pct", "inverted_tets", "mean_abs_j_minus_1", "j_min", "stretch_rms",
-    "j_max", "edge_strain_max"};
+using analysis::Columns;
+using analysis::FrameMetrics;
 
-void add_row(analysis::CsvTable& table, const MeasuredFrame& frame)
-{
-    const analysis::FrameMetrics& m = frame.figures.metrics;
-    table.add_row({frame.name, m.volume_change_pct, m.volume_abs_change_pct, m.inverted_tets, m.mean_abs_j_minus_1, m.j_min, m.stretch_rms,
-                   frame.figures.j_max, frame.figures.edge_strain_max});
-}
+const Columns<FrameFigures> figure_columns =
+    analysis::within(&FrameFigures::metrics,
+                     Columns<FrameMetrics>{
+                         {"volume_change_pct", &FrameMetrics::volume_change_pct, "%", "signed change of the whole volume"},
+                         {"volume_abs_change_pct", &FrameMetrics::volume_abs_change_pct, "%", "sum of the absolute changes of each tet"},
+                         {"inverted_tets", &FrameMetrics::inverted_tets, "", "number of inverted tets"},
+                         {"mean_abs_j_minus_1", &FrameMetrics::mean_abs_j_minus_1, "", "mean relative change of volume"},
+                         {"j_min", &FrameMetrics::j_min, "", "smallest volume of a tet over its volume at rest"},
+                         {"stretch_rms", &FrameMetrics::stretch_rms, "", "root mean square of l / l0 - 1 over the edges"}}) +
+    Columns<FrameFigures>{{"j_max", &FrameFigures::j_max, "", "largest volume of a tet over its volume at rest"},
+                          {"edge_strain_max", &FrameFigures::edge_strain_max, "", "largest |l / l0 - 1| of an edge"}};
+
+const Columns<MeasuredFrame> columns = Columns<MeasuredFrame>{{"frame", &MeasuredFrame::name, "", "name of the frame's file"}} +
+                                       analysis::within(&MeasuredFrame::figures, figure_columns);
 
 void print_head()
 {
@@ -97,7 +104,6 @@ int measure(const MeasureArguments& arguments)
     warn(pbs::remarks_on(arguments.rest, reading));
     const RestMesh rest(reading.mesh);
     const analysis::Ruler ruler(rest.mesh().rest, rest.mesh().tets);
-    analysis::CsvTable table(columns);
     std::vector<MeasuredFrame> frames;
     std::vector<RefusedFrame> refused;
     bool all_hold = true;
@@ -106,7 +112,6 @@ int measure(const MeasureArguments& arguments)
         try {
             const pbs::Positions positions = rest.read_frame(paths[i]);
             frames.push_back({names[i], figures_of(rest, ruler, positions)});
-            add_row(table, frames.back());
             if (!arguments.quiet) print_row(frames.back());
             if (frames.back().figures.metrics.inverted_tets > 0)
                 fmt::print(stderr, "pbskin: {}: {}\n", paths[i], worst_of(ruler, positions));
@@ -116,7 +121,7 @@ int measure(const MeasureArguments& arguments)
             refused.push_back({names[i], error.what()});
         }
     }
-    if (!arguments.csv.empty()) table.write(arguments.csv);
+    if (!arguments.csv.empty()) table_of(columns, frames).write(arguments.csv);
     const std::string suite = std::filesystem::path(arguments.rest).filename().string();
     write_reports(arguments.reports, {frame_suite(suite, arguments.bounds, frames, refused, stopwatch.seconds())});
     if (!refused.empty()) return exit_input;

@@ -1,12 +1,19 @@
 #include "experiments/distributed/distributed_record.hpp"
 
-#include "analysis/records/csv_table.hpp"
 #include "analysis/records/provenance.hpp"
 #include "experiments/process/blas_kernels.hpp"
 
 #include <nlohmann/json.hpp>
 
 namespace experiments {
+
+const analysis::Columns<DisplacedNode> node_columns = {
+    {"first", &DisplacedNode::first, "", "the vertex that the node lies on, or the first of the two that it lies halfway between"},
+    {"second", &DisplacedNode::second, "", "the second of the two, or the same vertex"},
+    {"x_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.x()); }, "m", "x of its displacement"},
+    {"y_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.y()); }, "m", "y of its displacement"},
+    {"z_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.z()); }, "m", "z of its displacement"}};
+
 namespace {
 
 // Mean displacement [m] of the vertices with the greatest x.
@@ -77,11 +84,10 @@ nlohmann::json to_json(const LoadedBody& body, const reference_fem::ElasticSolut
 
 void write_nodes(const std::string& path, const reference_fem::ElasticSolution& solution)
 {
-    analysis::CsvTable table({"first", "second", "x_m", "y_m", "z_m"});
+    std::vector<DisplacedNode> nodes;
     for (Eigen::Index n = 0; n < solution.nodes.rows(); ++n)
-        table.add_row({solution.nodes(n, 0), solution.nodes(n, 1), solution.displacement(n, 0), solution.displacement(n, 1),
-                       solution.displacement(n, 2)});
-    table.write(path);
+        nodes.push_back({solution.nodes(n, 0), solution.nodes(n, 1), solution.displacement.row(n)});
+    table_of(node_columns, nodes).write(path);
 }
 
 }  // namespace experiments

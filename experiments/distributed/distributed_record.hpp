@@ -1,6 +1,7 @@
 // What pbskin_distributed writes: record.json and, where asked, nodes.csv.
 #pragma once
 
+#include "analysis/records/typed_table.hpp"
 #include "experiments/distributed/loaded_body.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,7 +10,12 @@ namespace experiments {
 
 nlohmann::json to_json(const LoadedBody& body, const reference_fem::ElasticSolution& solution);
 
-// first,second,x_m,y_m,z_m: a node by the two vertices it lies halfway between, and its displacement.
+struct DisplacedNode {
+    int first = 0, second = 0;
+    pbs::Vec3 displacement_m;
+};
+extern const analysis::Columns<DisplacedNode> node_columns;  // nodes.csv
+
 void write_nodes(const std::string& path, const reference_fem::ElasticSolution& solution);
 
 }  // namespace experiments

@@ -2,40 +2,62 @@
 
 namespace experiments {
 
-analysis::CsvTable empty_bone_table()
+const analysis::Columns<BonePlace> bone_columns = {
+    {"bone", &BonePlace::bone, "", "name of the bone"},
+    {"parent", &BonePlace::parent, "", "name of its parent; empty for a root"},
+    {"head_x_m", [](auto& bone) -> decltype(auto) { return (bone.head.x()); }, "m", "x of the bone's beginning"},
+    {"head_y_m", [](auto& bone) -> decltype(auto) { return (bone.head.y()); }, "m", "y of the bone's beginning"},
+    {"head_z_m", [](auto& bone) -> decltype(auto) { return (bone.head.z()); }, "m", "z of the bone's beginning"},
+    {"tail_x_m", [](auto& bone) -> decltype(auto) { return (bone.tail.x()); }, "m", "x of the bone's end"},
+    {"tail_y_m", [](auto& bone) -> decltype(auto) { return (bone.tail.y()); }, "m", "y of the bone's end"},
+    {"tail_z_m", [](auto& bone) -> decltype(auto) { return (bone.tail.z()); }, "m", "z of the bone's end"}};
+
+const analysis::Columns<PosedBone> posed_bone_columns =
+    analysis::Columns<PosedBone>{{"frame", &PosedBone::frame, "", "number of the frame, from 0"},
+                                 {"time_s", &PosedBone::time_s, "s", "time since the motion began"}} +
+    analysis::within(&PosedBone::place, bone_columns);
+
+const analysis::Columns<BoundVertex> bound_vertex_columns = {
+    {"vertex", &BoundVertex::vertex, "", "number of the vertex, from 0"},
+    {"bone", &BoundVertex::bone, "", "the vertex's nearest bone (Sec. 2.1)"},
+    {"parameter", &BoundVertex::parameter, "", "where the vertex projects on that bone: 0 at its head, 1 at its tail"},
+    {"rest_distance_m", &BoundVertex::rest_distance_m, "m", "distance to the bone at rest"},
+    {"blended", &BoundVertex::blended, "", "Eq. 2 blends the vertex between bones"},
+    {"jiggles", &BoundVertex::jiggles, "", "the vertex is farther from its bone than the mean"}};
+
+namespace {
+
+std::string parent_of(const pbs::Skeleton& skeleton, const pbs::Bone& bone)
 {
-    return analysis::CsvTable(
-        {"frame", "time_s", "bone", "parent", "head_x_m", "head_y_m", "head_z_m", "tail_x_m", "tail_y_m", "tail_z_m"});
+    return bone.parent < 0 ? "" : skeleton.bones[bone.parent].name;
 }
 
-void add_bones(analysis::CsvTable& bones, int frame, double time_s, const pbs::Skeleton& skeleton, const pbs::Pose& pose)
-{
-    for (std::size_t j = 0; j < skeleton.bones.size(); ++j) {
-        const pbs::Bone& bone = skeleton.bones[j];
-        const pbs::Vec3 head = pose[j] * bone.head, tail = pose[j] * bone.tail;
-        bones.add_row({frame, time_s, bone.name, bone.parent < 0 ? "" : skeleton.bones[bone.parent].name, head.x(), head.y(), head.z(),
-                       tail.x(), tail.y(), tail.z()});
-    }
-}
+}  // namespace
 
-analysis::CsvTable rest_bone_table(const pbs::Skeleton& skeleton)
+std::vector<BonePlace> bones_at_rest(const pbs::Skeleton& skeleton)
 {
-    analysis::CsvTable bones({"bone", "parent", "head_x_m", "head_y_m", "head_z_m", "tail_x_m", "tail_y_m", "tail_z_m"});
-    for (const pbs::Bone& bone : skeleton.bones)
-        bones.add_row({bone.name, bone.parent < 0 ? "" : skeleton.bones[bone.parent].name, bone.head.x(), bone.head.y(), bone.head.z(),
-                       bone.tail.x(), bone.tail.y(), bone.tail.z()});
+    std::vector<BonePlace> bones;
+    for (const pbs::Bone& bone : skeleton.bones) bones.push_back({bone.name, parent_of(skeleton, bone), bone.head, bone.tail});
     return bones;
 }
 
-analysis::CsvTable binding_table(const pbs::Character& character)
+void add_bones(std::vector<PosedBone>& bones, int frame, double time_s, const pbs::Skeleton& skeleton, const pbs::Pose& pose)
 {
-    analysis::CsvTable table({"vertex", "bone", "parameter", "rest_distance_m", "blended", "jiggles"});
+    for (std::size_t j = 0; j < skeleton.bones.size(); ++j) {
+        const pbs::Bone& bone = skeleton.bones[j];
+        bones.push_back({frame, time_s, {bone.name, parent_of(skeleton, bone), pose[j] * bone.head, pose[j] * bone.tail}});
+    }
+}
+
+std::vector<BoundVertex> bound_vertices(const pbs::Character& character)
+{
     const pbs::BoneBinding& binding = character.binding;
     const std::vector<bool> jiggles = pbs::jiggle_zone(binding);
+    std::vector<BoundVertex> vertices;
     for (std::size_t v = 0; v < binding.bone.size(); ++v)
-        table.add_row({int(v), character.skeleton.bones[binding.bone[v]].name, binding.parameter(v), binding.distance(v),
-                       int(character.blended[v]), int(jiggles[v])});
-    return table;
+        vertices.push_back({int(v), character.skeleton.bones[binding.bone[v]].name, binding.parameter(v), binding.distance(v),
+                            bool(character.blended[v]), jiggles[v]});
+    return vertices;
 }
 
 }  // namespace experiments

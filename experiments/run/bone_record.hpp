@@ -1,19 +1,33 @@
-// What a run's frames hang on, for whoever draws them:
-//   bones.csv       frame, time_s, bone, parent, head_x_m ... tail_z_m   every bone where the pose puts it, in each frame that is written
-//   bones_rest.csv  bone, parent, head_x_m ... tail_z_m   the same bones at rest
-//   binding.csv     vertex, bone, parameter, rest_distance_m, blended, jiggles   Sec. 2.1: each vertex's nearest bone, where on it (0 at
-//                   its head, 1 at its tail) and how far from it at rest; blended: by Eq. 2, between bones; jiggles: farther than the mean
+// What a run's frames depend on, for programs that draw them: bones.csv, bones_rest.csv and binding.csv. The columns say what is in them.
 #pragma once
 
-#include "analysis/records/csv_table.hpp"
+#include "analysis/records/typed_table.hpp"
 #include "pbs/character/character.hpp"
 
 namespace experiments {
 
-analysis::CsvTable empty_bone_table();
-analysis::CsvTable rest_bone_table(const pbs::Skeleton& skeleton);
-void add_bones(analysis::CsvTable& bones, int frame, double time_s, const pbs::Skeleton& skeleton, const pbs::Pose& pose);
+struct BonePlace {
+    std::string bone, parent;
+    pbs::Vec3 head, tail;  // [m]
+};
+struct PosedBone {
+    int frame = 0;
+    double time_s = 0.0;
+    BonePlace place;
+};
+struct BoundVertex {
+    int vertex = 0;
+    std::string bone;
+    double parameter = 0.0, rest_distance_m = 0.0;
+    bool blended = false, jiggles = false;
+};
 
-analysis::CsvTable binding_table(const pbs::Character& character);
+extern const analysis::Columns<BonePlace> bone_columns;            // bones_rest.csv
+extern const analysis::Columns<PosedBone> posed_bone_columns;      // bones.csv: every bone in each frame that is written
+extern const analysis::Columns<BoundVertex> bound_vertex_columns;  // binding.csv
+
+std::vector<BonePlace> bones_at_rest(const pbs::Skeleton& skeleton);
+void add_bones(std::vector<PosedBone>& bones, int frame, double time_s, const pbs::Skeleton& skeleton, const pbs::Pose& pose);
+std::vector<BoundVertex> bound_vertices(const pbs::Character& character);
 
 }  // namespace experiments

@@ -1,6 +1,9 @@
 #include "experiments/run/frame_statistics.hpp"
 
+#include "analysis/records/typed_table.hpp"
 #include "analysis/statistics.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,24 +14,41 @@ namespace {
 
 using analysis::CsvTable;
 
-const std::vector<std::string> settings = {"scene", "deformer", "variant", "order", "precision", "iterations"};
-const std::vector<std::string> quantities = {"volume_change", "volume_abs_change", "error_l2", "error_joint"};  // each [%]
-const std::vector<std::pair<std::string, double>> shares = {{"least", 0.0}, {"p10", 0.1}, {"median", 0.5}, {"p90", 0.9}, {"most", 1.0}};
+const std::array<std::string, 6> settings = {"scene", "deformer", "variant", "order", "precision", "iterations"};
+const std::array<std::string, 4> quantities = {"volume_change", "volume_abs_change", "error_l2", "error_joint"};  // each [%]
+const std::array<std::pair<std::string, double>, 5> shares = {{{"least", 0.0}, {"p10", 0.1}, {"median", 0.5}, {"p90", 0.9}, {"most", 1.0}}};
 
 struct Group {
-    std::vector<std::string> setting;
-    std::vector<int> rows;
+    std::array<std::string, 6> setting;
+    std::vector<int> rows = {};
+    int frames = 0;
+    std::array<std::array<std::optional<double>, 5>, 4> statistics = {};  // by quantity and share
 };
+
+analysis::Columns<Group> all_columns()
+{
+    analysis::Columns<Group> columns;
+    for (std::size_t i = 0; i < settings.size(); ++i)
+        columns.emplace_back(
+            settings[i], [i](auto& group) -> decltype(auto) { return (group.setting[i]); }, "", "as in metrics.csv");
+    columns.emplace_back("frames", &Group::frames, "", "number of frames");
+    for (std::size_t q = 0; q < quantities.size(); ++q)
+        for (std::size_t i = 0; i < shares.size(); ++i)
+            columns.emplace_back(
+                quantities[q] + "_" + shares[i].first + "_pct", [q, i](auto& group) -> decltype(auto) { return (group.statistics[q][i]); },
+                "%", fmt::format("{} quantile of {}_pct over the finite frames", shares[i].second, quantities[q]));
+    return columns;
+}
 
 // In order of first appearance.
 std::vector<Group> by_setting(const CsvTable& metrics)
 {
     std::vector<Group> groups;
     for (int row = 0; row < metrics.rows(); ++row) {
-        std::vector<std::string> setting;
-        for (const std::string& column : settings) setting.push_back(metrics.text_at(row, column));
+        std::array<std::string, 6> setting;
+        for (std::size_t i = 0; i < settings.size(); ++i) setting[i] = metrics.text_at(row, settings[i]);
         auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& group) { return group.setting == setting; });
-        if (found == groups.end()) found = groups.insert(groups.end(), {std::move(setting), {}});
+        if (found == groups.end()) found = groups.insert(groups.end(), {setting});
         found->rows.push_back(row);
     }
     return groups;
@@ -47,22 +67,17 @@ std::vector<double> values_of(const CsvTable& metrics, const std::vector<int>& r
 
 CsvTable frame_statistics(const CsvTable& metrics)
 {
-    std::vector<std::string> columns = settings;
-    columns.push_back("frames");
-    for (const std::string& quantity : quantities)
-        for (const auto& [name, share] : shares) columns.push_back(quantity + "_" + name + "_pct");
-    CsvTable table(columns);
-    for (const Group& group : by_setting(metrics)) {
-        std::vector<CsvTable::Cell> cells(group.setting.begin(), group.setting.end());
-        cells.push_back(static_cast<int>(group.rows.size()));
-        for (const std::string& quantity : quantities) {
-            const std::vector<double> values = values_of(metrics, group.rows, quantity + "_pct");
-            for (const auto& [name, share] : shares)
-                cells.push_back(values.empty() ? CsvTable::Cell(std::nullopt) : analysis::quantile(values, share));
+    static const analysis::Columns<Group> columns = all_columns();
+    std::vector<Group> groups = by_setting(metrics);
+    for (Group& group : groups) {
+        group.frames = static_cast<int>(group.rows.size());
+        for (std::size_t q = 0; q < quantities.size(); ++q) {
+            const std::vector<double> values = values_of(metrics, group.rows, quantities[q] + "_pct");
+            if (values.empty()) continue;
+            for (std::size_t i = 0; i < shares.size(); ++i) group.statistics[q][i] = analysis::quantile(values, shares[i].second);
         }
-        table.add_row(cells);
     }
-    return table;
+    return table_of(columns, groups);
 }
 
 }  // namespace experiments

@@ -1,95 +1,209 @@
 #include "experiments/run/metrics_table.hpp"
 
+#include "experiments/deformers/registry.hpp"
+
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 
 namespace experiments {
 namespace {
+
+using analysis::Columns;
+using analysis::ErrorNorms;
+using analysis::FrameMetrics;
+using analysis::within;
+
+const char *const with_reference = "reference", *const with_error_bar = "error_bar", *const with_sleep = "sleep";
+
+const Columns<FrameMetrics> frame_columns = {
+    {"volume_change_pct", &FrameMetrics::volume_change_pct, "%",
+     "signed change of the whole volume; the paper's E = V0 - V' is minus this"},
+    {"volume_abs_change_pct", &FrameMetrics::volume_abs_change_pct, "%",
+     "sum of the absolute changes of each tet: gains do not hide losses"},
+    {"inverted_tets", &FrameMetrics::inverted_tets, "", "folded or flattened flesh"},
+    {"mean_abs_j_minus_1", &FrameMetrics::mean_abs_j_minus_1, "", "mean relative change of volume, weighted by rest volume"},
+    {"j_min", &FrameMetrics::j_min, "", "worst tet; negative when inverted"},
+    {"stretch_rms", &FrameMetrics::stretch_rms, "", "residual of the stretch constraints"}};
+
+const Columns<ErrorNorms> error_columns = {
+    {"error_l2_pct", &ErrorNorms::l2_pct, "%", "distance to the reference over free vertices"},
+    {"error_joint_pct", &ErrorNorms::joint_pct, "%",
+     "distance to the reference over the vertices that Eq. 2 blends: this number distinguishes deformers"},
+    {"error_linf_m", &ErrorNorms::linf_m, "m", "largest distance to the reference"}};
+
+const Columns<ErrorNorms> error_bar_columns = {
+    {"reference_error_l2_pct", &ErrorNorms::l2_pct, "%",
+     "how far the reference itself may be from the limit of ever finer tets, estimated as error_bar asks: orders, refined or both"},
+    {"reference_error_joint_pct", &ErrorNorms::joint_pct, "%",
+     "how far the reference itself may be from that limit over the vertices that Eq. 2 blends"},
+    {"reference_error_linf_m", &ErrorNorms::linf_m, "m", "how far the reference itself may be from that limit at the farthest vertex"}};
+
+const Columns<FrameMeasurement> measured_columns =
+    within(&FrameMeasurement::metrics, frame_columns) +
+    Columns<FrameMeasurement>{{"bind_rms_m", &FrameMeasurement::bind_rms_m, "m", "residual of the bind constraints"}};
+
+const Columns<FrameMeasurement> pose_columns = {
+    {"angle_deg", &FrameMeasurement::angle_deg, "deg", "angle of a sweep; empty for clips"},
+    {"rotation_deg", &FrameMeasurement::rotation_deg, "deg", "how far the pose is from where linear strain is right"}};
+
+const Columns<FrameMeasurement> shape_columns = {{"min_section_pct", &FrameMeasurement::min_section_pct, "%",
+                                                  "smallest cross-section of a limb over its rest area: the candy wrapper in one number"},
+                                                 {"surface_volume_change_pct", &FrameMeasurement::surface_volume_change_pct, "%",
+                                                  "volume inside the rendered surface that the tets carry"}};
+
+using Rows = Columns<MetricRow>;
+const Rows all_columns =
+    Rows{{"scene", &MetricRow::scene, "", "name of the scene"},
+         {"deformer", &MetricRow::deformer, "", "name of the deformer"},
+         {"variant", &MetricRow::variant, "", "reading or printed form of the method, or default"},
+         {"order", &MetricRow::order, "", "order of projection; empty where the deformer has none"},
+         {"precision", &MetricRow::precision, "", "f32 or f64"},
+         {"iterations", &MetricRow::iterations, "", "iterations per step, those of all substeps; empty where the deformer has none"},
+         {"threads", &MetricRow::threads, "", "number of threads"},
+         {"frame", &MetricRow::frame, "", "number of the frame, from 0"},
+         {"time_s", &MetricRow::time_s, "s", "time since the motion began"}} +
+    within(&MetricRow::measured, measured_columns) +
+    Rows{{"step_ms", &MetricRow::step_ms, "ms", "what the deformer cost on this frame, without measuring and writing"}} +
+    (within(&MetricRow::measured, within(&FrameMeasurement::errors, error_columns)) +
+     Rows{{"reference_self_intersects", &MetricRow::reference_self_intersects, "",
+           "such frames are marked, because no deformer has contact"}})
+        .in_group(with_reference) +
+    within(&MetricRow::measured, pose_columns) +
+    Rows{{"fictitious_strain", &MetricRow::fictitious_strain, "",
+          "what linear elasticity takes that rotation for; in the rows of linear FEM"}} +
+    within(&MetricRow::measured, shape_columns) +
+    Rows{{"outcome", &MetricRow::outcome, "",
+          "how the step ended; not_converged: PBS above its stop_residual, or a reference that did not reach its pose and has no error "
+          "there"}} +
+    (within(&MetricRow::measured, within(&FrameMeasurement::reference_error, error_bar_columns)) +
+     Rows{{"error_below_reference_error", &MetricRow::error_below_reference_error, "",
+           "such an error may be the reference's own: it does not distinguish deformers; empty in the reference's rows"}})
+        .in_group(with_error_bar) +
+    Rows{{"sleeping_share", &MetricRow::sleeping_share, "", "share of the stretch and volume constraints that were left out"},
+         {"wakings", &MetricRow::wakings, "", "how often the step was repeated because some of them were needed"}}
+        .in_group(with_sleep);
 
 const std::string volume = "V: signed volume of all tets; V0: at rest", tet_volume = "V_t: signed volume of tet t; V0_t: at rest";
 const std::string of_all = "V0: volume of all tets at rest", ratio = "J_t = V_t / V0_t: volume of tet t over its volume at rest";
 const std::string positions = "x_i: position of vertex i; xref_i: in the reference", masses = "m_i: rest volume lumped to vertex i";
 const std::string free_vertices = "i: vertices that nothing prescribes", blended = "i: vertices that Eq. 2 blends between bones";
 
-using Symbols = std::map<std::string, std::vector<std::string>>;
+struct Formula {
+    std::string formula, source, cost;
+    std::vector<std::string> symbols = {};
+};
 
-// Of the formulae, each "name: what it is".
-const Symbols& all_symbols()
+const std::map<std::string, Formula> formulae = {
+    {"volume_change_pct", {"100 (V - V0) / V0", "Sec. 4", "one pass over the tets", {volume}}},
+    {"volume_abs_change_pct", {"100 sum_t |V_t - V0_t| / V0", "Sec. 4, the other reading", "with volume_change_pct", {tet_volume, of_all}}},
+    {"inverted_tets", {"number of tets t with V_t <= 0", "", "with volume_change_pct", {tet_volume}}},
+    {"mean_abs_j_minus_1", {"sum_t V0_t |J_t - 1| / V0", "", "with volume_change_pct", {ratio, of_all}}},
+    {"j_min", {"min_t J_t", "", "with volume_change_pct", {ratio}}},
+    {"stretch_rms", {"rms_e(l_e / l0_e - 1)", "Eq. 10", "one pass over the edges", {"l_e: length of edge e; l0_e: at rest"}}},
+    {"bind_rms_m",
+     {"rms_i(|x_i - q_i| - d_i)",
+      "Sec. 3.6",
+      "one pass over the vertices",
+      {"x_i: position of vertex i", "q_i: where it projects on its bone at rest, carried along by the bone",
+       "d_i: distance of the two at rest"}}},
+    {"step_ms", {"wall time of the frame's step", "Table 1", ""}},
+    {"error_l2_pct",
+     {"100 sqrt(sum_i m_i |x_i - xref_i|^2 / sum_i m_i) / D",
+      "",
+      "one pass over the vertices",
+      {positions, masses, free_vertices, "D: diagonal of the bounding box at rest"}}},
+    {"error_joint_pct",
+     {"100 sqrt(sum_i m_i |x_i - xref_i|^2 / sum_i m_i) / (sum_i m_i d_i / sum_i m_i)",
+      "",
+      "with error_l2_pct",
+      {positions, masses, blended, "d_i: distance of vertex i to its bone at rest"}}},
+    {"error_linf_m", {"max_i |x_i - xref_i|", "", "with error_l2_pct", {positions, free_vertices}}},
+    {"reference_self_intersects", {"boundary triangles of the reference intersect", "", "CGAL, about 10 ms per frame"}},
+    {"reference_error_l2_pct",
+     {"grid convergence index of the reference in the norm of error_l2_pct", "P. J. Roache 1994, I. B. Celik et al. 2008",
+      "the reference solved once or twice more; seconds in run.json"}},
+    {"reference_error_joint_pct",
+     {"grid convergence index of the reference in the norm of error_joint_pct", "", "with reference_error_l2_pct"}},
+    {"reference_error_linf_m", {"grid convergence index of the reference in the norm of error_linf_m", "", "with reference_error_l2_pct"}},
+    {"error_below_reference_error", {"error_joint_pct <= reference_error_joint_pct (l2 where nothing is blended)", "", ""}},
+    {"rotation_deg", {"largest angle between a bone's rotation and the root's", "", ""}},
+    {"fictitious_strain", {"1 - cos(rotation_deg)", "", ""}},
+    {"outcome", {"finished, not_finite or not_converged", "", ""}},
+    {"angle_deg", {"angle_deg i / (frames - 1)", "", "", {"i: the frame; angle_deg, frames: of the scene's [motion]"}}},
+    {"min_section_pct",
+     {"100 min_s A_s / A0_s",
+      "Fig. 3, 8",
+      "plane cuts of the limbs' tets",
+      {"A_s: area of the cross-section at station s of a limb; A0_s: at rest"}}},
+    {"surface_volume_change_pct",
+     {"100 (S - S0) / S0",
+      "Sec. 1",
+      "one pass over the surface",
+      {"S: volume inside the rendered surface, by the divergence theorem; S0: at rest"}}}};
+
+std::vector<MetricText> all_texts()
 {
-    static const Symbols symbols = {
-        {"volume_change_pct", {volume}},
-        {"volume_abs_change_pct", {tet_volume, of_all}},
-        {"inverted_tets", {tet_volume}},
-        {"mean_abs_j_minus_1", {ratio, of_all}},
-        {"j_min", {ratio}},
-        {"stretch_rms", {"l_e: length of edge e; l0_e: at rest"}},
-        {"bind_rms_m",
-         {"x_i: position of vertex i", "q_i: where it projects on its bone at rest, carried along by the bone",
-          "d_i: distance of the two at rest"}},
-        {"error_l2_pct", {positions, masses, free_vertices, "D: diagonal of the bounding box at rest"}},
-        {"error_joint_pct", {positions, masses, blended, "d_i: distance of vertex i to its bone at rest"}},
-        {"error_linf_m", {positions, free_vertices}},
-        {"angle_deg", {"i: the frame; angle_deg, frames: of the scene's [motion]"}},
-        {"min_section_pct", {"A_s: area of the cross-section at station s of a limb; A0_s: at rest"}},
-        {"surface_volume_change_pct", {"S: volume inside the rendered surface, by the divergence theorem; S0: at rest"}},
-    };
-    return symbols;
+    std::vector<MetricText> texts;
+    for (const auto& column : all_columns)
+        if (const auto found = formulae.find(column.name); found != formulae.end()) {
+            const auto& [formula, source, cost, symbols] = found->second;
+            texts.push_back({column.name, column.unit, formula, column.meaning, source, cost, symbols});
+        }
+    return texts;
+}
+
+// Linear strain of a rigid rotation by theta: cos(theta) - 1 along the two axes across it.
+double fictitious_strain(double rotation_deg)
+{
+    return 1.0 - std::cos(rotation_deg * std::numbers::pi / 180.0);
 }
 
 }  // namespace
 
-const std::vector<MetricText>& metric_texts()
+MetricRow metric_row(const Scene& scene, const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured,
+                     const pbs::StepSummary& step)
 {
-    static const std::vector<MetricText> texts = {
-        {"volume_change_pct", "%", "100 (V - V0) / V0", "signed change of the whole volume; the paper's E = V0 - V' is minus this",
-         "Sec. 4", "one pass over the tets"},
-        {"volume_abs_change_pct", "%", "100 sum_t |V_t - V0_t| / V0", "sum of the absolute changes of each tet: gains do not hide losses",
-         "Sec. 4, the other reading", "with volume_change_pct"},
-        {"inverted_tets", "", "number of tets t with V_t <= 0", "folded or flattened flesh", "", "with volume_change_pct"},
-        {"mean_abs_j_minus_1", "", "sum_t V0_t |J_t - 1| / V0", "mean relative change of volume, weighted by rest volume", "",
-         "with volume_change_pct"},
-        {"j_min", "", "min_t J_t", "worst tet; negative when inverted", "", "with volume_change_pct"},
-        {"stretch_rms", "", "rms_e(l_e / l0_e - 1)", "residual of the stretch constraints", "Eq. 10", "one pass over the edges"},
-        {"bind_rms_m", "m", "rms_i(|x_i - q_i| - d_i)", "residual of the bind constraints", "Sec. 3.6", "one pass over the vertices"},
-        {"step_ms", "ms", "wall time of the frame's step", "what the deformer cost on this frame, measuring and writing aside", "Table 1",
-         ""},
-        {"error_l2_pct", "%", "100 sqrt(sum_i m_i |x_i - xref_i|^2 / sum_i m_i) / D", "distance to the reference over free vertices", "",
-         "one pass over the vertices"},
-        {"error_joint_pct", "%", "100 sqrt(sum_i m_i |x_i - xref_i|^2 / sum_i m_i) / (sum_i m_i d_i / sum_i m_i)",
-         "distance to the reference over the vertices Eq. 2 blends: the figure that tells deformers apart", "", "with error_l2_pct"},
-        {"error_linf_m", "m", "max_i |x_i - xref_i|", "largest distance to the reference", "", "with error_l2_pct"},
-        {"reference_self_intersects", "0/1", "boundary triangles of the reference intersect",
-         "such frames are marked, because no deformer has contact", "", "CGAL, some 10 ms a frame"},
-        {"reference_error_l2_pct", "%", "grid convergence index of the reference in the norm of error_l2_pct",
-         "how far the reference itself may be from the limit of ever finer tets; of error_bar orders, refined, both",
-         "P. J. Roache 1994, I. B. Celik et al. 2008", "the reference solved once or twice more; seconds in run.json"},
-        {"reference_error_joint_pct", "%", "grid convergence index of the reference in the norm of error_joint_pct",
-         "how far the reference itself may be from that limit over the vertices Eq. 2 blends", "", "with reference_error_l2_pct"},
-        {"reference_error_linf_m", "m", "grid convergence index of the reference in the norm of error_linf_m",
-         "how far the reference itself may be from that limit at the farthest vertex", "", "with reference_error_l2_pct"},
-        {"error_below_reference_error", "0/1", "error_joint_pct <= reference_error_joint_pct (l2 where nothing is blended)",
-         "such an error may be the reference's own: it tells no deformers apart; empty in the reference's rows", "", ""},
-        {"rotation_deg", "deg", "largest angle between a bone's rotation and the root's",
-         "how far the pose is from where linear strain is right", "", ""},
-        {"fictitious_strain", "", "1 - cos(rotation_deg)", "what linear elasticity takes that rotation for; of the rows of linear FEM", "",
-         ""},
-        {"outcome", "", "finished, not_finite or not_converged",
-         "how the step ended; not_converged: PBS above its stop_residual, or a reference that did not reach its pose and has no error "
-         "there",
-         "", ""},
-        {"angle_deg", "deg", "angle_deg i / (frames - 1)", "angle of a sweep; empty for clips", "", ""},
-        {"min_section_pct", "%", "100 min_s A_s / A0_s",
-         "smallest cross-section of a limb over its rest area: the candy wrapper in one number", "Fig. 3, 8",
-         "plane cuts of the limbs' tets"},
-        {"surface_volume_change_pct", "%", "100 (S - S0) / S0", "volume inside the rendered surface that the tets carry", "Sec. 1",
-         "one pass over the surface"},
-    };
-    return texts;
+    const DeformerTraits traits = traits_of(spec);
+    MetricRow row{.scene = scene.name, .deformer = spec.name, .variant = spec.variant};
+    row.order = traits.order;
+    row.precision = traits.precision;
+    row.iterations = traits.iterations;
+    row.threads = traits.threads;
+    row.frame = frame;
+    row.time_s = time_s;
+    row.measured = measured;
+    row.step_ms = 1e3 * step.seconds;
+    if (measured.errors) row.reference_self_intersects = measured.reference_self_intersects;
+    if (traits.has_small_strain) row.fictitious_strain = fictitious_strain(measured.rotation_deg);
+    row.outcome = to_string(step.outcome);
+    if (measured.reference_error && spec.name != scene.reference)  // the reference's own row has no difference that could be below
+        row.error_below_reference_error = measured.error_below_reference_error();
+    row.sleeping_share = step.sleeping_share;
+    row.wakings = step.wakings;
+    return row;
 }
 
-std::vector<std::string> symbols_of(const MetricText& metric)
+const analysis::Columns<MetricRow>& metric_columns()
 {
-    const auto found = all_symbols().find(metric.name);
-    return found == all_symbols().end() ? std::vector<std::string>{} : found->second;
+    return all_columns;
+}
+
+analysis::Columns<MetricRow> metric_columns_of(const Scene& scene)
+{
+    analysis::Columns<MetricRow> columns = all_columns;
+    const auto sleeps = [](const DeformerSpec& spec) { return traits_of(spec).sleeps; };
+    if (scene.reference.empty()) columns = columns.without(with_reference);
+    if (scene.error_bar == ErrorBar::none) columns = columns.without(with_error_bar);
+    if (std::none_of(scene.deformers.begin(), scene.deformers.end(), sleeps)) columns = columns.without(with_sleep);
+    return columns;
+}
+
+const std::vector<MetricText>& metric_texts()
+{
+    static const std::vector<MetricText> texts = all_texts();
+    return texts;
 }
 
 }  // namespace experiments

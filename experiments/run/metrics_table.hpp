@@ -1,16 +1,40 @@
-// What each column of metrics.csv means: `pbskin list metrics`, `pbskin explain COLUMN`.
+// metrics.csv: one row per frame of a deformer. `pbskin list metrics` and `pbskin explain COLUMN` print what the columns say of themselves.
 #pragma once
 
-#include <string>
-#include <vector>
+#include "analysis/records/typed_table.hpp"
+#include "experiments/run/frame_measurement.hpp"
+#include "pbs/solver/step_summary.hpp"
 
 namespace experiments {
 
+struct MetricRow {
+    // From the scene and the deformer.
+    std::string scene, deformer, variant, order = {}, precision = {};
+    std::optional<int> iterations = {};
+    int threads = 1;
+
+    int frame = 0;
+    double time_s = 0.0;
+    FrameMeasurement measured = {};
+    double step_ms = 0.0;
+    std::optional<bool> reference_self_intersects = {}, error_below_reference_error = {};
+    std::optional<double> fictitious_strain = {};
+    std::string outcome = {};
+    double sleeping_share = 0.0;
+    int wakings = 0;
+};
+
+MetricRow metric_row(const Scene& scene, const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured,
+                     const pbs::StepSummary& step);
+
+const analysis::Columns<MetricRow>& metric_columns();                // all of them
+analysis::Columns<MetricRow> metric_columns_of(const Scene& scene);  // without the groups that the scene does not ask for
+
+// What is said of a metric besides its columns' unit and meaning.
 struct MetricText {
     std::string name, unit, formula, meaning, source, cost;
+    std::vector<std::string> symbols;  // of the formula, each "name: what it is"
 };
 const std::vector<MetricText>& metric_texts();
-
-std::vector<std::string> symbols_of(const MetricText& metric);  // of its formula, each "name: what it is"
 
 }  // namespace experiments

@@ -4,6 +4,18 @@
 
 namespace experiments {
 
+const analysis::Columns<RegionChange> region_columns = {
+    {"deformer", &RegionChange::deformer, "", "label of the deformer"},
+    {"kind", &RegionChange::kind, "", "what the region belongs to: bone or joint"},
+    {"region", &RegionChange::region, "", "name of the bone, or of the two bones of the joint: thigh.L - shin.L"},
+    {"rest_share_pct", &RegionChange::rest_share_pct, "%", "the region's share of the body's rest volume"},
+    {"change_pct", &RegionChange::change_pct, "%", "mean change of volume over the frames, of the body's rest volume; the bones' add up"},
+    {"abs_change_pct", &RegionChange::abs_change_pct, "%", "mean sum of the tets' absolute changes, of the body's rest volume"},
+    {"lowest_pct", &RegionChange::lowest_pct, "%", "lowest change_pct of a frame"},
+    {"highest_pct", &RegionChange::highest_pct, "%", "highest change_pct of a frame"},
+    {"own_change_pct", &RegionChange::own_change_pct, "%", "mean change of volume over the frames, of the region's own rest volume"},
+    {"frames", &RegionChange::frames, "", "number of frames whose positions are finite"}};
+
 RegionRecord::RegionRecord(const pbs::Character& character)
 {
     for (const BodyRegions& regions : {regions_by_bone(character), regions_by_joint(character)})
@@ -32,10 +44,9 @@ void RegionRecord::add(const std::string& label, const pbs::Positions& positions
     }
 }
 
-analysis::CsvTable RegionRecord::table() const
+std::vector<RegionChange> RegionRecord::changes() const
 {
-    analysis::CsvTable table({"deformer", "kind", "region", "rest_share_pct", "change_pct", "abs_change_pct", "lowest_pct", "highest_pct",
-                              "own_change_pct", "frames"});
+    std::vector<RegionChange> changes;
     for (const std::string& label : labels_)
         for (std::size_t k = 0; k < kinds_.size(); ++k) {
             const BodyRegions& regions = kinds_[k].regions;
@@ -43,11 +54,11 @@ analysis::CsvTable RegionRecord::table() const
                 const Sums& sums = sums_.at(label)[k][r];
                 if (sums.rest == 0.0) continue;  // a bone that carries no tet
                 const int frames = frames_.at(label);
-                table.add_row({label, regions.kind, regions.names[r], sums.rest, sums.change / frames, sums.abs_change / frames,
-                               sums.lowest, sums.highest, 100.0 * sums.change / frames / sums.rest, frames});
+                changes.push_back({label, regions.kind, regions.names[r], sums.rest, sums.change / frames, sums.abs_change / frames,
+                                   sums.lowest, sums.highest, 100.0 * sums.change / frames / sums.rest, frames});
             }
         }
-    return table;
+    return changes;
 }
 
 }  // namespace experiments

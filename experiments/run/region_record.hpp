@@ -1,18 +1,20 @@
-// regions.csv: how much volume each bone's and each joint's tets gain or lose, over the frames of a run. One row a deformer and region:
-//   kind, region                     bone, thigh.L; joint, thigh.L - shin.L
-//   rest_share_pct                   of the body's rest volume
-//   change_pct, abs_change_pct       mean over frames, of the body's rest volume: rows of the bones add up to the body's
-//   lowest_pct, highest_pct          of change_pct over the frames
-//   own_change_pct                   mean over frames, of the region's own rest volume
+// regions.csv: how much volume each bone's and each joint's tets gain or lose, over the frames of a run; one row per deformer and region.
 #pragma once
 
-#include "analysis/records/csv_table.hpp"
+#include "analysis/records/typed_table.hpp"
 #include "analysis/region_volume.hpp"
 #include "experiments/run/body_regions.hpp"
 
 #include <map>
 
 namespace experiments {
+
+struct RegionChange {
+    std::string deformer, kind, region;
+    double rest_share_pct = 0.0, change_pct = 0.0, abs_change_pct = 0.0, lowest_pct = 0.0, highest_pct = 0.0, own_change_pct = 0.0;
+    int frames = 0;
+};
+extern const analysis::Columns<RegionChange> region_columns;
 
 class RegionRecord {
 public:
@@ -21,7 +23,8 @@ public:
     // One frame of a deformer; frames that are not finite are left out.
     void add(const std::string& label, const pbs::Positions& positions);
 
-    analysis::CsvTable table() const;
+    std::vector<RegionChange> changes() const;
+    analysis::CsvTable table() const { return table_of(region_columns, changes()); }
 
 private:
     struct Sums {

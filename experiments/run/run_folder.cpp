@@ -5,6 +5,7 @@
 #include "experiments/process/blas_kernels.hpp"
 #include "experiments/run/frame_statistics.hpp"
 #include "experiments/run/library_versions.hpp"
+#include "experiments/run/metrics_table.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "analysis/records/record_text.hpp"
 #include "experiments/run/surface_record.hpp"
@@ -16,98 +17,34 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <regex>
 
 namespace experiments {
 namespace {
 
 namespace fs = std::filesystem;
-using Cell = analysis::CsvTable::Cell;
 
-const std::vector<std::string> metric_columns = {"scene",
-                                                 "deformer",
-                                                 "variant",
-                                                 "order",
-                                                 "precision",
-                                                 "iterations",
-                                                 "threads",
-                                                 "frame",
-                                                 "time_s",
-                                                 "volume_change_pct",
-                                                 "volume_abs_change_pct",
-                                                 "inverted_tets",
-                                                 "mean_abs_j_minus_1",
-                                                 "j_min",
-                                                 "stretch_rms",
-                                                 "bind_rms_m",
-                                                 "step_ms"};
-const std::vector<std::string> error_columns = {"error_l2_pct", "error_joint_pct", "error_linf_m", "reference_self_intersects"};
-const std::vector<std::string> further_columns = {
-    "angle_deg", "rotation_deg", "fictitious_strain", "min_section_pct", "surface_volume_change_pct", "outcome"};
-
-const std::vector<std::string> error_bar_columns = {"reference_error_l2_pct", "reference_error_joint_pct", "reference_error_linf_m",
-                                                    "error_below_reference_error"};
-
-const std::vector<std::string> sleep_columns = {"sleeping_share", "wakings"};
+struct IterationRow {
+    std::string deformer;
+    int frame = 0, iteration = 0;
+    pbs::Residuals residuals;
+};
+const analysis::Columns<pbs::Residuals> residual_columns = {
+    {"stretch_rms", &pbs::Residuals::stretch_rms, "", "root mean square of l / l0 - 1 over the edges"},
+    {"volume_rms", &pbs::Residuals::volume_rms, "", "root mean square of V / V0 - 1 over the tets"},
+    {"bind_rms_m", &pbs::Residuals::bind_rms_m, "m", "root mean square of |x_i - q_i| - d_i over the vertices"}};
+const analysis::Columns<IterationRow> iteration_columns =
+    analysis::Columns<IterationRow>{{"deformer", &IterationRow::deformer, "", "label of the deformer"},
+                                    {"frame", &IterationRow::frame, "", "number of the frame, from 0"},
+                                    {"iteration", &IterationRow::iteration, "", "number of the iteration in the frame's step, from 1"}} +
+    analysis::within(&IterationRow::residuals, residual_columns);
 
 int most_threads(const Scene& scene)
 {
     int threads = 1;
     for (const DeformerSpec& spec : scene.deformers) threads = std::max(threads, spec.threads);
     return threads;
-}
-
-bool anything_sleeps(const Scene& scene)
-{
-    return std::any_of(scene.deformers.begin(), scene.deformers.end(), [](const DeformerSpec& spec) { return traits_of(spec).sleeps; });
-}
-
-std::vector<std::string> columns_of(const Scene& scene)
-{
-    std::vector<std::string> columns = metric_columns;
-    if (!scene.reference.empty()) columns.insert(columns.end(), error_columns.begin(), error_columns.end());
-    columns.insert(columns.end(), further_columns.begin(), further_columns.end());
-    if (scene.error_bar != ErrorBar::none) columns.insert(columns.end(), error_bar_columns.begin(), error_bar_columns.end());
-    if (anything_sleeps(scene)) columns.insert(columns.end(), sleep_columns.begin(), sleep_columns.end());
-    return columns;
-}
-
-Cell cell(const std::optional<double>& value)
-{
-    return value ? Cell(*value) : Cell(std::nullopt);
-}
-
-std::vector<Cell> spec_cells(const Scene& scene, const DeformerSpec& spec)
-{
-    const DeformerTraits traits = traits_of(spec);
-    return {scene.name,    spec.name,        spec.variant,
-            traits.order,  traits.precision, traits.iterations ? Cell(*traits.iterations) : Cell(std::nullopt),
-            traits.threads};
-}
-
-std::vector<Cell> error_cells(const FrameMeasurement& measured)
-{
-    if (!measured.errors) return std::vector<Cell>(error_columns.size(), std::nullopt);
-    const auto& errors = *measured.errors;
-    return {errors.l2_pct, errors.joint_pct, errors.linf_m, static_cast<int>(measured.reference_self_intersects)};
-}
-
-// The reference's own row has no difference that could be below.
-std::vector<Cell> error_bar_cells(const FrameMeasurement& measured, bool is_reference)
-{
-    if (!measured.reference_error) return std::vector<Cell>(error_bar_columns.size(), std::nullopt);
-    const analysis::ErrorNorms& bar = *measured.reference_error;
-    return {bar.l2_pct, bar.joint_pct, bar.linf_m,
-            is_reference ? Cell(std::nullopt) : Cell(static_cast<int>(measured.error_below_reference_error()))};
-}
-
-// Linear strain of a rigid rotation by theta: cos(theta) - 1 along the two axes across it.
-double fictitious_strain(double rotation_deg)
-{
-    return 1.0 - std::cos(rotation_deg * std::numbers::pi / 180.0);
 }
 
 std::string frame_file(const std::string& name, int frame, const char* ending)
@@ -151,8 +88,8 @@ bool is_own_frame(const fs::path& file)
 RunFolder::RunFolder(const Scene& scene, const pbs::Character& character, const std::string& folder)
     : scene_(scene),
       folder_(folder),
-      metrics_(columns_of(scene)),
-      iterations_({"deformer", "frame", "iteration", "stretch_rms", "volume_rms", "bind_rms_m"}),
+      metrics_(metric_columns_of(scene).names()),
+      iterations_(iteration_columns.names()),
       regions_(character)
 {
     std::error_code error;
@@ -170,28 +107,9 @@ RunFolder::RunFolder(const Scene& scene, const pbs::Character& character, const 
 void RunFolder::add_frame(const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured,
                           const pbs::StepSummary& step)
 {
-    std::vector<Cell> cells = spec_cells(scene_, spec);
-    const auto& m = measured.metrics;
-    const std::vector<Cell> figures = {
-        frame,   time_s,        m.volume_change_pct, m.volume_abs_change_pct, m.inverted_tets, m.mean_abs_j_minus_1,
-        m.j_min, m.stretch_rms, measured.bind_rms_m, 1e3 * step.seconds};
-    cells.insert(cells.end(), figures.begin(), figures.end());
-    if (!scene_.reference.empty())
-        for (const Cell& error : error_cells(measured)) cells.push_back(error);
-    const Cell strain = traits_of(spec).has_small_strain ? Cell(fictitious_strain(measured.rotation_deg)) : Cell(std::nullopt);
-    for (const Cell& further : std::vector<Cell>{cell(measured.angle_deg), measured.rotation_deg, strain, cell(measured.min_section_pct),
-                                                 cell(measured.surface_volume_change_pct), std::string(to_string(step.outcome))})
-        cells.push_back(further);
-    if (scene_.error_bar != ErrorBar::none)
-        for (const Cell& bar : error_bar_cells(measured, spec.name == scene_.reference)) cells.push_back(bar);
-    if (anything_sleeps(scene_)) {
-        cells.push_back(step.sleeping_share);
-        cells.push_back(step.wakings);
-    }
-    metrics_.add_row(cells);
+    metrics_.add_row(cells_of(metric_columns_of(scene_), metric_row(scene_, spec, frame, time_s, measured, step)));
     for (std::size_t k = 0; k < step.history.size(); ++k)
-        iterations_.add_row({spec.label, frame, static_cast<int>(k) + 1, step.history[k].stretch_rms, step.history[k].volume_rms,
-                             step.history[k].bind_rms_m});
+        iterations_.add_row(cells_of(iteration_columns, {spec.label, frame, static_cast<int>(k) + 1, step.history[k]}));
 }
 
 void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, const pbs::Character& character,
@@ -237,15 +155,15 @@ void RunFolder::write_tables() const
     if (iterations_.rows() > 0) iterations_.write((folder / "iterations.csv").string());
     regions_.table().write((folder / "regions.csv").string());
     if (distances_.table().rows() > 0) distances_.table().write((folder / "distances.csv").string());
-    if (bones_.rows() > 0) bones_.write((folder / "bones.csv").string());
+    if (!bones_.empty()) table_of(posed_bone_columns, bones_).write((folder / "bones.csv").string());
     for (const auto& [name, frames] : collections_) pbs::write_pvd((folder / "frames" / (name + ".pvd")).string(), frames);
 }
 
-void RunFolder::write_what_frames_hang_on(const pbs::Character& character) const
+void RunFolder::write_what_frames_depend_on(const pbs::Character& character) const
 {
     const fs::path folder(folder_);
-    rest_bone_table(character.skeleton).write((folder / "bones_rest.csv").string());
-    binding_table(character).write((folder / "binding.csv").string());
+    table_of(bone_columns, bones_at_rest(character.skeleton)).write((folder / "bones_rest.csv").string());
+    table_of(bound_vertex_columns, bound_vertices(character)).write((folder / "binding.csv").string());
     if (character.surface) write_surface(*character.surface, character.mesh, folder_);
 }
 
@@ -254,7 +172,7 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
 {
     cost.time("records", [&] {
         write_tables();
-        if (bones_.rows() > 0) write_what_frames_hang_on(character);
+        if (!bones_.empty()) write_what_frames_depend_on(character);
     });
     analysis::Provenance provenance = analysis::collect_provenance(most_threads(scene_));
     for (const auto& [library, version] : library_versions()) provenance.libraries[library] = version;

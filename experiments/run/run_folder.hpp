@@ -38,11 +38,12 @@ public:
                 const nlohmann::json& outcome, CostRecord& cost, const nlohmann::json& reference_error_method = nullptr);
 
 private:
-    void write_what_frames_hang_on(const pbs::Character& character) const;
+    void write_what_frames_depend_on(const pbs::Character& character) const;
 
     const Scene& scene_;
     std::string folder_;
-    analysis::CsvTable metrics_, iterations_, bones_ = empty_bone_table();
+    analysis::CsvTable metrics_, iterations_;
+    std::vector<PosedBone> bones_;
     RegionRecord regions_;
     DistanceRecord distances_;
     std::map<std::string, analysis::StateHash> hashes_;

@@ -4,14 +4,23 @@
 
 namespace experiments {
 
+const analysis::Columns<EmbeddedPoint> embedding_columns = {
+    {"point", &EmbeddedPoint::point, "", "number of the surface's point, from 0"},
+    {"tet", &EmbeddedPoint::tet, "", "number of the tet that carries it"},
+    {"barycentric_0", [](auto& at) -> decltype(auto) { return (at.barycentric[0]); }, "",
+     "share of the tet's first corner, in the frames' order"},
+    {"barycentric_1", [](auto& at) -> decltype(auto) { return (at.barycentric[1]); }, "", "share of its second corner"},
+    {"barycentric_2", [](auto& at) -> decltype(auto) { return (at.barycentric[2]); }, "", "share of its third corner"},
+    {"barycentric_3", [](auto& at) -> decltype(auto) { return (at.barycentric[3]); }, "", "share of its last corner"}};
+
 analysis::CsvTable embedding_table(const pbs::EmbeddedSurface& surface)
 {
-    analysis::CsvTable table({"point", "tet", "barycentric_0", "barycentric_1", "barycentric_2", "barycentric_3"});
+    std::vector<EmbeddedPoint> points;
     for (int point = 0; point < surface.tet.size(); ++point) {
         const auto share = surface.barycentric.row(point);
-        table.add_row({point, surface.tet(point), share(0), share(1), share(2), share(3)});
+        points.push_back({point, surface.tet(point), {share(0), share(1), share(2), share(3)}});
     }
-    return table;
+    return table_of(embedding_columns, points);
 }
 
 void write_surface(const pbs::EmbeddedSurface& surface, const pbs::TetMesh& mesh, const std::string& folder)

@@ -1,16 +1,18 @@
-// The rendered surface of a run's frames and what carries it, for whoever moves it by the tets:
+// The rendered surface of a run's frames and what carries it, for programs that move it by the tets:
 //   surface_rest.vtp   the surface at rest [m]
-//   embedding.csv      point, tet, barycentric_0 ... barycentric_3   of each of its points: the tet that carries it and
-//                      the share of each of the tet's corners, in the order of the frames' .vtu. Shares sum to one; for a
-//                      point outside its tet some are negative
+//   embedding.csv      the tet that carries each of its points, with the point's barycentric coordinates
 #pragma once
 
-#include "analysis/records/csv_table.hpp"
+#include "analysis/records/typed_table.hpp"
 #include "pbs/character/character.hpp"
 
-#include <string>
-
 namespace experiments {
+
+struct EmbeddedPoint {
+    int point = 0, tet = 0;
+    std::array<double, 4> barycentric = {};  // they sum to one; for a point outside its tet some are negative
+};
+extern const analysis::Columns<EmbeddedPoint> embedding_columns;
 
 analysis::CsvTable embedding_table(const pbs::EmbeddedSurface& surface);
 

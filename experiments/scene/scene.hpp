@@ -56,6 +56,10 @@ Scene read_scene(const std::string& file_or_name, const std::vector<std::string>
 
 // `resolved` and the options of every deformer, a study's own included: what a run is the result of.
 nlohmann::json resolved_with_deformers(const Scene& scene);
+inline nlohmann::json to_json(const Scene& scene)
+{
+    return resolved_with_deformers(scene);
+}
 
 struct BuiltInScene {
     std::string name, text, meaning;

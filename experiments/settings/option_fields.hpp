@@ -8,6 +8,7 @@
 // A member is a number, a truth value, a text, a Vec3, or an enumeration with OptionNames.
 #pragma once
 
+#include "experiments/settings/member_count.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "pbs/geometry/types.hpp"
@@ -15,13 +16,14 @@
 #include <nlohmann/json.hpp>
 
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 namespace experiments {
 
-// A member's value as JSON: an enumeration by its word.
+// A member's value as JSON: an enumeration by its word, a struct by its own to_json or to_json_of.
 template <typename Value>
 nlohmann::json option_json(const Value& value)
 {
@@ -29,8 +31,20 @@ nlohmann::json option_json(const Value& value)
         return name_of(value);
     else if constexpr (std::is_same_v<Value, pbs::Vec3>)
         return {value.x(), value.y(), value.z()};
+    else if constexpr (requires { to_json(value); })
+        return to_json(value);
+    else if constexpr (requires { to_json_of(value); })
+        return to_json_of(value);
     else
         return value;
+}
+
+template <typename Value>
+nlohmann::json option_json(const std::vector<Value>& values)
+{
+    nlohmann::json list = nlohmann::json::array();
+    for (const Value& value : values) list.push_back(option_json(value));
+    return list;
 }
 
 template <typename Value>
@@ -127,9 +141,26 @@ public:
     template <typename Member>
     OptionFields& record(const std::string& name, Member Options::*member)
     {
-        fields_.push_back(
-            {{}, nullptr, [name, member](const Options& options, nlohmann::json& json) { json[name] = option_json(options.*member); }});
-        return *this;
+        ++members_;
+        return derived(name, [member](const Options& options) { return option_json(options.*member); });
+    }
+
+    // What the options' user depends on and no member holds: a constant of the code, or what follows from the members.
+    OptionFields& derived(const std::string& name, std::function<nlohmann::json(const Options&)> value)
+    {
+        return add({}, nullptr, [name, value](const Options& options, nlohmann::json& json) { json[name] = value(options); });
+    }
+    OptionFields& constant(const std::string& name, const nlohmann::json& value)
+    {
+        return derived(name, [value](const Options&) { return value; });
+    }
+
+    // std::logic_error unless each member is recorded: the settings of a study's run, from which --resume sees what has changed.
+    const OptionFields& complete() const
+    {
+        if (members_ == member_count<Options>()) return *this;
+        throw std::logic_error("settings " + root_ + ": " + std::to_string(members_) + " of " + std::to_string(member_count<Options>()) +
+                               " members are declared");
     }
 
     std::vector<SceneKey> keys() const
@@ -187,6 +218,7 @@ private:
 
     std::string table_, root_;
     bool in_list_;
+    std::size_t members_ = 0;  // that are recorded
     std::vector<Field> fields_;
 };
 

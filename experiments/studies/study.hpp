@@ -27,6 +27,16 @@ struct StudyRun {
     nlohmann::json settings = {};  // what the work is the result of: on record, and what --resume compares
 };
 
+// A run whose work depends on a case and on nothing else. All members of the case are recorded, by its to_json.
+template <typename Case>
+StudyRun work_run(const std::string& name, const Case& of, double cost_s, std::string (*work)(const Case& of, const std::string& folder))
+{
+    StudyRun run{.name = name, .cost_s = cost_s};
+    run.work = [of, work](const std::string& folder) { return work(of, folder); };
+    run.settings = to_json(of);
+    return run;
+}
+
 enum class Extent { none, quick, full };
 
 struct StudyPlan {

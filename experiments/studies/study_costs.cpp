@@ -1,7 +1,7 @@
 #include "experiments/studies/study_costs.hpp"
 
 #include "analysis/records/atomic_file.hpp"
-#include "analysis/records/csv_table.hpp"
+#include "analysis/records/typed_table.hpp"
 
 #include <fmt/format.h>
 
@@ -25,6 +25,12 @@ std::optional<double> number_at(const nlohmann::json& run, const char* pointer)
     return run.contains(place) && run.at(place).is_number() ? std::optional(run.at(place).get<double>()) : std::nullopt;
 }
 
+const analysis::Columns<RunCost> cost_columns =
+    analysis::Columns<RunCost>{{"run", &RunCost::run, "", "name of the run"},
+                               {"expected_cpu_s", &RunCost::expected_s, "s", "processor time that the plan expects, on one core"},
+                               {"cpu_s", &RunCost::cpu_s, "s", "processor time that it took"}} +
+    analysis::Columns<RunCost>{{"wall_s", &RunCost::wall_s, "s", "wall time that it took"}}.in_group("wall");
+
 // Nothing where the run did not end.
 std::optional<RecordedCost> recorded_cost(const std::filesystem::path& folder)
 {
@@ -39,10 +45,7 @@ std::optional<RecordedCost> recorded_cost(const std::filesystem::path& folder)
 StudyCosts::StudyCosts(const std::string& folder) : file_((std::filesystem::path(folder) / "costs.csv").string())
 {
     if (!std::filesystem::exists(file_)) return;
-    const analysis::CsvTable table = analysis::read_csv(file_);
-    for (int row = 0; row < table.rows(); ++row)
-        runs_.push_back({table.text_at(row, "run"), table.number(row, "expected_cpu_s"), table.number(row, "cpu_s"),
-                         table.has_column("wall_s") ? table.number_or_nothing(row, "wall_s") : std::nullopt});
+    runs_ = rows_of(cost_columns, analysis::read_csv(file_));
 }
 
 void StudyCosts::add(const std::string& run, double expected_s, double cpu_s)
@@ -67,10 +70,7 @@ void StudyCosts::complete(const std::string& folder, const StudyPlan& plan)
 
 void StudyCosts::write() const
 {
-    analysis::CsvTable table({"run", "expected_cpu_s", "cpu_s", "wall_s"});
-    for (const RunCost& cost : runs_)
-        table.add_row({cost.run, cost.expected_s, cost.cpu_s, cost.wall_s ? analysis::CsvTable::Cell(*cost.wall_s) : std::nullopt});
-    table.write(file_);
+    table_of(cost_columns, runs_).write(file_);
 }
 
 double StudyCosts::expected_s() const

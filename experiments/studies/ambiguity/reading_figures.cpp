@@ -1,5 +1,6 @@
 #include "experiments/studies/ambiguity/reading_figures.hpp"
 
+#include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/ambiguity/read_deformer.hpp"
 #include "experiments/process/cpu_clock.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
@@ -234,6 +235,26 @@ std::vector<ReadingFigures> figures_of_frames(const ReadingsCase& of, const std:
         all.push_back({{of_frame(of.scene.character.body, int(body.character.mesh.rest.rows()), ms)}, !timed[i]->finite()});
     }
     return all;
+}
+
+nlohmann::json to_json(const ReadingsCase& of)
+{
+    static const auto fields = OptionFields<ReadingsCase>("readings")
+                                   .record("scene", &ReadingsCase::scene)
+                                   .record("frame", &ReadingsCase::frame)
+                                   .record("pose", &ReadingsCase::pose)
+                                   .record("key", &ReadingsCase::key)
+                                   .record("jolt_direction", &ReadingsCase::jolt_direction)
+                                   .record("iterations", &ReadingsCase::most_iterations)
+                                   .record("jolt_steps", &ReadingsCase::jolt_steps)
+                                   .record("timing_s", &ReadingsCase::timing_s)
+                                   .constant("residual_tolerance", residual_tolerance)
+                                   .constant("satisfied_residual", satisfied_residual)
+                                   .constant("volume_tolerance_pct", volume_tolerance_pct)
+                                   .constant("jolt_k_stretch", {table_1_k_stretch, soft_k_stretch})
+                                   .constant("least_answer", least_answer)
+                                   .complete();
+    return fields.json(of);
 }
 
 }  // namespace experiments

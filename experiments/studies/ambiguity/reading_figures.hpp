@@ -21,6 +21,8 @@ struct ReadingsCase {
     double timing_s = 2.0;       // in all
 };
 
+nlohmann::json to_json(const ReadingsCase& of);
+
 // C03, C12: paths of iterations from the four starts, with the reading's weights and bind points. The previous frame, where it is a start,
 // was reached with the bone's own material points. C12 is judged on characters alone.
 std::vector<ReadingFigures> figures_of_starts(const ReadingsCase& of, const std::vector<Reading>& readings);

@@ -122,54 +122,25 @@ StudyRun claims_run(const std::string& name, const Scene& scene, const std::vect
     return {.name = name, .cost_s = cost_s, .work = work, .settings = all};
 }
 
-nlohmann::json settings_of(const ArtefactCase& of)
-{
-    nlohmann::json poses, by_hand;
-    for (const ArtefactPose& pose : of.poses) poses.push_back({{"frame", pose.frame}, {"name", pose.name}});
-    for (const JointByHand& joint : joints_by_hand(of.scene.character.body))
-        by_hand[name_of(joint)] = {joint.reach_parent, joint.reach_child, joint.no_section};
-    return {{"poses", poses},
-            {"joint", of.joint},
-            {"joints_by_hand", by_hand},
-            {"deepest_bend_deg", deepest_bend_deg},
-            {"widest_over_rest", widest_over_rest}};
-}
-
 StudyRun sections_run(const std::string& name, const ArtefactCase& of, double cost_s)
 {
     const std::string claim = of.claim == ArtefactCase::Claim::bulge ? "C05" : "C04";
-    return claims_run(name, of.scene, {claim}, settings_of(of), cost_s, [=](ReadingComparison& comparison) {
+    return claims_run(name, of.scene, {claim}, to_json(of), cost_s, [=](ReadingComparison& comparison) {
         comparison.measure({claim}, [&](const auto& readings) { return figures_of_sections(of, readings); });
     });
-}
-
-nlohmann::json settings_of(const ReadingsCase& of)
-{
-    const pbs::Vec3& jolt = of.jolt_direction;
-    return {{"frame", of.frame},
-            {"pose", of.pose},
-            {"jolt_direction", {jolt.x(), jolt.y(), jolt.z()}},
-            {"iterations", of.most_iterations},
-            {"residual_tolerance", residual_tolerance},
-            {"satisfied_residual", satisfied_residual},
-            {"volume_tolerance_pct", volume_tolerance_pct},
-            {"jolt_steps", of.jolt_steps},
-            {"jolt_k_stretch", {table_1_k_stretch, soft_k_stretch}},
-            {"least_answer", least_answer},
-            {"timing_s", of.timing_s}};
 }
 
 StudyRun starts_run(const std::string& body, const ReadingsCase& of, double cost_s)
 {
     const std::vector<std::string> claims = {"C03", "C12"};
-    return claims_run(body + "_starts", of.scene, claims, settings_of(of), cost_s, [=](ReadingComparison& comparison) {
+    return claims_run(body + "_starts", of.scene, claims, to_json(of), cost_s, [=](ReadingComparison& comparison) {
         comparison.measure(claims, [&](const auto& readings) { return figures_of_starts(of, readings); });
     });
 }
 
 StudyRun step_run(const std::string& body, const ReadingsCase& of, double cost_s)
 {
-    return claims_run(body + "_step", of.scene, {"C07", "C09", "C10"}, settings_of(of), cost_s, [=](ReadingComparison& comparison) {
+    return claims_run(body + "_step", of.scene, {"C07", "C09", "C10"}, to_json(of), cost_s, [=](ReadingComparison& comparison) {
         comparison.measure({"C07"}, [&](const auto& readings) { return figures_of_projections(of, readings); });
         comparison.measure({"C09"}, [&](const auto& readings) { return figures_of_jolts(of, readings); });
         comparison.measure({"C10"}, [&](const auto& readings) { return figures_of_frames(of, readings); });

@@ -11,23 +11,46 @@
 #include <utility>
 
 namespace experiments {
+
+using analysis::Columns;
+using analysis::within;
+
 namespace {
 
-const std::vector<std::string> profile_columns = {"body",
-                                                  "vertices",
-                                                  "pose",
-                                                  "joint",
-                                                  "deformer",
-                                                  "order",
-                                                  "precision",
-                                                  "offset_m",
-                                                  "area_over_rest",
-                                                  "smallest_radius_over_rest",
-                                                  "largest_radius_over_rest",
-                                                  "outlines",
-                                                  "limb_share"};
-const std::vector<std::string> intersection_columns = {"body",      "vertices", "pose",      "deformer", "order",
-                                                       "precision", "surface",  "triangles", "pairs",    "pairs_at_rest"};
+const Columns<JointSection> joint_section_columns = {
+    {"offset_m", &JointSection::offset_m, "m", "distance of the cross-section from the joint along the bones; negative: on the parent"},
+    {"area_over_rest", &JointSection::area, "", "area of the cross-section over that at rest"},
+    {"smallest_radius_over_rest", &JointSection::smallest_radius, "", "smallest radius of its outline over that at rest"},
+    {"largest_radius_over_rest", &JointSection::largest_radius, "", "largest radius of its outline over that at rest"},
+    {"outlines", &JointSection::outlines, "", "number of closed outlines in the plane"},
+    {"limb_share", &JointSection::limb_share, "", "share of the outline that belongs to the limb itself"}};
+
+}  // namespace
+
+const Columns<ProfileRow> profile_columns =
+    within(&ProfileRow::place, artefact_place_columns) + Columns<ProfileRow>{{"joint", &ProfileRow::joint, "", "name of the joint"}} +
+    within(&ProfileRow::deformer, artefact_deformer_columns) + within(&ProfileRow::section, joint_section_columns);
+
+const Columns<IntersectionRow> intersection_columns =
+    within(&IntersectionRow::place, artefact_place_columns) + within(&IntersectionRow::deformer, artefact_deformer_columns) +
+    Columns<IntersectionRow>{{"surface", &IntersectionRow::surface, "", "rendered, or the tets' boundary"},
+                             {"triangles", &IntersectionRow::triangles, "", "number of its triangles"},
+                             {"pairs", &IntersectionRow::pairs, "", "pairs of triangles that intersect in the pose"},
+                             {"pairs_at_rest", &IntersectionRow::pairs_at_rest, "", "pairs of triangles that intersect at rest"}};
+
+ArtefactPlace place_of(const ArtefactCase& of, const ArtefactBody& body, std::size_t pose)
+{
+    const pbs::Character& character = body.posed.character();
+    return {character.name, static_cast<int>(character.mesh.rest.rows()), of.poses[pose].name};
+}
+
+ArtefactDeformer recorded(const DeformerSpec& spec)
+{
+    const auto* pbs = options_if<pbs::PbsOptions>(spec);
+    return {spec.name, pbs ? name_of(pbs->order) : "", pbs ? name_of(pbs->precision) : ""};
+}
+
+namespace {
 
 Scene with_vertices(Scene scene, int vertices)
 {
@@ -63,10 +86,7 @@ bool is_on_other_meshes(const DeformerSpec& spec)
 
 class Search {
 public:
-    explicit Search(const ArtefactCase& of)
-        : of_(of), records_{{}, analysis::CsvTable(profile_columns), analysis::CsvTable(intersection_columns), {}}
-    {
-    }
+    explicit Search(const ArtefactCase& of) : of_(of) {}
 
     void look_at(const ArtefactBody& body, const DeformerSpec& spec, bool with_intersections)
     {
@@ -84,36 +104,18 @@ public:
     ArtefactRecords records() && { return std::move(records_); }
 
 private:
-    std::vector<analysis::CsvTable::Cell> row_head(const ArtefactBody& body, std::size_t pose) const
-    {
-        const pbs::Character& character = body.posed.character();
-        return {character.name, static_cast<int>(character.mesh.rest.rows()), of_.poses[pose].name};
-    }
-
     std::optional<std::size_t> poses_of(const DeformerSpec& spec) const
     {
         if (element_order_of(spec) < 2) return {};
         return static_cast<std::size_t>(of_.second_order_poses);
     }
 
-    static void add_deformer(std::vector<analysis::CsvTable::Cell>& row, const DeformerSpec& spec)
-    {
-        row.push_back(spec.name);
-        for (const std::string& setting : projection_of(spec)) row.push_back(setting);
-    }
-
     void add_profile(const ArtefactBody& body, const DeformerSpec& spec, const Shape& shape, std::size_t pose, std::size_t joint)
     {
         const JointProfile profile = body.sections[joint].measure(shape.positions, body.posed.pose(pose));
         records_.samples.push_back({group_of(spec), pose, joint, extremes_of(profile), element_order_of(spec)});
-        for (const JointSection& section : profile) {
-            auto row = row_head(body, pose);
-            row.push_back(body.joints[joint].name);
-            add_deformer(row, spec);
-            row.insert(row.end(), {section.offset_m, section.area, section.smallest_radius, section.largest_radius, section.outlines,
-                                   section.limb_share});
-            records_.profiles.add_row(row);
-        }
+        for (const JointSection& section : profile)
+            records_.profiles.push_back({place_of(of_, body, pose), body.joints[joint].name, recorded(spec), section});
     }
 
     void add_intersections(const ArtefactBody& body, const DeformerSpec& spec, const Shape& shape, std::size_t pose)
@@ -131,11 +133,8 @@ private:
     {
         const auto [at_rest, is_new] = at_rest_.try_emplace(surface, 0);
         if (is_new) at_rest->second = pbs::count_self_intersections(rest, triangles);
-        auto row = row_head(body, pose);
-        add_deformer(row, spec);
-        row.insert(row.end(),
-                   {surface, static_cast<int>(triangles.rows()), pbs::count_self_intersections(now, triangles), at_rest->second});
-        records_.intersections.add_row(row);
+        records_.intersections.push_back({place_of(of_, body, pose), recorded(spec), surface, static_cast<int>(triangles.rows()),
+                                          pbs::count_self_intersections(now, triangles), at_rest->second});
     }
 
     const ArtefactCase& of_;
@@ -144,13 +143,6 @@ private:
 };
 
 }  // namespace
-
-std::array<std::string, 2> projection_of(const DeformerSpec& spec)
-{
-    const auto* pbs = options_if<pbs::PbsOptions>(spec);
-    if (!pbs) return {};
-    return {name_of(pbs->order), name_of(pbs->precision)};
-}
 
 std::vector<DeformerSpec> other_orders(const DeformerSpec& pbs)
 {

@@ -1,12 +1,13 @@
 // One body, turned at a joint or in poses of a clip, by all deformers: what is looked at for the artefacts of blending.
 //   const ArtefactRecords records = find_artefacts(of);
-//   records.profiles.write("profiles.csv");
+//   table_of(profile_columns, records.profiles).write("profiles.csv");
 // Every deformer of the scene is run on the body's own mesh. PBS is run in the other orders and precisions too; PBS, the blends and the
 // reference on the body's other meshes: their spread is the uncertainty of a value.
 #pragma once
 
 #include "analysis/case_key.hpp"
-#include "analysis/records/csv_table.hpp"
+#include "analysis/records/typed_table.hpp"
+#include "experiments/settings/option_names.hpp"
 #include "experiments/studies/artefacts/joint_sections.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 
@@ -33,6 +34,12 @@ struct ArtefactCase {
     int second_order_poses = 0;  // the first so many with the reference's quadratic elements, snh_p2
 };
 
+template <>
+struct OptionNames<ArtefactCase::Claim> {
+    static constexpr std::array<std::pair<ArtefactCase::Claim, const char*>, 2> table{
+        {{ArtefactCase::Claim::candy_wrapper, "C04"}, {ArtefactCase::Claim::bulge, "C05"}}};
+};
+
 // The body on one mesh: what is measured there.
 struct ArtefactBody {
     explicit ArtefactBody(const ArtefactCase& of, int vertices = 0);  // 0: as the scene has it
@@ -50,17 +57,49 @@ struct ArtefactSample {
     int element_order = 0;  // of the reference
 };
 
+// What a row of a record is measured on.
+struct ArtefactPlace {
+    std::string body;
+    int vertices = 0;
+    std::string pose;
+};
+struct ArtefactDeformer {
+    std::string deformer, order, precision;  // the last two of PBS alone
+};
+inline const analysis::Columns<ArtefactPlace> artefact_place_columns = {{"body", &ArtefactPlace::body, "", "name of the body"},
+                                                                        {"vertices", &ArtefactPlace::vertices, "", "vertices of its mesh"},
+                                                                        {"pose", &ArtefactPlace::pose, "", "name of the pose"}};
+inline const analysis::Columns<ArtefactDeformer> artefact_deformer_columns = {
+    {"deformer", &ArtefactDeformer::deformer, "", "name of the deformer"},
+    {"order", &ArtefactDeformer::order, "", "PBS: order of projection"},
+    {"precision", &ArtefactDeformer::precision, "", "PBS: f32 or f64"}};
+ArtefactPlace place_of(const ArtefactCase& of, const ArtefactBody& body, std::size_t pose);
+ArtefactDeformer recorded(const DeformerSpec& spec);
+
+struct ProfileRow {
+    ArtefactPlace place;
+    std::string joint;
+    ArtefactDeformer deformer;
+    JointSection section;
+};
+struct IntersectionRow {
+    ArtefactPlace place;
+    ArtefactDeformer deformer;
+    std::string surface;
+    int triangles = 0, pairs = 0, pairs_at_rest = 0;
+};
+extern const analysis::Columns<ProfileRow> profile_columns;            // profiles.csv
+extern const analysis::Columns<IntersectionRow> intersection_columns;  // intersections.csv
+
 struct ArtefactRecords {
     std::vector<ArtefactSample> samples;  // of a group in a pose at a joint, the body's own mesh and the default order first
-    analysis::CsvTable profiles, intersections;
+    std::vector<ProfileRow> profiles;
+    std::vector<IntersectionRow> intersections;
     std::string breakdown;  // deformers that did not finish
 };
 
 // PBS as it is there in every other order and precision.
 std::vector<DeformerSpec> other_orders(const DeformerSpec& pbs);
-
-// Its order and precision of projection, for records; empty texts for other deformers.
-std::array<std::string, 2> projection_of(const DeformerSpec& spec);
 
 ArtefactRecords find_artefacts(const ArtefactCase& of, const ArtefactBody& body);
 

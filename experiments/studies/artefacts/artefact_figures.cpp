@@ -1,5 +1,8 @@
 #include "experiments/studies/artefacts/artefact_figures.hpp"
 
+#include "experiments/settings/option_fields.hpp"
+#include "experiments/studies/artefacts/smoothness_comparison.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -146,13 +149,62 @@ std::vector<JudgedSection> section_outcomes(const ArtefactCase& of, const Artefa
     return sections;
 }
 
-analysis::CsvTable section_table(const ArtefactCase& of, const ArtefactBody& body, const std::vector<JudgedSection>& sections)
+namespace {
+
+nlohmann::json joints_by_hand_of(const ArtefactCase& of)
 {
-    analysis::CsvTable table({"claim", "body", "pose", "joint", "reference", "outcome", "remark"});
+    nlohmann::json joints = nlohmann::json::object();
+    for (const JointByHand& joint : joints_by_hand(of.scene.character.body))
+        joints[name_of(joint)] = {joint.reach_parent, joint.reach_child, joint.no_section};
+    return joints;
+}
+
+}  // namespace
+
+nlohmann::json to_json(const ArtefactPose& pose)
+{
+    static const auto fields = OptionFields<ArtefactPose>("pose")
+                                   .record("frame", &ArtefactPose::frame)
+                                   .record("name", &ArtefactPose::name)
+                                   .record("key", &ArtefactPose::key)
+                                   .complete();
+    return fields.json(pose);
+}
+
+nlohmann::json to_json(const ArtefactCase& of)
+{
+    static const auto fields = OptionFields<ArtefactCase>("artefacts")
+                                   .record("scene", &ArtefactCase::scene)
+                                   .record("poses", &ArtefactCase::poses)
+                                   .record("joint", &ArtefactCase::joint)
+                                   .record("claim", &ArtefactCase::claim)
+                                   .record("other_vertices", &ArtefactCase::vertices)
+                                   .record("second_order_poses", &ArtefactCase::second_order_poses)
+                                   .constant("deepest_bend_deg", deepest_bend_deg)
+                                   .constant("widest_over_rest", widest_over_rest)
+                                   .constant("most_weight_iterations", most_weight_iterations)
+                                   .constant("residual_tolerance", residual_tolerance)
+                                   .constant("satisfied_residual", satisfied_residual)
+                                   .derived("joints_by_hand", joints_by_hand_of)
+                                   .complete();
+    return fields.json(of);
+}
+
+const analysis::Columns<SectionRow> section_columns = {
+    {"claim", &SectionRow::claim, "", "id of the claim that the section is measured for"},
+    {"body", &SectionRow::body, "", "name of the body"},
+    {"pose", &SectionRow::pose, "", "name of the pose"},
+    {"joint", &SectionRow::joint, "", "name of the joint"},
+    {"reference", &SectionRow::reference, "", "name of the reference; empty where none was reached"},
+    {"outcome", &SectionRow::outcome, "", "measured, or why not"},
+    {"remark", &SectionRow::remark, "", "remark on the section; empty: none"}};
+
+std::vector<SectionRow> section_rows(const ArtefactCase& of, const ArtefactBody& body, const std::vector<JudgedSection>& sections)
+{
+    std::vector<SectionRow> rows;
     const auto add = [&](std::size_t pose, const std::string& joint, const std::string& reference, const std::string& outcome,
                          const std::string& remark) {
-        table.add_row({of.claim == ArtefactCase::Claim::bulge ? "C05" : "C04", body.posed.character().name, of.poses[pose].name, joint,
-                       reference, outcome, remark});
+        rows.push_back({name_of(of.claim), body.posed.character().name, of.poses[pose].name, joint, reference, outcome, remark});
     };
     for (const JudgedSection& section : sections)
         add(section.pose, body.joints[section.joint].name, section.reference, name_of(section.outcome), section.remark);
@@ -161,7 +213,7 @@ analysis::CsvTable section_table(const ArtefactCase& of, const ArtefactBody& bod
         if (why.empty() || !(of.joint.empty() || of.joint == name_of(joint))) continue;
         for (std::size_t pose = 0; pose < of.poses.size(); ++pose) add(pose, name_of(joint), "", why, "");
     }
-    return table;
+    return rows;
 }
 
 }  // namespace experiments

@@ -9,6 +9,10 @@
 
 namespace experiments {
 
+// All that a run of the study depends on.
+nlohmann::json to_json(const ArtefactPose& pose);
+nlohmann::json to_json(const ArtefactCase& of);
+
 // of a figure: "limb, twist 90 deg, upper|forearm". Nothing is said of a group without samples.
 std::vector<analysis::Measurement> candy_wrapper_figures(const ArtefactCase& of, const ArtefactBody& body,
                                                          const std::vector<ArtefactSample>& samples);
@@ -36,6 +40,10 @@ struct JudgedSection {
 // One a pose and joint, of the case's claim. C04 does without the reference, which stands beside.
 std::vector<JudgedSection> section_outcomes(const ArtefactCase& of, const ArtefactBody& body, const std::vector<ArtefactSample>& samples);
 // A line each, and one a pose for a joint by hand without section, whose outcome is the reason (why_left_out).
-analysis::CsvTable section_table(const ArtefactCase& of, const ArtefactBody& body, const std::vector<JudgedSection>& sections);
+struct SectionRow {
+    std::string claim, body, pose, joint, reference, outcome, remark;
+};
+extern const analysis::Columns<SectionRow> section_columns;  // sections.csv
+std::vector<SectionRow> section_rows(const ArtefactCase& of, const ArtefactBody& body, const std::vector<JudgedSection>& sections);
 
 }  // namespace experiments

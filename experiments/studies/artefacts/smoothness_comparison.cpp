@@ -15,23 +15,40 @@
 #include <utility>
 
 namespace experiments {
+
+using analysis::Columns;
+using analysis::Smoothness;
+using analysis::within;
+
+namespace {
+
+const Columns<Smoothness> at_joint_columns = {
+    {"strain_jump_rms", &Smoothness::strain_jump_rms, "", "root mean square jump of strain between neighbouring tets at the joint"},
+    {"bending_rms_rad", &Smoothness::bending_rms_rad, "rad", "root mean square bending of the skin at the joint"}};
+
+}  // namespace
+
+const Columns<SmoothnessRow> smoothness_columns =
+    Columns<SmoothnessRow>{{"body", &SmoothnessRow::body, "", "name of the body"},
+                           {"vertices", &SmoothnessRow::vertices, "", "vertices of its mesh"},
+                           {"weights", &SmoothnessRow::weights, "", "paper: Eq. 2; rigid: every vertex on its nearest bone alone"},
+                           {"pose", &SmoothnessRow::pose, "", "name of the pose"},
+                           {"joint", &SmoothnessRow::joint, "", "name of the joint"}} +
+    within(&SmoothnessRow::deformer, artefact_deformer_columns) + within(&SmoothnessRow::smoothness, at_joint_columns) +
+    Columns<SmoothnessRow>{{"volume_abs_change_pct", &SmoothnessRow::volume_abs_change_pct, "%", "sum of the tets' absolute changes"}};
+
+const Columns<WeightIterations> weight_iteration_columns =
+    within(&WeightIterations::place, artefact_place_columns) +
+    Columns<WeightIterations>{
+        {"iterations_paper", [](auto& row) -> decltype(auto) { return (row.paper.iterations); }, "", "iterations to tolerance with Eq. 2"},
+        {"reached_paper", [](auto& row) -> decltype(auto) { return (row.paper.within); }, "", "they reached it"},
+        {"iterations_rigid", [](auto& row) -> decltype(auto) { return (row.rigid.iterations); }, "",
+         "iterations to tolerance with rigid weights"},
+        {"reached_rigid", [](auto& row) -> decltype(auto) { return (row.rigid.within); }, "", "they reached it"}};
+
 namespace {
 
 constexpr double rounding = 1e-12;  // a figure below is none: of rest
-
-const std::vector<std::string> columns = {"body",
-                                          "vertices",
-                                          "weights",
-                                          "pose",
-                                          "joint",
-                                          "deformer",
-                                          "order",
-                                          "precision",
-                                          "strain_jump_rms",
-                                          "bending_rms_rad",
-                                          "volume_abs_change_pct"};
-const std::vector<std::string> iteration_columns = {"body",          "vertices",         "pose",         "iterations_paper",
-                                                    "reached_paper", "iterations_rigid", "reached_rigid"};
 
 struct Twin {
     ArtefactBody paper, rigid;
@@ -56,9 +73,7 @@ struct Ratios {
 
 class Comparison {
 public:
-    explicit Comparison(const ArtefactCase& of) : of_(of), result_{{}, analysis::CsvTable(columns), analysis::CsvTable(iteration_columns)}
-    {
-    }
+    explicit Comparison(const ArtefactCase& of) : of_(of) {}
 
     void compare(const Twin& twin, const DeformerSpec& spec)
     {
@@ -142,8 +157,7 @@ private:
     // A start that is there already counts as one iteration; where neither arrives there is no ratio.
     void add_iterations(const Twin& twin, std::size_t pose, const Reached& paper, const Reached& rigid)
     {
-        result_.iterations.add_row({body_name(twin), static_cast<int>(twin.paper.posed.character().mesh.rest.rows()), of_.poses[pose].name,
-                                    paper.iterations, static_cast<int>(paper.within), rigid.iterations, static_cast<int>(rigid.within)});
+        result_.iterations.push_back({place_of(of_, twin.paper, pose), paper, rigid});
         Ratios& ratios = ratios_of("iterations_over_rigid_weights", key_of(twin, pose, of_.joint, "pbs"));
         const bool some = paper.within || rigid.within;
         if (ratios.values.empty() && some && paper.within != rigid.within)
@@ -163,10 +177,8 @@ private:
         const pbs::Character& character = body.posed.character();
         const analysis::SmoothnessRuler ruler(character.mesh.rest, character.mesh.tets, near_joint(character, body.joints[joint]));
         const analysis::Smoothness smoothness = ruler.measure(shape.positions);
-        const auto [order, precision] = projection_of(spec);
-        result_.smoothness.add_row({character.name, static_cast<int>(character.mesh.rest.rows()), weights, of_.poses[pose].name,
-                                    body.joints[joint].name, spec.name, order, precision, smoothness.strain_jump_rms,
-                                    smoothness.bending_rms_rad, volume_change_pct(body, shape)});
+        result_.smoothness.push_back({character.name, static_cast<int>(character.mesh.rest.rows()), weights, of_.poses[pose].name,
+                                      body.joints[joint].name, recorded(spec), smoothness, volume_change_pct(body, shape)});
         return smoothness;
     }
 

@@ -8,15 +8,33 @@
 #pragma once
 
 #include "analysis/measurement.hpp"
+#include "analysis/smoothness.hpp"
 #include "experiments/studies/artefacts/artefact_case.hpp"
+#include "experiments/studies/shared/path_figures.hpp"
 
 namespace experiments {
 
 inline constexpr int most_weight_iterations = 1000;
 
+struct SmoothnessRow {
+    std::string body;
+    int vertices = 0;
+    std::string weights, pose, joint;
+    ArtefactDeformer deformer;
+    analysis::Smoothness smoothness;
+    double volume_abs_change_pct = 0.0;
+};
+struct WeightIterations {
+    ArtefactPlace place;
+    Reached paper, rigid;
+};
+extern const analysis::Columns<SmoothnessRow> smoothness_columns;           // smoothness.csv
+extern const analysis::Columns<WeightIterations> weight_iteration_columns;  // iterations.csv
+
 struct WeightsComparison {
     std::vector<analysis::Measurement> figures;
-    analysis::CsvTable smoothness, iterations;  // what the ratios are of
+    std::vector<SmoothnessRow> smoothness;  // what the ratios are of
+    std::vector<WeightIterations> iterations;
 };
 
 WeightsComparison compare_weights(const ArtefactCase& of);

@@ -40,41 +40,13 @@ std::string look_and_record(const ArtefactCase& of, const std::string& folder)
                                                      : bulge_figures(of, body, records.samples);
     figures.insert(figures.end(), weights.figures.begin(), weights.figures.end());
     const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
-    section_table(of, body, section_outcomes(of, body, records.samples)).write(path("sections.csv"));
-    records.profiles.write(path("profiles.csv"));
-    records.intersections.write(path("intersections.csv"));
-    weights.smoothness.write(path("smoothness.csv"));
-    weights.iterations.write(path("iterations.csv"));
+    table_of(section_columns, section_rows(of, body, section_outcomes(of, body, records.samples))).write(path("sections.csv"));
+    table_of(profile_columns, records.profiles).write(path("profiles.csv"));
+    table_of(intersection_columns, records.intersections).write(path("intersections.csv"));
+    table_of(smoothness_columns, weights.smoothness).write(path("smoothness.csv"));
+    table_of(weight_iteration_columns, weights.iterations).write(path("iterations.csv"));
     analysis::measurement_table(figures).write(path("measurements.csv"));
     return records.breakdown;
-}
-
-nlohmann::json case_settings(const ArtefactCase& of)
-{
-    auto poses = nlohmann::json::array();
-    for (const ArtefactPose& pose : of.poses) poses.push_back({{"frame", pose.frame}, {"name", pose.name}});
-    nlohmann::json settings = {{"scene", resolved_with_deformers(of.scene)},
-                               {"claim", of.claim == ArtefactCase::Claim::bulge ? "C05" : "C04"},
-                               {"poses", poses},
-                               {"joint", of.joint},
-                               {"other_vertices", of.vertices},
-                               {"second_order_poses", of.second_order_poses},
-                               {"deepest_bend_deg", deepest_bend_deg},
-                               {"widest_over_rest", widest_over_rest},
-                               {"most_weight_iterations", most_weight_iterations},
-                               {"residual_tolerance", residual_tolerance},
-                               {"satisfied_residual", satisfied_residual}};
-    for (const JointByHand& joint : joints_by_hand(of.scene.character.body))
-        settings["joints_by_hand"][name_of(joint)] = {joint.reach_parent, joint.reach_child, joint.no_section};
-    return settings;
-}
-
-StudyRun artefact_run(const std::string& name, const ArtefactCase& of, double cost_s)
-{
-    return {.name = name,
-            .cost_s = cost_s,
-            .work = [of](const std::string& folder) { return look_and_record(of, folder); },
-            .settings = case_settings(of)};
 }
 
 const char* const all_deformers = R"(deformers.use=["lbs","dqs","pbs","delta_mush","xpbd","snh_p1"])";
@@ -157,7 +129,7 @@ void plan_body(const std::string& body, bool full, StudyPlan& plan)
     const int finer = static_cast<int>(1.3 * static_cast<double>(character.mesh.rest.rows()));
     const auto add = [&](const std::string& name, ArtefactCase of, double cost_s) {
         if (full) of.vertices = {finer};
-        plan.runs.push_back(artefact_run(name, of, full ? 1.5 * cost_s : cost_s));
+        plan.runs.push_back(work_run(name, of, full ? 1.5 * cost_s : cost_s, look_and_record));
     };
     for (const TurnedJoint& turned : joints_to_turn(joints))
         for (const LimbJoint& joint : joints) {
@@ -173,15 +145,11 @@ void plan_body(const std::string& body, bool full, StudyPlan& plan)
 std::string intersections_text(const std::vector<std::string>& finished)
 {
     std::string text = "| case | pose | surface | deformer | pairs | at rest |\n|---|---|---|---|---|---|\n";
-    for (const std::string& run : finished) {
-        const analysis::CsvTable table = analysis::read_csv((fs::path(run) / "intersections.csv").string());
-        for (int row = 0; row < table.rows(); ++row) {
-            if (table.integer(row, "pairs") == table.integer(row, "pairs_at_rest")) continue;
-            text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", fs::path(run).filename().string(), table.text_at(row, "pose"),
-                                table.text_at(row, "surface"), table.text_at(row, "deformer"), table.integer(row, "pairs"),
-                                table.integer(row, "pairs_at_rest"));
-        }
-    }
+    for (const std::string& run : finished)
+        for (const auto& row : rows_of(intersection_columns, analysis::read_csv((fs::path(run) / "intersections.csv").string())))
+            if (row.pairs != row.pairs_at_rest)
+                text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", fs::path(run).filename().string(), row.place.pose, row.surface,
+                                    row.deformer.deformer, row.pairs, row.pairs_at_rest);
     return text;
 }
 
@@ -190,17 +158,12 @@ std::string sections_text(const std::vector<std::string>& finished)
 {
     std::map<std::string, std::map<std::string, std::vector<std::string>>> sections;  // by claim and outcome
     std::string remarks;
-    for (const std::string& run : finished) {
-        const analysis::CsvTable table = analysis::read_csv((fs::path(run) / "sections.csv").string());
-        for (int row = 0; row < table.rows(); ++row) {
-            const std::string claim = table.text_at(row, "claim"), outcome = table.text_at(row, "outcome");
-            const std::string of =
-                fmt::format("{} {} {}", table.text_at(row, "body"), table.text_at(row, "pose"), table.text_at(row, "joint"));
-            sections[claim][outcome].push_back(of);
-            if (!table.text_at(row, "remark").empty())
-                remarks += fmt::format("{}: {}, {}: {}\n", claim, of, outcome, table.text_at(row, "remark"));
+    for (const std::string& run : finished)
+        for (const auto& row : rows_of(section_columns, analysis::read_csv((fs::path(run) / "sections.csv").string()))) {
+            const std::string of = fmt::format("{} {} {}", row.body, row.pose, row.joint);
+            sections[row.claim][row.outcome].push_back(of);
+            if (!row.remark.empty()) remarks += fmt::format("{}: {}, {}: {}\n", row.claim, of, row.outcome, row.remark);
         }
-    }
     std::string text;
     for (const auto& [claim, outcomes] : sections)
         for (const auto& [outcome, names] : outcomes) {
@@ -215,8 +178,8 @@ std::string sections_text(const std::vector<std::string>& finished)
 StudyPlan plan_artefacts_study(bool full)
 {
     StudyPlan plan;
-    plan.runs.push_back(artefact_run("limb_twist", limb_sweep("twist", 6, full), full ? 26.0 : 11.0));
-    plan.runs.push_back(artefact_run("limb_bend", limb_sweep("bend", 5, full), full ? 60.0 : 40.0));
+    plan.runs.push_back(work_run("limb_twist", limb_sweep("twist", 6, full), full ? 26.0 : 11.0, look_and_record));
+    plan.runs.push_back(work_run("limb_bend", limb_sweep("bend", 5, full), full ? 60.0 : 40.0, look_and_record));
     for (const std::string& body : installed_bodies(plan.left_out)) {
         try {
             plan_body(body, full, plan);

@@ -2,6 +2,7 @@
 // which C13 to C15 are judged, and audit.md.
 #include "analysis/records/atomic_file.hpp"
 #include "analysis/records/csv_table.hpp"
+#include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/audit/printed_equations.hpp"
 #include "experiments/studies/shared/table_1.hpp"
 #include "experiments/studies/study.hpp"
@@ -16,10 +17,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string audit_print(const std::string& folder)
+// The random tets that the printed equations are tried on.
+struct AuditCase {
+    int tets = 200;
+    unsigned seed = 1;
+};
+
+nlohmann::json to_json(const AuditCase& of)
+{
+    static const auto fields =
+        OptionFields<AuditCase>("audit").record("tets", &AuditCase::tets).record("seed", &AuditCase::seed).complete();
+    return fields.json(of);
+}
+
+std::string audit_print(const AuditCase& of, const std::string& folder)
 {
     std::vector<analysis::PrintedFigure> all;
-    for (const auto& figures : {mesh_size_figures(), table_1_figures(), equation_figures()})
+    for (const auto& figures : {mesh_size_figures(), table_1_figures(), equation_figures(of.tets, of.seed)})
         all.insert(all.end(), figures.begin(), figures.end());
     analysis::printed_table(all).write((fs::path(folder) / "printed.csv").string());
     return {};
@@ -36,7 +50,7 @@ std::string bound_text(const analysis::PrintedFigure& figure)
 
 StudyPlan plan_audit_study(bool)
 {
-    return {{{.name = "print", .cost_s = 1.0, .work = audit_print, .settings = {{"tets", 200}, {"seed", 1}}}}, {}};
+    return {{work_run("print", AuditCase{}, 1.0, audit_print)}, {}};
 }
 
 StudyConclusion conclude_audit_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)

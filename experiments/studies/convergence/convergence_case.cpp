@@ -1,5 +1,7 @@
 #include "experiments/studies/convergence/convergence_case.hpp"
 
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/settings/option_fields.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/solver/options.hpp"
@@ -110,6 +112,48 @@ private:
 };
 
 }  // namespace
+
+nlohmann::json to_json(const NamedFrame& frame)
+{
+    static const auto fields = OptionFields<NamedFrame>("frame")
+                                   .record("frame", &NamedFrame::frame)
+                                   .record("name", &NamedFrame::name)
+                                   .record("key", &NamedFrame::key)
+                                   .record("twist", &NamedFrame::twist)
+                                   .complete();
+    return fields.json(frame);
+}
+
+nlohmann::json to_json(const ProjectionSetting& setting)
+{
+    static const auto fields = OptionFields<ProjectionSetting>("setting")
+                                   .record("order", &ProjectionSetting::order)
+                                   .record("precision", &ProjectionSetting::precision)
+                                   .complete();
+    return fields.json(setting);
+}
+
+nlohmann::json to_json(const ConvergenceCase& of)
+{
+    static const auto fields =
+        OptionFields<ConvergenceCase>("convergence")
+            .record("scene", &ConvergenceCase::scene)
+            .record("frames", &ConvergenceCase::frames)
+            .record("k_stretch", &ConvergenceCase::k_stretch)
+            .record("settings", &ConvergenceCase::settings)
+            .record("other_vertices", &ConvergenceCase::other_vertices)
+            .record("every_setting_to", &ConvergenceCase::every_setting_to)
+            .record("ladder", &ConvergenceCase::ladder)
+            .record("iterations", &ConvergenceCase::most_iterations)
+            .record("truth", &ConvergenceCase::truth)
+            .record("truth_to", &ConvergenceCase::truth_to)
+            .derived("looks", [](const ConvergenceCase& one) -> nlohmann::json { return looked_at(one.most_iterations); })
+            .constant("residual_tolerance", residual_tolerance)
+            .constant("satisfied_residual", satisfied_residual)
+            .constant("volume_tolerance_pct", volume_tolerance_pct)
+            .complete();
+    return fields.json(of);
+}
 
 ConvergenceResult measure_convergence(const ConvergenceCase& of)
 {

@@ -38,6 +38,10 @@ struct ConvergenceCase {
     int truth_to = 100000;  // vertices: larger meshes of a ladder are left without, and rates.csv says so
 };
 
+nlohmann::json to_json(const NamedFrame& frame);
+nlohmann::json to_json(const ProjectionSetting& setting);
+nlohmann::json to_json(const ConvergenceCase& of);  // all that a run of the study depends on
+
 struct ConvergencePaths {
     std::string body, pose;
     analysis::CaseKey key = {};  // of the pose, as NamedFrame has it

@@ -10,34 +10,44 @@
 namespace experiments {
 namespace {
 
-using Cells = std::vector<analysis::CsvTable::Cell>;
+using analysis::Columns;
+using analysis::within;
 
-const std::vector<std::string> case_columns = {"body", "pose", "vertices", "tets", "own_mesh", "order", "precision", "k_stretch", "start"};
+const Columns<PathCase> case_columns = {{"body", &PathCase::body, "", "name of the body"},
+                                        {"pose", &PathCase::pose, "", "name of the pose"},
+                                        {"vertices", &PathCase::vertices, "", "vertices of the mesh"},
+                                        {"tets", &PathCase::tets, "", "tets of the mesh"},
+                                        {"own_mesh", &PathCase::own_mesh, "", "the mesh is the scene's own"},
+                                        {"order", &PathCase::order, "", "order of projection"},
+                                        {"precision", &PathCase::precision, "", "f32 or f64"},
+                                        {"k_stretch", &PathCase::k_stretch, "", "stiffness of the stretch constraints"},
+                                        {"start", &PathCase::start, "", "initial guess: lbs, previous_frame, rest_pose or rigid_bind"}};
 
-Cells case_cells(const ConvergencePaths& of, std::size_t start)
+PathCase case_of(const ConvergencePaths& of, std::size_t start)
 {
     return {of.body,
             of.pose,
             of.vertices,
             of.tets,
-            int(of.own_mesh),
+            of.own_mesh,
             name_of(of.setting.order),
             name_of(of.setting.precision),
             of.k_stretch,
             name_of(all_starts[start])};
 }
 
-template <typename T>
-std::vector<T> joined(std::vector<T> first, const std::vector<T>& more)
-{
-    first.insert(first.end(), more.begin(), more.end());
-    return first;
-}
-
-// Enough of a figure that is drawn; whole numbers would double the record.
+// Enough of a number that is drawn; all digits would double the record.
 double six_digits(double value)
 {
     return std::stod(fmt::format("{:.6g}", value));
+}
+
+Look rounded(Look look)
+{
+    for (const auto member : {&Look::stretch_rms, &Look::volume_rms, &Look::bind_rms_m, &Look::combined, &Look::volume_change_pct,
+                              &Look::volume_abs_change_pct, &Look::error_joint_pct})
+        look.*member = six_digits(look.*member);
+    return look;
 }
 
 // Those that are looked at in a record: the first one past each fifth of a decade, and the last.
@@ -47,133 +57,136 @@ std::vector<Look> thinned(const IterationPath& path)
     double next = 0.0;
     for (const Look& look : path.looks) {
         if (look.iteration < next && &look != &path.looks.back()) continue;
-        kept.push_back(look);
+        kept.push_back(rounded(look));
         next = std::max(look.iteration + 1.0, std::floor(look.iteration * std::pow(10.0, 0.2)));
     }
     return kept;
 }
 
-template <typename Cells_of>
-analysis::CsvTable table_by_look(const ConvergenceResult& result, const std::vector<std::string>& columns, Cells_of cells_of)
+struct LookRow {
+    PathCase of;
+    Look look;
+};
+
+std::vector<LookRow> look_rows(const ConvergenceResult& result)
 {
-    analysis::CsvTable table(joined(case_columns, columns));
+    std::vector<LookRow> rows;
     for (const ConvergencePaths& paths : result.all) {
-        if (!paths.own_mesh && !result.ladder) continue;  // other tessellations of one size are told of by their rates alone
+        if (!paths.own_mesh && !result.ladder) continue;  // other tessellations of one size are recorded by their rates alone
         for (std::size_t start = 0; start < paths.paths.size(); ++start)
-            for (const Look& look : thinned(paths.paths[start]))
-                if (const Cells cells = cells_of(look); !cells.empty()) table.add_row(joined(case_cells(paths, start), cells));
+            for (const Look& look : thinned(paths.paths[start])) rows.push_back({case_of(paths, start), look});
     }
-    return table;
+    return rows;
 }
 
-Cells rate_cells(const ConvergencePaths& of, std::size_t start, double floor)
+RateRow rate_row(const ConvergencePaths& of, std::size_t start, double floor)
 {
     const IterationPath& path = of.paths[start];
-    const Reached residual = reached_residual(path, floor), volume = reached_volume(path);
-    const Rate rate = rate_of(path, floor);
-    const analysis::CsvTable::Cell nothing = std::nullopt;
-    const Look &last = path.looks.back(), &half = look_at(path, last.iteration / 2), &paper = look_at(path, 24),
-               &nearest = nearest_to_reference(path);
-    return {last.iteration,
-            path.finite ? "finished" : "not_finite",
-            floor,
-            path.looks.front().combined,
-            paper.combined,
-            last.combined,
-            100.0 * (last.combined / half.combined - 1.0),
-            rate.stalls_at ? analysis::CsvTable::Cell(*rate.stalls_at) : nothing,
-            rate.rate.estimate,
-            rate.rate.low,
-            rate.rate.high,
-            rate.log_rms_off,
-            residual.iterations,
-            int(residual.within),
-            volume.iterations,
-            int(volume.within),
-            path.iteration_ms,
-            residual.within ? analysis::CsvTable::Cell(residual.iterations * path.iteration_ms) : nothing,
-            volume.within ? analysis::CsvTable::Cell(volume.iterations * path.iteration_ms) : nothing,
-            paper.volume_change_pct,
-            paper.volume_abs_change_pct,
-            last.volume_change_pct,
-            last.volume_abs_change_pct,
-            last.inverted_tets,
-            of.reference,
-            path.looks.front().error_joint_pct,
-            paper.error_joint_pct,
-            nearest.error_joint_pct,
-            nearest.iteration,
-            last.error_joint_pct,
-            int(of.reference_self_intersects),
-            of.limit_from_lbs_pct[start]};
+    RateRow row;
+    row.of = case_of(of, start);
+    row.outcome = path.finite ? "finished" : "not_finite";
+    row.first = path.looks.front();
+    row.paper = look_at(path, 24);
+    row.nearest = nearest_to_reference(path);
+    row.last = path.looks.back();
+    row.iterations = row.last.iteration;
+    row.floor = floor;
+    row.last_half_change_pct = 100.0 * (row.last.combined / look_at(path, row.last.iteration / 2).combined - 1.0);
+    row.rate = rate_of(path, floor);
+    row.residual = reached_residual(path, floor);
+    row.volume = reached_volume(path);
+    row.iteration_cpu_ms = path.iteration_ms;
+    if (row.residual.within) row.cpu_ms_to_residual = row.residual.iterations * path.iteration_ms;
+    if (row.volume.within) row.cpu_ms_to_volume = row.volume.iterations * path.iteration_ms;
+    row.reference = of.reference;
+    row.reference_self_intersects = of.reference_self_intersects;
+    row.limit_from_lbs_pct = of.limit_from_lbs_pct[start];
+    return row;
 }
+
+const Columns<Look> residual_columns = {
+    {"iteration", &Look::iteration, "", "number of the iteration; 0: the initial guess"},
+    {"stretch_rms", &Look::stretch_rms, "", "root mean square of l / l0 - 1 over the edges"},
+    {"volume_rms", &Look::volume_rms, "", "root mean square of V / V0 - 1 over the tets"},
+    {"bind_rms_m", &Look::bind_rms_m, "m", "root mean square of |x_i - q_i| - d_i over the vertices"},
+    {"combined", &Look::combined, "", "root mean square of the three, the last one over the mean distance to the bone"},
+    {"volume_change_pct", &Look::volume_change_pct, "%", "signed change of the whole volume"},
+    {"volume_abs_change_pct", &Look::volume_abs_change_pct, "%", "sum of the absolute changes of each tet"},
+    {"inverted_tets", &Look::inverted_tets, "", "number of inverted tets"}};
+
+const Columns<Look> towards_columns = {
+    {"iteration", &Look::iteration, "", "number of the iteration; 0: the initial guess"},
+    {"error_joint_pct", &Look::error_joint_pct, "%", "distance to the reference over the blended vertices"}};
 
 }  // namespace
 
+const Columns<RateRow> rate_columns =
+    within(&RateRow::of, case_columns) +
+    Columns<RateRow>{
+        {"iterations", &RateRow::iterations, "", "iterations that were done"},
+        {"outcome", &RateRow::outcome, "", "finished or not_finite"},
+        {"floor", &RateRow::floor, "", "lowest combined residual that any initial guess leads to"},
+        {"start_residual", [](auto& row) -> decltype(auto) { return (row.first.combined); }, "", "combined residual of the initial guess"},
+        {"residual_24", [](auto& row) -> decltype(auto) { return (row.paper.combined); }, "", "combined residual after 24 iterations"},
+        {"last_residual", [](auto& row) -> decltype(auto) { return (row.last.combined); }, "",
+         "combined residual after the last iteration"},
+        {"last_half_change_pct", &RateRow::last_half_change_pct, "%", "change of the residual over the second half of the iterations"},
+        {"stalls_at_iteration", [](auto& row) -> decltype(auto) { return (row.rate.stalls_at); }, "",
+         "where the residual stalls; empty: nowhere"},
+        {"rate_per_iteration", [](auto& row) -> decltype(auto) { return (row.rate.rate.estimate); }, "",
+         "factor per iteration of residual - floor"},
+        {"rate_low", [](auto& row) -> decltype(auto) { return (row.rate.rate.low); }, "", "lower end of its interval"},
+        {"rate_high", [](auto& row) -> decltype(auto) { return (row.rate.rate.high); }, "", "upper end of its interval"},
+        {"rate_log_rms_off", [](auto& row) -> decltype(auto) { return (row.rate.log_rms_off); }, "",
+         "root mean square logarithm over the fit"},
+        {"iterations_to_residual", [](auto& row) -> decltype(auto) { return (row.residual.iterations); }, "",
+         "iterations to the residual's tolerance"},
+        {"residual_reached", [](auto& row) -> decltype(auto) { return (row.residual.within); }, "", "they reached it"},
+        {"iterations_to_volume", [](auto& row) -> decltype(auto) { return (row.volume.iterations); }, "",
+         "iterations to the paper's 0.5 % of volume"},
+        {"volume_reached", [](auto& row) -> decltype(auto) { return (row.volume.within); }, "", "they reached it"},
+        {"iteration_cpu_ms", &RateRow::iteration_cpu_ms, "ms", "mean processor time per iteration"},
+        {"cpu_ms_to_residual", &RateRow::cpu_ms_to_residual, "ms", "processor time to the residual's tolerance; empty: not reached"},
+        {"cpu_ms_to_volume", &RateRow::cpu_ms_to_volume, "ms", "processor time to the volume's tolerance; empty: not reached"},
+        {"volume_change_24_pct", [](auto& row) -> decltype(auto) { return (row.paper.volume_change_pct); }, "%",
+         "volume change after 24 iterations"},
+        {"volume_abs_change_24_pct", [](auto& row) -> decltype(auto) { return (row.paper.volume_abs_change_pct); }, "%",
+         "sum of the tets' absolute changes after 24 iterations"},
+        {"last_volume_change_pct", [](auto& row) -> decltype(auto) { return (row.last.volume_change_pct); }, "%",
+         "volume change at the end"},
+        {"last_volume_abs_change_pct", [](auto& row) -> decltype(auto) { return (row.last.volume_abs_change_pct); }, "%",
+         "sum of the tets' absolute changes at the end"},
+        {"last_inverted_tets", [](auto& row) -> decltype(auto) { return (row.last.inverted_tets); }, "", "inverted tets at the end"},
+        {"reference", &RateRow::reference, "", "name of the reference, or why there is none"},
+        {"start_error_pct", [](auto& row) -> decltype(auto) { return (row.first.error_joint_pct); }, "%",
+         "error of the initial guess at the joints"},
+        {"error_24_pct", [](auto& row) -> decltype(auto) { return (row.paper.error_joint_pct); }, "%", "error after 24 iterations"},
+        {"least_error_pct", [](auto& row) -> decltype(auto) { return (row.nearest.error_joint_pct); }, "%", "least error on the way"},
+        {"least_error_iteration", [](auto& row) -> decltype(auto) { return (row.nearest.iteration); }, "", "iteration of the least error"},
+        {"last_error_pct", [](auto& row) -> decltype(auto) { return (row.last.error_joint_pct); }, "%", "error at the end"},
+        {"reference_self_intersects", &RateRow::reference_self_intersects, "", "boundary triangles of the reference intersect"},
+        {"limit_from_lbs_pct", &RateRow::limit_from_lbs_pct, "%", "distance of the last shape from the one that LBS leads to"}};
+
 analysis::CsvTable residual_table(const ConvergenceResult& result)
 {
-    return table_by_look(
-        result,
-        {"iteration", "stretch_rms", "volume_rms", "bind_rms_m", "combined", "volume_change_pct", "volume_abs_change_pct", "inverted_tets"},
-        [](const Look& look) {
-            return Cells{look.iteration,
-                         six_digits(look.stretch_rms),
-                         six_digits(look.volume_rms),
-                         six_digits(look.bind_rms_m),
-                         six_digits(look.combined),
-                         six_digits(look.volume_change_pct),
-                         six_digits(look.volume_abs_change_pct),
-                         look.inverted_tets};
-        });
+    return table_of(within(&LookRow::of, case_columns) + within(&LookRow::look, residual_columns), look_rows(result));
 }
 
-analysis::CsvTable rate_table(const ConvergenceResult& result)
+std::vector<RateRow> rate_rows(const ConvergenceResult& result)
 {
-    analysis::CsvTable table(joined(case_columns, {"iterations",
-                                                   "outcome",
-                                                   "floor",
-                                                   "start_residual",
-                                                   "residual_24",
-                                                   "last_residual",
-                                                   "last_half_change_pct",
-                                                   "stalls_at_iteration",
-                                                   "rate_per_iteration",
-                                                   "rate_low",
-                                                   "rate_high",
-                                                   "rate_log_rms_off",
-                                                   "iterations_to_residual",
-                                                   "residual_reached",
-                                                   "iterations_to_volume",
-                                                   "volume_reached",
-                                                   "iteration_cpu_ms",
-                                                   "cpu_ms_to_residual",
-                                                   "cpu_ms_to_volume",
-                                                   "volume_change_24_pct",
-                                                   "volume_abs_change_24_pct",
-                                                   "last_volume_change_pct",
-                                                   "last_volume_abs_change_pct",
-                                                   "last_inverted_tets",
-                                                   "reference",
-                                                   "start_error_pct",
-                                                   "error_24_pct",
-                                                   "least_error_pct",
-                                                   "least_error_iteration",
-                                                   "last_error_pct",
-                                                   "reference_self_intersects",
-                                                   "limit_from_lbs_pct"}));
+    std::vector<RateRow> rows;
     for (const ConvergencePaths& paths : result.all) {
         const double floor = floor_of(paths.paths);
-        for (std::size_t start = 0; start < paths.paths.size(); ++start)
-            table.add_row(joined(case_cells(paths, start), rate_cells(paths, start, floor)));
+        for (std::size_t start = 0; start < paths.paths.size(); ++start) rows.push_back(rate_row(paths, start, floor));
     }
-    return table;
+    return rows;
 }
 
 analysis::CsvTable towards_table(const ConvergenceResult& result)
 {
-    return table_by_look(result, {"iteration", "error_joint_pct"}, [](const Look& look) {
-        return std::isnan(look.error_joint_pct) ? Cells{} : Cells{look.iteration, six_digits(look.error_joint_pct)};
-    });
+    std::vector<LookRow> rows = look_rows(result);
+    std::erase_if(rows, [](const LookRow& row) { return std::isnan(row.look.error_joint_pct); });
+    return table_of(within(&LookRow::of, case_columns) + within(&LookRow::look, towards_columns), rows);
 }
 
 }  // namespace experiments

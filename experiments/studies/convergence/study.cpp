@@ -39,39 +39,10 @@ std::string measure_and_record(const ConvergenceCase& of, const std::string& fol
     const ConvergenceResult result = measure_convergence(of);
     const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
     residual_table(result).write(path("residuals.csv"));
-    rate_table(result).write(path("rates.csv"));
+    table_of(rate_columns, rate_rows(result)).write(path("rates.csv"));
     towards_table(result).write(path("towards.csv"));
     analysis::measurement_table(convergence_figures(result)).write(path("measurements.csv"));
     return result.breakdown;
-}
-
-nlohmann::json settings_of(const ConvergenceCase& of)
-{
-    nlohmann::json frames, settings;
-    for (const NamedFrame& frame : of.frames) frames.push_back({frame.frame, frame.name, frame.twist});
-    for (const ProjectionSetting& setting : of.settings) settings.push_back({name_of(setting.order), name_of(setting.precision)});
-    return {{"scene", resolved_with_deformers(of.scene)},
-            {"frames", frames},
-            {"settings", settings},
-            {"k_stretch", of.k_stretch},
-            {"other_vertices", of.other_vertices},
-            {"every_setting_to", of.every_setting_to},
-            {"ladder", of.ladder},
-            {"looks", looked_at(of.most_iterations)},
-            {"iterations", of.most_iterations},
-            {"truth", of.truth},
-            {"truth_to", of.truth_to},
-            {"residual_tolerance", residual_tolerance},
-            {"satisfied_residual", satisfied_residual},
-            {"volume_tolerance_pct", volume_tolerance_pct}};
-}
-
-StudyRun convergence_run(const std::string& name, const ConvergenceCase& of, double cost_s)
-{
-    return {.name = name,
-            .cost_s = cost_s,
-            .work = [of](const std::string& folder) { return measure_and_record(of, folder); },
-            .settings = settings_of(of)};
 }
 
 const std::vector<NamedFrame> twists = {{18, "twist 90", {.motion = "twist", .angle_deg = 90.0}, true},
@@ -87,7 +58,7 @@ StudyRun limb_run(const std::string& scene, const std::vector<NamedFrame>& frame
     of.settings = full ? every_setting : few_settings;
     of.other_vertices = full ? std::vector<int>{1650, 1700, 1860, 1900} : std::vector<int>{1650, 1900};
     of.truth = "snh_p1";
-    return convergence_run(scene, of, cost_s);
+    return work_run(scene, of, cost_s, measure_and_record);
 }
 
 StudyRun ladder_run(const std::string& name, const std::string& scene, const std::vector<NamedFrame>& frames, bool full, double cost_s)
@@ -103,7 +74,7 @@ StudyRun ladder_run(const std::string& name, const std::string& scene, const std
     of.ladder = true;
     of.truth = "snh_p1";
     of.truth_to = scene == "limb_bend" ? 2500 : full ? 10000 : 5000;  // beyond, the folded crease takes Newton minutes
-    return convergence_run(name, of, cost_s);
+    return work_run(name, of, cost_s, measure_and_record);
 }
 
 // vertices 0: the body's own default, in the neighbourhood of Table 1's.
@@ -124,7 +95,7 @@ StudyRun body_run(const std::string& body, int vertices, bool full, double cost_
     of.k_stretch = {0.2};
     of.settings = full ? few_settings : std::vector<ProjectionSetting>{every_setting[0], every_setting[2]};
     of.truth = "snh_p1";
-    return convergence_run(vertices > 0 ? fmt::format("{}_{}", body, vertices) : body, of, cost_s);
+    return work_run(vertices > 0 ? fmt::format("{}_{}", body, vertices) : body, of, cost_s, measure_and_record);
 }
 
 // --full: Man and the bunny's stand-in at the sizes of ManHQ and bunnyHQ, too.
@@ -158,24 +129,19 @@ StudyConclusion conclude_convergence_study(const std::string& folder, const Stud
 {
     std::string text = fmt::format("{:8} {:16} {:>8} {:>9} {:15} {:>9} {:>12} {:>12} {:>9} {:>9} {:>9}\n", "body", "pose", "vertices",
                                    "k_stretch", "start", "rate", "to residual", "to volume", "error 24", "least at", "error end");
-    const auto count = [](const analysis::CsvTable& table, int row, const char* iterations, const char* reached) {
-        return fmt::format("{}{}", table.integer(row, reached) ? "" : "> ", table.integer(row, iterations));
-    };
+    const auto count = [](const Reached& reached) { return fmt::format("{}{}", reached.within ? "" : "> ", reached.iterations); };
     const auto known = [](double value, const char* form) { return std::isfinite(value) ? fmt::format(fmt::runtime(form), value) : "-"; };
     for (const std::string& run : finished) {
-        const analysis::CsvTable rates = analysis::read_csv((fs::path(run) / "rates.csv").string());
         const bool is_ladder = fs::path(run).filename().string().starts_with("ladder");
-        for (int row = 0; row < rates.rows(); ++row) {
-            if (rates.text_at(row, "order") != "ordered" || rates.text_at(row, "precision") != "f32") continue;
-            const bool of_lbs = rates.text_at(row, "start") == name_of(SolverStart::lbs);
-            if (is_ladder ? !of_lbs : !rates.integer(row, "own_mesh")) continue;
-            text += fmt::format(
-                "{:8} {:16} {:8} {:9} {:15} {:>9} {:>12} {:>12} {:>9} {:>9} {:>9}\n", rates.text_at(row, "body"),
-                rates.text_at(row, "pose"), rates.integer(row, "vertices"), rates.number(row, "k_stretch"), rates.text_at(row, "start"),
-                known(rates.number(row, "rate_per_iteration"), "{:.4f}"), count(rates, row, "iterations_to_residual", "residual_reached"),
-                count(rates, row, "iterations_to_volume", "volume_reached"), known(rates.number(row, "error_24_pct"), "{:.1f}"),
-                std::isfinite(rates.number(row, "error_24_pct")) ? rates.text_at(row, "least_error_iteration") : "-",
-                known(rates.number(row, "last_error_pct"), "{:.1f}"));
+        for (const RateRow& row : rows_of(rate_columns, analysis::read_csv((fs::path(run) / "rates.csv").string()))) {
+            const PathCase& of = row.of;
+            if (of.order != "ordered" || of.precision != "f32") continue;
+            if (is_ladder ? of.start != name_of(SolverStart::lbs) : !of.own_mesh) continue;
+            text += fmt::format("{:8} {:16} {:8} {:9} {:15} {:>9} {:>12} {:>12} {:>9} {:>9} {:>9}\n", of.body, of.pose, of.vertices,
+                                of.k_stretch, of.start, known(row.rate.rate.estimate, "{:.4f}"), count(row.residual), count(row.volume),
+                                known(row.paper.error_joint_pct, "{:.1f}"),
+                                std::isfinite(row.paper.error_joint_pct) ? std::to_string(row.nearest.iteration) : "-",
+                                known(row.last.error_joint_pct, "{:.1f}"));
         }
     }
     analysis::write_text_atomically((fs::path(folder) / "convergence.md").string(), "```\n" + text + "```\n");

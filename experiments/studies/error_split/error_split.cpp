@@ -3,32 +3,46 @@
 #include "analysis/grid_convergence.hpp"
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/settings/option_fields.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 namespace experiments {
-namespace {
 
-const std::vector<std::string> part_columns = {"scene",
-                                               "frame",
-                                               "angle_deg",
-                                               "k_stretch",
-                                               "iterations",
-                                               "error_joint_pct",
-                                               "solver_pct",
-                                               "model_pct",
-                                               "discretisation_pct",
-                                               "discretisation_of",
-                                               "not_converged_pct",
-                                               "pbs_refinement_pct",
-                                               "error_l2_pct",
-                                               "error_linf_m",
-                                               "truth_self_intersects"};
-const std::vector<std::string> attachment_columns = {"scene",      "frame",       "angle_deg",      "reference",
-                                                     "attachment", "core_radius", "difference_pct", "k_stretch",
-                                                     "model_pct",  "finished",    "self_intersects"};
+const analysis::Columns<ErrorParts> part_columns = {
+    {"scene", &ErrorParts::scene, "", "name of the scene"},
+    {"frame", &ErrorParts::frame, "", "frame of the scene's motion, from 0"},
+    {"angle_deg", &ErrorParts::angle_deg, "deg", "angle of a sweep; nan for clips"},
+    {"k_stretch", &ErrorParts::k_stretch, "", "stiffness of the stretch constraints"},
+    {"iterations", &ErrorParts::iterations, "", "iterations of PBS"},
+    {"error_joint_pct", &ErrorParts::error_joint_pct, "%", "distance of PBS from the reference, at the joints"},
+    {"solver_pct", &ErrorParts::solver_pct, "%", "distance of PBS from its own converged shape"},
+    {"model_pct", &ErrorParts::model_pct, "%", "distance of PBS's converged shape from the reference"},
+    {"discretisation_pct", &ErrorParts::discretisation_pct, "%", "bound of the reference's distance from its limit on ever finer tets"},
+    {"discretisation_of", &ErrorParts::discretisation_of, "", "what that bound was computed from: the truth or its linear twin"},
+    {"not_converged_pct", &ErrorParts::not_converged_pct, "%", "distance of PBS's converged shape from that after half of the iterations"},
+    {"pbs_refinement_pct", &ErrorParts::pbs_refinement_pct, "%", "distance of PBS's converged shape from that on refined tets"},
+    {"error_l2_pct", &ErrorParts::error_l2_pct, "%", "distance of PBS from the reference, over all vertices"},
+    {"error_linf_m", &ErrorParts::error_linf_m, "m", "largest distance of a vertex of PBS from the reference"},
+    {"truth_self_intersects", &ErrorParts::truth_self_intersects, "", "boundary triangles of the reference intersect"}};
+
+const analysis::Columns<AttachmentShare> attachment_columns = {
+    {"scene", &AttachmentShare::scene, "", "name of the scene"},
+    {"frame", &AttachmentShare::frame, "", "frame of the scene's motion, from 0"},
+    {"angle_deg", &AttachmentShare::angle_deg, "deg", "angle of a sweep; nan for clips"},
+    {"reference", &AttachmentShare::reference, "", "label of the reference"},
+    {"attachment", &AttachmentShare::attachment, "", "how its flesh is held by the bones"},
+    {"core_radius", &AttachmentShare::core_radius, "", "radius of the bones over the limb's"},
+    {"difference_pct", &AttachmentShare::difference_pct, "%", "its distance from the linear twin, at the joints"},
+    {"k_stretch", &AttachmentShare::k_stretch, "", "stiffness of the stretch constraints of PBS"},
+    {"model_pct", &AttachmentShare::model_pct, "%", "distance of PBS's converged shape from this reference"},
+    {"finished", &AttachmentShare::finished, "", "the reference reached its pose"},
+    {"self_intersects", &AttachmentShare::self_intersects, "", "its boundary triangles intersect"}};
+
+namespace {
 
 pbs::PbsOptions in_double(const DeformerSpec& spec, double k_stretch, int iterations)
 {
@@ -100,11 +114,7 @@ Converged converge(const ErrorSplitCase& of, double k_stretch, const PosedCharac
 class Splitting {
 public:
     explicit Splitting(const ErrorSplitCase& of)
-        : of_(of),
-          base_(of.scene, of.frames),
-          fine_(refined(of.scene), of.frames),
-          references_(solve_references(of, base_, fine_)),
-          split_{analysis::CsvTable(part_columns), analysis::CsvTable(attachment_columns), {}}
+        : of_(of), base_(of.scene, of.frames), fine_(refined(of.scene), of.frames), references_(solve_references(of, base_, fine_))
     {
     }
 
@@ -129,13 +139,13 @@ private:
         for (std::size_t pose = 0; pose < shapes.size(); ++pose) {
             const Shape& truth = references_.truth[pose];
             const analysis::ErrorNorms total = base_.distance(shapes[pose], truth);
-            split_.parts.add_row({of_.scene.name, of_.frames[pose], base_.angle_deg(pose), options.k_stretch, options.iterations,
-                                  total.joint_pct, base_.distance(shapes[pose], converged.shapes[pose]).joint_pct,
-                                  base_.distance(converged.shapes[pose], truth).joint_pct, discretisation_pct(base_, references_, pose),
-                                  pose >= references_.truth_refined.size() ? "twin" : "truth",
-                                  base_.distance(converged.shapes[pose], converged.half_way[pose]).joint_pct,
-                                  base_.distance(converged.shapes[pose], converged.refined[pose]).joint_pct, total.l2_pct, total.linf_m,
-                                  int(truth.self_intersects)});
+            split_.parts.push_back({of_.scene.name, of_.frames[pose], base_.angle_deg(pose), options.k_stretch, options.iterations,
+                                    total.joint_pct, base_.distance(shapes[pose], converged.shapes[pose]).joint_pct,
+                                    base_.distance(converged.shapes[pose], truth).joint_pct, discretisation_pct(base_, references_, pose),
+                                    pose >= references_.truth_refined.size() ? "twin" : "truth",
+                                    base_.distance(converged.shapes[pose], converged.half_way[pose]).joint_pct,
+                                    base_.distance(converged.shapes[pose], converged.refined[pose]).joint_pct, total.l2_pct, total.linf_m,
+                                    truth.self_intersects});
         }
     }
 
@@ -149,10 +159,10 @@ private:
     {
         const auto& fem = options_of<FemOptions>(spec);
         for (std::size_t pose = 0; pose < shapes.size(); ++pose)
-            split_.attachments.add_row({of_.scene.name, of_.frames[pose], base_.angle_deg(pose), spec.label, name_of(fem.attachment),
-                                        fem.core_radius, base_.distance(shapes[pose], references_.twin[pose]).joint_pct, k_stretch,
-                                        base_.distance(converged.shapes[pose], shapes[pose]).joint_pct, int(shapes[pose].finished),
-                                        int(shapes[pose].self_intersects)});
+            split_.attachments.push_back({of_.scene.name, of_.frames[pose], base_.angle_deg(pose), spec.label, name_of(fem.attachment),
+                                          fem.core_radius, base_.distance(shapes[pose], references_.twin[pose]).joint_pct, k_stretch,
+                                          base_.distance(converged.shapes[pose], shapes[pose]).joint_pct, shapes[pose].finished,
+                                          shapes[pose].self_intersects});
     }
 
     const ErrorSplitCase& of_;
@@ -162,6 +172,23 @@ private:
 };
 
 }  // namespace
+
+nlohmann::json to_json(const ErrorSplitCase& of)
+{
+    static const auto fields = OptionFields<ErrorSplitCase>("error_split")
+                                   .record("scene", &ErrorSplitCase::scene)
+                                   .record("frames", &ErrorSplitCase::frames)
+                                   .record("pbs", &ErrorSplitCase::pbs)
+                                   .record("truth", &ErrorSplitCase::truth)
+                                   .record("twin", &ErrorSplitCase::twin)
+                                   .record("k_stretch", &ErrorSplitCase::k_stretch)
+                                   .record("iterations", &ErrorSplitCase::iterations)
+                                   .record("converged_iterations", &ErrorSplitCase::converged_iterations)
+                                   .record("core_radii", &ErrorSplitCase::core_radii)
+                                   .record("refined_poses", &ErrorSplitCase::refined_poses)
+                                   .complete();
+    return fields.json(of);
+}
 
 ErrorSplit split_error(const ErrorSplitCase& of)
 {

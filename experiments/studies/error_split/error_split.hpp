@@ -7,7 +7,7 @@
 // by the paper's bind constraint instead of by embedded bones) and of the bones' thickness (core_radius).
 #pragma once
 
-#include "analysis/records/csv_table.hpp"
+#include "analysis/records/typed_table.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 
 namespace experiments {
@@ -23,10 +23,34 @@ struct ErrorSplitCase {
     int refined_poses = 0;            // the first so many with the truth on the refined mesh too, the others with its twin alone
 };
 
+nlohmann::json to_json(const ErrorSplitCase& of);
+
+struct ErrorParts {
+    std::string scene;
+    int frame = 0;
+    double angle_deg = 0.0;
+    double k_stretch = 0.0;
+    int iterations = 0;
+    double error_joint_pct = 0.0, solver_pct = 0.0, model_pct = 0.0, discretisation_pct = 0.0;
+    std::string discretisation_of;
+    double not_converged_pct = 0.0, pbs_refinement_pct = 0.0, error_l2_pct = 0.0, error_linf_m = 0.0;
+    bool truth_self_intersects = false;
+};
+struct AttachmentShare {
+    std::string scene;
+    int frame = 0;
+    double angle_deg = 0.0;
+    std::string reference, attachment;
+    double core_radius = 0.0, difference_pct = 0.0, k_stretch = 0.0, model_pct = 0.0;
+    bool finished = false, self_intersects = false;
+};
+extern const analysis::Columns<ErrorParts> part_columns;             // parts.csv
+extern const analysis::Columns<AttachmentShare> attachment_columns;  // attachments.csv
+
 struct ErrorSplit {
-    analysis::CsvTable parts;        // a row per pose, k_stretch and number of iterations
-    analysis::CsvTable attachments;  // a row per pose and reference: how far it is from the twin, and how far converged PBS is from it
-    std::string breakdown;           // what did not finish
+    std::vector<ErrorParts> parts;             // one per pose, k_stretch and number of iterations
+    std::vector<AttachmentShare> attachments;  // one per pose, k_stretch and reference
+    std::string breakdown;                     // what did not finish
 };
 
 ErrorSplit split_error(const ErrorSplitCase& of);

@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 std::string split_and_record(const ErrorSplitCase& of, const std::string& folder)
 {
     const ErrorSplit split = split_error(of);
-    split.parts.write((fs::path(folder) / "parts.csv").string());
-    split.attachments.write((fs::path(folder) / "attachments.csv").string());
+    table_of(part_columns, split.parts).write((fs::path(folder) / "parts.csv").string());
+    table_of(attachment_columns, split.attachments).write((fs::path(folder) / "attachments.csv").string());
     return split.breakdown;
 }
 
@@ -56,10 +56,7 @@ StudyRun split_run(const std::string& name, const std::string& scene, const std:
     of.core_radii = {0.2, 0.5};
     of.refined_poses = name == "human_01_01" ? 0 : full ? static_cast<int>(frames.size()) : 1;  // some 20 s and 7 GB a Newton step
     if (full) of.converged_iterations = 32000;
-    return {.name = name,
-            .cost_s = cost_s,
-            .work = [of](const std::string& folder) { return split_and_record(of, folder); },
-            .settings = {{"scene", resolved_with_deformers(of.scene)}, {"frames", frames}, {"full", full}}};
+    return work_run(name, of, cost_s, split_and_record);
 }
 
 // Not a number: a pose that was not reached.
@@ -96,20 +93,17 @@ StudyConclusion conclude_error_split_study(const std::string& folder, const Stud
         "| scene | angle | k_stretch | error of PBS 24 [% of the bone distance] | solver | model | discretisation (bound) | bones bind |\n"
         "|---|---|---|---|---|---|---|---|\n";
     for (const std::string& run : finished) {
-        const analysis::CsvTable parts = analysis::read_csv((fs::path(run) / "parts.csv").string());
-        const analysis::CsvTable attachments = analysis::read_csv((fs::path(run) / "attachments.csv").string());
-        for (int row = 0; row < parts.rows(); ++row) {
-            if (parts.integer(row, "iterations") != 24) continue;
+        const auto parts = rows_of(part_columns, analysis::read_csv((fs::path(run) / "parts.csv").string()));
+        const auto attachments = rows_of(attachment_columns, analysis::read_csv((fs::path(run) / "attachments.csv").string()));
+        for (const ErrorParts& part : parts) {
+            if (part.iterations != 24) continue;
             double bind_pct = std::numeric_limits<double>::quiet_NaN();
-            for (int other = 0; other < attachments.rows(); ++other)
-                if (attachments.text_at(other, "attachment") == "bind" &&
-                    attachments.integer(other, "frame") == parts.integer(row, "frame") &&
-                    attachments.number(other, "k_stretch") == parts.number(row, "k_stretch"))
-                    bind_pct = attachments.number(other, "model_pct");
-            table += fmt::format(
-                "| {} | {:.0f} | {} | {} | {} | {} | {} | {} |\n", parts.text_at(row, "scene"), parts.number(row, "angle_deg"),
-                parts.number(row, "k_stretch"), told(parts.number(row, "error_joint_pct"), 1), told(parts.number(row, "solver_pct"), 1),
-                told(parts.number(row, "model_pct"), 1), told(parts.number(row, "discretisation_pct"), 2), told(bind_pct, 1));
+            for (const AttachmentShare& other : attachments)
+                if (other.attachment == "bind" && other.frame == part.frame && other.k_stretch == part.k_stretch)
+                    bind_pct = other.model_pct;
+            table += fmt::format("| {} | {:.0f} | {} | {} | {} | {} | {} | {} |\n", part.scene, part.angle_deg, part.k_stretch,
+                                 told(part.error_joint_pct, 1), told(part.solver_pct, 1), told(part.model_pct, 1),
+                                 told(part.discretisation_pct, 2), told(bind_pct, 1));
         }
     }
     analysis::write_text_atomically((fs::path(folder) / "error_split.md").string(), table);

@@ -1,75 +1,111 @@
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "analysis/records/csv_table.hpp"
 #include "analysis/statistics.hpp"
 #include "experiments/scene/motion_case.hpp"
+#include "experiments/settings/option_fields.hpp"
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "experiments/studies/jiggle/jiggle_figures.hpp"
 #include "experiments/studies/jiggle/jiggle_reference.hpp"
-#include "experiments/studies/jiggle/jiggle_zone_contents.hpp"
-#include "experiments/studies/jiggle/walk_response.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
 namespace experiments {
-namespace {
 
-using analysis::CsvTable;
+using analysis::Columns;
+
+const Columns<ResponseRow> response_columns = {
+    {"deformer", &ResponseRow::deformer, "", "pbs, or snh_p1: finite elements in time that swing as fast"},
+    {"k_stretch", [](auto& row) -> decltype(auto) { return (row.setting.k_stretch); }, "",
+     "stiffness of the stretch constraints in the zone"},
+    {"time_step_ms", &ResponseRow::time_step_ms, "ms", "time step"},
+    {"iterations", [](auto& row) -> decltype(auto) { return (row.setting.iterations); }, "", "iterations per step"},
+    {"masses", &ResponseRow::masses, "", "unit or lumped"},
+    {"k_bind", [](auto& row) -> decltype(auto) { return (row.setting.k_bind); }, "", "stiffness of the bind constraints"},
+    {"young_pa", &ResponseRow::young_pa, "Pa", "Young's modulus of the reference; nan for pbs"},
+    {"outcome", &ResponseRow::outcome, "", "what the fit of a damped oscillation found"},
+    {"frequency_hz", [](auto& row) -> decltype(auto) { return (row.response.swing.frequency_hz.estimate); }, "Hz",
+     "frequency of the swing"},
+    {"frequency_low_hz", [](auto& row) -> decltype(auto) { return (row.response.swing.frequency_hz.low); }, "Hz",
+     "lower end of its interval"},
+    {"frequency_high_hz", [](auto& row) -> decltype(auto) { return (row.response.swing.frequency_hz.high); }, "Hz",
+     "upper end of its interval"},
+    {"damping_ratio", [](auto& row) -> decltype(auto) { return (row.response.swing.damping_ratio.estimate); }, "",
+     "damping over critical damping"},
+    {"damping_low", [](auto& row) -> decltype(auto) { return (row.response.swing.damping_ratio.low); }, "", "lower end of its interval"},
+    {"damping_high", [](auto& row) -> decltype(auto) { return (row.response.swing.damping_ratio.high); }, "", "upper end of its interval"},
+    {"explained", [](auto& row) -> decltype(auto) { return (row.response.swing.explained); }, "",
+     "share of the variance that the fit explains"},
+    {"peak_over_jolt", [](auto& row) -> decltype(auto) { return (row.response.peak_over_jolt); }, "",
+     "largest excursion, either way, over the jolt's length"},
+    {"overshoot_over_jolt", [](auto& row) -> decltype(auto) { return (row.response.overshoot_over_jolt); }, "",
+     "overshoot over the jolt's length"},
+    {"left_over_peak", [](auto& row) -> decltype(auto) { return (row.response.left_over_peak); }, "",
+     "largest excursion of the last tenth over the peak"},
+    {"speed_growth", [](auto& row) -> decltype(auto) { return (row.response.speed_growth); }, "",
+     "largest speed after the first tenth over that within it"},
+    {"finished", [](auto& row) -> decltype(auto) { return (row.response.finished); }, "", "all positions are finite"}};
+
+const Columns<SeriesRow> jolt_series_columns = {
+    {"of", &SeriesRow::of, "", "the setting in words"},
+    {"time_s", &SeriesRow::time_s, "s", "time since the jolt"},
+    {"excursion_m", &SeriesRow::excursion_m, "m",
+     "mean displacement of the piece along the jolt, from where it lay, moved with the skeleton"},
+    {"speed_rms_m_s", &SeriesRow::speed_rms_m_s, "m/s", "root mean square speed of the body's vertices"}};
+
+const Columns<SeriesRow> walk_series_columns = {
+    {"of", &SeriesRow::of, "", "the setting in words"},
+    {"time_s", &SeriesRow::time_s, "s", "time since the motion began"},
+    {"lag_rms_m", &SeriesRow::excursion_m, "m", "root mean square distance of the zone from the shape without jiggle"},
+    {"speed_rms_m_s", &SeriesRow::speed_rms_m_s, "m/s", "root mean square speed of the zone's vertices"}};
+
+const Columns<ZoneRow> zone_columns = {
+    {"share_of_vertices", &ZoneRow::share_of_vertices, "", "share of the body's vertices in the jiggling zone"},
+    {"share_on_skin", &ZoneRow::share_on_skin, "", "share of the zone's vertices on the skin"},
+    {"pieces", &ZoneRow::pieces, "", "number of connected pieces of the zone"},
+    {"largest_piece", &ZoneRow::largest_piece, "", "vertices of the largest piece"},
+    {"bone", [](auto& row) -> decltype(auto) { return (row.bone.name); }, "", "name of a bone"},
+    {"share_of_zone", [](auto& row) -> decltype(auto) { return (row.bone.share_of_zone); }, "", "share of the zone that is bound to it"},
+    {"share_of_bone", [](auto& row) -> decltype(auto) { return (row.bone.share_of_bone); }, "",
+     "share of the bone's vertices in the zone"}};
+
+const Columns<WalkRow> walk_columns = {
+    {"k_stretch", &WalkRow::k_stretch, "", "stiffness of the stretch constraints in the zone"},
+    {"moving_lag_rms_mm", [](auto& row) -> decltype(auto) { return (row.response.moving_lag_mm); }, "mm",
+     "root mean square lag over the motion"},
+    {"most_lag_rms_mm", [](auto& row) -> decltype(auto) { return (row.response.most_lag_mm); }, "mm",
+     "largest lag of a step of the motion"},
+    {"last_speed_share", [](auto& row) -> decltype(auto) { return (row.response.last_speed_share); }, "",
+     "speed of the last tenth of the still steps over the motion's mean"},
+    {"finished", [](auto& row) -> decltype(auto) { return (row.response.finished); }, "", "all positions are finite"}};
+
+namespace {
 
 constexpr double first_young_pa = 1e5;  // of the reference, before it is matched
 
-CsvTable response_table()
+ResponseRow response_row(const JiggleSetting& setting, double young_pa, double time_step_s, const JoltResponse& response)
 {
-    return CsvTable(
-        {"deformer",  "k_stretch",      "time_step_ms",        "iterations",        "masses",        "k_bind",      "young_pa",
-         "outcome",   "frequency_hz",   "frequency_low_hz",    "frequency_high_hz", "damping_ratio", "damping_low", "damping_high",
-         "explained", "peak_over_jolt", "overshoot_over_jolt", "left_over_peak",    "speed_growth",  "finished"});
+    return {std::isnan(young_pa) ? "pbs" : "snh_p1", setting, 1e3 * time_step_s, young_pa, name_of(setting.masses),
+            name_of(response.swing.outcome),         response};
 }
 
-// young_pa: of the reference; not a number for pbs.
-void add_response(CsvTable& table, const JiggleSetting& setting, double young_pa, double time_step_s, const JoltResponse& response)
+void add_series(std::vector<SeriesRow>& series, const std::string& name, double time_step_s, const std::vector<double>& excursion_m,
+                const std::vector<double>& speed_rms_m_s)
 {
-    const auto& swing = response.swing;
-    const auto &hz = swing.frequency_hz, &damping = swing.damping_ratio;
-    table.add_row({std::isnan(young_pa) ? "pbs" : "snh_p1",
-                   setting.k_stretch,
-                   1e3 * time_step_s,
-                   setting.iterations,
-                   name_of(setting.masses),
-                   setting.k_bind,
-                   young_pa,
-                   name_of(swing.outcome),
-                   hz.estimate,
-                   hz.low,
-                   hz.high,
-                   damping.estimate,
-                   damping.low,
-                   damping.high,
-                   swing.explained,
-                   response.peak_over_jolt,
-                   response.overshoot_over_jolt,
-                   response.left_over_peak,
-                   response.speed_growth,
-                   static_cast<int>(response.finished)});
+    for (std::size_t i = 0; i < excursion_m.size(); ++i)
+        series.push_back({name, static_cast<double>(i + 1) * time_step_s, excursion_m[i], speed_rms_m_s[i]});
 }
 
-void add_series(CsvTable& table, const std::string& name, double time_step_s, const JoltResponse& response)
+std::vector<ZoneRow> zone_rows(const ZoneContents& zone)
 {
-    for (std::size_t i = 0; i < response.excursion_m.size(); ++i)
-        table.add_row({name, static_cast<double>(i + 1) * time_step_s, response.excursion_m[i], response.speed_rms_m_s[i]});
-}
-
-void write_zone(const std::string& folder, const ZoneContents& zone)
-{
-    CsvTable table({"share_of_vertices", "share_on_skin", "pieces", "largest_piece", "bone", "share_of_zone", "share_of_bone"});
+    std::vector<ZoneRow> rows;
     for (const BoneInZone& bone : zone.bones)
-        table.add_row({zone.share, zone.skin_share, static_cast<int>(zone.pieces.size()), static_cast<int>(zone.pieces.front().size()),
-                       bone.name, bone.share_of_zone, bone.share_of_bone});
-    table.write(analysis::path_in(folder, "zone.csv"));
+        rows.push_back(
+            {zone.share, zone.skin_share, static_cast<int>(zone.pieces.size()), static_cast<int>(zone.pieces.front().size()), bone});
+    return rows;
 }
 
 Jolt jolt_at(const JoltCase& of, const JiggleSetting& setting)
@@ -80,7 +116,8 @@ Jolt jolt_at(const JoltCase& of, const JiggleSetting& setting)
 }
 
 struct JoltRecords {
-    CsvTable responses = response_table(), series = CsvTable({"of", "time_s", "excursion_m", "speed_rms_m_s"});
+    std::vector<ResponseRow> responses = {};
+    std::vector<SeriesRow> series = {};
     std::vector<analysis::Measurement> figures = {};
 };
 
@@ -93,8 +130,9 @@ void add_reference(const JoltCase& of, const pbs::Character& character, const st
     const auto reference = match_reference(character, dynamic_reference(first_young_pa), probe, jolt_at(of, measured.setting), hz);
     if (!reference) return;
     const auto& swing = reference->response.swing;
-    add_response(records.responses, measured.setting, reference->young_pa, reference->time_step_s, reference->response);
-    add_series(records.series, "snh_p1 beside " + text_of(measured.setting), reference->time_step_s, reference->response);
+    records.responses.push_back(response_row(measured.setting, reference->young_pa, reference->time_step_s, reference->response));
+    add_series(records.series, "snh_p1 beside " + text_of(measured.setting), reference->time_step_s, reference->response.excursion_m,
+               reference->response.speed_rms_m_s);
     analysis::CaseKey at = key_of(character.name, measured.setting);
     at.reference = "snh_p1";
     at.young_pa = reference->young_pa;
@@ -108,31 +146,43 @@ void add_reference(const JoltCase& of, const pbs::Character& character, const st
 
 }  // namespace
 
-nlohmann::json settings_of(const JoltCase& of)
+nlohmann::json to_json(const Jolt& jolt)
 {
-    auto settings = nlohmann::json::array();
-    for (const JiggleSetting& setting : of.settings) settings.push_back(text_of(setting));
-    const Jolt& jolt = of.jolt;
-    nlohmann::json all = {{"scene", resolved_with_deformers(of.scene)},
-                          {"jolt",
-                           {{"direction", {jolt.direction.x(), jolt.direction.y(), jolt.direction.z()}},
-                            {"length_m", jolt.length_m},
-                            {"still_steps", jolt.still_steps},
-                            {"steps", jolt.steps}}},
-                          {"settings", settings}};
-    if (of.with_reference)
-        all["reference"] = {{"deformer", "stable neo-Hookean, linear elements, generalised alpha"},
-                            {"first_young_pa", first_young_pa},
-                            {"steps_a_period", reference_steps_a_period},
-                            {"periods", reference_periods}};
-    return all;
+    static const auto fields = OptionFields<Jolt>("jolt")
+                                   .record("direction", &Jolt::direction)
+                                   .record("length_m", &Jolt::length_m)
+                                   .record("time_step_s", &Jolt::time_step_s)
+                                   .record("still_steps", &Jolt::still_steps)
+                                   .record("steps", &Jolt::steps)
+                                   .complete();
+    return fields.json(jolt);
 }
 
-nlohmann::json settings_of(const WalkCase& of)
+nlohmann::json to_json(const JoltCase& of)
 {
-    auto settings = nlohmann::json::array();
-    for (const double k : of.k_stretch) settings.push_back(text_of({.k_stretch = k}));
-    return {{"scene", resolved_with_deformers(of.scene)}, {"settings", settings}, {"still_steps", of.still_steps}};
+    static const nlohmann::json reference = {{"deformer", "stable neo-Hookean, linear elements, generalised alpha"},
+                                             {"first_young_pa", first_young_pa},
+                                             {"steps_a_period", reference_steps_a_period},
+                                             {"periods", reference_periods}};
+    static const auto fields = OptionFields<JoltCase>("jolt")
+                                   .record("scene", &JoltCase::scene)
+                                   .record("jolt", &JoltCase::jolt)
+                                   .record("settings", &JoltCase::settings)
+                                   .record("with_reference", &JoltCase::with_reference)
+                                   .constant("reference", reference)
+                                   .complete();
+    return fields.json(of);
+}
+
+nlohmann::json to_json(const WalkCase& of)
+{
+    static const auto fields = OptionFields<WalkCase>("walk")
+                                   .record("scene", &WalkCase::scene)
+                                   .record("k_stretch", &WalkCase::k_stretch)
+                                   .record("still_steps", &WalkCase::still_steps)
+                                   .constant("setting", to_json(JiggleSetting{}))
+                                   .complete();
+    return fields.json(of);
 }
 
 std::string record_jolts(const JoltCase& of, const std::string& folder)
@@ -147,16 +197,16 @@ std::string record_jolts(const JoltCase& of, const std::string& folder)
         measured.push_back({setting, jolt_response(character, spec, zone.pieces.front(), jolt_at(of, setting))});
         const JoltResponse& response = measured.back().response;
         if (!response.finished) breakdown += text_of(setting) + ". ";
-        add_response(records.responses, setting, analysis::not_known, setting.time_step_s, response);
-        add_series(records.series, text_of(setting), setting.time_step_s, response);
+        records.responses.push_back(response_row(setting, analysis::not_known, setting.time_step_s, response));
+        add_series(records.series, text_of(setting), setting.time_step_s, response.excursion_m, response.speed_rms_m_s);
     }
     if (of.with_reference)
         for (const MeasuredJiggle& one : measured) add_reference(of, character, zone.pieces.front(), one, records);
     else
         records.figures = jiggle_figures(character.name, measured);
-    write_zone(folder, zone);
-    records.responses.write(analysis::path_in(folder, "responses.csv"));
-    records.series.write(analysis::path_in(folder, "series.csv"));
+    table_of(zone_columns, zone_rows(zone)).write(analysis::path_in(folder, "zone.csv"));
+    table_of(response_columns, records.responses).write(analysis::path_in(folder, "responses.csv"));
+    table_of(jolt_series_columns, records.series).write(analysis::path_in(folder, "series.csv"));
     analysis::measurement_table(records.figures).write(analysis::path_in(folder, "measurements.csv"));
     return breakdown;
 }
@@ -165,20 +215,18 @@ std::string record_walk(const WalkCase& of, const std::string& folder)
 {
     const pbs::Character character = pbs::make_character(of.scene.character);
     const pbs::Motion motion = make_motion(of.scene.motion, character.skeleton, of.scene.file);
-    CsvTable walk({"k_stretch", "moving_lag_rms_mm", "most_lag_rms_mm", "last_speed_share", "finished"});
-    CsvTable series({"of", "time_s", "lag_rms_m", "speed_rms_m_s"});
+    std::vector<WalkRow> walk;
+    std::vector<SeriesRow> series;
     std::string breakdown;
     for (const double k : of.k_stretch) {
         const DeformerSpec spec = jiggling(spec_of(of.scene, "pbs"), {.k_stretch = k});
         const WalkResponse response = walk_response(character, motion, spec, pbs::jiggle_zone(character.binding), of.still_steps);
         if (!response.finished) breakdown += fmt::format("k_stretch {}. ", k);
-        walk.add_row({k, response.moving_lag_mm, response.most_lag_mm, response.last_speed_share, static_cast<int>(response.finished)});
-        for (std::size_t i = 0; i < response.lag_rms_m.size(); ++i)
-            series.add_row({fmt::format("k_stretch {}", k), static_cast<double>(i + 1) * motion.time_step_s, response.lag_rms_m[i],
-                            response.speed_rms_m_s[i]});
+        walk.push_back({k, response});
+        add_series(series, fmt::format("k_stretch {}", k), motion.time_step_s, response.lag_rms_m, response.speed_rms_m_s);
     }
-    walk.write(analysis::path_in(folder, "walk.csv"));
-    series.write(analysis::path_in(folder, "series.csv"));
+    table_of(walk_columns, walk).write(analysis::path_in(folder, "walk.csv"));
+    table_of(walk_series_columns, series).write(analysis::path_in(folder, "series.csv"));
     return breakdown;
 }
 

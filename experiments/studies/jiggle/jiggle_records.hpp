@@ -3,8 +3,11 @@
 //   const std::string breakdown = record_walk(of, folder);    // walk.csv, series.csv
 #pragma once
 
+#include "analysis/records/typed_table.hpp"
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
+#include "experiments/studies/jiggle/jiggle_zone_contents.hpp"
 #include "experiments/studies/jiggle/jolt_response.hpp"
+#include "experiments/studies/jiggle/walk_response.hpp"
 #include "experiments/scene/scene.hpp"
 
 #include <string>
@@ -27,9 +30,40 @@ struct WalkCase {
     int still_steps = 100;  // behind the motion
 };
 
+// responses.csv: one row per setting, and one per reference that was matched to it.
+struct ResponseRow {
+    std::string deformer;
+    JiggleSetting setting;
+    double time_step_ms = 0.0;
+    double young_pa = 0.0;  // of the reference; not a number for pbs
+    std::string masses, outcome;
+    JoltResponse response;
+};
+// series.csv of a jolt and of a walk.
+struct SeriesRow {
+    std::string of;
+    double time_s = 0.0, excursion_m = 0.0, speed_rms_m_s = 0.0;
+};
+// zone.csv: the zone's own numbers are the same in all rows.
+struct ZoneRow {
+    double share_of_vertices = 0.0, share_on_skin = 0.0;
+    int pieces = 0, largest_piece = 0;
+    BoneInZone bone;
+};
+// walk.csv
+struct WalkRow {
+    double k_stretch = 0.0;
+    WalkResponse response;
+};
+extern const analysis::Columns<ResponseRow> response_columns;
+extern const analysis::Columns<SeriesRow> jolt_series_columns, walk_series_columns;
+extern const analysis::Columns<ZoneRow> zone_columns;
+extern const analysis::Columns<WalkRow> walk_columns;
+
 // All that a run's result depends on.
-nlohmann::json settings_of(const JoltCase& of);
-nlohmann::json settings_of(const WalkCase& of);
+nlohmann::json to_json(const Jolt& jolt);
+nlohmann::json to_json(const JoltCase& of);
+nlohmann::json to_json(const WalkCase& of);
 
 // What broke down, if anything.
 std::string record_jolts(const JoltCase& of, const std::string& folder);

@@ -1,6 +1,7 @@
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
 
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/settings/option_fields.hpp"
 
 #include <fmt/format.h>
 
@@ -49,6 +50,18 @@ std::string text_of(const JiggleSetting& setting)
     return fmt::format("k_stretch {}, {} ms, {} iterations, {} masses", setting.k_stretch, 1e3 * setting.time_step_s, setting.iterations,
                        name_of(setting.masses)) +
            bind;
+}
+
+nlohmann::json to_json(const JiggleSetting& setting)
+{
+    static const auto fields = OptionFields<JiggleSetting>("setting")
+                                   .record("k_stretch", &JiggleSetting::k_stretch)
+                                   .record("time_step_s", &JiggleSetting::time_step_s)
+                                   .record("iterations", &JiggleSetting::iterations)
+                                   .record("k_bind", &JiggleSetting::k_bind)
+                                   .record("masses", &JiggleSetting::masses)
+                                   .complete();
+    return fields.json(setting);
 }
 
 }  // namespace experiments

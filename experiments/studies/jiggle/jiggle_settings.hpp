@@ -26,6 +26,8 @@ std::vector<JiggleSetting> jiggle_settings();
 // The zone is bound and all masses are 1, as in the paper; others are readings of it.
 bool is_of_the_paper(const JiggleSetting& setting);
 
+nlohmann::json to_json(const JiggleSetting& setting);
+
 DeformerSpec jiggling(DeformerSpec pbs, const JiggleSetting& setting);  // gravity as it has it
 analysis::CaseKey key_of(const std::string& body, const JiggleSetting& setting);
 std::string text_of(const JiggleSetting& setting);  // "k_stretch 0.1, 10 ms, 24 iterations, unit masses"; a k_bind below 1 behind it

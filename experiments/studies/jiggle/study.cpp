@@ -20,31 +20,15 @@
 namespace experiments {
 namespace {
 
-StudyRun jolt_run(const std::string& name, const JoltCase& of, double cost_s)
-{
-    return {.name = name,
-            .cost_s = cost_s,
-            .work = [of](const std::string& folder) { return record_jolts(of, folder); },
-            .settings = settings_of(of)};
-}
-
-StudyRun walk_run(const std::string& name, const WalkCase& of, double cost_s)
-{
-    return {.name = name,
-            .cost_s = cost_s,
-            .work = [of](const std::string& folder) { return record_walk(of, folder); },
-            .settings = settings_of(of)};
-}
-
 void plan_limb(bool full, StudyPlan& plan)
 {
     const Jolt along_the_bones{.direction = pbs::Vec3::UnitX()};
     const Scene limb = read_scene("limb_twist", {});
-    plan.runs.push_back(jolt_run("limb_jolt", {limb, along_the_bones, jiggle_settings()}, 2.5));
+    plan.runs.push_back(work_run<JoltCase>("limb_jolt", {limb, along_the_bones, jiggle_settings()}, 2.5, record_jolts));
     const Scene small = read_scene("limb_twist", {"character.vertices=400"});
     std::vector<JiggleSetting> beside = {JiggleSetting{}};
     if (full) beside = {{.k_stretch = 0.05}, {}, {.k_stretch = 0.2}, {.iterations = 6}};
-    plan.runs.push_back(jolt_run("limb_reference", {small, along_the_bones, beside, true}, full ? 10.0 : 4.0));
+    plan.runs.push_back(work_run<JoltCase>("limb_reference", {small, along_the_bones, beside, true}, full ? 10.0 : 4.0, record_jolts));
 }
 
 void plan_body(const std::string& body, bool full, StudyPlan& plan)
@@ -53,9 +37,10 @@ void plan_body(const std::string& body, bool full, StudyPlan& plan)
                                           "deformers.use=[\"lbs\",\"pbs\"]", "reference.name=\"\""};
     const Scene walking = read_scene("human_01_01", overrides);
     overrides.push_back("pbs.gravity_m_s2=[0.0,0.0,0.0]");
-    plan.runs.push_back(jolt_run(body + "_jolt", {read_scene("human_01_01", overrides), {}, jiggle_settings()}, 3.0));
+    plan.runs.push_back(
+        work_run<JoltCase>(body + "_jolt", {read_scene("human_01_01", overrides), {}, jiggle_settings()}, 3.0, record_jolts));
     const std::vector<double> k = full ? std::vector<double>{0.05, 0.1, 0.2, 0.5, 0.7, 0.9} : std::vector<double>{0.1, 0.7};
-    plan.runs.push_back(walk_run(body + "_walk", {walking, k}, full ? 4.0 : 1.5));
+    plan.runs.push_back(work_run<WalkCase>(body + "_walk", {walking, k}, full ? 4.0 : 1.5, record_walk));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // beside them; and what the bones take of the bind constraints. Writes DIR/momentum/CASE/measurements.csv.
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "experiments/studies/study.hpp"
@@ -15,19 +16,40 @@
 namespace experiments {
 namespace {
 
+struct Setting {
+    std::string name;
+    pbs::Masses known, counted;  // to the projection; to the momentum
+};
+const std::vector<Setting> settings = {{"equal", pbs::Masses::unit, pbs::Masses::unit},
+                                       {"unequal", pbs::Masses::lumped, pbs::Masses::lumped},
+                                       {"unequal_by_eq_8_9", pbs::Masses::unit, pbs::Masses::lumped}};
+
+nlohmann::json to_json(const Setting& setting)
+{
+    static const auto fields = OptionFields<Setting>("setting")
+                                   .record("name", &Setting::name)
+                                   .record("known", &Setting::known)
+                                   .record("counted", &Setting::counted)
+                                   .complete();
+    return fields.json(setting);
+}
+
 struct MomentumCase {
     std::string name;
     Scene scene;
     int frame = 0;
 };
 
-struct Setting {
-    std::string name;
-    pbs::Masses known, counted;  // to the projection; to the momentum
-};
-const Setting settings[] = {{"equal", pbs::Masses::unit, pbs::Masses::unit},
-                            {"unequal", pbs::Masses::lumped, pbs::Masses::lumped},
-                            {"unequal_by_eq_8_9", pbs::Masses::unit, pbs::Masses::lumped}};
+nlohmann::json to_json(const MomentumCase& of)
+{
+    static const auto fields = OptionFields<MomentumCase>("momentum")
+                                   .record("name", &MomentumCase::name)
+                                   .record("scene", &MomentumCase::scene)
+                                   .record("frame", &MomentumCase::frame)
+                                   .constant("masses", option_json(settings))
+                                   .complete();
+    return fields.json(of);
+}
 
 const std::pair<ProjectedClass, const char*> classes[] = {
     {ProjectedClass::stretch, "stretch"}, {ProjectedClass::volume, "volume"}, {ProjectedClass::bind, "bind"}};
@@ -70,22 +92,15 @@ std::string measure_drift(const MomentumCase& of, const std::string& folder)
     return {};
 }
 
-StudyRun momentum_run(const MomentumCase& of, double cost_s)
-{
-    return {.name = of.name,
-            .cost_s = cost_s,
-            .work = [of](const std::string& folder) { return measure_drift(of, folder); },
-            .settings = {{"scene", resolved_with_deformers(of.scene)}, {"frame", of.frame}}};
-}
-
 }  // namespace
 
 StudyPlan plan_momentum_study(bool)
 {
     StudyPlan plan;
-    plan.runs.push_back(momentum_run({"limb", read_scene("limb_bend", {"motion.angle_deg=90", "motion.frames=2"}), 1}, 1.0));
+    plan.runs.push_back(work_run<MomentumCase>("limb", {"limb", read_scene("limb_bend", {"motion.angle_deg=90", "motion.frames=2"}), 1},
+                                               1.0, measure_drift));
     try {
-        plan.runs.push_back(momentum_run({"human", read_scene("human_01_01", {}), 164}, 1.0));
+        plan.runs.push_back(work_run<MomentumCase>("human", {"human", read_scene("human_01_01", {}), 164}, 1.0, measure_drift));
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({"human", error.what()});
     }

@@ -4,6 +4,8 @@
 #include "analysis/statistics.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "analysis/records/kept_record.hpp"
+#include "analysis/records/typed_table.hpp"
+#include "experiments/settings/option_fields.hpp"
 #include "experiments/run/run.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -75,12 +77,23 @@ std::vector<analysis::Measurement> measured_in(const fs::path& run_folder, const
                                  [&](const nlohmann::json& run) { return setup_measurements(key_of(setup, run), metrics, run, changed); });
 }
 
+struct TrialRow {
+    int trial = 0;
+    std::string further_keys, failure;
+};
+const analysis::Columns<TrialRow> trial_columns = {
+    {"trial", &TrialRow::trial, "", "number of the trial, from 0"},
+    {"further_keys", &TrialRow::further_keys, "", "key=value: what else was changed in the scene"},
+    {"failure", &TrialRow::failure, "", "why it did not run; empty where it did"}};
+
+const analysis::Columns<std::string> key_columns = {{"key", std::identity{}, "", "a key that differs from the shared scene's"}};
+
 void write_trials(const std::vector<TriedSetup>& tried, const std::string& path)
 {
-    analysis::CsvTable trials({"trial", "further_keys", "failure"});
+    std::vector<TrialRow> trials;
     for (std::size_t i = 0; i < tried.size(); ++i)
-        trials.add_row({int(i), fmt::format("{}", fmt::join(tried[i].setup.further, " ")), tried[i].failure});
-    trials.write(path);
+        trials.push_back({int(i), fmt::format("{}", fmt::join(tried[i].setup.further, " ")), tried[i].failure});
+    table_of(trial_columns, trials).write(path);
 }
 
 }  // namespace
@@ -97,6 +110,28 @@ Scene scene_of(const BodySetup& setup, double rate_hz)
     overrides.push_back("character.vertices=" + std::to_string(setup.vertices));
     overrides.insert(overrides.end(), setup.further.begin(), setup.further.end());
     return read_scene("human_01_01", overrides);
+}
+
+nlohmann::json to_json(const BodySetup& setup)
+{
+    static const auto fields = OptionFields<BodySetup>("setup")
+                                   .record("body", &BodySetup::body)
+                                   .record("vertices", &BodySetup::vertices)
+                                   .record("further", &BodySetup::further)
+                                   .complete();
+    return fields.json(setup);
+}
+
+nlohmann::json to_json(const SetupCase& of)
+{
+    static const auto fields = OptionFields<SetupCase>("setup")
+                                   .record("setup", &SetupCase::setup)
+                                   .record("rate_hz", &SetupCase::rate_hz)
+                                   .derived("scene", [](const SetupCase& one) { return to_json(scene_of(one.setup, one.rate_hz)); })
+                                   .derived("compared_with", [](const SetupCase& one) { return shared_scene(one.rate_hz).resolved; })
+                                   .constant("further_keys", further_keys())
+                                   .complete();
+    return fields.json(of);
 }
 
 std::vector<std::string> keys_changed(const nlohmann::json& shared, const nlohmann::json& own)
@@ -159,14 +194,15 @@ std::vector<analysis::Measurement> not_set_up(const analysis::CaseKey& of)
     return {{"C17", "keys_changed", of, none, none, none, "1"}, {"C17", "share_of_sound_frames", of, 0.0, 0.0, 0.0, "1"}};
 }
 
-std::string set_up_and_record(const BodySetup& setup, double rate_hz, const std::string& folder)
+std::string set_up_and_record(const SetupCase& of, const std::string& folder)
 {
+    const auto& [setup, rate_hz] = of;
     const fs::path cache = fs::absolute(folder) / "cache", run_folder = fs::path(folder) / "run";
     fs::remove_all(cache);
     use_own_cache(cache);
     const auto run = [&](const BodySetup& own) {
         forget_meshes(cache);
-        return run_scene(scene_of(own, rate_hz), run_folder.string()).failure();
+        return run_scene(scene_of(own, of.rate_hz), run_folder.string()).failure();
     };
     const std::vector<TriedSetup> tried = tried_setups(setup, run);
     fs::remove_all(cache);
@@ -176,9 +212,7 @@ std::string set_up_and_record(const BodySetup& setup, double rate_hz, const std:
     const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
     const std::vector<std::string> changed = keys_changed(shared_scene(rate_hz).resolved, scene_of(last, rate_hz).resolved);
     analysis::measurement_table(runs ? measured_in(run_folder, last, changed) : not_set_up(key_of(setup))).write(path("measurements.csv"));
-    analysis::CsvTable keys({"key"});
-    for (const std::string& key : changed) keys.add_row({key});
-    keys.write(path("changed_keys.csv"));
+    table_of(key_columns, changed).write(path("changed_keys.csv"));
     write_trials(tried, path("trials.csv"));
     return tried.back().failure;
 }

@@ -18,6 +18,14 @@ struct BodySetup {
     std::vector<std::string> further = {};  // key=value: what else had to be changed for it to run
 };
 
+// A run of the study: the body, and frames per second of the clip.
+struct SetupCase {
+    BodySetup setup;
+    double rate_hz = 0.0;
+};
+nlohmann::json to_json(const BodySetup& setup);
+nlohmann::json to_json(const SetupCase& of);
+
 // The text that all share: the human through the clip, PBS alone, at rate_hz frames a second.
 Scene shared_scene(double rate_hz);
 Scene scene_of(const BodySetup& setup, double rate_hz);
@@ -46,6 +54,6 @@ std::vector<analysis::Measurement> not_set_up(const analysis::CaseKey& of);
 
 // Runs it in `folder`/run, with a cache of meshes of its own that is removed afterwards, and writes measurements.csv, changed_keys.csv and
 // trials.csv. Returns what broke down. It sets this process's PBSKIN_CACHE.
-std::string set_up_and_record(const BodySetup& setup, double rate_hz, const std::string& folder);
+std::string set_up_and_record(const SetupCase& of, const std::string& folder);
 
 }  // namespace experiments

@@ -23,12 +23,7 @@ namespace fs = std::filesystem;
 StudyRun setup_run(const BodySetup& setup, double rate_hz, double cost_s)
 {
     const std::string name = setup.vertices > 0 ? fmt::format("{}_{}", setup.body, setup.vertices) : setup.body;
-    return {.name = name,
-            .cost_s = cost_s,
-            .work = [setup, rate_hz](const std::string& folder) { return set_up_and_record(setup, rate_hz, folder); },
-            .settings = {{"scene", resolved_with_deformers(scene_of(setup, rate_hz))},
-                         {"compared_with", shared_scene(rate_hz).resolved},
-                         {"further_keys", further_keys()}}};
+    return work_run<SetupCase>(name, {setup, rate_hz}, cost_s, set_up_and_record);
 }
 
 // Of one run, by quantity.

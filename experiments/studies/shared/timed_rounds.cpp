@@ -1,5 +1,7 @@
 #include "experiments/studies/shared/timed_rounds.hpp"
 
+#include "experiments/settings/option_fields.hpp"
+
 #include "analysis/statistics.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
@@ -8,6 +10,16 @@
 #include <stdexcept>
 
 namespace experiments {
+
+nlohmann::json to_json(const Rounds& rounds)
+{
+    static const auto fields = OptionFields<Rounds>("rounds")
+                                   .record("seconds", &Rounds::seconds)
+                                   .record("fewest", &Rounds::fewest)
+                                   .record("most", &Rounds::most)
+                                   .complete();
+    return fields.json(rounds);
+}
 
 std::vector<std::vector<std::vector<double>>> take_turns(const std::vector<TimedVariant>& variants, const Rounds& rounds)
 {

@@ -21,6 +21,8 @@ struct Rounds {
     int fewest = 3, most = 61;
 };
 
+nlohmann::json to_json(const Rounds& rounds);
+
 struct Spread {
     double median = 0.0, lower = 0.0, upper = 0.0;  // lower, upper: quartiles
     int rounds = 0;

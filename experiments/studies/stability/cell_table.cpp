@@ -18,34 +18,6 @@ using analysis::StabilityOutcome;
 constexpr StabilityOutcome outcomes[] = {StabilityOutcome::converged, StabilityOutcome::bounded, StabilityOutcome::inverted,
                                          StabilityOutcome::diverged, StabilityOutcome::not_finite};
 
-// Columns of cells.csv.
-const std::vector<std::string> columns = {"body",
-                                          "model",
-                                          "factor",
-                                          "value",
-                                          "unit",
-                                          "named",
-                                          "second_factor",
-                                          "second_value",
-                                          "second_unit",
-                                          "precision",
-                                          "time_step_s",
-                                          "steps",
-                                          "outcome",
-                                          "recovery_steps",
-                                          "recovery_s",
-                                          "iterations_until_reached",
-                                          "undisturbed_at_rest",
-                                          "largest_reach_diagonals",
-                                          "last_reach_diagonals",
-                                          "last_motion_diagonals",
-                                          "last_from_undisturbed_diagonals",
-                                          "most_inverted_tets",
-                                          "last_inverted_tets",
-                                          "steps_not_reached",
-                                          "as_published",
-                                          "cpu_s"};
-
 using Keyed = std::vector<std::pair<analysis::CaseKey, std::vector<const MeasuredCell*>>>;
 
 bool jiggles(const StabilityCell& cell)
@@ -102,55 +74,79 @@ ShareInterval share(const std::vector<const MeasuredCell*>& cells, Predicate of)
     return share_interval(static_cast<int>(counted), static_cast<int>(cells.size()));
 }
 
-std::vector<CsvTable::Cell> row_of(const MeasuredCell& measured)
+std::string yes_or_no(bool value)
 {
-    using Cell = CsvTable::Cell;
-    const auto& [cell, result] = measured;
-    const auto& last = result.steps.back();
-    double largest_reach = 0.0;
-    int most_inverted = 0;
-    for (const auto& step : result.steps) {
-        largest_reach = std::max(largest_reach, step.reach);
-        most_inverted = std::max(most_inverted, step.inverted_tets);
-    }
-    const auto recovery = result.stability.recovery_steps;
-    const bool is_map = !cell.second_factor.empty();
-    const auto when_finite = [&](Cell value) { return last.finite ? value : Cell(std::nullopt); };
-    return {cell.body,
-            cell.model,
-            cell.factor,
-            cell.value,
-            cell.unit,
-            cell.named,
-            cell.second_factor,
-            is_map ? Cell(cell.second_value) : Cell(std::nullopt),
-            cell.second_unit,
-            precision_of(cell),
-            cell.time_step_s,
-            static_cast<int>(result.steps.size()),
-            name_of(result.stability.outcome),
-            recovery ? Cell(*recovery) : Cell(std::nullopt),
-            recovery ? Cell(*recovery * cell.time_step_s) : Cell(std::nullopt),
-            result.iterations_until_reached ? Cell(*result.iterations_until_reached) : Cell(std::nullopt),
-            result.has_undisturbed ? "yes" : "no",
-            largest_reach,
-            when_finite(last.reach),
-            when_finite(last.motion),
-            result.has_undisturbed ? when_finite(last.from_undisturbed) : Cell(std::nullopt),
-            most_inverted,
-            when_finite(last.inverted_tets),
-            result.steps_not_reached,
-            cell.as_published ? "yes" : "no",
-            result.cpu_s};
+    return value ? "yes" : "no";
 }
 
 }  // namespace
 
-CsvTable cells_csv(const std::vector<MeasuredCell>& cells)
+const analysis::Columns<CellRow> cell_columns = {
+    {"body", &CellRow::body, "", "name of the body"},
+    {"model", &CellRow::model, "", "method: pbs, pbs_jiggle, xpbd, ..."},
+    {"factor", &CellRow::factor, "", "what is varied"},
+    {"value", &CellRow::value, "", "its value, in the unit of the next column"},
+    {"unit", &CellRow::unit, "", "unit of the value; empty: none"},
+    {"named", &CellRow::named, "", "value of a factor without numbers: flattened"},
+    {"second_factor", &CellRow::second_factor, "", "what else a map varies; empty elsewhere"},
+    {"second_value", &CellRow::second_value, "", "its value"},
+    {"second_unit", &CellRow::second_unit, "", "unit of that value"},
+    {"precision", &CellRow::precision, "", "f32 or f64"},
+    {"time_step_s", &CellRow::time_step_s, "s", "time step"},
+    {"steps", &CellRow::steps, "", "steps that were run"},
+    {"outcome", &CellRow::outcome, "", "converged, bounded, inverted, diverged or not_finite; criteria.md defines them"},
+    {"recovery_steps", &CellRow::recovery_steps, "", "still steps until the body was at rest; empty: it was not"},
+    {"recovery_s", &CellRow::recovery_s, "s", "the same as time"},
+    {"iterations_until_reached", &CellRow::iterations_until_reached, "",
+     "from a broken initial state: iterations until the pose was reached"},
+    {"undisturbed_at_rest", &CellRow::undisturbed_at_rest, "", "yes: the same body comes to rest if nothing disturbs it"},
+    {"largest_reach_diagonals", &CellRow::largest_reach_diagonals, "diagonals", "farthest that a vertex was from its bones' place"},
+    {"last_reach_diagonals", &CellRow::last_reach_diagonals, "diagonals", "the same in the last step; empty where it is not finite"},
+    {"last_motion_diagonals", &CellRow::last_motion_diagonals, "diagonals", "how far a vertex moved in the last step"},
+    {"last_from_undisturbed_diagonals", &CellRow::last_from_undisturbed_diagonals, "diagonals",
+     "distance from the undisturbed body in the last step"},
+    {"most_inverted_tets", &CellRow::most_inverted_tets, "", "most inverted tets of a step"},
+    {"last_inverted_tets", &CellRow::last_inverted_tets, "", "inverted tets in the last step"},
+    {"steps_not_reached", &CellRow::steps_not_reached, "", "steps whose solver did not converge"},
+    {"as_published", &CellRow::as_published, "", "yes: the method of the paper with settings that it allows, which C08 is judged by"},
+    {"cpu_s", &CellRow::cpu_s, "s", "processor time"}};
+
+CellRow cell_row(const MeasuredCell& measured)
 {
-    CsvTable table(columns);
-    for (const MeasuredCell& measured : cells) table.add_row(row_of(measured));
-    return table;
+    const auto& [cell, result] = measured;
+    const auto& last = result.steps.back();
+    CellRow row;
+    row.body = cell.body;
+    row.model = cell.model;
+    row.factor = cell.factor;
+    row.value = cell.value;
+    row.unit = cell.unit;
+    row.named = cell.named;
+    row.second_factor = cell.second_factor;
+    if (!cell.second_factor.empty()) row.second_value = cell.second_value;
+    row.second_unit = cell.second_unit;
+    row.precision = precision_of(cell);
+    row.time_step_s = cell.time_step_s;
+    row.steps = static_cast<int>(result.steps.size());
+    row.outcome = name_of(result.stability.outcome);
+    row.recovery_steps = result.stability.recovery_steps;
+    if (row.recovery_steps) row.recovery_s = *row.recovery_steps * cell.time_step_s;
+    row.iterations_until_reached = result.iterations_until_reached;
+    row.undisturbed_at_rest = yes_or_no(result.has_undisturbed);
+    for (const auto& step : result.steps) {
+        row.largest_reach_diagonals = std::max(row.largest_reach_diagonals, step.reach);
+        row.most_inverted_tets = std::max(row.most_inverted_tets, step.inverted_tets);
+    }
+    if (last.finite) {
+        row.last_reach_diagonals = last.reach;
+        row.last_motion_diagonals = last.motion;
+        if (result.has_undisturbed) row.last_from_undisturbed_diagonals = last.from_undisturbed;
+        row.last_inverted_tets = last.inverted_tets;
+    }
+    row.steps_not_reached = result.steps_not_reached;
+    row.as_published = yes_or_no(cell.as_published);
+    row.cpu_s = result.cpu_s;
+    return row;
 }
 
 CsvTable stability_measurements(const std::vector<MeasuredCell>& cells)
@@ -170,18 +166,16 @@ CsvTable stability_measurements(const std::vector<MeasuredCell>& cells)
     return analysis::measurement_table(rows);
 }
 
-std::string outcome_table(const std::vector<CsvTable>& tables, bool by_factor)
+std::string outcome_table(const std::vector<CellRow>& cells, bool by_factor)
 {
     std::vector<std::string> order;
     std::map<std::string, std::map<std::string, int>> counts;
-    for (const CsvTable& cells : tables)
-        for (int row = 0; row < cells.rows(); ++row) {
-            std::string key = fmt::format("{:<7} {:<31}", cells.text_at(row, "body"), cells.text_at(row, "model"));
-            if (const std::string second = cells.text_at(row, "second_factor"); by_factor)
-                key += fmt::format(" {:<24}", cells.text_at(row, "factor") + (second.empty() ? "" : " x " + second));
-            if (!counts.count(key)) order.push_back(key);
-            ++counts[key][cells.text_at(row, "outcome")];
-        }
+    for (const CellRow& cell : cells) {
+        std::string key = fmt::format("{:<7} {:<31}", cell.body, cell.model);
+        if (by_factor) key += fmt::format(" {:<24}", cell.factor + (cell.second_factor.empty() ? "" : " x " + cell.second_factor));
+        if (!counts.count(key)) order.push_back(key);
+        ++counts[key][cell.outcome];
+    }
     std::string text = fmt::format("{:<7} {:<31}{}", "body", "model", by_factor ? fmt::format(" {:<24}", "factor") : "");
     for (const StabilityOutcome outcome : outcomes) text += fmt::format(" {:>10}", name_of(outcome));
     for (const std::string& key : order) {
@@ -191,40 +185,30 @@ std::string outcome_table(const std::vector<CsvTable>& tables, bool by_factor)
     return text + "\n";
 }
 
-std::string blind_spots(const std::vector<CsvTable>& tables)
+std::string blind_spots(const std::vector<CellRow>& cells)
 {
     std::map<std::string, int> counts;
     std::string missing;
-    for (const CsvTable& cells : tables)
-        for (int row = 0; row < cells.rows(); ++row) {
-            const std::string& outcome = cells.text_at(row, "outcome");
-            ++counts[outcome];
-            const bool control = cells.text_at(row, "named") == "sign" || cells.text_at(row, "factor").starts_with("sign,");
-            if (control && outcome != "diverged" && outcome != "not_finite")
-                missing += fmt::format("the sign as printed does not run away: {}, {}\n", cells.text_at(row, "model"),
-                                       cells.text_at(row, "precision"));
-        }
+    for (const CellRow& cell : cells) {
+        ++counts[cell.outcome];
+        const bool control = cell.named == "sign" || cell.factor.starts_with("sign,");
+        if (control && cell.outcome != "diverged" && cell.outcome != "not_finite")
+            missing += fmt::format("the sign as printed does not run away: {}, {}\n", cell.model, cell.precision);
+    }
     for (const StabilityOutcome outcome : outcomes)
         if (counts[name_of(outcome)] == 0) missing += fmt::format("no cell is {}\n", name_of(outcome));
     return missing;
 }
 
-CsvTable map_csv(const std::vector<CsvTable>& tables, const std::string& factor, const std::string& second_factor)
+CsvTable map_csv(const std::vector<CellRow>& cells, const std::string& factor, const std::string& second_factor)
 {
-    CsvTable map({"factor", "value", "unit", "second_factor", "second_value", "second_unit", "precision", "outcome", "steps",
-                  "last_inverted_tets", "recovery_steps"});
-    const auto or_nothing = [](const std::optional<double>& value) {
-        return value ? CsvTable::Cell(*value) : CsvTable::Cell(std::nullopt);
-    };
-    for (const CsvTable& cells : tables)
-        for (int row = 0; row < cells.rows(); ++row) {
-            if (cells.text_at(row, "factor") != factor || cells.text_at(row, "second_factor") != second_factor) continue;
-            map.add_row({factor, cells.number(row, "value"), cells.text_at(row, "unit"), second_factor, cells.number(row, "second_value"),
-                         cells.text_at(row, "second_unit"), cells.text_at(row, "precision"), cells.text_at(row, "outcome"),
-                         static_cast<int>(cells.integer(row, "steps")), or_nothing(cells.number_or_nothing(row, "last_inverted_tets")),
-                         or_nothing(cells.number_or_nothing(row, "recovery_steps"))});
-        }
-    return map;
+    analysis::Columns<CellRow> columns;
+    for (const char* name : {"factor", "value", "unit", "second_factor", "second_value", "second_unit", "precision", "outcome", "steps",
+                             "last_inverted_tets", "recovery_steps"})
+        columns.push_back(cell_columns.named(name));
+    std::vector<CellRow> map = cells;
+    std::erase_if(map, [&](const CellRow& cell) { return cell.factor != factor || cell.second_factor != second_factor; });
+    return table_of(columns, map);
 }
 
 }  // namespace experiments

@@ -1,6 +1,7 @@
 #include "experiments/studies/stability/stability_cell.hpp"
 
 #include "experiments/deformers/registry.hpp"
+#include "experiments/settings/option_fields.hpp"
 
 namespace experiments {
 
@@ -9,41 +10,51 @@ std::string precision_of(const StabilityCell& cell)
     return traits_of(cell.spec).precision;
 }
 
+nlohmann::json to_json(const Disturbance& disturbance)
+{
+    static const auto fields = OptionFields<Disturbance>("disturbance")
+                                   .record("axis", &Disturbance::axis)
+                                   .record("angle_deg", &Disturbance::angle_deg)
+                                   .record("turning_steps", &Disturbance::turning_steps)
+                                   .record("teleport_m", &Disturbance::teleport_m)
+                                   .record("start", &Disturbance::start)
+                                   .record("stays", &Disturbance::stays)
+                                   .complete();
+    return fields.json(disturbance);
+}
+
 nlohmann::json to_json(const StabilityCell& cell)
 {
-    const Disturbance& disturbance = cell.disturbance;
-    const pbs::Vec3& axis = disturbance.axis;
-    return {{"body", cell.body},
-            {"model", cell.model},
-            {"factor", cell.factor},
-            {"value", cell.value},
-            {"unit", cell.unit},
-            {"second_factor", cell.second_factor},
-            {"second_value", cell.second_value},
-            {"second_unit", cell.second_unit},
-            {"named", cell.named},
-            {"deformer", to_json(cell.spec)},
-            {"axis", {axis.x(), axis.y(), axis.z()}},
-            {"angle_deg", disturbance.angle_deg},
-            {"turning_steps", disturbance.turning_steps},
-            {"teleport_m", disturbance.teleport_m},
-            {"stays", disturbance.stays},
-            {"time_step_s", cell.time_step_s},
-            {"still_steps", cell.still_steps},
-            {"start", static_cast<int>(disturbance.start)},
-            {"defect", static_cast<int>(cell.defect)},
-            {"thinness", cell.thinness},
-            {"mass_ratio", cell.mass_ratio},
-            {"held_end", cell.held_end},
-            {"as_published", cell.as_published}};
+    static const auto fields = OptionFields<StabilityCell>("cell")
+                                   .record("body", &StabilityCell::body)
+                                   .record("model", &StabilityCell::model)
+                                   .record("factor", &StabilityCell::factor)
+                                   .record("value", &StabilityCell::value)
+                                   .record("unit", &StabilityCell::unit)
+                                   .record("second_factor", &StabilityCell::second_factor)
+                                   .record("second_value", &StabilityCell::second_value)
+                                   .record("second_unit", &StabilityCell::second_unit)
+                                   .record("named", &StabilityCell::named)
+                                   .record("deformer", &StabilityCell::spec)
+                                   .record("disturbance", &StabilityCell::disturbance)
+                                   .record("time_step_s", &StabilityCell::time_step_s)
+                                   .record("still_steps", &StabilityCell::still_steps)
+                                   .record("defect", &StabilityCell::defect)
+                                   .record("thinness", &StabilityCell::thinness)
+                                   .record("mass_ratio", &StabilityCell::mass_ratio)
+                                   .record("held_end", &StabilityCell::held_end)
+                                   .record("as_published", &StabilityCell::as_published)
+                                   .complete();
+    return fields.json(cell);
 }
 
 std::string setting_of(const StabilityCell& cell)
 {
     nlohmann::json setting = to_json(cell);
-    for (const char* of_the_way : {"model", "factor", "value", "unit", "second_factor", "second_value", "second_unit", "named",
-                                   "turning_steps", "start", "stays", "as_published"})
+    for (const char* of_the_way :
+         {"model", "factor", "value", "unit", "second_factor", "second_value", "second_unit", "named", "as_published"})
         setting.erase(of_the_way);
+    for (const char* of_the_way : {"turning_steps", "start", "stays"}) setting["disturbance"].erase(of_the_way);
     return setting.dump();
 }
 

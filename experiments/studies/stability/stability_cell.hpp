@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiments/deformers/deformer_spec.hpp"
+#include "experiments/settings/option_names.hpp"
 #include "pbs/geometry/types.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -27,6 +28,20 @@ struct Disturbance {
 
 // Tets spoilt before anything is bound: a seeded share of the vertices is moved until a tet at each is so thin.
 enum class Defect { none, slivers, needles };
+
+template <>
+struct OptionNames<Start> {
+    static constexpr std::array<std::pair<Start, const char*>, 5> table{{{Start::none, "none"},
+                                                                         {Start::flattened, "flattened"},
+                                                                         {Start::mirrored, "mirrored"},
+                                                                         {Start::random, "random"},
+                                                                         {Start::point, "point"}}};
+};
+template <>
+struct OptionNames<Defect> {
+    static constexpr std::array<std::pair<Defect, const char*>, 3> table{
+        {{Defect::none, "none"}, {Defect::slivers, "slivers"}, {Defect::needles, "needles"}}};
+};
 
 inline constexpr double g_m_s2 = 9.81;  // one g
 
@@ -56,7 +71,8 @@ struct StabilityCell {
 };
 
 std::string precision_of(const StabilityCell& cell);  // f32, f64
-nlohmann::json to_json(const StabilityCell& cell);    // all of it
-std::string setting_of(const StabilityCell& cell);    // body, method, place and pose to stay in: all but the way there
+nlohmann::json to_json(const Disturbance& disturbance);
+nlohmann::json to_json(const StabilityCell& cell);  // all of it
+std::string setting_of(const StabilityCell& cell);  // body, method, place and pose to stay in: all but the way there
 
 }  // namespace experiments

@@ -18,6 +18,7 @@
 // Writes DIR/stability/RUN/cells.csv and measurements.csv, and cells.csv, the maps, outcomes.md, criteria.md. It fails where an outcome
 // occurs in no cell, or where the sign as printed does not run away: then the map could not tell stable from unstable.
 #include "analysis/records/atomic_file.hpp"
+#include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_body.hpp"
@@ -37,11 +38,38 @@ namespace fs = std::filesystem;
 
 using Cells = std::vector<StabilityCell>;
 
-std::string run_and_record(const Cells& cells, const std::string& folder)
+struct StabilityCase {
+    Cells cells;
+};
+
+nlohmann::json scenes_of(const StabilityCase& of)
+{
+    nlohmann::json scenes = nlohmann::json::object();
+    for (const StabilityCell& cell : of.cells)
+        if (!scenes.contains(cell.body)) scenes[cell.body] = stability_scene(cell.body).resolved;
+    return scenes;
+}
+
+nlohmann::json to_json(const StabilityCase& of)
+{
+    static const auto fields = OptionFields<StabilityCase>("stability")
+                                   .record("cells", &StabilityCase::cells)
+                                   .derived("scenes", scenes_of)
+                                   .constant("seed", stability_seed)
+                                   .constant("criteria", analysis::criteria_text() + endings_text())
+                                   .complete();
+    return fields.json(of);
+}
+
+std::string run_and_record(const StabilityCase& of, const std::string& folder)
 {
     std::vector<MeasuredCell> measured;
-    for (const StabilityCell& cell : cells) measured.push_back({cell, run_cell(cell)});
-    cells_csv(measured).write((fs::path(folder) / "cells.csv").string());
+    std::vector<CellRow> rows;
+    for (const StabilityCell& cell : of.cells) {
+        measured.push_back({cell, run_cell(cell)});
+        rows.push_back(cell_row(measured.back()));
+    }
+    table_of(cell_columns, rows).write((fs::path(folder) / "cells.csv").string());
     const analysis::CsvTable shares = stability_measurements(measured);
     if (shares.rows() > 0) shares.write((fs::path(folder) / "measurements.csv").string());
     return {};
@@ -49,17 +77,7 @@ std::string run_and_record(const Cells& cells, const std::string& folder)
 
 StudyRun stability_run(const std::string& name, const Cells& cells, double cost_s)
 {
-    nlohmann::json settings = nlohmann::json::array(), scenes;
-    for (const StabilityCell& cell : cells) {
-        settings.push_back(to_json(cell));
-        if (!scenes.contains(cell.body)) scenes[cell.body] = stability_scene(cell.body).resolved;
-    }
-    return {
-        .name = name,
-        .cost_s = cost_s,
-        .work = [cells](const std::string& folder) { return run_and_record(cells, folder); },
-        .settings = {
-            {"cells", settings}, {"scenes", scenes}, {"seed", stability_seed}, {"criteria", analysis::criteria_text() + endings_text()}}};
+    return work_run<StabilityCase>(name, {cells}, cost_s, run_and_record);
 }
 
 void add_character(StudyPlan& plan, const std::string& body, bool full)
@@ -107,17 +125,17 @@ StudyPlan plan_stability_study(bool full)
 
 StudyConclusion conclude_stability_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
 {
-    std::vector<analysis::CsvTable> tables;
-    for (const std::string& run : finished) tables.push_back(analysis::read_csv((fs::path(run) / "cells.csv").string()));
-    analysis::CsvTable all{{}};
-    for (const analysis::CsvTable& table : tables) all.append(table);
-    all.write((fs::path(folder) / "cells.csv").string());
-    map_csv(tables, "time step", "k_stretch").write((fs::path(folder) / "map_time_step_k_stretch.csv").string());
-    map_csv(tables, "iterations", "twist").write((fs::path(folder) / "map_iterations_twist.csv").string());
-    analysis::write_text_atomically((fs::path(folder) / "outcomes.md").string(), "```\n" + outcome_table(tables, true) + "```\n");
+    std::vector<CellRow> cells;
+    for (const std::string& run : finished)
+        for (CellRow& cell : rows_of(cell_columns, analysis::read_csv((fs::path(run) / "cells.csv").string())))
+            cells.push_back(std::move(cell));
+    table_of(cell_columns, cells).write((fs::path(folder) / "cells.csv").string());
+    map_csv(cells, "time step", "k_stretch").write((fs::path(folder) / "map_time_step_k_stretch.csv").string());
+    map_csv(cells, "iterations", "twist").write((fs::path(folder) / "map_iterations_twist.csv").string());
+    analysis::write_text_atomically((fs::path(folder) / "outcomes.md").string(), "```\n" + outcome_table(cells, true) + "```\n");
     analysis::write_text_atomically((fs::path(folder) / "criteria.md").string(), analysis::criteria_text() + endings_text());
-    const std::string missing = blind_spots(tables);
-    return {outcome_table(tables, false) + missing, missing.empty()};
+    const std::string missing = blind_spots(cells);
+    return {outcome_table(cells, false) + missing, missing.empty()};
 }
 
 }  // namespace experiments

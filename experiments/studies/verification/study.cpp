@@ -2,6 +2,7 @@
 // No claim rests on it; it says how far the reference itself may be trusted. Rows into DIR/verification/verification.csv, .json, .md.
 #include "analysis/records/atomic_file.hpp"
 #include "experiments/process/blas_kernels.hpp"
+#include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/verification/verification_module.hpp"
 #include "experiments/studies/verification/verification_record.hpp"
@@ -10,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -29,11 +31,27 @@ pbs::Character limb(int vertices, int refinements)
     return pbs::make_character({.body = "limb", .vertices = vertices, .refinements = refinements});
 }
 
-std::string solve_and_record(const VerificationProblem& problem, const Effort& effort, const std::string& folder)
+struct VerificationCase {
+    std::string problem;
+    bool full = false;
+};
+
+nlohmann::json to_json(const VerificationCase& of)
 {
+    static const auto fields = OptionFields<VerificationCase>("verification")
+                                   .record("problem", &VerificationCase::problem)
+                                   .record("full", &VerificationCase::full)
+                                   .complete();
+    return fields.json(of);
+}
+
+std::string solve_and_record(const VerificationCase& of, const std::string& folder)
+{
+    const auto& problems = problems_of_module();
+    const auto problem = std::find_if(problems.begin(), problems.end(), [&](const auto& one) { return one.name == of.problem; });
     nlohmann::json json = nlohmann::json::array();
     std::string breakdown;
-    for (const VerificationRow& row : problem.rows(effort)) {
+    for (const VerificationRow& row : problem->rows({{.full = of.full}, limb})) {
         json.push_back(to_json(row));
         if (!std::isfinite(row.value)) breakdown += fmt::format("{} of {} on {} is not finite. ", row.quantity, row.elements, row.mesh);
     }
@@ -48,13 +66,8 @@ StudyPlan plan_verification_study(bool full)
     StudyPlan plan;
     try {
         for (const VerificationProblem& problem : problems_of_module())
-            plan.runs.push_back({.name = problem.name,
-                                 .cost_s = full ? problem.full_s : problem.quick_s,
-                                 .work =
-                                     [&problem, full](const std::string& folder) {
-                                         return solve_and_record(problem, {{.full = full}, limb}, folder);
-                                     },
-                                 .settings = {{"problem", problem.name}, {"full", full}}});
+            plan.runs.push_back(
+                work_run<VerificationCase>(problem.name, {problem.name, full}, full ? problem.full_s : problem.quick_s, solve_and_record));
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({"verification", error.what()});
     }

@@ -1,7 +1,7 @@
 #include "experiments/studies/verification/verification_record.hpp"
 
 #include "analysis/records/atomic_file.hpp"
-#include "analysis/records/csv_table.hpp"
+#include "analysis/records/typed_table.hpp"
 
 #include <fmt/format.h>
 
@@ -12,31 +12,47 @@
 namespace experiments {
 namespace {
 
-using Cell = analysis::CsvTable::Cell;
-
-const std::vector<std::string> columns = {"problem",    "quantity",       "elements",       "material", "mesh",           "h_m", "dofs",
-                                          "value",      "reference",      "unit",           "source",   "difference_pct", "low", "high",
-                                          "bound_from", "observed_order", "expected_order", "note",     "holds"};
-
-Cell cell(const std::optional<double>& value)
-{
-    return value ? Cell(*value) : Cell(std::nullopt);
-}
-
 std::string verdict_of(const VerificationRow& row)
 {
     const std::optional<bool> held = holds(row);
     return !held ? "" : *held ? "yes" : "no";
 }
 
+// A row with what follows from it.
+struct RecordedRow {
+    VerificationRow row;
+    std::optional<double> difference_pct;
+    std::string holds;
+};
+const analysis::Columns<RecordedRow> columns = {
+    {"problem", [](auto& one) -> decltype(auto) { return (one.row.problem); }  // namespace
+     ,
+     "", "name of the problem"}  // namespace experiments
+    ,
+    {"quantity", [](auto& one) -> decltype(auto) { return (one.row.quantity); }, "", "what is computed"},
+    {"elements", [](auto& one) -> decltype(auto) { return (one.row.elements); }, "", "elements and formulation"},
+    {"material", [](auto& one) -> decltype(auto) { return (one.row.material); }, "", "constitutive law and its parameters"},
+    {"mesh", [](auto& one) -> decltype(auto) { return (one.row.mesh); }, "", "the mesh in words"},
+    {"h_m", [](auto& one) -> decltype(auto) { return (one.row.h_m); }, "m", "size of its elements"},
+    {"dofs", [](auto& one) -> decltype(auto) { return (one.row.dofs); }, "", "degrees of freedom"},
+    {"value", [](auto& one) -> decltype(auto) { return (one.row.value); }, "", "computed value, in the row's unit"},
+    {"reference", [](auto& one) -> decltype(auto) { return (one.row.reference); }, "", "value that it is compared with, in the row's unit"},
+    {"unit", [](auto& one) -> decltype(auto) { return (one.row.unit); }, "", "unit of both"},
+    {"source", [](auto& one) -> decltype(auto) { return (one.row.source); }, "", "where the reference is from"},
+    {"difference_pct", &RecordedRow::difference_pct, "%", "difference of the value from the reference"},
+    {"low", [](auto& one) -> decltype(auto) { return (one.row.low); }, "", "lower bound of the value"},
+    {"high", [](auto& one) -> decltype(auto) { return (one.row.high); }, "", "upper bound of the value"},
+    {"bound_from", [](auto& one) -> decltype(auto) { return (one.row.bound_from); }, "", "where the bounds are from"},
+    {"observed_order", [](auto& one) -> decltype(auto) { return (one.row.observed_order); }, "", "observed order of convergence"},
+    {"expected_order", [](auto& one) -> decltype(auto) { return (one.row.expected_order); }, "", "order of convergence by theory"},
+    {"note", [](auto& one) -> decltype(auto) { return (one.row.note); }, "", "remark"},
+    {"holds", &RecordedRow::holds, "", "yes, no, or empty where nothing is judged"}};
+
 std::string csv_text(const VerificationRows& rows)
 {
-    analysis::CsvTable table(columns);
-    for (const VerificationRow& row : rows)
-        table.add_row({row.problem, row.quantity, row.elements, row.material, row.mesh, row.h_m, row.dofs, row.value, row.reference,
-                       row.unit, row.source, cell(difference_pct(row)), cell(row.low), cell(row.high), row.bound_from,
-                       cell(row.observed_order), cell(row.expected_order), row.note, verdict_of(row)});
-    return table.text();
+    std::vector<RecordedRow> recorded;
+    for (const VerificationRow& row : rows) recorded.push_back({row, difference_pct(row), verdict_of(row)});
+    return table_of(columns, recorded).text();
 }
 
 std::string number(const std::optional<double>& value, const char* format = "{:.6g}")

@@ -7,29 +7,29 @@
 namespace experiments {
 namespace {
 
-// Rows of one deformer and kind, the greatest loss first.
-std::vector<int> rows_by_loss(const analysis::CsvTable& regions, const std::string& deformer, const std::string& kind)
+struct RegionOfRun {
+    std::string run;
+    RegionChange region;
+};
+
+// Regions of one deformer and kind, the greatest loss first.
+std::vector<RegionChange> by_loss(std::vector<RegionChange> regions, const std::string& deformer, const std::string& kind)
 {
-    std::vector<int> rows;
-    for (int row = 0; row < regions.rows(); ++row)
-        if (regions.text_at(row, "deformer") == deformer && regions.text_at(row, "kind") == kind) rows.push_back(row);
-    std::stable_sort(rows.begin(), rows.end(),
-                     [&](int a, int b) { return regions.number(a, "change_pct") < regions.number(b, "change_pct"); });
-    return rows;
+    std::erase_if(regions, [&](const RegionChange& region) { return region.deformer != deformer || region.kind != kind; });
+    std::stable_sort(regions.begin(), regions.end(), [](const auto& a, const auto& b) { return a.change_pct < b.change_pct; });
+    return regions;
 }
 
 std::string line_of(const RunRegions& run, const std::string& deformer, const std::string& kind, int most)
 {
-    const std::vector<int> rows = rows_by_loss(run.regions, deformer, kind);
-    if (rows.empty()) return {};
+    const std::vector<RegionChange> regions = by_loss(run.regions, deformer, kind);
+    if (regions.empty()) return {};
     double sum = 0.0;
     std::string text;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const double change = run.regions.number(rows[i], "change_pct");
-        sum += change;
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+        sum += regions[i].change_pct;
         if (static_cast<int>(i) < most)
-            text += fmt::format("{}{} {:.2f} ({:.1f})", i ? ", " : "", run.regions.text_at(rows[i], "region"), change,
-                                run.regions.number(rows[i], "own_change_pct"));
+            text += fmt::format("{}{} {:.2f} ({:.1f})", i ? ", " : "", regions[i].region, regions[i].change_pct, regions[i].own_change_pct);
     }
     return fmt::format("{:<16} {:<4} {:<6} {:>7.2f}  {}\n", run.run, deformer, kind, sum, text);
 }
@@ -48,16 +48,13 @@ std::string region_text(const std::vector<RunRegions>& runs, int most)
 
 analysis::CsvTable region_csv(const std::vector<RunRegions>& runs)
 {
-    std::vector<std::string> columns = {"run"};
-    if (!runs.empty()) columns.insert(columns.end(), runs.front().regions.columns().begin(), runs.front().regions.columns().end());
-    analysis::CsvTable all(columns);
+    static const analysis::Columns<RegionOfRun> columns =
+        analysis::Columns<RegionOfRun>{{"run", &RegionOfRun::run, "", "name of the run"}} +
+        analysis::within(&RegionOfRun::region, region_columns);
+    std::vector<RegionOfRun> all;
     for (const RunRegions& run : runs)
-        for (int row = 0; row < run.regions.rows(); ++row) {
-            std::vector<analysis::CsvTable::Cell> cells = {run.run};
-            for (const std::string& column : run.regions.columns()) cells.emplace_back(run.regions.text_at(row, column));
-            all.add_row(cells);
-        }
-    return all;
+        for (const RegionChange& region : run.regions) all.push_back({run.run, region});
+    return table_of(columns, all);
 }
 
 }  // namespace experiments

@@ -1,7 +1,7 @@
 // Which bones and joints a body loses its volume at: the regions.csv of runs, the greatest losses first.
 #pragma once
 
-#include "analysis/records/csv_table.hpp"
+#include "experiments/run/region_record.hpp"
 
 #include <string>
 #include <vector>
@@ -9,8 +9,8 @@
 namespace experiments {
 
 struct RunRegions {
-    std::string run;             // as to be named
-    analysis::CsvTable regions;  // a run's regions.csv
+    std::string run;  // as to be named
+    std::vector<RegionChange> regions;
 };
 
 // For each run, LBS and PBS, and each kind of region: the `most` that lose most, in shares of the body's volume, and how much of it they

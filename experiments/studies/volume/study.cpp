@@ -186,7 +186,8 @@ StudyConclusion conclude_volume_study(const std::string& folder, const StudyPlan
     namespace fs = std::filesystem;
     std::vector<RunRegions> runs;
     for (const std::string& run : finished)
-        runs.push_back({fs::path(run).filename().string(), analysis::read_csv((fs::path(run) / "regions.csv").string())});
+        runs.push_back(
+            {fs::path(run).filename().string(), rows_of(region_columns, analysis::read_csv((fs::path(run) / "regions.csv").string()))});
     const std::string text = region_text(runs);
     region_csv(runs).write((fs::path(folder) / "regions.csv").string());
     analysis::write_text_atomically((fs::path(folder) / "regions.txt").string(), text);

@@ -13,27 +13,25 @@ namespace {
 
 constexpr std::size_t fewest_for_a_mean = 3;
 
-// One pose of one body, as its rows say.
-Diagram diagram_of(const analysis::CsvTable& table)
+// One pose of one body.
+Diagram diagram_of(const std::vector<PointRow>& rows)
 {
     Diagram diagram;
-    diagram.body = table.text_at(0, "body");
-    diagram.pose = table.text_at(0, "pose");
+    diagram.body = rows.front().body;
+    diagram.pose = rows.front().pose;
     diagram.name = diagram.body + ", " + diagram.pose;
-    for (int row = 0; row < table.rows(); ++row) {
-        const auto ms = table.number_or_nothing(row, "ms_median"), error_pct = table.number_or_nothing(row, "error_joint_pct");
-        if (table.text_at(row, "outcome") == "reference") {
-            diagram.reference = table.text_at(row, "reference");
-            diagram.reference_ms = ms;
-            diagram.reference_error_pct = table.number_or_nothing(row, "reference_error_joint_pct");
-            diagram.reference_difference_pct = table.number_or_nothing(row, "error_joint_beside_pct");
-            diagram.self_intersecting = table.number_or_nothing(row, "reference_self_intersects").value_or(0.0) != 0.0;
+    for (const PointRow& row : rows) {
+        if (row.outcome == "reference") {
+            diagram.reference = row.reference;
+            diagram.reference_ms = row.ms_median;
+            diagram.reference_error_pct = row.reference_error_joint_pct;
+            diagram.reference_difference_pct = row.error_joint_beside_pct;
+            diagram.self_intersecting = row.reference_self_intersects.value_or(false);
         }
-        if (!ms || !error_pct) continue;
-        const auto number = [&](const char* column) { return table.number_or_nothing(row, column); };
-        diagram.points.push_back({table.text_at(row, "deformer"), table.text_at(row, "setting"), *ms, number("ms_q1"), number("ms_q3"),
-                                  *error_pct, number("error_l2_pct"), number("error_linf_m"), number("volume_abs_change_pct"),
-                                  number("error_joint_beside_pct"), number("below_reference_error").value_or(0.0) != 0.0});
+        if (row.ms_median && row.error)
+            diagram.points.push_back({row.deformer, row.setting, *row.ms_median, row.ms_q1, row.ms_q3, row.error->joint_pct,
+                                      row.error->l2_pct, row.error->linf_m, row.metrics.volume_abs_change_pct, row.error_joint_beside_pct,
+                                      row.below_reference_error.value_or(false)});
     }
     return diagram;
 }
@@ -135,13 +133,13 @@ std::vector<analysis::WorkPrecision> Diagram::of(const std::vector<std::string>&
     return chosen;
 }
 
-std::vector<Diagram> diagrams_of(const std::vector<analysis::CsvTable>& points)
+std::vector<Diagram> diagrams_of(const std::vector<std::vector<PointRow>>& points)
 {
     std::vector<Diagram> diagrams;
     std::vector<Family> bodies, poses;  // in the order of the records
-    for (const analysis::CsvTable& table : points) {
-        if (table.rows() == 0) continue;
-        diagrams.push_back(diagram_of(table));
+    for (const std::vector<PointRow>& rows : points) {
+        if (rows.empty()) continue;
+        diagrams.push_back(diagram_of(rows));
         if (diagrams.back().reference.empty()) continue;
         add_to(bodies, family_of(diagrams.back().body), diagrams.back());
         add_to(poses, diagrams.back().pose, diagrams.back());

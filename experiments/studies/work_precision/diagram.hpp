@@ -1,12 +1,12 @@
 // Work-precision diagrams from the points on record: one a pose, and of three poses or more of a body (both of the limb's motions are one
 // body's) one of their mean: what a setting is worth that is not chosen anew for each pose. So of a pose that three bodies or more take;
 // bodies with many poses and bodies with one are never thrown together.
-//   for (const Diagram& diagram : diagrams_of({read_csv("a/points.csv"), read_csv("b/points.csv")})) ...
+//   for (const Diagram& diagram : diagrams_of({points_of_a, points_of_b})) ...
 // On record as a point's error: error_joint_pct, the root mean square over the blended vertices, over their mean distance to the bone.
 #pragma once
 
-#include "analysis/records/csv_table.hpp"
 #include "analysis/pareto_front.hpp"
+#include "experiments/studies/work_precision/point_row.hpp"
 
 #include <optional>
 #include <string>
@@ -48,7 +48,7 @@ struct Diagram {
 };
 
 // Of the mean: times and errors are means over the poses, of the settings that have an error in each pose with a reference.
-std::vector<Diagram> diagrams_of(const std::vector<analysis::CsvTable>& points);
+std::vector<Diagram> diagrams_of(const std::vector<std::vector<PointRow>>& points);
 
 // The points of PBS with 1, 4, 24 and 96 iterations, all else by default: budgets of time that others are held to.
 std::vector<DiagramPoint> budgets_of(const Diagram& diagram);

@@ -9,16 +9,70 @@
 namespace experiments {
 namespace {
 
-using Cell = analysis::CsvTable::Cell;
+using analysis::Columns;
 
-Cell known(double value)
-{
-    return std::isfinite(value) ? Cell(value) : Cell(std::nullopt);
-}
+struct FrontRow {
+    std::string diagram, measure, front;
+    DiagramPoint point;
+    double value = 0.0;
+    std::optional<double> reference_error_pct;
+};
+const Columns<FrontRow> front_columns = {
+    {"case", &FrontRow::diagram, "", "body and pose"},
+    {"measure", &FrontRow::measure, "", "what the front is the best of: a column of points.csv"},
+    {"front", &FrontRow::front, "", "whose front it is: a deformer's, or all"},
+    {"deformer", [](auto& row) -> decltype(auto) { return (row.point.deformer); }, "", "name of the deformer"},
+    {"setting", [](auto& row) -> decltype(auto) { return (row.point.setting); }, "", "its setting in words"},
+    {"ms_median", [](auto& row) -> decltype(auto) { return (row.point.ms); }, "ms", "median of the processor time per frame"},
+    {"ms_q1", [](auto& row) -> decltype(auto) { return (row.point.ms_q1); }, "ms", "its lower quartile"},
+    {"ms_q3", [](auto& row) -> decltype(auto) { return (row.point.ms_q3); }, "ms", "its upper quartile"},
+    {"value", &FrontRow::value, "", "the point's value of the measure, in the measure's unit"},
+    {"error_joint_pct", [](auto& row) -> decltype(auto) { return (row.point.error_pct); }, "%", "error over the blended vertices"},
+    {"below_reference_error", [](auto& row) -> decltype(auto) { return (row.point.below_reference_error); }, "",
+     "the error is not above the reference's own bound"},
+    {"reference_error_joint_pct", &FrontRow::reference_error_pct, "%", "bound of the reference's own error at the joints"}};
 
-Cell known(const std::optional<double>& value)
+struct CrossingRow {
+    std::string diagram, deformer, other, outcome = "never";
+    std::optional<double> from_ms = {}, from_ms_q1 = {}, from_ms_q3 = {};
+    std::string setting = {};
+    std::optional<double> error_pct = {}, other_error_pct = {}, reference_error_pct = {};
+    std::optional<bool> told_apart = {}, holds_beside = {};
+};
+const Columns<CrossingRow> crossing_columns = {
+    {"case", &CrossingRow::diagram, "", "body and pose"},
+    {"deformer", &CrossingRow::deformer, "", "a group of deformers"},
+    {"other", &CrossingRow::other, "", "another group"},
+    {"outcome", &CrossingRow::outcome, "", "whether the first group's best is nearer to the reference: always, from some time on, never"},
+    {"from_ms", &CrossingRow::from_ms, "ms", "time per frame from which on it is nearer"},
+    {"from_ms_q1", &CrossingRow::from_ms_q1, "ms", "lower quartile of the time of the point that is nearer"},
+    {"from_ms_q3", &CrossingRow::from_ms_q3, "ms", "its upper quartile"},
+    {"setting", &CrossingRow::setting, "", "setting of that point in words"},
+    {"error_joint_pct", &CrossingRow::error_pct, "%", "error of that point"},
+    {"other_error_joint_pct", &CrossingRow::other_error_pct, "%", "least error of the other group within that time"},
+    {"reference_error_joint_pct", &CrossingRow::reference_error_pct, "%", "bound of the reference's own error at the joints"},
+    {"told_apart", &CrossingRow::told_apart, "", "the two errors differ by more than twice that bound, from that time on"},
+    {"holds_beside", &CrossingRow::holds_beside, "", "the point is nearer to the second solution too, from that time on"}};
+
+struct BudgetRow {
+    std::string diagram, budget_of;
+    double budget_ms = 0.0;
+    std::string group;
+    DiagramPoint point;
+};
+const Columns<BudgetRow> budget_columns = {
+    {"case", &BudgetRow::diagram, "", "body and pose"},
+    {"budget_of", &BudgetRow::budget_of, "", "the setting of PBS whose time is the budget"},
+    {"budget_ms", &BudgetRow::budget_ms, "ms", "that time per frame"},
+    {"group", &BudgetRow::group, "", "a group of deformers"},
+    {"deformer", [](auto& row) -> decltype(auto) { return (row.point.deformer); }, "", "the group's best deformer within the budget"},
+    {"setting", [](auto& row) -> decltype(auto) { return (row.point.setting); }, "", "its setting in words"},
+    {"ms_median", [](auto& row) -> decltype(auto) { return (row.point.ms); }, "ms", "median of its processor time per frame"},
+    {"error_joint_pct", [](auto& row) -> decltype(auto) { return (row.point.error_pct); }, "%", "its error over the blended vertices"}};
+
+std::optional<double> known(double value)
 {
-    return value ? Cell(*value) : Cell(std::nullopt);
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 std::vector<std::string> all_deformers()
@@ -28,76 +82,71 @@ std::vector<std::string> all_deformers()
     return all;
 }
 
-void add_front(analysis::CsvTable& table, const Diagram& diagram, const std::string& measure, const std::string& name,
+void add_front(std::vector<FrontRow>& rows, const Diagram& diagram, const std::string& measure, const std::string& name,
                const std::vector<std::string>& deformers)
 {
     std::vector<std::size_t> indices;
     for (const std::size_t on_front : analysis::pareto_front(diagram.of(deformers, indices, measure))) {
         const DiagramPoint& point = diagram.points[indices[on_front]];
-        table.add_row({diagram.name, measure, name, point.deformer, point.setting, point.ms, known(point.ms_q1), known(point.ms_q3),
-                       value_of(point, measure), point.error_pct, int(point.below_reference_error), known(diagram.reference_error_pct)});
+        rows.push_back({diagram.name, measure, name, point, value_of(point, measure), diagram.reference_error_pct});
     }
 }
 
-void add_crossing(analysis::CsvTable& table, const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other)
+void add_crossing(std::vector<CrossingRow>& rows, const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other)
 {
     std::vector<std::size_t> of_one, of_other;
     const auto ones = diagram.of(one.deformers, of_one), others = diagram.of(other.deformers, of_other);
     if (ones.empty() || others.empty()) return;
+    CrossingRow& row = rows.emplace_back(CrossingRow{diagram.name, one.words, other.words});
+    row.reference_error_pct = diagram.reference_error_pct;
     const auto crossing = analysis::nearer_from(ones, others);
-    std::vector<Cell> row = {diagram.name, one.words, other.words};
-    const auto add = [&](const std::vector<Cell>& cells) { row.insert(row.end(), cells.begin(), cells.end()); };
-    if (crossing) {
-        const DiagramPoint& point = diagram.points[of_one[crossing->one]];
-        const std::optional<Certainty> certainty = certainty_from(diagram, one, other, crossing->from);
-        const auto is = [&](Certainty least) {
-            return certainty && *certainty != Certainty::not_known ? Cell(int(*certainty >= least)) : Cell(std::nullopt);
-        };
-        add({crossing->from_the_start ? "always" : "from", crossing->from, known(point.ms_q1), known(point.ms_q3), point.setting,
-             point.error_pct, known(crossing->other_error), known(diagram.reference_error_pct), is(Certainty::told_apart),
-             is(Certainty::both_solutions)});
-    } else {
-        add({"never", std::nullopt, std::nullopt, std::nullopt, "", std::nullopt, std::nullopt, known(diagram.reference_error_pct),
-             std::nullopt, std::nullopt});
-    }
-    table.add_row(row);
+    if (!crossing) return;
+    const DiagramPoint& point = diagram.points[of_one[crossing->one]];
+    row.outcome = crossing->from_the_start ? "always" : "from";
+    row.from_ms = crossing->from;
+    row.from_ms_q1 = point.ms_q1;
+    row.from_ms_q3 = point.ms_q3;
+    row.setting = point.setting;
+    row.error_pct = point.error_pct;
+    row.other_error_pct = known(crossing->other_error);
+    const std::optional<Certainty> certainty = certainty_from(diagram, one, other, crossing->from);
+    if (!certainty || *certainty == Certainty::not_known) return;
+    row.told_apart = *certainty >= Certainty::told_apart;
+    row.holds_beside = *certainty >= Certainty::both_solutions;
 }
 
 }  // namespace
 
 analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams)
 {
-    analysis::CsvTable table({"case", "measure", "front", "deformer", "setting", "ms_median", "ms_q1", "ms_q3", "value", "error_joint_pct",
-                              "below_reference_error", "reference_error_joint_pct"});
+    std::vector<FrontRow> rows;
     for (const Diagram& diagram : diagrams)
         for (const std::string& measure : measures()) {
-            add_front(table, diagram, measure, "all", all_deformers());
-            for (const std::string& deformer : all_deformers()) add_front(table, diagram, measure, deformer, {deformer});
+            add_front(rows, diagram, measure, "all", all_deformers());
+            for (const std::string& deformer : all_deformers()) add_front(rows, diagram, measure, deformer, {deformer});
         }
-    return table;
+    return table_of(front_columns, rows);
 }
 
 analysis::CsvTable crossings_table(const std::vector<Diagram>& diagrams)
 {
-    analysis::CsvTable table({"case", "deformer", "other", "outcome", "from_ms", "from_ms_q1", "from_ms_q3", "setting", "error_joint_pct",
-                              "other_error_joint_pct", "reference_error_joint_pct", "told_apart", "holds_beside"});
+    std::vector<CrossingRow> rows;
     for (const Diagram& diagram : diagrams)
         for (const DeformerGroup& one : deformer_groups())
             for (const DeformerGroup& other : deformer_groups())
-                if (&one != &other) add_crossing(table, diagram, one, other);
-    return table;
+                if (&one != &other) add_crossing(rows, diagram, one, other);
+    return table_of(crossing_columns, rows);
 }
 
 analysis::CsvTable equal_cost_table(const std::vector<Diagram>& diagrams)
 {
-    analysis::CsvTable table({"case", "budget_of", "budget_ms", "group", "deformer", "setting", "ms_median", "error_joint_pct"});
+    std::vector<BudgetRow> rows;
     for (const Diagram& diagram : diagrams)
         for (const DiagramPoint& budget : budgets_of(diagram))
             for (const DeformerGroup& group : deformer_groups())
                 if (const DiagramPoint* point = best_of(diagram, group, budget.ms))
-                    table.add_row({diagram.name, budget.words(), budget.ms, group.words, point->deformer, point->setting, point->ms,
-                                   point->error_pct});
-    return table;
+                    rows.push_back({diagram.name, budget.words(), budget.ms, group.words, *point});
+    return table_of(budget_columns, rows);
 }
 
 }  // namespace experiments

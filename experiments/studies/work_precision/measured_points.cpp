@@ -4,6 +4,7 @@
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/process/interruption.hpp"
+#include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
 #include "pbs/geometry/meshing.hpp"
@@ -31,8 +32,7 @@ public:
           base_(std::make_shared<pbs::Character>(pbs::make_character(of.scene.character))),
           poses_(poses_of(of, base_->skeleton)),
           ruler_(error_domain(*base_, {})),
-          settings_(point_settings(of.scene, of.range)),
-          measured_{analysis::CsvTable(point_columns()), ""}
+          settings_(point_settings(of.scene, of.range))
     {
         meshes_.emplace(0, BodyMesh(base_));
         if (of.range.refined) meshes_.emplace(refined, BodyMesh::refined(*base_));
@@ -47,7 +47,7 @@ public:
         reference_self_intersects_ =
             reference_.point && pbs::self_intersects(reference_.point->on_base, pbs::boundary_of(base_->mesh.tets));
         const std::vector<FrameTime> times = time_all();
-        for (std::size_t i = 0; i < points_.size(); ++i) measured_.table.add_row(row_of(points_[i], times[i]));
+        for (std::size_t i = 0; i < points_.size(); ++i) measured_.rows.push_back(row_of(points_[i], times[i]));
         return measured_;
     }
 
@@ -84,7 +84,7 @@ private:
         return times;
     }
 
-    std::vector<analysis::CsvTable::Cell> row_of(const ReachedPoint& point, const FrameTime& time)
+    PointRow row_of(const ReachedPoint& point, const FrameTime& time)
     {
         PointFigures figures{of_.body, of_.pose, time, {}, {}, {}, reference_self_intersects_};
         const auto error_to = [&](const ReachedPoint& other) { return ruler_.measure(point.on_base, other.on_base); };
@@ -137,6 +137,24 @@ private:
 };
 
 }  // namespace
+
+nlohmann::json to_json(const WorkPrecisionCase& of)
+{
+    static const auto fields =
+        OptionFields<WorkPrecisionCase>("work_precision")
+            .record("body", &WorkPrecisionCase::body)
+            .record("pose", &WorkPrecisionCase::pose)
+            .record("scene", &WorkPrecisionCase::scene)
+            .record("frame", &WorkPrecisionCase::frame)
+            .record("range", &WorkPrecisionCase::range)
+            .record("rounds", &WorkPrecisionCase::rounds)
+            .record("newton_rounds", &WorkPrecisionCase::newton_rounds)
+            .record("converged_iterations", &WorkPrecisionCase::converged_iterations)
+            .derived("points",
+                     [](const WorkPrecisionCase& one) -> nlohmann::json { return digest_of(point_settings(one.scene, one.range)); })
+            .complete();
+    return fields.json(of);
+}
 
 MeasuredPoints measure_points(const WorkPrecisionCase& of)
 {

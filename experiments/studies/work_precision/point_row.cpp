@@ -1,6 +1,5 @@
 #include "experiments/studies/work_precision/point_row.hpp"
 
-#include "analysis/frame_metrics.hpp"
 #include "experiments/deformers/delta_mush/delta_mush.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
@@ -11,25 +10,39 @@
 namespace experiments {
 namespace {
 
-using Cell = analysis::CsvTable::Cell;
-using Cells = std::vector<Cell>;
+using analysis::Columns;
+using analysis::ErrorNorms;
+using analysis::FrameMetrics;
+using analysis::within;
 
-Cell cell_of(const std::optional<double>& value)
-{
-    if (value) return *value;
-    return std::nullopt;
-}
+const Columns<ErrorNorms> error_columns = {{"error_joint_pct", &ErrorNorms::joint_pct, "%", "error over the blended vertices"},
+                                           {"error_l2_pct", &ErrorNorms::l2_pct, "%", "error over all vertices"},
+                                           {"error_linf_m", &ErrorNorms::linf_m, "m", "largest distance to the reference"}};
 
-Cells cells_of(const PointSetting& setting)
+const Columns<FrameMetrics> volume_columns = {
+    {"volume_change_pct", &FrameMetrics::volume_change_pct, "%", "signed change of the whole volume"},
+    {"volume_abs_change_pct", &FrameMetrics::volume_abs_change_pct, "%", "sum of the absolute changes of each tet"},
+    {"inverted", &FrameMetrics::inverted_tets, "", "number of inverted tets"}};
+
+const Columns<PbsParts> before_discretisation = {
+    {"solver_pct", &PbsParts::solver_pct, "%", "PBS: distance from its own converged shape, at the joints"},
+    {"model_pct", &PbsParts::model_pct, "%", "PBS: distance of its converged shape from the reference, at the joints"}};
+const Columns<PbsParts> after_discretisation = {{"not_converged_pct", &PbsParts::not_converged_pct, "%",
+                                                 "PBS: distance of its converged shape from that after half of the iterations"}};
+
+void add_setting(PointRow& row, const PointSetting& setting)
 {
     const DeformerSpec& spec = setting.spec;
-    Cells cells(6, std::nullopt);  // iterations, k_stretch, order, precision, substeps, element_order
-    if (const auto* mush = options_if<DeltaMushOptions>(spec)) cells[0] = mush->iterations;
-    if (const auto* xpbd = options_if<XpbdOptions>(spec)) cells[0] = xpbd->iterations, cells[4] = xpbd->substeps;
-    if (const auto* fem = options_if<FemOptions>(spec)) cells[5] = fem->element_order;
-    if (const auto* pbs = options_if<pbs::PbsOptions>(spec))
-        cells = {pbs->iterations, pbs->k_stretch, name_of(pbs->order), name_of(pbs->precision), setting.substeps, std::nullopt};
-    return cells;
+    if (const auto* mush = options_if<DeltaMushOptions>(spec)) row.iterations = mush->iterations;
+    if (const auto* xpbd = options_if<XpbdOptions>(spec)) row.iterations = xpbd->iterations, row.substeps = xpbd->substeps;
+    if (const auto* fem = options_if<FemOptions>(spec)) row.element_order = fem->element_order;
+    const auto* pbs = options_if<pbs::PbsOptions>(spec);
+    if (!pbs) return;
+    row.iterations = pbs->iterations;
+    row.k_stretch = pbs->k_stretch;
+    row.order = name_of(pbs->order);
+    row.precision = name_of(pbs->precision);
+    row.substeps = setting.substeps;
 }
 
 std::string outcome_of(const ReachedPoint& point, const ReachedReference& reference)
@@ -39,85 +52,63 @@ std::string outcome_of(const ReachedPoint& point, const ReachedReference& refere
     return point.shape.positions.allFinite() ? "not_converged" : "not_finite";
 }
 
-Cells time_cells(const FrameTime& time)
+void add_time(PointRow& row, const FrameTime& time)
 {
-    if (!time.ms) return {0, time.failed_rounds, std::nullopt, std::nullopt, std::nullopt};
-    Cells cells = {time.ms->rounds, time.failed_rounds, time.ms->median, std::nullopt, std::nullopt};
-    if (time.ms->rounds >= fewest_for_quartiles) cells[3] = time.ms->lower, cells[4] = time.ms->upper;
-    return cells;
+    row.failed_rounds = time.failed_rounds;
+    if (!time.ms) return;
+    row.rounds = time.ms->rounds;
+    row.ms_median = time.ms->median;
+    if (time.ms->rounds >= fewest_for_quartiles) row.ms_q1 = time.ms->lower, row.ms_q3 = time.ms->upper;
 }
 
-Cells error_cells(const std::optional<analysis::ErrorNorms>& error)
+void add_reference(PointRow& row, const ReachedReference& reference, const PointFigures& figures)
 {
-    if (!error) return Cells(3, std::nullopt);
-    return {error->joint_pct, error->l2_pct, error->linf_m};
-}
-
-Cells reference_cells(const ReachedReference& reference, const PointFigures& figures)
-{
-    if (!reference.point) return Cells(7, std::nullopt);
-    Cells cells(7, std::nullopt);
-    cells[0] = reference.point->setting->spec.name;
-    cells[6] = int(figures.reference_self_intersects);
-    if (!reference.bar) return cells;
-    cells[1] = reference.bar->joint_pct;
-    cells[2] = reference.bar->l2_pct;
-    cells[3] = reference.beside->setting->words;
-    cells[4] = cell_of(figures.beside_pct);
-    if (figures.error) cells[5] = int(figures.error->joint_pct <= reference.bar->joint_pct);
-    return cells;
-}
-
-Cells part_cells(const ReachedReference& reference, const std::optional<PbsParts>& parts)
-{
-    if (!parts) return Cells(4, std::nullopt);
-    Cells cells = {parts->solver_pct, parts->model_pct, std::nullopt, parts->not_converged_pct};
-    if (reference.bar) cells[2] = reference.bar->joint_pct;
-    return cells;
+    if (!reference.point) return;
+    row.reference = reference.point->setting->spec.name;
+    row.reference_self_intersects = figures.reference_self_intersects;
+    if (!reference.bar) return;
+    row.reference_error_joint_pct = reference.bar->joint_pct;
+    row.reference_error_l2_pct = reference.bar->l2_pct;
+    row.beside = reference.beside->setting->words;
+    row.error_joint_beside_pct = figures.beside_pct;
+    if (figures.error) row.below_reference_error = figures.error->joint_pct <= reference.bar->joint_pct;
+    if (figures.parts) row.discretisation_pct = reference.bar->joint_pct;
 }
 
 }  // namespace
 
-const std::vector<std::string>& point_columns()
-{
-    static const std::vector<std::string> columns = {"body",
-                                                     "pose",
-                                                     "deformer",
-                                                     "setting",
-                                                     "iterations",
-                                                     "k_stretch",
-                                                     "order",
-                                                     "precision",
-                                                     "substeps",
-                                                     "element_order",
-                                                     "vertices",
-                                                     "tets",
-                                                     "outcome",
-                                                     "reach_ms",
-                                                     "rounds",
-                                                     "failed_rounds",
-                                                     "ms_median",
-                                                     "ms_q1",
-                                                     "ms_q3",
-                                                     "error_joint_pct",
-                                                     "error_l2_pct",
-                                                     "error_linf_m",
-                                                     "volume_change_pct",
-                                                     "volume_abs_change_pct",
-                                                     "inverted",
-                                                     "reference",
-                                                     "reference_error_joint_pct",
-                                                     "reference_error_l2_pct",
-                                                     "beside",
-                                                     "error_joint_beside_pct",
-                                                     "below_reference_error",
-                                                     "reference_self_intersects",
-                                                     "solver_pct",
-                                                     "model_pct",
-                                                     "discretisation_pct",
-                                                     "not_converged_pct"};
-    return columns;
-}
+using Points = Columns<PointRow>;
+const Columns<PointRow> point_columns =
+    Points{{"body", &PointRow::body, "", "body and motion: limb twist"},
+           {"pose", &PointRow::pose, "", "pose of the motion: 90 deg"},
+           {"deformer", &PointRow::deformer, "", "name of the deformer"},
+           {"setting", &PointRow::setting, "", "its setting in words"},
+           {"iterations", &PointRow::iterations, "", "iterations per step"},
+           {"k_stretch", &PointRow::k_stretch, "", "PBS: stiffness of the stretch constraints"},
+           {"order", &PointRow::order, "", "PBS: order of projection"},
+           {"precision", &PointRow::precision, "", "PBS: f32 or f64"},
+           {"substeps", &PointRow::substeps, "", "PBS and XPBD: substeps per frame"},
+           {"element_order", &PointRow::element_order, "", "finite elements: 1 linear, 2 quadratic"},
+           {"vertices", &PointRow::vertices, "", "vertices of the mesh that it is solved on"},
+           {"tets", &PointRow::tets, "", "tets of that mesh"},
+           {"outcome", &PointRow::outcome, "", "reference, finished, not_converged or not_finite"},
+           {"reach_ms", &PointRow::reach_ms, "ms", "wall time from rest to the pose"},
+           {"rounds", &PointRow::rounds, "", "number of timed frames"},
+           {"failed_rounds", &PointRow::failed_rounds, "", "frames that did not reach their pose and are left out"},
+           {"ms_median", &PointRow::ms_median, "ms", "median of the processor time per frame"},
+           {"ms_q1", &PointRow::ms_q1, "ms", "its lower quartile"},
+           {"ms_q3", &PointRow::ms_q3, "ms", "its upper quartile"}} +
+    within(&PointRow::error, error_columns) + within(&PointRow::metrics, volume_columns) +
+    Points{{"reference", &PointRow::reference, "", "name of the reference; empty where none was reached"},
+           {"reference_error_joint_pct", &PointRow::reference_error_joint_pct, "%", "bound of the reference's own error at the joints"},
+           {"reference_error_l2_pct", &PointRow::reference_error_l2_pct, "%", "bound of the reference's own error over all vertices"},
+           {"beside", &PointRow::beside, "", "setting of the second solution, which gives that bound"},
+           {"error_joint_beside_pct", &PointRow::error_joint_beside_pct, "%", "error at the joints against the second solution"},
+           {"below_reference_error", &PointRow::below_reference_error, "", "the error is not above the reference's own bound"},
+           {"reference_self_intersects", &PointRow::reference_self_intersects, "", "boundary triangles of the reference intersect"}} +
+    within(&PointRow::parts, before_discretisation) +
+    Points{{"discretisation_pct", &PointRow::discretisation_pct, "%", "PBS: bound of the reference's distance from its limit"}} +
+    within(&PointRow::parts, after_discretisation);
 
 FrameTime frame_time(std::vector<double> samples)
 {
@@ -127,19 +118,20 @@ FrameTime frame_time(std::vector<double> samples)
     return time;
 }
 
-Cells point_row(const ReachedPoint& point, const ReachedReference& reference, const PointFigures& figures)
+PointRow point_row(const ReachedPoint& point, const ReachedReference& reference, const PointFigures& figures)
 {
     const pbs::TetMesh& mesh = point.mesh->character().mesh;
-    const analysis::FrameMetrics metrics = analysis::Ruler(mesh.rest, mesh.tets).measure(point.shape.positions);
-    Cells row = {figures.body, figures.pose, point.setting->deformer, point.setting->words};
-    const auto add = [&](const Cells& cells) { row.insert(row.end(), cells.begin(), cells.end()); };
-    add(cells_of(*point.setting));
-    add({int(mesh.rest.rows()), int(mesh.tets.rows()), outcome_of(point, reference), 1e3 * point.shape.seconds});
-    add(time_cells(figures.time));
-    add(error_cells(figures.error));
-    add({metrics.volume_change_pct, metrics.volume_abs_change_pct, metrics.inverted_tets});
-    add(reference_cells(reference, figures));
-    add(part_cells(reference, figures.parts));
+    PointRow row{figures.body, figures.pose, point.setting->deformer, point.setting->words};
+    add_setting(row, *point.setting);
+    row.vertices = int(mesh.rest.rows());
+    row.tets = int(mesh.tets.rows());
+    row.outcome = outcome_of(point, reference);
+    row.reach_ms = 1e3 * point.shape.seconds;
+    add_time(row, figures.time);
+    row.error = figures.error;
+    row.metrics = analysis::Ruler(mesh.rest, mesh.tets).measure(point.shape.positions);
+    add_reference(row, reference, figures);
+    row.parts = figures.parts;
     return row;
 }
 

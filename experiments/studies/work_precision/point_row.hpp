@@ -1,7 +1,8 @@
-// One row of points.csv: a setting, its time, its error, its volume, the reference it is measured by.
+// points.csv: one row per setting, with its time, its error, its volume and the reference that it is compared with.
 #pragma once
 
-#include "analysis/records/csv_table.hpp"
+#include "analysis/records/typed_table.hpp"
+#include "analysis/frame_metrics.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/studies/work_precision/reached_reference.hpp"
 
@@ -31,7 +32,29 @@ struct PointFigures {
     bool reference_self_intersects = false;
 };
 
-const std::vector<std::string>& point_columns();
-std::vector<analysis::CsvTable::Cell> point_row(const ReachedPoint& point, const ReachedReference& reference, const PointFigures& figures);
+struct PointRow {
+    std::string body, pose, deformer, setting;
+    std::optional<int> iterations = {};
+    std::optional<double> k_stretch = {};
+    std::string order = {}, precision = {};
+    std::optional<int> substeps = {}, element_order = {};
+    int vertices = 0, tets = 0;
+    std::string outcome = {};
+    double reach_ms = 0.0;
+    int rounds = 0, failed_rounds = 0;
+    std::optional<double> ms_median = {}, ms_q1 = {}, ms_q3 = {};
+    std::optional<analysis::ErrorNorms> error = {};
+    analysis::FrameMetrics metrics = {};
+    std::string reference = {};
+    std::optional<double> reference_error_joint_pct = {}, reference_error_l2_pct = {};
+    std::string beside = {};
+    std::optional<double> error_joint_beside_pct = {};
+    std::optional<bool> below_reference_error = {}, reference_self_intersects = {};
+    std::optional<PbsParts> parts = {};
+    std::optional<double> discretisation_pct = {};
+};
+extern const analysis::Columns<PointRow> point_columns;
+
+PointRow point_row(const ReachedPoint& point, const ReachedReference& reference, const PointFigures& figures);
 
 }  // namespace experiments

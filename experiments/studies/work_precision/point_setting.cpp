@@ -5,6 +5,7 @@
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/deformers/xpbd/xpbd_options.hpp"
+#include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -157,6 +158,19 @@ std::string digest_of(const std::vector<PointSetting>& settings)
     for (const PointSetting& setting : settings)
         all.push_back({setting.deformer, setting.words, to_json(setting.spec), setting.substeps, setting.vertices, setting.refined});
     return pbs::content_hash(all.dump());
+}
+
+nlohmann::json to_json(const SettingRange& range)
+{
+    static const auto fields = OptionFields<SettingRange>("range")
+                                   .record("quadratic", &SettingRange::quadratic)
+                                   .record("quadratic_corotational", &SettingRange::quadratic_corotational)
+                                   .record("coarser_vertices", &SettingRange::coarser_vertices)
+                                   .record("finer_vertices", &SettingRange::finer_vertices)
+                                   .record("quadratic_up_to", &SettingRange::quadratic_up_to)
+                                   .record("refined", &SettingRange::refined)
+                                   .complete();
+    return fields.json(range);
 }
 
 std::string words_of(const pbs::PbsOptions& options)

@@ -40,6 +40,8 @@ struct SettingRange {
     int quadratic_up_to = 1000;  // sizes of other meshes on which the nonlinear laws have quadratic elements too
     bool refined = false;        // stable neo-Hookean flesh on the case's own tets, each cut into eight
 };
+nlohmann::json to_json(const SettingRange& range);
+
 // The scene gives the options that are not varied: its pbs, and the material and attachment of its first [[fem]].
 std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange& range);
 

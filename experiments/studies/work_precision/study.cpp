@@ -28,34 +28,8 @@ namespace fs = std::filesystem;
 std::string measure_and_record(const WorkPrecisionCase& of, const std::string& folder)
 {
     const MeasuredPoints points = measure_points(of);
-    points.table.write((fs::path(folder) / "points.csv").string());
+    table_of(point_columns, points.rows).write((fs::path(folder) / "points.csv").string());
     return points.breakdown;
-}
-
-nlohmann::json to_json(const Rounds& rounds)
-{
-    return {{"seconds", rounds.seconds}, {"fewest", rounds.fewest}, {"most", rounds.most}};
-}
-
-StudyRun case_run(const std::string& name, const WorkPrecisionCase& of, double cost_s)
-{
-    return {.name = name,
-            .cost_s = cost_s,
-            .work = [of](const std::string& folder) { return measure_and_record(of, folder); },
-            .settings = {{"scene", resolved_with_deformers(of.scene)},
-                         {"body", of.body},
-                         {"pose", of.pose},
-                         {"frame", of.frame},
-                         {"quadratic", of.range.quadratic},
-                         {"quadratic_corotational", of.range.quadratic_corotational},
-                         {"refined", of.range.refined},
-                         {"coarser_vertices", of.range.coarser_vertices},
-                         {"finer_vertices", of.range.finer_vertices},
-                         {"quadratic_up_to", of.range.quadratic_up_to},
-                         {"points", digest_of(point_settings(of.scene, of.range))},
-                         {"rounds", to_json(of.rounds)},
-                         {"newton_rounds", to_json(of.newton_rounds)},
-                         {"converged_iterations", of.converged_iterations}}};
 }
 
 // 5 degrees a frame: the step that a frame is timed on.
@@ -72,7 +46,7 @@ StudyRun limb_run(const std::string& motion, int angle_deg, bool full, double co
     if (full && motion == "twist") of.range.finer_vertices = {5000};  // fine creases of a bend take Newton minutes a frame
     of.rounds = {.seconds = full ? 10.0 : 3.0, .fewest = 5, .most = 31};
     of.newton_rounds = {.seconds = full ? 10.0 : 0.0, .fewest = full ? 3 : 1, .most = 9};
-    return case_run(fmt::format("{}_{}", scene, angle_deg), of, cost_s);
+    return work_run(fmt::format("{}_{}", scene, angle_deg), of, cost_s, measure_and_record);
 }
 
 struct BodyPose {
@@ -109,7 +83,7 @@ StudyRun body_run(const std::string& body, const BodyPose& pose, bool full, doub
     std::string name = body + "_" + pose.name;
     std::replace_if(
         name.begin(), name.end(), [](char c) { return c == ' ' || c == '/'; }, '_');
-    return case_run(name, of, cost_s);
+    return work_run(name, of, cost_s, measure_and_record);
 }
 
 }  // namespace
@@ -142,12 +116,14 @@ StudyPlan plan_work_precision_study(bool full)
 
 StudyConclusion conclude_work_precision_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
 {
-    std::vector<analysis::CsvTable> points;
-    for (const std::string& run : finished) points.push_back(analysis::read_csv((fs::path(run) / "points.csv").string()));
+    std::vector<std::vector<PointRow>> points;
+    std::vector<PointRow> all;
+    for (const std::string& run : finished) {
+        points.push_back(rows_of(point_columns, analysis::read_csv((fs::path(run) / "points.csv").string())));
+        all.insert(all.end(), points.back().begin(), points.back().end());
+    }
     if (points.empty()) return {"", false};
-    analysis::CsvTable all{{}};
-    for (const analysis::CsvTable& table : points) all.append(table);
-    all.write((fs::path(folder) / "points.csv").string());
+    table_of(point_columns, all).write((fs::path(folder) / "points.csv").string());
     const std::vector<Diagram> diagrams = diagrams_of(points);
     fronts_table(diagrams).write((fs::path(folder) / "fronts.csv").string());
     crossings_table(diagrams).write((fs::path(folder) / "crossings.csv").string());

@@ -77,6 +77,13 @@ TEST(StabilityVerdict, CellsThatThePaperDoesNotClaimDoNotCount)
     EXPECT_EQ(verdict_on(cells), VerdictKind::reproduced);
 }
 
+std::vector<experiments::CellRow> rows_of_cells(const std::vector<MeasuredCell>& cells)
+{
+    std::vector<experiments::CellRow> rows;
+    for (const MeasuredCell& cell : cells) rows.push_back(experiments::cell_row(cell));
+    return rows;
+}
+
 // A map in which the sign as printed looks stable, or that never shows an outcome, says nothing: the study fails.
 TEST(StabilityVerdict, AMapThatCannotTellIsRefused)
 {
@@ -86,12 +93,12 @@ TEST(StabilityVerdict, AMapThatCannotTellIsRefused)
         cells.push_back(cell_of("time step", outcome));
     cells.push_back(cell_of("printed form", StabilityOutcome::diverged, false));
     cells.back().cell.named = "sign";
-    EXPECT_EQ(blind_spots({cells_csv(cells)}), "");
+    EXPECT_EQ(blind_spots(rows_of_cells(cells)), "");
     cells.back().result.stability.outcome = StabilityOutcome::converged;
-    EXPECT_NE(blind_spots({cells_csv(cells)}), "");
+    EXPECT_NE(blind_spots(rows_of_cells(cells)), "");
     cells.back().result.stability.outcome = StabilityOutcome::not_finite;
     cells.erase(cells.begin() + 1);
-    EXPECT_EQ(blind_spots({cells_csv(cells)}), "no cell is bounded\n");
+    EXPECT_EQ(blind_spots(rows_of_cells(cells)), "no cell is bounded\n");
 }
 
 // Quantities of a sweep stand in the order of claims.toml.

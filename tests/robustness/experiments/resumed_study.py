@@ -54,6 +54,22 @@ class ResumedStudy(program.ProgramTest):
         self.assertEqual(run_records.records(killed), run_records.records(whole))
         self.assertIn("frames/limb_twist/run.json pbs", limb_alone.state_hashes(run_records.records(killed)))
 
+    def test_a_run_with_another_setting_is_repeated(self):
+        results = pathlib.Path(self.path("whole"))
+        subprocess.run(self.command(results, study="audit"), check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        record, resume = results / "audit" / "print" / "run.json", self.command(results, "--resume", study="audit")
+        whole = json.loads(record.read_text())
+        self.assertEqual(sorted(whole["work"]["settings"]), ["seed", "tets"])
+        for setting in whole["work"]["settings"]:
+            altered = json.loads(json.dumps(whole))
+            altered["work"]["settings"][setting] += 1
+            record.write_text(json.dumps(altered))
+            subprocess.run(resume, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            self.assertEqual(json.loads(record.read_text())["work"], whole["work"], setting)
+        repeated = record.stat()
+        subprocess.run(resume, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.assertEqual((record.stat().st_mtime_ns, record.stat().st_ino), (repeated.st_mtime_ns, repeated.st_ino))
+
     def test_a_kept_breakdown_counts(self):
         results = pathlib.Path(self.path("whole"))
         subprocess.run(self.command(results), check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

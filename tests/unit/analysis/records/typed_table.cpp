@@ -43,7 +43,7 @@ struct Row {
 const Columns<Place> place_columns = {{"body", &Place::body, "", "name of the body"},
                                       {"height_m", &Place::height_m, "m", "height above the ground"}};
 const Columns<Row> row_columns =
-    Columns<Row>{{"frame", &Row::frame, "", "number of the frame, from 0"}} + analysis::columns_of_part(&Row::place, place_columns) +
+    Columns<Row>{{"frame", &Row::frame, "", "number of the frame, from 0"}} + analysis::within(&Row::place, place_columns) +
     Columns<Row>{{"is_masked", &Row::is_masked, "", "the reference meets itself"}, {"ending", &Row::ending, "", "how it ended"}} +
     Columns<Row>{{"error_pct", &Row::error_pct, "%", "error against the reference"}}.in_group("reference");
 
@@ -92,6 +92,22 @@ TEST(TypedTable, AGroupIsThereAsAWholeOrNotAtAll)
     EXPECT_EQ(rows_of(both, parse_csv("other\nx\n", "m.csv")), std::vector<Place>(1));
 }
 
+struct Pose {
+    int frame = 0;
+    std::optional<Place> place;
+};
+const Columns<Pose> pose_columns =
+    Columns<Pose>{{"frame", &Pose::frame, "", "number of the frame, from 0"}} + analysis::within(&Pose::place, place_columns);
+
+TEST(TypedTable, APartThatARowLacksHasEmptyCells)
+{
+    const std::string text = "frame,body,height_m\n0,limb,0.5\n1,,\n";
+    EXPECT_EQ(table_of(pose_columns, std::vector<Pose>{{0, Place{"limb", 0.5}}, {1, std::nullopt}}).text(), text);
+    const auto read = rows_of(pose_columns, parse_csv(text, "m.csv"));
+    EXPECT_EQ(read[0].place, (Place{"limb", 0.5}));
+    EXPECT_FALSE(read[1].place);
+}
+
 TEST(TypedTable, WrongCellsAreNamedWithFileLineColumnValueAndRule)
 {
     const std::string head = "frame,body,height_m,is_masked,ending,error_pct\n";
@@ -109,6 +125,12 @@ TEST(TypedTable, JsonHasTheColumnsNamesAndNullForNothing)
 {
     EXPECT_EQ(row_json(row_columns, Row{1, {"limb", 0.5}, false, Ending::finished, std::nullopt}).dump(),
               R"({"body":"limb","ending":"finished","error_pct":null,"frame":1,"height_m":0.5,"is_masked":0})");
+}
+
+TEST(TypedTable, AFlagIsZeroOrOne)
+{
+    EXPECT_EQ(row_columns[3].name, "is_masked");
+    EXPECT_EQ(row_columns[3].unit, "0/1");
 }
 
 TEST(TypedTable, AColumnsNameEndsWithItsUnit)

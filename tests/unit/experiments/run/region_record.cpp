@@ -96,10 +96,11 @@ TEST(RegionRecord, MeansAndExtremesOverFramesAndNoBrokenFrame)
 
 TEST(RegionTable, NamesTheGreatestLossFirst)
 {
-    analysis::CsvTable regions({"deformer", "kind", "region", "change_pct", "own_change_pct"});
-    regions.add_row({"lbs", "bone", "shin", -1.0, -2.0});
-    regions.add_row({"lbs", "bone", "thigh", -3.0, -4.0});
-    regions.add_row({"dqs", "bone", "head", -9.0, -9.0});
+    const auto change = [](const char* deformer, const char* region, double change_pct, double own_change_pct) {
+        return RegionChange{deformer, "bone", region, 50.0, change_pct, 0.0, 0.0, 0.0, own_change_pct, 1};
+    };
+    const std::vector<RegionChange> regions = {change("lbs", "shin", -1.0, -2.0), change("lbs", "thigh", -3.0, -4.0),
+                                               change("dqs", "head", -9.0, -9.0)};
     const std::string text = region_text({{"clip", regions}}, 1);
     EXPECT_NE(text.find("-4.00  thigh -3.00 (-4.0)"), std::string::npos) << text;
     EXPECT_EQ(text.find("shin"), std::string::npos);

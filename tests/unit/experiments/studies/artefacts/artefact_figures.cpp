@@ -94,7 +94,7 @@ TEST_F(BulgeFigures, WhatIsWideUnderPbsOrABlendAloneIsJudgedWithARemark)
     EXPECT_EQ(remark(0),
               "pbs 3.1 times as wide as at rest, 25 % of that outline the limb's own skin; "
               "dqs 8 times as wide as at rest, 100 % of that outline the limb's own skin");
-    EXPECT_EQ(section_table(of, body, experiments::section_outcomes(of, body, samples)).text_at(0, "remark"), remark(0));
+    EXPECT_EQ(section_rows(of, body, experiments::section_outcomes(of, body, samples)).at(0).remark, remark(0));
 }
 
 TEST_F(BulgeFigures, BlendsAreComparedWherePbsBrokeDown)
@@ -108,12 +108,12 @@ TEST_F(BulgeFigures, BlendsAreComparedWherePbsBrokeDown)
 TEST_F(BulgeFigures, TableHasALineASectionWithItsOutcome)
 {
     samples = {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 2), sample("pbs", 1, 1.0)};
-    const auto table = section_table(of, body, experiments::section_outcomes(of, body, samples));
-    ASSERT_EQ(table.rows(), 3);
-    EXPECT_EQ(table.text_at(0, "reference"), "snh_p2");
-    EXPECT_EQ(table.text_at(0, "outcome"), "measured");
-    EXPECT_EQ(table.text_at(1, "outcome"), "reference not reached");
-    EXPECT_EQ(table.text_at(2, "outcome"), "bent by more than 110 deg");
+    const auto rows = section_rows(of, body, experiments::section_outcomes(of, body, samples));
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[0].reference, "snh_p2");
+    EXPECT_EQ(rows[0].outcome, "measured");
+    EXPECT_EQ(rows[1].outcome, "reference not reached");
+    EXPECT_EQ(rows[2].outcome, "bent by more than 110 deg");
 }
 
 TEST(SectionTable, SaysWhyAJointHasNoSection)
@@ -123,13 +123,13 @@ TEST(SectionTable, SaysWhyAJointHasNoSection)
     of.scene = experiments::read_scene("limb_bend", {"character.body=frankie", "motion.joint=shin.L", "motion.frames=2"});
     of.poses = {{1, "bend 90 deg"}};
     const ArtefactBody body(of);
-    const auto table = section_table(of, body, experiments::section_outcomes(of, body, {}));
-    ASSERT_EQ(table.rows(), static_cast<int>(body.joints.size()) + 1);
-    EXPECT_EQ(table.text_at(table.rows() - 1, "joint"), "thigh.L|shin.L");
-    EXPECT_TRUE(table.text_at(table.rows() - 1, "outcome").starts_with("no limb's"));
+    const auto rows = section_rows(of, body, experiments::section_outcomes(of, body, {}));
+    ASSERT_EQ(rows.size(), body.joints.size() + 1);
+    EXPECT_EQ(rows.back().joint, "thigh.L|shin.L");
+    EXPECT_TRUE(rows.back().outcome.starts_with("no limb's"));
     of.joint = "tail_1|tail_2";
     const ArtefactBody tail(of);
-    EXPECT_EQ(section_table(of, tail, experiments::section_outcomes(of, tail, {})).rows(), 1);
+    EXPECT_EQ(section_rows(of, tail, experiments::section_outcomes(of, tail, {})).size(), 1u);
 }
 
 TEST(CandyWrapperFigures, TakeTheThinnestOfAllAndDoWithoutTheReference)

@@ -28,10 +28,8 @@ const analysis::Measurement* figure(const WeightsComparison& comparison, const s
 
 double strain_jump(const WeightsComparison& comparison, const std::string& weights, const std::string& deformer)
 {
-    const auto& table = comparison.smoothness;
-    for (int row = 0; row < table.rows(); ++row)
-        if (table.text_at(row, "weights") == weights && table.text_at(row, "deformer") == deformer)
-            return table.number(row, "strain_jump_rms");
+    for (const experiments::SmoothnessRow& row : comparison.smoothness)
+        if (row.weights == weights && row.deformer.deformer == deformer) return row.smoothness.strain_jump_rms;
     return -1.0;
 }
 
@@ -66,13 +64,13 @@ TEST(WeightsComparison, IterationsAreTheRatioOfTheirRecordAndRigidHalvesTakeMore
     of.scene.character.vertices = 1200;
     of.poses = {{3, "bend 90 deg"}};
     const WeightsComparison bent = experiments::compare_weights(of);
-    ASSERT_EQ(bent.iterations.rows(), 1);
+    ASSERT_EQ(bent.iterations.size(), 1u);
     const auto* ratio = figure(bent, "iterations_over_rigid_weights");
-    ASSERT_TRUE(bent.iterations.integer(0, "reached_paper"));
+    ASSERT_TRUE(bent.iterations[0].paper.within);
     ASSERT_NE(ratio, nullptr);
     EXPECT_LT(ratio->value, 1.0);
-    const double paper = std::max(bent.iterations.number(0, "iterations_paper"), 1.0);
-    EXPECT_DOUBLE_EQ(ratio->value, paper / std::max(bent.iterations.number(0, "iterations_rigid"), 1.0));
+    const double paper = std::max(bent.iterations[0].paper.iterations, 1);
+    EXPECT_DOUBLE_EQ(ratio->value, paper / std::max(bent.iterations[0].rigid.iterations, 1));
 }
 
 TEST(WeightsComparison, AtRestThereIsNothingToCompareButTheSameStart)

@@ -25,18 +25,22 @@ struct Row {
     double further_from_second_pct = 1.0;
 };
 
-CsvTable points(const std::string& pose, const std::vector<Row>& rows, double bar_pct = 6.0, const std::string& body = "limb")
+std::vector<PointRow> points(const std::string& pose, const std::vector<Row>& rows, double bar_pct = 6.0, const std::string& body = "limb")
 {
-    const auto cell = [](const std::optional<double>& value) { return value ? CsvTable::Cell(*value) : CsvTable::Cell(std::nullopt); };
-    CsvTable table({"body", "pose", "deformer", "setting", "outcome", "ms_median", "ms_q1", "ms_q3", "error_joint_pct",
-                    "error_joint_beside_pct", "reference", "reference_error_joint_pct", "below_reference_error", "error_l2_pct",
-                    "error_linf_m", "volume_abs_change_pct", "reference_self_intersects"});
-    for (const Row& row : rows)
-        table.add_row({body, pose, row.deformer, row.setting, row.outcome, row.ms, row.ms, std::nullopt, cell(row.error_pct),
-                       row.error_pct ? CsvTable::Cell(*row.error_pct + row.further_from_second_pct) : CsvTable::Cell(2.0), "snh_p2",
-                       bar_pct, int(row.error_pct.value_or(99.0) <= bar_pct), cell(row.error_pct), std::nullopt, 10.0 / row.ms,
-                       int(pose == "folded")});
-    return analysis::parse_csv(table.text(), "points.csv");
+    std::vector<PointRow> points;
+    for (const Row& row : rows) {
+        PointRow& point = points.emplace_back(PointRow{body, pose, row.deformer, row.setting});
+        point.outcome = row.outcome;
+        point.ms_median = point.ms_q1 = row.ms;
+        if (row.error_pct) point.error = {.l2_pct = *row.error_pct, .joint_pct = *row.error_pct, .linf_m = std::nan("")};
+        point.error_joint_beside_pct = row.error_pct ? *row.error_pct + row.further_from_second_pct : 2.0;
+        point.reference = "snh_p2";
+        point.reference_error_joint_pct = bar_pct;
+        point.below_reference_error = row.error_pct.value_or(99.0) <= bar_pct;
+        point.metrics.volume_abs_change_pct = 10.0 / row.ms;
+        point.reference_self_intersects = pose == "folded";
+    }
+    return points;
 }
 
 const std::string pbs_24 = "24 iterations, k_stretch 0.2, ordered f32";
@@ -94,7 +98,7 @@ TEST(Diagram, AMeanTakesThreePosesAndTheSettingsThatAllOfThemHave)
 
 TEST(Diagram, AMeanThrowsNoBodyOfManyPosesTogetherWithOthersOfOne)
 {
-    std::vector<CsvTable> tables;
+    std::vector<std::vector<PointRow>> tables;
     for (const char* pose : {"crouch", "standing", "folded"}) tables.push_back(points(pose, rows(30.0), 6.0, "human"));
     for (const char* body : {"man", "lady"}) tables.push_back(points("crouch", rows(60.0), 6.0, body));
     for (const char* body : {"limb twist", "limb bend"}) tables.push_back(points("90 deg", rows(90.0), 6.0, body));

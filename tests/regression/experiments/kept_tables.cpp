@@ -1,0 +1,96 @@
+// The kept records, read as rows and written again, have the same columns and cells. Truth: the files, which older builds wrote.
+#include "experiments/run/metrics_table.hpp"
+#include "experiments/run/region_record.hpp"
+#include "experiments/studies/artefacts/artefact_figures.hpp"
+#include "experiments/studies/artefacts/smoothness_comparison.hpp"
+#include "experiments/studies/convergence/convergence_records.hpp"
+#include "experiments/studies/error_split/error_split.hpp"
+#include "experiments/studies/jiggle/jiggle_records.hpp"
+#include "experiments/studies/stability/cell_table.hpp"
+#include "experiments/studies/work_precision/point_row.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The columns that a file has, in its order: some kept records leave columns out. std::out_of_range for one that is not declared.
+template <typename Row>
+analysis::Columns<Row> columns_in(const analysis::CsvTable& table, const analysis::Columns<Row>& all)
+{
+    analysis::Columns<Row> columns;
+    for (const std::string& name : table.columns()) columns.push_back(all.named(name));
+    return columns;
+}
+
+// The same text, or a number that is written in another way: 1.728e+07, 17280000.
+bool is_same_cell(const std::string& one, const std::string& other)
+{
+    if (one == other) return true;
+    char *end_of_one = nullptr, *end_of_other = nullptr;
+    const double value = std::strtod(one.c_str(), &end_of_one), other_value = std::strtod(other.c_str(), &end_of_other);
+    return !one.empty() && !other.empty() && *end_of_one == 0 && *end_of_other == 0 && value == other_value;
+}
+
+void expect_same_cells(const analysis::CsvTable& written, const analysis::CsvTable& kept, const std::string& file)
+{
+    ASSERT_EQ(written.columns(), kept.columns()) << file;
+    ASSERT_EQ(written.rows(), kept.rows()) << file;
+    for (int row = 0; row < kept.rows(); ++row)
+        for (const std::string& column : kept.columns())
+            EXPECT_PRED2(is_same_cell, written.text_at(row, column), kept.text_at(row, column))
+                << file << ", row " << row << ", " << column;
+}
+
+// Every STUDY/RUN/NAME of the kept records.
+template <typename Row>
+void expect_same_records(const analysis::Columns<Row>& all, const std::string& study, const std::string& name, bool is_complete = true)
+{
+    int files = 0;
+    for (const auto& run : fs::directory_iterator(fs::path(PBS_KEPT_RECORDS) / study)) {
+        const fs::path file = run.path() / name;
+        if (!fs::exists(file)) continue;
+        const analysis::CsvTable table = analysis::read_csv(file.string());
+        const analysis::Columns<Row> columns = is_complete ? all : columns_in(table, all);
+        expect_same_cells(table_of(columns, rows_of(columns, table)), table, file.string());
+        ++files;
+    }
+    EXPECT_GT(files, 0) << study << ", " << name;
+}
+
+TEST(KeptTables, OfRuns)
+{
+    expect_same_records(experiments::metric_columns(), "volume", "metrics.csv", false);
+    expect_same_records(experiments::region_columns, "volume", "regions.csv");
+}
+
+TEST(KeptTables, OfArtefacts)
+{
+    expect_same_records(experiments::section_columns, "artefacts", "sections.csv");
+    expect_same_records(experiments::profile_columns, "artefacts", "profiles.csv");
+    expect_same_records(experiments::intersection_columns, "artefacts", "intersections.csv");
+    expect_same_records(experiments::smoothness_columns, "artefacts", "smoothness.csv");
+    expect_same_records(experiments::weight_iteration_columns, "artefacts", "iterations.csv");
+}
+
+TEST(KeptTables, OfJiggle)
+{
+    expect_same_records(experiments::response_columns, "jiggle", "responses.csv");
+    expect_same_records(experiments::zone_columns, "jiggle", "zone.csv");
+    expect_same_records(experiments::walk_columns, "jiggle", "walk.csv");
+}
+
+TEST(KeptTables, OfTheOtherStudies)
+{
+    expect_same_records(experiments::rate_columns, "convergence", "rates.csv");
+    expect_same_records(experiments::cell_columns, "stability", "cells.csv");
+    expect_same_records(experiments::part_columns, "error_split", "parts.csv");
+    expect_same_records(experiments::attachment_columns, "error_split", "attachments.csv");
+    expect_same_records(experiments::point_columns, "work_precision", "points.csv");
+}
+
+}  // namespace

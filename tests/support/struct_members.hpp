@@ -1,0 +1,153 @@
+// The members of a struct, and the struct with one of them changed.
+//   for_each_change(JoltCase{...}, [](const JoltCase& changed, const std::string& what) { ... });
+#pragma once
+
+#include "analysis/case_key.hpp"
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/scene/scene.hpp"
+#include "experiments/settings/member_count.hpp"
+
+#include <optional>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+namespace test_support {
+
+// References to all of them, in order.
+template <typename Struct>
+auto members_of(Struct& of)
+{
+    constexpr std::size_t count = experiments::member_count<std::remove_const_t<Struct>>();
+    if constexpr (count == 1) {
+        auto& [a] = of;
+        return std::tie(a);
+    } else if constexpr (count == 2) {
+        auto& [a, b] = of;
+        return std::tie(a, b);
+    } else if constexpr (count == 3) {
+        auto& [a, b, c] = of;
+        return std::tie(a, b, c);
+    } else if constexpr (count == 4) {
+        auto& [a, b, c, d] = of;
+        return std::tie(a, b, c, d);
+    } else if constexpr (count == 5) {
+        auto& [a, b, c, d, e] = of;
+        return std::tie(a, b, c, d, e);
+    } else if constexpr (count == 6) {
+        auto& [a, b, c, d, e, f] = of;
+        return std::tie(a, b, c, d, e, f);
+    } else if constexpr (count == 7) {
+        auto& [a, b, c, d, e, f, g] = of;
+        return std::tie(a, b, c, d, e, f, g);
+    } else if constexpr (count == 8) {
+        auto& [a, b, c, d, e, f, g, h] = of;
+        return std::tie(a, b, c, d, e, f, g, h);
+    } else if constexpr (count == 10) {
+        auto& [a, b, c, d, e, f, g, h, i, j] = of;
+        return std::tie(a, b, c, d, e, f, g, h, i, j);
+    } else if constexpr (count == 16) {
+        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = of;
+        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
+    } else if constexpr (count == 18) {
+        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = of;
+        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
+    } else {
+        static_assert(count == 19, "add this number of members");
+        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = of;
+        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s);
+    }
+}
+
+template <typename Value>
+inline constexpr bool is_vector = false;
+template <typename Value>
+inline constexpr bool is_vector<std::vector<Value>> = true;
+template <typename Value>
+inline constexpr bool is_optional = false;
+template <typename Value>
+inline constexpr bool is_optional<std::optional<Value>> = true;
+
+template <typename Struct, typename Visit>
+void for_each_change(const Struct& of, const Visit& visit);
+
+// Values that differ from this one, each in one way.
+template <typename Value, typename Visit>
+void for_each_other(const Value& value, const Visit& visit)
+{
+    if constexpr (std::is_same_v<Value, bool>) {
+        visit(!value, "");
+    } else if constexpr (std::is_arithmetic_v<Value>) {
+        visit(static_cast<Value>(value + 1), "");
+    } else if constexpr (std::is_same_v<Value, std::string>) {
+        visit(value + "x", "");
+    } else if constexpr (std::is_enum_v<Value>) {
+        for (const auto& [other, name] : experiments::OptionNames<Value>::table)
+            if (other != value) visit(other, name);
+    } else if constexpr (std::is_same_v<Value, pbs::Vec3>) {
+        visit(Value(value + pbs::Vec3::UnitZ()), "");
+    } else if constexpr (std::is_same_v<Value, experiments::Scene>) {
+        Value other = value;
+        other.resolved["character"]["vertices"] = 4321;
+        visit(other, "vertices");
+        if (!value.deformers.empty())
+            for_each_other(value.deformers.front(), [&](const auto& deformer, const std::string& what) {
+                other = value;
+                other.deformers.front() = deformer;
+                visit(other, "deformer " + what);
+            });
+    } else if constexpr (std::is_same_v<Value, experiments::DeformerSpec>) {
+        Value other = value;
+        other.label += "x";
+        visit(other, "label");
+        if (!experiments::options_if<pbs::PbsOptions>(value)) return;
+        other = value;
+        ++experiments::options_of<pbs::PbsOptions>(other).iterations;
+        visit(other, "iterations");
+    } else if constexpr (std::is_same_v<Value, analysis::CaseKey>) {
+        for (const analysis::CaseKeyField& field : analysis::case_key_fields()) {
+            Value other = value;
+            if (field.text)
+                other.*field.text += "x";
+            else
+                other.*field.number = (value.*field.number).value_or(0.0) + 1.0;
+            visit(other, field.name);
+        }
+    } else if constexpr (is_optional<Value>) {
+        visit(value ? Value() : Value(std::in_place), "");
+    } else if constexpr (is_vector<Value>) {
+        Value other = value;
+        other.emplace_back();
+        visit(other, "one more");
+        if (!value.empty())
+            for_each_other(value.front(), [&](const auto& first, const std::string& what) {
+                other = value;
+                other.front() = first;
+                visit(other, "first " + what);
+            });
+    } else {
+        for_each_change(value, visit);
+    }
+}
+
+// The struct with each member changed in turn, the others as they are; a member that is a struct has its own members changed. visit is
+// called with the changed struct and what was changed.
+template <typename Struct, typename Visit>
+void for_each_change(const Struct& of, const Visit& visit)
+{
+    const auto change = [&]<std::size_t index>() {
+        for_each_other(std::get<index>(members_of(of)), [&](const auto& value, const std::string& what) {
+            Struct changed = of;
+            std::get<index>(members_of(changed)) = value;
+            visit(changed, "member " + std::to_string(index + 1) + (what.empty() ? "" : ", " + what));
+        });
+    };
+    [&]<std::size_t... indices>(std::index_sequence<indices...>)
+    {
+        (change.template operator()<indices>(), ...);
+    }
+    (std::make_index_sequence<experiments::member_count<Struct>()>{});
+}
+
+}  // namespace test_support

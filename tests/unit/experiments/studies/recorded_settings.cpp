@@ -1,0 +1,125 @@
+// --resume repeats a run when anything changed that its work depends on. Truth: the members of the cases themselves, each changed in turn.
+#include "experiments/deformers/delta_mush/delta_mush.hpp"
+#include "experiments/deformers/fem/fem_option_names.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/deformers/xpbd/xpbd_options.hpp"
+#include "experiments/studies/ambiguity/reading_figures.hpp"
+#include "experiments/studies/artefacts/artefact_figures.hpp"
+#include "experiments/studies/convergence/convergence_case.hpp"
+#include "experiments/studies/error_split/error_split.hpp"
+#include "experiments/studies/jiggle/jiggle_records.hpp"
+#include "experiments/studies/setup/body_setup.hpp"
+#include "experiments/studies/stability/stability_cell.hpp"
+#include "experiments/studies/study_run.hpp"
+#include "experiments/studies/work_precision/measured_points.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/struct_members.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace experiments;
+
+template <typename Case>
+std::string no_work(const Case&, const std::string&)
+{
+    return "";
+}
+
+// How many changes there were.
+template <typename Case>
+int expect_each_change_repeats(const Case& of)
+{
+    const test_support::ScratchFolder scratch;
+    const std::string folder = scratch / "run";
+    const StudyRun run = work_run("run", of, 1.0, no_work<Case>);
+    carry_out(run, folder);
+    EXPECT_TRUE(is_finished(run, folder));
+    int changes = 0;
+    test_support::for_each_change(of, [&](const Case& changed, const std::string& what) {
+        EXPECT_FALSE(is_finished(work_run("run", changed, 1.0, no_work<Case>), folder)) << what;
+        ++changes;
+    });
+    return changes;
+}
+
+Scene limb()
+{
+    return read_scene("limb_bend", {});
+}
+
+TEST(RecordedSettings, OfErrorSplit)
+{
+    ErrorSplitCase of{.scene = limb(), .frames = {3}, .k_stretch = {0.2}, .iterations = {24}, .core_radii = {0.2}};
+    of.pbs = default_spec("pbs");
+    of.truth = of.twin = default_spec("fem");
+    EXPECT_GE(expect_each_change_repeats(of), 10);
+}
+
+TEST(RecordedSettings, OfWorkPrecision)
+{
+    WorkPrecisionCase of{.body = "limb bend", .pose = "60 deg", .scene = limb(), .frame = 12};
+    of.range.coarser_vertices = {600};
+    EXPECT_GE(expect_each_change_repeats(of), 18);
+}
+
+TEST(RecordedSettings, OfConvergence)
+{
+    const ConvergenceCase of{.scene = limb(), .frames = {{18, "bend 90"}}, .k_stretch = {0.2}, .settings = {{}}, .other_vertices = {600}};
+    EXPECT_GE(expect_each_change_repeats(of), 15);
+}
+
+TEST(RecordedSettings, OfArtefacts)
+{
+    const ArtefactCase of{.scene = limb(), .poses = {{18, "bend 90 deg"}}, .joint = "upper|forearm", .vertices = {1200}};
+    EXPECT_GE(expect_each_change_repeats(of), 10);
+}
+
+TEST(RecordedSettings, OfJiggle)
+{
+    EXPECT_GE(expect_each_change_repeats(JoltCase{limb(), {}, {{}}, false}), 12);
+    EXPECT_GE(expect_each_change_repeats(WalkCase{limb(), {0.1}, 100}), 5);
+}
+
+TEST(RecordedSettings, OfStability)
+{
+    StabilityCell cell;
+    cell.spec = default_spec("pbs");
+    EXPECT_GE(expect_each_change_repeats(cell), 28);
+}
+
+TEST(RecordedSettings, OfAmbiguity)
+{
+    EXPECT_GE(expect_each_change_repeats(ReadingsCase{.scene = limb(), .frame = 18, .pose = "bend 90"}), 8);
+}
+
+TEST(RecordedSettings, OfBodySetup)
+{
+    const BodySetup of{"ring", 0, {"pbs.k_volume=0.5"}};
+    EXPECT_GE(expect_each_change_repeats(of), 4);
+}
+
+template <typename Options>
+void expect_each_option_is_recorded(const std::string& kind, const Options& options, int except_member = -1)
+{
+    DeformerSpec spec = default_spec(kind);
+    spec.options = options;
+    const nlohmann::json recorded = to_json(spec);
+    test_support::for_each_change(options, [&](const Options& changed, const std::string& what) {
+        if (what == "member " + std::to_string(except_member + 1)) return;
+        spec.options = changed;
+        EXPECT_NE(to_json(spec), recorded) << kind << ", " << what;
+    });
+}
+
+TEST(RecordedSettings, OfDeformers)
+{
+    expect_each_option_is_recorded("fem", FemOptions{});
+    expect_each_option_is_recorded("xpbd", XpbdOptions{});
+    expect_each_option_is_recorded("delta_mush", DeltaMushOptions{});
+    const int threads = 6;  // the member that results do not depend on
+    expect_each_option_is_recorded("pbs", pbs::PbsOptions{}, threads);
+}
+
+}  // namespace
