@@ -30,7 +30,7 @@ def damaged():
     table, run = "limb/measurements.csv", "limb/run.json"
     yield "empty_table", table, "", "the file is empty", None
     yield "noise_table", table, NOISE, ":1:1: unexpected quote or zero byte within a field", None
-    yield "truncated_table", table, MEASUREMENTS[:70], ":2:6: the file ends within a line", None
+    yield "truncated_table", table, MEASUREMENTS[:70], ":2:5: the file ends within a line", None
     yield "missing_column", table, MEASUREMENTS.replace("value", "worth"), "expected a column value", None
     yield "column_twice", table, MEASUREMENTS.replace("low", "value"), "expected each column once", None
     yield "a_word_for_a_number", table, MEASUREMENTS.replace("2e-6,2e-6", "east,2e-6", 1), ":3:4: value = east: expected a number", None

@@ -60,7 +60,8 @@ REFUSED = (
     (CLAIMS, ("claims", 0, "cases", 2, "holds"), "maybe", 'claims[0].cases[2].holds = "maybe": expected one of whole, part, none'),
     (CLAIMS, ("claims", 0, "cases", 1, "mean"), 3, "claims[0].cases[1].mean = 3: expected an object"),
     (CLAIMS, ("claims", 0, "cases", 1, "mean", "low"), "3", 'claims[0].cases[1].mean.low = "3": expected a number or null'),
-    (CLAIMS, ("claims", 0, "cases", 0, "held_angles_deg"), [[1, 2, 3]], "claims[0].cases[0].held_angles_deg[0] = [1, 2, 3]: expected a list of 2"),
+    (CLAIMS, ("claims", 0, "cases", 0, "held_angles_deg"), [[1, 2, 3]],
+     "claims[0].cases[0].held_angles_deg[0] = [1, 2, 3]: expected a list of 2"),
     (CLAIMS, ("claims", 1, "cases", 0, "value"), True, "claims[1].cases[0].value = true: expected a number or null"),
 )
 

@@ -89,7 +89,8 @@ class Report(unittest.TestCase):
         synthetic_records.write_claims(self.results)
         status, text, _, _ = self.make()
         self.assertEqual(status, 0)
-        self.assertIn("There are 4 claims: 1 is reproduced, 1 is reproduced in part, 1 is inconsistent in print, 1 cannot be tested here.", text)
+        self.assertIn("There are 4 claims: 1 is reproduced, 1 is reproduced in part, 1 is inconsistent in print, "
+                      "1 cannot be tested here.", text)
         self.assertIn('<tr id="C02" class="claim">', text)
         self.assertIn('<a href="volume/limb_twist/">volume/limb_twist</a>', text)
         self.assertIn("for limb twisted by 0 to 175 of 180\u00b0; for 1 of 2 clips (40 to 97.5 % of the frames within the bound)", text)

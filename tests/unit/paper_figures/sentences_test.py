@@ -30,7 +30,8 @@ class CaseWords(unittest.TestCase):
                 {"body": "frankie", "motion": "01_01", "variant": "jiggle"}, {"body": "lady", "motion": "01_03", "variant": "as_printed"},
                 {"body": "ring"})
         self.assertEqual([case_words.run(key) for key in keys],
-                         ["limb twisted", "human, clip 01_01", "frankie, clip 01_01, jiggling flesh", "lady, clip 01_03, as printed", "ring"])
+                         ["limb twisted", "human, clip 01_01", "frankie, clip 01_01, jiggling flesh", "lady, clip 01_03, as printed",
+                           "ring"])
 
     def test_a_key_is_told_with_its_units_and_ranges(self):
         self.assertEqual(case_words.of({"body": "limb", "motion": "bend", "angle_deg": 90.0, "joint": "upper|forearm", "deformer": "lbs",
@@ -38,7 +39,8 @@ class CaseWords(unittest.TestCase):
                          "limb, bend 90\u00b0, upper|forearm, LBS, k_stretch 0.05 to 1, steps of 20 to 5 ms")
         self.assertEqual(case_words.of({"body": "man", "motion": "01_01", "pose": "in_the_air", "iterations": 24, "masses": "equal"}),
                          "man, clip 01_01, in the air, equal masses, 24 iterations")
-        self.assertEqual(case_words.of({"body": "man", "motion": "01_01", "time_s": 4.0, "young_pa": 3e4}), "man, clip 01_01 at 4 s, 30 kPa")
+        self.assertEqual(case_words.of({"body": "man", "motion": "01_01", "time_s": 4.0, "young_pa": 3e4}),
+                         "man, clip 01_01 at 4 s, 30 kPa")
         self.assertEqual(case_words.of({}), "")
 
 
@@ -69,7 +71,8 @@ class Outcome(unittest.TestCase):
 
     def test_subjects_that_hold_in_part_are_counted(self):
         partly = told(verdict="reproduced_only_for", subject="masses", n=7, within=4,
-                      subjects=[subject("equal", 3, 4, "part"), subject("unequal", 1, 1, "whole"), subject("unequal_by_eq_8_9", 0, 2, "none")])
+                      subjects=[subject("equal", 3, 4, "part"), subject("unequal", 1, 1, "whole"),
+                                 subject("unequal_by_eq_8_9", 0, 2, "none")])
         self.assertEqual(sentences.outcome(partly), "for equal masses (3 of 4 values), unequal masses; "
                                                     "not for unequal masses by Eq. 8\u20139, which are for m = 1")
 
@@ -88,9 +91,11 @@ class Outcome(unittest.TestCase):
         runs.append(runs[0] | {"quantity": "volume_abs_change_pct", "holds": "none"})
         readings = [{"order": "plain", "precision": "f64", "verdict": "reproduced_only_for", "own_verdict": "reproduced_only_for",
                      "same": True, "differing": [], "cases": []},
-                    {"order": "grouped", "precision": "f32", "verdict": "not_reproduced", "own_verdict": "reproduced_only_for", "same": False,
+                    {"order": "grouped", "precision": "f32", "verdict": "not_reproduced", "own_verdict": "reproduced_only_for",
+                     "same": False,
                      "differing": [0], "cases": runs[:1]}]
-        full = sentences.verdict_in_full(told(verdict="reproduced_only_for", rule="share_within", cases=runs, readings=readings, n=1, bounds=[
+        full = sentences.verdict_in_full(told(
+            verdict="reproduced_only_for", rule="share_within", cases=runs, readings=readings, n=1, bounds=[
             {"quantity": name, "low": -0.5, "high": 0.5} for name in ("volume_change_pct", "volume_abs_change_pct")]))
         self.assertEqual(full, ["reproduced in part: for limb twisted by 0 to 175 of 180\u00b0",
                                 "by volume abs change pct: 0 of 1 run within the bound, 0 in part",

@@ -85,7 +85,8 @@ def write_verification(results):
                 writer.writerow({"problem": "cantilever", "quantity": "tip deflection", "elements": f"P{order}", "h_m": 1, "dofs": dofs,
                                  "value": 1, "reference": 1, "material": "linear, nu = 0.3", "difference_pct": difference})
         for problem, holds in (("beam", "yes"), ("sphere", "no")):
-            writer.writerow({"problem": problem, "quantity": "deflection", "elements": "P1", "h_m": 1, "dofs": 9, "value": 2, "reference": 1,
+            writer.writerow({"problem": problem, "quantity": "deflection", "elements": "P1", "h_m": 1, "dofs": 9, "value": 2,
+                             "reference": 1,
                              "material": "linear, nu = 0.3", "source": "closed form: a beam", "low": 0.5, "high": 1.5, "holds": holds})
 
 
@@ -184,7 +185,8 @@ def judged_run(body, motion, holds, mean, share, angles=None):
 
 
 def claim(name, verdict, **others):
-    empty = {"statement": "Volume is kept.", "place": "Sec. 4", "study": "volume", "rule": "measured", "reason": "", "primary": None, "n": 0,
+    empty = {"statement": "Volume is kept.", "place": "Sec. 4", "study": "volume", "rule": "measured", "reason": "",
+             "primary": None, "n": 0,
              "within": 0, "bounds": [], "expected": None, "required_share": None, "interval": None, "subject": "body", "subjects": [],
              "each": [], "of": {}, "cases": [], "controls": [], "readings": [], "left_out": [], "missing": [], "runs": []}
     return {**empty, "id": name, "verdict": verdict, **others}
@@ -210,12 +212,15 @@ def write_claims(results, statement="Volume is kept."):
                 "holds": holds} for bound, holds in ((None, "whole"), (9.0, "none"))]
     judged = [claim("C02", "reproduced_only_for", rule="share_within", cases=runs, runs=["volume/limb_twist"], n=3, within=1, expected=0.5,
                     bounds=[{"quantity": "volume_change_pct", "low": -0.5, "high": 0.5}], interval=interval(0.4, 0.3, 0.5),
-                    primary={"body": "human", "motion": "walk", "quantity": "volume_change_pct", "statistic": "share_of_frames", "unit": "1",
+                    primary={"body": "human", "motion": "walk", "quantity": "volume_change_pct", "statistic": "share_of_frames",
+                             "unit": "1",
                              "value": 0.4, "low": 0.3, "high": 0.5, "n": 3, "within": 1, "bound_low": 0.95, "bound_high": 1.0,
                              "share": 1 / 3}),
-              claim("C10", "reproduced", cases=rates, n=2, within=2, subjects=[subject("man", 1, 1, "whole"), subject("frankie", 1, 1, "whole")],
+              claim("C10", "reproduced", cases=rates, n=2, within=2, subjects=[subject("man", 1, 1, "whole"),
+                                                                               subject("frankie", 1, 1, "whole")],
                     bounds=[{"quantity": "frames_per_s", "low": 30.0, "high": None}],
-                    primary={"body": "frankie", "quantity": "frames_per_s", "statistic": "value", "unit": "1/s", "value": 107.0, "low": 100.0,
+                    primary={"body": "frankie", "quantity": "frames_per_s", "statistic": "value", "unit": "1/s", "value": 107.0,
+                             "low": 100.0,
                              "high": 110.0, "n": 2, "within": 2, "bound_low": 30.0, "bound_high": None, "share": 1.0}),
               claim("C13", "inconsistent_in_print", rule="printed", cases=printed, n=2, within=1),
               claim("C16", "cannot_be_tested_here", rule="untestable", reason="no value is in print")]
