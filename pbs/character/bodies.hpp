@@ -15,7 +15,7 @@ struct CharacterSource {
     WeightKind weights = WeightKind::paper;  // paper or rigid; not read where there is a weights_file
     std::string weights_file = {};           // CSV vertex,joint,weight; empty: `weights`
     bool surface = true;                     // carry the rendered surface along, where the body has one
-    int refinements = 0;                     // every tet into eight so many times; `vertices` and a weights file are of the unrefined mesh
+    int refinements = 0;  // how often every tet is cut into eight; `vertices` and a weights file refer to the unrefined mesh
 };
 
 // Are the files of a named body there? Cheap: nothing is read or meshed. require_body: an InputError that names what is missing.

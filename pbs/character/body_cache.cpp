@@ -54,7 +54,7 @@ std::optional<TetMesh> read_cached(const std::string& key)
     for (const fs::path& file : files_of_key(key)) try {
             if (is_whole(file, key)) return read_tet_frame(file.string());  // checked before it was stored
             fs::remove(file);
-        } catch (const std::exception&) {  // unreadable: made anew
+        } catch (const std::exception&) {  // unreadable: the mesh is made again
         }
     return std::nullopt;
 }

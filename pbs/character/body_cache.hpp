@@ -14,10 +14,11 @@ std::string content_hash(const std::string& bytes);  // XXH3, 128 bits, 32 hexad
 std::string content_hash(const TetMesh& mesh);       // of its arrays
 std::string hash_of_file(const std::string& path);   // of its bytes; an InputError where it cannot be read or has over 1 GiB
 
-// Where tet meshes are cached: $PBSKIN_CACHE, else $XDG_CACHE_HOME/pbskin, else ~/.cache/pbskin.
+// The folder of cached tet meshes: $PBSKIN_CACHE, else $XDG_CACHE_HOME/pbskin, else ~/.cache/pbskin.
 std::string cache_folder();
 
-// From the cache, else made and stored, by one process while others wait. Where the folder cannot be written the mesh is made every time.
+// Reads the mesh from the cache, or makes and stores it while other processes wait. Where the folder cannot be written, the mesh is made
+// every time.
 TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make);
 
 }  // namespace pbs

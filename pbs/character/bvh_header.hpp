@@ -1,4 +1,4 @@
-// What assimp lets pass in a BVH file's header: checked before it reads the file.
+// Checks of a BVH file's header that assimp omits, done before assimp reads the file.
 #pragma once
 
 #include <string>

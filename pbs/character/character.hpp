@@ -16,7 +16,7 @@ namespace pbs {
 // The rule that weights come from: Eq. 2, the nearest bone alone, a file.
 enum class WeightKind { paper, rigid, file };
 
-// By make_character whole; who fills one by hand answers for sizes that fit each other.
+// make_character returns a whole one; whoever fills one in directly is responsible for matching sizes.
 struct Character {
     std::string name;                                         // of the body, or of the mesh's file without its folder
     TetMesh mesh;                                             // flesh in rest pose [m]

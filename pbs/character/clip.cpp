@@ -87,7 +87,7 @@ Vec3 position_at(const Node& node, double tick)
     return between > 0.0 ? Vec3((1.0 - between) * to_eigen(before->mValue) + between * to_eigen(after->mValue)) : to_eigen(before->mValue);
 }
 
-// In world axes of the zero pose: G_parent L(t) G^-1, G the rest rotations; L(t) itself where those are the identity, as in BVH.
+// Expressed in world axes of the zero pose: G_parent L(t) G^-1, G the rest rotations; L(t) itself where those are the identity, as in BVH.
 void sample_frame(const std::vector<Node>& nodes, double tick, int frame, Clip& clip)
 {
     std::vector<Eigen::Quaterniond> local;
@@ -161,7 +161,7 @@ std::vector<Node> read_hierarchy(const aiScene& scene, Clip& clip)
     return nodes;
 }
 
-// In a child process: assimp is not to be trusted with a damaged file.
+// Reads in a child process, since assimp may crash on a damaged file.
 Clip clip_by_assimp(const std::string& path, bool bvh)
 {
     Assimp::Importer importer;

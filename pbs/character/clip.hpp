@@ -13,7 +13,7 @@ struct Clip {
     std::string name;                                    // the file
     double frame_time_s = 0.0;                           // between frames, 1e-6 to 1000 s
     std::vector<std::string> joints;                     // names, each once, #joints
-    std::vector<int> parent;                             // -1: root; parents stand before their children
+    std::vector<int> parent;                             // -1: root; parents precede their children
     Positions zero_pose;                                 // joint positions of the zero pose [clip's units], #joints x 3
     std::vector<std::vector<Eigen::Quaterniond>> local;  // relative to the parent, identities in the zero pose, #frames x #joints
     Positions root;                                      // root position a frame [clip's units], #frames x 3

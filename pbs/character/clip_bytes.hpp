@@ -5,7 +5,7 @@
 
 namespace pbs {
 
-// What unpacked_clip takes; for processes of this machine and version alone.
+// The input of unpacked_clip; only for processes of this machine and version.
 std::string packed(const Clip& clip);
 
 // An InputError that names `path` where the bytes are no whole clip: at least one joint and frame, parents before their children, every

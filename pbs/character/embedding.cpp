@@ -53,7 +53,7 @@ double squared_distance_to_tet(const Vec3& point, const TetCorners& corners)
     return least;
 }
 
-// What Eigen's BVMinimize asks for, and the tet it ended at.
+// The functor of Eigen's BVMinimize, and the tet at which it ended.
 struct NearestTet {
     using Scalar = double;
     const TetMesh& mesh;

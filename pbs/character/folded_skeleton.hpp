@@ -10,9 +10,9 @@
 
 namespace pbs {
 
-// A star in a name stands for L and R: such a bone is two. parent "": the root.
+// A star in a name stands for L and R, so that one entry describes two bones. parent "": the root.
 struct FoldedBone {
-    // With or without a star.
+    // The name may contain a star.
     std::string name, parent;  // a bone's name with its star; "": the root
     // Points of the rig whose mean the bone's head is.
     std::vector<std::string> head, tail;  // those of its tail

@@ -5,12 +5,12 @@
 
 namespace pbs {
 
-// In metres; known without the package. An InputError in a build without PBS_WITH_RIG_IMPORT.
+// In metres; available without the package. InputError in a build without PBS_WITH_RIG_IMPORT.
 Skeleton human_skeleton();
 
 void require_human();  // an InputError where it is not installed
 
-// Mesh, skeleton, surface (where asked for) and inputs; `vertices` 0: about 2,400, between Table 1's Man (1,654) and ManHQ (2,645).
+// Mesh, skeleton, surface (if requested) and inputs; `vertices` 0: about 2,400, between Table 1's Man (1,654) and ManHQ (2,645).
 // An InputError names the package where it is not installed.
 Character make_human(int vertices, bool with_surface = true);
 

@@ -46,7 +46,7 @@ public:
     std::uint32_t word_at(std::size_t byte) const { return value_at<std::uint32_t>(byte); }
     float float_at(std::size_t byte) const { return value_at<float>(byte); }
 
-    // Where a block begins, once it is known to lie inside the file.
+    // The position at which a block begins, after a check that it lies inside the file.
     std::size_t block(const std::string& field, std::size_t at, std::size_t count, std::size_t bytes_each) const
     {
         if (at > bytes_.size() || count > (bytes_.size() - at) / bytes_each)

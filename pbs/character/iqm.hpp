@@ -12,7 +12,7 @@ namespace pbs {
 // Its rest rotation is left out: joints become heads and tails of bones.
 struct IqmJoint {
     std::string name;  // as in the file
-    int parent = -1;   // -1: a root; parents stand before their children
+    int parent = -1;   // -1: a root; parents precede their children
     Vec3 position;     // in rest pose, in the model's coordinates and units
 };
 

@@ -1,4 +1,4 @@
-// Which joint of a clip moves which bone: the names of CMU's motion capture (cgspeed's BVH conversion) for the `human` skeleton.
+// The joint of a clip that moves each bone: the names of CMU's motion capture (cgspeed's BVH conversion) for the `human` skeleton.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace pbs {
 
 // One bone of the `human`.
 struct JointMapping {
-    // By its name in the skeleton.
+    // Its name in the skeleton.
     std::string bone, joint;       // of the clip, by name
     bool aligned = false;          // the bone turns to the joint's limb; false: it keeps its own rest direction (spine, neck, clavicles)
     bool leg = false;              // its length counts in the scale of the root's path

@@ -12,7 +12,7 @@ namespace pbs {
 
 // Folder of the unpacked package inside cache_folder(), and its files.
 std::string makehuman_folder();
-// Their paths in that folder; whether they are there is not asked.
+// Their paths in that folder; whether they exist is not checked.
 MakehumanFiles makehuman_files(const std::string& folder);
 
 void require_makehuman(const std::string& name);  // an InputError where the files are not there

@@ -18,7 +18,7 @@ struct MakehumanFiles {
     std::string model, rig, target_list, targets;  // human_full_size.json, default.json, target-list.json, targets.bin
 };
 
-// In metres.
+// All lengths are in metres.
 struct MakehumanFigure {
     SurfaceMesh skin;   // the material `body` alone: x to the figure's left, y up, z forward
     Skeleton skeleton;  // the `human`'s 23 bones by name, folded from the rig, after the targets have moved its vertices

@@ -16,7 +16,7 @@ void append(Weights& weights, const std::map<int, double>& of_bones)
     weights.first.push_back(static_cast<int>(weights.bone.size()));
 }
 
-// Those of the coarse vertices, and of the new ones the mean of their parents'.
+// Coarse vertices keep their weights; a new vertex has the mean of its parents' weights.
 Weights mean_of_parents(Weights weights, const Edges& parents)
 {
     for (Eigen::Index e = 0; e < parents.rows(); ++e) {

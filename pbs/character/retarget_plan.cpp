@@ -25,7 +25,7 @@ std::vector<int> children_of(const Clip& clip, int joint)
     return children;
 }
 
-// From the joint to the first joint below it that stands elsewhere, along first children; zero where there is none.
+// Vector from the joint to the first descendant at another position, along first children; zero where there is none.
 Vec3 limb_of(const Clip& clip, int joint)
 {
     const double extent = (clip.zero_pose.colwise().maxCoeff() - clip.zero_pose.colwise().minCoeff()).norm();

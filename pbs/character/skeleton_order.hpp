@@ -1,4 +1,4 @@
-// The tree that named joints make: who stands under whom, parents before children.
+// The tree of named joints: the parent of each joint, parents before children.
 #pragma once
 
 #include "pbs/skinning/skeleton.hpp"
@@ -8,11 +8,11 @@
 
 namespace pbs {
 
-// A joint as it stands in a skeleton file, and the line it begins at.
+// A joint as a skeleton file describes it, and the line at which it begins.
 struct NamedJoint {
     // Given once.
     std::string name, parent;  // parent "": a root
-    // Where it turns [m].
+    // The centre of its rotation [m].
     Vec3 head, tail;  // where its bone ends [m]
     int line = 0;     // for errors; 0: not known
 };

@@ -14,7 +14,7 @@ struct SurfaceBody {
     std::string name;                           // of the character, and the beginning of its file in the cache
     std::string made_from = {};                 // content hashes of what surface and skeleton come from
     Skeleton skeleton = {};                     // [m]
-    std::function<SurfaceMesh()> surface = {};  // [m]; asked for only where it is needed
+    std::function<SurfaceMesh()> surface = {};  // [m]; called only where it is needed
     int boundary_euler = 2;                     // 0: a body with one handle
     std::vector<Vec3> inside = {};              // must lie inside the tets; where empty: the heads of all bones
 };

@@ -13,7 +13,7 @@ namespace pbs {
 // Eq. 17-20. as_printed: labels, absolute positions and sign.
 enum class Printed { labels_relative, labels_absolute, sign, as_printed };
 
-// What Eq. 12-16 give for p1 .. p4 [m^2].
+// The gradients that Eq. 12-16 print for p1 .. p4 [m^2].
 template <Printed form, typename Scalar>
 std::array<Vector3<Scalar>, 4> gradient_printed(const VolumeConstraint<Scalar>& constraint, const Vector3<Scalar>& p1,
                                                 const Vector3<Scalar>& p2, const Vector3<Scalar>& p3, const Vector3<Scalar>& p4)

@@ -1,5 +1,5 @@
-// What assimp may open to read one file: that file, and those below its folder that it refers to (a glTF's buffers, an OBJ's materials).
-// Another is not there for it: a pipe would be waited for, and no file names what lies elsewhere on somebody else's machine.
+// The files that assimp may open to read one file: that file, and those below its folder that it refers to (a glTF's buffers, an OBJ's
+// materials). Another is not there for it: a pipe would be waited for, and no file names what lies elsewhere on somebody else's machine.
 //   Assimp::Importer importer;
 //   const OwnFolder& files = only_own_folder(importer, path);
 //   if (!importer.ReadFile(path, 0)) files.refuse_what_was_referred_to();
@@ -17,7 +17,7 @@
 
 namespace pbs {
 
-// Links are followed before a file's folder is asked.
+// Links are followed before the folder of a file is checked.
 class OwnFolder : public Assimp::DefaultIOSystem {
 public:
     // path: the file that is read; it may lie anywhere.
@@ -35,7 +35,7 @@ public:
         return nullptr;
     }
 
-    // An InputError where assimp asked for a file that is there and was not given to it.
+    // InputError where assimp requested a file that exists and was not given to it.
     void refuse_what_was_referred_to() const
     {
         if (!refused_.empty())

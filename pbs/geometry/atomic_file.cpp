@@ -34,7 +34,7 @@ std::string random_letters(int count)
     return text;
 }
 
-// As mkstemp(3), with the permissions of any new file: what is there already, a link among others, is not opened.
+// Like mkstemp(3), with the permissions of any new file: an existing entry, such as a link, is not opened.
 int open_new(const std::string& beginning, std::string& name)
 {
     for (int tries = 0; tries < 100; ++tries) {

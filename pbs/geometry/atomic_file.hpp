@@ -1,5 +1,5 @@
-// Whole files or none: bytes go to a new file beside the target, .NAME.PROCESS.RANDOM, are flushed to disk and renamed over it, so that a
-// killed writer leaves no torn file.
+// Whole files or none: bytes are written to a new file next to the target, .NAME.PROCESS.RANDOM, flushed to disk and renamed over it, so
+// that a killed writer leaves no torn file.
 //   write_atomically("results/run.json", document.dump(2) + "\n");
 #pragma once
 

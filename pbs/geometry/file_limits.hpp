@@ -1,5 +1,5 @@
 // The largest files that are read. Far above what a sound one needs; text of the larger kinds, with what is made of it, fits a gigabyte of
-// memory. A file may have any size at no cost (holes), so that it is asked for its size before a byte is read.
+// memory. A file may have any size at no cost (holes), so the size is checked before a byte is read.
 #pragma once
 
 #include <cstdint>

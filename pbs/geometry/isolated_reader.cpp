@@ -135,7 +135,7 @@ private:
     int answer_ = -1;
 };
 
-// What ended a child that gave no whole answer.
+// Why a child ended that sent no whole answer.
 std::string death(int status)
 {
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) return "took more processor time than such a file can need";

@@ -1,5 +1,5 @@
 // Other people's readers on damaged files: assimp ends the process on one damaged .ply in two, VTK and Gmsh on rarer ones, and all three
-// may ask for memory or time without end. They run in a child process, silent, with a limit on memory, processor time and time; what they
+// may take memory or time without limit. They run in a child process, silent, with a limit on memory, processor time and time; what they
 // read comes back through a pipe, and whatever becomes of the child, the caller gets its bytes or an InputError that names the file and
 // says how the child died.
 //   const std::string bytes = read_isolated("walk.bvh", [](const std::string& path) { return packed(read_by_library(path)); });

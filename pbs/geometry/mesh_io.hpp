@@ -11,22 +11,22 @@
 
 namespace pbs {
 
-// What read_tet_mesh gives.
+// The result of read_tet_mesh.
 struct MeshReading {
     TetMesh mesh;          // positively oriented, in the file's order [m]
-    int flipped_tets = 0;  // orientation was normalised on so many
+    int flipped_tets = 0;  // number of tets whose orientation was normalised
 };
 
 // A tet mesh to compute on: finite, not empty, indices in range, no tet without volume, no face in three tets, no neighbours that
-// overlap, boundary manifold and not self-intersecting (asked in builds with CGAL), every vertex used and given once. Orientation is
+// overlap, boundary manifold and not self-intersecting (checked in builds with CGAL), every vertex used and given once. Orientation is
 // normalised.
 MeshReading read_tet_mesh(const std::string& path);
 
-// Points and tets as they stand in the file, inverted tets and all: what the ruler wants of deformed frames.
+// Points and tets as they are in the file, including inverted tets: the metrics of deformed frames need them.
 // InputError where there is no tet, an index out of range, or a coordinate that is not finite or beyond 1e9 m.
 TetMesh read_tet_frame(const std::string& path);
 
-// By extension: .msh (4.1 ASCII), .vtu, .mesh. Written to a temporary file and renamed. The format alone can be asked for before the work.
+// By extension: .msh (4.1 ASCII), .vtu, .mesh. Written to a temporary file and renamed. The format alone can be checked before the work.
 void require_tet_mesh_format(const std::string& path);
 // InputError for another extension (require_tet_mesh_format: that alone), and where the file cannot be written. Coordinates read back to
 // the bit.
@@ -49,8 +49,8 @@ struct FrameFields {
     std::map<std::string, std::vector<int>> point_flags;  // e.g. prescribed
     std::map<std::string, Eigen::VectorXd> cell_scalars;  // e.g. volume_ratio
 };
-// points [m], #V x 3. InputError where a field has not one entry a point (a cell), or the file cannot be written; path's extension is not
-// asked.
+// points [m], #V x 3. InputError where a field has not one entry a point (a cell), or the file cannot be written; the
+// extension of the path is not checked.
 void write_vtu(const std::string& path, const Positions& points, const Tets& tets, const FrameFields& fields);
 // A surface, without fields; errors as of write_vtu.
 void write_vtp(const std::string& path, const Positions& points, const Triangles& triangles);

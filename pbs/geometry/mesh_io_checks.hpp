@@ -1,4 +1,4 @@
-// What a tet mesh must satisfy before anything is computed on it; each breach is an InputError naming the file, the vertex or tet, its
+// The conditions on a tet mesh before anything is computed on it; each violation is an InputError naming the file, the vertex or tet, its
 // value and the rule. Vertices and tets are counted from 0, as in VTK.
 #pragma once
 

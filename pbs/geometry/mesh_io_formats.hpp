@@ -1,4 +1,4 @@
-// One function a format, behind mesh_io.hpp. The readers return points and tets as they stand in the file: indices in range, the rest
+// One function per format, behind mesh_io.hpp. The readers return points and tets as they are in the file: indices in range, the rest
 // unchecked. Cells of lower dimension are left out; volume cells that are not four-node tets are InputErrors.
 #pragma once
 
@@ -12,7 +12,7 @@ namespace pbs {
 
 IndexedPoints read_vtk(const std::string& path);   // .vtu, .vtk, by VTK
 IndexedPoints read_gmsh(const std::string& path);  // .msh 2.2 and 4.1, .mesh, by Gmsh, in a module
-TetMesh read_tetgen(const std::string& path);      // .node or .ele, the other beside it
+TetMesh read_tetgen(const std::string& path);      // .node or .ele; the other file is in the same folder
 
 // Surfaces: points and triangles.
 IndexedPoints read_assimp(const std::string& path, const std::string& mesh_name);  // .obj, .gltf, .glb, .dae, .zae
@@ -22,7 +22,7 @@ IndexedPoints read_polygons(const std::string& path);                           
 // names, -1 where that is not known.
 long long check_gmsh_file(const std::string& path);
 
-// By hand, with 17 digits: Gmsh's own writer prints 16 (.msh) or 14 (.mesh), which does not read back to the bit.
+// Written by our own code, with 17 digits: Gmsh's own writer prints 16 (.msh) or 14 (.mesh), which does not read back to the bit.
 void write_msh(const std::string& path, const TetMesh& mesh);    // 4.1 ASCII
 void write_medit(const std::string& path, const TetMesh& mesh);  // .mesh, version 2
 

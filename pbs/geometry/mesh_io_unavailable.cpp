@@ -1,4 +1,4 @@
-// In place of the readers and writers where the build left them out.
+// Replaces the readers and writers in a build without them.
 #include "pbs/geometry/mesh_io.hpp"
 
 #include "pbs/geometry/input_error.hpp"

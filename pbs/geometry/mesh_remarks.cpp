@@ -40,7 +40,7 @@ void add_holes(const std::string& path, const Triangles& triangles, std::vector<
         remarks.push_back(remark(path, "edges of one triangle", holes, "its holes are wrapped over"));
 }
 
-// Skins of characters do so: MakeHuman's at lips and lids. Without CGAL they are not asked, nor are tet meshes.
+// Skins of characters do so: MakeHuman's at lips and lids. Without CGAL this is not checked, and never for tet meshes.
 void add_crossings([[maybe_unused]] const std::string& path, [[maybe_unused]] const SurfaceMesh& surface,
                    [[maybe_unused]] std::vector<std::string>& remarks)
 {
@@ -54,7 +54,7 @@ void add_crossings([[maybe_unused]] const std::string& path, [[maybe_unused]] co
 #endif
 }
 
-// Of the body within outward triangles [m^3]; below 0 where they look inward.
+// Volume of the body enclosed by outward triangles [m^3]; negative where they face inward.
 double signed_volume(const SurfaceMesh& surface)
 {
     const Vec3 middle = surface.points.colwise().mean().transpose();

@@ -1,7 +1,7 @@
 // Tet meshes of the built-in bodies and of surfaces, by CGAL (Mesh_3, alpha_wrap_3).
 //   TetMesh limb = mesh_limb(1775);
 //   TetMesh body = mesh_surface(read_surface("body.obj"), {.vertices = 2000});
-// The same call gives the same mesh to the bit: seeds are fixed and no limit is a time.
+// The same call gives the same mesh to the bit: seeds are fixed and no limit depends on time.
 #pragma once
 
 #include "pbs/geometry/mesh_io.hpp"
@@ -23,16 +23,17 @@ struct SurfaceMeshing {
     int vertices = 2000;            // wanted, 150 or more
     double wrap_alpha_m = 0.0;      // smallest gap the wrap enters; 0: the bounding box's diagonal / 170
     double wrap_offset_m = 0.0;     // 0: alpha / 3
-    double min_dihedral_deg = 5.0;  // asked of every tet
-    int boundary_euler = 2;         // asked of the boundary; 2: a ball, 0: a body with one handle
+    double min_dihedral_deg = 5.0;  // required of every tet
+    int boundary_euler = 2;         // required of the boundary; 2: a ball, 0: a body with one handle
     std::vector<Vec3> inside;       // points that must lie inside, e.g. joints
 };
-// InputError where fewer than 150 vertices are asked for; the surface has fewer than 4 triangles, a point that is not finite, an index
+// InputError where fewer than 150 vertices are requested; the surface has fewer than 4 triangles, a point that is not finite, an index
 // out of range or no volume; its wrap holds less than half or more than twice what it encloses (an open sheet, triangles turned both ways),
-// has another Euler number or leaves a point of `inside` outside; or none of six tries has the quality asked. And in a build without CGAL.
+// has another Euler number or leaves a point of `inside` outside; or none of six attempts has the required quality. Also in a build without
+// CGAL.
 TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options);
 
-// Triangles that share no vertex or edge meet somewhere, or neighbours overlap. An InputError in a build without CGAL, as of all below.
+// Triangles that share no vertex or edge meet somewhere, or neighbours overlap. InputError in a build without CGAL, as for all below.
 bool self_intersects(const Positions& positions, const Triangles& boundary);
 std::vector<std::array<int, 2>> self_intersections(const Positions& positions, const Triangles& boundary);  // pairs of triangles, sorted
 int count_self_intersections(const Positions& positions, const Triangles& boundary);                        // of those pairs

@@ -1,4 +1,4 @@
-// From CGAL's complexes to our arrays. Seen by the meshing .cpp files alone.
+// Conversion of CGAL's complexes to our arrays. Only the meshing .cpp files include this.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -12,7 +12,7 @@
 
 namespace pbs {
 
-// Exact where a decision hangs on it, double in all coordinates.
+// Exact predicates, double coordinates.
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 // CGAL seeds its generator with the clock; a fixed seed makes meshing repeat to the bit.

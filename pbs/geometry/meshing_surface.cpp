@@ -74,7 +74,7 @@ using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 
 constexpr double facet_angle_deg = 25.0, radius_edge_ratio = 2.5, sliver_bound_deg = 12.0;
 
-// Relative to the body's diagonal, at size 1: what gives a standing human 2,000 vertices.
+// Relative to the diagonal of the body, at size 1: the value that gives a standing human 2,000 vertices.
 constexpr double smallest_cell = 0.0042, largest_cell = 0.021, facet_distance = 0.0032;
 constexpr double cells_across = 2.9;    // a cell is at most this part of the local thickness, at size 1
 constexpr double inside_to_skin = 1.2;  // size of cells over size of facets
@@ -191,7 +191,7 @@ void check_closed(const SurfaceMesh& surface, const Body& body)
                          "expected 0.5 to 2: a closed or nearly closed surface, its triangles oriented one way");
 }
 
-// What is wrong with the wrap already stays wrong at every cell size.
+// A defect of the wrap remains at every cell size.
 void check_wrap(const Body& body, const SurfaceMeshing& options)
 {
     if (body.euler() != options.boundary_euler)

@@ -1,4 +1,4 @@
-// In place of the meshing where the build left it out.
+// Replaces the meshing in a build without it.
 #include "pbs/geometry/meshing.hpp"
 
 #include "pbs/geometry/input_error.hpp"

@@ -1,4 +1,4 @@
-// What mesh_surface asks of the surface, and of its own result: perturbing and exuding can undo what the refinement guaranteed.
+// The checks of mesh_surface on its input and on its own result: perturbing and exuding can undo what the refinement guaranteed.
 #pragma once
 
 #include "pbs/geometry/meshing.hpp"
@@ -7,7 +7,8 @@
 
 namespace pbs {
 
-// An InputError unless there are enough vertices asked for, at least four triangles, finite points, indices in range and a volume inside.
+// InputError unless enough vertices are requested, there are at least four triangles, all points are finite, all indices are in range and
+// the surface encloses a volume.
 void check_surface(const SurfaceMesh& surface, const SurfaceMeshing& options);
 
 // The signed volume inside the triangles [m^3], as if closed by a fan from the points' mean.

@@ -1,4 +1,4 @@
-// Numbers as errors tell them.
+// Numbers as error messages print them.
 #pragma once
 
 #include <sstream>

@@ -12,10 +12,10 @@
 
 namespace pbs {
 
-// In the machine's own byte order: for processes of one machine.
+// Values are in the byte order of the machine: for processes of one machine.
 class PackedBytes {
 public:
-    // As it lies in memory.
+    // Appends the value as it is in memory.
     template <typename Number>
     void put(Number number)
     {
@@ -53,7 +53,7 @@ public:
         take_raw(&number, sizeof number);
         return number;
     }
-    // What put_array put; empty where fewer bytes are left than its count says.
+    // Reads what put_array wrote; empty where fewer bytes are left than its count requires.
     template <typename Number>
     std::vector<Number> take_array()
     {
@@ -64,13 +64,13 @@ public:
         take_raw(numbers.data(), numbers.size() * sizeof(Number));
         return numbers;
     }
-    // What put_text put.
+    // Reads what put_text wrote.
     std::string take_text()
     {
         const std::vector<char> text = take_array<char>();
         return {text.begin(), text.end()};
     }
-    bool sound() const { return sound_; }                          // all that was asked for was there
+    bool sound() const { return sound_; }                          // everything requested so far was present
     bool whole() const { return sound_ && at_ == bytes_.size(); }  // and nothing is left over
 
 private:

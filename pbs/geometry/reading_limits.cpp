@@ -34,7 +34,7 @@ std::uintmax_t bytes_of(const std::string& path)
     return code ? 0 : bytes;
 }
 
-// Half of what the machine could give now: the parent holds the answer too.
+// Half of the memory that the machine has available: the parent holds the result too.
 std::uintmax_t most_bytes_now()
 {
     std::ifstream file("/proc/meminfo");

@@ -1,5 +1,5 @@
-// What a process may take to read one file (isolated_reader.hpp): far above what a sound one needs, and no more than half of the memory
-// that there is.
+// The resources that a process may use to read one file (isolated_reader.hpp): far more than a sound file needs, and no more than half of
+// the memory that there is.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace pbs {
 // [s] of time, not of processor time: other work may keep the machine busy.
 double reading_limit_s(const std::string& path);
 
-// For this process, from here on: memory, processor time and no core file. Memory is not limited under a sanitizer.
+// Limits this process from here on: memory, processor time and no core file. Memory is not limited under a sanitizer.
 void limit_reading(const std::string& path);
 
 }  // namespace pbs

@@ -1,4 +1,4 @@
-// What is asked of closed triangle meshes, by CGAL's Polygon_mesh_processing.
+// Checks of closed triangle meshes by CGAL's Polygon_mesh_processing.
 #include "pbs/geometry/meshing.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -40,7 +40,7 @@ Soup soup_of(const Positions& positions, const Triangles& triangles)
     return soup;
 }
 
-// Where the triangles are no manifold, the vertices in the way are doubled.
+// Where the triangles are not manifold, the vertices concerned are duplicated.
 Surface surface_of(const Positions& positions, const Triangles& triangles)
 {
     Soup soup = soup_of(positions, triangles);

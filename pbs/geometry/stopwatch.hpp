@@ -5,10 +5,10 @@
 
 namespace pbs {
 
-// By the steady clock, which nobody sets back.
+// Uses the steady clock, which is never set back.
 class Stopwatch {
 public:
-    // Since construction; may be asked again and again.
+    // Time since construction; may be called repeatedly.
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
 private:

@@ -38,7 +38,7 @@ void refuse_negative_indices(const std::string& path)
     }
 }
 
-// What assimp leaves out of a file and goes on without, by its warnings.
+// The parts of a file that assimp's warnings report as left out.
 class LeftOut {
 public:
     LeftOut()

@@ -1,4 +1,4 @@
-// What a surface must satisfy; each breach is an InputError that names the file, the place, its value and the rule.
+// The conditions on a surface; each violation is an InputError that names the file, the place, its value and the rule.
 #pragma once
 
 #include "pbs/geometry/guarded_reading.hpp"
@@ -6,10 +6,11 @@
 
 namespace pbs {
 
-// As the file has it: at least one triangle and one point, coordinates finite and within 1e9 m, indices in range.
+// Checks the surface as the file has it: at least one triangle and one point, finite coordinates within 1e9 m, indices in range.
 void check_raw_surface(const std::string& path, const IndexedPoints& mesh);
 
-// Points joined: no edge is in three triangles or more. Their numbers in the file are lost, so that an edge is told by its ends.
+// Checks the surface after its points are joined: no edge is in three triangles or more. The points' numbers in the file are lost by then,
+// so an edge is reported by the coordinates of its ends.
 void check_surface_edges(const std::string& path, const SurfaceMesh& surface);
 
 }  // namespace pbs

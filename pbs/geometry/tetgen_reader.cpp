@@ -70,7 +70,8 @@ private:
     std::vector<double> numbers_;
 };
 
-// A file of n bytes holds fewer than n entries: a count above that is damage. Fewer may be there than it tells: room is made as they come.
+// A file of n bytes holds fewer than n entries: a larger count is damage. There may be fewer entries than the count: memory is reserved as
+// they are read.
 long long most_entries(const std::string& path)
 {
     return static_cast<long long>(std::filesystem::file_size(path));

@@ -13,7 +13,7 @@
 namespace pbs {
 namespace {
 
-// Open for reading; what a name stands for is known only once it is open.
+// Opens for reading; the kind of a file is known only once it is open.
 class OpenFile {
 public:
     explicit OpenFile(const std::string& path) : path_(path), file_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC))

@@ -1,4 +1,4 @@
-// What a tet mesh's connectivity says: edges, boundary, manifoldness, Euler characteristic. vertices: #V; indices of tets lie from 0 to
+// The connectivity of a tet mesh: edges, boundary, manifoldness, Euler characteristic. vertices: #V; indices of tets lie from 0 to
 // #V - 1 (unchecked).
 #pragma once
 
@@ -17,10 +17,10 @@ struct Adjacency {
     // #V + 1.
     std::vector<int> first, neighbour;  // vertex indices, 2 #E, those of a vertex ascending
 };
-// Of every vertex, those without a tet included.
+// Counted over all vertices, including those without a tet.
 Adjacency adjacency_of(const Tets& tets, int vertices);
 
-// Of tets and their boundary; one manifold component of Euler number 2 is a ball's.
+// Topology of the tets and their boundary; one manifold component with Euler number 2 is a ball.
 struct Topology {
     // Every boundary edge in two triangles, every boundary vertex in one fan, every face in at most two tets.
     bool boundary_manifold = false;

@@ -6,7 +6,7 @@
 
 namespace pbs {
 
-// What VTK says on this thread from its construction on.
+// Collects what VTK reports on this thread from the construction of the object on.
 class VtkMessages {
 public:
     VtkMessages();  // forgets what the thread collected before

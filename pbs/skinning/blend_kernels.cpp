@@ -33,7 +33,7 @@ PBS_INLINE Four<Scalar> load(const Scalar* numbers)
     return *reinterpret_cast<const typename Lanes<Scalar, 4>::Unaligned*>(numbers);
 }
 
-// Where the machine has registers for it: (c_0 x, c_1 y) + (c_2 z, t 1), then the halves of the sum.
+// Used where the machine has wide enough registers: (c_0 x, c_1 y) + (c_2 z, t 1), then the halves of the sum.
 template <class Scalar>
 PBS_INLINE Four<Scalar> moved(const PaddedMatrix<Scalar>& matrix, const Scalar* point)
 {

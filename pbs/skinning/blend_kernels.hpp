@@ -1,4 +1,4 @@
-// Inner loops of the blends on raw arrays, built for the machine at hand; blend_skinning.hpp is what calls them. Scalar is float or double.
+// Inner loops of the blends on raw arrays, compiled for the present machine; blend_skinning.hpp calls them. Scalar is float or double.
 //   rest, posed: points [m], n x 3, that do not overlap; one number behind the last rest point is read as well, and not used
 #pragma once
 
@@ -28,21 +28,21 @@ struct BlendRows {
 // No blending: all points by one matrix, or point i by matrix transform[i].
 template <class Scalar>
 void transform_points(int n, const PaddedMatrix<Scalar>& matrix, const Scalar* rest, Scalar* posed);
-// By a matrix each.
+// Every point has its own matrix.
 template <class Scalar>
 void transform_points(int n, const int* transform, const PaddedMatrix<Scalar>* matrices, const Scalar* rest, Scalar* posed);
 
-// One row of weights a point.
+// Every point has its own row of weights.
 template <class Scalar>
 void blend_points(const BlendRows<Scalar>& rows, const PaddedMatrix<Scalar>* matrices, const Scalar* rest, Scalar* posed);
-// The same of dual quaternions, on the side of their row's heaviest (TurnedBone).
+// The same for dual quaternions, each with the sign that agrees with the heaviest of its row (TurnedBone).
 template <class Scalar>
 void blend_points(const BlendRows<Scalar>& rows, const PackedDualQuaternion<Scalar>* dual_quaternions, const Scalar* rest, Scalar* posed);
 
-// The blended transforms themselves, one a row.
+// The blended transforms themselves, one per row.
 template <class Scalar>
 void blend_matrices(const BlendRows<Scalar>& rows, const PaddedMatrix<Scalar>* matrices, PaddedMatrix<Scalar>* blended);
-// The same of dual quaternions; what comes out is rigid.
+// The same for dual quaternions; the results are rigid.
 template <class Scalar>
 void blend_matrices(const BlendRows<Scalar>& rows, const PackedDualQuaternion<Scalar>* dual_quaternions, PaddedMatrix<Scalar>* blended);
 

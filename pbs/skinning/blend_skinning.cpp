@@ -111,7 +111,7 @@ void BlendSkinning<Scalar>::dual_quaternion_rows(const Pose& pose, const Vec3& o
     move_points(packed_, std::as_const(matrices_).data(), raw(packed_.own, packed_.own.turned_bone), bones, rest_.data(), posed);
 }
 
-// double writes where it is asked to, in world coordinates; float blends about the middle and is carried there in double.
+// double writes world coordinates directly; float blends about the middle of the body, and the result is moved there in double.
 template <class Scalar>
 template <class Blend>
 void BlendSkinning<Scalar>::blend_in_world(const Pose& pose, Positions& posed, const Blend& blend)

@@ -1,11 +1,11 @@
-// Where each vertex hangs on the skeleton in rest pose: its nearest bone and its projection on it.
+// How each vertex is bound to the skeleton in rest pose: its nearest bone and its projection on that bone.
 #pragma once
 
 #include "pbs/skinning/pose.hpp"
 
 namespace pbs {
 
-// One entry a vertex of the mesh that was bound.
+// One entry per vertex of the bound mesh.
 struct BoneBinding {
     std::vector<int> bone;      // nearest bone of each vertex, #V; the first of equals
     Eigen::VectorXd parameter;  // position along the bone, (v - s).(d - s) / |d - s|^2, not clamped, #V

@@ -46,7 +46,7 @@ bool row_less(const Weights& weights, int a, int b)
     return std::ranges::lexicographical_compare(weights_of(weights, a), weights_of(weights, b));
 }
 
-// Appends rows of weights, and the turned bones they ask for.
+// Appends rows of weights and the turned bones that they use.
 template <class Scalar>
 class RowWriter {
 public:
@@ -110,7 +110,7 @@ void cut_into_stretches(PackedWeights<Scalar>& packed)
 {
     using enum VertexStretch::Kind;
     const std::vector<int>& matrix = packed.matrix;
-    int rows = 0;  // of their own that stand before
+    int rows = 0;  // number of own rows that precede these vertices
     for (auto run = matrix.begin(); run != matrix.end();) {
         const auto end = std::find_if(run, matrix.end(), [&](int other) { return other != *run; });
         const auto kind = *run < 0 ? own_rows : end - run < shortest_run ? matrix_each : one_matrix;

@@ -28,7 +28,7 @@ struct VertexStretch {
     // one_matrix: all by the same; matrix_each: by PackedWeights::matrix of each; own_rows: blended one by one.
     enum class Kind { one_matrix, matrix_each, own_rows };
     Kind kind;  // of all its vertices
-    // The first vertex.
+    // Index of the first vertex.
     int first, last;  // one behind the last vertex
     int own_row;      // the first one's row of PackedWeights::own
 };
@@ -41,7 +41,7 @@ struct PackedWeights {
     WeightRows<Scalar> own;                // rows of one vertex alone, in the order of the vertices
     std::vector<int> matrix;               // of a vertex: its only bone, or bones + a shared row; -1: blended by a row of its own, #V
     std::vector<VertexStretch> stretches;  // all vertices, in order
-    std::vector<TurnedBone> turned_bones;  // each that a row asks for, once
+    std::vector<TurnedBone> turned_bones;  // each one that a row uses, listed once
 };
 
 // Every vertex has at least one weight that is not zero (unchecked).

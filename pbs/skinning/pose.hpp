@@ -24,7 +24,7 @@ struct Motion {
 };
 
 // Pose from local joint rotations about the heads (parent's frame = world axes) and a translation [m] of the roots.
-// local_rotations: one a bone, of any length but zero (#bones, unchecked). Parents stand before their children.
+// local_rotations: one per bone, of any non-zero length (#bones, unchecked). Parents precede their children.
 Pose pose_from_joints(const Skeleton& skeleton, const std::vector<Eigen::Quaterniond>& local_rotations, const Vec3& root_translation);
 
 // A joint sweep: frame i of `frames` turns `joint` by angle_deg * i / (frames - 1) about `axis` (rest world axes); frame 0 is the rest

@@ -12,7 +12,7 @@ namespace pbs {
 // Skeletons from files have names given once, bones with a length, and at least one root; those made by hand are not checked.
 struct Bone {
     std::string name;  // what clips, weights files and find_bone know it by
-    int parent = -1;   // index into Skeleton::bones, -1 for a root; parents stand before their children
+    int parent = -1;   // index into Skeleton::bones, -1 for a root; parents precede their children
     Vec3 head;         // s_j [m]
     Vec3 tail;         // d_j [m]
 };

@@ -5,8 +5,8 @@
 
 namespace pbs {
 
-// Weights of vertex i: entries first(i) .. first(i + 1) - 1 of `bone` and `weight`; they sum to one. Those made
-// here and read from files obey that; nothing asks it of others.
+// The weights of vertex i are the entries first(i) .. first(i + 1) - 1 of `bone` and `weight`; they sum to one. Weights made
+// here and weights read from files obey that; no other weights are checked.
 struct Weights {
     std::vector<int> first;      // begins with 0, #V + 1
     std::vector<int> bone;       // index into Skeleton::bones, #entries
@@ -16,7 +16,7 @@ struct Weights {
     bool blended(int vertex) const { return first[vertex + 1] - first[vertex] > 1; }  // between two bones or more
 };
 
-// `binding` is one to this skeleton (unchecked); #V and the order of vertices are its own.
+// `binding` must belong to this skeleton (unchecked); it determines #V and the order of the vertices.
 Weights paper_weights(const BoneBinding& binding, const Skeleton& skeleton);  // Eq. 2: 1 at 1/6 <= t <= 5/6, else 1 / n of bones_meeting
 Weights rigid_weights(const BoneBinding& binding);                            // nearest bone only
 

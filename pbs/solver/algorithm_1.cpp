@@ -81,7 +81,7 @@ bool Algorithm1<Scalar>::woken(StepSummary& summary)
     return true;
 }
 
-// Records residuals where asked; true when the largest is below stop_residual.
+// Records residuals if requested; true when the largest is below stop_residual.
 template <typename Scalar>
 bool Algorithm1<Scalar>::examine_residuals(StepSummary& summary) const
 {

@@ -1,4 +1,4 @@
-// What never changes from frame to frame: the constraints of a mesh with their rest data, in the order they are projected in, and the
+// The data that is the same in every frame: the constraints of a mesh with their rest data, in the order they are projected in, and the
 // masses.
 #pragma once
 

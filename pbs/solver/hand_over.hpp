@@ -1,4 +1,4 @@
-// What threads hand to each other through oneTBB, told to the thread sanitizer, which cannot see into a library that was built without it.
+// Reports to the thread sanitizer what threads hand to each other through oneTBB, since it cannot see into a library built without it.
 //   HandOver call;                   // what the caller wrote before ...
 //   { HandOver::Task task(call); }   // ... each task may read; what the tasks wrote, the caller may read when `call` has ended
 // It still finds two tasks that touch the same place. In every other build these are nothing.
@@ -21,7 +21,7 @@ public:
     // One of its tasks, on whichever thread.
     class Task {
     public:
-        // From here on the task may read what the caller wrote.
+        // After this the task may read what the caller wrote.
         explicit Task(HandOver& call) : call_(call) { take(call_.start_); }
         ~Task() { give(call_.end_); }
         Task(const Task&) = delete;

@@ -1,4 +1,4 @@
-// What a position based skinning step is told. Stiffnesses are dimensionless, in [0, 1]; zero leaves the class out.
+// Options of a position based skinning step. Stiffnesses are dimensionless, in [0, 1]; zero leaves the class out.
 #pragma once
 
 #include "pbs/geometry/types.hpp"
@@ -7,9 +7,9 @@
 
 namespace pbs {
 
-// Of projection, within each class; classes come in Algorithm 1's order. plain: file order, as the paper reads. ordered: sixteen
-// constraints that share no vertex side by side. grouped: the same with neighbouring constraints in groups, quicker and farther from
-// `plain`.
+// Order of projection within each class; the classes follow the order of Algorithm 1. plain: file order, as the paper reads. ordered:
+// sixteen constraints that share no vertex side by side. grouped: the same with neighbouring constraints in groups, quicker and farther
+// from `plain`.
 enum class Order { plain, ordered, grouped };
 // Floating point of the projections; particles, their integration and sums of residuals are double in both. f32 projects relative to the
 // step's mean position, so that far from the origin no digits are lost.
@@ -23,11 +23,11 @@ enum class Masses { unit, lumped };
 // as_printed: labels, absolute positions and sign.
 enum class VolumeForm { derived, labels_relative, labels_absolute, sign, as_printed };
 
-// What k does. per_iteration: each projection removes the share k (the paper). exponent: 1 - (1 - k)^(1 / iterations) (M. Mueller et al.,
-// Position based dynamics, VRIPHYS 2006), so that a lone constraint is left with 1 - k of its error whatever the number of iterations.
+// The effect of k. per_iteration: each projection removes the share k (the paper). exponent: 1 - (1 - k)^(1 / iterations) (M. Mueller et
+// al., Position based dynamics, VRIPHYS 2006), so that a lone constraint is left with 1 - k of its error whatever the number of iterations.
 enum class StiffnessForm { per_iteration, exponent };
 
-// In which order an iteration takes the classes; bind_stretch_volume is Algorithm 1's (lines 11-13).
+// The order of the classes within an iteration; bind_stretch_volume is that of Algorithm 1 (lines 11-13).
 enum class ClassOrder {
     bind_stretch_volume,
     bind_volume_stretch,
@@ -37,12 +37,12 @@ enum class ClassOrder {
     volume_stretch_bind
 };
 
-// Where LBS enters Algorithm 1, which does not say. start: particles outside the jiggling zone start every step at their LBS position,
-// those inside are integrated. increment: every particle is integrated, and LBS moves it beforehand by what its LBS position has moved
-// since the last step; velocities are relative to that.
+// Where LBS enters Algorithm 1; the paper leaves it open. start: particles outside the jiggling zone start every step at their LBS
+// position, those inside are integrated. increment: every particle is integrated, and LBS moves it beforehand by what its LBS position has
+// moved since the last step; velocities are relative to that.
 enum class LbsEntry { start, increment };
 
-// Of a vertex on its bone (d_i = 0): pinned to its material point, or without a bind constraint.
+// A vertex on its bone (d_i = 0) is pinned to its material point, or has no bind constraint.
 enum class BindOnBone { pinned, unbound };
 
 // Stiffnesses of the jiggling zone, in [0, 1]. A zone that a solver is given jiggles only where options have one of these.
@@ -56,9 +56,9 @@ struct Jiggle {
 // sleep_tolerance, sleep with order plain, a volume_form other than derived with another order than plain.
 struct PbsOptions {
     int iterations = 24;  // at most, of lines 11-13 of Algorithm 1; 0: LBS as it is given (and integrated particles as predicted)
-    // Of edges (k_stretch, Eq. 10), tets (k_volume, Eq. 11) and vertices to their bones (k_bind, Sec. 3.6): the share of its error that a
-    // projection of a constraint removes (StiffnessForm), in [0, 1].
-    double k_stretch = 0.2, k_volume = 1.0, k_bind = 1.0;         // likewise of vertices to their bones
+    // Stiffness of edges (k_stretch, Eq. 10), tets (k_volume, Eq. 11) and binds to the bones (k_bind, Sec. 3.6): the share of its error
+    // that a projection of a constraint removes (StiffnessForm), in [0, 1].
+    double k_stretch = 0.2, k_volume = 1.0, k_bind = 1.0;
     Vec3 gravity_m_s2 = Vec3::Zero();                             // acts where particles are integrated: in the jiggling zone
     Order order = Order::ordered;                                 // within each class
     int threads = 1;                                              // of a step, where the mesh is large enough for more than one to pay

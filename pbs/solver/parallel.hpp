@@ -11,7 +11,7 @@ namespace pbs {
 // A number of threads to share tasks among; moved, not copied.
 class Parallel {
 public:
-    explicit Parallel(int threads);  // at most so many, the caller's among them, and no more than oneTBB allows in this process
+    explicit Parallel(int threads);  // at most this many threads, including the caller's, and no more than oneTBB allows in this process
     ~Parallel();
     Parallel(Parallel&&) noexcept;             // the other is then for one thread
     Parallel& operator=(Parallel&&) noexcept;  // likewise

@@ -38,8 +38,8 @@ private:
     Positions lbs_before_;  // LBS positions of the last step [m], by_increment_ alone
 };
 
-// What float projections are relative to: the mean position, so that a character far from the world's origin loses no digits.
-// In double the world's origin.
+// The origin of float projections: the mean position, so that a character far from the origin of the world loses no digits.
+// In double it is the origin of the world.
 template <typename Scalar>
 Vec3 local_origin(const Positions& p);
 

@@ -13,7 +13,7 @@
 
 namespace pbs {
 
-// Whether a mesh of so many vertices is large enough for its steps to be shared among threads. Smaller ones are worth threads over frames
+// Whether a mesh of this many vertices is large enough for its steps to be shared among threads. Smaller ones are worth threads over frames
 // or characters.
 bool shared_among_threads(int vertices);
 

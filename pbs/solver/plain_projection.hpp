@@ -7,7 +7,7 @@
 
 namespace pbs {
 
-// As Projection says; nothing sleeps.
+// See Projection; no constraint sleeps.
 template <typename Scalar>
 class PlainProjection : public Projection<Scalar> {
 public:

@@ -12,7 +12,7 @@
 
 namespace pbs {
 
-// What a sleeping constraint may be off.
+// The largest residual that a sleeping constraint may have.
 struct SleepTolerance {
     double ratio = 0.0;     // |l / l0 - 1|, |V / V0 - 1|
     double length_m = 0.0;  // of bind constraints, and what counts as moved

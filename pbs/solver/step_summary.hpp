@@ -1,4 +1,4 @@
-// What one step did, whole: residuals, why it stopped, how long it took.
+// The summary of one step: residuals, the reason why it stopped, and its time.
 #pragma once
 
 #include <vector>
@@ -17,14 +17,14 @@ struct Residuals {
 enum class Outcome { finished, not_finite, not_converged };
 const char* to_string(Outcome outcome);  // the value's name, as records have it
 
-// What PbsSolver::advance tells of one step.
+// The result of PbsSolver::advance for one step.
 struct StepSummary {
     int iterations = 0;                   // that were done; of the last attempt where sleepers had to be woken
-    Outcome outcome = Outcome::finished;  // a breakdown is told here, never thrown
+    Outcome outcome = Outcome::finished;  // a breakdown is reported here, never thrown
     double sleeping_share = 0.0;          // of stretch and volume constraints that were left out
     int wakings = 0;                      // how often the step was redone because some of them were needed
     double seconds = 0.0;                 // wall time of the step
-    std::vector<Residuals> history;       // one an iteration, where asked
+    std::vector<Residuals> history;       // one per iteration, if requested
 };
 
 }  // namespace pbs

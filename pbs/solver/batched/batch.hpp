@@ -17,7 +17,7 @@ inline constexpr int batch_size = 16;
 // edge.
 enum class GroupKind { edge, edge_wedge, edge_triangle, edge_tet, tet, tet_fan_2, tet_fan_3 };
 
-// Which of a group's vertices each of its constraints joins.
+// The vertices of a group that each of its constraints joins.
 template <GroupKind kind>
 struct GroupShape;
 
@@ -58,7 +58,7 @@ struct GroupShape<GroupKind::tet_fan_3> {
     static constexpr std::array<std::array<int, 4>, 3> joins{{{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 5}}};
 };
 
-// Of stretch constraints; else of volume constraints.
+// True for stretch constraints, false for volume constraints.
 template <GroupKind kind>
 inline constexpr bool of_edges = kind <= GroupKind::edge_tet;
 

@@ -20,7 +20,7 @@ double sum_squared_errors(GroupKind kind, const void* batches, int count, const 
 // The largest |l / l0 - 1| or |V / V0 - 1| of each group, batch_size a batch; zero for lanes without one.
 template <typename Scalar>
 void largest_errors(GroupKind kind, const void* batches, int count, const Scalar* vertices, Scalar* errors);
-// Of the bind constraints of vertices 0 .. 16 count - 1 [m^2].
+// Residuals of the bind constraints of vertices 0 .. 16 count - 1 [m^2].
 template <typename Scalar>
 double sum_squared_bind_errors(const BindBatch<Scalar>* batches, int count, const Scalar* vertices);
 

@@ -16,10 +16,10 @@ struct BatchRun {
     std::size_t first_line = 0;  // where they begin in the program's memory
 };
 
-// What a constraint is told, by its place in its class.
+// Data of a constraint, indexed by its position in its class.
 template <typename Scalar>
 struct ConstraintValues {
-    // As Batch has them, one a constraint.
+    // The same values as in Batch, one per constraint.
     std::vector<Scalar> rest, stiffness;  // as Batch has them, one a constraint
 };
 
@@ -46,9 +46,9 @@ public:
     template <typename F>
     void for_each_constraint(F&& f) const;
 
-    // What of a slab has a group with an awake vertex; awake: of each vertex in the new order, dummies included.
+    // The part of a slab whose groups have an awake vertex; awake: one entry per vertex in the new order, including dummies.
     std::vector<BatchRun> runs_awake(int slab, const std::vector<char>& awake) const;
-    // Sets the flag of every vertex of a group that is off by more than the tolerance at these positions, or not a number.
+    // Sets the flag of every vertex of a group whose residual at these positions exceeds the tolerance or is not a number.
     void mark_unsatisfied(const Scalar* vertices, double tolerance, std::vector<char>& marked) const;
 
     double fill() const;  // share of lanes that have a group

@@ -11,8 +11,8 @@ template <typename Scalar>
 struct BatchedConstraints {
     VertexOrder order;    // where the mesh's vertices lie
     int dummy_begin = 0;  // dummy vertices follow the mesh's, from a whole batch on; see BatchProgram
-    // Of edges; empty where the class is left out.
-    BatchProgram<Scalar> stretch, volume;  // of tets, likewise
+    // Programs of the edges and the tets; empty where the class is left out.
+    BatchProgram<Scalar> stretch, volume;
 
     int vertices() const { return static_cast<int>(order.old_of_new.size()); }  // #V of the mesh, dummies not counted
 };

@@ -13,7 +13,7 @@
 
 namespace pbs {
 
-// As Projection says. Of the options it reads order, threads and sleep.
+// See Projection. This class reads the options order, threads and sleep.
 template <typename Scalar>
 class BatchedProjection : public Projection<Scalar> {
 public:

@@ -13,7 +13,7 @@ namespace pbs {
 
 inline constexpr int largest_group = 6;  // of vertices and of constraints
 
-// What one lane projects.
+// The constraints that one lane projects.
 struct ConstraintGroup {
     GroupKind kind;                             // says how many entries of the arrays count
     std::array<int, largest_group> vertex;      // as GroupShape<kind> counts them

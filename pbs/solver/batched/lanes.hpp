@@ -44,7 +44,7 @@ using Vector [[gnu::vector_size(count * sizeof(Scalar)), gnu::may_alias]] = Scal
 template <typename Scalar>
 using Row = Vector<Scalar, lanes<Scalar>>;
 
-// Which element of (a, b), b's counted after a's, becomes element i, within blocks of four.
+// The element of (a, b), with b's counted after a's, that becomes element i, within blocks of four.
 template <int width>
 struct UnpackLow {
     static constexpr int at(int i) { return i / 4 * 4 + i % 4 / 2 + i % 2 * width; }

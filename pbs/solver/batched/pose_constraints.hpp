@@ -8,11 +8,11 @@ namespace pbs {
 // Poses of one vertex side by side: x of sixteen poses [m], then y, then z.
 inline constexpr int poses_a_block = 16;
 
-// Which of a pose's stiffnesses a constraint has.
+// Selects the stiffness of a pose that applies to a constraint.
 enum class StiffnessOf : std::uint32_t { stretch, jiggling_stretch, volume };
 inline constexpr int stiffness_classes = 3;  // values of StiffnessOf
 
-// Of all poses, but for its stiffness.
+// A constraint shared by all poses, except for its stiffness.
 template <typename Scalar>
 struct PoseEdge {
     std::uint32_t vertex[2];  // in the new order
@@ -31,7 +31,7 @@ struct PoseTet {
     Scalar w[4];              // inverse masses
 };
 
-// Of one vertex in all poses.
+// The bind constraint of one vertex in all poses.
 template <typename Scalar>
 struct PoseBind {
     Scalar rest_distance;  // [m]

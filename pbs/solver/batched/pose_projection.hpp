@@ -8,7 +8,7 @@
 
 namespace pbs {
 
-// What all poses share: the constraints, one after the other, in the order of projection.
+// The data that all poses share: the constraints in the order of projection.
 template <typename Scalar>
 struct PoseProgram {
     VertexOrder order;                    // where the mesh's vertices lie
@@ -29,7 +29,7 @@ public:
     // poses: at most poses_a_block.
     PoseBlock(const PoseProgram<Scalar>& program, const std::vector<PbsOptions>& poses);
 
-    // As Projection's, of the pose in a lane.
+    // The same as in Projection, for the pose in one lane.
     void load(int lane, const Positions& p, const Positions& q, const Vec3& origin);
     void store(int lane, const Vec3& origin, Positions& p) const;  // likewise
 

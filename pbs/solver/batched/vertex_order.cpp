@@ -30,7 +30,7 @@ Levels levels_from(int start, const Adjacency& adjacency, std::vector<int>& visi
     return levels;
 }
 
-// From one end to the other: the last vertex reached from anywhere is an end, or near one.
+// The order runs from one end to the other: the last vertex reached from any vertex is an end, or close to one.
 Levels levels_of_component(int anywhere, const Adjacency& adjacency, std::vector<int>& visited_by, int& visit)
 {
     Levels levels = levels_from(anywhere, adjacency, visited_by, ++visit);

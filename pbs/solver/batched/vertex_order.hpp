@@ -1,4 +1,4 @@
-// Where vertices lie in memory, and the slabs that threads share a mesh by.
+// The order of the vertices in memory, and the slabs into which a mesh is divided among threads.
 // Vertices follow each other breadth-first: by their distance in edges from one end of the mesh (levels), neighbours near
 // each other. A slab is a run of whole levels, two at least; a constraint, or a group of them round one edge, belongs to the slab of its
 // first vertex and reaches into the next slab at most. So slabs 0, 2, 4 ... share no vertex and neither do 1, 3, 5 ...: either half may be
