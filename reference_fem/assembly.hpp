@@ -1,4 +1,4 @@
-// Integrals over the tets: stiffness, load, strain energy, error norms. One assembly serves the judge and its verification alike.
+// Integrals over the tets: stiffness, load, strain energy, error norms. One assembly serves both the reference and its verification.
 #pragma once
 
 #include "reference_fem/material.hpp"
@@ -23,8 +23,8 @@ Eigen::VectorXd load_vector(const SimplexSpace& space, const VectorField& body_f
 
 // Forces on the boundary faces whose centre is `on`; `force` [N/m^2] may follow the outward unit normal.
 struct Traction {
-    std::function<bool(const pbs::Vec3& face_centre)> on;                             // asked once a boundary face, at its rest centre [m]
-    std::function<pbs::Vec3(const pbs::Vec3& point, const pbs::Vec3& normal)> force;  // asked at quadrature points [m]
+    std::function<bool(const pbs::Vec3& face_centre)> on;  // called once per boundary face, at its rest centre [m]
+    std::function<pbs::Vec3(const pbs::Vec3& point, const pbs::Vec3& normal)> force;  // called at quadrature points [m]
 };
 
 // f_i = integral of force . phi_i over those faces [N], #dofs.

@@ -20,7 +20,7 @@ public:
     // Adds k N^T (target - point) to the load [N], #dofs; targets [m], #S x 3.
     void add_load(const pbs::Positions& targets, Eigen::VectorXd& load) const;
 
-    // The same to a matrix whose blocks are in place.
+    // Adds the same to a matrix whose blocks exist already.
     void add_to(NodalMatrix& matrix) const;
 
     // The energy [J]; targets [m], #S x 3, displacement [m], #dofs.
@@ -28,7 +28,7 @@ public:
     // Adds the gradient of that energy, k N^T (point + displacement - target) [N], #dofs.
     void add_pull(const pbs::Positions& targets, const Eigen::VectorXd& displacement, Eigen::VectorXd& gradient) const;
 
-    // Where a displacement [m], #dofs, takes the points [m], #S x 3; not a number for those left out.
+    // The points [m] moved by a displacement [m], #dofs -> #S x 3; not a number for points that were left out.
     pbs::Positions moved(const Eigen::VectorXd& displacement) const;
 
     const std::vector<int>& tets() const { return tet_; }  // #S, -1: outside

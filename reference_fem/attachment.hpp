@@ -1,4 +1,4 @@
-// What the skeleton prescribes, as arrays, and what the set-up of a solver says of itself.
+// The positions that the skeleton prescribes, as arrays, and the report of a solver's set-up.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -18,7 +18,7 @@ struct Attachment {
     Eigen::VectorXd bind_stiffness = {};    // k_i [N/m], #V; 0: this vertex is not bound
 };
 
-// For records: what was built, with what, in how many seconds of wall time.
+// For records: what was built, by which library, in how many seconds of wall time.
 struct SetupSummary {
     int dofs = 0;  // unknowns, prescribed ones too; with taylor_hood a pressure a vertex besides
     double assemble_s = 0.0, analyse_s = 0.0, factor_s = 0.0;  // the last analysis and factor; assembly only of LinearElasticity, else 0

@@ -1,5 +1,5 @@
-// Any linear elastic problem with known data on the boundary, through the very assembly, elimination and solver of the judge: what patch
-// tests, manufactured solutions, closed forms and published benchmarks verify it with, beside the skeleton.
+// Any linear elastic problem with known data on the boundary, through the same assembly, elimination and solver as the reference: patch
+// tests, manufactured solutions, closed forms and published benchmarks verify it in this form, without a skeleton.
 //   BoundaryValueProblem problem{.body_force = f, .displacement = u};
 //   BoundaryValueSolution solution = solve(mesh, material, problem);
 //   solution.errors(u, grad_u).l2;
@@ -13,13 +13,13 @@
 
 namespace reference_fem {
 
-// As lame_parameters takes it: pbs::InputError where it is out of bounds.
+// Valid as in lame_parameters: pbs::InputError where it is out of bounds.
 struct ElasticMaterial {
     double young_pa = 1.0;  // Young's modulus E > 0; with the 1 of a benchmark in print, stresses are in units of E
     double poisson = 0.3;   // Poisson's ratio, -1 < nu < 0.5
 };
 
-// Which components of a node's displacement are held: all or none, or single ones (rollers, planes of symmetry).
+// The components of a node's displacement that are held: all or none, or single ones (rollers, planes of symmetry).
 struct Held {
     Held(bool all) : x(all), y(all), z(all) {}                                        // implicit: a predicate may return a bool
     Held(bool hold_x, bool hold_y, bool hold_z) : x(hold_x), y(hold_y), z(hold_z) {}  // along the axes of the world
@@ -59,10 +59,10 @@ struct BoundaryValueSolution {
 };
 
 // pbs::InputError for a mesh that check_mesh refuses, an element_order or a material out of bounds, and taylor_hood unless the order is 2,
-// nu > 0 and the solver a direct one. A body that may still move rigidly is not refused: with a direct solver `residual` tells.
+// nu > 0 and the solver a direct one. A body that may still move rigidly is not refused: with a direct solver `residual` shows it.
 BoundaryValueSolution solve(const pbs::TetMesh& mesh, const ElasticMaterial& material, const BoundaryValueProblem& problem);
 
-// What a problem says of a space.
+// The conditions that a problem imposes on a space.
 struct PrescribedData {
     std::vector<bool> held;  // #dofs
     Eigen::VectorXd values;  // [m], #dofs

@@ -1,5 +1,5 @@
-// The judge at large rotations: any of the laws on the skinner's own tets, held by the skeleton as LinearElasticity is, quasi-static or in
-// time.
+// The reference solver at large rotations: any of the laws on the skinner's own tets, held by the skeleton as LinearElasticity is,
+// quasi-static or in time.
 //   ElasticBody body(mesh, options, attachment);
 //   const LoadPathSummary path = body.solve(targets_at, gravity_m_s2);        // equilibrium, from the last one
 //   const LoadPathSummary step = body.advance(targets_at, gravity_m_s2, dt);  // or one time step
@@ -36,7 +36,7 @@ struct ElasticOptions {
     LoadPathOptions path = {};                            // how solve() and advance() divide the way
 };
 
-// What the skeleton asks for at a fraction of the way from the last solved state (0) to this one (1).
+// The positions that the skeleton prescribes at a fraction of the way from the last solved state (0) to this one (1).
 struct Targets {
     pbs::Positions springs;      // [m], #S x 3
     pbs::Positions vertices;     // [m], #V x 3, read at the vertices of prescribed tets only
@@ -44,7 +44,7 @@ struct Targets {
     pbs::Positions guide = {};   // [m], #V x 3, or empty: solve() sets out from the last state plus the guide's change since. Not what is
                                  // converged to depends on it, only the way
 };
-using TargetsAt = std::function<Targets(double fraction)>;  // may be asked for a fraction twice, and after a failure for a lower one
+using TargetsAt = std::function<Targets(double fraction)>;  // may be called twice for a fraction, and after a failure for a lower one
 
 // Keeps what it needs: mesh, options and attachment may go.
 class ElasticBody {

@@ -8,7 +8,7 @@
 
 namespace reference_fem {
 
-// Quadrature point q of tet t stands at t * points_per_tet + q.
+// Quadrature point q of tet t has the index t * points_per_tet + q.
 struct ElementTables {
     int nodes_per_tet = 0, points_per_tet = 0;  // nodes: 4 or 10
     Eigen::VectorXd weights;                    // [m^3], #T * points: quadrature weight times Jacobian

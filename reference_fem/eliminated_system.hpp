@@ -8,7 +8,7 @@
 
 namespace reference_fem {
 
-// Of all degrees of freedom, the prescribed ones at their values.
+// Values of all degrees of freedom, with the prescribed ones at their values.
 struct EliminatedSolution {
     Eigen::VectorXd displacement;  // [m], #dofs; not finite where the factorisation broke down
     double residual = 0.0;         // |K_ff u_f - right-hand side| / |right-hand side|; 0 where both are 0; infinite where it broke down
@@ -27,7 +27,7 @@ public:
     // Another stiffness of the same pattern: the symbolic analysis is kept.
     void update(const SparseMatrix& stiffness);
 
-    bool usable() const { return free_.empty() || factor_->usable(); }  // false: solve() gives what is not a number
+    bool usable() const { return free_.empty() || factor_->usable(); }  // false: solve() returns values that are not numbers
     const PreparedSolver& factor() const { return *factor_; }           // of K_ff
 
 private:

@@ -1,4 +1,4 @@
-// What the judge asks of its input, at the door. Each breach is a pbs::InputError that names the field, the value and the rule.
+// Checks of the reference solver's input. Each violation is a pbs::InputError that names the field, the value and the rule.
 #pragma once
 
 #include "pbs/geometry/input_error.hpp"

@@ -19,7 +19,7 @@ struct LinearOptions {
     int element_order = 2;                                // 1, 2
     double young_pa = 1.0e5;                              // Young's modulus E > 0
     double poisson = 0.45;                                // Poisson's ratio, -1 < nu < 0.5; with taylor_hood > 0
-    double density_kg_m3 = 1000.0;                        // >= 0; gravity alone asks for it
+    double density_kg_m3 = 1000.0;                        // >= 0; only gravity uses it
     pbs::Vec3 gravity_m_s2 = pbs::Vec3::Zero();           // of solve() without its own
     LinearSolver solver = LinearSolver::cholmod;          // taylor_hood: UMFPACK for either direct solver
     Formulation formulation = Formulation::displacement;  // taylor_hood: element_order 2 and a direct solver
@@ -43,7 +43,7 @@ public:
     // spring_targets: #S x 3 [m]; vertex_targets: #V x 3 [m], read at the vertices of prescribed tets only. pbs::InputError for another
     // number of either.
     SolveSummary solve(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets);
-    // The same under another gravity than the options', for a frame of reference that turns.
+    // The same under another gravity than that of the options, for a rotating frame of reference.
     SolveSummary solve(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets, const pbs::Vec3& gravity_m_s2);
 
     const pbs::Positions& positions() const;        // deformed vertices [m], #V x 3

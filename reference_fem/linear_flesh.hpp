@@ -9,7 +9,7 @@
 // Stable in the sense of Babuska and Brezzi, so nothing locks as nu goes to 1/2 (D. Boffi, F. Brezzi, M. Fortin, Mixed finite element
 // methods and applications, Springer 2013, section 8.8). The matrix is symmetric quasi-definite: by R. Vanderbei, SIAM J. Optim. 5, 1995,
 // it has an LDL^T in every order without pivoting. CHOLMOD's, however, has no supernodes: 18 s where UMFPACK with METIS ordering takes 1.5
-// (51,073 unknowns, nu 0.3 to 0.49999), with the same residual. So that is what solves it, whichever direct solver is asked for.
+// (51,073 unknowns, nu 0.3 to 0.49999), with the same residual. It is therefore solved that way, whichever direct solver is requested.
 #pragma once
 
 #include "reference_fem/formulation.hpp"
@@ -22,7 +22,7 @@
 
 namespace reference_fem {
 
-// Of one material throughout.
+// The whole body has one material.
 class LinearFlesh {
 public:
     // held_tets: prescribed whole. What they are asked for has no pressure to share with the flesh around them.
@@ -44,7 +44,7 @@ public:
     Eigen::VectorXd displacement(const Eigen::VectorXd& unknowns) const;  // [m], #dofs
     Eigen::VectorXd pressure_pa(const Eigen::VectorXd& unknowns) const;   // #V, positive in tension, or empty
 
-    // Of a solution [J]; the pressure is read with taylor_hood only.
+    // Energy of a solution [J]; the pressure is read with taylor_hood only.
     double strain_energy_j(const Eigen::VectorXd& displacement, const Eigen::VectorXd& pressure_pa) const;
 
     // lambda div u as the formulation has it, each tet that meets at the vertex with its own: their mean [Pa].

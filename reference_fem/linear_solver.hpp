@@ -1,9 +1,9 @@
-// Which sparse solver answers K u = f: two direct ones of SuiteSparse, and conjugate gradients with Trilinos ML for what does not fit.
+// The sparse solver of K u = f: two direct ones of SuiteSparse, and conjugate gradients with Trilinos ML for what does not fit.
 #pragma once
 
 namespace reference_fem {
 
-// What each is stands in prepared_solver.hpp; cholmod is the default everywhere.
+// prepared_solver.hpp describes each of them; cholmod is the default everywhere.
 enum class LinearSolver { cholmod, umfpack, cg_ml };
 
 }  // namespace reference_fem

@@ -41,7 +41,8 @@ void init_leaving_the_environment()
         if (!before.contains(name)) unsetenv(name.c_str());
 }
 
-// ML asks MPI who it is even on one process. Started with the first hierarchy, ended with the program, unless the program did so itself.
+// ML queries MPI for its rank even on one process. MPI is initialised with the first hierarchy and finalised with the program, unless the
+// program did so itself.
 void start_mpi()
 {
     static const struct Mpi {
@@ -120,7 +121,7 @@ private:
     std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> hierarchy_;
 };
 
-// What Eigen asks of a preconditioner.
+// The interface that Eigen requires of a preconditioner.
 class MultigridPreconditioner {
 public:
     void use(const Multigrid* multigrid) { multigrid_ = multigrid; }

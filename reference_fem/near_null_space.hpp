@@ -1,4 +1,4 @@
-// What a stiffness matrix without supports sends to zero: the six rigid motions. Smoothed aggregation keeps them on its coarse levels.
+// The null space of a stiffness matrix without supports: the six rigid motions. Smoothed aggregation keeps them on its coarse levels.
 #pragma once
 
 #include "pbs/geometry/types.hpp"

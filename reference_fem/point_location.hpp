@@ -1,4 +1,4 @@
-// In which tet a point lies, by a uniform grid over the mesh's bounding box: one look-up visits a few tets.
+// Finds the tet that contains a point, with a uniform grid over the mesh's bounding box: one look-up visits a few tets.
 //   const PointLocation where(mesh);
 //   where.locate(point).tet;
 #pragma once

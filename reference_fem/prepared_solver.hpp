@@ -15,7 +15,7 @@
 
 namespace reference_fem {
 
-// Breakdown is never thrown: usable() tells, or a solution that is not finite.
+// Breakdown is never thrown: usable() reports it, or the solution is not finite.
 class PreparedSolver {
 public:
     virtual ~PreparedSolver() = default;
@@ -28,7 +28,7 @@ public:
     bool usable() const { return usable_; }          // false: singular in double, or (CHOLMOD) not positive definite, or no hierarchy
     double analyse_s() const { return analyse_s_; }  // ordering and symbolic analysis
     double factor_s() const { return factor_s_; }    // the last numerical factorisation, or hierarchy
-    double reciprocal_condition() const { return reciprocal_condition_; }  // the library's own rough estimate; 0: it gives none
+    double reciprocal_condition() const { return reciprocal_condition_; }  // the library's own rough estimate; 0: none
 
 protected:
     bool usable_ = false;                                                   // as the last refactor() left it

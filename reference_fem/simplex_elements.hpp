@@ -1,5 +1,5 @@
 // deal.II's side of a SimplexSpace. To be included by simplex_space.cpp and assembly.cpp only: it takes some 20 s to compile.
-// What deal.II 9.4.1 asks for on tets: MappingFE everywhere (the default mapping crashes), QGaussSimplex<3>(n) with n <= 4.
+// The requirements of deal.II 9.4.1 on tets: MappingFE everywhere (the default mapping crashes), QGaussSimplex<3>(n) with n <= 4.
 #pragma once
 
 #include "reference_fem/simplex_space.hpp"

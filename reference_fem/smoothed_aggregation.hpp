@@ -7,7 +7,7 @@
 namespace reference_fem {
 
 // `modes`: near-null space on this rank's rows, column after column, #rows x #modes; outlives the set-up. `block_size`: 3 where whole
-// nodes stand together, 1 otherwise.
+// nodes are contiguous, 1 otherwise.
 Teuchos::ParameterList smoothed_aggregation(double* modes, int number_of_modes, int block_size);
 
 }  // namespace reference_fem

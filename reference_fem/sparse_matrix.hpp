@@ -1,4 +1,4 @@
-// The one sparse matrix format of the judge: compressed columns, 64-bit indices, as SuiteSparse's long interfaces read it in place.
+// The only sparse matrix format of the reference: compressed columns, 64-bit indices, as SuiteSparse's long interfaces read it in place.
 // Stiffness matrices are symmetric and hold both triangles.
 #pragma once
 

@@ -23,7 +23,7 @@ namespace reference_fem {
 // Boundary ids of the triangulation: free of traction, at rest, under traction.
 enum BoundaryPart : dealii::types::boundary_id { free_part = 0, held_part = 1, pulled_part = 2 };
 
-// Made and asked by all ranks together.
+// All ranks construct it and call it together.
 struct DistributedSpace {
     using Cell = dealii::DoFHandler<3>::active_cell_iterator;  // one rank's own or its neighbour's
     using DofIndex = dealii::types::global_dof_index;          // numbered over all ranks

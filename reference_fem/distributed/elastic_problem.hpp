@@ -19,7 +19,7 @@ struct ElasticProblem {
     pbs::Positions vertex_targets;              // [m], #V x 3, read at the vertices of prescribed tets only; may be empty without them
 };
 
-// The same figures on every rank.
+// The same values on every rank.
 struct ElasticSummary {
     std::string solver;                                    // its name, of a direct one with the version
     int ranks = 1;                                         // MPI processes; 1 of solve_serially
@@ -28,9 +28,9 @@ struct ElasticSummary {
     PhaseTime mesh, assembly, setup, solve;                // of the slowest rank; setup: multigrid hierarchy, or factor
     double peak_mb = 0.0;                                  // as peak_memory_mb() of the rank that needed most
     int iterations = 0;                                    // of conjugate gradients; 0 of a direct solver
-    double relative_residual = 0.0;  // |K u - f| / |f| over the free degrees of freedom, computed anew from the solution
-    bool converged = false;          // false: the displacement is whatever was reached, or not finite
-    double compliance_j = 0.0;       // load times displacement; the springs' pull counts as load
+    double relative_residual = 0.0;                        // |K u - f| / |f| over the free degrees of freedom, recomputed from the solution
+    bool converged = false;                                // false: the displacement is whatever was reached, or not finite
+    double compliance_j = 0.0;                             // load times displacement; the springs' pull counts as load
 };
 
 // On rank 0; empty on the others.

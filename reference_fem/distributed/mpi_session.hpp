@@ -1,4 +1,4 @@
-// MPI from start to end of a program, and what the ranks tell each other before there is a distributed mesh. The header is plain.
+// MPI for the whole life of a program, and the data that ranks exchange before there is a distributed mesh. This header includes no MPI.
 //   MpiSession session(argc, argv);
 //   if (session.rank() == 0) mesh = read_tet_mesh(file).mesh;
 //   session.broadcast(mesh.rest);
@@ -22,7 +22,7 @@ public:
     int ranks() const;                               // all of MPI_COMM_WORLD
     [[noreturn]] void abort(int exit_status) const;  // ends all ranks: for an error that one of them met alone
 
-    // From rank 0 to all; called by all. The others' arrays take rank 0's size.
+    // Sends from rank 0 to all; called by all ranks. The arrays of the others take the size of rank 0's.
     void broadcast(std::string& text) const;
     void broadcast(std::vector<int>& values) const;  // of any length
     void broadcast(Eigen::VectorXd& values) const;   // to the bit

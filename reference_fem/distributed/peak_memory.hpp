@@ -3,7 +3,7 @@
 
 namespace reference_fem {
 
-// In units of 2^20 bytes, since the process began: it never falls.
+// In units of 2^20 bytes, since the process began; it never decreases.
 double peak_memory_mb();
 
 }  // namespace reference_fem

@@ -1,5 +1,5 @@
 // The lowest mode of free vibration: K phi = omega^2 M phi, phi = 0 where prescribed. By subspace iteration (K.-J. Bathe, Finite Element
-// Procedures, 1996, section 11.6), which tells modes of nearly one frequency apart, as a bar of square section has them.
+// Procedures, 1996, section 11.6), which separates modes of nearly equal frequency, such as those of a bar of square section.
 #pragma once
 
 #include "reference_fem/dynamics/consistent_mass.hpp"

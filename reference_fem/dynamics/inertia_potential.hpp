@@ -7,7 +7,7 @@
 
 namespace reference_fem {
 
-// Nothing may be asked of it before set().
+// Call set() before anything else.
 class InertiaPotential : public Potential {
 public:
     explicit InertiaPotential(const ConsistentMass& mass) : mass_(mass) {}  // which outlives the potential

@@ -19,10 +19,10 @@ public:
     void start() { steps_ = 0; }  // of the past only the velocity is known
 
     // The motion at the end of a step that takes the prescribed degrees of freedom to `values` [m], #dofs; others are left as in `motion`.
-    // In the first step the acceleration is the mean one, which is also that of its start.
+    // The first step uses the mean acceleration, which is also that at its beginning.
     Motion next(const Motion& motion, const Eigen::VectorXd& values, double step_s) const;
     void copy(const Motion& from, Motion& to) const;  // the prescribed part
-    // From one motion to the next, the ends of a step that was reached.
+    // Moves on to the next motion after the end of a step was reached.
     void accept(const Motion& motion, const Motion& next, double step_s);
 
     const std::vector<int>& dofs() const { return dofs_; }  // the prescribed ones, increasing

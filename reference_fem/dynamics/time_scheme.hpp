@@ -22,7 +22,7 @@ namespace reference_fem {
 
 // The parameters of Eqs. (a) to (c), without unit.
 struct TimeScheme {
-    double alpha_m = 0.0, alpha_f = 0.0, beta = 0.25, gamma = 0.5;  // as they stand, Newmark's average acceleration
+    double alpha_m = 0.0, alpha_f = 0.0, beta = 0.25, gamma = 0.5;  // the defaults are Newmark's average acceleration
 };
 
 TimeScheme newmark();  // second order, unconditionally stable, without dissipation in linear problems

@@ -110,7 +110,7 @@ Eigen::VectorXd TimeStepper::start_acceleration(const Terms& terms, const Eigen:
     return EliminatedSystem(mass, fixed_, LinearSolver::cholmod).solve(-force, of_prescribed).displacement;
 }
 
-// Where the displacement is prescribed the acceleration is that at t_n itself.
+// A prescribed displacement has the acceleration at t_n itself.
 Eigen::VectorXd TimeStepper::later_acceleration(double step_s) const
 {
     if (step_s == state_.last_step_s) return state_.motion.acceleration;

@@ -14,14 +14,14 @@
 
 namespace reference_fem {
 
-// The same for all steps of a stepper.
+// Constant over all steps of a stepper.
 struct TimeStepperOptions {
     TimeScheme scheme = newmark();                               // newmark() or generalized_alpha(radius)
     double density_kg_m3 = 1000.0;                               // of the whole body, finite and > 0
     double rayleigh_mass_1_s = 0.0, rayleigh_stiffness_s = 0.0;  // a, b; finite, >= 0
 };
 
-// What moves during a step, by fractions of the way from its start (0) to its end (1).
+// The prescribed motion during a step, by fractions of the way from its beginning (0) to its end (1).
 struct MovingData {
     std::function<Eigen::VectorXd(double fraction)> prescribed;  // displacement [m], #dofs; empty: where it is
     // Moves the terms' own data onto the straight line between two fractions, `share` of the way; empty: they have none.
@@ -37,7 +37,7 @@ public:
     TimeStepper(const TimeStepper&) = delete;
     TimeStepper& operator=(const TimeStepper&) = delete;
 
-    // Displacement [m] and velocity [m/s], #dofs; no velocity: 0. Time begins anew: the acceleration is solved for in the first step.
+    // Displacement [m] and velocity [m/s], #dofs; no velocity: 0. Time restarts: the first step solves for the acceleration.
     void start(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity = {});
 
     // One step. `guess` [m], #dofs, is where Newton starts, and afterwards the displacement. Where Newton fails the step is halved as a

@@ -1,5 +1,5 @@
 // A body of the linear law that vibrates freely, for what is known of it in closed form: modes, energies, damping. Beside the skeleton, as
-// BoundaryValueProblem is for equilibrium, through the very elements, mass, solver and time stepper of the judge.
+// BoundaryValueProblem is for equilibrium, through the same elements, mass, solver and time stepper as the reference.
 //   VibratingBody bar(mesh, {.held = [](const pbs::Vec3& x) { return x.x() < 1e-9; }});
 //   const Mode mode = bar.first_mode();
 //   TimeStepper time = bar.stepper({.scheme = generalized_alpha(0.8)});
@@ -20,7 +20,7 @@ struct VibratingOptions {
     std::function<Held(const pbs::Vec3& node)> held = {};          // empty: none
 };
 
-// Undamped, but for what the options of a stepper ask for.
+// The body is undamped except for the damping in the options of a stepper.
 class VibratingBody {
 public:
     // pbs::InputError for a mesh that check_mesh refuses. The mesh may go.

@@ -31,7 +31,7 @@ struct PointResponse {
     Tangent shape_hessian, dilatation_hessian;            // [Pa], [1]; symmetric
 };
 
-// Without state but for its parameters.
+// A law has no state except its parameters.
 class ConstitutiveLaw {
 public:
     explicit ConstitutiveLaw(const Lame& lame) : lame_(lame) {}  // not checked: lame_parameters has
@@ -47,7 +47,7 @@ protected:
     Lame lame_;  // as given
 };
 
-// By name; the formulas stand in isotropic_laws.hpp.
+// Makes a law by name; the formulas are in isotropic_laws.hpp.
 std::unique_ptr<const ConstitutiveLaw> constitutive_law(Model model, const Lame& lame);
 
 // psi [Pa] of a response; lambda_pa: its law's lambda_pa().

@@ -9,11 +9,11 @@
 
 namespace reference_fem {
 
-// By default the whole way at once, and down to 1/64 of it where that fails.
+// By default the path tries the whole way first, and steps down to 1/64 of it where that fails.
 struct LoadPathOptions {
     double first_step = 1.0;            // of the fraction; above 1: 1
     double smallest_step = 1.0 / 64.0;  // no halving below
-    int most_newton_steps = 0;          // the path ends where it has taken so many; 0: no limit
+    int most_newton_steps = 0;          // the path ends after this many steps; 0: no limit
 };
 
 // One attempt, converged or not.

@@ -51,7 +51,7 @@ struct NewtonSummary {
 
 using Terms = std::vector<const Potential*>;  // of the sum; not owned
 
-// For one mesh and set of prescribed degrees of freedom; keeps nothing of the space. Other terms than before: forget_factor().
+// For one mesh and set of prescribed degrees of freedom; keeps nothing of the space. Call forget_factor() after a change of the terms.
 class NewtonMinimiser {
 public:
     // prescribed: #dofs.

@@ -12,7 +12,7 @@
 
 namespace reference_fem {
 
-// What det F is like: 1 at rest.
+// The range of det F, which is 1 at rest.
 struct Jacobians {
     double lowest = 1.0;  // of det F over all quadrature points
     int lowest_tet = -1;  // where
@@ -25,7 +25,7 @@ class ElasticPotential : public Potential {
 public:
     // formulation: displacement or mean_dilatation, else pbs::InputError; so is mean dilatation of a law that is not of two parts.
     ElasticPotential(const SimplexSpace& space, Model model, const Lame& lame, Formulation formulation);
-    // With another quadrature, of 6 points at most.
+    // Uses another quadrature, of at most 6 points.
     ElasticPotential(const SimplexSpace& space, Model model, const Lame& lame, Formulation formulation, ElementTables tables);
 
     double value(const Eigen::VectorXd& displacement) const override;

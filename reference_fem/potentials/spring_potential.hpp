@@ -6,7 +6,7 @@
 
 namespace reference_fem {
 
-// Nothing may be asked of it before move_to().
+// Call move_to() before anything else.
 class SpringPotential : public Potential {
 public:
     explicit SpringPotential(const AttachedPoints& springs) : springs_(springs) {}  // which outlive the potential

@@ -33,7 +33,8 @@ Eigen::Matrix4d derivative(const Beam& beam, double omega)
     return D;
 }
 
-// Of the free end's (M, V) by the clamped end's: 0 at a natural frequency. Runge and Kutta's fourth-order steps.
+// Determinant of the map from (M, V) at the clamped end to (M, V) at the free end: 0 at a natural frequency. Runge and Kutta's fourth-order
+// steps.
 double free_end_determinant(const Beam& beam, double omega)
 {
     const int steps = 500;

@@ -1,4 +1,4 @@
-// What the problems share.
+// Parts that the verification problems share.
 #pragma once
 
 #include "reference_fem/boundary_value_problem.hpp"

@@ -1,5 +1,6 @@
-// A cantilever of linear flesh that vibrates in its first mode, beside closed forms in time: the mode, phi cos(omega t), is an exact
-// solution of the semi-discrete problem, so that what differs is the time stepper's alone. The frequency itself is beside beam theory.
+// A cantilever of linear flesh that vibrates in its first mode, compared with closed forms in time: the mode, phi cos(omega t), is an exact
+// solution of the semi-discrete problem, so every difference is due to the time stepper alone. The frequency itself is compared with beam
+// theory.
 #include "reference_fem/verification/beam_frequency.hpp"
 #include "reference_fem/verification/common.hpp"
 #include "reference_fem/verification/structured_mesh.hpp"

@@ -1,6 +1,6 @@
 // A bar of 3.375 x 1 x 1 m, 27 x 8 x 8 cells, both ends held, one turned by 180 degrees in ten steps, in linear tets: Newton's iterations
 // and the states that it finds by each law, against an earlier implementation of ours with an assembly and a Newton loop of its own.
-// Large rotations tell the laws apart: linear strain takes them for a swelling of 31 % at 90 degrees and turns tets inside out, St
+// Large rotations distinguish the laws: linear strain takes them for a swelling of 31 % at 90 degrees and turns tets inside out, St
 // Venant-Kirchhoff gives way.
 #include "reference_fem/verification/common.hpp"
 #include "reference_fem/verification/structured_mesh.hpp"

@@ -1,5 +1,5 @@
-// What is left of bending and torsion as Poisson's ratio goes to 1/2, by element: linear tets have about as many volumes to keep as
-// displacements to keep them with, and lock.
+// The share of bending and torsion that remains as Poisson's ratio approaches 1/2, by element: linear tets have about as many volumes to
+// keep as displacements to keep them with, and lock.
 //   bending: the cantilever of cantilever.cpp, against Timoshenko's beam
 //   torsion: the bar of torsion.cpp; Saint-Venant's solution changes no volume, so its torque does not depend on Poisson's ratio
 // Judged are the forms that are made for it (reference_fem/formulation.hpp).

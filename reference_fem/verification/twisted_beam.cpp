@@ -2,7 +2,7 @@
 // load at the tip. At the clamp the width lies along y, at the tip along z. A load along z lies in the plane of the tip's width and bends
 // the beam about its thin side where the moment is largest: the large figure; a load along y is out of that plane.
 //
-// Which figure belongs to which load follows from beam theory alone: deflection = P / E times the integral of
+// Beam theory alone determines which value belongs to which load: deflection = P / E times the integral of
 // s^2 (cos^2 phi / I_width + sin^2 phi / I_thickness), s the distance to the tip, phi the angle between the load and the width.
 #include "reference_fem/verification/common.hpp"
 #include "reference_fem/verification/structured_mesh.hpp"

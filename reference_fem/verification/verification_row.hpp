@@ -1,4 +1,5 @@
-// One line of the verification record: a figure of the judge beside the one that theory, another code or a published benchmark has for it.
+// One row of the verification record: a value of the reference solver compared with the value from theory, another code or a published
+// benchmark.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -21,7 +22,7 @@ struct VerificationRow {
     std::string unit = {};    // of both; 1 where there is none
     std::string source = {};  // of the reference: a full citation, or 'closed form: ...'
 
-    // What must hold; a row without bounds is there to be seen.
+    // Bounds that must hold; a row without bounds is for information.
     std::optional<double> low = {}, high = {};  // of the value
     std::string bound_from = {};                // where the bounds come from
     std::optional<double> observed_order = {};  // in h, between the next coarser mesh and this one; or in the time step
@@ -35,7 +36,7 @@ inline constexpr double order_tolerance = 0.1;
 // 100 (value - reference) / |reference|; nothing where the reference is 0.
 std::optional<double> difference_pct(const VerificationRow& row);
 
-// Value within the bounds and order within order_tolerance; nothing where neither is asked for.
+// Value within the bounds and order within order_tolerance; no value where the row requires neither.
 std::optional<bool> holds(const VerificationRow& row);
 
 nlohmann::json to_json(const VerificationRow& row);
