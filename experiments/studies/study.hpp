@@ -3,6 +3,7 @@
 
 #include "analysis/case_record.hpp"
 #include "experiments/scene/scene.hpp"
+#include "experiments/studies/finished_runs.hpp"
 
 #include <functional>
 #include <string>
@@ -55,52 +56,40 @@ struct StudyConclusion {
 struct Sets {
     Extent quick = Extent::quick, full = Extent::full;
 };
+constexpr Sets quick_and_full = {Extent::quick, Extent::full};
+// The whole study would take longer than --full may: it runs when it is named.
+constexpr Sets in_short = {Extent::quick, Extent::quick};
+constexpr Sets full_in_short = {Extent::none, Extent::quick};
+constexpr Sets when_named = {Extent::none, Extent::none};
 
 struct Study {
     std::string name;  // of its folder, whose README.md is its page in `pbskin explain`, and of its records' folder
     StudyPlan (*plan)(bool full) = nullptr;
     Sets sets = {};
-    // Of the study's folder and the folders of the runs that ended; writes the records that sum them up.
-    StudyConclusion (*conclude)(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished) = nullptr;
+    StudyConclusion (*conclude)(const FinishedRuns& finished) = nullptr;  // writes the records that sum up the runs
     bool alone = false;  // it times: one run at once, whatever -j says
 };
 const std::vector<Study>& studies();
 
-StudyPlan plan_volume_study(bool full);
-StudyConclusion conclude_volume_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
-StudyPlan plan_audit_study(bool full);
-StudyConclusion conclude_audit_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
-StudyPlan plan_fit_study(bool full);
-StudyConclusion conclude_fit_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
-StudyPlan plan_artefacts_study(bool full);
-StudyConclusion conclude_artefacts_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
-StudyPlan plan_jiggle_study(bool full);
-StudyConclusion conclude_jiggle_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
-StudyPlan plan_momentum_study(bool full);
-StudyPlan plan_ambiguity_study(bool full);
-StudyConclusion conclude_ambiguity_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
-StudyPlan plan_convergence_study(bool full);
-StudyConclusion conclude_convergence_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
-StudyPlan plan_work_precision_study(bool full);
-StudyConclusion conclude_work_precision_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
-StudyPlan plan_stability_study(bool full);
-StudyConclusion conclude_stability_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
-StudyPlan plan_stiffness_study(bool full);
-StudyConclusion conclude_stiffness_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
-StudyPlan plan_timing_study(bool full);
-StudyConclusion conclude_timing_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
-StudyPlan plan_error_split_study(bool full);
-StudyConclusion conclude_error_split_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
-StudyPlan plan_setup_study(bool full);
-StudyConclusion conclude_setup_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
-StudyPlan plan_bench_study(bool full);
-StudyConclusion conclude_bench_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
-StudyPlan plan_frames_study(bool full);
-StudyPlan plan_features_study(bool full);
-StudyConclusion conclude_features_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
-StudyPlan plan_scale_study(bool full);
-StudyConclusion conclude_scale_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
-StudyPlan plan_verification_study(bool full);
-StudyConclusion conclude_verification_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>& finished);
+// One per folder beside this file, each defined in its study.cpp.
+Study volume_study();
+Study audit_study();
+Study momentum_study();
+Study convergence_study();
+Study stability_study();
+Study artefacts_study();
+Study jiggle_study();
+Study stiffness_study();
+Study setup_study();
+Study ambiguity_study();
+Study frames_study();
+Study timing_study();
+Study verification_study();
+Study fit_study();
+Study work_precision_study();
+Study error_split_study();
+Study bench_study();
+Study features_study();
+Study scale_study();
 
 }  // namespace experiments

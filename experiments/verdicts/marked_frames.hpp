@@ -1,6 +1,6 @@
 // What stands below the table of claims about the frames of a study's runs: where the reference intersects itself (no deformer has
 // contact), errors that are not above the reference's own, and frames that broke, each deformer's first with its worst element.
-//   fmt::print("{}", marked_frames(finished_runs(folder)));
+//   fmt::print("{}", marked_frames(finished_runs(folder).folders));
 #pragma once
 
 #include <string>

@@ -57,7 +57,7 @@ void refuse_unknown(const std::vector<std::string>& names)
 }
 
 struct StudyOutcome {
-    std::vector<std::string> folders = {};  // of runs that ended; a failed one is said and left out, so that its verdict cannot be computed
+    FinishedRuns finished = {};  // a failed run is reported and left out, so that its verdict cannot be computed
     bool broke_down = false, failed = false, refused = false;
     StudyCosts costs;
 };
@@ -130,7 +130,7 @@ StudyOutcome run_study(const PlannedStudy& planned, const std::vector<StudyRun>&
     }
     outcome.costs.complete(planned.folder, planned.plan);
     outcome.costs.write();
-    outcome.folders = finished_runs(planned.folder);
+    outcome.finished = finished_runs(planned.folder);
     return outcome;
 }
 
@@ -187,11 +187,11 @@ int reproduce(const ReproduceArguments& arguments)
         broke_down |= outcome.broke_down;
         refused |= outcome.refused;
         all_hold &= !outcome.failed;
-        beside += marked_frames(outcome.folders);
+        beside += marked_frames(outcome.finished.folders);
         for (auto& verdict : verdicts_of(*study, folder, arguments.folder)) verdicts.push_back(std::move(verdict));
         if (!study->conclude) continue;
-        const StudyConclusion conclusion = study->conclude(folder, plan, outcome.folders);
-        analysis::write_text_atomically((fs::path(folder) / "conclusion.txt").string(), conclusion.text);
+        const StudyConclusion conclusion = study->conclude(outcome.finished);
+        outcome.finished.write("conclusion.txt", conclusion.text);
         beside += conclusion.text;
         all_hold &= conclusion.holds;
     }

@@ -119,13 +119,17 @@ bool has_study_plan(const std::string& folder)
     return fs::exists(plan_file(folder));
 }
 
-std::vector<std::string> finished_runs(const std::string& folder)
+FinishedRuns finished_runs(const std::string& folder)
 {
-    std::vector<std::string> finished;
+    FinishedRuns finished{.folder = folder};
     const KeptPlan plan(folder);
     for (const auto& run : plan.runs()) {
-        const fs::path of_run = fs::path(folder) / plan.text(run, "name");
-        if (fs::exists(of_run / "run.json")) finished.push_back(of_run.string());
+        const std::string name = plan.text(run, "name");
+        const fs::path of_run = fs::path(folder) / name;
+        if (fs::exists(of_run / "run.json"))
+            finished.folders.push_back(of_run.string());
+        else
+            finished.missing.push_back(name);
     }
     return finished;
 }

@@ -16,7 +16,7 @@ void write_study_plan(const std::string& folder, const StudyPlan& plan);
 bool has_study_plan(const std::string& folder);
 
 // The folders of the planned runs that finished, in the plan's order.
-std::vector<std::string> finished_runs(const std::string& folder);
+FinishedRuns finished_runs(const std::string& folder);
 
 // root: what the runs are named relative to.
 analysis::Records read_study_records(const std::string& folder, const std::string& root);

@@ -1,5 +1,5 @@
 // The project's own claims, and what a study's own runs measure for them.
-//   const analysis::Records records = test_support::records_of(experiments::plan_audit_study(false));
+//   const analysis::Records records = test_support::records_of(experiments::audit_study().plan(false));
 //   judge(test_support::claim("C13"), records)
 #pragma once
 

@@ -219,17 +219,7 @@ void plan_human(bool full, StudyPlan& plan)
     if (full) plan.runs.push_back(step_run("human", of, 26.0));
 }
 
-analysis::CsvTable of_all(const std::vector<std::string>& runs, const char* name)
-{
-    analysis::CsvTable all{{}};
-    for (const std::string& run : runs)
-        if (fs::exists(fs::path(run) / name)) all.append(analysis::read_csv(analysis::path_in(run, name)));
-    return all;
-}
-
-}  // namespace
-
-StudyPlan plan_ambiguity_study(bool full)
+StudyPlan plan(bool full)
 {
     StudyPlan plan;
     plan_limb(full, plan);
@@ -241,15 +231,22 @@ StudyPlan plan_ambiguity_study(bool full)
     return plan;
 }
 
-StudyConclusion conclude_ambiguity_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+StudyConclusion conclude(const FinishedRuns& finished)
 {
-    const analysis::CsvTable changes = of_all(finished, "ambiguity.csv"), figures = of_all(finished, "figures.csv");
-    changes.write(analysis::path_in(folder, "ambiguity.csv"));
-    figures.write(analysis::path_in(folder, "figures.csv"));
+    const analysis::CsvTable changes = finished.gathered("ambiguity.csv"), figures = finished.gathered("figures.csv");
+    finished.write("ambiguity.csv", changes);
+    finished.write("figures.csv", figures);
     const std::string text = changes.rows() == 0 ? "" : claim_changes_text(changes);
-    analysis::write_text_atomically(analysis::path_in(folder, "ambiguity.txt"), text);
-    analysis::write_text_atomically(analysis::path_in(folder, "figures.md"), figures.rows() == 0 ? "" : ambiguity_markdown({figures}));
-    return {text, !finished.empty()};
+    finished.write("ambiguity.txt", text);
+    finished.write("figures.md", figures.rows() == 0 ? "" : ambiguity_markdown({figures}));
+    return {text, !finished.none()};
+}
+
+}  // namespace
+
+Study ambiguity_study()
+{
+    return {"ambiguity", plan, quick_and_full, conclude};
 }
 
 }  // namespace experiments

@@ -173,9 +173,7 @@ std::string sections_text(const std::vector<std::string>& finished)
     return text + remarks;
 }
 
-}  // namespace
-
-StudyPlan plan_artefacts_study(bool full)
+StudyPlan plan(bool full)
 {
     StudyPlan plan;
     plan.runs.push_back(work_run("limb_twist", limb_sweep("twist", 6, full), full ? 26.0 : 11.0, look_and_record));
@@ -190,12 +188,19 @@ StudyPlan plan_artefacts_study(bool full)
     return plan;
 }
 
-StudyConclusion conclude_artefacts_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+StudyConclusion conclude(const FinishedRuns& finished)
 {
-    const std::string intersections = intersections_text(finished), sections = sections_text(finished);
-    analysis::write_text_atomically((fs::path(folder) / "intersections.md").string(), intersections);
-    analysis::write_text_atomically((fs::path(folder) / "sections.md").string(), sections);
-    return {intersections + "\n" + sections, !finished.empty()};
+    const std::string intersections = intersections_text(finished.folders), sections = sections_text(finished.folders);
+    finished.write("intersections.md", intersections);
+    finished.write("sections.md", sections);
+    return {intersections + "\n" + sections, !finished.none()};
+}
+
+}  // namespace
+
+Study artefacts_study()
+{
+    return {"artefacts", plan, quick_and_full, conclude};
 }
 
 }  // namespace experiments

@@ -46,22 +46,27 @@ std::string bound_text(const analysis::PrintedFigure& figure)
     return fmt::format("{:.6g} to {:.6g}", figure.least, figure.most);
 }
 
-}  // namespace
-
-StudyPlan plan_audit_study(bool)
+StudyPlan plan(bool)
 {
     return {{work_run("print", AuditCase{}, 1.0, audit_print)}, {}};
 }
 
-StudyConclusion conclude_audit_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+StudyConclusion conclude(const FinishedRuns& finished)
 {
     std::string page = "| claim | quantity | of | printed | follows from the rest | consistent |\n|---|---|---|---|---|---|\n";
-    for (const std::string& run : finished)
-        for (const analysis::PrintedFigure& figure : analysis::printed_figures((fs::path(run) / "printed.csv").string()))
+    for (const std::string& file : finished.files("printed.csv"))
+        for (const analysis::PrintedFigure& figure : analysis::printed_figures(file))
             page += fmt::format("| {} | {} | {} | {:.6g} | {} | {} |\n", figure.claim, figure.quantity, text_of(figure.of), figure.printed,
                                 bound_text(figure), figure.is_consistent() ? "yes" : "no");
-    analysis::write_text_atomically((fs::path(folder) / "audit.md").string(), page);
-    return {"", !finished.empty()};
+    finished.write("audit.md", page);
+    return {"", !finished.none()};
+}
+
+}  // namespace
+
+Study audit_study()
+{
+    return {"audit", plan, quick_and_full, conclude};
 }
 
 }  // namespace experiments

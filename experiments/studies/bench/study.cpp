@@ -23,9 +23,7 @@ std::string time_and_record(const BenchOptions& options, const std::string& fold
     return "";
 }
 
-}  // namespace
-
-StudyPlan plan_bench_study(bool full)
+StudyPlan plan(bool full)
 {
     BenchOptions options;
     options.bars = true;
@@ -40,14 +38,19 @@ StudyPlan plan_bench_study(bool full)
     return plan;
 }
 
-StudyConclusion conclude_bench_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+StudyConclusion conclude(const FinishedRuns& finished)
 {
-    if (finished.empty()) return {"bench: nothing was timed\n", false};
-    for (const char* file : files) {
-        const std::string text = analysis::read_text((fs::path(finished.front()) / file).string());
-        analysis::write_text_atomically((fs::path(folder) / file).string(), text);
-    }
-    return {analysis::read_text((fs::path(folder) / "bench.txt").string()), true};
+    if (finished.none()) return {"bench: nothing was timed\n", false};
+    for (const std::string name : files)
+        for (const std::string& file : finished.files(name)) finished.write(name, analysis::read_text(file));
+    return {analysis::read_text((fs::path(finished.folder) / "bench.txt").string()), true};
+}
+
+}  // namespace
+
+Study bench_study()
+{
+    return {"bench", plan, full_in_short, conclude, true};
 }
 
 }  // namespace experiments

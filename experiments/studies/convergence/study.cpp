@@ -107,9 +107,7 @@ void add_body(StudyPlan& plan, const std::string& body, bool full)
             plan.runs.push_back(body_run(body, row.vertices, full, body == "man" ? 30.0 : 60.0));
 }
 
-}  // namespace
-
-StudyPlan plan_convergence_study(bool full)
+StudyPlan plan(bool full)
 {
     StudyPlan plan;
     plan.runs.push_back(limb_run("limb_twist", twists, full, full ? 18.0 : 10.0));
@@ -125,13 +123,13 @@ StudyPlan plan_convergence_study(bool full)
 }
 
 // From each start, in the default order: residual, iterations and error, a line a pose; -: no rate could be fitted, no reference.
-StudyConclusion conclude_convergence_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+StudyConclusion conclude(const FinishedRuns& finished)
 {
     std::string text = fmt::format("{:8} {:16} {:>8} {:>9} {:15} {:>9} {:>12} {:>12} {:>9} {:>9} {:>9}\n", "body", "pose", "vertices",
                                    "k_stretch", "start", "rate", "to residual", "to volume", "error 24", "least at", "error end");
     const auto count = [](const Reached& reached) { return fmt::format("{}{}", reached.within ? "" : "> ", reached.iterations); };
     const auto known = [](double value, const char* form) { return std::isfinite(value) ? fmt::format(fmt::runtime(form), value) : "-"; };
-    for (const std::string& run : finished) {
+    for (const std::string& run : finished.folders) {
         const bool is_ladder = fs::path(run).filename().string().starts_with("ladder");
         for (const RateRow& row : rows_of(rate_columns, analysis::read_csv((fs::path(run) / "rates.csv").string()))) {
             const PathCase& of = row.of;
@@ -144,8 +142,15 @@ StudyConclusion conclude_convergence_study(const std::string& folder, const Stud
                                 known(row.last.error_joint_pct, "{:.1f}"));
         }
     }
-    analysis::write_text_atomically((fs::path(folder) / "convergence.md").string(), "```\n" + text + "```\n");
-    return {text, !finished.empty()};
+    finished.write("convergence.md", "```\n" + text + "```\n");
+    return {text, !finished.none()};
+}
+
+}  // namespace
+
+Study convergence_study()
+{
+    return {"convergence", plan, quick_and_full, conclude};
 }
 
 }  // namespace experiments

@@ -65,9 +65,7 @@ std::string told(double value, int digits)
     return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "\u2013";
 }
 
-}  // namespace
-
-StudyPlan plan_error_split_study(bool full)
+StudyPlan plan(bool full)
 {
     StudyPlan plan;
     const std::vector<std::string> twist = {"motion.angle_deg=180", "motion.frames=19"},
@@ -87,12 +85,12 @@ StudyPlan plan_error_split_study(bool full)
 }
 
 // The parts at the scenes' own 24 iterations, a line a pose.
-StudyConclusion conclude_error_split_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+StudyConclusion conclude(const FinishedRuns& finished)
 {
     std::string table =
         "| scene | angle | k_stretch | error of PBS 24 [% of the bone distance] | solver | model | discretisation (bound) | bones bind |\n"
         "|---|---|---|---|---|---|---|---|\n";
-    for (const std::string& run : finished) {
+    for (const std::string& run : finished.folders) {
         const auto parts = rows_of(part_columns, analysis::read_csv((fs::path(run) / "parts.csv").string()));
         const auto attachments = rows_of(attachment_columns, analysis::read_csv((fs::path(run) / "attachments.csv").string()));
         for (const ErrorParts& part : parts) {
@@ -106,8 +104,15 @@ StudyConclusion conclude_error_split_study(const std::string& folder, const Stud
                                  told(part.discretisation_pct, 2), told(bind_pct, 1));
         }
     }
-    analysis::write_text_atomically((fs::path(folder) / "error_split.md").string(), table);
-    return {table, !finished.empty()};
+    finished.write("error_split.md", table);
+    return {table, !finished.none()};
+}
+
+}  // namespace
+
+Study error_split_study()
+{
+    return {"error_split", plan, full_in_short, conclude};
 }
 
 }  // namespace experiments

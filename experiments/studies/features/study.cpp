@@ -99,9 +99,7 @@ StudyRun features_run(CutScene scene, double cost_s, bool full)
             .settings = {{"scene", scene.built_in}, {"cut", scene.cut}, {"full", full}}};
 }
 
-}  // namespace
-
-StudyPlan plan_features_study(bool full)
+StudyPlan plan(bool full)
 {
     StudyPlan plan;
     plan.runs.push_back(features_run({"limb", "limb_bend", {"motion.frames=11"}}, full ? 200.0 : 35.0, full));
@@ -114,15 +112,21 @@ StudyPlan plan_features_study(bool full)
     return plan;
 }
 
-StudyConclusion conclude_features_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+StudyConclusion conclude(const FinishedRuns& finished)
 {
-    if (finished.empty()) return {"", false};
-    analysis::CsvTable all{{}};
-    for (const std::string& run : finished) all.append(analysis::read_csv((fs::path(run) / "features.csv").string()));
-    all.write((fs::path(folder) / "features.csv").string());
+    if (finished.none()) return {"", false};
+    const analysis::CsvTable all = finished.gathered("features.csv");
+    finished.write("features.csv", all);
     const std::string text = features_markdown(all);
-    analysis::write_text_atomically((fs::path(folder) / "features.md").string(), text);
+    finished.write("features.md", text);
     return {text, true};
+}
+
+}  // namespace
+
+Study features_study()
+{
+    return {"features", plan, full_in_short, conclude, true};
 }
 
 }  // namespace experiments

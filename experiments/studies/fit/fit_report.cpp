@@ -16,22 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using analysis::CsvTable;
 
-// The rows of every finished run that wrote this table.
-CsvTable gathered(CsvTable table, const std::string& file, const std::vector<std::string>& folders)
-{
-    for (const std::string& folder : folders) {
-        const fs::path path = fs::path(folder) / file;
-        if (!fs::exists(path)) continue;
-        const CsvTable part = analysis::read_csv(path.string());
-        for (int row = 0; row < part.rows(); ++row) {
-            std::vector<CsvTable::Cell> cells;
-            for (const std::string& column : table.columns()) cells.emplace_back(part.text_at(row, column));
-            table.add_row(cells);
-        }
-    }
-    return table;
-}
-
 struct SagRow {
     double vertices, mean_edge_m, k_stretch, k_volume, iterations, young_pa, low_pa, high_pa, misfit_pct, number;
     bool settled, identifiable;
@@ -214,18 +198,11 @@ nlohmann::json to_json(const ElasticPoses& elastic)
     return json;
 }
 
-std::string write_fit_report(const std::string& folder, const std::vector<std::string>& finished)
+std::string write_fit_report(const FinishedRuns& finished)
 {
-    const CsvTable sags = gathered(sag_table(), "sag.csv", finished), swings = gathered(swing_table(), "swing.csv", finished),
-                   fits = gathered(poisson_table(), "poisson.csv", finished),
-                   poses = gathered(poisson_poses_table(), "poisson_poses.csv", finished),
-                   valleys = gathered(valley_table(), "valley.csv", finished);
-    const fs::path root(folder);
-    sags.write((root / "sag.csv").string());
-    swings.write((root / "swing.csv").string());
-    fits.write((root / "poisson.csv").string());
-    poses.write((root / "poisson_poses.csv").string());
-    valleys.write((root / "valley.csv").string());
+    for (const char* file : {"sag.csv", "swing.csv", "poisson.csv", "poisson_poses.csv", "valley.csv"})
+        finished.write(file, finished.gathered(file));
+    const CsvTable sags = finished.gathered("sag.csv"), swings = finished.gathered("swing.csv"), fits = finished.gathered("poisson.csv");
 
     const std::vector<SagRow> rows = sag_rows(sags);
     const nlohmann::json json = {{"schema", 1},
@@ -234,9 +211,8 @@ std::string write_fit_report(const std::string& folder, const std::vector<std::s
                                  {"volume_locking", volume_locking(rows)},
                                  {"young_by_frequency", rows_json(swings)},
                                  {"poisson", rows_json(fits)}};
-    analysis::write_text_atomically((root / "fit.json").string(), json.dump(2) + "\n");
-    analysis::write_text_atomically((root / "fit.md").string(),
-                                    "# The fit\n\n" + young_markdown(rows) + swing_markdown(swings) + poisson_markdown(fits));
+    finished.write("fit.json", json.dump(2) + "\n");
+    finished.write("fit.md", "# The fit\n\n" + young_markdown(rows) + swing_markdown(swings) + poisson_markdown(fits));
     return summary(rows, fits);
 }
 

@@ -2,6 +2,7 @@
 // fit.md and a text for the terminal.
 #pragma once
 
+#include "experiments/studies/finished_runs.hpp"
 #include "experiments/studies/fit/poisson_fit.hpp"
 
 #include <nlohmann/json.hpp>
@@ -13,7 +14,7 @@ namespace experiments {
 
 nlohmann::json to_json(const ElasticPoses& elastic);  // what did not converge, and how well the rest is interpolated
 
-// Of the study's folder and the folders of its runs that ended; what belongs on the terminal.
-std::string write_fit_report(const std::string& folder, const std::vector<std::string>& finished);
+// Returns the text for the terminal.
+std::string write_fit_report(const FinishedRuns& finished);
 
 }  // namespace experiments

@@ -237,9 +237,7 @@ FemOptions limb_options(reference_fem::Model model, int element_order)
     return options;
 }
 
-}  // namespace
-
-StudyPlan plan_fit_study(bool full)
+StudyPlan plan(bool full)
 {
     StudyPlan plan;
     const std::vector<int> iterations = {6, 24, 96};
@@ -266,9 +264,16 @@ StudyPlan plan_fit_study(bool full)
     return plan;
 }
 
-StudyConclusion conclude_fit_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+StudyConclusion conclude(const FinishedRuns& finished)
 {
-    return {write_fit_report(folder, finished), true};
+    return {write_fit_report(finished), true};
+}
+
+}  // namespace
+
+Study fit_study()
+{
+    return {"fit", plan, full_in_short, conclude};
 }
 
 }  // namespace experiments

@@ -81,9 +81,7 @@ void add_human(StudyPlan& plan)
     plan.runs.push_back(with_jiggle(without_jiggle(walking), 0.1));
 }
 
-}  // namespace
-
-StudyPlan plan_frames_study(bool full)
+StudyPlan plan(bool full)
 {
     StudyPlan plan;
     add_limb(plan, full);
@@ -93,6 +91,13 @@ StudyPlan plan_frames_study(bool full)
         plan.left_out.push_back({"human", error.what()});
     }
     return plan;
+}
+
+}  // namespace
+
+Study frames_study()
+{
+    return {"frames", plan};
 }
 
 }  // namespace experiments

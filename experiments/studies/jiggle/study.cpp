@@ -43,9 +43,7 @@ void plan_body(const std::string& body, bool full, StudyPlan& plan)
     plan.runs.push_back(work_run<WalkCase>(body + "_walk", {walking, k}, full ? 4.0 : 1.5, record_walk));
 }
 
-}  // namespace
-
-StudyPlan plan_jiggle_study(bool full)
+StudyPlan plan(bool full)
 {
     StudyPlan plan;
     plan_limb(full, plan);
@@ -59,12 +57,19 @@ StudyPlan plan_jiggle_study(bool full)
     return plan;
 }
 
-StudyConclusion conclude_jiggle_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+StudyConclusion conclude(const FinishedRuns& finished)
 {
     std::string text;
-    for (const std::string& run : finished) text += jiggle_report(run);
-    analysis::write_text_atomically((std::filesystem::path(folder) / "jiggle.md").string(), text);
-    return {text, !finished.empty()};
+    for (const std::string& run : finished.folders) text += jiggle_report(run);
+    finished.write("jiggle.md", text);
+    return {text, !finished.none()};
+}
+
+}  // namespace
+
+Study jiggle_study()
+{
+    return {"jiggle", plan, quick_and_full, conclude};
 }
 
 }  // namespace experiments

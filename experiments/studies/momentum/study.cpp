@@ -92,9 +92,7 @@ std::string measure_drift(const MomentumCase& of, const std::string& folder)
     return {};
 }
 
-}  // namespace
-
-StudyPlan plan_momentum_study(bool)
+StudyPlan plan(bool)
 {
     StudyPlan plan;
     plan.runs.push_back(work_run<MomentumCase>("limb", {"limb", read_scene("limb_bend", {"motion.angle_deg=90", "motion.frames=2"}), 1},
@@ -105,6 +103,13 @@ StudyPlan plan_momentum_study(bool)
         plan.left_out.push_back({"human", error.what()});
     }
     return plan;
+}
+
+}  // namespace
+
+Study momentum_study()
+{
+    return {"momentum", plan};
 }
 
 }  // namespace experiments

@@ -58,9 +58,7 @@ std::string run_sizes(const std::vector<int>& sizes, const std::string& folder)
     return breakdown;
 }
 
-}  // namespace
-
-StudyPlan plan_scale_study(bool full)
+StudyPlan plan(bool full)
 {
     std::vector<int> sizes = {600, 2400, 7000, 20000};
     if (full) sizes.insert(sizes.end(), {60000, 190000});
@@ -76,14 +74,21 @@ StudyPlan plan_scale_study(bool full)
     return plan;
 }
 
-StudyConclusion conclude_scale_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+StudyConclusion conclude(const FinishedRuns& finished)
 {
-    if (finished.empty()) return {"scale: nothing ran\n", false};
-    const analysis::CsvTable table = analysis::read_csv((fs::path(finished.front()) / "scale.csv").string());
-    table.write((fs::path(folder) / "scale.csv").string());
+    if (finished.none()) return {"scale: nothing ran\n", false};
+    const analysis::CsvTable table = finished.gathered("scale.csv");
+    finished.write("scale.csv", table);
     const std::string text = scale_markdown(table);
-    analysis::write_text_atomically((fs::path(folder) / "scale.md").string(), text);
+    finished.write("scale.md", text);
     return {text, true};
+}
+
+}  // namespace
+
+Study scale_study()
+{
+    return {"scale", plan, when_named, conclude, true};
 }
 
 }  // namespace experiments

@@ -47,9 +47,7 @@ std::string line_of(const std::map<std::string, analysis::Measurement>& figures)
                        figures.at("largest_volume_change_pct").value, figures.at("set_up_s").value);
 }
 
-}  // namespace
-
-StudyPlan plan_setup_study(bool full)
+StudyPlan plan(bool full)
 {
     StudyPlan plan;
     std::vector<BodySetup> setups;
@@ -67,18 +65,25 @@ StudyPlan plan_setup_study(bool full)
     return plan;
 }
 
-StudyConclusion conclude_setup_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+StudyConclusion conclude(const FinishedRuns& finished)
 {
     std::string text = fmt::format("{:<36} {:>5} {:>26} {:>24} {:>10} {:>9}\n", "body", "keys", "good frames [%]", "mean volume [%]",
                                    "worst [%]", "set-up [s]");
     std::vector<analysis::Measurement> all;
-    for (const std::string& run : finished) {
+    for (const std::string& run : finished.folders) {
         const auto figures = figures_of(run);
         text += line_of(figures);
         for (const auto& [quantity, measured] : figures) all.push_back(measured);
     }
-    analysis::measurement_table(all).write((fs::path(folder) / "setup.csv").string());
-    return {text, !finished.empty()};
+    finished.write("setup.csv", analysis::measurement_table(all));
+    return {text, !finished.none()};
+}
+
+}  // namespace
+
+Study setup_study()
+{
+    return {"setup", plan, quick_and_full, conclude};
 }
 
 }  // namespace experiments

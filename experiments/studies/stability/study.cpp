@@ -99,9 +99,7 @@ void add_characters(StudyPlan& plan, bool full)
         if (full || body.scene == "human") plan.left_out.push_back(body);
 }
 
-}  // namespace
-
-StudyPlan plan_stability_study(bool full)
+StudyPlan plan(bool full)
 {
     StudyPlan plan;
     plan.runs.push_back(stability_run("pbs", pbs_cells(false, full), full ? 8.0 : 2.0));
@@ -123,19 +121,23 @@ StudyPlan plan_stability_study(bool full)
     return plan;
 }
 
-StudyConclusion conclude_stability_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+StudyConclusion conclude(const FinishedRuns& finished)
 {
-    std::vector<CellRow> cells;
-    for (const std::string& run : finished)
-        for (CellRow& cell : rows_of(cell_columns, analysis::read_csv((fs::path(run) / "cells.csv").string())))
-            cells.push_back(std::move(cell));
-    table_of(cell_columns, cells).write((fs::path(folder) / "cells.csv").string());
-    map_csv(cells, "time step", "k_stretch").write((fs::path(folder) / "map_time_step_k_stretch.csv").string());
-    map_csv(cells, "iterations", "twist").write((fs::path(folder) / "map_iterations_twist.csv").string());
-    analysis::write_text_atomically((fs::path(folder) / "outcomes.md").string(), "```\n" + outcome_table(cells, true) + "```\n");
-    analysis::write_text_atomically((fs::path(folder) / "criteria.md").string(), analysis::criteria_text() + endings_text());
+    const std::vector<CellRow> cells = finished.rows(cell_columns, "cells.csv");
+    finished.write("cells.csv", cell_columns, cells);
+    finished.write("map_time_step_k_stretch.csv", map_csv(cells, "time step", "k_stretch"));
+    finished.write("map_iterations_twist.csv", map_csv(cells, "iterations", "twist"));
+    finished.write("outcomes.md", "```\n" + outcome_table(cells, true) + "```\n");
+    finished.write("criteria.md", analysis::criteria_text() + endings_text());
     const std::string missing = blind_spots(cells);
     return {outcome_table(cells, false) + missing, missing.empty()};
+}
+
+}  // namespace
+
+Study stability_study()
+{
+    return {"stability", plan, quick_and_full, conclude};
 }
 
 }  // namespace experiments

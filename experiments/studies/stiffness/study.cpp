@@ -171,9 +171,7 @@ void plan_body(StudyPlan& plan, const std::string& body, const std::vector<int>&
     if (!ladder.empty()) plan.runs.push_back(sweep_run({Varied::resolution, body, full, ladder}, full ? 60.0 : 5.0));
 }
 
-}  // namespace
-
-StudyPlan plan_stiffness_study(bool full)
+StudyPlan plan(bool full)
 {
     StudyPlan plan;
     plan_body(plan, "bar", full ? std::vector<int>{300, 600, 1200, 2400, 4800} : std::vector<int>{300, 600, 1200}, full);
@@ -187,13 +185,13 @@ StudyPlan plan_stiffness_study(bool full)
     return plan;
 }
 
-StudyConclusion conclude_stiffness_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+StudyConclusion conclude(const FinishedRuns& finished)
 {
     std::vector<SweptRows> swept;
     std::vector<StiffnessRow> all;
     for (const auto& [varied, name] : sweeps) {
         std::vector<StiffnessRow> rows;
-        for (const std::string& run : finished) {
+        for (const std::string& run : finished.folders) {
             if (!fs::path(run).filename().string().starts_with(name)) continue;
             const auto of_run = stiffness_rows(analysis::read_csv((fs::path(run) / "stiffness.csv").string()));
             rows.insert(rows.end(), of_run.begin(), of_run.end());
@@ -202,11 +200,17 @@ StudyConclusion conclude_stiffness_study(const std::string& folder, const StudyP
         swept.emplace_back(varied, std::move(rows));
     }
     const analysis::Claim& claim = claim_named("C11");
-    stiffness_table(all).write((fs::path(folder) / "stiffness.csv").string());
-    exponents_table(swept).write((fs::path(folder) / "exponents.csv").string());
-    analysis::write_text_atomically((fs::path(folder) / "stiffness.md").string(),
-                                    stiffness_markdown(swept) + control_markdown(swept, claim));
-    return {stiffness_text(swept) + control_text(swept, claim), !finished.empty()};
+    finished.write("stiffness.csv", stiffness_table(all));
+    finished.write("exponents.csv", exponents_table(swept));
+    finished.write("stiffness.md", stiffness_markdown(swept) + control_markdown(swept, claim));
+    return {stiffness_text(swept) + control_text(swept, claim), !finished.none()};
+}
+
+}  // namespace
+
+Study stiffness_study()
+{
+    return {"stiffness", plan, quick_and_full, conclude};
 }
 
 }  // namespace experiments

@@ -108,9 +108,7 @@ std::string body_of(const std::string& model)
     return model.starts_with("Man") ? "man" : model.starts_with("bunny") ? "frankie" : "lady";
 }
 
-}  // namespace
-
-StudyPlan plan_timing_study(bool full)
+StudyPlan plan(bool full)
 {
     StudyPlan plan;
     const std::vector<std::string> installed = installed_bodies(plan.left_out);
@@ -132,14 +130,20 @@ StudyPlan plan_timing_study(bool full)
     return plan;
 }
 
-StudyConclusion conclude_timing_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+StudyConclusion conclude(const FinishedRuns& finished)
 {
-    if (finished.empty()) return {"timing: nothing was timed\n", false};
-    analysis::CsvTable table{{}};
-    for (const std::string& run : finished) table.append(analysis::read_csv((fs::path(run) / "timing.csv").string()));
-    table.write((fs::path(folder) / "timing.csv").string());
-    analysis::write_text_atomically((fs::path(folder) / "timing.md").string(), timing_markdown(table));
+    if (finished.none()) return {"timing: nothing was timed\n", false};
+    const analysis::CsvTable table = finished.gathered("timing.csv");
+    finished.write("timing.csv", table);
+    finished.write("timing.md", timing_markdown(table));
     return {timing_text(table), true};
+}
+
+}  // namespace
+
+Study timing_study()
+{
+    return {"timing", plan, quick_and_full, conclude, true};
 }
 
 }  // namespace experiments

@@ -59,9 +59,7 @@ std::string solve_and_record(const VerificationCase& of, const std::string& fold
     return breakdown;
 }
 
-}  // namespace
-
-StudyPlan plan_verification_study(bool full)
+StudyPlan plan(bool full)
 {
     StudyPlan plan;
     try {
@@ -74,25 +72,26 @@ StudyPlan plan_verification_study(bool full)
     return plan;
 }
 
-StudyConclusion conclude_verification_study(const std::string& folder, const StudyPlan& plan, const std::vector<std::string>&)
+StudyConclusion conclude(const FinishedRuns& finished)
 {
     StudyConclusion conclusion;
     VerificationRows rows;
-    for (const StudyRun& run : plan.runs) {
-        const fs::path file = fs::path(folder) / run.name / "rows.json";
-        if (!fs::exists(file.parent_path() / "run.json")) {
-            conclusion.text += run.name + ": no rows, its run did not end\n";
-            conclusion.holds = false;
-            continue;
-        }
-        for (const auto& row : nlohmann::json::parse(analysis::read_text(file.string())))
-            rows.push_back(reference_fem::verification_row(row));
-    }
+    for (const std::string& file : finished.files("rows.json"))
+        for (const auto& row : nlohmann::json::parse(analysis::read_text(file))) rows.push_back(reference_fem::verification_row(row));
+    for (const std::string& run : finished.missing) conclusion.text += run + ": no rows, its run did not end\n";
+    conclusion.holds = finished.missing.empty();
     if (rows.empty()) return {"verification: nothing was run\n", false};
     for (const VerificationRow& row : rows) conclusion.holds &= holds(row).value_or(true);
-    write_verification_record(folder, rows);
+    write_verification_record(finished.folder, rows);
     conclusion.text = verification_table(rows) + conclusion.text;
     return conclusion;
+}
+
+}  // namespace
+
+Study verification_study()
+{
+    return {"verification", plan, full_in_short, conclude};
 }
 
 }  // namespace experiments

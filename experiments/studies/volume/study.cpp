@@ -162,9 +162,7 @@ void add_fetched(StudyPlan& plan, const std::string& body, bool full)
             clip_run("lady_01_03", "lady_walk", {"motion.duration_s=0.0", rate, blends_and_pbs, no_reference}, full ? 16.0 : 4.0)));
 }
 
-}  // namespace
-
-StudyPlan plan_volume_study(bool full)
+StudyPlan plan(bool full)
 {
     StudyPlan plan;
     const std::vector<std::string> twist = full ? std::vector<std::string>{} : beside_linear_truth;
@@ -181,17 +179,24 @@ StudyPlan plan_volume_study(bool full)
     return plan;
 }
 
-StudyConclusion conclude_volume_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+StudyConclusion conclude(const FinishedRuns& finished)
 {
     namespace fs = std::filesystem;
     std::vector<RunRegions> runs;
-    for (const std::string& run : finished)
+    for (const std::string& run : finished.folders)
         runs.push_back(
             {fs::path(run).filename().string(), rows_of(region_columns, analysis::read_csv((fs::path(run) / "regions.csv").string()))});
     const std::string text = region_text(runs);
-    region_csv(runs).write((fs::path(folder) / "regions.csv").string());
-    analysis::write_text_atomically((fs::path(folder) / "regions.txt").string(), text);
-    return {text, !finished.empty()};
+    finished.write("regions.csv", region_csv(runs));
+    finished.write("regions.txt", text);
+    return {text, !finished.none()};
+}
+
+}  // namespace
+
+Study volume_study()
+{
+    return {"volume", plan, quick_and_full, conclude};
 }
 
 }  // namespace experiments

@@ -86,9 +86,7 @@ StudyRun body_run(const std::string& body, const BodyPose& pose, bool full, doub
     return work_run(name, of, cost_s, measure_and_record);
 }
 
-}  // namespace
-
-StudyPlan plan_work_precision_study(bool full)
+StudyPlan plan(bool full)
 {
     StudyPlan plan;
     plan.runs.push_back(limb_run("twist", 90, full, full ? 70.0 : 28.0));
@@ -114,20 +112,16 @@ StudyPlan plan_work_precision_study(bool full)
     return plan;
 }
 
-StudyConclusion conclude_work_precision_study(const std::string& folder, const StudyPlan&, const std::vector<std::string>& finished)
+StudyConclusion conclude(const FinishedRuns& finished)
 {
     std::vector<std::vector<PointRow>> points;
-    std::vector<PointRow> all;
-    for (const std::string& run : finished) {
-        points.push_back(rows_of(point_columns, analysis::read_csv((fs::path(run) / "points.csv").string())));
-        all.insert(all.end(), points.back().begin(), points.back().end());
-    }
+    for (const std::string& file : finished.files("points.csv")) points.push_back(rows_of(point_columns, analysis::read_csv(file)));
     if (points.empty()) return {"", false};
-    table_of(point_columns, all).write((fs::path(folder) / "points.csv").string());
+    finished.write("points.csv", point_columns, finished.rows(point_columns, "points.csv"));
     const std::vector<Diagram> diagrams = diagrams_of(points);
-    fronts_table(diagrams).write((fs::path(folder) / "fronts.csv").string());
-    crossings_table(diagrams).write((fs::path(folder) / "crossings.csv").string());
-    equal_cost_table(diagrams).write((fs::path(folder) / "equal_cost.csv").string());
+    finished.write("fronts.csv", fronts_table(diagrams));
+    finished.write("crossings.csv", crossings_table(diagrams));
+    finished.write("equal_cost.csv", equal_cost_table(diagrams));
     std::string text = best_text(diagrams) +
                        "     off: from the reference at the joints, % of the mean bone distance; *: below the reference's own error "
                        "(bound); #: it intersects itself\n";
@@ -138,8 +132,15 @@ StudyConclusion conclude_work_precision_study(const std::string& folder, const S
         for (const std::string& line : findings(diagram)) page += "- " + line + "\n";
         page += "\n";
     }
-    analysis::write_text_atomically((fs::path(folder) / "work_precision.md").string(), page);
-    return {text, !finished.empty()};
+    finished.write("work_precision.md", page);
+    return {text, !finished.none()};
+}
+
+}  // namespace
+
+Study work_precision_study()
+{
+    return {"work_precision", plan, in_short, conclude, true};
 }
 
 }  // namespace experiments

@@ -11,7 +11,7 @@ using test_support::claim;
 
 const analysis::Records& print()
 {
-    static const analysis::Records records = test_support::records_of(experiments::plan_audit_study(false));
+    static const analysis::Records records = test_support::records_of(experiments::audit_study().plan(false));
     return records;
 }
 

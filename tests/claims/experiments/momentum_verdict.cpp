@@ -11,7 +11,7 @@ using test_support::claim;
 
 const analysis::Records& limb()
 {
-    static const analysis::Records records = test_support::records_of(experiments::plan_momentum_study(false));
+    static const analysis::Records records = test_support::records_of(experiments::momentum_study().plan(false));
     return records;
 }
 
