@@ -13,7 +13,7 @@ namespace {
 
 using Random = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
 
-// Mean of as many samples as the series has, drawn in blocks of neighbours; the last block is cut to fit.
+// The mean of as many samples as the series has, drawn in blocks of neighbours; the last block is shortened to fit.
 double resampled_mean(const std::vector<double>& series, std::size_t block, gsl_rng* random)
 {
     double sum = 0.0;

@@ -10,7 +10,7 @@
 namespace analysis {
 namespace {
 
-// How far outside the bound; negative inside. What is not a number is farthest out.
+// How far the value lies outside the bound; negative inside. NaN counts as farthest outside.
 double excess(const Claim& claim, double value)
 {
     return std::isnan(value) ? std::numeric_limits<double>::infinity() : std::max(claim.low - value, value - claim.high);
@@ -36,7 +36,7 @@ std::vector<FailingFrame> deepest_failures(const Claim& claim, const CaseRecord&
     return failures;
 }
 
-// Runs of frames that hold, as ranges of sampled angles.
+// Consecutive frames that hold, as ranges of sampled angles.
 std::vector<AngleRange> holding_angles(const std::vector<double>& angle_deg, const std::vector<bool>& holds)
 {
     std::vector<AngleRange> ranges;
@@ -56,11 +56,11 @@ void judge_sweep_from_its_start(const Claim& claim, const std::vector<double>& a
     result.angles = {holding_angles(angle_deg, holds).front()};
     const double held = std::abs(result.angles[0].to_deg - result.angles[0].from_deg),
                  whole = std::abs(angle_deg.back() - angle_deg.front());
-    if (!(held > 0.0)) return;  // the rest pose alone says nothing
+    if (!(held > 0.0)) return;  // a claim that holds in the rest pose alone holds nowhere
     result.extent = held >= claim.share * whole ? Extent::whole : held >= claim.part * whole ? Extent::part : Extent::none;
 }
 
-// mean_within: wherever the sweep passes through the band; a mean over its angles would say nothing.
+// mean_within: wherever the sweep passes through the band; a mean over its angles has no meaning.
 void judge_sweep_in_band(const std::vector<double>& angle_deg, const std::vector<bool>& holds, CaseJudgement& result)
 {
     result.angles = holding_angles(angle_deg, holds);

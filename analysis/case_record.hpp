@@ -1,4 +1,4 @@
-// What a verdict is computed from: the frames of each case as they were written down.
+// The recorded frames of each case, from which verdicts are computed.
 #pragma once
 
 #include "analysis/case_key.hpp"
@@ -9,74 +9,78 @@
 
 namespace analysis {
 
-// One deformer on one scene: a row of metrics.csv a frame.
+// One deformer on one scene; each frame is a row of metrics.csv.
 struct CaseRecord {
     std::string scene, deformer, variant;          // as in metrics.csv; the variant may be empty or "default"
-    CaseKey place = {};                            // body and motion of the scene; empty where its study's plan does not give them
-    std::string order = "", precision = "";        // of projection; both empty: the deformer has none
+    CaseKey place = {};                            // body and motion of the scene; empty if the plan of its study does not state them
+    std::string order = "", precision = "";        // of projection; both are empty if the deformer has none
     int iterations = 0;                            // 0: the deformer has none
     std::vector<double> frame, time_s, angle_deg;  // #frames each; angle_deg is empty for clips
-    int frames_not_converged = 0;                  // left out of the series
-    std::vector<double> volume_change_pct, volume_abs_change_pct, inverted_tets;  // #frames each, by FrameMetrics
-    std::string run;                                                              // the folder it came from, as to be named in reports
-    bool beside = false;  // the same body and motion once more (another mesh, another reference): reported, no part of a verdict
+    int frames_not_converged = 0;                  // these frames are left out of the series
+    std::vector<double> volume_change_pct, volume_abs_change_pct, inverted_tets;  // #frames each; as in FrameMetrics
+    std::string run;                                                              // the folder of the run, as reports name it
+    // a further run of the same body and motion (another mesh, another reference): reported, but not part of the verdict
+    bool beside = false;
 
-    bool is_sweep() const { return !angle_deg.empty(); }  // of one joint through angle_deg
+    bool is_sweep() const { return !angle_deg.empty(); }  // true for a sweep of one joint through angle_deg
 };
 
-// What one could not run here, and why: a character whose package is not installed.
+// A scene that could not run on this machine, with the reason, such as a character whose package is not installed.
 struct LeftOut {
     std::string scene, reason;  // the reason in words, for reports
 };
 
-// A value in print and the bounds that other values of the paper put on it: a row of printed.csv.
+// A value printed in the paper, and the bounds that other values of the paper imply: a row of printed.csv.
 struct PrintedFigure {
-    std::string claim;                              // its id
+    std::string claim;                              // id of the claim
     std::string quantity;                           // snake_case
-    CaseKey of;                                     // the row of Table 1 or the equation
-    double printed = 0.0, least = 0.0, most = 0.0;  // in print, and its bounds; most may be infinite
+    CaseKey of;                                     // the row of Table 1, or the equation
+    double printed = 0.0, least = 0.0, most = 0.0;  // the printed value and its bounds; most may be infinite
 
     bool is_consistent() const { return least <= printed && printed <= most; }
 };
 
-// What a value says of the quantity where a tolerance was not reached: the quantity is at least or at most that value, or more than it.
+// How a value limits the quantity where a tolerance was not reached: the quantity is at least, at most, or more than that value.
 enum class Limit { none, at_least, at_most, more_than };
 
 // A value that a study measured for a claim: a row of measurements.csv.
 struct Measurement {
-    std::string claim;                          // its id
+    std::string claim;                          // id of the claim
     std::string quantity;                       // as the claim's `metrics` name it
     CaseKey of;                                 // the case: character, pose, setting
-    double value = 0.0, low = 0.0, high = 0.0;  // in `unit`, with its interval; where there is none, low and high are the value
-    std::string unit;                           // 1 where there is none
-    std::string run = {};                       // the folder it came from
-    Limit limit = Limit::none;                  // of the value
-    int n = 0;                                  // settings, cells or comparisons that it is computed from; 0: one
-    int not_reached = 0;                        // of these n, those in which no initial guess reaches the tolerance
+    double value = 0.0, low = 0.0, high = 0.0;  // in `unit`, with its interval; without an interval, low and high equal the value
+    std::string unit;                           // "1" for a pure number
+    std::string run = {};                       // the folder of the run
+    Limit limit = Limit::none;                  // how the value limits the quantity
+    int n = 0;                                  // number of settings, cells or comparisons from which the value is computed; 0: one
+    int not_reached = 0;                        // how many of these n reach the tolerance from no initial guess
 };
 
-// All that a claim is judged from.
+// All records from which a claim is judged.
 struct Records {
-    std::vector<CaseRecord> cases = {};            // of all scenes and deformers
+    std::vector<CaseRecord> cases = {};            // all scenes and deformers
     std::vector<LeftOut> left_out = {};            // named in the verdict
-    std::vector<PrintedFigure> printed = {};       // of all claims with rule = "printed"
-    std::vector<Measurement> measurements = {};    // of all claims with rule = "measured"
-    std::vector<std::string> missing_runs = {};    // planned, and not ended: what is measured cannot be judged without them
-    std::vector<std::string> planned_scenes = {};  // each must have a record or be left out, or the verdict cannot be computed
+    std::vector<PrintedFigure> printed = {};       // values for all claims with rule = "printed"
+    std::vector<Measurement> measurements = {};    // values for all claims with rule = "measured"
+    std::vector<std::string> missing_runs = {};    // planned runs that have not ended; measured values cannot be judged without them
+    std::vector<std::string> planned_scenes = {};  // each must have a record or be left out; otherwise the verdict cannot be computed
 };
 
-// The cases in a metrics.csv: its rows grouped by scene, deformer, variant, order, precision, iterations and threads, in order of first
-// appearance; empty iterations (a deformer that has none) are 0. A column angle_deg, filled in throughout a case, makes it a sweep.
-// Left out and counted: rows of a deformer without iterations, that is a reference, whose outcome is not_converged. They show another pose.
-// InputError for a missing column, for what is no number, and for a case with angles in some frames only. run: for CaseRecord::run.
+// Reads the cases in a metrics.csv. Rows are grouped by scene, deformer, variant, order, precision, iterations and threads, in order of
+// first appearance. Empty iterations (of a deformer that has none) become 0. A column angle_deg that is filled in throughout a case makes
+// it a sweep.
+// Rows of a deformer without iterations (a reference) whose outcome is not_converged are counted and left out, since they show another
+// pose.
+// InputError for a missing column, for a cell that is not a number, and for a case with angles in some frames only. run: for
+// CaseRecord::run.
 std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string& run);
 
-// The rows of a file printed.csv: claim, quantity, fields of the key, printed, least, most; an empty most is no bound. InputError as
-// read_csv, for a missing column and what is no number.
+// The rows of a file printed.csv: claim, quantity, fields of the key, printed, least, most. An empty most means that there is no upper
+// bound. InputError as for read_csv, for a missing column and for a cell that is not a number.
 std::vector<PrintedFigure> printed_figures(const std::string& csv);
-CsvTable printed_table(const std::vector<PrintedFigure>& figures);  // what printed_figures() reads
+CsvTable printed_table(const std::vector<PrintedFigure>& figures);  // the table that printed_figures() reads
 
-// The series that a metric of a claim names, #frames; InputError for an unknown name or a record with series of different lengths.
+// The series of a claim's metric, #frames. InputError for an unknown name, or for a record with series of different lengths.
 std::vector<double> metric_series(const CaseRecord& record, const std::string& metric);
 
 }  // namespace analysis

@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-// JSON has no infinity: null, as for what is not known.
+// JSON has no infinity; null stands for it, as for values that are not known.
 json finite(double value)
 {
     return std::isfinite(value) ? json(value) : json(nullptr);
@@ -35,7 +35,7 @@ json to_json_of(const FailingFrame& failing)
             {"inverted_tets", failing.inverted_tets}};
 }
 
-// The number that the claim's rule looks at first: the share of frames, or the mean.
+// The number on which the claim's rule is based: the share of frames, or the mean.
 json to_json_of(const CaseJudgement& judged)
 {
     const bool by_share = judged.rule == ClaimRule::share_within;
@@ -134,11 +134,11 @@ json primary_of(const Verdict& verdict)
     return object;
 }
 
-// By which quantities, within which bounds.
+// The quantities of the claim and their bounds.
 json bounds_of(const Claim& claim)
 {
     json bounds = json::array();
-    if (claim.rule == ClaimRule::printed) return bounds;  // each value has its own
+    if (claim.rule == ClaimRule::printed) return bounds;  // each value has a bound of its own
     for (const std::string& quantity : claim.metrics) {
         const QuantityBound bound = bound_of(claim, quantity);
         bounds.push_back(
@@ -219,7 +219,7 @@ json quantities_of(const std::vector<Verdict>& verdicts)
     return quantities;
 }
 
-// A cell of a Markdown table: one line, no column of its own.
+// A cell of a Markdown table: one line, with vertical bars escaped.
 std::string markdown_cell(const std::string& text)
 {
     std::string cell;

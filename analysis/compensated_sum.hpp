@@ -1,4 +1,4 @@
-// Neumaier's compensated sum: what it returns hardly depends on the order of its terms, and never on the number of threads.
+// Neumaier's compensated sum. Its result hardly depends on the order of the terms, and never on the number of threads.
 //   CompensatedSum sum;  for (double term : terms) sum += term;  double total = sum.value();
 #pragma once
 
@@ -9,7 +9,7 @@ namespace analysis {
 // A. Neumaier, Z. Angew. Math. Mech. 54, 1974.
 class CompensatedSum {
 public:
-    // Any double; what is not finite stays.
+    // Adds any double; a term that is not finite makes the sum not finite.
     CompensatedSum& operator+=(double term)
     {
         const double next = sum_ + term;

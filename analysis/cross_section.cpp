@@ -19,7 +19,7 @@ struct SplitTet {
     std::array<double, 4> height_above, height_below;
     int count_above = 0, count_below = 0;
 
-    Vec3 cut(int a, int b) const  // of the edge between the a-th above and the b-th below
+    Vec3 cut(int a, int b) const  // the point at which the plane cuts the edge between the a-th corner above and the b-th below
     {
         const double s = height_above[a] / (height_above[a] - height_below[b]);
         return above[a] + s * (below[b] - above[a]);
@@ -43,7 +43,7 @@ SplitTet split(const pbs::Positions& positions, const pbs::Tets& tets, int t, co
     return parts;
 }
 
-// Most tets lie on one side: nothing of them is copied.
+// Most tets lie on one side of the plane; for these, nothing is copied.
 bool is_cut(const pbs::Positions& positions, const pbs::Tets& tets, int t, const Plane& plane)
 {
     int above = 0;
@@ -51,7 +51,7 @@ bool is_cut(const pbs::Positions& positions, const pbs::Tets& tets, int t, const
     return above % 4 != 0;
 }
 
-// Half the cross product of the diagonals, or of two sides.
+// Half the cross product of the diagonals, or of two sides for a triangle.
 double half_cross(const Vec3& a, const Vec3& b)
 {
     return 0.5 * a.cross(b).norm();

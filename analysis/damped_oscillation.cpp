@@ -28,7 +28,7 @@ struct Samples {
     double time_s(std::size_t i) const { return static_cast<double>(i) * dt_s; }
 };
 
-// Until the last excursion from the end value that counts.
+// The samples up to the last excursion from the end value that exceeds the threshold.
 Samples living_part(const std::vector<double>& series, double dt_s)
 {
     const std::size_t tail = std::max<std::size_t>(series.size() / 10, 1);
@@ -52,7 +52,7 @@ int residuals(const gsl_vector* x, void* data, gsl_vector* f)
     return GSL_SUCCESS;
 }
 
-// a, b, c are linear: the best of them for a decay and a frequency.
+// a, b and c are linear parameters: their best values for a given decay and frequency.
 std::pair<double, Parameters> linear_part(const Samples& samples, double decay, double omega)
 {
     Eigen::MatrixX3d basis(samples.y.size(), 3);

@@ -25,7 +25,7 @@ double largest_edge_strain(const pbs::Positions& rest, const pbs::Edges& edges, 
     double largest = 0.0;
     for (const double ratio : edge_ratios(rest, edges, positions)) {
         const double strain = std::abs(ratio - 1.0);
-        if (std::isnan(strain) || strain > largest) largest = strain;  // a NaN stays: nothing is greater
+        if (std::isnan(strain) || strain > largest) largest = strain;  // a NaN is kept: no comparison with it is true
     }
     return largest;
 }

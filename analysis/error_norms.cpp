@@ -27,7 +27,7 @@ void require_consistent(const ErrorDomain& domain)
             throw pbs::InputError("", 0, "blended vertex", std::to_string(vertex), fmt::format("expected 0 <= vertex < {}", vertices));
 }
 
-// Mean by mass of one value a vertex, over some vertices.
+// The mean, weighted by mass, of one value per vertex over some vertices.
 template <typename Value>
 double weighted_mean(const std::vector<int>& vertices, const Eigen::VectorXd& mass, Value value)
 {
@@ -73,7 +73,7 @@ ErrorNorms ErrorRuler::measure(const pbs::Positions& positions, const pbs::Posit
     error.joint_pct = 100.0 * std::sqrt(weighted_mean(blended_, mass_, square)) / bone_distance_m_;
     double largest = free_.empty() ? not_known : 0.0;
     for (int vertex : free_)
-        if (const double s = square(vertex); std::isnan(s) || s > largest) largest = s;  // a NaN stays
+        if (const double s = square(vertex); std::isnan(s) || s > largest) largest = s;  // a NaN is kept
     error.linf_m = std::sqrt(largest);
     return error;
 }

@@ -44,7 +44,7 @@ FrameMetrics Ruler::measure(const pbs::Positions& positions) const
         change += difference;
         abs_change += std::abs(difference);
         if (!(volumes(t) > 0.0)) ++metrics.inverted_tets;
-        if (std::isnan(j) || j < metrics.j_min) metrics.j_min = j;  // a NaN stays
+        if (std::isnan(j) || j < metrics.j_min) metrics.j_min = j;  // a NaN is kept
     }
     metrics.volume_change_pct = 100.0 * change.value() / rest_volume_;
     metrics.volume_abs_change_pct = 100.0 * abs_change.value() / rest_volume_;

@@ -1,23 +1,24 @@
-// The ruler: what is measured on one frame, the same for every deformer and for files from other programs.
+// The metrics of one frame, the same for every deformer and for files from other programs.
 //   const FrameMetrics metrics = Ruler{mesh.rest, mesh.tets}.measure(positions);
-// A frame with positions that are not finite (a numerical breakdown) is measured, not refused: NaN figures, its broken tets inverted.
+// A frame with positions that are not finite (a numerical breakdown) is measured, not refused: its values are NaN and its broken tets count
+// as inverted.
 #pragma once
 
 #include "pbs/geometry/types.hpp"
 
 namespace analysis {
 
-// In terms of the signed tet volumes V_t, in double; compensated sums.
+// Defined by the signed tet volumes V_t, in double precision and with compensated sums.
 struct FrameMetrics {
     double volume_change_pct = 0.0;      // 100 (V - V0) / V0, signed
     double volume_abs_change_pct = 0.0;  // 100 sum |V_t - V0_t| / V0
-    int inverted_tets = 0;               // V_t <= 0, or not a number
+    int inverted_tets = 0;               // tets with V_t <= 0 or NaN
     double mean_abs_j_minus_1 = 0.0;     // sum V0_t |J_t - 1| / V0, J_t = V_t / V0_t
-    double j_min = 0.0;                  // the least J_t, negative where inverted
+    double j_min = 0.0;                  // the smallest J_t, negative where a tet is inverted
     double stretch_rms = 0.0;            // rms of l / l0 - 1 over edges
 };
 
-// What does not change from frame to frame. Throws InputError for a rest mesh with indices out of range or a tet without positive volume,
+// Stores what does not change from frame to frame. InputError for a rest mesh with indices out of range or a tet without positive volume,
 // and for a frame with another number of points.
 class Ruler {
 public:
@@ -36,7 +37,7 @@ private:
     Eigen::Index vertices_ = 0;
 };
 
-// rms of |x_i - q_i| - d_i [m], all of #V; 0 without vertices. InputError for another number of bind points than positions.
+// rms of |x_i - q_i| - d_i [m] over all #V; 0 without vertices. InputError if the numbers of bind points and positions differ.
 double bind_rms(const pbs::Positions& positions, const pbs::Positions& bind_points, const Eigen::VectorXd& bind_distance);
 
 }  // namespace analysis

@@ -15,7 +15,7 @@ namespace analysis {
 namespace {
 
 constexpr double two_grid_factor = 3.0, three_grid_factor = 1.25, no_limit_factor = 3.0;
-constexpr double asymptotic_tolerance = 0.1;  // of the order
+constexpr double asymptotic_tolerance = 0.1;  // relative to the order
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 void require(bool holds, const char* field, double value, const char* rule)
@@ -35,7 +35,7 @@ double richardson(double fine, double coarse, double ratio, double order)
     return fine + (fine - coarse) / (std::pow(ratio, order) - 1.0);
 }
 
-// What a p must make zero, for |R|, a = ln r32 and b = ln r21. It grows with p in both cases, so that there is one root.
+// The function whose root is p, for |R|, a = ln r32 and b = ln r21. It increases with p in both cases, so there is one root.
 struct OrderEquation {
     double log_ratio, a, b;
     bool oscillating;
@@ -80,7 +80,7 @@ bool has_limit(GridBehaviour behaviour)
     return behaviour == GridBehaviour::monotone || behaviour == GridBehaviour::presumed || behaviour == GridBehaviour::constant;
 }
 
-// Bounds of all grids from the values, the finest first.
+// Sets the bounds of all grids from their values, the finest first.
 void set_limit_and_bounds(GridConvergence& convergence, const std::vector<double>& values, double ratio)
 {
     convergence.extrapolated = unknown;
@@ -111,7 +111,7 @@ double observed_order_of_three(double difference_ratio, const std::array<double,
     const double b = std::log(ratios[0]), a = std::log(ratios[1]), log_ratio = std::log(std::abs(difference_ratio));
     if (a == b || !std::isfinite(log_ratio)) return log_ratio / b;  // p = ln |R| / ln r
     const OrderEquation equation{log_ratio, a, b, difference_ratio < 0.0};
-    const double farthest = 600.0 / std::max(a, b);  // exp does not overflow
+    const double farthest = 600.0 / std::max(a, b);  // beyond this, exp would overflow
     if (equation(farthest) <= 0.0) return std::numeric_limits<double>::infinity();
     if (equation(-farthest) >= 0.0) return -std::numeric_limits<double>::infinity();
     return root_of(equation, -farthest, farthest);
@@ -155,7 +155,7 @@ GridConvergence two_fields(double difference, double ratio, double order)
 
 GridConvergence three_fields(const FieldDifferences& differences, const std::array<double, 2>& ratios, double formal_order)
 {
-    // A series of numbers with these differences; successive differences that point against each other alternate in it.
+    // A series of numbers with these differences: it alternates if successive differences of the fields have opposite directions.
     const double turn = differences.alignment() < 0.0 ? -1.0 : 1.0;
     GridConvergence convergence =
         three_grids({0.0, differences.fine_middle, differences.fine_middle + turn * differences.middle_coarse}, ratios, formal_order);

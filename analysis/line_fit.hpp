@@ -14,7 +14,7 @@ struct LineFit {
     double residual_rms = 0.0;  // sqrt(sum of squared residuals / n)
 };
 
-// InputError unless there are as many y as x, at least two, with x that differ.
+// InputError unless x and y have the same size, at least two, and the values of x differ.
 LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y, double level = 0.95);
 
 // error = c h^p: p is the slope, log c the intercept. InputError unless all values are positive.

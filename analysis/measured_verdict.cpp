@@ -23,7 +23,7 @@ struct Count {
     int within = 0, all = 0;
 };
 
-// The values of a subject: by quantity, and by the fields that the claim counts apart, how many there are and how many hold.
+// The values of a subject, grouped by quantity and by the fields that the claim counts apart: how many there are, and how many hold.
 using Subject = std::map<std::vector<std::string>, Count>;
 
 std::vector<std::string> group_of(const Claim& claim, const Measurement& measured)
@@ -51,7 +51,7 @@ Count sum_of(const Subject& subject)
     return sum;
 }
 
-// A claim of several quantities asks for all of them.
+// A claim of several quantities requires all of them.
 Extent extent_of(const Subject& subject)
 {
     const auto some = [](const auto& entry) { return entry.second.within > 0; };
@@ -67,7 +67,7 @@ VerdictKind kind_of(const std::map<std::string, Subject>& subjects)
                                                                               : VerdictKind::not_reproduced;
 }
 
-// How far outside, in the bound's own size, negative within; what is not a number is farthest.
+// How far the value lies outside, relative to the size of the bound; negative inside. NaN counts as farthest outside.
 double distance_outside(const QuantityBound& bound, double value)
 {
     if (std::isnan(value)) return std::numeric_limits<double>::infinity();

@@ -1,13 +1,14 @@
-// The verdict of a claim that is judged by values that a study measured (rule = "measured").
+// The verdict on a claim that is judged by values that a study measured (rule = "measured").
 #pragma once
 
 #include "analysis/verdict.hpp"
 
 namespace analysis {
 
-// By subject: the field of the key that the claim names, mostly the body. A subject holds where all its values are whole, and in part where
-// some values of each of its quantities are: a claim of several quantities asks for all of them. All subjects hold: reproduced; some
-// hold or do in part: reproduced only for those; none: not reproduced. A planned run without record: not computable.
+// Values are grouped by subject: the field of the key that the claim names, mostly the body. A subject holds if all its values hold as a
+// whole. It holds in part if some values of each of its quantities do, since a claim of several quantities requires all of them. The
+// verdict is reproduced if all subjects hold, reproduced only for some if some hold or hold in part, and not reproduced if none does. If a
+// planned run has no record, the verdict is not computable.
 Verdict judge_measurements(const Claim& claim, const Records& records);
 
 }  // namespace analysis

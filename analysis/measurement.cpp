@@ -28,7 +28,7 @@ int count_at(const CsvTable& table, int row, const char* column)
     return empty ? 0 : static_cast<int>(table.integer(row, column));
 }
 
-// A column that is written where any row has something in it.
+// A column that is written only if some row has a value for it.
 struct OptionalColumn {
     const char* name;
     CsvTable::Cell (*cell)(const Measurement&);

@@ -19,7 +19,7 @@
 namespace analysis {
 namespace {
 
-// The function, and every point it was asked at.
+// The function, with a record of all its evaluations.
 class Recorder {
 public:
     explicit Recorder(const Misfit& function) : function_(function) {}
@@ -31,7 +31,7 @@ public:
     }
     const std::vector<Evaluation>& evaluations() const { return evaluations_; }
 
-    // Of all that were numbers; nothing: NaN.
+    // The best evaluation that is a number; NaN if there is none.
     Evaluation best() const
     {
         Evaluation best{not_known, not_known};
@@ -83,7 +83,7 @@ MinimumOutcome refine(Recorder& recorder, const Evaluation& left, const Evaluati
     return MinimumOutcome::iterations_exhausted;
 }
 
-// GSL's default handler ends the process; here a breakdown is an outcome.
+// GSL's default handler ends the process; here a numerical breakdown is an outcome.
 class WithoutGslHandler {
 public:
     WithoutGslHandler() : handler_(gsl_set_error_handler_off()) {}
@@ -95,7 +95,8 @@ private:
     gsl_error_handler_t* handler_;
 };
 
-// Towards an end of the interval that is deeper than its neighbour: halfway points, until one is deeper than the end.
+// Approaches an end of the interval whose value is below that of its neighbour, by halving, until a point has a value below that of the
+// end.
 std::optional<Evaluation> deeper_than_end(Recorder& recorder, const Evaluation& end, const Evaluation& neighbour, double tolerance)
 {
     for (double step = (neighbour.parameter - end.parameter) / 2.0; std::abs(step) > tolerance; step /= 2.0) {
@@ -116,7 +117,8 @@ MinimumOutcome search(Recorder& recorder, double low, double high, const Minimis
     const auto finite = [](const Evaluation& each) { return std::isfinite(each.value); };
     if (std::all_of(samples.begin(), samples.end(), finite) && is_flat(samples)) return MinimumOutcome::flat;
 
-    // The first of equals has its left neighbour above it; equals on its right are walked over, since Brent asks for a middle below both.
+    // The left neighbour of the first of several equal minima is larger. Equal values on its right are skipped, since Brent's method needs
+    // a middle below both ends.
     const auto is_deepest = [&](const Evaluation& each) { return each.value == deepest; };
     const auto first = static_cast<int>(std::find_if(samples.begin(), samples.end(), is_deepest) - samples.begin());
     const auto next = static_cast<int>(std::find_if_not(samples.begin() + first, samples.end(), is_deepest) - samples.begin());
@@ -130,7 +132,7 @@ MinimumOutcome search(Recorder& recorder, double low, double high, const Minimis
     return refine(recorder, samples[first - 1], samples[first], samples[next], options, tolerance, iterations);
 }
 
-// A misfit that is asked once at each parameter, however many of the fits need it.
+// A misfit that is evaluated only once at each parameter, however many of the fits need it.
 Misfit remembered(const Misfit& misfit)
 {
     return [misfit, known = std::make_shared<std::map<double, double>>()](double parameter) {

@@ -1,5 +1,5 @@
-// Whether a claim's verdict is another in other orders and precisions of projection: constraints that contradict each other settle on
-// another limit in each order.
+// Whether a claim's verdict changes with the order and precision of projection. Constraints that contradict each other converge to a
+// different limit in each order.
 //   for (const OrderVerdict& other : judge_orders(claim, records)) ...
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace analysis {
 
-// One for each order and precision among the records of claim.orders, in order of first appearance. Each is judged on the scenes that it
-// was recorded on, and so is the claim's own deformer (default variant). None where claim.orders is empty.
+// One verdict for each order and precision among the records of claim.orders, in order of first appearance. Each is judged on the scenes on
+// which it was recorded, and so is the claim's own deformer (default variant). None if claim.orders is empty.
 std::vector<OrderVerdict> judge_orders(const Claim& claim, const Records& records);
 
 }  // namespace analysis

@@ -48,7 +48,7 @@ std::optional<std::size_t> best_within(const std::vector<WorkPrecision>& points,
 
 std::optional<Crossing> nearer_from(const std::vector<WorkPrecision>& one, const std::vector<WorkPrecision>& other)
 {
-    std::vector<double> budgets;  // where either's best changes
+    std::vector<double> budgets;  // the budgets at which the best point of either set changes
     for (const auto* points : {&one, &other})
         for (const WorkPrecision& point : *points)
             if (is_candidate(point)) budgets.push_back(point.cost);

@@ -1,4 +1,4 @@
-// How much volume each region of a body gains or loses. Regions are sets of tets without tets in common.
+// The volume that each region of a body gains or loses. Regions are disjoint sets of tets.
 //   const std::vector<RegionVolume> changes = RegionRuler(mesh.rest, mesh.tets, region_of_tet).measure(positions);
 #pragma once
 
@@ -8,21 +8,21 @@
 
 namespace analysis {
 
-// Signed tet volumes; all 0 for a number that no tet has.
+// Computed from signed tet volumes; all members are 0 for a region without tets.
 struct RegionVolume {
     double rest_m3 = 0.0;        // sum V0_t
     double change_m3 = 0.0;      // sum V_t - V0_t, signed
     double abs_change_m3 = 0.0;  // sum |V_t - V0_t|
 };
 
-// Regions are numbered from 0 up to the highest.
+// Regions are numbered from 0 to the highest number in use.
 class RegionRuler {
 public:
-    // region: of each tet, 0 or more; -1: in none, #T. Throws InputError unless there is one for each tet.
+    // region: one entry per tet, #T; 0 or more, or -1 for a tet in no region. InputError unless there is one entry for each tet.
     RegionRuler(const pbs::Positions& rest, const pbs::Tets& tets, const std::vector<int>& region);
 
-    std::vector<RegionVolume> measure(const pbs::Positions& positions) const;  // by region; [m], #V x 3, not checked
-    double rest_volume_m3() const { return rest_volumes_.sum(); }              // of all tets, those in no region too
+    std::vector<RegionVolume> measure(const pbs::Positions& positions) const;  // one per region; positions [m], #V x 3, not checked
+    double rest_volume_m3() const { return rest_volumes_.sum(); }              // all tets, including those in no region
 
 private:
     pbs::Tets tets_;

@@ -1,11 +1,11 @@
-// What every measurement asks of the rest mesh it is given: indices in range, no tet without positive volume.
+// The requirements of every measurement on its rest mesh: indices in range, and a positive volume of every tet.
 #pragma once
 
 #include "pbs/geometry/types.hpp"
 
 namespace analysis {
 
-// The rest volumes [m^3], #T; InputError where the mesh cannot be measured against.
+// The rest volumes [m^3], #T; InputError if the mesh violates a requirement.
 Eigen::VectorXd checked_rest_volumes(const pbs::Positions& rest, const pbs::Tets& tets);
 
 // InputError unless `positions` has as many points as the rest mesh.

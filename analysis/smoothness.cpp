@@ -38,7 +38,7 @@ Eigen::Matrix3d edges_from_first(const Positions& positions, const pbs::Tets& te
     return edges;
 }
 
-// Between the normals of the triangles (first, second, left) and (second, first, right), signed; zero where the skin is flat.
+// The signed angle between the normals of the triangles (first, second, left) and (second, first, right); zero where the skin is flat.
 double dihedral_angle(const Positions& positions, int first, int second, int left, int right)
 {
     const Vec3 a = point_of(positions, first), edge = point_of(positions, second) - a;
@@ -70,7 +70,7 @@ SmoothnessRuler::SmoothnessRuler(const Positions& rest, const pbs::Tets& tets, c
 
 void SmoothnessRuler::find_inner_faces(const std::vector<bool>& near)
 {
-    std::map<std::array<int, 3>, int> open;  // faces seen once, and whose
+    std::map<std::array<int, 3>, int> open;  // faces seen once, and the tet of each
     for (int t = 0; t < static_cast<int>(tets_.rows()); ++t)
         for (int opposite = 0; opposite < 4; ++opposite) {
             std::array<int, 3> face;
@@ -85,7 +85,7 @@ void SmoothnessRuler::find_inner_faces(const std::vector<bool>& near)
 
 void SmoothnessRuler::find_skin_edges(const std::vector<bool>& near)
 {
-    std::map<std::array<int, 2>, int> left_of;  // directed edges of the outward triangles, and the vertex opposite
+    std::map<std::array<int, 2>, int> left_of;  // directed edges of the outward triangles, and the vertex opposite to each
     const pbs::Triangles skin = pbs::boundary_of(tets_);
     for (const auto triangle : skin.rowwise())
         for (int i = 0; i < 3; ++i) left_of[{triangle(i), triangle((i + 1) % 3)}] = triangle((i + 2) % 3);

@@ -1,7 +1,8 @@
-// How smooth a deformed body is in a region: jumps of strain between neighbouring tets, and bending of the skin between neighbouring faces.
+// The smoothness of a deformed body in a region: jumps of strain between neighbouring tets, and bending of the skin between neighbouring
+// faces.
 //   const SmoothnessRuler ruler(mesh.rest, mesh.tets, near_the_joint);
 //   ruler.measure(positions).strain_jump_rms;
-// Strains do not know of rotation: a region that turns as a whole is as smooth as at rest.
+// Strains are invariant under rotation: a region that turns as a whole is as smooth as at rest.
 #pragma once
 
 #include "pbs/geometry/types.hpp"
@@ -10,20 +11,20 @@
 
 namespace analysis {
 
-// Both 0 at rest and where there is nothing to measure.
+// Both members are 0 at rest, and for a region without faces or edges to measure.
 struct Smoothness {
     // rms over inner faces, weighted by rest area, of |E - E'|, E = (F^T F - 1) / 2 of the tets on both sides (Green), Frobenius norm.
     double strain_jump_rms = 0.0;
     double bending_rms_rad = 0.0;  // rms over the skin's edges, weighted by rest length, of the dihedral angle's change
 };
 
-// Keeps what it needs of the rest pose.
+// Stores the quantities of the rest pose that the metrics need.
 class SmoothnessRuler {
 public:
-    // near: vertices of the region, #V; faces and edges all of whose corners are in it are measured. A region without any measures 0.
-    // InputError for a mesh that checked_rest_volumes refuses, and another number of entries than vertices.
+    // near: marks the vertices of the region, #V. Faces and edges with all corners in it are measured; without any, both metrics are 0.
+    // InputError for a mesh that checked_rest_volumes refuses, and if the number of entries differs from that of the vertices.
     SmoothnessRuler(const pbs::Positions& rest, const pbs::Tets& tets, const std::vector<bool>& near);
-    Smoothness measure(const pbs::Positions& positions) const;  // [m], #V x 3, else InputError
+    Smoothness measure(const pbs::Positions& positions) const;  // [m], #V x 3, otherwise InputError
 
 private:
     struct InnerFace {
@@ -31,8 +32,8 @@ private:
         double area_m2;
     };
     struct SkinEdge {
-        int first, second;  // its ends
-        int left, right;    // the vertices opposite it
+        int first, second;  // the ends of the edge
+        int left, right;    // the vertices opposite to it
         double length_m, angle_rad;
     };
     void find_inner_faces(const std::vector<bool>& near);

@@ -13,7 +13,7 @@ namespace {
 
 using Steps = std::vector<StabilityStep>;
 
-// What a body ended up doing: the last third of the still steps, at least the last step.
+// The final motion of a body: the last third of the still steps, and at least the last step.
 struct Ending {
     Steps::const_iterator begin, end;
 

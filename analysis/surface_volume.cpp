@@ -42,7 +42,7 @@ void require_closed(const pbs::Positions& points, const pbs::Triangles& triangle
 
 double volume_within(const pbs::Positions& points, const pbs::Triangles& triangles)
 {
-    const pbs::Vec3 origin = points.row(triangles(0, 0));  // near by, so that a surface far from the origin loses no digits
+    const pbs::Vec3 origin = points.row(triangles(0, 0));  // a nearby origin, so that a surface far from zero loses no digits
     CompensatedSum volume;
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
         volume += pbs::tet_volume(origin, points.row(triangles(f, 0)), points.row(triangles(f, 1)), points.row(triangles(f, 2)));

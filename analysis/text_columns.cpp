@@ -13,7 +13,7 @@ bool begins_character(char byte)
     return (static_cast<unsigned char>(byte) & 0xC0) != 0x80;
 }
 
-// The first `count` characters; the rest stays in `word`.
+// Takes the first `count` characters; the rest stays in `word`.
 std::string taken_from(std::string& word, std::size_t count)
 {
     std::size_t end = 0;

@@ -9,7 +9,7 @@
 namespace analysis {
 namespace {
 
-// What stands in the file there; a text without its quotes, nothing of tables.
+// The value as the file writes it: a text without its quotes, nothing for tables.
 std::string value_text(const toml::node& node)
 {
     if (node.is_string()) return *node.value<std::string>();

@@ -1,4 +1,4 @@
-// One TOML table read key by key, for files whose every key is known: what is left unread is an error with its line.
+// Reads a TOML table key by key, for files whose every key is known: a key that was not read is an error with its line.
 //   TomlKeys keys(table, "claims.toml", "claim");
 //   keys.required("id", claim.id);  keys.optional("low", claim.low);  keys.require_nothing_unknown();
 #pragma once
@@ -15,19 +15,19 @@
 
 namespace analysis {
 
-// InputError with the line of a text that is no TOML, or of a key at the top that `known` does not hold; schema = 1 must be there.
+// InputError with the line for a text that is not TOML, or for a top-level key that is not in `known`; schema = 1 is required.
 toml::table parse_toml_document(const std::string& text, const std::string& file, const std::set<std::string>& known);
 
-// The tables of [[name]]; none where the name is missing. InputError where it is something else.
+// The tables of [[name]]; none if the name is missing. InputError if it is something else.
 std::vector<const toml::table*> toml_tables(const toml::table& parent, const std::string& name, const std::string& file);
 
-// Refers to table and file, which outlive it.
+// Refers to table and file, which must outlive it.
 class TomlKeys {
 public:
-    // thing: what a table is called in messages.
+    // thing: how messages call a table.
     TomlKeys(const toml::table& table, const std::string& file, const std::string& thing) : table_(table), file_(file), thing_(thing) {}
 
-    // InputError at the table's line where the key is missing, else as optional().
+    // InputError at the line of the table if the key is missing, otherwise like optional().
     template <typename Value>
     void required(const char* key, Value& value)
     {
@@ -35,7 +35,7 @@ public:
         optional(key, value);
     }
 
-    // `value` stays as it is where the key is missing; InputError for a value of another kind.
+    // `value` keeps its content if the key is missing; InputError for a value of another kind.
     template <typename Value>
     void optional(const char* key, Value& value)
     {
@@ -47,7 +47,7 @@ public:
         value = *found;
     }
 
-    // A list; its entries are put behind those of `values`. InputError where it is none, or an entry of another kind.
+    // A list whose entries are appended to `values`. InputError if the value is not a list, or for an entry of another kind.
     template <typename Value>
     void optional(const char* key, std::vector<Value>& values)
     {
@@ -62,12 +62,12 @@ public:
         }
     }
 
-    void mark_read(const char* key) { read_.insert(key); }                     // of a key that the caller reads by node()
-    bool has(const char* key) const { return table_.contains(key); }           // whether it was read or not
-    const toml::node* node(const char* key) const { return table_.get(key); }  // null where missing; not marked as read
-    int line() const { return line_of(table_); }                               // of the table, from 1
+    void mark_read(const char* key) { read_.insert(key); }                     // for a key that the caller reads by node()
+    bool has(const char* key) const { return table_.contains(key); }           // whether or not it was read
+    const toml::node* node(const char* key) const { return table_.get(key); }  // null if missing; not marked as read
+    int line() const { return line_of(table_); }                               // line of the table, from 1
     void require_nothing_unknown() const;                                      // InputError at the first key that was not read
-    [[noreturn]] void refuse(const char* key, const std::string& rule) const;  // an InputError at the key's place
+    [[noreturn]] void refuse(const char* key, const std::string& rule) const;  // throws InputError at the place of the key
 
 private:
     template <typename Value>

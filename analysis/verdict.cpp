@@ -18,7 +18,7 @@ bool is_asked_for(const Claim& claim, const CaseRecord& record)
     return record.deformer == claim.deformer && (claim.iterations == 0 || record.iterations == claim.iterations) && !record.frame.empty();
 }
 
-// Scenes that were planned and have neither a record nor a reason for having none.
+// Scenes that were planned and have neither a record nor a reason for its absence.
 std::vector<std::string> missing_scenes(const Claim& claim, const Records& records)
 {
     std::vector<std::string> missing;
@@ -32,8 +32,8 @@ std::vector<std::string> missing_scenes(const Claim& claim, const Records& recor
     return missing;
 }
 
-// Among the clips in the paper's own variant, under the claim's own metric, the one that decides: the lowest share, or the mean farthest
-// from the value in print.
+// Chooses the clip that decides, among those in the paper's own variant and with the claim's own metric: the one with the lowest share, or
+// with the mean farthest from the printed value.
 void choose_primary(Verdict& verdict)
 {
     const bool by_share = verdict.claim.rule == ClaimRule::share_within;
@@ -99,7 +99,7 @@ Verdict judge_cases(const Claim& claim, const Records& records)
     return verdict;
 }
 
-// How far outside, in the bound's own size; negative within.
+// How far the value lies outside, relative to the size of the bound; negative inside.
 double distance_outside(const PrintedFigure& figure)
 {
     const double below = (figure.least - figure.printed) / std::max(std::abs(figure.least), 1e-300);

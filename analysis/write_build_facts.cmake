@@ -1,5 +1,5 @@
 # cmake -DSOURCE=... -DOUTPUT=... -DVERSION=... -DBUILD_TYPE=... -DCOMPILER=... -DFLAGS=... -P write_build_facts.cmake
-# Git revision and whether tracked files differ from it; "unknown" without git or where SOURCE is not the root of a checkout.
+# Writes the git revision and whether tracked files differ from it; "unknown" without git or if SOURCE is not the root of a checkout.
 set(revision "unknown")
 set(changes "")
 find_program(GIT git)
@@ -17,7 +17,7 @@ else()
     set(dirty true)
 endif()
 
-string(REGEX REPLACE "[^ ]*/[^ ]*" "<path>" FLAGS "${FLAGS}")  # no record names a folder of the machine it was built on
+string(REGEX REPLACE "[^ ]*/[^ ]*" "<path>" FLAGS "${FLAGS}")  # records name no folder of the machine that built the program
 string(STRIP "${FLAGS}" FLAGS)
 string(REGEX REPLACE "([\"\\\\])" "\\\\\\1" FLAGS "${FLAGS}")
 set(text "#pragma once

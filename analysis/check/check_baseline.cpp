@@ -34,7 +34,7 @@ Rows rows_of(const CsvTable& table, const std::string& scene)
     return rows;
 }
 
-// Below the head: a baseline has no line breaks in its fields.
+// The line of a row, below the header. No field of a baseline contains a line break.
 int line_of(int row)
 {
     return row + 2;
@@ -60,7 +60,7 @@ void require_each_frame_once(const CsvTable& baseline, const std::string& file)
     }
 }
 
-// What differs in a frame, with how many times its tolerance; nothing where all is as before.
+// The difference in a frame, and how many times its tolerance that is; none if nothing has changed.
 struct Difference {
     double times = 0.0;
     std::string text;

@@ -1,4 +1,4 @@
-// One thing that was asked of a run or of a foreign frame, and what became of it: what the terminal, JUnit, GitHub and check.json show.
+// One requirement on a run or on a frame from elsewhere, and its result, as the terminal, JUnit, GitHub and check.json show it.
 #pragma once
 
 #include <optional>
@@ -7,34 +7,34 @@
 
 namespace analysis {
 
-// failed: a bound does not hold; broke_down: the run is not finite; refused: bad input.
+// failed: a bound does not hold; broke_down: the run is not finite; refused: the input is invalid.
 enum class CheckState { held, failed, left_out, broke_down, refused };
 
-// A held case has its message too.
+// A case that holds has a message too.
 struct CheckCase {
-    std::string suite;                    // the scene, or the rest mesh
-    std::string name;                     // of the bound
-    CheckState state = CheckState::held;  // what became of it
-    std::string message;                  // one line; of a failure: the frame, the metric, its value and the bound
-    std::optional<int> frame;             // the worst one
-    std::optional<double> value = {};     // there
-    std::string file;                     // where the bound stands; empty: on the command line
+    std::string suite;                    // name of the scene, or of the rest mesh
+    std::string name;                     // name of the bound
+    CheckState state = CheckState::held;  // the result
+    std::string message;                  // one line; for a failure: the frame, the metric, its value and the bound
+    std::optional<int> frame;             // the worst frame
+    std::optional<double> value = {};     // value in that frame
+    std::string file;                     // file that declares the bound; empty: the command line
     int line = 0;                         // in that file, from 1; 0: none
-    double seconds = 0.0;                 // wall time; tracked, never judged
+    double seconds = 0.0;                 // wall time; recorded but never judged
 };
 
-// Cases of one suite in their order.
+// The cases of one suite, in their order.
 struct CheckSuite {
-    std::string name;                                             // the scene, or the rest mesh
-    double seconds = 0.0;                                         // wall time of the whole
+    std::string name;                                             // name of the scene, or of the rest mesh
+    double seconds = 0.0;                                         // wall time of the whole suite
     std::vector<std::pair<std::string, std::string>> properties;  // name, value
-    std::vector<CheckCase> cases;                                 // one a bound, and one a deformer of the baseline
+    std::vector<CheckCase> cases;                                 // one per bound, and one per deformer of the baseline
 };
 
-int count(const std::vector<CheckSuite>& suites, CheckState state);  // over all suites
+int count(const std::vector<CheckSuite>& suites, CheckState state);  // summed over all suites
 const char* to_string(CheckState state);                             // "holds", "FAILS", "left out", "BREAKDOWN", "REFUSED"
 
-// For the terminal: one line a case, with its message.
+// A table for the terminal with one line per case and its message.
 std::string check_table(const std::vector<CheckSuite>& suites);
 
 }  // namespace analysis

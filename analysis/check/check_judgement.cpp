@@ -18,7 +18,7 @@ std::string interval_text(const CheckBound& bound)
     return fmt::format("{:g} to {:g}", bound.low, bound.high);
 }
 
-// How far outside; negative within; not a number is farthest out.
+// How far the value lies outside; negative inside. NaN counts as farthest outside.
 double excess(const CheckBound& bound, double value)
 {
     return std::isnan(value) ? std::numeric_limits<double>::infinity() : std::max(bound.low - value, value - bound.high);

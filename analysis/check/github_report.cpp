@@ -5,7 +5,7 @@
 namespace analysis {
 namespace {
 
-// As GitHub's own toolkit escapes workflow commands (actions/toolkit, command.ts).
+// Escapes a text like GitHub's own toolkit does for workflow commands (actions/toolkit, command.ts).
 std::string escaped(const std::string& text, bool is_property)
 {
     std::string result;

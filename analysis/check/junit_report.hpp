@@ -1,5 +1,5 @@
-// JUnit XML as CI servers read it: a testsuite a suite, a testcase a case (classname: the suite's name), its wall time; <failure> for what
-// does not hold, <error> for a breakdown or a refused frame, <skipped> for what was left out.
+// JUnit XML for CI servers: one testsuite per suite and one testcase per case (classname: the name of the suite), with its wall time.
+// <failure> marks a case that fails, <error> a breakdown or a refused frame, <skipped> a case that was left out.
 //   write_text_atomically(path, junit_report(suites));
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace analysis {
 
-// The whole document; counts and seconds of each suite and of all.
+// The whole document, with counts and seconds for each suite and in total.
 std::string junit_report(const std::vector<CheckSuite>& suites);
 
 }  // namespace analysis

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of pbs::write_atomically: .NAME.PROCESS.RANDOM.
+// The names that pbs::write_atomically uses: .NAME.PROCESS.RANDOM.
 const std::regex temporary_name(R"(\..+\.([0-9]{1,9})\.[A-Za-z0-9]{6})");
 
 bool is_abandoned(const fs::path& file)

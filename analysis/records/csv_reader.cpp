@@ -14,7 +14,7 @@ namespace {
     throw pbs::InputError(fmt::format("{}:{}", file, line), static_cast<int>(column), value.empty() ? "" : "column", value, rule);
 }
 
-// One record at a time off the text, quotes and line ends resolved.
+// Reads one record at a time from the text and resolves quotes and line ends.
 class RecordReader {
 public:
     RecordReader(const std::string& text, const std::string& file) : text_(text), file_(file) {}

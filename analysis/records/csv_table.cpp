@@ -23,7 +23,7 @@ std::string quoted_where_needed(const std::string& field)
 
 std::string line_of(const std::vector<std::string>& fields)
 {
-    if (fields.size() == 1 && fields[0].empty()) return "\"\"\n";  // one empty field is not an empty line
+    if (fields.size() == 1 && fields[0].empty()) return "\"\"\n";  // distinguishes a row of one empty field from an empty line
     std::vector<std::string> quoted;
     for (const std::string& field : fields) quoted.push_back(quoted_where_needed(field));
     return fmt::format("{}\n", fmt::join(quoted, ","));

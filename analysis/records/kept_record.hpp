@@ -1,4 +1,4 @@
-// A record of a run, read back: somebody else may have made something else of it.
+// Reads back the record of a run, which may have been changed since it was written.
 //   const double total_s = from_record(folder + "/run.json", [](const auto& run) { return run.at("cost").at("total").get<double>(); });
 #pragma once
 
@@ -8,10 +8,10 @@
 
 namespace analysis {
 
-nlohmann::json read_record(const std::string& path);       // InputError where it is no JSON
-[[noreturn]] void refuse_record(const std::string& path);  // an InputError
+nlohmann::json read_record(const std::string& path);       // InputError if it is not valid JSON
+[[noreturn]] void refuse_record(const std::string& path);  // throws InputError
 
-// What `read` makes of it; InputError with the file where an entry is missing or of another type.
+// The result of `read`; InputError with the file if an entry is missing or has another type.
 template <typename Read>
 auto from_record(const std::string& path, const Read& read)
 {

@@ -1,5 +1,5 @@
-// Where a record comes from: what was built, from which revision, on what kind of machine. No host name, no folder: two machines of a
-// kind write the same text.
+// The provenance of a record: the build, its revision and the kind of machine. It contains no host name and no folder, so that two machines
+// of a kind write the same text.
 //   Provenance provenance = collect_provenance(threads);  provenance.libraries["deal.II"] = "9.4.1";
 //   provenance.input_hashes["limb.toml"] = pbs::content_hash(bytes);  run["provenance"] = provenance;
 #pragma once
@@ -11,22 +11,22 @@
 
 namespace analysis {
 
-// What two machines of a kind agree on, and what a run adds to it.
+// The facts that two machines of a kind share, and those that a run adds.
 struct Provenance {
-    std::string version;                              // of pbskin
+    std::string version;                              // version of pbskin
     std::string git_revision;                         // 40 digits; "unknown" without git or outside a checkout
-    bool git_dirty = false;                           // tracked files differed from the revision when this was built
-    std::string compiler, flags, build_type;          // of this build, as CMake knows them
-    std::string cpu_model;                            // as /proc/cpuinfo has it
-    int logical_cpus = 0;                             // 0 where the system does not tell
-    int threads = 0;                                  // the run's
-    std::map<std::string, std::string> libraries;     // name -> version; those of this module, others are added
-    std::map<std::string, std::string> blas;          // library, core_type and who selected it; empty: the run used none
+    bool git_dirty = false;                           // tracked files differed from the revision at the time of the build
+    std::string compiler, flags, build_type;          // of this build, as in CMake
+    std::string cpu_model;                            // as in /proc/cpuinfo
+    int logical_cpus = 0;                             // 0 if the system does not report it
+    int threads = 0;                                  // threads of the run
+    std::map<std::string, std::string> libraries;     // name -> version; this module's own, to which others are added
+    std::map<std::string, std::string> blas;          // library, core_type and who selected it; empty: the run used no BLAS
     std::map<std::string, std::string> input_hashes;  // file name -> pbs::content_hash
 };
 
-// Of this build and machine; input_hashes are left to the caller. threads: that the run uses.
+// The provenance of this build and machine; the caller adds input_hashes. threads: the number that the run uses.
 Provenance collect_provenance(int threads);
-void to_json(nlohmann::json& document, const Provenance& provenance);  // an object, keys as the fields are called
+void to_json(nlohmann::json& document, const Provenance& provenance);  // an object whose keys are the names of the members
 
 }  // namespace analysis

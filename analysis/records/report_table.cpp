@@ -37,7 +37,7 @@ std::string markdown_table(const CsvTable& table, const std::vector<ReportColumn
     for (const auto& row : shown_rows(table, columns)) {
         for (const std::string& cell : row) text += "| " + cell + " ";
         text += "|\n";
-        if (text.find('\n') == text.size() - 1) {  // below the headings
+        if (text.find('\n') == text.size() - 1) {  // there are no rows below the headings
             for (std::size_t c = 0; c < columns.size(); ++c) text += "|---";
             text += "|\n";
         }

@@ -1,4 +1,4 @@
-// Chosen columns of a record as a table that people read: Markdown for a page, aligned columns for a terminal.
+// Chosen columns of a record as a readable table: Markdown for a page, aligned columns for a terminal.
 //   const std::vector<ReportColumn> columns = {{"body", "body"}, {"step [ms]", "step_s", "{:.2f}", 1e3}};
 //   markdown_table(table, columns);   // | body | step [ms] | ...
 //   text_table(table, columns);       // body   step [ms] ...
@@ -13,13 +13,13 @@ namespace analysis {
 
 struct ReportColumn {
     std::string heading;       // with the unit as shown
-    std::string column;        // of the record
-    std::string format = "";   // of fmt, for a number; "": the cell's own text
-    double factor = 1.0;       // from the record's unit to the shown one
-    std::string unknown = "";  // in place of an empty cell and of nan
+    std::string column;        // column of the record
+    std::string format = "";   // fmt format for a number; "": the text of the cell as it is
+    double factor = 1.0;       // from the unit of the record to the shown one
+    std::string unknown = "";  // shown for an empty cell and for nan
 };
 
-// One line per row of the record. InputError for a missing column, or for text where a format expects a number.
+// One line per row of the record. InputError for a missing column, or for a text where a format expects a number.
 std::string markdown_table(const CsvTable& table, const std::vector<ReportColumn>& columns);
 std::string text_table(const CsvTable& table, const std::vector<ReportColumn>& columns);
 

@@ -8,7 +8,7 @@
 namespace analysis {
 namespace {
 
-// Units as they stand in names and as they are written; where two endings fit a name, the longer one comes first.
+// Units as column names spell them and as they are written. If two endings fit a name, the longer one comes first.
 constexpr std::array<std::pair<const char*, const char*>, 22> units{{{"m_s2", "m/s^2"},   {"m_s", "m/s"},
                                                                      {"n_m", "N/m"},      {"per_s", "1/s"},
                                                                      {"kg_m3", "kg/m^3"}, {"m3", "m^3"},
@@ -21,7 +21,7 @@ constexpr std::array<std::pair<const char*, const char*>, 22> units{{{"m_s2", "m
                                                                      {"kg", "kg"},        {"mb", "MB"},
                                                                      {"n", "N"},          {"diagonals", "diagonals"}}};
 
-// Of the longest ending that is a unit.
+// The unit of the longest ending that is one.
 std::string unit_by_ending(const std::string& name)
 {
     for (const auto& [ending, unit] : units)

@@ -23,11 +23,11 @@
 
 namespace analysis {
 
-// The names of an enum's values in records; a specialisation holds `table`, an array of pairs of value and name.
+// The names of an enum's values in records; a specialisation defines `table`, an array of pairs of value and name.
 template <typename Enum>
 struct EnumNames;
 
-// How a value stands in a cell and in JSON. `read` gives InputError file:line:column for a cell that holds something else.
+// How a value is written in a cell and in JSON. `read` throws InputError file:line:column for a cell of another kind.
 template <typename Value>
 struct CellOf;
 
@@ -101,8 +101,8 @@ struct CellOf<std::optional<Value>> {
     }
 };
 
-// std::logic_error unless the name ends with its unit or, where it ends with no unit, has it inside: time_s is in s, volume_change_pct
-// in %, step_ms_median in ms. A name that ends with a unit cannot be a pure number.
+// std::logic_error unless the name ends with its unit or, if it ends with no unit, contains it: time_s is in s, volume_change_pct in %,
+// step_ms_median in ms. A name that ends with a unit cannot belong to a pure number.
 void require_unit(const std::string& name, const std::string& unit);
 
 // {"frame": 3, "rms_mm": 0.25}; null for an empty cell.
@@ -123,14 +123,14 @@ struct Column {
             std::invoke(access, row) = CellOf<Value>::read(table, r, column);
         };
     }
-    // The column of a part of the row.
+    // A column of a member that is itself a struct.
     template <typename Part>
     Column(const Column<Part>& other, Part Row::*part) : name(other.name), unit(other.unit), meaning(other.meaning), group(other.group)
     {
         cell = [part, of = other.cell](const Row& row) { return of(row.*part); };
         read = [part, of = other.read](Row& row, const CsvTable& table, int r) { of(row.*part, table, r); };
     }
-    // The column of a part that a row may lack: then all its cells are empty.
+    // A column of an optional member struct; if a row has no value for it, all its cells are empty.
     template <typename Part>
     Column(const Column<Part>& other, std::optional<Part> Row::*part)
         : name(other.name), unit(other.unit), meaning(other.meaning), group(other.group)
@@ -144,7 +144,7 @@ struct Column {
     }
 
     std::string name, unit, meaning;
-    std::string group = {};  // "": in every file; the columns of a group are in a file together or not at all
+    std::string group = {};  // "": in every file; the columns of a group occur in a file together or not at all
     std::function<CsvTable::Cell(const Row&)> cell;
     std::function<void(Row&, const CsvTable&, int)> read;
 };
@@ -154,7 +154,7 @@ class Columns : public std::vector<Column<Row>> {
 public:
     using std::vector<Column<Row>>::vector;
 
-    // Those of this list, then those of another.
+    // The columns of this list, followed by those of another.
     Columns operator+(const Columns& more) const
     {
         Columns all = *this;
@@ -173,7 +173,7 @@ public:
         std::erase_if(rest, [&](const Column<Row>& column) { return column.group == group; });
         return rest;
     }
-    const Column<Row>& named(const std::string& name) const  // std::out_of_range where there is none
+    const Column<Row>& named(const std::string& name) const  // std::out_of_range if no column has that name
     {
         for (const Column<Row>& column : *this)
             if (column.name == name) return column;
@@ -187,7 +187,7 @@ public:
     }
 };
 
-// The columns of a part of the row, or of a part that a row may lack: within(&Frame::errors, error_columns).
+// The columns of a member struct, which may be optional: within(&Frame::errors, error_columns).
 template <typename Row, typename Member, typename Part>
 Columns<Row> within(Member Row::*part, const Columns<Part>& columns)
 {
@@ -212,7 +212,7 @@ CsvTable table_of(const Columns<Row>& columns, const std::vector<Row>& rows)
     return table;
 }
 
-// Further columns of the table are ignored. InputError for a missing column, except those of a group that is missing as a whole.
+// Further columns of the table are ignored. InputError for a missing column, unless its whole group is missing.
 template <typename Row>
 std::vector<Row> rows_of(const Columns<Row>& columns, const CsvTable& table)
 {
@@ -228,7 +228,7 @@ std::vector<Row> rows_of(const Columns<Row>& columns, const CsvTable& table)
     return rows;
 }
 
-// Include nlohmann/json.hpp where it is called.
+// Callers include nlohmann/json.hpp.
 template <typename Row>
 auto row_json(const Columns<Row>& columns, const Row& row)
 {
