@@ -2,7 +2,7 @@
 import records
 import style
 
-# What each order looks like, and each class of constraints.
+# The colour and line style of each order, and the marker of each class of constraints.
 orders = {"plain": (style.vermillion, (0, (4, 1.5))), "plain_native": (style.orange, (0, (2, 1))),
           "plain_spread": (style.black, (0, (1, 1))),
           "ordered": (style.blue, "-"), "grouped": (style.green, (0, (5, 1.2, 1, 1.2))), "poses": (style.purple, (0, (4, 1, 1, 1, 1, 1)))}
@@ -21,7 +21,7 @@ def read(results):
 
 
 def timings(mesh):
-    """Orders and yardsticks alike."""
+    """The timings of the orders and of the reference operations."""
     return mesh["results"] + mesh.get("yardsticks", [])
 
 

@@ -1,4 +1,4 @@
-"""Actors of recorded frames for a rendering.Stage: smooth-shaded skin, tets by volume ratio, tets cut open, bones.
+"""Actors for a rendering.Stage, made from recorded frames: smooth-shaded skin, tets by volume ratio, tets cut open, and bones.
 
     picture = stage.shot([bodies.skin(frames.skin("pbs", 12)), *bodies.bones(frames.bones(12))], camera)
 """
@@ -18,7 +18,7 @@ bone_color, flesh_color, edge_color = (0.15, 0.15, 0.15), (0.80, 0.55, 0.47), (0
 
 
 def surface(data):
-    """The boundary with normals for smooth shading."""
+    """The boundary of the data with normals for smooth shading."""
     boundary = vtkDataSetSurfaceFilter()
     boundary.SetInputData(data)
     normals = vtkPolyDataNormals()
@@ -41,7 +41,7 @@ def rest_positions_of(file):
 
 
 def at_rest(file):
-    """The frame's tets where they were at rest."""
+    """The tets of the frame at their rest positions."""
     data = rendering.read(file)
     points = vtkPoints()
     points.SetData(data.GetPointData().GetArray("rest_position"))
@@ -63,14 +63,14 @@ def skin(file, color=rendering.skin_color):
 
 
 def glass(data, color=rendering.skin_color, opacity=0.3):
-    """The skin to look through."""
+    """A transparent skin."""
     actor = _actor(surface(data), color, ambient=0.6)
     actor.GetProperty().SetOpacity(opacity)
     return actor
 
 
 def skin_by(file, values, scale, colors):
-    """The skin coloured by a number at each of its points."""
+    """The skin coloured by one number per point."""
     data = rendering.read(file)
     array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
     array.SetName("shown")
@@ -93,7 +93,7 @@ def _shades(scale, colors, steps=256):
 
 
 def cut_open(data, ahead_m):
-    """The tets behind a cut, their edges drawn; ahead_m: how far each point is in front of it."""
+    """The tets behind a cut, with their edges drawn. ahead_m: the distance of each point in front of the cut."""
     corners = vtk_to_numpy(data.GetCells().GetConnectivityArray()).reshape(-1, 4)
     chosen = vtkIdList()
     for cell in numpy.flatnonzero(ahead_m[corners].mean(axis=1) < 0):
@@ -113,7 +113,7 @@ def cut_open(data, ahead_m):
 
 
 def bones(posed, radius_m=0.008, towards=(0.0, 0.0, 0.0), color=bone_color):
-    """Each bone a rod between its end points, its joints balls. Moved towards a parallel camera, nothing hides them."""
+    """Each bone as a rod between its end points, with balls at its joints. Bones moved towards a parallel camera are hidden by nothing."""
     ends = [(bone.head + numpy.array(towards), bone.tail + numpy.array(towards)) for bone in posed]
     return [actor for head, tail in ends for actor in (_rod(head, tail, radius_m, color), ball(head, 1.8 * radius_m, color),
                                                        ball(tail, 1.8 * radius_m, color))]

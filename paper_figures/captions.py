@@ -1,6 +1,6 @@
-"""Captions with the figure's own numbers in them. In figures.toml {name} asks for one; facts(rows) of the figure's script tells it, of the
-rows of NAME.csv; {cpu} is the processor of the runs behind it. The whole caption is written when the figure is drawn, to
-NAME.caption.txt, and names at its end what was planned and is not on record.
+"""Captions that contain numbers of their figure. A name in braces in figures.toml is such a number: facts(rows) of the figure's script
+computes it from the rows of NAME.csv, and {cpu} is the processor of the runs behind the figure. The whole caption is written to
+NAME.caption.txt when the figure is drawn. Its end names the planned runs that have no record.
 
     captions.write(entry, results, figures)
     captions.read(entry, figures)
@@ -11,11 +11,11 @@ import string
 import records
 import whole_file
 
-of_runs = {"cpu"}  # told without the rows behind the figure
+of_runs = {"cpu"}  # known without the rows behind the figure
 
 
 def asked(entry):
-    """The numbers that its caption asks for."""
+    """The names in braces in the entry's caption."""
     return {name for _, name, _, _ in string.Formatter().parse(entry.caption) if name is not None}
 
 
@@ -40,7 +40,7 @@ def write(entry, results, figures):
 
 
 def read(entry, figures):
-    """As it was when the figure was drawn; a caption without numbers needs no file."""
+    """The caption as it was when the figure was drawn; a caption without numbers needs no file."""
     file = file_of(entry, figures)
     if file.is_file():
         return file.read_text().rstrip("\n")

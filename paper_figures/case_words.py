@@ -1,5 +1,5 @@
-"""What a value of claims.json is of, in words: its body, motion, joint and settings. The key is a set of fields, as analysis/case_key.hpp
-declares them.
+"""Describes the case of a value in claims.json in words: its body, motion, joint and settings. The key is a set of fields, which
+analysis/case_key.hpp declares.
 
     case_words.of({"body": "limb", "motion": "bend", "angle_deg": 90, "k_stretch": 0.2})  # limb, bend 90°, k_stretch 0.2
 """
@@ -21,7 +21,7 @@ def number(value):
 
 
 def in_range(case, field, words):
-    """k_stretch 0.05 to 1, or the one value; words: with {} for it."""
+    """k_stretch 0.05 to 1, or the single value. words: a format with {} for the range."""
     first, last = case.get(field), case.get(f"{field.removesuffix('_s')}_to{'_s' if field.endswith('_s') else ''}")
     if first is None:
         return ""
@@ -47,14 +47,14 @@ def in_plain(identifier):
 
 
 def of_field(field, value):
-    """One field by itself: deformer lbs is LBS."""
+    """Describes one field: {deformer: lbs} becomes LBS."""
     known = {"deformer": bodies_by, "precision": precisions, "masses": masses, "tolerance": tolerances, "initial_guess": guesses,
              "reading": readings, "variant": variants}
     return known.get(field, {}).get(value, in_plain(str(value)))
 
 
 def settings(case):
-    """How it was computed, without the body and its motion."""
+    """The settings of the computation, without the body and its motion."""
     of = [of_field(field, case[field]) for field in ("deformer", "variant", "order", "precision", "masses", "load", "ladder", "tolerance",
                                                      "initial_guess") if field in case]
     of += [f"{case['constraint']} constraints"] if "constraint" in case else []

@@ -1,4 +1,4 @@
-"""The human jumping under LBS, PBS and FEM side by side, as an animated WebP that plays at the clip's own speed, and one still of it."""
+"""The human jumping under LBS, PBS and FEM side by side, as an animated WebP at the clip's own speed, and as one still."""
 from xml.sax.saxutils import escape
 
 import matplotlib
@@ -30,7 +30,7 @@ def words(frames, label, frame):
 
 
 def picture(frames, frame, stage, font):
-    """The three bodies, with name and volume change above each and the time below."""
+    """The three bodies, with the name and the volume change above each, and the time below."""
     view, (width, height) = camera(frames, frame), pixels
     page = Image.new("RGB", (width * len(deformers), height + 2 * margin_px), "white")
     pen = ImageDraw.Draw(page)
@@ -63,7 +63,7 @@ def draw_still(frames):
 
 
 def facts(rows):
-    """The most inverted tets of each over the clip, and whether the elements have some in every frame."""
+    """The largest number of inverted tets of each deformer over the clip, and whether the finite elements have some in every frame."""
     inverted = {label: [int(row["inverted_tets"]) for row in rows if row["deformer"] == label] for label in deformers}
     fem = inverted["snh_p1"]
     return {label: max(found) for label, found in inverted.items()} | {"fem_frames": f"{sum(map(bool, fem))} of {len(fem)}"}

@@ -1,6 +1,7 @@
-"""PBS over 1,000 iterations from four starts: above, what the constraints leave unsatisfied; below, the distance to the finite element
-reference. See that the error does not follow the residual: in the twist it grows again while PBS converges to a shape of its own. From the
-frame before or the rest pose a twisted limb is never told that it is twisted: the residual is small and the error large."""
+"""PBS over 1,000 iterations from four initial guesses. The upper panels show the residual of the constraints, the lower ones the distance
+to the finite element reference. The error does not follow the residual: in the twist it grows again while PBS converges to a different
+shape. Starting from the previous frame or the rest pose, PBS has no information about the twist of a limb, so the residual is small and the
+error large."""
 import entries
 import records
 import style
@@ -42,7 +43,7 @@ def draw_panel(axes, file, column, pose):
 
 
 def write_below(axes, drawn, low):
-    """Names the starts that lie below the panel throughout."""
+    """Names the initial guesses whose values lie below the panel throughout."""
     most = {label: max(row["value"] for row in drawn if row["start"] == start) for start, label in starts.items()}
     text = "\n".join(f"{label}: at most {value:.0e}" for label, value in most.items() if value < low)
     axes.annotate(text, (0.97, 0.97), xycoords="axes fraction", ha="right", va="top", fontsize=6,

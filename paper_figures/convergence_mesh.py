@@ -1,6 +1,7 @@
-"""PBS from LBS on a ladder of meshes of one limb, twisted and bent by 90 degrees, after 24 iterations (filled) and after the last (hollow):
-what the constraints leave, how much each tet's volume changes, how far from the finite elements the joint is; and the iterations until
-volumes are kept within 0.5 %. See whether 24 iterations do the same on fine meshes as on coarse ones."""
+"""PBS from LBS on a sequence of meshes of one limb, twisted and bent by 90 degrees, after 24 iterations (filled) and after the last
+(hollow). The panels show the residual of the constraints, the volume change per tet, the distance of the joint from the finite elements,
+and the iterations until volumes are kept within 0.5 %. The comparison shows whether 24 iterations achieve the same on fine meshes as on
+coarse ones."""
 import math
 
 import entries
@@ -25,7 +26,7 @@ def of_ladder(file):
 
 
 def draw_measure(axes, rows, name, number, early, late):
-    """Where a reference was not run beside the ladder, that is said in the panel."""
+    """Where no reference was computed for a mesh, the panel states that."""
     if not any(is_measured(row, early) for row in rows):
         axes.annotate(f"{name}: no reference on record", (0.5, 0.5 + 0.1 * number), xycoords="axes fraction", ha="center", fontsize=6)
         return
@@ -42,7 +43,7 @@ def is_measured(row, column):
 
 
 def draw_iterations(axes, rows, name, number):
-    """A caret where the tolerance was not reached at the last iteration."""
+    """A caret marks a mesh whose tolerance was not reached at the last iteration."""
     color, marker = style.sequence[number]
     vertices, iterations = records.numbers(rows, "vertices"), records.numbers(rows, "iterations_to_volume")
     axes.plot(vertices, iterations, color=color, linestyle=style.lines[number], linewidth=0.7)
@@ -54,14 +55,14 @@ def draw_iterations(axes, rows, name, number):
 
 
 def draw_band(axes):
-    """Down to the axis, wherever that is."""
+    """A band that reaches down to the axis."""
     low, high = axes.get_ylim()
     axes.axhspan(min(low, 0.4), 0.5, color="#E8E8E8", linewidth=0, zorder=0, label="within 0.5 %")
     axes.set_ylim(min(low, 0.4), high)
 
 
 def facts(rows):
-    """What the coarsest and the finest mesh of each ladder leave, and how many keep volumes within 0.5 %."""
+    """The residuals of the coarsest and the finest mesh of each sequence, and how many meshes keep volumes within 0.5 %."""
     vertices = [int(row["vertices"]) for row in rows]
     told = {"vertices": span(vertices), "last": rows[0]["iterations"]}
     for ladder in ladders:
@@ -76,7 +77,7 @@ def facts(rows):
 
 
 def errors_of(measured):
-    """Of the coarsest and the finest mesh with a reference beside it, early and late."""
+    """The errors of the coarsest and the finest mesh that have a reference, early and late."""
     if not measured:
         return "no reference on record"
     ends = measured[:1] if len(measured) == 1 else [measured[0], measured[-1]]

@@ -1,8 +1,8 @@
-"""The figures that there are, as figures.toml lists them, and whether the records behind one are there and fresh.
+"""The figures that figures.toml lists, and whether the records behind each exist and are up to date.
 
     for entry in entries.read():
         entry.check(results)          # raises RecordsMissing or RecordsStale
-        entry.absent(results)         # (["man_crouch"], 15): planned runs without records, and of how many
+        entry.absent(results)         # (["man_crouch"], 15): planned runs without records, and the number of planned runs
     entries.origin_of(results, name)  # for the figure's metadata: versions, revisions, processors, scenes of the runs behind it
 """
 import fnmatch
@@ -15,7 +15,7 @@ import records
 listing = pathlib.Path(__file__).with_name("figures.toml")
 marks = {"R": "minutes, on any machine: ./reproduce", "NR": "not from this repository's records",
          "CR": "an hour or more on two cores: ./reproduce --full; or the one study by its name"}
-slack_s = 60.0  # that copying a folder may put between the times of its files
+slack_s = 60.0  # possible difference between the times of the files of a copied folder
 
 
 class RecordsStale(records.RecordsMissing):
@@ -24,11 +24,11 @@ class RecordsStale(records.RecordsMissing):
 
 @dataclass(frozen=True)
 class Entry:
-    name: str  # of the files: figures/name.svg
+    name: str  # name of the files: figures/name.svg
     title: str
-    caption: str  # what to see
+    caption: str  # states what the figure shows
     claims: list
-    records: list  # patterns below the results' folder; each must match
+    records: list  # patterns below the results' folder; each must match a file
     script: str  # the module whose draw(results, figures) draws it
     mark: str
 
@@ -50,7 +50,8 @@ class Entry:
         return records.origin_of({run.parent.name: records.read_json(run) for run in self.runs(results)})
 
     def absent(self, results):
-        """Of the planned runs behind a figure of many those without records, and of how many. A study's own table sums up all of them."""
+        """The planned runs without records behind a figure of several runs, and the number of planned runs. A study's own table summarises
+        all of them."""
         on_record = {}
         for pattern in self.records:
             study, *below = pattern.split("/")
@@ -60,8 +61,9 @@ class Entry:
         return [name for name, found in on_record.items() if not found], len(on_record)
 
     def check(self, results):
-        """Missing where a pattern matches nothing or no run.json tells where it is from. Stale where a run is not in its study's plan (left
-        from an earlier one), where a table was written after its run ended or before a run that it sums up, or where revisions differ."""
+        """Raises RecordsMissing if a pattern matches nothing or no run.json states the origin. Raises RecordsStale if a run is not in the
+        plan of its study (left from an earlier one), if a table was written after its run ended or before a run that it summarises, or if
+        revisions differ."""
         revisions = {}
         for file in self.files(results):
             for run in runs_behind(file, results):
@@ -83,7 +85,7 @@ def origin_of(results, name):
 
 
 def runs_behind(file, results):
-    """The run.json of the run that wrote a file; of a study's table, those of all its runs."""
+    """The run.json of the run that wrote a file; for a study's table, those of all its runs."""
     for folder in file.parents:
         if folder == results:
             break
@@ -97,7 +99,7 @@ def runs_behind(file, results):
 
 
 def is_planned(run):
-    """A run's folder, or a part of it, named in the plan of its study; a study without a plan names none."""
+    """Whether the plan of its study names a run's folder or a part of it; a study without a plan names none."""
     for folder in run.parents:
         if (folder.parent / "plan.json").is_file():
             return folder.name in planned_runs(folder.parent)
@@ -105,7 +107,7 @@ def is_planned(run):
 
 
 def planned_runs(study):
-    """The names in its plan.json; none without one."""
+    """The names in the study's plan.json; none if it does not exist."""
     plan = study / "plan.json"
     if not plan.is_file():
         return []

@@ -1,6 +1,6 @@
-"""The error of PBS in each pose of the study of error against run time, split three ways over the iterations: what the solver leaves, what
-the constraints themselves leave when converged, and the bound of the reference's own discretisation. Where the bound lies above the whole
-error, the reference is too coarse to tell how wrong PBS is."""
+"""The error of PBS in each pose of the study of error against run time, split into three parts over the iterations: the solver's part, the
+part of the converged constraints, and the bound on the reference's own discretisation error. Where the bound exceeds the whole error, the
+reference is too coarse to measure the error of PBS."""
 import entries
 import error_split
 import records

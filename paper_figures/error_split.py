@@ -1,6 +1,6 @@
-"""The error of PBS against stable neo-Hookean flesh, split three ways, over the iterations: what the solver leaves, what the constraints
-themselves leave when converged, and the bound of the reference's own discretisation. Beneath: what other attachments and thicker or thinner
-bones do to the model's part."""
+"""The error of PBS against stable neo-Hookean flesh, split into three parts over the iterations: the solver's part, the part of the
+converged constraints, and the bound on the reference's own discretisation error. The lower panels show how other attachments and thicker or
+thinner bones change the model's part."""
 import math
 
 import entries
@@ -9,7 +9,8 @@ import style
 
 parts = [("error_joint_pct", "whole error", style.black, "x", "-"), ("solver_pct", "solver", style.vermillion, "v", (0, (4, 1.5))),
          ("model_pct", "model", style.blue, "o", "-"), ("discretisation_pct", "discretisation (bound)", style.green, "^", (0, (1, 1)))]
-poses = [("limb_twist", 90), ("limb_bend", 60)]  # in a bend of 90 degrees the flesh meets itself, and the refined reference is not reached
+# in a bend of 90 degrees the flesh collides with itself, and the refined reference does not converge
+poses = [("limb_twist", 90), ("limb_bend", 60)]
 part_columns = {"scene", "angle_deg", "k_stretch", "iterations", *(column for column, *_ in parts)}
 attachment_columns = {"scene", "angle_deg", "k_stretch", "reference", "attachment", "core_radius", "model_pct"}
 

@@ -1,5 +1,5 @@
-"""What each switch of a scene costs: processor time of a frame, and of a step, with it over without it, on the limb and the human; bars
-hold the runs' spread. Right of 1 it costs, left of 1 it saves; what lies at 1 is free."""
+"""The cost of each switch of a scene: the ratio of processor time with it to that without it, per frame and per step, on the limb and the
+human. Bars show the spread over the runs. A switch with a ratio above 1 costs time, one below 1 saves time, and one at 1 is free."""
 import entries
 import records
 import style

@@ -1,5 +1,5 @@
-"""The paper's Fig. 1: a character in motion, the human jumping: LBS, PBS, and PBS with its jiggling zone; one camera that follows the
-body along the floor but not up, so that the jump is seen."""
+"""The paper's Fig. 1, a character in motion: the human jumping under LBS, PBS, and PBS with its jiggling zone. One camera follows the body
+along the floor but not upwards, so that the jump is visible."""
 import bodies
 import recorded_frames
 import rendering

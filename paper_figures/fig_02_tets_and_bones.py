@@ -1,5 +1,5 @@
-"""The paper's Fig. 2: the tet mesh, cut open in front of the skeleton: human and limb at rest, the human within the surface
-that is rendered."""
+"""The paper's Fig. 2, the tet mesh cut open in front of the skeleton: human and limb at rest, with the human inside the rendered
+surface."""
 import bodies
 import recorded_frames
 import rendering
@@ -9,7 +9,7 @@ limb_view = rendering.Camera((0, 0, 0), 0.33, (0.1, 0.3, 1.0))
 
 
 def opened(frames, skin, towards, view, rod_m):
-    """The tets at rest behind their bones; the skin as glass; the bones before it all."""
+    """The tets at rest behind their bones, with a transparent skin and the bones in front."""
     file, bones = frames.tets("lbs", 0), frames.bones_at_rest()
     ahead_m = (bodies.rest_positions_of(file) - frames.projections(bones)) @ towards
     return [bodies.cut_open(bodies.at_rest(file), ahead_m), bodies.glass(skin), *bodies.bones(bones, rod_m, view.direction)]

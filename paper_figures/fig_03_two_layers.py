@@ -1,5 +1,5 @@
-"""The paper's Fig. 3: the rendered surface at rest, after linear blend skinning, after position based dynamics; below, the hips
-of the same."""
+"""The paper's Fig. 3: the rendered surface at rest, after linear blend skinning and after position based dynamics. The lower row shows the
+hips."""
 import bodies
 import recorded_frames
 import rendering

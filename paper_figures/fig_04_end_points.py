@@ -1,23 +1,23 @@
-"""The paper's Fig. 4 and the rule of Eq. 2, drawn from the records: end points s_j and d_j of a bone, a vertex's projection on it, and
-which vertices were blended, over their parameter on the nearest bone."""
+"""The paper's Fig. 4 and the rule of Eq. 2, drawn from the records: the end points s_j and d_j of a bone, the projection of a vertex on it,
+and the blended vertices over their parameter on the nearest bone."""
 import numpy
 
 import bodies
 import recorded_frames
 import style
 
-low, high = 1 / 6, 5 / 6  # Eq. 2: rigid between
+low, high = 1 / 6, 5 / 6  # Eq. 2: vertices between these parameters are rigid
 kinds = {"0": ("one bone", style.sky, "o"), "1": ("blended between bones", style.vermillion, "^")}
 
 
 def chosen_vertex(frames, points):
-    """On the forearm's skin, in the plane of drawing, within the rigid zone."""
+    """A vertex on the forearm's skin, in the plane of drawing and within the rigid zone."""
     rows = [row for row in frames.binding() if row["bone"] == "forearm" and 0.25 < float(row["parameter"]) < 0.45]
     return max(rows, key=lambda row: points[int(row["vertex"])][1] - abs(points[int(row["vertex"])][2]))
 
 
 def draw_limb(panel, frames):
-    """The limb at rest from the side: its slice around the plane of drawing, its bones, one vertex on its bone."""
+    """The limb at rest from the side: a slice around the plane of drawing, the bones, and one vertex with its projection."""
     points, binding = bodies.rest_positions_of(frames.tets("lbs", 0)), frames.binding()
     for blended, (label, color, marker) in kinds.items():
         shown = points[[int(row["vertex"]) for row in binding if row["blended"] == blended]]
@@ -44,7 +44,7 @@ def mark_vertex(panel, frames, points):
 
 
 def draw_rule(panel, frames):
-    """Every vertex of the human by its parameter; Eq. 2's zone in grey."""
+    """Every vertex of the human at its parameter; the zone of Eq. 2 is grey."""
     binding = frames.binding()
     panel.axvspan(low, high, color="#E8E8E8", linewidth=0, zorder=0)
     for blended, (label, color, marker) in kinds.items():

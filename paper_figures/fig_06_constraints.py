@@ -22,13 +22,13 @@ def tets_of(data):
 
 
 def chosen_tet(frames, frame):
-    """The tet that LBS has squeezed most without turning it inside out."""
+    """The tet that LBS has compressed most without inverting it."""
     ratios = vtk_to_numpy(rendering.read(frames.tets("lbs", frame)).GetCellData().GetArray("volume_ratio"))
     return int(numpy.where(ratios > 0.2, ratios, numpy.inf).argmin())
 
 
 def corners_of(frames, frame, tet):
-    """state -> the tet's corners [m], 4 x 3."""
+    """The corners of the tet in each state [m], 4 x 3."""
     corners = tets_of(rendering.read(frames.tets("lbs", frame)))[tet]
     points = {"rest": bodies.rest_positions_of(frames.tets("lbs", frame))}
     points |= {label: bodies.points_of(frames.tets(label, frame)) for label in ("lbs", "pbs")}
@@ -45,7 +45,7 @@ def volume_cm3(corners):
 
 
 def views(count=200):
-    """Directions across and up the page, 2 x 3, from evenly spread directions of sight."""
+    """Directions across and up the page, 2 x 3, from evenly spread viewing directions."""
     for step in range(count):
         height, turn = 1 - 2 * (step + 0.5) / count, numpy.pi * (3 - 5 ** 0.5) * step
         sight = numpy.array([(1 - height ** 2) ** 0.5 * numpy.cos(turn), height, (1 - height ** 2) ** 0.5 * numpy.sin(turn)])
@@ -54,7 +54,7 @@ def views(count=200):
 
 
 def on_page(corners):
-    """Seen from where the corners and the middles of the edges lie farthest apart."""
+    """Projects from the direction in which the corners and the midpoints of the edges are farthest apart."""
     marks = numpy.array([*corners, *(corners[list(edge)].mean(axis=0) for edge in edges)]) - corners.mean(axis=0)
 
     def nearest(view):
@@ -94,7 +94,7 @@ def numbers_of(corners):
 
 
 def one_scale(panels):
-    """The same length is as long in every panel."""
+    """Gives all panels the same scale."""
     half = max(abs(numpy.array([*panel.get_xlim(), *panel.get_ylim()])).max() for panel in panels)
     for panel in panels:
         panel.set(xlim=(-half, half), ylim=(-half, half))

@@ -1,5 +1,5 @@
-"""The paper's Fig. 7, drawn from the records: a vertex, its projection on the bone, and the distance that the bind constraint keeps; at
-rest, and in the bent limb after LBS and after PBS."""
+"""The paper's Fig. 7, drawn from the records: a vertex, its projection on the bone, and the distance that the bind constraint keeps, at
+rest and in the bent limb after LBS and after PBS."""
 import numpy
 
 import bodies
@@ -11,7 +11,7 @@ labels = ("lbs", "pbs")
 
 
 def chosen_vertex(frames, posed):
-    """Of the forearm's blended skin in the plane of bending, the one that PBS moved farthest from LBS."""
+    """The vertex that PBS moved farthest from LBS, among those of the forearm's blended skin in the plane of bending."""
     moved = numpy.linalg.norm((posed["pbs"] - posed["lbs"]) * (1, 1, 0), axis=1)
     rest = bodies.rest_positions_of(frames.tets("lbs", 0))
     rows = [row for row in frames.binding() if row["bone"] == "forearm" and row["blended"] == "1" and row["jiggles"] == "1"]

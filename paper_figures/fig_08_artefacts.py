@@ -1,5 +1,5 @@
-"""The paper's Fig. 8 with a truth beside it: the limb twisted by 180 degrees and bent by 110 under LBS, DQS, PBS and FEM, each tet coloured
-by its volume ratio; one camera a row, one colour bar for all."""
+"""The paper's Fig. 8 with a reference: the limb twisted by 180 degrees and bent by 110 degrees under LBS, DQS, PBS and FEM, with each tet
+coloured by its volume ratio. Each row has one camera, and all share one colour bar."""
 import pose_reached
 import recorded_frames
 import rendering
@@ -26,7 +26,7 @@ def draw_row(panels, frames, angle_deg):
     return rows
 
 
-heights = {"limb_twist": 0.62, "limb_bend": 0.9}  # of a still, over its width
+heights = {"limb_twist": 0.62, "limb_bend": 0.9}  # height of a still, relative to its width
 
 
 def draw(results, figures):

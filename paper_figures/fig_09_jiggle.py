@@ -1,5 +1,5 @@
-"""The paper's Fig. 9: the human walking under PBS with its jiggling zone, the skin coloured by its distance from PBS
-as stiff without one; a camera that turns with the hips, in front and behind."""
+"""The paper's Fig. 9: the human walking under PBS with its jiggling zone. The skin is coloured by its distance from PBS with the same
+stiffness but without a jiggling zone. The camera turns with the hips and shows the front and the back."""
 import matplotlib
 
 import bodies
@@ -32,7 +32,7 @@ def draw_pose(panels, frames, frame, stage):
 
 
 def facts(rows):
-    """Where the two are farthest apart, frame by frame."""
+    """The largest distance between the two, frame by frame."""
     def told(row):
         return f"{float(row['largest_mm']):.0f} mm at the {style.bone_in_words(row['farthest_bone'])} ({float(row['time_s']):.2f} s)"
 

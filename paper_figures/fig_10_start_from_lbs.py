@@ -1,4 +1,5 @@
-"""The paper's Fig. 10: poses with and without the start from LBS. No kicking clip can be had by package name: the poses are of a jump."""
+"""The paper's Fig. 10: poses with and without LBS as the initial guess. No package provides a kicking clip, so the poses are from a
+jump."""
 import matplotlib
 
 import bodies

@@ -1,5 +1,5 @@
-"""What k_stretch is worth: Young's modulus of the elastic bar that sags as PBS does, over k_stretch, for several iteration counts and
-meshes; and how near any Poisson's ratio comes to PBS in twist and bend."""
+"""The material that k_stretch corresponds to: Young's modulus of the elastic bar that sags as PBS does, over k_stretch, for several
+iteration counts and meshes; and the smallest distance to PBS in twist and bend that any Poisson's ratio achieves."""
 import entries
 import records
 import style
@@ -12,7 +12,7 @@ names = {"pbs": "24 iterations", "pbs_converged": "converged"}
 
 
 def draw_young(axes, rows):
-    """One line a mesh and number of iterations, with the volume constraints on."""
+    """One line per mesh and number of iterations, with the volume constraints on."""
     rows = [row for row in rows if float(row["k_volume"]) == 1.0 and float(row["settled"]) == 1.0]
     meshes = sorted({int(row["vertices"]) for row in rows})
     for vertices, line in zip(meshes, ("-", (0, (4, 1.5)), (0, (1, 1)))):
@@ -32,7 +32,7 @@ def draw_young(axes, rows):
 
 
 def draw_valley(axes, rows):
-    """Stable neo-Hookean P2 held by embedded bones; where that is not on record, what comes first."""
+    """Stable neo-Hookean P2 held by embedded bones; if that is not on record, the first reference."""
     wanted = [row for row in rows if (row["model"], row["element_order"], row["attachment"]) == ("stable_neo_hookean", "2", "embedded")]
     first = rows[0]
     chosen = wanted or [row for row in rows if all(row[key] == first[key] for key in ("model", "element_order", "attachment"))]

@@ -1,5 +1,5 @@
-"""Stills of the human jumping under LBS, PBS and neo-Hookean finite elements: the skin, and the tets coloured by their volume ratio. Under
-each stand the inverted tets and the smallest limb cross-section (100 %: as at rest)."""
+"""Stills of the human jumping under LBS, PBS and neo-Hookean finite elements: the skin, and the tets coloured by their volume ratio. The
+text below each states the number of inverted tets and the smallest limb cross-section (100 %: as at rest)."""
 import numpy
 
 import pose_reached
@@ -9,12 +9,12 @@ import rendering
 import style
 from number_words import span
 
-pixels = (560, 800)  # of a still
+pixels = (560, 800)  # size of a still
 most_stills = 4
 
 
 def files_of(run, deformer):
-    """frame -> tet file. PBS's files carry its iterations, as in pbs_24_000054.vtu."""
+    """The tet file of each frame. Names of PBS files contain the iterations, as in pbs_24_000054.vtu."""
     names = {"pbs": ["pbs_24", "pbs"]}.get(deformer, [deformer])
     for name in names:
         files = sorted((run.folder / "frames").glob(f"{name}_[0-9][0-9][0-9][0-9][0-9][0-9].vtu"))
@@ -34,21 +34,21 @@ def caption(row):
 
 
 def half_height_of(boxes):
-    """Half the height [m] that a still shows: the tallest and widest body and a margin."""
+    """Half of the height that a still shows [m]: the tallest and widest body with a margin."""
     height_m = max((high - low)[1] for low, high in boxes)
     width_m = max(numpy.hypot(*(high - low)[[0, 2]]) for low, high in boxes)
     return 0.54 * max(height_m, width_m * pixels[1] / pixels[0])
 
 
 def evenly(frames):
-    """As many as are shown, from the first to the last."""
+    """As many frames as are shown, evenly spaced from the first to the last."""
     if len(frames) <= most_stills:
         return frames
     return [frames[number * (len(frames) - 1) // (most_stills - 1)] for number in range(most_stills)]
 
 
 def draw_stills(rows, files, frames, file_of, colour_bar):
-    """Deformers down, frames across; all through one camera that follows the LBS body."""
+    """Draws one row per deformer and one column per frame, all with one camera that follows the LBS body."""
     stage = rendering.Stage(*pixels)
     boxes = {frame: rendering.bounds_of(files["lbs"][frame]) for frame in frames}
     half_height_m = half_height_of(boxes.values())
@@ -68,7 +68,7 @@ def draw_stills(rows, files, frames, file_of, colour_bar):
 
 
 def facts(rows):
-    """The range of inverted tets of each deformer over the stills."""
+    """The range of the number of inverted tets over the stills, for each deformer."""
     inverted = {}
     for row in rows:
         inverted.setdefault(row["deformer"], []).append(int(row["inverted_tets"]))

@@ -1,6 +1,6 @@
-"""The numbers behind a figure's points, in its SVG: over each point lies an unseen circle with a title "label: x, y", which browsers show
-under the pointer; each panel's circles in a group of class "values" that names its axes (data-x, data-y). A drawing of a body, true to
-scale, has none: its places are no figures."""
+"""The numbers behind a figure's points, in its SVG: an invisible circle over each point has the title "label: x, y", which browsers show
+under the pointer. The circles of a panel are in a group of class "values" that names its axes (data-x, data-y). A drawing of a body, true
+to scale, has no such circles, since its coordinates are not data."""
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy
@@ -12,7 +12,7 @@ radius = 2.5
 
 
 def add(figure, file):
-    """Also names what stands in for matplotlib's font where a reader does not have it: Verdana is as wide."""
+    """Also names a replacement for matplotlib's font on machines without it: Verdana has the same width."""
     page, end = file.read_text().replace("'DejaVu Sans'", "'DejaVu Sans', Verdana, sans-serif").rsplit("</svg>", 1)
     height = figure.get_size_inches()[1] * points_an_inch
     groups = [group_of(axes, figure.dpi, height) for axes in figure.axes if axes.get_visible() and axes.get_aspect() == "auto"]
@@ -28,7 +28,7 @@ def group_of(axes, dpi, height):
 
 
 def points_of(axes):
-    """(label, x, y of the places, x, y to be said) of each line, cloud of markers and row of bars; not of lines across the panel."""
+    """(label, x, y of the places, x, y as shown) for each line, cloud of markers and row of bars, except lines across the panel."""
     for line in axes.lines:
         if line.get_transform() == axes.transData:
             x, y = line.get_data(orig=False)
@@ -43,7 +43,7 @@ def points_of(axes):
 
 
 def end_and_length_of(bar, orientation):
-    """x and y of its end, then of what it stands for: of stacked bars each begins where the one before ends."""
+    """x and y of the end of a bar, and the value that it shows: in a stack, each bar begins where the previous one ends."""
     x, y, width, height = bar.get_x(), bar.get_y(), bar.get_width(), bar.get_height()
     if orientation == "vertical":
         return x + width / 2, y + height, x + width / 2, height
@@ -51,7 +51,7 @@ def end_and_length_of(bar, orientation):
 
 
 def circles_of(axes, label, x, y, said_x, said_y, dpi, height):
-    """Of the points within the panel."""
+    """The circles for the points within the panel."""
     places = axes.transData.transform(numpy.column_stack([x, y]).astype(float))
     box = axes.bbox.padded(1.0)
     names = names_of(axes.xaxis), names_of(axes.yaxis)
@@ -64,14 +64,14 @@ def circles_of(axes, label, x, y, said_x, said_y, dpi, height):
 
 
 def names_of(axis):
-    """Of places on an axis whose ticks are no numbers of their own: methods, regions, the settings of a map."""
-    places = axis.get_majorticklocs()  # panels that share an axis show its names once, but all have them
+    """The names at the places of an axis whose ticks are not numbers of their own: methods, regions, the settings of a map."""
+    places = axis.get_majorticklocs()  # panels that share an axis show its names once, but all of them have the names
     texts = dict(zip(places, (text.replace("\n", " ") for text in axis.get_major_formatter().format_ticks(places))))
     return {place: text for place, text in texts.items() if text and "$" not in text and number(text) != place}
 
 
 def name_of(value, known):
-    """The name of this place, or of the nearest where places have names rather than numbers; else the number to six digits."""
+    """The name of this place, or of the nearest one if places have names; otherwise the number to six digits."""
     place = min(known, key=lambda place: abs(place - value), default=None)
     if place is None or abs(place - value) >= 0.5 or (number(known[place]) is not None and place != value):
         return f"{value:.6g}"

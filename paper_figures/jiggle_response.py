@@ -1,6 +1,7 @@
-"""How flesh answers a jolt: frequency and damping ratio of the first swing against k_stretch, time step and iterations, on the limb and on
-bodies. k_stretch moves Frankie's frequency far, the others' little; time step and iterations, which are no material, all. Damping is no
-parameter at all; the elements beside swing almost undamped."""
+"""The response of flesh to a jolt: frequency and damping ratio of the first swing against k_stretch, time step and iterations, on the limb
+and on bodies. k_stretch strongly changes Frankie's frequency and hardly that of the others. Time step and iterations, which are not
+material parameters, change all frequencies. Damping is not a parameter at all; the finite elements shown for comparison swing almost
+undamped."""
 import entries
 import records
 import style
@@ -16,7 +17,7 @@ bodies = ("limb", "human", "man", "lady", "frankie")
 
 
 def varied(rows, factor):
-    """The rows in which this alone differs from the usual, and whose swing could be found."""
+    """The rows in which only this factor differs from the default, and whose swing was found."""
     others = [name for name in usual if name != factor]
     rows = [row for row in rows if row["outcome"] == "found" and (row["deformer"], row["masses"]) == ("pbs", "unit")
             and float(row["k_bind"]) == 1.0 and all(float(row[name]) == usual[name] for name in others)]
@@ -38,8 +39,8 @@ def draw_body(axes, rows, body, number):
 
 
 def draw_reference(axes, rows):
-    """Damping of the limb of the finite elements in time, and of PBS on the same mesh with the usual iterations. The elements' modulus was
-    chosen so that they swing as fast: their frequency would tell nothing."""
+    """Damping of the limb with finite elements in time, and of PBS on the same mesh with the default iterations. The modulus of the
+    elements was chosen so that they swing at the same frequency, so their frequency carries no information."""
     found = [row for row in rows if row["outcome"] == "found" and float(row["k_bind"]) == 1.0
              and float(row["iterations"]) == usual["iterations"]]
     for row in found:
@@ -51,7 +52,8 @@ def draw_reference(axes, rows):
 
 
 def facts(rows):
-    """How many-fold each factor moves each body's frequency over the values shown; what the others are held at; the elements' moduli."""
+    """The ratio by which each factor changes each body's frequency over the values shown, the settings that are held fixed, and the
+    elements' moduli."""
     def folds(factor):
         hz = {body: [float(row["frequency_hz"]) for row in rows if (row["body"], row["varied"]) == (body, factor)] for body in bodies}
         return listed([f"{figure(max(found) / min(found))}-fold ({body})" for body, found in hz.items() if len(found) > 1])

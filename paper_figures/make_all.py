@@ -1,7 +1,8 @@
-"""Deletes the figures of DIR and draws those of figures.toml anew from its records. A figure whose records are missing or stale says so
-instead: exit status 1. One whose study has no folder in DIR was not asked for: it is named and left out, and the status stays 0, so 0 means
-that every figure of the studies in DIR was drawn. Where DIR holds no study at all the status is 1. A figure of some of the runs that were
-planned is drawn, and its caption names the others. Where a file cannot be written it is named: exit status 2.
+"""Deletes the figures of DIR and draws those of figures.toml anew from its records. A figure whose records are missing or stale is not
+drawn; its reason is printed and the exit status is 1. A figure whose study has no folder in DIR was not requested: it is named and left
+out, and the status stays 0. Status 0 therefore means that every figure of the studies in DIR was drawn. If DIR holds no study at all, the
+status is 1. If only some of the planned runs have records, the figure is drawn and its caption names the others. If a file cannot be
+written, it is named and the exit status is 2.
 
     xvfb-run -a python3 paper_figures/make_all.py results/reproduce
     xvfb-run -a python3 paper_figures/make_all.py results/reproduce --only work_precision --into elsewhere
@@ -30,7 +31,7 @@ def absent_study(entry, results):
 
 
 def draw(script, group, results, folder):
-    """A script's figures; whether it could."""
+    """Draws the figures of a script; returns whether it succeeded."""
     try:
         for entry in group:
             entry.check(results)
@@ -59,7 +60,7 @@ def main(results, only=None, folder=None):
         sys.exit(f"{results}: no such folder; run ./reproduce first")
     listed = entries.read()
     if not any((results / study).is_dir() for entry in listed for study in entry.studies()):
-        for entry in listed:  # of records that are gone
+        for entry in listed:  # removes figures whose records no longer exist
             delete(entry.name, results / "figures")
         sys.exit(f"{results}: no study in it; run ./reproduce first")
     if only and only not in {entry.name for entry in listed}:

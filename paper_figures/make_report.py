@@ -1,5 +1,5 @@
-"""DIR's records and the figures drawn from them as one self-contained page, DIR/report.html; says what is missing in it. Exit status 2
-where DIR holds no records.
+"""Writes DIR's records and the figures drawn from them as one self-contained page, DIR/report.html, and prints what is missing in it. Exit
+status 2 if DIR holds no records.
 
     python3 paper_figures/make_report.py results/reproduce
 """

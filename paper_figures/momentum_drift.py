@@ -1,6 +1,6 @@
-"""What one projection of a class of constraints does to linear and angular momentum, over the momentum exchanged: with weighted masses
-rounding alone, in both precisions; with the formulae for unit masses (Eq. 8-9) on unequal masses up to a third; the bind constraint's all
-goes to the bones, which no one moves."""
+"""The change of linear and angular momentum by one projection of a class of constraints, relative to the momentum exchanged. With weighted
+masses only rounding remains, in both precisions. The formulae for unit masses (Eq. 8-9) on unequal masses lose up to a third. The bind
+constraint transfers all of it to the bones, whose motion is prescribed."""
 import entries
 import records
 import style
@@ -14,7 +14,7 @@ looks = {("limb", "f32"): (style.vermillion, "v", "limb, f32"), ("limb", "f64"):
 
 
 def rows_of(file, body):
-    """One row per class of constraints, masses and precision: of single projections."""
+    """One row per class of constraints, masses and precision, from single projections."""
     found = [{"momentum": quantities[row["quantity"]], "masses": row["masses"], "body": body, "constraints": row["constraint"],
               "precision": row["precision"], "drift": row["value"]}
              for row in records.table(file, {"quantity", "body", "masses", "constraint", "precision", "value"})

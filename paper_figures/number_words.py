@@ -5,7 +5,7 @@
 
 
 def figure(value):
-    """Three digits, as in the table of claims; minus as a minus."""
+    """Three digits, as in the table of claims, with a typographic minus."""
     if value is None or value != value:
         return "\u2013"
     digits = f"{value:.0f}" if 1000 <= abs(value) < 1e6 else f"{value:.3g}"
@@ -13,7 +13,7 @@ def figure(value):
 
 
 def span(values, scale=1):
-    """6.44 to 13, or the one figure; None, which is not finite, is left out."""
+    """6.44 to 13, or the single value; None (not finite) is left out."""
     known = [scale * value for value in values if value is not None]
     low, high = figure(min(known, default=None)), figure(max(known, default=None))
     return low if low == high else f"{low} to {high}"
@@ -24,7 +24,7 @@ def span_of_thousandths(values):
 
 
 def listed(parts, between=", "):
-    """In one line, or that there is none."""
+    """The parts in one line, or a word that there are none."""
     return between.join(parts) or "none"
 
 

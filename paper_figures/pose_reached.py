@@ -1,14 +1,14 @@
-"""Whether a deformer reached a frame's pose. A run writes its frame whatever came of the solve; metrics.csv says what did (`outcome`). What
-was not reached is no truth that others may be measured against.
+"""Whether a deformer reached the pose of a frame. A run writes its frame even if the solve failed; the column `outcome` of metrics.csv
+records the result. A pose that was not reached cannot serve as a reference.
 
     if pose_reached.of(row): ...
-    title += pose_reached.mark(row)  # "" or a line that says it was not
+    title += pose_reached.mark(row)  # "" or a line that states that it was not
 """
 words = "pose not reached"
 
 
 def of(row):
-    """A record of an earlier version has no outcome and is taken at its word."""
+    """A record of an earlier version has no outcome and counts as reached."""
     return row.get("outcome") in (None, "", "finished")
 
 

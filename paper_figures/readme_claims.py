@@ -1,5 +1,5 @@
-"""One line per claim of DIR/claims.json into README.md, between its markers: verdict, key number and the page of the claim. sentences.py
-composes the texts, and DIR/claims.json holds every value behind a line.
+"""Writes one line per claim of DIR/claims.json into README.md, between its markers: verdict, key number and the page of the claim.
+sentences.py composes the texts, and DIR/claims.json holds every value behind a line.
 
     python3 paper_figures/readme_claims.py results/reproduce
 """
@@ -19,7 +19,7 @@ def line(*cells):
 
 
 def table_lines(results):
-    """Header first."""
+    """The lines of the table, the header first."""
     file = results / "claims.json"
     if not file.is_file():
         raise records.RecordsMissing(f"{file}: not there: `pbskin reproduce --judge -o {results}` writes it")
@@ -32,7 +32,7 @@ def row_of(claim):
 
 
 def revisions(results):
-    """Each revision and the studies that were run at it, most studies first."""
+    """Each revision and the studies that were run at it; the revision with the most studies comes first."""
     studies = {}
     for file in sorted(results.glob("*/*/run.json")):
         facts = record_shapes.read(file, record_shapes.run).get("provenance", {})

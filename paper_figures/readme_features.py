@@ -1,4 +1,4 @@
-"""Copies the human's rows of DIR/features/human/features.csv into the README of the study `features`. Nobody types that table.
+"""Copies the human's rows of DIR/features/human/features.csv into the README of the study `features`, so that nobody edits that table.
 
     python3 paper_figures/readme_features.py experiments/records/full
 """

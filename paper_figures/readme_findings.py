@@ -1,4 +1,5 @@
-"""README's findings: five sentences with one number each, from the facts in DIR/claims.json and the studies' tables below DIR.
+"""Writes the findings of the README: five sentences with one number each, from the facts in DIR/claims.json and the studies' tables below
+DIR.
 
     python3 paper_figures/readme_findings.py results/reproduce
 """
@@ -10,7 +11,7 @@ import sentences
 
 
 def only(rows, what, **wanted):
-    """The one row or fact with these fields."""
+    """The only row or fact with these fields."""
     found = [row for row in rows if all(row.get(name) == value for name, value in wanted.items())]
     if len(found) != 1:
         raise records.RecordsMissing(f"{what}: {len(found)} with {wanted}: expected one")

@@ -1,5 +1,5 @@
-"""The part of each study's README and of each claim's page that comes from tables and records: what a study serves, draws and cost; what a
-claim's bounds and its verdict are. Nobody types it.
+"""Writes the generated part of each study's README and of each claim's page, from tables and records: the purpose, figures and cost of a
+study; the bounds and the verdict of a claim. Nobody edits it by hand.
 
     build/release/bin/pbskin reproduce --judge -o experiments/records/full      # writes claims.json there; git ignores it
     python3 paper_figures/readme_pages.py experiments/records/full
@@ -60,7 +60,7 @@ def cost(study, results):
 
 
 def summaries(study, results):
-    """What the study itself wrote for reading."""
+    """The texts that the study itself wrote for its readers."""
     files = sorted(file.name for file in (results / study).glob("*.md"))
     links = ", ".join(f"[{file}](../../records/full/{study}/{file})" for file in files)
     return [f"To read what was found: {links}."] if files else []
@@ -72,11 +72,11 @@ def study_lines(study, results):
 
 
 def bound_lines(claim):
-    """The bound of each judged quantity, as claims.toml has it."""
+    """The bound of each judged quantity, as in claims.toml."""
     bounds = {bound["quantity"]: bound for bound in claim.get("bounds", [])}
     low, high = (claim.get(key, claim.get(f"{key}_pct")) for key in ("low", "high"))
     rows = []
-    for quantity in claim.get("metrics", []) if claim["rule"] != "printed" else []:  # there each value has bounds of its own
+    for quantity in claim.get("metrics", []) if claim["rule"] != "printed" else []:  # in a printed claim each value has its own bounds
         bound = bounds.get(quantity, {"low": low, "high": high})
         rows.append(f"| `{quantity}` | {number(bound.get('low'))} | {number(bound.get('high'))} |")
     return ["| judged quantity | least | most |", "|---|---|---|", *rows, ""] if rows else []
@@ -93,7 +93,7 @@ def claim_lines(claim, judged):
 
 
 def pages(results):
-    """Each page with the lines that stand in it."""
+    """Each page with its generated lines."""
     file = results / "claims.json"
     if not file.is_file():
         raise records.RecordsMissing(f"{file}: not there: `pbskin reproduce --judge -o {results}` writes it")

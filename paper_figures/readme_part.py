@@ -1,4 +1,4 @@
-"""The parts of README.md and of other pages that scripts write from records, each between two markers of its own.
+"""Writes the parts of README.md and of other pages that scripts compose from records, each between two markers of its own.
 
     sys.exit(readme_part.main("claims", lines_of, sys.argv, __doc__))  # lines_of(DIR): the lines between the markers
 """
@@ -17,7 +17,7 @@ def markers(name):
 
 
 def cut(readme, name):
-    """README's text up to the first marker and with it, between the two, and from the second on."""
+    """The text of the page up to and including the first marker, the part between the two, and the rest from the second marker."""
     try:
         text = readme.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
@@ -39,7 +39,7 @@ def write(readme, name, lines):
 
 
 def main(name, lines_of, arguments, usage, readme=own_readme):
-    """The exit status: 2 if the one argument, the records or the page are not as expected; nothing is written then."""
+    """Returns the exit status: 2 if the one argument, the records or the page are not as expected; in that case nothing is written."""
     if len(arguments) != 2:
         print(usage, file=sys.stderr)
         return 2

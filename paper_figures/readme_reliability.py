@@ -1,4 +1,4 @@
-"""Copies what the tests of reliability counted, DIR/*.json, into the table of tests/README.md, between its markers.
+"""Copies the counts of the reliability tests, DIR/*.json, into the table of tests/README.md, between its markers.
 
     PBS_RELIABILITY_DIR=DIR ./check --long      # each test writes DIR/NAME.json: name, count, of, command, revision
     python3 paper_figures/readme_reliability.py DIR

@@ -1,10 +1,10 @@
-"""What is read of the JSON records, and how it has to be: a record that is otherwise is refused by file, field, value and rule.
+"""The shapes of the JSON records that are read. A record of another shape is refused with the file, field, value and rule.
 
     run = record_shapes.read(folder / "run.json", record_shapes.run)
 
-A shape is a Rule for a single value; {"key": shape, "other?": shape} for an object, of which `other` may be missing and what is not named
-here is not looked at; {"*": shape} for an object of any keys; [shape] for a list; (shape, shape) for a list of so many; Cases for an object
-of one of two shapes; OrNull for a shape or null.
+A shape is a Rule for a single value; {"key": shape, "other?": shape} for an object in which `other` may be missing and members that are not
+named here are ignored; {"*": shape} for an object of any keys; [shape] for a list; (shape, shape) for a list of that length; Cases for an
+object of one of two shapes; OrNull for a shape or null.
 """
 import json
 import sys
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import records
 
-most_shown = 60  # characters of a value
+most_shown = 60  # characters of a value shown in a message
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Rule:
 
 @dataclass(frozen=True)
 class Cases:
-    """An object of one shape where it has this member, else of another shape."""
+    """An object of one shape if it has this member, otherwise of another shape."""
     member: str
     having: object
     other: object
@@ -57,7 +57,7 @@ def refuse(file, field, value, words):
 
 
 def check(file, value, shape, field=""):
-    """RecordsMissing where a record's value, or one in it, is not of this shape."""
+    """Raises RecordsMissing if a record's value, or one inside it, is not of this shape."""
     if isinstance(shape, Rule):
         if not shape.holds(value):
             refuse(file, field, value, shape.words)
@@ -81,7 +81,7 @@ def check(file, value, shape, field=""):
 
 
 def members(file, value, shape, field):
-    """(key, its shape) of what is there; RecordsMissing where one is missing that must not be."""
+    """(value, its shape) of each existing member; RecordsMissing if a required one is missing."""
     for name, inner in shape.items():
         if name == "*":
             yield from ((key, inner) for key in value)
@@ -104,9 +104,9 @@ scene = {"reference?": {"name?": text}, "fem?": [{"name": text, "model": text, "
          "character?": {"body?": text}, "motion?": {"clip?": text}, "runs?": [deformer]}
 run = {"provenance?": provenance, "scene?": scene, "work?": {},
        "outcome?": {"frames?": whole, "self_intersecting_reference_frames?": whole}}
-shown_run = {"scene": {"character": {"body": text}, "motion": {}, "runs": [deformer]}}  # frame by frame
-judged_run = {"outcome": {"frames": whole}}  # against a reference
-posed_run = {"work?": {"settings?": {"scene?": {"pbs?": {"k_stretch?": number}}}}}  # of error against run time
+shown_run = {"scene": {"character": {"body": text}, "motion": {}, "runs": [deformer]}}  # a run shown frame by frame
+judged_run = {"outcome": {"frames": whole}}  # a run compared with a reference
+posed_run = {"work?": {"settings?": {"scene?": {"pbs?": {"k_stretch?": number}}}}}  # a pose of the study of error against run time
 
 plan = {"extent?": text, "runs": [{"name": text}], "left_out?": [{"scene": text, "reason": text}]}
 
@@ -120,7 +120,7 @@ key |= {name + "?": number for name in ("angle_deg", "time_s", "vertices", "vert
 interval = {"estimate": figure, "low": figure, "high": figure}
 judged_frames = {"scene": text, "sweep": truth, "deformer": text, "mean": interval, "share_of_frames": interval, "last_angle_deg": figure,
                  "held_angles_deg": [(number, number)], "least": figure, "most": figure, "holding_with_inverted_tets": whole,
-                 "deepest": [{"time_s": figure, "angle_deg": figure, "value": figure}]}  # of a run of a scene
+                 "deepest": [{"time_s": figure, "angle_deg": figure, "value": figure}]}  # a run of a scene
 measured = {"value": figure, "low": figure, "high": figure, "quantity": text}
 value = key | measured | {"unit?": text, "run?": text, "holds?": extent, "limit?": one_of("at_least", "at_most", "more_than"), "n?": whole,
                           "not_reached?": whole, "frames?": whole, "bound_low?": figure, "bound_high?": figure}

@@ -1,4 +1,5 @@
-"""How far apart two deformers put the same points of a frame, as the study `frames` recorded it: a row of distances.csv.
+"""The distances between two deformers' positions of the same points of a frame, as the study `frames` recorded them: a row of
+distances.csv.
 
     recorded_distances.between(frames, 12, "pbs_jiggle", "pbs")["largest_mm"]
     recorded_distances.of_points_mm(frames, 12, "pbs_jiggle", "pbs")          # point by point, of the frames' own files
@@ -11,7 +12,7 @@ import rendering
 
 
 def between(frames, frame, one, other):
-    """Its numbers: points, rms_mm, largest_mm."""
+    """The row's numbers: points, rms_mm, largest_mm."""
     file = frames.folder / "distances.csv"
     if not file.is_file():
         raise records.RecordsMissing(f"{file}: not there: the run is of an earlier version and has to be made again")
@@ -22,13 +23,13 @@ def between(frames, frame, one, other):
 
 
 def of_points_mm(frames, frame, one, other):
-    """Of each point of the rendered surface, #S."""
+    """The distance of each point of the rendered surface, #S."""
     first, second = (bodies.points_of(frames.skin(label, frame)) for label in (one, other))
     return 1000 * numpy.linalg.norm(first - second, axis=1)
 
 
 def bone_under(frames, point, tet_file):
-    """The bone that is nearest to the vertex that carries most of this point of the rendered surface."""
+    """The nearest bone of the vertex that carries the largest share of this point of the rendered surface."""
     tets, shares = frames.embedding()
     corners = rendering.corners_of(tet_file)
     carrier = int(corners[tets[point]][numpy.argmax(shares[point])])

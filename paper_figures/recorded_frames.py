@@ -1,4 +1,4 @@
-"""What the study `frames` recorded of one scene, by label and frame: tets, rendered surface, posed bones, binding, the frame's row.
+"""The records of the study `frames` for one scene, by label and frame: tets, rendered surface, posed bones, binding, and the frame's row.
 
     frames = Frames(results, "human_jump")
     file, row = frames.skin("pbs_jiggle", 12), frames.row("pbs_jiggle", 12)
@@ -30,7 +30,7 @@ class Frames:
         return self._file(f"{label}_{frame:06}.vtu")
 
     def skin(self, label, frame):
-        """The rendered surface; the built-in bodies have none but their tets' boundary."""
+        """The rendered surface; for the built-in bodies, which have none, the boundary of their tets."""
         return self.tets(label, frame) if self.body in built_in else self._file(f"{label}_surface_{frame:06}.vtp")
 
     def skin_at_rest(self):
@@ -38,7 +38,7 @@ class Frames:
         return None if self.body in built_in else self._file("surface_rest.vtp", "")
 
     def embedding(self):
-        """Of each point of the rendered surface the tet that carries it, #S, and the share of each of its corners, #S x 4."""
+        """For each point of the rendered surface, the tet that carries it, #S, and the weight of each of the tet's corners, #S x 4."""
         rows = records.table(self._file("embedding.csv", ""), {"point", "tet", *share_columns})
         rows.sort(key=lambda row: int(row["point"]))
         shares = numpy.array([[float(row[column]) for column in share_columns] for row in rows])
@@ -70,11 +70,11 @@ class Frames:
         return [bone_of(row) for row in records.table(self._file("bones_rest.csv", ""), {"bone", *bone_ends})]
 
     def binding(self):
-        """A row each vertex: nearest bone, parameter on it, rest distance, blended and jiggles (0 or 1)."""
+        """One row per vertex: nearest bone, parameter on it, rest distance, blended and jiggles (0 or 1)."""
         return records.table(self.folder / "binding.csv", {"vertex", "bone", "parameter", "rest_distance_m", "blended", "jiggles"})
 
     def projections(self, bones):
-        """Where each vertex's material point of its nearest bone is, with the bones there [m], #V x 3."""
+        """The position of each vertex's material point on its nearest bone [m], #V x 3, for the given posed bones."""
         bones = {bone.name: bone for bone in bones}
         rows = sorted(self.binding(), key=lambda row: int(row["vertex"]))
         heads, tails = (numpy.array([getattr(bones[row["bone"]], end) for row in rows]) for end in ("head", "tail"))
@@ -99,7 +99,7 @@ def bone_of(row):
 
 
 def origin_of(*shown):
-    """Where these scenes' records come from, and the licences of what is shown."""
+    """The origin of these scenes' records, and the licences of the bodies and clips shown."""
     return {**records.origin_of({frames.run.name: frames.run.record for frames in shown}),
             "rights": "; ".join(dict.fromkeys(text for frames in shown for text in licences_of(frames)))}
 
@@ -109,14 +109,14 @@ bodies = {"human": "human body: MakeHuman, CC0 (assimp-testmodels)", "man": "Man
 
 
 def licences_of(frames):
-    """Of the body and of the motion, where they are not built in."""
+    """Licences of the body and of the motion, unless they are built in."""
     clip = frames.run.record["scene"]["motion"].get("clip")
     motion = [f"motion {clip.removesuffix('.bvh')}: CMU Graphics Lab Motion Capture Database"] if clip else []
     return [*([bodies[frames.body]] if frames.body in bodies else []), *motion]
 
 
 def middle_of(points, binding, bones):
-    """Mean position [m] of the vertices that are nearest to these bones: where to point a camera."""
+    """The mean position [m] of the vertices whose nearest bone is one of these; a camera is pointed at it."""
     return numpy.mean([points[int(row["vertex"])] for row in binding if row["bone"] in bones], axis=0)
 
 

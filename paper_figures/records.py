@@ -1,4 +1,4 @@
-"""Recorded results, read by name. What is not there is said so: RecordsMissing carries the file, the column or the rows.
+"""Reads recorded results by name. RecordsMissing names the file, the column or the rows that do not exist.
 
     run = Run(results / "volume" / "limb_twist")
     rows = run.select(deformer="pbs", iterations=24)
@@ -15,7 +15,7 @@ class RecordsMissing(Exception):
 
 
 class Run:
-    """A run's directory: run.json and metrics.csv (one row per deformer and frame)."""
+    """The directory of a run: run.json and metrics.csv (one row per deformer and frame)."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -24,7 +24,7 @@ class Run:
         self.rows = table(folder / "metrics.csv", {"scene", "deformer", "variant", "iterations", "frame", "time_s"})
 
     def select(self, deformer, iterations=None, variant="default"):
-        """The deformer's rows in the order of frames."""
+        """The deformer's rows, ordered by frame."""
         rows = [row for row in self.rows if row["deformer"] == deformer and (row["variant"] or "default") == variant]
         if iterations is not None:
             rows = [row for row in rows if row["iterations"] and int(float(row["iterations"])) == iterations]
@@ -44,7 +44,7 @@ class Run:
         return rows[0]
 
     def reference(self):
-        """Name of the deformer that errors are measured against; without one, of the last FEM deformer."""
+        """The name of the deformer that serves as the reference; if none is named, the last FEM deformer."""
         name = self.record.get("scene", {}).get("reference", {}).get("name")
         fem = sorted({row["deformer"] for row in self.rows if row["deformer"].startswith("fem")})
         if name or fem:
@@ -52,13 +52,13 @@ class Run:
         raise RecordsMissing(f"{self.folder / 'metrics.csv'}: no FEM reference")
 
     def pbs_iterations(self):
-        """The iteration counts that were run with the paper's PBS."""
+        """The iteration counts with which the paper's PBS was run."""
         rows = [row for row in self.rows if row["deformer"] == "pbs" and (row["variant"] or "default") == "default"]
         return sorted({int(float(row["iterations"])) for row in rows if row["iterations"]})
 
 
 def frame_statistics(folder, deformer, variant="default"):
-    """A deformer's rows of frame_statistics.csv: of each setting the order statistics over the run's frames."""
+    """A deformer's rows of frame_statistics.csv: for each setting, the order statistics over the run's frames."""
     file = folder / "frame_statistics.csv"
     if not file.is_file():
         raise RecordsMissing(f"{file}: not there: the run is of an earlier version and has to be made again")
@@ -67,7 +67,7 @@ def frame_statistics(folder, deformer, variant="default"):
 
 
 def numbers(rows, column):
-    """The column as floats; an empty cell is nan, a column that is missing or empty throughout an error."""
+    """The column as floats. An empty cell is nan; a column that is missing or empty throughout is an error."""
     if column not in rows[0]:
         raise RecordsMissing(f"{_place(rows[0])}: no column {column}")
     values = [float(row[column]) if row[column] not in ("", None) else math.nan for row in rows]
@@ -77,7 +77,7 @@ def numbers(rows, column):
 
 
 def _place(row):
-    """Which table a row is from."""
+    """The table that a row comes from."""
     return f"metrics.csv of {row['scene']}" if "scene" in row else f"verification.csv, {row.get('problem', '')}"
 
 
@@ -90,12 +90,12 @@ def at_angle(rows, angle_deg):
 
 
 def scene_hash(record):
-    """Digest of the scene as resolved, or of a study's own work, for a figure's metadata."""
+    """Digest of the resolved scene, or of a study's own work, for a figure's metadata."""
     return hashlib.sha256(json.dumps(record.get("scene", record.get("work", {})), sort_keys=True).encode()).hexdigest()[:12]
 
 
 def origin_of(runs):
-    """Of runs (name -> what its run.json holds) every version, revision, processor and scene, for a figure's metadata and caption."""
+    """Every version, revision, processor and scene of the runs (name -> content of its run.json), for a figure's metadata and caption."""
     origins = [record.get("provenance", {}) for record in runs.values()]
     found = {key: " and ".join(dict.fromkeys(origin[key] for origin in origins if origin.get(key)))
              for key in ("version", "git_revision", "cpu_model")}
@@ -113,7 +113,7 @@ def provenance(results):
 
 
 def read_json(file):
-    """An object: what every record is."""
+    """Reads a JSON object; every record is one."""
     try:
         record = json.loads(file.read_text())
     except OSError:
@@ -128,7 +128,7 @@ def read_json(file):
 
 
 class Row(dict):
-    """Of a table: column -> text. A column that is not there is said so."""
+    """A row of a table: column -> text. A missing column raises RecordsMissing."""
 
     def __init__(self, cells, place):
         super().__init__(cells)
@@ -146,7 +146,7 @@ class Row(dict):
 
 
 def read_rows(file):
-    """Of a CSV file."""
+    """The rows of a CSV file."""
     try:
         with open(file, newline="") as stream:
             reader = csv.DictReader(stream)
@@ -158,7 +158,7 @@ def read_rows(file):
 
 
 def table(file, columns):
-    """The rows of a CSV file that has these columns."""
+    """The rows of a CSV file that must have these columns."""
     rows = read_rows(file)
     if not rows:
         raise RecordsMissing(f"{file}: no rows")

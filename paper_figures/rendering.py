@@ -1,4 +1,4 @@
-"""Still pictures of recorded frames, rendered off screen by VTK. Needs a display: xvfb-run gives one where there is none.
+"""Still pictures of recorded frames, rendered off screen by VTK. VTK needs a display; xvfb-run provides one on machines without a screen.
 
     low, high = rendering.bounds_of(folder / "lbs_000054.vtu")
     picture = rendering.Stage(width_px, height_px).picture(folder / "lbs_000054.vtu", (low + high) / 2, half_height_m)
@@ -19,20 +19,20 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  the rendering back end
 
 import records
 
-ratio_scale = colors.Normalize(0.5, 1.5)  # of the volume ratio, the same for all pictures
-# From dark to light, so that squeezed and swollen are told apart in grey as well; inverted is darker than all of it.
+ratio_scale = colors.Normalize(0.5, 1.5)  # scale of the volume ratio, the same for all pictures
+# From dark to light, so that compressed and expanded tets differ in grey prints too; the colour of inverted tets is darker than all others.
 ratio_colors = colors.LinearSegmentedColormap.from_list("volume ratio", ["#2C6DB5", "#B4B4B4", "#FFE54A"])
 inverted_color, skin_color = (0.5, 0.0, 0.1), (0.87, 0.72, 0.62)
 paper = (1.0, 1.0, 1.0)  # background of stills
 view_direction = numpy.array([0.45, 0.12, 1.0])  # from the body to the camera; y is up
 
 
-kept = []  # the first window, to the end: xvfb starts over when its last client leaves, and turns away who comes in that moment
+kept = []  # the first window stays open to the end: xvfb restarts when its last client leaves, and rejects clients at that moment
 
 
 @dataclass(frozen=True)
 class Camera:
-    """Parallel projection; direction from the body to the camera, half of the still's height [m]."""
+    """Parallel projection: the direction from the body to the camera, and half of the height of the still [m]."""
     center: object
     half_height_m: float
     direction: object = tuple(view_direction)
@@ -40,7 +40,7 @@ class Camera:
 
 
 class Stage:
-    """A window, its lights and camera."""
+    """A window with its lights and camera."""
 
     def __init__(self, width_px, height_px, background=paper):
         if not os.environ.get("DISPLAY"):
@@ -67,7 +67,7 @@ class Stage:
         return self.shot([_skin(file) if file.suffix == ".vtp" else tets(file)], Camera(center, half_height_m))
 
     def shot(self, actors, view):
-        """The actors through this camera, as an RGB array."""
+        """The actors as this camera sees them, as an RGB array."""
         for actor in actors:
             self.renderer.AddActor(actor)
         camera = self.renderer.GetActiveCamera()
@@ -118,7 +118,7 @@ def _skin(file):
 
 
 def corners_of(file):
-    """Of each tet its vertices, #T x 4."""
+    """The vertices of each tet, #T x 4."""
     return vtk_to_numpy(read(file).GetCells().GetConnectivityArray()).reshape(-1, 4)
 
 
@@ -133,13 +133,13 @@ def tets(file):
     mapper.UseLookupTableScalarRangeOn()
     actor = actor_of(mapper, ambient=0.7)
     actor.GetProperty().SetInterpolationToFlat()
-    actor.GetProperty().SetDiffuse(0.3)  # little shade and no glare, so that colours read as in the bar
+    actor.GetProperty().SetDiffuse(0.3)  # little shading and no highlights, so that colours match the colour bar
     actor.GetProperty().SetSpecular(0.0)
     return actor
 
 
 def ratio_table():
-    """ratio_colors over ratio_scale; below zero, inverted, in a colour of its own."""
+    """ratio_colors over ratio_scale; inverted tets (below zero) have a colour of their own."""
     steps = 600
     low, high = -ratio_scale.vmax, ratio_scale.vmax
     table = vtkLookupTable()

@@ -1,6 +1,6 @@
-"""How near each kernel comes to what the machine allows, one thread: useful operations a second over operations a byte, under the peak of
-multiply-adds and the copy bandwidth of each level of memory. The two usual bars: hollow 2,200 vertices, filled 19,500. A thin line
-joins the three kinds of constraints of an order, and the order's name stands beside that of the larger mesh."""
+"""The performance of each kernel relative to the machine, with one thread: useful operations per second over operations per byte, below the
+peak of multiply-adds and the copy bandwidth of each level of memory. The two standard bars are shown: hollow 2,200 vertices, filled 19,500.
+A thin line joins the three kinds of constraints of an order, and the name of the order is next to the points of the larger mesh."""
 import numpy
 from matplotlib.collections import LineCollection
 
@@ -9,24 +9,24 @@ import entries
 import records
 import style
 
-levels = (("L1", 32e3), ("L2", 512e3), ("L3", 8e6), ("memory", 256e6))  # working sets of today's caches
+levels = (("L1", 32e3), ("L2", 512e3), ("L3", 8e6), ("memory", 256e6))  # working sets for the caches of current processors
 peaks = {"f32": "fma_gflops_f32", "f64": "fma_gflops_f64"}
 
 
 def bandwidth_gb_s(copy, size):
-    """Linear in the logarithm of the working set, as the bench takes it."""
+    """Interpolates linearly in the logarithm of the working set, like the benchmark."""
     return numpy.interp(numpy.log(size), [numpy.log(point["bytes"]) for point in copy], [point["gb_s"] for point in copy])
 
 
 def draw_roof(axes, limits, precision):
-    """Returns the roofs: the peak alone, and each level with what it copies a second and where it meets the peak."""
+    """Returns the roofs: the peak alone, and for each level its copy bandwidth and the point at which it meets the peak."""
     peak = limits[peaks[precision]]
     intensity = numpy.geomspace(0.1, 100, 200)
     rows = [{"shown": "roof", "precision": precision, "roof": "multiply-add", "gflops": peak}]
     for name, size in levels:
         bandwidth = bandwidth_gb_s(limits["copy"], size)
         roof = numpy.column_stack([intensity, numpy.minimum(peak, bandwidth * intensity)])
-        axes.add_collection(LineCollection([roof], colors="#808080", linewidths=0.7))  # a limit: no values under the pointer
+        axes.add_collection(LineCollection([roof], colors="#808080", linewidths=0.7))  # a limit has no values for the pointer
         text = f"{name}\n{bandwidth:.0f}{' GB/s' if name == 'memory' else ''}"
         axes.annotate(text, (peak / bandwidth, peak * 1.08), fontsize=6, color="#606060", ha="center", va="bottom")
         rows.append({"shown": "roof", "precision": precision, "roof": name, "gb_s": bandwidth, "flops_per_byte": peak / bandwidth,
@@ -48,7 +48,7 @@ def draw_points(axes, mesh, precision, filled):
             continue
         color, _ = bench_records.orders[timing["variant"]]
         places = sorted((timing["roofline"][name]["flops_per_byte"], timing["roofline"][name]["gflops"]) for name in bench_records.classes)
-        axes.add_collection(LineCollection([places], colors=color, linewidths=0.7))  # its points tell their values
+        axes.add_collection(LineCollection([places], colors=color, linewidths=0.7))  # the values belong to its points
         for name, marker in bench_records.classes.items():
             point = timing["roofline"][name]
             axes.plot(point["flops_per_byte"], point["gflops"], marker, color=color, markerfacecolor=color if filled else "none",
@@ -59,7 +59,7 @@ def draw_points(axes, mesh, precision, filled):
 
 
 def name_orders(axes, rows):
-    """Right of all points and as far up as each order's greatest, apart from each other."""
+    """Writes the names to the right of all points, each at the height of its order's largest value, and separated from each other."""
     most = {}
     for row in sorted(rows, key=lambda row: row["gflops"]):
         most[row["order"]] = row["flops_per_byte"], row["gflops"]

@@ -1,4 +1,5 @@
-"""How the cost of a step of 24 iterations grows with the mesh: ns a constraint and iteration, one thread; and what more threads bring."""
+"""The growth of the cost of a step of 24 iterations with the mesh, in ns per constraint and iteration with one thread, and the speedup by
+more threads."""
 import bench_records
 import entries
 import records
@@ -17,7 +18,7 @@ def timing_of(mesh, variant, precision, threads):
 
 
 def write_exponents(axes, record, precision):
-    """The fitted exponents of cost over constraints, in the panel's corner. Returns them."""
+    """Writes the fitted exponents of cost over constraints into the corner of the panel, and returns them."""
     fits = {fit["variant"]: fit for fit in record.get("scaling", []) if (fit["precision"], fit["threads"]) == (precision, 1)}
     lines = ["step \u221d constraints$^e$, 95 %"] if fits else []
     rows = []

@@ -1,5 +1,5 @@
-"""Area of the cross-section over that at rest, along the limb through the joint: LBS is wrung out at a twisted joint (the candy wrapper),
-DQS swells at a bent one (the bulge). See whether PBS follows the elements, and where it does not."""
+"""The area of the cross-section relative to rest, along the limb through the joint: LBS collapses at a twisted joint (the candy wrapper),
+and DQS swells at a bent one (the bulge). The curves show where PBS follows the finite elements, and where it does not."""
 import entries
 import records
 import style
@@ -12,7 +12,8 @@ columns = {"body", "vertices", "pose", "joint", "deformer", "order", "precision"
 
 
 def profiles(rows, pose):
-    """deformer -> its sections along the limb, on the mesh that all deformers were on; of the elements the best."""
+    """The sections along the limb for each deformer, on the mesh that all deformers share; of the finite elements, those of the best
+    reference."""
     rows = [row for row in rows if row["pose"] == pose and (row["order"], row["precision"]) in (("", ""), ("ordered", "f32"))]
     meshes = [row["vertices"] for row in rows if row["deformer"] == "delta_mush"] or [row["vertices"] for row in rows]
     rows = [row for row in rows if row["vertices"] == meshes[0]] if meshes else []

@@ -1,4 +1,4 @@
-"""Every sentence about a claim, composed from the facts of claims.json; README, the report and the figures' pages all use these.
+"""Every sentence about a claim, composed from the facts of claims.json. The README, the report and the figures' pages all use these.
 
     for claim in sentences.claims_of(results / "claims.json"):
         print(claim["id"], sentences.outcome(claim))
@@ -11,11 +11,11 @@ names = {"reproduced": "reproduced", "reproduced_only_for": "reproduced in part"
          "inconsistent_in_print": "inconsistent in print", "cannot_be_tested_here": "cannot be tested here",
          "not_computable": "not computable"}
 trials = {"share_of_cells_inverted": "end with inverted tets", "share_of_cells_in_motion": "end in motion",
-          "share_of_cells_at_rest": "end as if undisturbed"}  # shares that are counts of trials
+          "share_of_cells_at_rest": "end as if undisturbed"}  # these shares are counts of trials
 
 
 def claims_of(file):
-    """The claims, each with the titles of the quantities; RecordsMissing where the file is missing or of another shape."""
+    """The claims, each with the titles of its quantities; RecordsMissing if the file is missing or has another shape."""
     document = record_shapes.read(file, record_shapes.claims)
     return [claim | {"titles": {name: of["title"] for name, of in document["quantities"].items()}} for claim in document["claims"]]
 
@@ -28,10 +28,10 @@ def with_unit(unit):
     return "" if unit in ("", "1") else f" {unit}"
 
 
-# What is expected.
+# The expected values.
 
 def bound(low, high):
-    """0.9 to 1.1; 1.05 or more; 0.5 or less; 0; empty where there is none."""
+    """0.9 to 1.1; 1.05 or more; 0.5 or less; 0; empty without bounds."""
     if low is None and high is None:
         return ""
     if low is None or high is None:
@@ -44,7 +44,7 @@ def bound_of(claim, quantity):
 
 
 def expected(claim):
-    """One text for all quantities, or one text for each; none where nothing can be tested."""
+    """One text for all quantities, or one text for each; none if the claim cannot be tested."""
     if claim["rule"] == "printed":
         return ["each value as the others require"]
     if not claim["bounds"]:
@@ -55,16 +55,16 @@ def expected(claim):
     return texts[:1] if len(set(texts)) == 1 else [f"{title(claim, of['quantity'])}: {text}" for of, text in zip(claim["bounds"], texts)]
 
 
-# Runs of scenes, frame by frame.
+# Claims about runs of scenes, frame by frame.
 
 def own_runs(claim):
-    """Those judged by the claim's own metric."""
+    """The runs judged by the claim's own metric."""
     own = claim["bounds"][0]["quantity"] if claim["bounds"] else None
     return [case for case in claim["cases"] if "frames" in case and case["quantity"] == own]
 
 
 def is_by_share(claim):
-    """Judged by the share of frames that hold, and not by their mean."""
+    """Whether the share of frames that hold decides, rather than their mean."""
     return claim["rule"] == "share_within"
 
 
@@ -92,27 +92,27 @@ def clips_text(claim, clips):
 
 
 def angles_text(case):
-    """Where a sweep holds, and how far it goes."""
+    """The angles at which a sweep holds, and its last angle."""
     held = ", ".join(f"{figure(low)} to {figure(high)}" for low, high in case["held_angles_deg"])
     return f"{case_words.run(case)} " + (f"by {held} of {figure(case['last_angle_deg'])}\u00b0" if held else "by no angle")
 
 
 def runs_in_short(claim):
-    """The range of each sweep; of clips what they are judged by."""
+    """The range of each sweep; for clips, the number by which they are judged."""
     runs = own_runs(claim)
     clips = [case for case in runs if not case["sweep"]]
     texts = [run_text(claim, case) for case in runs if case["sweep"]]
     return texts + ([f"{counted(len(clips), 'clip')}: {clips_text(claim, clips)}"] if clips else [])
 
 
-# Values that a study measured.
+# Claims about values that a study measured.
 
 def measured_values(claim):
     return [case for case in claim["cases"] if "frames" not in case]
 
 
 def grouped(claim, values, fields):
-    """Title of a quantity, with the fields that tell its groups apart -> its values."""
+    """The values by the title of their quantity, with the fields that distinguish its groups."""
     groups = {}
     for value in values:
         own = all(value.get(field) == wanted for field, wanted in claim["of"].items())
@@ -135,7 +135,7 @@ def range_of(values):
 
 
 def range_with_intervals(values):
-    """From the least to the most value; in brackets from the lowest to the highest end of their intervals."""
+    """From the smallest to the largest value; in brackets, from the lowest to the highest end of their intervals."""
     known = [value for value in values if value["value"] is not None]
     if not known:
         return "no value"
@@ -146,14 +146,14 @@ def range_with_intervals(values):
 
 
 def within(claim):
-    """How many values hold."""
+    """States how many values hold."""
     if claim["rule"] == "printed":
         return f"{claim['within']} of {counted(claim['n'], 'value')} consistent"
     return f"{claim['within']} of {counted(claim['n'], 'value')} within the bound"
 
 
 def farthest(claim, in_short=False):
-    """The value farthest outside its bound; in short without what it is of. Empty where every value lies within."""
+    """The value farthest outside its bound; in short, without its case. Empty if every value lies within."""
     primary = claim["primary"]
     if primary is None or primary["statistic"] != "value" or claim["within"] == claim["n"]:
         return ""
@@ -164,7 +164,7 @@ def farthest(claim, in_short=False):
     return f"farthest: {title(claim, primary['quantity'])}{of} is {value}, expected {expected_of_it}"
 
 
-# For whom a claim holds.
+# The subjects for which a claim holds.
 
 def subjects(claim):
     """for limb, man (3 of 4 values); not for lady."""
@@ -181,7 +181,7 @@ def subjects(claim):
 
 
 def outcome(claim, in_short=False):
-    """For whom the claim holds, and where it does not, by how much; in short: without what the farthest value is of."""
+    """The subjects for which the claim holds, where it does not hold, and by how much; in short, without the case of the farthest value."""
     runs = own_runs(claim)
     if claim["missing"]:
         return f"without records of {', '.join(claim['missing'])}"
@@ -209,7 +209,7 @@ def left_out(claim):
 
 
 def by_other_metrics(claim):
-    """By metrics other than the claim's own, how many runs hold."""
+    """How many runs hold by metrics other than the claim's own."""
     texts = []
     for of in claim["bounds"][1:] if own_runs(claim) else []:
         runs = [case for case in claim["cases"] if case["quantity"] == of["quantity"]]
@@ -234,25 +234,26 @@ def reading_name(reading):
 
 
 def differing(claim, reading):
-    """The runs that hold to another extent than in the claim's own order."""
+    """The runs whose extent differs from that in the claim's own order."""
     cases = [reading["cases"][place] for place in reading["differing"] if 0 <= place < len(reading["cases"])]
     return [f"{case_words.run(case)} by {title(claim, case['quantity'])}" for case in cases]
 
 
 def verdict_in_full(claim):
-    """A list of statements: the verdict and for whom; the farthest value; other metrics, orders and what was left out."""
+    """A list of statements: the verdict with its subjects, the farthest value, other metrics and orders, and what was left out."""
     first = outcome(claim, in_short=True) if claim["verdict"] != "not_reproduced" else subjects(claim)
     told = [f"{names.get(claim['verdict'], claim['verdict'])}" + (f": {first}" if first else "")]
     return told + [text for text in (farthest(claim), *by_other_metrics(claim), *by_other_orders(claim), *left_out(claim)) if text]
 
 
 def controls(claim, most=4):
-    """The first quantities that were measured for comparison, without a bound, from the least to the most; empty: none."""
+    """The first quantities that were measured for comparison, without a bound, from the smallest to the largest value; empty if there are
+    none."""
     return ", ".join([control_text(of, values) for of, values in control_groups(claim).items()][:most])
 
 
 def control_text(of, values):
-    """A share of trials as a count over all of them."""
+    """A share of trials as a count out of all of them."""
     known = [value["value"] for value in values]
     quantity = values[0]["quantity"]
     if quantity in trials and None not in known and all("n" in value for value in values):
@@ -261,9 +262,9 @@ def control_text(of, values):
     return f"{of} {span(known)}{with_unit(values[0]['unit'])}"
 
 
-# In one line, for README.
+# One line per claim, for the README.
 
-most_quantities = 3  # that are told one by one
+most_quantities = 3  # quantities named one by one
 
 
 def expected_in_line(claim):
@@ -272,7 +273,7 @@ def expected_in_line(claim):
 
 
 def measured_in_line(claim):
-    """What its runs are judged by, or the range of each bounded quantity; how much of it is as expected."""
+    """The number by which its runs are judged, or the range of each bounded quantity, and how much of it is as expected."""
     runs = own_runs(claim)
     if runs:
         partly = sum(case["holds"] == "part" for case in runs)
@@ -291,7 +292,7 @@ def measured_in_line(claim):
 
 
 def key_number(claim):
-    """How many values hold; then the value farthest outside its bound, or nearest to it if all hold, with its interval and body."""
+    """How many values hold; then the value farthest outside its bound or, if all hold, nearest to it, with its interval and body."""
     primary = claim["primary"]
     if primary is None or primary["statistic"] == "printed":
         return within(claim) if claim["n"] else ""

@@ -1,6 +1,6 @@
-"""Every disturbance of the limb by every method: what comes of it. A row is a quantity driven to its extremes, its marks go from the
-least to the greatest value. See which methods come to rest as if undisturbed, which leave tets inverted, and whether any but the printed
-form of PBS diverges."""
+"""Every disturbance of the limb with every method, and its outcome. Each row is a quantity that is varied to its extremes, with marks from
+the smallest to the largest value. The figure shows which methods come to rest as if undisturbed, which leave tets inverted, and whether any
+method except the printed form of PBS diverges."""
 import entries
 import outcomes
 import records
@@ -16,7 +16,7 @@ columns = {"body", "model", "factor", "value", "unit", "named", "second_factor",
 
 
 def shown_cells(rows):
-    """Of the limb, one factor at a time, in the precision that most of a model's cells have."""
+    """The rows of the limb with one factor varied at a time, in the precision of most of a model's cells."""
     rows = [row for row in rows if row["body"] == "limb" and not row["second_factor"] and row["model"] in models]
     single = {row["model"] for row in rows if row["precision"] == "f32"}
     return [row for row in rows if row["precision"] == "f32" or row["model"] not in single]
@@ -31,7 +31,7 @@ def range_of(rows):
 
 
 def draw_factor(axes, rows, place):
-    """A row of cells: the models' marks side by side."""
+    """One row of cells, with the marks of the models side by side."""
     for across, model in enumerate(models):
         cells = sorted((row for row in rows if row["model"] == model), key=lambda row: float(row["value"]))
         if not cells:
@@ -52,7 +52,7 @@ def factors_with(rows, model, outcome):
 
 
 def facts(rows):
-    """Of each method the cells that come to rest; which factors end otherwise."""
+    """For each method, how many cells come to rest, and which factors lead to another outcome."""
     present = [model for model in models if any(row["model"] == model for row in rows)]
 
     def at_rest(model):

@@ -1,5 +1,5 @@
-"""Jiggling PBS on the limb, disturbed and then held still, as two settings change together: what comes of it, cell by cell. See
-which settings leave tets inverted, which keep the body from coming to rest, and whether any lets it grow without bound."""
+"""The outcome of jiggling PBS on the limb, disturbed and then held still, as two settings change together, cell by cell. The maps show
+which settings leave tets inverted, which prevent the body from coming to rest, and whether any lets the motion grow without bound."""
 import entries
 import outcomes
 import records
@@ -33,7 +33,7 @@ ends = {"converged": "at rest as if undisturbed", "bounded": "bounded", "inverte
 
 
 def facts(rows):
-    """How many cells of each map end how; the steps of the longest run."""
+    """The number of cells of each map by outcome, and the steps of the longest run."""
     def counts(file):
         found = [row["outcome"] for row in rows if row["map"] == file]
         return f"of {len(found)} cells " + ", ".join(f"{found.count(outcome)} {words}" for outcome, words in ends.items())

@@ -1,6 +1,6 @@
-"""Force over displacement of flesh under its weight against iterations, time step and resolution: a material's stiffness would be a flat
-line. That of PBS grows with iterations and falls with the square of the time step; the exponent of Mueller 2007 takes out neither; XPBD,
-which keeps multipliers, is nearly flat. What is too stiff to move in double precision is left out."""
+"""Force over displacement of flesh under its weight against iterations, time step and resolution. The stiffness of a material would be a
+flat line. That of PBS grows with the iterations and falls with the square of the time step. The exponent of Mueller 2007 removes neither
+dependence. XPBD, which keeps multipliers, is nearly flat. Values too stiff to move in double precision are left out."""
 import sys
 
 import entries
@@ -12,8 +12,8 @@ bodies = [("bar", "cantilever", "bar, held at one end"), ("limb", "zone on held"
           ("human", "zone on held", "human, flesh on a held core")]
 factors = {"iterations": "iterations", "time_step_ms": "time step [ms]", "vertices": "vertices"}
 usual = {"iterations": 24.0, "time_step_ms": 10.0}
-young_pa = 30e3  # of XPBD, which some sweeps have stiffer besides
-stiffest_n_m = 1 / sys.float_info.epsilon  # beyond it 1 N moves the flesh by less than doubles tell apart at 1 m
+young_pa = 30e3  # of XPBD; some sweeps also use stiffer values
+stiffest_n_m = 1 / sys.float_info.epsilon  # beyond this, 1 N moves the flesh by less than double precision resolves at 1 m
 methods = [("pbs", 0.2, "PBS, k_stretch 0.2"), ("pbs", 0.9, "PBS, k_stretch 0.9"), ("exponent", 0.2, "PBS with the exponent"),
            ("xpbd", 0.2, "XPBD, 30 kPa"), ("xpbd_small_steps", 0.2, "XPBD, 30 kPa, small steps")]
 columns = {"body", "load", "vertices", "mesh", "method", "k_stretch", "young_pa", "iterations", "time_step_ms", "order_seed", "by",
@@ -21,7 +21,7 @@ columns = {"body", "load", "vertices", "mesh", "method", "k_stretch", "young_pa"
 
 
 def varied(rows, factor, method, k_stretch):
-    """By the linear answer, in the first order of constraints; what did not converge or is not positive has no stiffness."""
+    """Rows by the linear response, in the first order of constraints. A row that did not converge or is not positive has no stiffness."""
     others = [name for name in usual if name != factor]
     rows = [row for row in rows if (row["method"], row["by"], row["order_seed"], row["converged"]) == (method, "linear", "0", "1")
             and float(row["k_stretch"]) == k_stretch and float(row["young_pa"]) == young_pa and float(row["stiffness_n_m"]) > 0
@@ -54,7 +54,7 @@ def draw_panel(axes, rows, factor):
 
 
 def draw_factor_axis(axis, factor, values):
-    """Each setting by its number; sizes of meshes come in near pairs, which would overlap."""
+    """Each setting by its number. Mesh sizes come in pairs that are nearly equal, whose labels would overlap."""
     if factor != "vertices":
         style.log_scale(axis, values)
     elif values[-1] < 30 * values[0]:
@@ -64,7 +64,7 @@ def draw_factor_axis(axis, factor, values):
 
 
 def facts(rows):
-    """How many-fold XPBD stiffens over the iterations shown, plain and in small steps; what the other settings are held at."""
+    """The ratio by which XPBD stiffens over the iterations shown, plain and in small steps, and the values of the other settings."""
     def folds(method):
         parts = []
         for body, _, _ in bodies:

@@ -1,5 +1,5 @@
-"""One look for all figures: sizes of a two-column page, Okabe-Ito colours, and a line style and marker for each deformer so that grey
-prints read as well.
+"""The common style of all figures: sizes of a two-column page, Okabe-Ito colours, and a line style and marker for each deformer, so that
+grey prints are readable too.
 
     figure, axes = style.panels(1, 2)
     style.draw(axes[0], "pbs", angle_deg, change_pct)
@@ -64,14 +64,14 @@ def panels(rows, columns, height_in=2.0, width_in=None, height_ratios=None, widt
 
 
 def stacked(*rows):
-    """Rows of panels, each a number of columns and a height [in], laid out on their own: the axes of each row."""
+    """Rows of panels, each with a number of columns and a height [in] and its own layout; returns the axes of each row."""
     figure = pyplot.figure(figsize=(page_in, sum(height for _, height in rows)))
     parts = figure.subfigures(len(rows), 1, height_ratios=[height for _, height in rows])
     return figure, [part.subplots(1, columns, squeeze=False)[0] for part, (columns, _) in zip(parts, rows)]
 
 
 def draw(axes, deformer, x, y, markers=True, **options):
-    """One deformer's line; a marker about every tenth point."""
+    """The line of one deformer, with a marker about every tenth point."""
     look = look_of(deformer)
     spacing = max(1, len(x) // 9)
     axes.plot(x, y, color=look.color, linestyle=look.line, marker=look.marker if markers else None, markevery=spacing, label=look.label,
@@ -79,7 +79,7 @@ def draw(axes, deformer, x, y, markers=True, **options):
 
 
 def draw_series(axes, number, x, y, label, bars=None, **options):
-    """One line of several without a deformer's look, the number-th; bars: lower and upper ends of each point."""
+    """The number-th line of several that belong to no deformer; bars: lower and upper ends for each point."""
     color, marker = sequence[number % len(sequence)]
     axes.plot(x, y, **{"color": color, "marker": marker, "linestyle": lines[number % len(lines)], "label": label} | options)
     if bars:
@@ -95,7 +95,7 @@ def log_scale(axis, values=None, steps=(1, 2, 5)):
 
 
 def decades(axis):
-    """A logarithmic axis with plain numbers at whole decades alone, where more would run into each other; the ticks between are bare."""
+    """A logarithmic axis with plain numbers at whole decades only, if more would overlap; the ticks between have no labels."""
     log_scale(axis, steps=(1,))
     axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:,g}"))
     axis.set_minor_locator(ticker.LogLocator(subs=range(2, 10)))
@@ -103,7 +103,7 @@ def decades(axis):
 
 
 def per_cent_scale(axes, signed):
-    """Linear up to the paper's 0.5 %, logarithmic beyond, so that 0.1 % and 100 % are read off the same axis."""
+    """Linear up to the paper's 0.5 % and logarithmic beyond, so that 0.1 % and 100 % can be read from the same axis."""
     axes.set_yscale("symlog", linthresh=0.5, linscale=0.7)
     low, high = axes.get_ylim()
     steps = [0.5, 2, 10, 100, 1000] if high - low > 25 else [0.5, 1, 2, 5, 10, 20]
@@ -119,7 +119,7 @@ def paper_band(axes, signed):
 
 
 def legend_above(figure, columns=None):
-    """The panels' common legend, above them all: every label that one of them shows, once."""
+    """The common legend of the panels, above them all: every label that occurs, once."""
     shown = {}
     for panel in figure.axes:
         for handle, label in zip(*panel.get_legend_handles_labels()):
@@ -142,12 +142,12 @@ def show(panel, picture, title="", below=""):
 
 
 def signed(text):
-    """With the sign of minus that type has."""
+    """The number with a typographic minus sign."""
     return text.replace("-", "\u2212")
 
 
 def bar(figure, axes, scale, colors, label, extend="neither"):
-    """One colour bar below all panels, which keep clear of the top."""
+    """One colour bar below all panels, which leave the top free."""
     figure.get_layout_engine().set(rect=(0, 0, 1, 0.985))
     shades = matplotlib.cm.ScalarMappable(scale, colors)
     figure.colorbar(shades, ax=axes, location="bottom", shrink=0.5, aspect=40, extend=extend, pad=0.01).set_label(label)
@@ -159,13 +159,13 @@ def ratio_bar(figure, axes, scale, colors):
 
 
 def bone_in_words(bone):
-    """left upper arm, of `upper_arm.L`."""
+    """The name of a bone in words: left upper arm for `upper_arm.L`."""
     name, _, side = bone.partition(".")
     return " ".join([*{"L": ["left"], "R": ["right"]}.get(side, []), *name.split("_")])
 
 
 def source_of(provenance):
-    """Version, revision, processor and the shown scenes' hashes, for a file's metadata."""
+    """Version, revision, processor and the hashes of the shown scenes, for a file's metadata."""
     processor = f"; {provenance['cpu_model']}" if "cpu_model" in provenance else ""
     scenes = "".join(f"; scene {name} {digest}" for name, digest in provenance.get("scenes", {}).items())
     return "pbskin {} {}{}{}{}".format(provenance.get("version", "?"), provenance.get("git_revision", "unknown revision"),
@@ -173,14 +173,14 @@ def source_of(provenance):
 
 
 def save(figure, stem, provenance, table, formats=("pdf", "png", "svg")):
-    """stem.pdf, stem.png and stem.svg with the revision in their metadata, and stem.csv: the rows (dicts) behind the figure. Every point
-    drawn has its label and numbers as a title in the SVG, which a browser shows under the pointer."""
+    """Writes stem.pdf, stem.png and stem.svg with the revision in their metadata, and stem.csv with the rows (dicts) behind the figure. In
+    the SVG, every drawn point has its label and numbers as a title, which a browser shows under the pointer."""
     source, rights = source_of(provenance), provenance.get("rights", "")
     metadata = {"pdf": {"Title": stem.name, "Subject": source, "Keywords": rights, "CreationDate": None},
                 "png": {"Title": stem.name, "Source": source, "Copyright": rights, "Software": "pbskin paper_figures"},
                 "svg": {"Title": stem.name, "Source": source, "Rights": rights, "Creator": "pbskin paper_figures", "Date": None}}
     figure.canvas.draw()
-    figure.set_layout_engine("none")  # laid out once: the same in every format, and where hover_titles says
+    figure.set_layout_engine("none")  # the layout is computed once, so that it is the same in every format and in hover_titles
     for ending in formats:
         with whole_file.beside(stem.with_suffix("." + ending)) as path:
             figure.savefig(path, metadata=metadata[ending], dpi=150 if ending == "svg" else 300)
@@ -194,12 +194,12 @@ def save(figure, stem, provenance, table, formats=("pdf", "png", "svg")):
 
 
 def aligned(rows):
-    """Rows of several kinds in one table: all columns, empty where a kind has none."""
+    """Rows of several kinds in one table with all columns; a cell is empty if its kind has no such column."""
     columns = dict.fromkeys(column for row in rows for column in row)
     return [{column: row.get(column, "") for column in columns} for row in rows]
 
 
 def columns_of(rows, *names):
-    """The rows with these columns alone, for the CSV behind a figure."""
+    """The rows with only these columns, for the CSV behind a figure."""
     names = ("scene", "deformer", "variant", "iterations", "frame", "time_s", *names)
     return [{name: row[name] for name in names} for row in rows]

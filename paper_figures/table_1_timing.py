@@ -1,22 +1,22 @@
-"""The paper's Table 1 beside what was timed here on meshes matched to its counts: a drawn table, its CSV and its LaTeX. The paper prints
-two times that exclude each other, a frame rate and a CT of 100 steps; both stand here as milliseconds a frame. Our milliseconds are
-processor time, our frame rates wall-clock."""
+"""The paper's Table 1 compared with the times measured here on meshes matched to its counts: a drawn table, its CSV and its LaTeX. The
+paper prints two times that exclude each other, a frame rate and a CT of 100 steps; the table shows both as milliseconds per frame. Our
+milliseconds are processor time, our frame rates wall-clock time."""
 import entries
 import records
 import style
 import whole_file
 
-orders = (("plain", "f64"), ("ordered", "f32"))  # in the order of the mesh file; as this code runs by default
+orders = (("plain", "f64"), ("ordered", "f32"))  # in the order of the mesh file; and the default of this code
 columns = {"model": "model", "mesh": "mesh here", "vertices": "vertices\npaper / here", "edges": "edges\npaper / here",
            "tets": "tets\npaper / here", "paper_frames_per_s": "paper\n[fps]", "plain_f64_frames_per_s": "plain f64\nwall [fps]",
            "ordered_f32_frames_per_s": "ordered f32\nwall [fps]", "paper_ms": "paper, by\nits fps [ms]",
            "paper_ct_ms": "paper, by\nits CT [ms]", "plain_f64_ms": "plain f64\nCPU [ms]", "ordered_f32_ms": "ordered f32\nCPU [ms]"}
-widths = (0.07, 0.08, 0.1, 0.115, 0.115, 0.055, 0.075, 0.085, 0.08, 0.08, 0.075, 0.085)  # of the page
+widths = (0.07, 0.08, 0.1, 0.115, 0.115, 0.055, 0.075, 0.085, 0.08, 0.08, 0.075, 0.085)  # widths of the columns, relative to the page
 
 
 def matched(results):
-    """The rows of meshes that a row of Table 1 has a counterpart in: model -> (order, precision) -> row; the paper's own body before one
-    that stands in for it."""
+    """The rows of the meshes that correspond to a row of Table 1: model -> (order, precision) -> row. The paper's own body takes precedence
+    over a body that substitutes it."""
     needed = {"mesh", "model", "stands_in", "variant", "precision", "total_ms", "frames_per_s", "paper_ms", "paper_ct_ms", "cpu_model"}
     rows = [row for row in records.table(results / "timing" / "timing.csv", needed) if row["model"] not in ("", "-")]
     if not rows:
@@ -30,7 +30,7 @@ def matched(results):
 
 
 def counts(row):
-    """Count as printed and as meshed."""
+    """The count as printed and as meshed."""
     return {name: f"{float(row[name]) / float(row[f'{name}_over_table_1']):.0f} / {row[name]}" for name in ("vertices", "edges", "tets")}
 
 

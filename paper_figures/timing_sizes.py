@@ -1,6 +1,6 @@
-"""Wall-clock time of a frame on one core over the size of the mesh, in three kernels, and what a frame is made of on the meshes that stand
-for the paper's. Crosses: the paper's frame rates; stars: its column CT over 100 steps; the two differ by a factor of 20. See how far all
-stay below 33 ms at the paper's sizes."""
+"""Wall-clock time per frame on one core over the size of the mesh, for three kernels, and the parts of a frame on the meshes that represent
+the paper's. Crosses mark the paper's frame rates and stars its column CT over 100 steps; the two differ by a factor of 20. All times can be
+compared with 33 ms at the paper's sizes."""
 import entries
 import records
 import style
@@ -34,7 +34,7 @@ def draw_sizes(axes, rows):
 
 
 def draw_parts(axes, rows, variant, precision):
-    """The parts of a frame, end to end, on the meshes that stand for the paper's."""
+    """The parts of a frame, end to end, on the meshes that represent the paper's."""
     shown = [row for row in of_kernel(rows, variant, precision) if row["paper_ms"]]
     left = [0.0] * len(shown)
     for column, (label, color, hatch) in parts.items():

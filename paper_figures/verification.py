@@ -1,5 +1,6 @@
-"""The finite element reference against theory: errors of a manufactured solution against the cell size with the slopes they should have;
-what is left of bending and torsion as Poisson's ratio goes to 1/2; every benchmark's difference from its reference on the finest mesh."""
+"""The finite element reference against theory: errors of a manufactured solution against the cell size, with the theoretical slopes; the
+stiffness in bending and torsion that remains as Poisson's ratio approaches 1/2; and the difference of every benchmark from its reference on
+the finest mesh."""
 import re
 
 import entries
@@ -11,7 +12,7 @@ looks = {"P1": (style.vermillion, "v"), "P2": (style.blue, "o"), "P2 mean dilata
          "P2 Taylor-Hood": (style.green, "D")}
 norms = {"error in L2 over that of the solution": ("$L^2$", "-", 1),
          "error in the H1 seminorm over that of the solution": ("$H^1$", (0, (4, 1.5)), 0)}
-# What is shown of each problem, and how it is called.
+# The problems shown, and their names in the figure.
 benchmarks = {
     ("cantilever", "tip deflection"): "cantilever, tip",
     ("gravity_cantilever", "deflection of the end's middle"): "cantilever under its own weight",
@@ -32,14 +33,15 @@ def poisson(row):
 
 
 def theory(ladder, order):
-    """What the rows would tell if the error fell by this order to that of the finest mesh."""
+    """The rows with the errors that this order predicts, based on the error of the finest mesh."""
     finest_mesh = ladder[-1]
     return [{**row, "quantity": f"theory, h^{order}: {row['quantity']}",
              "value": float(finest_mesh["value"]) * (float(row["h_m"]) / float(finest_mesh["h_m"])) ** order} for row in ladder]
 
 
 def draw_convergence(axes, rows):
-    """One line a norm and element order; from its finest mesh the slope of theory, dotted, to the coarsest. Returns the dotted rows."""
+    """One line per norm and element order; the theoretical slope is dotted from its finest to its coarsest mesh. Returns the dotted
+    rows."""
     dotted = []
     for elements in ("P1", "P2"):
         color, marker = looks[elements]
@@ -62,13 +64,13 @@ def draw_convergence(axes, rows):
 
 
 def shown_of(row):
-    """What the locking's panel shows of a row, and the CSV besides."""
-    distance = 1.0 - 2.0 * float(poisson(row)) if row["elements"] in looks else 0.0  # kept volumes have none
+    """The members of a row that the locking panel and the CSV show."""
+    distance = 1.0 - 2.0 * float(poisson(row)) if row["elements"] in looks else 0.0  # rows without a volume change have no distance
     return {"one_less_two_nu": distance, "value_over_reference": float(row["value"]) / float(row["reference"])}
 
 
 def draw_locking(axes, rows):
-    """Value over reference against the distance to incompressibility."""
+    """The value relative to the reference, against the distance to incompressibility."""
     for quantity, line in (("tip deflection", "-"), ("torque", (0, (4, 1.5)))):
         for elements, (color, marker) in looks.items():
             ladder = [row for row in rows if row["elements"] == elements and row["quantity"] == quantity]
@@ -76,7 +78,7 @@ def draw_locking(axes, rows):
                 distance, ratio = zip(*(shown_of(row).values() for row in ladder))
                 axes.plot(distance, ratio, color=color, linestyle=line, marker=marker, label=elements if line == "-" else None)
     kept = [row for row in rows if row["elements"] == "PBS, volumes kept" and row["quantity"] == "tip deflection"]
-    if kept:  # at nu = 1/2, beyond a logarithmic axis: a line
+    if kept:  # nu = 1/2 lies beyond a logarithmic axis, so it is a line
         axes.axhline(shown_of(kept[-1])["value_over_reference"], color=style.purple, linestyle=(0, (1, 1)),
                      label="PBS constraints, every volume kept")
     axes.axhline(1.0, color=style.black, linewidth=0.6)
@@ -90,7 +92,7 @@ def draw_locking(axes, rows):
 
 
 def finest(rows):
-    """Of each benchmark, material and element the row with the most degrees of freedom."""
+    """For each benchmark, material and element, the row with the most degrees of freedom."""
     chosen = {}
     for row in rows:
         key = (row["problem"], row["quantity"], row["material"], row["elements"])
@@ -120,11 +122,12 @@ def draw_benchmarks(axes, rows):
     axes.set_ylim(len(places) - 0.5, -0.5)
     axes.set_xlabel("difference from the reference on the finest mesh [%]")
     axes.set_title("benchmarks; grey: grade A of MacNeal and Harder (1985)")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.155), ncol=3)  # inside, its marks would pass for measured points
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.155), ncol=3)  # inside the panel, its marks would look like measured points
 
 
 def facts(rows):
-    """What quadratic and linear elements keep of a beam's bending as it becomes incompressible, and their farthest benchmark [%]."""
+    """How much of a beam's bending quadratic and linear elements keep as it becomes incompressible, and their largest benchmark difference
+    [%]."""
     def of(order, rows):
         return [row for row in rows if row["elements"].startswith(f"P{order}")]
 

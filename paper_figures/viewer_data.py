@@ -1,11 +1,11 @@
-"""Recorded frames of DIR/frames packed into one block of bytes and a header that says what lies where, for the interactive viewer.
+"""Packs the recorded frames of DIR/frames into one block of bytes, with a header that describes its contents, for the interactive viewer.
 
-Positions are rounded to a grid of 65536 steps over the longest edge of the run's bounding box: low_m + step_m * code, each coordinate
-within step_m / 2 of the record. A frame is stored as the difference of its codes to the frame before (modulo 65536), first the low bytes
-of all frames, then the high ones, which packs well.
-The rendered surface is not stored frame by frame: each of its points is the sum of the corners of the tet that carries it, by their shares
-(float32), and so within step_m / 2 times the sum of the shares' sizes.
-Volume ratios take one byte: 0 is an inverted tet (ratio <= 0), a code c > 0 stands for (c - 1) / 127, and 255 for all above 2.
+Positions are rounded to a grid of 65536 steps over the longest edge of the run's bounding box: low_m + step_m * code, so that each
+coordinate is within step_m / 2 of the record. A frame is stored as the difference of its codes to those of the previous frame (modulo
+65536), first the low bytes of all frames, then the high ones, which compresses well.
+The rendered surface is not stored frame by frame: each of its points is the weighted sum of the corners of the tet that carries it (float32
+weights), and so within step_m / 2 times the sum of the absolute weights.
+Volume ratios take one byte: 0 is an inverted tet (ratio <= 0), a code c > 0 represents (c - 1) / 127, and 255 all ratios above 2.
 """
 import gzip
 import hashlib
@@ -46,7 +46,7 @@ def read_frame(file):
 
 
 def grid_over(positions):
-    """Lowest corner [m] and step [m] of the grid that positions are rounded to."""
+    """Lowest corner [m] and step [m] of the grid to which positions are rounded."""
     points = positions.reshape(-1, 3)
     low = points.min(axis=0)
     return low, (points.max(axis=0) - low).max() / position_steps
@@ -57,7 +57,8 @@ def codes_of(positions, low, step):
 
 
 def differences(codes):
-    """Of each frame to the one before, modulo 65536, the first as it is: their low bytes, then their high bytes."""
+    """The difference of each frame to the previous one, modulo 65536, with the first frame as it is: their low bytes, then their high
+    bytes."""
     result = codes.copy()
     result[1:] -= codes[:-1]
     return numpy.stack([result & 255, result >> 8]).astype("u1")
@@ -69,7 +70,7 @@ def ratio_codes(ratios):
 
 
 class Block:
-    """Arrays one behind the other, each at a multiple of four bytes, and once: runs of one body share it."""
+    """Arrays in sequence, each at a multiple of four bytes. Equal arrays are stored once, since runs of one body share them."""
 
     def __init__(self):
         self.bytes = bytearray()
@@ -86,7 +87,7 @@ class Block:
 
 
 def rows_of(recorded):
-    """label -> its rows of metrics.csv, of the deformers that the scene ran, in the order of the panels."""
+    """For each label its rows of metrics.csv, for the deformers of the scene in the order of the panels."""
     labels = [label for label in deformers if label in recorded.deformers]
     if not labels:
         raise records.RecordsMissing(f"{recorded.folder / 'run.json'}: none of the deformers {', '.join(deformers)}")
@@ -94,17 +95,18 @@ def rows_of(recorded):
 
 
 def figures_of(rows):
-    """column -> a number per frame; null where the record has none."""
+    """One number per frame for each column; null if the record has none."""
     return {column: [float(row[column]) if row.get(column) else None for row in rows] for column in figures}
 
 
 def not_reached(rows):
-    """Places of the frames whose pose the deformer did not reach."""
+    """The indices of the frames whose pose the deformer did not reach."""
     return [at for at, row in enumerate(rows) if not pose_reached.of(row)]
 
 
 def title_of(recorded, label):
-    """Of PBS with a stiffness other than plain PBS has in the same scene, that and its jiggling zone's, as recorded."""
+    """The title of a PBS panel whose stiffness differs from that of plain PBS in the same scene: that stiffness and the one of its jiggling
+    zone, as recorded."""
     options = {run["label"]: run.get("options", {}) for run in recorded.run.record["scene"]["runs"]}
     own, plain = options[label], options.get("pbs", {})
     if "k_stretch" not in own or own["k_stretch"] == plain.get("k_stretch"):
@@ -114,7 +116,7 @@ def title_of(recorded, label):
 
 
 def pack_bones(recorded, frames, block):
-    """Names, and where the posed ends lie: float32, frame by frame, head and tail [m] of every bone."""
+    """Names, and the place of the posed ends: float32, frame by frame, head and tail [m] of every bone."""
     rows = records.table(recorded.folder / "bones.csv", {"frame", "bone", *recorded_frames.bone_ends})
     of_frame = {}
     for row in rows:
@@ -128,7 +130,7 @@ def pack_bones(recorded, frames, block):
 
 
 def pack_surface(recorded, block):
-    """The rendered surface: its triangles, and what carries each of its points. None for a body without one."""
+    """The rendered surface: its triangles, and the tet and weights of each of its points. None for a body without one."""
     file = recorded.skin_at_rest()
     if not file:
         return None
@@ -141,7 +143,7 @@ def pack_surface(recorded, block):
 
 
 def facts_of(recorded, every):
-    """What the run's tables say, without its frames."""
+    """The facts from the run's tables, without its frames."""
     rows = {label: kept[::every] for label, kept in rows_of(recorded).items()}
     first = next(iter(rows.values()))
     shown = [{"label": label, "title": title_of(recorded, label), "figures": figures_of(rows[label]),
@@ -152,7 +154,7 @@ def facts_of(recorded, every):
 
 
 def pack_run(recorded, every, block):
-    """The header of one run; its arrays go into the block."""
+    """The header of one run; its arrays are added to the block."""
     facts = facts_of(recorded, every)
     labels = [deformer["label"] for deformer in facts["deformers"]]
     read = {label: [read_frame(recorded.tets(label, frame)) for frame in facts["frames"]] for label in labels}
@@ -169,7 +171,8 @@ def pack_run(recorded, every, block):
 
 
 def check(results, names):
-    """Planned, written by its own run and not changed since, as it is asked of a figure's records; one revision for all."""
+    """Checks that the runs are planned, written by their own run and not changed since, like the records of a figure, and that all have one
+    revision."""
     files = [f"frames/{run}/{file}" for run in names for file in ("metrics.csv", "bones.csv", "frames/*.vtu")]
     entries.Entry("viewer", "", "", [], files, "", "R").check(results)
 
@@ -183,7 +186,7 @@ def recorded_runs(results):
 
 
 def pack(results, every=1):
-    """The header and the compressed block of all runs on record, every so many frames."""
+    """The header and the compressed block of all runs on record, with every n-th frame."""
     block = Block()
     runs = [pack_run(recorded, every, block) for recorded in recorded_runs(results)]
     return {"schema": 1, "every": every, "ratio_steps": ratio_steps, "runs": runs}, gzip.compress(bytes(block.bytes), 9, mtime=0)

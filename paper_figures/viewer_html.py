@@ -1,4 +1,4 @@
-"""The interactive viewer as a piece of HTML for the report: its header, the frames and the program, all inline, no network.
+"""The interactive viewer as a piece of HTML for the report: its header, the frames and the program, all inline, without network access.
 
     fragment = viewer_html.fragment(results)               # <div id="frame-viewer">, the data and the bundle
     links = viewer_html.claim_links(results)              # claim -> "#run=...", which opens the claim's pose in the viewer
@@ -17,7 +17,7 @@ import rendering
 import viewer_data
 import viewer_poses
 
-most_bytes = 15_000_000  # of the viewer in a report that stays below 25 MB
+most_bytes = 15_000_000  # limit for the viewer, so that the report stays below 25 MB
 folder = pathlib.Path(__file__).resolve().parent / "viewer"
 how_to_build = "npm ci && npm run build, in paper_figures/viewer"
 page = """<!DOCTYPE html>
@@ -37,7 +37,7 @@ def shades_of(colormap):
 
 
 def colours():
-    """The same as in the stills."""
+    """The same colours as in the stills."""
     scale = rendering.ratio_scale
     return {"ratio": {"low": scale.vmin, "high": scale.vmax, "shades": shades_of(rendering.ratio_colors)},
             "error": {"shades": shades_of(colormaps["viridis_r"])}, "skin": colors.to_hex(rendering.skin_color),
@@ -45,13 +45,13 @@ def colours():
 
 
 def statements(results):
-    """claim -> what the paper says, where the claims are on record."""
+    """For each claim its statement in the paper, if the claims are on record."""
     file = results / "claims.json"
     return {claim["id"]: claim["statement"] for claim in records.read_json(file)["claims"]} if file.is_file() else {}
 
 
 def pack(results):
-    """Every frame, or every second, third, ... one where that is too much for a page. Header and base64 text."""
+    """Packs every frame, or every second, third, ... one if all are too many for a page. Returns the header and base64 text."""
     for every in range(1, 100):
         header, block = viewer_data.pack(results, every)
         text = base64.b64encode(block).decode()
@@ -61,7 +61,7 @@ def pack(results):
 
 
 def fragment(results):
-    """The viewer's HTML. RecordsMissing where frames are missing, or the program is not built: how to get it."""
+    """The HTML of the viewer. RecordsMissing if frames are missing or the program is not built; the message states how to get it."""
     if not bundle_file().is_file():
         raise records.RecordsMissing(f"{bundle_file().name} is not built: {how_to_build}")
     header, block = pack(results)
@@ -75,7 +75,7 @@ def fragment(results):
 
 
 def claim_links(results):
-    """claim -> link that opens its pose."""
+    """For each claim, the link that opens its pose."""
     runs = [viewer_data.facts_of(recorded, 1) for recorded in viewer_data.recorded_runs(results)]
     return {pose["claim"]: viewer_poses.link_of(pose) for pose in viewer_poses.poses_of(runs)}
 

@@ -1,8 +1,8 @@
-"""Which recorded frame shows a claim best: the one where a recorded number of a deformer is at its extreme. The viewer opens it by link,
-`#run=limb_twist&frame=18&colour=ratio&claim=C01`."""
+"""The recorded frame that shows a claim best: the one in which a recorded number of a deformer is at its extreme. The viewer opens it by a
+link, `#run=limb_twist&frame=18&colour=ratio&claim=C01`."""
 import math
 
-# claim, run, deformer and its column, which extreme, colouring, panels, what the frame is
+# claim, run, deformer and its column, which extreme, colouring, panels, description of the frame
 poses = (
     ("C01", "limb_twist", "lbs", "volume_change_pct", min, "ratio", "", "LBS loses most volume"),
     ("C02", "human_jump", "pbs", "volume_change_pct", "far", "ratio", "", "PBS is farthest from the volume at rest"),
@@ -17,7 +17,7 @@ poses = (
 
 
 def position_of(values, extreme):
-    """Where the extreme of the recorded values is; None without values."""
+    """The index of the extreme among the recorded values; None without values."""
     known = [(abs(value) if extreme == "far" else value, at) for at, value in enumerate(values) if value is not None]
     known = [(value, at) for value, at in known if math.isfinite(value)]
     if not known:
@@ -26,7 +26,7 @@ def position_of(values, extreme):
 
 
 def poses_of(runs):
-    """The poses whose run and deformer are packed, in the viewer's own terms."""
+    """The poses whose run and deformer are packed, in the format of the viewer."""
     named = {run["name"]: run for run in runs}
     found = []
     for claim, run, label, column, extreme, colour, panels, what in poses:

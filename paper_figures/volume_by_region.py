@@ -1,5 +1,5 @@
-"""Where the human's volume goes over the clip: the change of each bone's and each joint's share, in per cent of the whole body, mean over
-frames. LBS loses at shoulders, spine and hips; what PBS still loses lies along the spine."""
+"""The distribution of the human's volume change over the clip: the change of each bone's and each joint's region, in per cent of the whole
+body, mean over frames. LBS loses volume at shoulders, spine and hips; what PBS still loses lies along the spine."""
 import entries
 import records
 import style
@@ -11,14 +11,14 @@ most_regions = 10
 
 
 def largest(rows):
-    """The regions that LBS changes most, the greatest loss first."""
+    """The regions that LBS changes most, the largest loss first."""
     of_lbs = [row for row in rows if row["deformer"] == "lbs"]
     of_lbs.sort(key=lambda row: -abs(float(row["change_pct"])))
     return [row["region"] for row in of_lbs[:most_regions]]
 
 
 def in_words(region):
-    """A bone, or the two of a joint; their side once."""
+    """The name of a bone, or of the two bones of a joint with their side only once."""
     first, *second = map(style.bone_in_words, region.split(" - "))
     return "\u2013".join([first, *(bone.removeprefix(side_of(first)) for bone in second)])
 

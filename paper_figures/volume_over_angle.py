@@ -1,5 +1,5 @@
-"""How much volume each deformer changes as the limb is twisted and bent: signed (the paper's measure) and absolute (gains do
-not hide losses)."""
+"""The volume change of each deformer as the limb is twisted and bent: signed (the paper's measure) and absolute (in which gains do not hide
+losses)."""
 import entries
 import records
 import style

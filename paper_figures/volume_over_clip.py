@@ -1,4 +1,4 @@
-"""How much volume each deformer changes over the clip on the human, beside neo-Hookean finite elements."""
+"""The volume change of each deformer over the clip on the human, compared with neo-Hookean finite elements."""
 import entries
 import records
 import style

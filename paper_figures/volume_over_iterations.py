@@ -1,5 +1,5 @@
-"""PBS volume change against the number of iterations: the median over the clip's frames and the band that holds 8 frames in 10 for the
-human, single poses for the limb."""
+"""Volume change of PBS against the number of iterations: for the human the median over the clip's frames and the band that contains 8
+frames in 10, for the limb single poses."""
 import entries
 import records
 import style
@@ -11,7 +11,7 @@ measures = [("volume_change_pct", "signed volume change [%]"), ("volume_abs_chan
 
 
 def draw_human(axes, run, measure, color):
-    """The recorded order statistics over the frames; returns what was drawn."""
+    """Draws the recorded order statistics over the frames, and returns what was drawn."""
     rows = [run.statistics("pbs", iterations) for iterations in run.pbs_iterations()]
     quantity = measure.removesuffix("_pct")
     low, median, high = (records.numbers(rows, f"{quantity}_{share}_pct") for share in ("p10", "median", "p90"))
@@ -33,7 +33,7 @@ def draw_pose(axes, run, angle_deg, label, measure, look):
 
 
 def facts(rows):
-    """What 24 iterations and the most leave of the human's median and of the limb's bend by 90 degrees [%]."""
+    """The change that remains after 24 and after the most iterations: the human's median, and the limb bent by 90 degrees [%]."""
     def left(measure, scene, pose):
         found = {int(row["iterations"]): float(row["median"]) for row in rows
                  if (row["measure"], row["scene"], row["pose"]) == (measure, scene, pose)}

@@ -1,4 +1,5 @@
-"""Whole files or none: a figure is drawn beside its place and renamed into it, so that a killed or failed drawing leaves no half of one.
+"""Writes whole files or none: a figure is drawn into a temporary file in the same folder and renamed, so that a killed or failed drawing
+leaves no incomplete file.
 
     with whole_file.beside(figures / "volume.pdf") as path:
         figure.savefig(path)
@@ -9,7 +10,7 @@ import pathlib
 
 
 class CannotBeWritten(Exception):
-    """What a full disk or a read-only folder ends in: the file and the system's reason."""
+    """The error for a full disk or a read-only folder, with the file and the system's reason."""
 
 
 def is_running(process):
@@ -23,7 +24,7 @@ def is_running(process):
 
 
 def remove_halves(path):
-    """What drawings of this file that were killed left: .NAME.PROCESS.ENDING."""
+    """Removes what killed drawings of this file left behind: .NAME.PROCESS.ENDING."""
     for half in path.parent.glob(f".{path.stem}.*{path.suffix}"):
         process = half.name[len(path.stem) + 2 : -len(path.suffix)]
         if process.isdigit() and not is_running(int(process)):
@@ -31,13 +32,14 @@ def remove_halves(path):
 
 
 def is_of(error, drawn, path):
-    """Of the file that is written; the system names none where a write fails, and another where the block could not read that."""
+    """Whether an error concerns the file being written. The system names no file if a write fails, and another one if the block could not
+    read that."""
     return error.filename is None or pathlib.Path(os.fsdecode(error.filename)) in (drawn, path, *path.parents)
 
 
 @contextlib.contextmanager
 def beside(path):
-    """A path with the same ending in the same folder; renamed to `path` where the block ends well, else removed."""
+    """A path with the same ending in the same folder; it is renamed to `path` if the block succeeds, otherwise removed."""
     drawn = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -1,5 +1,5 @@
-"""Error against run time, a panel a pose: every setting of every deformer, the front of each and the front of them all, and the bound of
-the reference's own error, below which nothing can be told apart; dotted: how far the solution beside the reference is from it."""
+"""Error against run time, one panel per pose: every setting of every deformer, the front of each and the overall front, and the bound on
+the reference's own error, below which differences have no meaning. Dotted: the distance between the reference and the second solution."""
 import entries
 import records
 import style
@@ -48,7 +48,7 @@ def draw_bounds(axes, bound, beside):
 
 
 def draw_case(axes, rows, fronts):
-    """Returns the rows behind it: points, fronts, the bound of the reference's own error and how far the second solution is."""
+    """Returns the rows behind it: points, fronts, the bound on the reference's own error, and the distance of the second solution."""
     case = f"{rows[0]['body']}, {rows[0]['pose']}"
     fronts = [row for row in fronts if row["case"] == case]
     bound = rows[0]["reference_error_joint_pct"]
@@ -66,7 +66,7 @@ def draw_case(axes, rows, fronts):
 
 
 def place(rows):
-    """The limb first, then the poses that the quick study has too, then the rest."""
+    """The limb first, then the poses that the quick study also has, then the rest."""
     body, pose = rows[0]["body"], rows[0]["pose"]
     return not body.startswith("limb"), (body, pose) not in (("human", "crouch"), ("human", "in the air"))
 

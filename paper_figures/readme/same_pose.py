@@ -1,10 +1,10 @@
-"""README's picture: the limb twisted and bent under LBS, DQS, PBS and the finite element reference, drawn from two runs.
+"""Draws the picture of the README: the limb twisted and bent under LBS, DQS, PBS and the finite element reference, from two runs.
 
     pbskin run limb_twist -o TWIST --set 'deformers.use=["lbs","dqs","pbs","snh_p2"]' --set output.frames_every=6
     pbskin run limb_bend -o BEND --set 'deformers.use=["lbs","dqs","pbs","snh_p1"]' --set output.frames_every=4
     xvfb-run -a python3 paper_figures/readme/same_pose.py TWIST BEND     # writes same_pose.png and same_pose.csv, the numbers in it
 
-The kept records have no frames, and of these deformers only LBS and PBS. The runs' rows of those two must agree with the records.
+The kept records have no frames, and of these deformers they hold only LBS and PBS. The runs' rows of those two must agree with the records.
 """
 import csv
 import math
@@ -32,10 +32,10 @@ width_px = 1500
 class Pose:
     scene: str
     angle_deg: float
-    reference: str  # the deformer that stands for the reference
+    reference: str  # the deformer that serves as the reference
     title: str
     camera: rendering.Camera
-    height: float  # of a panel, over its width
+    height: float  # height of a panel, relative to its width
 
 
 poses = (Pose("limb_twist", 150.0, "snh_p2", "twisted by 150\u00b0", rendering.Camera((0, 0, 0), 0.19, (0.0, 0.35, 1.0)), 0.5),
@@ -43,7 +43,7 @@ poses = (Pose("limb_twist", 150.0, "snh_p2", "twisted by 150\u00b0", rendering.C
 
 
 def row_of(folder, pose, deformer):
-    """The row of this pose in the run's or record's metrics.csv."""
+    """The row of this pose in the metrics.csv of a run or a kept record."""
     rows = [row for row in records.table(folder / "metrics.csv", {"deformer", "variant", "iterations", "angle_deg", *compared})
             if row["deformer"] == deformer and row["variant"] == "default" and row["iterations"] in ("", "24")]
     if not rows:
@@ -52,7 +52,7 @@ def row_of(folder, pose, deformer):
 
 
 def checked_row(folder, pose, deformer):
-    """The run's row, once it agrees with the kept record to the six digits that are kept."""
+    """The row of the run, after a check that it agrees with the kept record to the six digits that are kept."""
     run = row_of(folder, pose, deformer)
     record = row_of(kept / pose.scene, pose, deformer) if deformer in on_record else run
     for column in compared:

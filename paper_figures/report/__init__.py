@@ -1,4 +1,4 @@
-"""The report: what is on record and the figures drawn from it, as one HTML file that opens from disk and loads nothing.
+"""The report: the records and the figures drawn from them, as one HTML file that opens from disk and loads nothing.
 
     import report
     status = report.main(results)  # writes results/report.html
@@ -13,7 +13,7 @@ most_mb = 25
 
 
 def main(results, quiet=False):
-    """The exit status: 2 where there are no records, or damaged ones, or the page cannot be written; 1 where it is too large."""
+    """Returns the exit status: 2 if there are no records, damaged ones, or the page cannot be written; 1 if the page is too large."""
     try:
         text, missing = page.page(record_set.RecordSet(results))
     except records.RecordsMissing as error:

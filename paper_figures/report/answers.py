@@ -1,5 +1,5 @@
-"""The first screen: do the claims hold, when not, how far from the finite elements, at what cost. Every sentence is put together from
-claims.json, work_precision/*/points.csv, timing/timing.csv and the studies' costs."""
+"""The first screen: which claims hold, where the others fail, the distance from the finite elements, and the cost. Every sentence is
+composed from claims.json, work_precision/*/points.csv, timing/timing.csv and the studies' costs."""
 import record_shapes
 import sentences
 from report import costs, verdicts
@@ -21,7 +21,7 @@ def do_they_hold(found):
 
 
 def entry(claim, words):
-    """Mark, claim, statement; then the verdict by its name, and for whom or what was measured for comparison."""
+    """Mark, claim and statement; then the name of the verdict, and the subjects or the values measured for comparison."""
     symbol, colour, name = mark_of(claim["verdict"])
     link = element("a", claim["id"], href=f"#{claim['id']}")
     sign = Markup(f'<span class="{colour}" aria-hidden="true">{symbol}</span>')
@@ -31,7 +31,7 @@ def entry(claim, words):
 
 
 def when_not(found):
-    """Every claim that does not hold throughout, with where it does; for those that hold, what was measured for comparison."""
+    """Every claim that does not hold throughout, with where it holds; for the others, the values measured for comparison."""
     failed = [claim for kind in failing for claim in found.claims or [] if claim["verdict"] == kind]
     compared = [claim for claim in found.claims or [] if claim["verdict"] == "reproduced" and sentences.controls(claim)]
     entries = [entry(claim, f": {sentences.outcome(claim, in_short=True)}.") for claim in failed]
@@ -42,7 +42,7 @@ def when_not(found):
 
 
 def with_symbols_named(text):
-    """For who has not read the paper."""
+    """The text with its symbols explained for readers who do not know the paper."""
     return text.replace("k_stretch", "k_stretch (how stiff edges are, 0 to 1)")
 
 
@@ -63,7 +63,7 @@ class Pose:
 
 
 def poses(found):
-    """The whole ones, the limb's first; and the names of the others, with those that were planned and have no table."""
+    """The complete poses, those of the limb first; and the names of the others, including planned ones without a table."""
     all_poses, without_table = [], planned_without_table(found)
     for file in found.files("work_precision/*/points.csv"):
         name = file.parent.relative_to(found.results).as_posix()
@@ -83,7 +83,7 @@ def planned_without_table(found):
 
 
 def left_out_sentence(names):
-    """Poses without all three on record, planned ones among them."""
+    """Names the poses that lack one of the three, including planned ones."""
     told = f"Without an error of PBS, LBS or the reference on record, and so left out: {'; '.join(names)}."
     return element("p", told, class_="missing") if names else ""
 
@@ -120,7 +120,7 @@ def pose_table(shown):
 
 
 def bar_sentence(shown):
-    """The reference is itself a computation."""
+    """States the error of the reference, which is itself a computation."""
     below = sum(pose.pbs["below_reference_error"] == "1" for pose in shown)
     if not below:
         return "Each of these distances is above the bound of the reference's own error."

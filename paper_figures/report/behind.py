@@ -1,4 +1,4 @@
-"""What a verdict rests on: the values of every run with their intervals, and where its records lie."""
+"""The data behind a verdict: the values of every run with their intervals, and the folder of its records."""
 import case_words
 import sentences
 from number_words import counted, figure, span_of_thousandths
@@ -7,7 +7,7 @@ from report.verdict_names import name_of
 from sentences import with_interval, with_unit
 
 holds = {"whole": "\u2714 yes", "part": "\u25d0 in part", "none": "\u2718 no"}
-most_rows = 400  # of one table; claims.json has the rest
+most_rows = 400  # rows per table; claims.json has the rest
 
 
 def worst(case):
@@ -50,7 +50,7 @@ def value_table(claim, name, values, found):
 
 
 def printed_table(claim):
-    """The paper's own values against what its others require."""
+    """The paper's own values compared with what its other values require."""
     rows = [[sentences.title(claim, value["quantity"]), case_words.of(value), figure(value["value"]),
              sentences.bound(value["bound_low"], value["bound_high"])] for value in claim["cases"] if "bound_low" in value]
     return table(f"{claim['id']}: values in print", ["quantity", "of", "printed", "the others require"], rows, "tall") if rows else ""
@@ -64,7 +64,7 @@ def orders_table(claim):
 
 
 def of(claim, found):
-    """To be opened: the verdict in full, the runs, the values."""
+    """A part that the reader opens: the verdict in full, the runs, the values."""
     parts = [items(sentences.verdict_in_full(claim), "verdict-text"),
              run_table(claim, f"{claim['id']}: runs", claim["cases"], found),
              run_table(claim, f"{claim['id']}: for comparison, no part of the verdict", claim["controls"], found),

@@ -1,4 +1,4 @@
-"""How to cite: the suite, as CITATION.cff has it, and the paper it examines."""
+"""How to cite the suite, from CITATION.cff, and the paper that it examines."""
 import pathlib
 import re
 

@@ -1,4 +1,4 @@
-"""What the studies cost: processor time expected beforehand and taken, and wall time, from each study's costs.csv."""
+"""The cost of the studies: expected and measured processor time, and wall time, from each study's costs.csv."""
 from number_words import counted, figure
 from report.markup import details, element, joined, table
 from report.record_set import number
@@ -15,12 +15,12 @@ def total(rows, column):
 
 
 def size(found, study):
-    """Quick or full, as its plan has it; older plans say nothing."""
+    """Quick or full, from the study's plan; plans of earlier versions do not state it."""
     return found.plans.get(study, {}).get("extent", "\u2013")
 
 
 def totals(rows):
-    """How many, and sums; wall time only where each of them has it."""
+    """The number of rows and their sums; wall time only if each of them has it."""
     wall = figure(total(rows, "wall_s")) if all(row.get("wall_s") for row in rows) else "\u2013"
     return [len(rows), figure(total(rows, "expected_cpu_s")), figure(total(rows, "cpu_s")), wall]
 

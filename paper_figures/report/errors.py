@@ -1,4 +1,4 @@
-"""How far the deformers are from nonlinear finite elements over whole sweeps and clips, from frame_statistics.csv."""
+"""The distance of the deformers from nonlinear finite elements over whole sweeps and clips, from frame_statistics.csv."""
 import record_shapes
 import records
 from number_words import figure, span_of_thousandths
@@ -9,7 +9,7 @@ shown = (("lbs", "LBS"), ("dqs", "DQS"), ("pbs", "PBS, 24 iterations"), ("snh_p1
 
 
 def reference_of(run):
-    """Its name, model and element order, where it is a nonlinear one."""
+    """Name, model and element order of the reference, if it is a nonlinear one."""
     scene = run.get("scene", {})
     name = scene.get("reference", {}).get("name")
     fem = next((fem for fem in scene.get("fem", []) if fem["name"] == name), None)
@@ -34,7 +34,7 @@ def row_of(found, name, fem):
 
 
 def section(found):
-    """The table's HTML, and which runs are missing in it."""
+    """The HTML of the table, and the runs that are missing in it."""
     runs = [(name, reference_of(run)) for name, run in found.runs.items() if name.startswith("volume/")]
     rows, missing = [], []
     for name, fem in runs:

@@ -1,4 +1,4 @@
-"""Every figure that was drawn, inline as SVG; of the others, why not."""
+"""Every figure that was drawn, inline as SVG, and the reason why each of the others was not."""
 import base64
 import dataclasses
 import html
@@ -10,8 +10,8 @@ import records
 from report import record_set
 from report.markup import Markup, beside_the_page, details, element, escaped, joined
 
-slack_s = 60.0  # that copying a folder may put between the times of its files
-most_inline_kb = 400  # of a CSV that travels with the page
+slack_s = 60.0  # possible difference between the times of the files of a copied folder
+most_inline_kb = 400  # size of a CSV that the page contains
 pictures = {"png": "image/png", "webp": "image/webp"}
 
 
@@ -20,7 +20,7 @@ class NotDrawn(Exception):
 
 
 def inline_svg(text, name, label):
-    """The drawing alone: ids made the page's own, names of namespaces and metadata left out, since HTML needs neither."""
+    """The drawing alone, with ids that are unique in the page. Namespaces and metadata are removed, since HTML needs neither."""
     text = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg"):], flags=re.S)
     text = re.sub(r'\sxmlns(:\w+)?="[^"]*"', "", text)
     text = re.sub(r'\bid="([^"]+)"', rf'id="{name}-\1"', text)
@@ -34,7 +34,7 @@ def data_uri(file, kind):
 
 
 def drawn(found, entry):
-    """The figure's file, refused where its records are gone or have changed since."""
+    """The figure's file, which is refused if its records are gone or have changed since."""
     absent = next((study for study in entry.studies() if study not in found.studies), None)
     if absent:
         raise NotDrawn(record_set.why_absent(found, absent))
@@ -53,7 +53,7 @@ def drawn(found, entry):
 
 
 def as_drawn(found, entry):
-    """With the numbers of the figure that is shown in its caption."""
+    """The figure with its caption as it was when the figure was drawn."""
     try:
         return dataclasses.replace(entry, caption=captions.read(entry, found.results / "figures"))
     except records.RecordsMissing as error:
@@ -68,7 +68,7 @@ def picture(file, entry):
 
 
 def clip(found, entry):
-    """Below its still; page.js opens it unless the reader asks for less motion."""
+    """A clip below its still; page.js opens it unless the reader prefers reduced motion."""
     file = found.results / "figures" / f"{entry.name}.webp"
     if not file.is_file():
         return ""
@@ -91,7 +91,7 @@ def claims_links(entry, known):
 
 
 def numbered(entry, number):
-    """A title that carries the paper's own number keeps it alone."""
+    """The title with a number; a title that contains the paper's own number stays unchanged."""
     return entry.title if re.match(r"(Figure|Table) \d", entry.title) else f"Figure {number}: {entry.title}"
 
 
@@ -105,7 +105,7 @@ def drawn_figure(found, entry, number, file):
 
 
 def conclusions(found, entry, told):
-    """What the studies behind a figure conclude, each beside its first figure."""
+    """The conclusions of the studies behind a figure, each placed with the study's first figure."""
     parts = []
     for study in entry.studies():
         file = found.results / study / "conclusion.txt"
@@ -116,10 +116,10 @@ def conclusions(found, entry, told):
 
 
 def section(found):
-    """The figures' HTML, and what is missing."""
+    """The HTML of the figures, and a list of those that are missing."""
     parts, missing, told = [], [], set()
     number = 0
-    for entry in entries.read():  # the paper's come first: no number stands twice, whichever are missing
+    for entry in entries.read():  # the paper's figures come first; each keeps its number even if others are missing
         number += not entry.title.startswith("Table")
         try:
             file = drawn(found, entry)

@@ -1,4 +1,4 @@
-"""Pieces of HTML. What is not Markup is escaped.
+"""Pieces of HTML. Text that is not Markup is escaped.
 
     markup.table("Costs", ["study", "minutes"], [["volume", "1.5"]])
 """
@@ -8,7 +8,7 @@ import urllib.parse
 
 
 class Markup(str):
-    """HTML that is to stay as it is."""
+    """HTML that is not escaped again."""
 
 
 def escaped(value):
@@ -16,7 +16,7 @@ def escaped(value):
 
 
 def element(tag, content, **attributes):
-    """class_ and the like lose their underscore; others turn theirs into hyphens."""
+    """An element. class_ and the like lose their underscore; other underscores in names become hyphens."""
     written = "".join(f' {name.rstrip("_").replace("_", "-")}="{html.escape(str(value))}"' for name, value in attributes.items())
     return Markup(f"<{tag}{written}>{escaped(content)}</{tag}>")
 
@@ -26,14 +26,14 @@ def joined(parts, between=""):
 
 
 def inline(text):
-    """Markdown's code, emphasis and strong emphasis."""
+    """Renders Markdown's code, emphasis and strong emphasis."""
     text = re.sub(r"`([^`]*)`", r"<code>\1</code>", html.escape(text))
     text = re.sub(r"\*\*([^*]+)\*\*", r"<strong>\1</strong>", text)
     return Markup(re.sub(r"(?<!\w)\*([^*]+)\*(?!\w)", r"<em>\1</em>", text))
 
 
 def table(name, header, rows, class_=""):
-    """In a box of its own that scrolls where the table is wider than the page; the first cell of a row is its head."""
+    """A table in a box that scrolls if the table is wider than the page; the first cell of each row is its header."""
     head = joined(element("th", cell, scope="col") for cell in header)
     body = joined((row_of(row) for row in rows), "\n")
     whole = f"<table><caption>{escaped(name)}</caption><thead><tr>{head}</tr></thead><tbody>\n{body}\n</tbody></table>"
@@ -54,12 +54,12 @@ def items(entries, class_=""):
 
 
 def folder_link(results, name):
-    """To a folder below that of the page, where it is there."""
+    """A link to a folder next to the page, if that folder exists."""
     if not (results / name).exists():
         return escaped(name)
     return element("a", name, href=urllib.parse.quote(name) + "/")
 
 
 def beside_the_page(what):
-    """To be said of links that a page takes nowhere: it travels alone."""
+    """A note for links to files outside the page, which a copy of the page alone cannot open."""
     return f"{what} beside this page: where it was moved without them, their links lead nowhere"

@@ -1,4 +1,4 @@
-"""Where the records come from: revision, machine, libraries, inputs; what was left out; licences of what is shown."""
+"""The origin of the records: revision, machine, libraries, inputs, what was left out, and the licences of what is shown."""
 from number_words import counted
 from report.markup import details, element, escaped, items, joined, table
 
@@ -17,7 +17,7 @@ motion_capture = ("Clips: CMU Graphics Lab Motion Capture Database (mocap.cs.cmu
 
 
 def values_of(found, key):
-    """value -> how many runs have it."""
+    """For each value, the number of runs that have it."""
     values = {}
     for run in found.runs.values():
         origin = run.get("provenance", {})
@@ -61,7 +61,7 @@ def texts_in(value):
 
 
 def rights(found):
-    """Of the bodies and clips that the runs used."""
+    """The licences of the bodies and clips that the runs used."""
     used = {text for run in found.runs.values() for text in texts_in([run.get("scene", {}), run.get("work", {})])}
     bodies = [text for body, text in licences.items() if body in used or any(name.split("/")[-1].startswith(body) for name in found.runs)]
     clips = [motion_capture] if any(text.endswith(".bvh") for text in used) else []

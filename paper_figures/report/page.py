@@ -1,4 +1,4 @@
-"""The page put together: the answers, then what they rest on."""
+"""Composes the page: the answers first, then the data on which they rest."""
 import pathlib
 
 from report import answers, citation, costs, errors, figures, origin, reference, verdicts, viewer
@@ -37,9 +37,9 @@ title = "Position Based Skinning: do its claims hold?"
 
 
 def lead(found):
-    """What was examined, at which revision."""
+    """What was examined, and at which revision."""
     revisions = origin.values_of(found, "git_revision")
-    runs = sum(name.count("/") == 1 for name in found.runs)  # a run's own parts lie below it
+    runs = sum(name.count("/") == 1 for name in found.runs)  # the parts of a run are in folders below it
     text = (f"The paper of 2014 against {runs} recorded runs of pbskin {', '.join(origin.values_of(found, 'version'))}, "
             f"revision {', '.join(revision[:10] for revision in revisions)}.")
     return element("p", text, class_="lead")
@@ -51,7 +51,7 @@ def navigation(sections):
 
 
 def page(found):
-    """The page's text, and what is missing in it."""
+    """The text of the page, and what is missing in it."""
     shown, not_shown, poses = viewer.section(found)
     drawn, not_drawn = figures.section(found)
     distances, not_told = errors.section(found)

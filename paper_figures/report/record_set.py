@@ -1,4 +1,4 @@
-"""What a folder of records holds: the verdicts, where each run comes from, what it cost. Nothing is computed that is not on record.
+"""The contents of a folder of records: the verdicts, the origin of each run and its cost. Nothing is computed beyond the records.
 
     found = record_set.RecordSet(results)
     for claim in found.claims: ...
@@ -22,17 +22,17 @@ class RecordSet:
         self.claims = self._claims()
 
     def _claims(self):
-        """None where no claim was judged."""
+        """None if no claim was judged."""
         file = self.results / "claims.json"
         return sentences.claims_of(file) if file.is_file() else None
 
     def run(self, name, shape):
-        """The record of a run from which more is read than of all."""
+        """The record of a run of which further members are read."""
         record_shapes.check(self.results / name / "run.json", self.runs[name], shape)
         return self.runs[name]
 
     def rows(self, name):
-        """Of a CSV file, or none where it is not there."""
+        """The rows of a CSV file, or none if it does not exist."""
         file = self.results / name
         return records.read_rows(file) if file.is_file() else []
 
@@ -40,12 +40,12 @@ class RecordSet:
         return sorted(self.results.glob(pattern))
 
     def left_out(self):
-        """(study, scene, why): what could not be run on that machine."""
+        """(study, scene, reason) for each scene that could not run on that machine."""
         return [(study, left["scene"], left["reason"]) for study, plan in self.plans.items() for left in plan.get("left_out", [])]
 
 
 def not_run(found, study):
-    """Why something is not told."""
+    """The reason why a part of the page is missing."""
     return f"not on record: {why_absent(found, study)} (pbskin reproduce {study})"
 
 
@@ -56,5 +56,5 @@ def why_absent(found, study):
 
 
 def number(row, column):
-    """None where the cell is empty or its column not there, as in records of an earlier version."""
+    """None if the cell is empty or its column is missing, as in records of an earlier version."""
     return row.number(column) if column in row else None

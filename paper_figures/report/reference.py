@@ -1,4 +1,5 @@
-"""The finite element reference's own verification, if that study is on record: its values, their sources and the origins of bounds."""
+"""The verification of the finite element reference itself, if that study is on record: its values, their sources and the origins of
+bounds."""
 from number_words import counted, figure
 from report.markup import element, inline, joined, table
 from report.record_set import not_run, number
@@ -8,7 +9,7 @@ header = ["problem", "quantity", "elements", "material", "mesh", "degrees of fre
 
 
 def verdict(rows):
-    """How many of the values that have a bound keep it."""
+    """How many of the values with a bound lie within it."""
     bounded = [row["holds"] for row in rows if row["holds"]]
     return (f"{bounded.count('yes')} of {counted(len(bounded), 'value')} with a bound set beforehand keep it; "
             f"{len(rows) - len(bounded)} more have no bound and are reported only.")

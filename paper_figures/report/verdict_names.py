@@ -1,4 +1,4 @@
-"""What each verdict is called on the page, everywhere the same, with its symbol and the class of its colour."""
+"""The name of each verdict, the same on the whole page, with its symbol and the class of its colour."""
 import sentences
 
 marks = {

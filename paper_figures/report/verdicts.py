@@ -1,4 +1,4 @@
-"""The verdicts: counted, in short words, and as a table whose rows open to the runs behind them. Sentences come from sentences.py."""
+"""The verdicts: counts, short texts, and a table whose rows open to the runs behind them. sentences.py composes the sentences."""
 import sentences
 from report import behind
 from number_words import counted
@@ -19,7 +19,7 @@ def counts_sentence(claims):
 
 
 def chips(claims):
-    """A mark for each claim, linked to its row."""
+    """A mark for each claim, which links to its row."""
     def chip(claim):
         symbol, colour, name = mark_of(claim["verdict"])
         return Markup(f'<a class="chip {colour}" href="#{escaped(claim["id"])}" title="{escaped(claim["statement"])}">'
@@ -30,7 +30,7 @@ def chips(claims):
 
 
 def measured(claim):
-    """The claim's own values: every run, or the range of every quantity; in brackets their intervals."""
+    """The claim's own values: every run, or the range of every quantity, with intervals in brackets."""
     runs = sentences.own_runs(claim)
     if runs:
         sweeps, clips = ([sentences.run_text(claim, case) for case in runs if case["sweep"] == swept] for swept in (True, False))
@@ -50,12 +50,12 @@ def expected(claim):
 
 
 def named_cell(column, cell):
-    """The column's name is part of the cell, for where rows are stacked."""
+    """A cell that contains the name of its column, for narrow screens on which cells are stacked."""
     return element("td", joined([element("span", column, class_="column"), cell]))
 
 
 def row(claim, pose):
-    """pose: link to it in the viewer, or none."""
+    """pose: the link to it in the viewer, or None."""
     name = element("a", claim["id"], href=f"#{claim['id']}")
     statement = joined([claim["statement"], element("span", f" {claim['place']}", class_="place")]
                        + ([" ", element("a", "see it move", href=pose, class_="pose")] if pose else []))

@@ -1,4 +1,4 @@
-"""The interactive viewer's place in the page; where there is none, why."""
+"""The part of the page with the interactive viewer, or the reason why it is missing."""
 import importlib
 
 import records
@@ -6,7 +6,7 @@ from report.markup import Markup, element
 
 
 def fragment(found):
-    """(HTML or None, why not)."""
+    """(HTML or None, the reason for None)."""
     try:
         made = importlib.import_module("viewer_html").fragment(found.results)
     except (ImportError, records.RecordsMissing) as error:
@@ -15,12 +15,12 @@ def fragment(found):
 
 
 def pose_links(found):
-    """claim -> link that opens its pose in the viewer."""
+    """For each claim, the link that opens its pose in the viewer."""
     return getattr(importlib.import_module("viewer_html"), "claim_links", lambda results: {})(found.results)
 
 
 def section(found):
-    """HTML, what is missing, and links to the claims' poses."""
+    """The HTML, what is missing, and links to the claims' poses."""
     made, reason = fragment(found)
     if made is None:
         return element("p", f"The viewer is missing: {reason}.", class_="missing"), [f"viewer: {reason}"], {}
