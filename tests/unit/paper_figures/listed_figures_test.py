@@ -64,11 +64,15 @@ class Listing(unittest.TestCase):
 
 
 def quick_studies():
-    """Those that ./reproduce runs without --full, by the list of studies in the program's source."""
-    source = (root / "experiments" / "studies" / "studies.cpp").read_text()
-    not_quick = re.findall(r"constexpr Sets (\w+) = \{Extent::none", source)
-    entries_of = re.findall(r'^        \{"(\w+)",(.*?)\},\n(?=        \{"|    \};)', source, re.MULTILINE | re.DOTALL)
-    return {name for name, rest in entries_of if not any(re.search(rf"\b{sets}\b", rest) for sets in not_quick)}
+    """The studies that ./reproduce runs without --full, from the entry in each study.cpp and the sets in study.hpp."""
+    folder = root / "experiments" / "studies"
+    not_quick = set(re.findall(r"constexpr Sets (\w+) = \{Extent::none", (folder / "study.hpp").read_text()))
+    sources = [source.read_text() for source in folder.glob("*/study.cpp")]
+    entry = re.compile(r'^Study \w+_study\(\)\n\{\n\s+return \{"(\w+)",([^;]*)\};', re.MULTILINE)
+    found = [match for source in sources for match in entry.findall(source)]
+    if len(found) != len(sources):
+        raise AssertionError(f"{len(sources)} studies, but {len(found)} entries of the expected form")
+    return {name for name, rest in found if not not_quick & set(re.findall(r"\w+", rest))}
 
 
 class Marks(unittest.TestCase):
