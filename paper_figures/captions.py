@@ -45,5 +45,5 @@ def read(entry, figures):
     if file.is_file():
         return file.read_text().rstrip("\n")
     if asked(entry):
-        raise records.RecordsMissing(f"{file}: not there: draw the figure anew (paper_figures/make_all.py)")
+        raise records.RecordsMissing(f"{file}: does not exist: draw the figure anew (paper_figures/make_all.py)")
     return entry.caption

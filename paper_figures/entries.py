@@ -39,7 +39,7 @@ class Entry:
         found = {pattern: sorted(results.glob(pattern)) for pattern in self.records}
         for pattern, files in found.items():
             if not files:
-                raise records.RecordsMissing(f"{results / pattern}: not there")
+                raise records.RecordsMissing(f"{results / pattern}: does not exist")
         return [file for files in found.values() for file in files]
 
     def runs(self, results):

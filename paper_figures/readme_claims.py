@@ -22,7 +22,7 @@ def table_lines(results):
     """The lines of the table, the header first."""
     file = results / "claims.json"
     if not file.is_file():
-        raise records.RecordsMissing(f"{file}: not there: `pbskin reproduce --judge -o {results}` writes it")
+        raise records.RecordsMissing(f"{file}: does not exist: `pbskin reproduce --judge -o {results}` writes it")
     return [line(*columns), "|---" * len(columns) + "|", *map(row_of, sentences.claims_of(file))]
 
 

@@ -25,9 +25,9 @@ def cut(readme, name):
     begin, end = markers(name)
     for marker in (begin, end):
         if text.count(marker) != 1:
-            raise records.RecordsMissing(f"{readme}: {marker} stands there {text.count(marker)} times: expected once")
+            raise records.RecordsMissing(f"{readme}: {marker} occurs {text.count(marker)} times: expected once")
     if text.index(end) < text.index(begin):
-        raise records.RecordsMissing(f"{readme}: {end} stands before {begin}: expected after it")
+        raise records.RecordsMissing(f"{readme}: {end} precedes {begin}: expected after it")
     first, last = text.index(begin) + len(begin), text.index(end)
     return text[:first], text[first:last], text[last:]
 

@@ -15,7 +15,7 @@ def between(frames, frame, one, other):
     """The row's numbers: points, rms_mm, largest_mm."""
     file = frames.folder / "distances.csv"
     if not file.is_file():
-        raise records.RecordsMissing(f"{file}: not there: the run is of an earlier version and has to be made again")
+        raise records.RecordsMissing(f"{file}: does not exist: the run is of an earlier version and has to be made again")
     for row in records.table(file, {"frame", "deformer", "other", "points", "rms_mm", "largest_mm"}):
         if int(row["frame"]) == frame and {row["deformer"], row["other"]} == {one, other}:
             return {"points": int(row["points"]), "rms_mm": float(row["rms_mm"]), "largest_mm": float(row["largest_mm"])}

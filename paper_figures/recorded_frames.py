@@ -84,7 +84,7 @@ class Frames:
     def _file(self, name, below="frames"):
         file = self.folder / below / name
         if not file.is_file():
-            raise records.RecordsMissing(f"{file}: not there")
+            raise records.RecordsMissing(f"{file}: does not exist")
         return file
 
 

@@ -61,7 +61,7 @@ def frame_statistics(folder, deformer, variant="default"):
     """A deformer's rows of frame_statistics.csv: for each setting, the order statistics over the run's frames."""
     file = folder / "frame_statistics.csv"
     if not file.is_file():
-        raise RecordsMissing(f"{file}: not there: the run is of an earlier version and has to be made again")
+        raise RecordsMissing(f"{file}: does not exist: the run is of an earlier version and has to be made again")
     rows = table(file, {"deformer", "variant", "iterations", "frames"})
     return [row for row in rows if row["deformer"] == deformer and (row["variant"] or "default") == variant]
 
@@ -117,7 +117,7 @@ def read_json(file):
     try:
         record = json.loads(file.read_text())
     except OSError:
-        raise RecordsMissing(f"{file}: not there") from None
+        raise RecordsMissing(f"{file}: does not exist") from None
     except json.JSONDecodeError as error:
         raise RecordsMissing(f"{file}:{error.lineno}: not JSON: {error.msg}") from None
     except (ValueError, RecursionError) as error:
@@ -152,7 +152,7 @@ def read_rows(file):
             reader = csv.DictReader(stream)
             return [Row(cells, f"{file}:{reader.line_num}") for cells in reader]
     except OSError:
-        raise RecordsMissing(f"{file}: not there") from None
+        raise RecordsMissing(f"{file}: does not exist") from None
     except (UnicodeDecodeError, csv.Error) as error:
         raise RecordsMissing(f"{file}: not a table: {error}") from None
 

@@ -96,7 +96,7 @@ def bounds_of(file):
 
 def read(file):
     if not file.is_file():
-        raise records.RecordsMissing(f"{file}: not there")
+        raise records.RecordsMissing(f"{file}: does not exist")
     reader = vtkXMLPolyDataReader() if file.suffix == ".vtp" else vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(file))
     reader.Update()

@@ -86,7 +86,7 @@ def draw_locking(axes, rows):
     axes.invert_xaxis()
     axes.set_ylim(0.0, 1.65)
     axes.set_xlabel("1 \u2212 2 \u03bd, from compressible to incompressible")
-    axes.set_ylabel("figure over theory")
+    axes.set_ylabel("value over theory")
     axes.set_title("locking: bending (full lines), torsion (dashed)")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncol=2)
 

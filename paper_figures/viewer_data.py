@@ -31,7 +31,7 @@ ratio_steps, position_steps = 127, 65535
 def read_frame(file):
     """Positions [m], #V x 3, tets, #T x 4, volume ratios, #T, rest positions [m], #V x 3."""
     if not file.is_file():
-        raise records.RecordsMissing(f"{file}: not there")
+        raise records.RecordsMissing(f"{file}: does not exist")
     reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(file))
     reader.Update()

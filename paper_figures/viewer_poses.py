@@ -11,7 +11,7 @@ poses = (
     ("C04", "limb_twist", "lbs", "min_section_pct", min, "skin", "", "LBS has its thinnest section"),
     ("C05", "limb_bend", "dqs", "error_joint_pct", max, "error", "", "DQS errs most at the joint"),
     ("C09", "human_walk", "pbs_jiggle", "error_linf_m", max, "error", "lbs,pbs_no_zone,pbs_jiggle,snh_p1",
-     "jiggling flesh is farthest from FEM; the same stiffness without a jiggling zone beside it"),
+     "jiggling flesh is farthest from FEM; for comparison, the same stiffness without a jiggling zone"),
     ("C12", "human_jump", "pbs", "error_joint_pct", max, "error", "", "PBS with 24 iterations errs most at the joints"),
 )
 

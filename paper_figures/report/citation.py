@@ -25,7 +25,7 @@ def paper_sentence(text):
 
 def section(found):
     if not file.is_file():
-        return element("p", "CITATION.cff: not there", class_="missing")
+        return element("p", "CITATION.cff: does not exist", class_="missing")
     own, *references = re.split(r"^references:", file.read_text(), flags=re.M)
     revision = next(iter(found.runs.values())).get("provenance", {}).get("git_revision", "unknown")
     parts = [element("p", suite_sentence(own) + f" Revision of these records: {revision}.")]

@@ -49,7 +49,7 @@ def drawn(found, entry):
             if file.stat().st_mtime < newest_s - slack_s:
                 raise NotDrawn("stale: its records are newer; draw it anew (paper_figures/make_all.py)")
             return file
-    raise NotDrawn("not there yet: paper_figures/make_all.py draws it")
+    raise NotDrawn("does not exist yet: paper_figures/make_all.py draws it")
 
 
 def as_drawn(found, entry):
@@ -128,6 +128,6 @@ def section(found):
         except NotDrawn as reason:
             missing.append(f"figure {entry.name}: {reason}")
     intro = ("R: redrawn in minutes on any machine; CR: in hours; NR: not from this repository\u2019s records. "
-             "Values stand beside the pointer or the finger; with the keyboard: tab to a plot, then the arrow keys.")
+             "Values are shown next to the pointer or the finger; with the keyboard: tab to a plot, then the arrow keys.")
     listed = element("ul", joined(element("li", line) for line in missing), class_="not-drawn") if missing else ""
     return joined([element("p", intro), *parts, element("h3", "Not drawn") if missing else "", listed], "\n"), missing

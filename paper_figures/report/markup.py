@@ -62,4 +62,4 @@ def folder_link(results, name):
 
 def beside_the_page(what):
     """A note for links to files outside the page, which a copy of the page alone cannot open."""
-    return f"{what} beside this page: where it was moved without them, their links lead nowhere"
+    return f"{what} next to this page; where the page was moved without them, their links do not work"

@@ -21,7 +21,7 @@ def values_of(found, key):
     values = {}
     for run in found.runs.values():
         origin = run.get("provenance", {})
-        value = origin.get(key, "not told")
+        value = origin.get(key, "not recorded")
         if key == "git_revision" and origin.get("git_dirty"):
             value = f"{value} (with local changes)"
         values[value] = values.get(value, 0) + 1

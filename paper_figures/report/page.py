@@ -55,7 +55,8 @@ def page(found):
     shown, not_shown, poses = viewer.section(found)
     drawn, not_drawn = figures.section(found)
     distances, not_told = errors.section(found)
-    missing = not_shown + not_drawn + not_told + ([] if found.claims else ["verdicts: claims.json is not there (pbskin reproduce --judge)"])
+    no_verdicts = [] if found.claims else ["verdicts: claims.json does not exist (pbskin reproduce --judge)"]
+    missing = not_shown + not_drawn + not_told + no_verdicts
     missing += [f"{study}: {scene} left out: {reason}" for study, scene, reason in found.left_out()]
     sections = [("verdicts", "Verdicts", verdicts.section(found, poses)), ("viewer", "Viewer", shown),
                 ("errors", "Distance from the finite elements", distances), ("figures", "Figures", drawn),

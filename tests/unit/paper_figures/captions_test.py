@@ -159,7 +159,7 @@ class Captions(unittest.TestCase):
         self.assertEqual(captions.read(listed["volume_over_iterations"], file.parent), text.rstrip("\n"))
         make_all.delete("volume_over_iterations", file.parent)
         self.assertFalse(file.exists())
-        with self.assertRaisesRegex(records.RecordsMissing, "volume_over_iterations.caption.txt: not there"):
+        with self.assertRaisesRegex(records.RecordsMissing, "volume_over_iterations.caption.txt: does not exist"):
             captions.read(listed["volume_over_iterations"], file.parent)
 
     def test_a_number_that_no_script_tells_is_an_error(self):

@@ -49,7 +49,7 @@ class Figures(unittest.TestCase):
         (self.twist / "run.json").write_text("{")
         self.assert_missing("run.json:1: not JSON", lambda: records.Run(self.twist))
         (self.twist / "run.json").unlink()
-        self.assert_missing("run.json: not there", lambda: records.Run(self.twist))
+        self.assert_missing("run.json: does not exist", lambda: records.Run(self.twist))
 
     def test_curves_are_drawn_with_their_source_and_numbers(self):
         old = self.results / "figures" / "old.png"
@@ -114,7 +114,7 @@ class Figures(unittest.TestCase):
             with contextlib.redirect_stderr(io.StringIO()) as said:
                 with contextlib.redirect_stdout(io.StringIO()):
                     self.assertEqual(make_all.main(results), 1)
-            self.assertIn("verification.csv: not there", said.getvalue())
+            self.assertIn("verification.csv: does not exist", said.getvalue())
 
     def test_the_fit_shows_moduli_with_volume_constraints_alone(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -133,7 +133,7 @@ class Figures(unittest.TestCase):
             with contextlib.redirect_stderr(io.StringIO()) as said:
                 with contextlib.redirect_stdout(io.StringIO()):
                     self.assertEqual(make_all.main(results), 1)
-            self.assertIn("valley.csv: not there", said.getvalue())
+            self.assertIn("valley.csv: does not exist", said.getvalue())
 
     def test_work_precision_shows_every_point_with_a_time_and_an_error(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -153,7 +153,7 @@ class Figures(unittest.TestCase):
             with contextlib.redirect_stderr(io.StringIO()) as said:
                 with contextlib.redirect_stdout(io.StringIO()):
                     self.assertEqual(make_all.main(results, "work_precision"), 1)
-            self.assertIn("fronts.csv: not there", said.getvalue())
+            self.assertIn("fronts.csv: does not exist", said.getvalue())
 
     def test_the_bench_shows_cost_a_constraint_and_roofs(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -188,7 +188,7 @@ class Figures(unittest.TestCase):
             with contextlib.redirect_stderr(io.StringIO()) as said:
                 with contextlib.redirect_stdout(io.StringIO()):
                     self.assertEqual(make_all.main(results), 1)
-            self.assertIn("bench.json: not there", said.getvalue())
+            self.assertIn("bench.json: does not exist", said.getvalue())
 
 
 if __name__ == "__main__":

@@ -59,7 +59,7 @@ class Listing(unittest.TestCase):
             self.assertEqual(status, 1)
             for entry in entries.read():
                 self.assertIn(f"figures: {entry.name} not drawn: {results}", said)
-                self.assertIn(": not there", next(line for line in said.splitlines() if f" {entry.name} not" in line))
+                self.assertIn(": does not exist", next(line for line in said.splitlines() if f" {entry.name} not" in line))
             self.assertFalse(list(results.glob("figures/*")))
 
 
@@ -146,7 +146,7 @@ class Staleness(unittest.TestCase):
         (self.volume / "limb_bend" / "metrics.csv").unlink()
         status, said = drawn(self.results, "volume_over_angle")
         self.assertEqual(status, 1)
-        self.assertIn("limb_bend/metrics.csv: not there", said)
+        self.assertIn("limb_bend/metrics.csv: does not exist", said)
         self.assertFalse(list(self.results.glob("figures/volume_over_angle.*")))
 
     def test_two_revisions_in_one_figure(self):

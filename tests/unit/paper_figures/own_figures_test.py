@@ -51,7 +51,8 @@ class OwnFigures(unittest.TestCase):
         self.assertEqual(sorted(name[:6] for name in names if name.startswith("fig_")), [f"fig_{number:02}" for number in range(1, 11)])
         for entry in own:
             with self.subTest(entry.name):
-                self.assert_missing("not there", lambda: importlib.import_module(entry.script).draw(self.results, self.results / "figures"))
+                script = importlib.import_module(entry.script)
+                self.assert_missing("does not exist", lambda: script.draw(self.results, self.results / "figures"))
                 self.assertFalse((self.results / "figures").exists())
 
     def test_projections_lie_on_the_posed_bone_within_its_ends(self):
@@ -65,7 +66,7 @@ class OwnFigures(unittest.TestCase):
         self.assertEqual(frames.frame_at_angle(70), 7)
         self.assertEqual(frames.row("pbs", 7)["min_section_pct"], "93")
         self.assertEqual(frames.skin("lbs", 2), frames.tets("lbs", 2))  # no rendered surface: the tets' boundary
-        self.assert_missing("lbs_000099.vtu: not there", lambda: frames.tets("lbs", 99))
+        self.assert_missing("lbs_000099.vtu: does not exist", lambda: frames.tets("lbs", 99))
         self.assert_missing("no deformer labelled pbs_jiggle", lambda: frames.row("pbs_jiggle", 1))
         self.assert_missing("bones.csv: no frame 99", lambda: frames.bones(99))
 
@@ -73,8 +74,8 @@ class OwnFigures(unittest.TestCase):
         frames = self.frames()
         self.assertIsNone(frames.skin_at_rest())
         frames.body = "human"
-        self.assert_missing("lbs_surface_000002.vtp: not there", lambda: frames.skin("lbs", 2))
-        self.assert_missing("surface_rest.vtp: not there", frames.skin_at_rest)
+        self.assert_missing("lbs_surface_000002.vtp: does not exist", lambda: frames.skin("lbs", 2))
+        self.assert_missing("surface_rest.vtp: does not exist", frames.skin_at_rest)
 
     def test_distances_and_bones_of_points_of_the_skin(self):
         synthetic_frames.write_frames(self.results, "human_walk", body="human")

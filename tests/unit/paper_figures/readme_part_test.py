@@ -45,13 +45,13 @@ class Markers(ReadmeTest):
         self.assertEqual([path.name for path in self.results.iterdir()], ["README.md"])
 
     def test_a_readme_without_its_markers_in_order_is_refused_and_stays(self):
-        for text, words in (("", f"{begin} stands there 0 times: expected once"),
-                            (f"{end}", f"{begin} stands there 0 times"),
-                            (f"{begin}\n", f"{end} stands there 0 times: expected once"),
-                            (f"{begin}\n{begin}\n{end}", f"{begin} stands there 2 times"),
-                            (f"{begin}\n{end}\n{end}", f"{end} stands there 2 times"),
-                            (f"{end}\n{begin}", f"{end} stands before {begin}: expected after it"),
-                            ("<!-- features:begin -->\n<!-- features:end -->", f"{begin} stands there 0 times")):
+        for text, words in (("", f"{begin} occurs 0 times: expected once"),
+                            (f"{end}", f"{begin} occurs 0 times"),
+                            (f"{begin}\n", f"{end} occurs 0 times: expected once"),
+                            (f"{begin}\n{begin}\n{end}", f"{begin} occurs 2 times"),
+                            (f"{begin}\n{end}\n{end}", f"{end} occurs 2 times"),
+                            (f"{end}\n{begin}", f"{end} precedes {begin}: expected after it"),
+                            ("<!-- features:begin -->\n<!-- features:end -->", f"{begin} occurs 0 times")):
             with self.subTest(text):
                 self.assertEqual(self.written("claims", lambda folder: ["new"], text)[0], 2)
                 self.assertIn(f"readme_claims: {self.readme}: {words}", self.written("claims", lambda folder: ["new"], text)[1])
@@ -65,7 +65,7 @@ class Markers(ReadmeTest):
     def test_refused_records_leave_readme_as_it_is(self):
         status, said = self.written("claims", readme_claims.lines_of)
         self.assertEqual(status, 2)
-        self.assertIn("claims.json: not there", said)
+        self.assertIn("claims.json: does not exist", said)
         self.assertIn("\nold\n", self.readme.read_text())
 
     def test_one_folder_is_asked_for(self):

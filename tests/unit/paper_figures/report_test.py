@@ -104,7 +104,7 @@ class Report(unittest.TestCase):
         status, text, said, _ = self.make()
         self.assertEqual(status, 0)
         self.assertIn("No verdict is on record", text)
-        self.assertIn("missing: verdicts: claims.json is not there", said)
+        self.assertIn("missing: verdicts: claims.json does not exist", said)
 
     def test_distance_and_cost_are_those_of_the_records(self):
         synthetic_records.write_poses(self.results)
@@ -220,7 +220,7 @@ class Report(unittest.TestCase):
         record["scene"] = {"reference": {"name": "snh_p2"}, "fem": [fem]}
         (run / "run.json").write_text(json.dumps(record))
         _, missing = errors.section(record_set.RecordSet(self.results))
-        refused = "volume/limb_twist/frame_statistics.csv: not there: the run is of an earlier version and has to be made again"
+        refused = "volume/limb_twist/frame_statistics.csv: does not exist: the run is of an earlier version and has to be made again"
         self.assertEqual(missing, [refused])
         _, text, said, _ = self.make()
         self.assertIn(f"missing: {refused}", said)
@@ -256,14 +256,14 @@ class Report(unittest.TestCase):
         place = [entry.name for entry in entries.read() if not entry.title.startswith("Table")].index("volume_over_clip") + 1
         self.assertIn(f"<b>Figure {place}: Volume change over the clip. </b>", text)
         self.assertIn("<title>PBS: 1, 2</title>", text)
-        self.assertIn("missing: figure volume_over_iterations: not there yet", said)
+        self.assertIn("missing: figure volume_over_iterations: does not exist yet", said)
         self.assertIn('download="volume_over_angle.csv"', text)
 
     def test_a_caption_tells_the_numbers_of_the_figure_that_was_drawn(self):
         synthetic_records.write_study(self.results)
         self.write_svg("volume_over_iterations")
         _, text, said, _ = self.make()
-        self.assertIn("missing: figure volume_over_iterations: figures/volume_over_iterations.caption.txt: not there", said)
+        self.assertIn("missing: figure volume_over_iterations: figures/volume_over_iterations.caption.txt: does not exist", said)
         self.assertNotIn('id="figure-volume_over_iterations"', text)
         (self.results / "figures" / "volume_over_iterations.caption.txt").write_text("24 leave \u22120.53 %.\n")
         text = self.make()[1]
@@ -294,7 +294,7 @@ class Report(unittest.TestCase):
         self.write_svg("volume_over_angle")
         (self.results / "volume" / "limb_bend" / "metrics.csv").unlink()
         _, text, said, _ = self.make()
-        self.assertIn("figure volume_over_angle: volume/limb_bend/metrics.csv: not there", said)
+        self.assertIn("figure volume_over_angle: volume/limb_bend/metrics.csv: does not exist", said)
         self.assertNotIn('id="figure-volume_over_angle"', text)
 
     def test_the_viewer_or_why_there_is_none(self):

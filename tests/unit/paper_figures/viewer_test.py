@@ -98,7 +98,7 @@ class Viewer(unittest.TestCase):
         with self.assertRaisesRegex(records.RecordsMissing, "embedding.csv: 2 points, but surface_rest.vtp has more"):
             viewer_data.pack(self.results)
         file.unlink()
-        with self.assertRaisesRegex(records.RecordsMissing, "embedding.csv: not there"):
+        with self.assertRaisesRegex(records.RecordsMissing, "embedding.csv: does not exist"):
             viewer_data.pack(self.results)
 
     def test_numbers_are_the_records_own(self):
@@ -152,9 +152,9 @@ class Viewer(unittest.TestCase):
             self.assertIn(expected, str(caught.exception))
 
         (self.run / "frames" / "pbs_000001.vtu").unlink()
-        assert_missing("pbs_000001.vtu: not there")
+        assert_missing("pbs_000001.vtu: does not exist")
         (self.run / "metrics.csv").unlink()
-        assert_missing("metrics.csv: not there")
+        assert_missing("metrics.csv: does not exist")
         self.run.rename(self.results / "frames" / "another")
         assert_missing("no frames on record")
 
