@@ -1,4 +1,4 @@
-// A small limb bent by 30, 90 and 150 degrees, and made-up sections of it.
+// A small limb bent by 30, 90 and 150 degrees, and invented sections of it.
 #pragma once
 
 #include "experiments/studies/artefacts/artefact_figures.hpp"
@@ -15,7 +15,7 @@ inline experiments::ArtefactCase small_limb(experiments::ArtefactCase::Claim cla
     return of;
 }
 
-// Both radii and both areas are `size` over rest.
+// Both radii and both areas have the ratio `size` to rest.
 inline experiments::ArtefactSample sample(const std::string& group, std::size_t pose, double size, int element_order = 0)
 {
     return {group, pose, 0, {size, size, size, size}, element_order};

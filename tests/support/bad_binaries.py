@@ -95,7 +95,7 @@ def stls():
     yield "huge_face_count", write(CORNERS, FACES, faces_told=4000000000), NO_FURTHER.format(4, 4)
 
 
-# assimp reads on without them, and a body of so many triangles would seem nearly closed
+# assimp ignores these errors, and a body with so many triangles would seem nearly closed
 GOLDEN = (1 + 5**0.5) / 2
 TWELVE = [point for a in (-1, 1) for b in (-GOLDEN, GOLDEN) for point in ((0, a, b), (a, b, 0), (b, 0, a))]
 TWENTY = [corners for corners in itertools.combinations(range(12), 3)

@@ -1,4 +1,5 @@
-"""One bad input through the real program: exit status, the one line on stderr, time, memory, and that nothing is left behind."""
+"""Runs the program on one bad input and checks the exit status, the one line on stderr, time and memory, and that nothing is left
+behind."""
 import dataclasses
 import os
 import pathlib
@@ -11,14 +12,15 @@ import threading
 import run_records
 
 PBSKIN = os.environ["PBSKIN"]
-SANITIZED = "PBS_SANITIZED" in os.environ  # several times as slow and as large, and terabytes of addresses are reserved
+SANITIZED = "PBS_SANITIZED" in os.environ  # then everything is several times slower and larger, and terabytes of addresses are reserved
 SLOWER = 10 if SANITIZED else 1
-UNLIMITED = re.compile(r"huge|a_word_for_an_index|negative_index\.msh 4\.1$")  # cases whose reader ends otherwise without a limit on memory
-MOST_SECONDS, MOST_BYTES = 5.0 * SLOWER, SLOWER << 30  # of processor time, as other work must not fail a case; of each process
-MOST_WAITING_SECONDS = {2: 25.0 * SLOWER, 0: 240.0}  # by the exit status that is expected; then it hangs
+# cases whose reader fails in another way without a limit on memory
+UNLIMITED = re.compile(r"huge|a_word_for_an_index|negative_index\.msh 4\.1$")
+MOST_SECONDS, MOST_BYTES = 5.0 * SLOWER, SLOWER << 30  # processor time, since other work must not fail a case; memory of each process
+MOST_WAITING_SECONDS = {2: 25.0 * SLOWER, 0: 240.0}  # by the expected exit status; a process that takes longer counts as hanging
 NOBODY = {"user": 65534, "group": 65534, "extra_groups": []}
-WORDS = r"\b(?:missing\b|[A-Za-z]\w+ \S)"  # that a rule has at least
-RULE = rf"(?![^:=]+ = [^:]*:? ?$)(?=.*?{WORDS}).+"  # no field and value alone
+WORDS = r"\b(?:missing\b|[A-Za-z]\w+ \S)"  # the least that a rule consists of
+RULE = rf"(?![^:=]+ = [^:]*:? ?$)(?=.*?{WORDS}).+"  # a field and a value alone are not a rule
 LINE = re.compile(rf"pbskin: (?:(?P<place>[^:=\n]+)(?::\d+){{0,2}}: )?(?:(?P<field>[^:=\n]+) = (?P<value>.*?): )?(?P<rule>{RULE})")
 USAGE = re.compile(r"pbskin: .+; `pbskin --help` tells the verbs, `pbskin VERB --help` their options")
 NO_NUMBER = r" = (-?(?:nan|inf))\b"
@@ -27,28 +29,28 @@ WORDS_OF_NO_USER = ("json.exception", "basic_string", "std::", "vector::", "file
 
 @dataclasses.dataclass
 class Case:
-    """`files` (name -> text, bytes, or a function that makes it from its path) beside `command`'s arguments; stderr must hold `says`: the
-    place where its name is not among the files or the command's words, and the rule that is broken."""
+    """`files` (name -> text, bytes, or a function that makes it from its path) exist in the folder in which `command` runs. stderr must
+    contain `says`: the place, if its name is not among the files or the command's words, and the rule that is broken."""
     name: str
     files: dict
     command: list
     says: tuple
     status: int = 2
-    leaves: tuple = ()  # what names may begin with that are there afterwards
-    as_nobody: bool = False  # where root runs the tests, whom no mode stops
+    leaves: tuple = ()  # beginnings of the names that may exist afterwards
+    as_nobody: bool = False  # for tests run by root, to whom file modes do not apply
 
 
 @dataclasses.dataclass
 class Answer:
     status: int
     told: str
-    seconds: float  # of processor time, of all its processes
-    bytes: int  # of the largest of them
+    seconds: float  # processor time of all its processes
+    bytes: int  # memory of the largest process
     left: list
 
 
 def demands_a_rule(case):
-    """Whether one of the words that stderr must hold is a rule, not a name of the command or of a file, a line, a field, or a value."""
+    """Whether one of the words that stderr must contain is a rule, and not the name of a command or file, a line, a field, or a value."""
     names = {*case.files, *map(str, case.command)}
     behind = (re.sub(r"^[^=]* = [^:]*(: |$)", "", word) for word in case.says if not any(word in name for name in names))
     return any(re.search(WORDS, re.sub(r"\S+\.\w+:(\d+:)*", "", rule)) for rule in behind)
@@ -62,7 +64,7 @@ def make(folder, files):
         elif isinstance(content, bytes):
             path.write_bytes(content)
         else:
-            path.write_bytes(content.encode())  # with the ends of lines that it has
+            path.write_bytes(content.encode())  # with the line ends that it has
 
 
 def listing(folder):
@@ -81,7 +83,7 @@ def nobody_can_run_it():
 
 
 def finished(case, folder):
-    """(exit status, stderr, use of resources) of the program in `folder`, which is killed where it hangs."""
+    """(exit status, stderr, resource usage) of the program in `folder`; the program is killed if it hangs."""
     environment = {**os.environ, "PBSKIN_CACHE": f"{folder}/cache", "TMPDIR": f"{folder}/tmp", "NO_COLOR": "1"}
     with tempfile.TemporaryFile() as errors:
         process = subprocess.Popen([PBSKIN, *case.command], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors,
@@ -114,12 +116,12 @@ def is_allowed(name, leaves):
 
 
 def names_of(case, common):
-    """What the line may call the place of the fault."""
+    """The names that the line may use for the place of the error."""
     return {*common, *case.files, *map(str, case.command), *(word.split(":")[0] for word in case.says if ": " in word)}
 
 
 def is_well_formed(line, names):
-    """FILE[:LINE[:COLUMN]]: [FIELD = VALUE: ]RULE; without a file, of a word of the command: FIELD = VALUE: RULE; or how to use it."""
+    """FILE[:LINE[:COLUMN]]: [FIELD = VALUE: ]RULE; without a file, for a word of the command: FIELD = VALUE: RULE; or the usage."""
     if USAGE.fullmatch(line):
         return True
     match = LINE.fullmatch(line)
@@ -138,12 +140,12 @@ def what_is_wrong_with(told, case, common):
 
 
 def typed(value, case):
-    """Whether a value that is no number stands in the input; within bytes where the case demands it."""
+    """Whether a value that is not a number occurs in the input; also inside bytes if the case demands it."""
     return any(value in str(text) for text in (*case.files.values(), *case.command)) or any(f"= {value}" in word for word in case.says)
 
 
 def problems(case, common):
-    """What is wrong with the answer to `case`; empty where all is well. `common` files are there in every case."""
+    """The defects of the answer to `case`; empty if there are none. `common` files exist in every case."""
     given = answer(case, common)
     found = [f"exit status {given.status}, expected {case.status}"] if given.status != case.status else []
     if case.status == 2:
@@ -162,6 +164,6 @@ def problems(case, common):
 
 
 def limit_address_space():
-    """For this process and all it starts, so that a run gone wild cannot take the machine along."""
+    """Limits this process and all that it starts, so that a run out of control cannot exhaust the machine."""
     if not SANITIZED:
         resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))

@@ -1,4 +1,4 @@
-"""Skeletons, weights and clips that are refused, of an arm that is sound."""
+"""Skeletons, weights and clips that are refused, made from a valid arm."""
 import foreign_arm
 from bad_case import Case
 from bad_tets import NOISE, POINTS, sparse

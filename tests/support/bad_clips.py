@@ -1,4 +1,4 @@
-"""Clips in glTF and FBX that are refused, also as skeletons."""
+"""Clips in glTF and FBX that are refused, also when read as skeletons."""
 from bad_case import Case
 from bad_surfaces import gltf as surface
 from bad_tets import NOISE

@@ -1,4 +1,5 @@
-"""Files that are none: folders, pipes, loops, names without end; what must not be read; and a byte-order mark before a text."""
+"""Inputs that are not regular files: folders, pipes, loops, endless names; files that must not be read; and texts after a byte-order
+mark."""
 import os
 
 import bad_surfaces
@@ -67,7 +68,7 @@ def secrets():
 
 
 def byte_order_marks():
-    """Programs of Windows write one; told what is there, its author saves the file without."""
+    """Programs of Windows write such a mark; the message names it, so that the author can save the file without it."""
     bytes_of_toml, run = ":1: byte = 239: expected ASCII outside of texts", ["run", "arm.toml", "-o", "out", "--set"]
     for file, text, command, words in (
             ("bad.toml", SCENE, ["run", "bad.toml", "-o", "out"], bytes_of_toml),

@@ -1,4 +1,4 @@
-"""Places that cannot be written, and command lines that say nothing that can be done."""
+"""Places that cannot be written, and command lines that cannot be carried out."""
 import os
 
 from bad_case import Case
@@ -21,7 +21,7 @@ def places():
 
 
 def devices():
-    """What a file that is renamed into its place would end."""
+    """Devices, which a file renamed into their place would destroy."""
     rule = "cannot be written: expected a file, or nothing there"
     for kind, make in (("named pipe", os.mkfifo), ("device", lambda path: path.symlink_to("/dev/null"))):
         yield Case(f"figures onto a {kind}", {"x.csv": make}, [*FIGURES, "--csv", "x.csv"], ("x.csv: ", rule))

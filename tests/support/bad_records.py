@@ -1,4 +1,4 @@
-"""Records of a study that are refused: as `reproduce` writes them, of two runs with one figure each, and then damaged."""
+"""Records of a study that are refused: those that `reproduce` writes for two runs with one value each, which are then damaged."""
 import json
 
 from bad_case import Case
@@ -12,7 +12,7 @@ FILES = {"plan.json": json.dumps(PLAN), "limb/run.json": RUN, "limb/measurements
 
 
 def study(files):
-    """A maker of the folder: name -> text or bytes in DIR/momentum."""
+    """Returns a function that makes the folder: name -> text or bytes in DIR/momentum."""
     def make(folder):
         for name, content in files.items():
             path = folder / "momentum" / name
@@ -26,7 +26,7 @@ def plan(**changes):
 
 
 def damaged():
-    """(name, file, what it holds, what `--judge` says, what `report` says; None: it has nothing to say)"""
+    """(name, file, its content, the message of `--judge`, the message of `report` or None)"""
     table, run = "limb/measurements.csv", "limb/run.json"
     yield "empty_table", table, "", "the file is empty", None
     yield "noise_table", table, NOISE, ":1:1: unexpected quote or zero byte within a field", None

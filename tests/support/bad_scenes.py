@@ -1,4 +1,4 @@
-"""Scenes and settings that are refused: texts of bad.toml, and of --set."""
+"""Scenes and settings that are refused, as texts of bad.toml and of --set."""
 from bad_characters import SCENE, bvh
 from bad_case import Case
 from bad_tets import NOISE, sparse

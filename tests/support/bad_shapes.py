@@ -1,11 +1,11 @@
-"""Surfaces whose numbers are sound and whose shape is not: several parts, flat, open, too small, not manifold; and COLLADA written
-otherwise."""
+"""Surfaces with valid numbers and an invalid shape: several parts, flat, open, too small, not manifold; and COLLADA files written in other
+ways."""
 from bad_case import Case
 from bad_surfaces import FACES, POINTS, dae, off
 
 FLAT, EXTENT = "expected a closed surface round a volume, neither flat nor open", "expected at least 1e-9 m"
 IN_THREE = "edge = (0, 0, 0) to (1, 0, 0): expected in one or two triangles; it is in 3, the surface not manifold there"
-BELOW = [(0, 4, 1), (0, 1, 5), (0, 5, 4), (1, 4, 5)]  # another body at the edge 0, 1
+BELOW = [(0, 4, 1), (0, 1, 5), (0, 5, 4), (1, 4, 5)]  # another body that shares the edge 0, 1
 NEGATIVE = "0 2 1 0 1 3 0 3 2 1 2 -5"
 NEGATIVE_RULE = "p = -5: expected indices from 0"
 

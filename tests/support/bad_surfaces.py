@@ -69,7 +69,7 @@ def gltf(points=4, indices=12, uri=None, bytes_of_indices=24, component=5123):
                        "buffers": [{"byteLength": len(data), "uri": uri}]})
 
 
-# words of a defect by format, in the order of soups(); CGAL reads OFF, PLY and STL until it cannot
+# the words for a defect by format, in the order of soups(); CGAL reads OFF, PLY and STL up to the defect
 NO_FURTHER = "damaged: CGAL read {} points and {} faces, and no further"
 NO_TRIANGLES, INDEX = "triangles = 0: expected at least one triangle", "assimp: OBJ: vertex index out of range"
 NOISY = {".obj": NO_TRIANGLES, ".off": NO_FURTHER.format(0, 0), ".ply": NO_FURTHER.format(0, 0), ".stl": ", and no further"}
@@ -139,7 +139,7 @@ def waited_for():
 
 
 def places():
-    """Refused before the minutes that so many vertices take."""
+    """These are refused before the long computation for so many vertices."""
     for name, output, words, others in (("a folder that is not there", "none/tets.vtu", "cannot be written: No such file or directory", {}),
                                         ("a folder's place", "tets.vtu", "cannot be written: Is a directory", {"tets.vtu": os.mkdir}),
                                         ("a folder under a file", "file/tets.vtu", "cannot be written: Not a directory", {"file": "text"}),

@@ -1,4 +1,4 @@
-"""Tet meshes that are refused, in every format; .msh and .mesh go through Gmsh, which takes a second to load, so that few of them do."""
+"""Tet meshes that are refused, in every format. Gmsh reads .msh and .mesh and takes a second to load, so there are few cases of those."""
 import copy
 import os
 
@@ -22,7 +22,7 @@ NOISE = bytes((i * i * 7919 + i * 31) % 256 for i in range(4000))
 
 
 def sparse(path):
-    """64 GB of zeros that take no room."""
+    """64 GB of zeros that occupy no space on disk."""
     path.touch()
     os.truncate(path, 1 << 36)
 
@@ -46,7 +46,7 @@ def both(words):
 TOO_SHORT = "Cannot read points array from Points in piece 0"
 INDEX, VOLUME = "expected an index from 0 to ", "expected a volume; its four vertices are in one plane"
 NAN, INFINITY = (f"vertex 3 = (0.75, {word}, -0.069999999999999993): expected finite coordinates" for word in ("nan", "inf"))
-# name: (what is done to points and tets, counts told, words by format)
+# name: (change of points and tets, stated counts, words by format)
 DEFECTS = {
     "nan": (set_point(3, "nan"), {}, {".vtk": "Unrecognized keyword: nan", ".vtu": NAN, ".msh": NAN}),
     "infinity": (set_point(3, "inf"), {}, {".vtk": "Unrecognized keyword: inf", ".vtu": INFINITY}),
@@ -76,7 +76,7 @@ DEFECTS = {
     "a_number_of_100000_digits": (set_point(3, "1" * 100000), {},
                                   {".vtk": "Unrecognized keyword: -0.06999999999999999", ".vtu": TOO_SHORT}),
 }
-# name: words by format, where the whole file is wrong
+# name: words by format, if the whole file is invalid
 MAGIC = {".msh": ":1: expected a Gmsh file beginning with $MeshFormat",
          ".mesh": ":1: expected a MEDIT file beginning with MeshVersionFormatted",
          ".vtk": "Unrecognized file type: ", ".vtu": "Error parsing XML in stream at line 1, column 0"}
@@ -104,7 +104,7 @@ def cases():
         yield measured(f"tets sparse{extension}", file, sparse, "bytes = 68719476736: expected at most ")
         yield measured(f"tets noise{extension}", file, NOISE, MAGIC[extension])
         yield measured(f"tets wrong_magic{extension}", file, "solid x\n" + whole, MAGIC[extension])
-        if extension in HALF:  # of .mesh Gmsh itself has to find out
+        if extension in HALF:  # for .mesh, only Gmsh detects the defect
             yield measured(f"tets truncated{extension}", file, whole[: len(whole) // 2], HALF[extension])
     yield from tetgen_cases()
     yield Case("frame of other vertices", {"other.vtu": tet_texts.vtu(*foreign_arm.mesh((5, 2, 2)))}, ["measure", "arm.vtu", "other.vtu"],

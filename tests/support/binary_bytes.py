@@ -1,5 +1,5 @@
-"""Meshes and clips as the binary files of programs, number by number, so that any of them can be wrong: MSH 2.2 and 4.1, PLY, STL, GLB,
-and glTF clips. Indices count from 0; `*_told` are the counts that the file tells."""
+"""Writes meshes and clips as binary files, number by number, so that any of the numbers can be wrong: MSH 2.2 and 4.1, PLY, STL, GLB, and
+glTF clips. Indices count from 0; `*_told` are the counts that the file states."""
 import base64
 import json
 import struct
@@ -17,7 +17,7 @@ def msh22(points, tets, vertices_told=None, tets_told=None, one=1):
 
 
 def msh41(points, tets, vertices_told=None, tets_told=None, last_tag=None):
-    """ASCII; `last_tag` is the tag of the last vertex, where it is used too."""
+    """ASCII; `last_tag` replaces the tag of the last vertex, also where tets use it."""
     count, cells = vertices_told or len(points), tets_told or len(tets)
     tags = [*range(1, len(points)), len(points) if last_tag is None else last_tag]
     rows = lambda table: "".join(" ".join(map(str, row)) + "\n" for row in table)
@@ -58,7 +58,7 @@ def accessor(view, component, count, kind, **more):
 
 
 def views(*parts):
-    """Buffer views of the parts of a buffer that lie one behind the other."""
+    """Buffer views of consecutive parts of a buffer."""
     begin, found = 0, []
     for part in parts:
         found.append({"buffer": 0, "byteOffset": begin, "byteLength": len(part)})
@@ -91,7 +91,7 @@ def glb(points, faces, version=2, json_length=None, length=None, corners_told=No
 
 def gltf_clip(times=(0.0, 0.5, 1.0), turns=(IDENTITY, QUARTER_TURN, IDENTITY), names=("shoulder", "elbow"), count=None, target=1,
               offset=(1.0, 0.0, 0.0), bytes_told=None):
-    """A shoulder and an elbow, whose turns are given."""
+    """A shoulder and an elbow with the given rotations."""
     parts = struct.pack(f"<{len(times)}f", *times), struct.pack(f"<{4 * len(turns)}f", *(x for turn in turns for x in turn))
     uri = "data:application/octet-stream;base64," + base64.b64encode(b"".join(parts)).decode()
     told = len(times) if count is None else count

@@ -1,4 +1,4 @@
-// The paper's solver, broken on purpose: what a claim's figures have to tell from the sound one.
+// The paper's solver with deliberate defects, which the values of a claim must distinguish from the correct solver.
 //   options = test_support::broken(options, Broken::volume_sign);
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace test_support {
 
-// The printed volume equation is projected in order plain alone: nothing_in_plain_order is what volume_sign is compared with.
+// The printed volume equation is projected only in the order plain, so volume_sign is compared with nothing_in_plain_order.
 enum class Broken { nothing, nothing_in_plain_order, volume_sign, bind_dropped, stretch_dropped, volume_dropped, nothing_projected };
 inline constexpr std::array every_broken = {Broken::volume_sign, Broken::bind_dropped, Broken::stretch_dropped, Broken::volume_dropped,
                                             Broken::nothing_projected};
@@ -50,7 +50,7 @@ inline experiments::Scene broken(experiments::Scene scene, Broken how)
     return scene;
 }
 
-// Those of the quantity whose key has these fields.
+// The measurements of the quantity whose key has these fields.
 inline std::vector<analysis::Measurement> figures_of(const std::vector<analysis::Measurement>& measured, const std::string& quantity,
                                                      const analysis::CaseKey& of = {})
 {

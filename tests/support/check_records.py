@@ -1,4 +1,4 @@
-"""What `pbskin check` has recorded, read by Python's own parsers."""
+"""The records of `pbskin check`, read by Python's own parsers."""
 import csv
 import json
 import os
@@ -23,7 +23,8 @@ def failed(path):
 
 
 def scenes_of_another_mesh(folder):
-    """The scenes of a check's folder whose counts of vertices and tets are not those of the project's own baseline: another CGAL's mesh."""
+    """The scenes of a check's folder whose counts of vertices and tets differ from the project's baseline, as with another version of
+    CGAL."""
     with open(os.path.join(program.SOURCE, "experiments", "verdicts", "check", "check_baseline.csv"), encoding="utf-8", newline="") as file:
         baseline = {row["scene"]: (int(row["vertices"]), int(row["tets"])) for row in csv.DictReader(file)}
     others = set()
@@ -36,5 +37,5 @@ def scenes_of_another_mesh(folder):
 
 
 def baselines_of(scenes, path):
-    """The cases of a JUnit report that hold the baseline of one of the scenes."""
+    """The cases of a JUnit report that compare one of the scenes with the baseline."""
     return {(scene, name) for scene, name in cases(path) if scene in scenes and name.startswith("baseline of ")}

@@ -13,7 +13,7 @@
 
 namespace test_support {
 
-// The icosahedron, each triangle split into four `splits` times: 20 * 4^splits triangles. Radius [m].
+// The icosahedron with each triangle split into four, `splits` times: 20 * 4^splits triangles. Radius [m].
 inline pbs::SurfaceMesh icosphere(double radius, int splits)
 {
     const double g = std::numbers::phi;
@@ -44,7 +44,7 @@ inline pbs::SurfaceMesh icosphere(double radius, int splits)
     return sphere;
 }
 
-// Round the z axis: ring radius and tube radius [m], `around` x `across` quads, two triangles each.
+// A torus around the z axis: ring radius and tube radius [m], `around` x `across` quads, two triangles each.
 inline pbs::SurfaceMesh torus(double ring, double tube, int around, int across)
 {
     pbs::SurfaceMesh torus{pbs::Positions(around * across, 3), pbs::Triangles(2 * around * across, 3)};

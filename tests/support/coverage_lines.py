@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Counts for tests/README.md how many lines of our own code the tests ran, from gcovr's summary; exit status 1 if that is too few.
+"""Counts for tests/README.md how many lines of the project's code the tests ran, from gcovr's summary; exit status 1 if too few.
 
     PBS_RELIABILITY_DIR=DIR coverage_lines.py results/check/coverage.json
 """

@@ -1,5 +1,5 @@
-// Proves a gradient: the central difference along a direction is in error by O(eps^2), so the error has to fall a hundredfold where eps
-// falls tenfold, until rounding takes over. A wrong gradient leaves an error that eps does not touch.
+// Verifies a gradient: the central difference along a direction has an error of O(eps^2), so the error must fall a hundredfold when eps
+// falls tenfold, until rounding dominates. A wrong gradient leaves an error that does not depend on eps.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace test_support {
 
-// value(x): the function; x: where; size: its length scale, the unit of eps; direction: of the same shape as x, entries of order one.
+// value(x): the function; x: its argument; size: its length scale, the unit of eps; direction: same shape as x, entries of order one.
 template <typename Value>
 void expect_slope_by_eps_sweep(Value value, const Eigen::VectorXd& x, const Eigen::VectorXd& direction, double slope, double size)
 {

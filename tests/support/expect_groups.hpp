@@ -1,4 +1,4 @@
-// What every grouping of constraints owes: each constraint in one group, joined as the group's shape says.
+// The requirements on every grouping of constraints: each constraint is in one group, and joins its vertices as the group's shape defines.
 #pragma once
 
 #include "pbs/solver/batched/constraint_groups.hpp"
@@ -10,7 +10,7 @@
 
 namespace test_support {
 
-// Vertices that constraint c of the group joins, in the shape's order.
+// The vertices that constraint c of the group joins, in the order of the shape.
 inline std::vector<int> joined(const pbs::ConstraintGroup& group, int c)
 {
     return pbs::with_kind(group.kind, [&](auto kind) {
@@ -20,7 +20,7 @@ inline std::vector<int> joined(const pbs::ConstraintGroup& group, int c)
     });
 }
 
-// Whether it takes an even number of swaps to get from a to b, the same vertices.
+// Whether an even number of swaps turns a into b, which contain the same vertices.
 inline bool even_permutation(std::vector<int> a, const std::vector<int>& b)
 {
     bool even = true;
@@ -33,7 +33,7 @@ inline bool even_permutation(std::vector<int> a, const std::vector<int>& b)
     return even;
 }
 
-// constraints: the vertices of each. Tets are joined in an order of their own orientation.
+// constraints: the vertices of each. The order of a tet's vertices must keep its orientation.
 template <std::size_t corners>
 void expect_each_once(const std::vector<pbs::ConstraintGroup>& groups, const std::vector<std::array<int, corners>>& constraints)
 {

@@ -1,4 +1,4 @@
-"""A tet mesh, skeleton and scene that no part of the project has made: a tapered box with two bones, written as Gmsh 2.2."""
+"""A tet mesh, skeleton and scene that no part of the project has generated: a tapered box with two bones, written as Gmsh 2.2."""
 import itertools
 
 SKELETON = """[[joint]]
@@ -51,7 +51,7 @@ Frames: %d
 Frame Time: 0.01
 """
 
-# With the frames a second; a step is 0.01 s, as the clip's frames are.
+# The scene states the frames per second; a step takes 0.01 s, like the clip's frames.
 CLIP_SCENE = SCENE.replace("""joint = "elbow"
 axis = [0.0, 0.0, 1.0]
 angle_deg = 120.0
@@ -92,7 +92,7 @@ def write_msh(path, points, tets):
 
 
 def write_bvh(path, elbow_deg):
-    """A clip at 100 Hz with these angles of the elbow about z, after a frame of the T pose."""
+    """Writes a clip at 100 Hz with these angles of the elbow about z, after a frame in the T pose."""
     with open(path, "w", encoding="ascii") as file:
         file.write(CLIP % (len(elbow_deg) + 1))
         for angle in [0.0, *elbow_deg]:

@@ -1,5 +1,6 @@
-// The widest section of a bent limb near its joint, cut another way than JointSections cuts it: the skin's edges that a plane crosses, gone
-// round in the order of their angle about the bone, so for limbs that are cut once, in an outline that the bone sees all of.
+// The widest section of a bent limb near its joint, computed differently from JointSections: the points at which a plane crosses the edges
+// of the skin are ordered by their angle about the bone. This is valid for limbs that are cut once, in an outline that is star-shaped about
+// the bone.
 //   hand_cut_widest(body, positions, pose).area   // over rest
 #pragma once
 
@@ -24,7 +25,7 @@ inline std::vector<Eigen::Vector2d> crossings(const pbs::Positions& positions, c
         for (int corner = 0; corner < 3; ++corner) {
             const pbs::Vec3 a = positions.row(triangle(corner)), b = positions.row(triangle((corner + 1) % 3));
             const double below = (a - point).dot(normal), above = (b - point).dot(normal);
-            if (!(below < 0.0 && above >= 0.0)) continue;  // each edge once: its other triangle has it from b to a
+            if (!(below < 0.0 && above >= 0.0)) continue;  // each edge only once; in its other triangle it runs from b to a
             const pbs::Vec3 at = (above * a - below * b) / (above - below) - point;
             found.push_back({at.dot(u), at.dot(v)});
         }
@@ -47,7 +48,8 @@ inline HandCut hand_cut(const std::vector<Eigen::Vector2d>& outline)
     return cut;
 }
 
-// The plane stands on the bone, `offset_m` from the joint; it turns from one bone's direction to the other's over 3 radii on each side.
+// The plane passes through the bone, `offset_m` from the joint; within 3 radii on each side it turns from one bone's direction to the
+// other's.
 inline HandCut hand_cut(const experiments::ArtefactBody& body, const pbs::Positions& positions, const pbs::Pose& pose, double offset_m)
 {
     const experiments::LimbJoint& joint = body.joints.at(0);
@@ -60,7 +62,7 @@ inline HandCut hand_cut(const experiments::ArtefactBody& body, const pbs::Positi
     return hand_cut(crossings(positions, body.posed.boundary(), point, before + turned * (after - before)));
 }
 
-// Of all stations, each over its own at rest: the largest area and, of its own station, the largest radius.
+// Over all stations, each relative to its own section at rest: the largest area and, at its own station, the largest radius.
 struct HandCutWidest {
     double area = 0.0, radius = 0.0;
 };

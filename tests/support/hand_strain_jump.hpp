@@ -1,5 +1,5 @@
-// The jump of strain between neighbouring tets, computed another way than SmoothnessRuler does: Green's strain of a tet is what changes the
-// lengths of its six edges, l^2 - L^2 = 2 e^T E e, without a deformation gradient; areas by Heron.
+// The jump of strain between neighbouring tets, computed differently from SmoothnessRuler: Green's strain of a tet follows from the change
+// of its six edge lengths, l^2 - L^2 = 2 e^T E e, without a deformation gradient; areas by Heron's formula.
 //   hand_strain_jump(mesh, near, positions)   // rms over inner faces, weighted by rest area
 #pragma once
 
@@ -43,7 +43,7 @@ inline double heron(const pbs::Positions& points, const std::set<int>& corners)
 
 inline double hand_strain_jump(const pbs::TetMesh& mesh, const std::vector<bool>& near, const pbs::Positions& now)
 {
-    std::map<std::set<int>, std::vector<Eigen::Matrix3d>> sides;  // strains of the tets at each face of the region
+    std::map<std::set<int>, std::vector<Eigen::Matrix3d>> sides;  // the strains of the tets on both sides of each face of the region
     for (const auto row : mesh.tets.rowwise()) {
         const std::array<int, 4> tet = {row(0), row(1), row(2), row(3)};
         const Eigen::Matrix3d strain = strain_by_lengths(mesh.rest, now, tet);
@@ -57,7 +57,7 @@ inline double hand_strain_jump(const pbs::TetMesh& mesh, const std::vector<bool>
     }
     double squares = 0.0, area = 0.0;
     for (const auto& [face, strains] : sides) {
-        if (strains.size() != 2) continue;  // skin
+        if (strains.size() != 2) continue;  // a face of the skin
         squares += heron(mesh.rest, face) * (strains[0] - strains[1]).squaredNorm();
         area += heron(mesh.rest, face);
     }

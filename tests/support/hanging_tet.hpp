@@ -1,4 +1,4 @@
-// One particle that hangs from three held ones by the edges of a tet: small enough for linear algebra by hand.
+// One particle that hangs from three fixed ones by the edges of a tet; it is small enough for linear algebra by hand.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -32,11 +32,12 @@ inline pbs::PbsOptions stretch_alone(int iterations, double k_stretch)
     options.k_stretch = k_stretch;
     options.k_volume = options.k_bind = 0.0;
     options.precision = pbs::Precision::f64;
-    options.order = pbs::Order::plain;  // of the step matrix below
+    options.order = pbs::Order::plain;  // the order of the step matrix below
     return options;
 }
 
-// What the iterations leave of a small displacement of the particle: an edge of unit direction n leaves (I - k n n^T), one after the other.
+// The matrix by which the iterations reduce a small displacement of the particle: an edge of unit direction n leaves (I - k n n^T), one
+// edge after the other.
 inline Eigen::Matrix3d step_matrix(const HangingTet& tet, int iterations, double k_stretch)
 {
     Eigen::Matrix3d sweep = Eigen::Matrix3d::Identity(), step = sweep;

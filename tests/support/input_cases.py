@@ -1,4 +1,4 @@
-"""The tables of bad inputs, the files that all their cases may use, and how many cases run at once."""
+"""The tables of bad inputs, the files that all their cases may use, and the number of cases that run at once."""
 import concurrent.futures
 
 import bad_binaries

@@ -1,5 +1,5 @@
-// An IQM file (version 2) in memory, a tetrahedron with two joints, to be written as it is or damaged word by word. Laid out by the
-// format's own description, not by the reader.
+// An IQM file (version 2) in memory, a tetrahedron with two joints, which tests write unchanged or damage word by word. Its layout follows
+// the description of the format, not the reader.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace test_support {
 
-// Places [bytes] of what tests alter.
+// Positions [bytes] of the parts that tests alter.
 struct IqmPlaces {
     static constexpr std::size_t version = 16, file_size = 20, vertex_count = 16 + 4 * 8, triangle_count = 16 + 4 * 10,
                                  joint_count = 16 + 4 * 13, text = 124, array = text + 16, points = array + 20, triangles = points + 5 * 12,
@@ -21,7 +21,7 @@ void put(std::string& bytes, std::size_t place, Value value)
     std::memcpy(bytes.data() + place, &value, sizeof value);
 }
 
-// Five points, the last one the first again (a seam); the joint "arm" hangs on "root", which is turned by 90 degrees about z.
+// Five points, the last equal to the first (a seam). The joint "arm" is a child of "root", which is turned by 90 degrees about z.
 inline std::string iqm_bytes()
 {
     using P = IqmPlaces;
@@ -34,7 +34,7 @@ inline std::string iqm_bytes()
     for (std::size_t word = 0; word < 5; ++word) put(bytes, P::array + 4 * word, array[word]);
     const float points[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
     for (std::size_t i = 0; i < 15; ++i) put(bytes, P::points + 4 * i, points[i]);
-    const std::uint32_t corners[12] = {4, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};  // clockwise from outside
+    const std::uint32_t corners[12] = {4, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};  // clockwise as seen from outside
     for (std::size_t i = 0; i < 12; ++i) put(bytes, P::triangles + 4 * i, corners[i]);
     const float half = 0.70710678F;
     const float joints[2][10] = {{0, 0, 2, 0, 0, half, half, 1, 1, 1}, {3, 0, 0, 0, 0, 0, 1, 1, 1, 1}};

@@ -1,4 +1,4 @@
-// Paths of iterations made up from formulas, as a convergence study would measure them.
+// Paths of iterations defined by formulas, in the form in which a convergence study measures them.
 #pragma once
 
 #include "experiments/studies/convergence/convergence_case.hpp"
@@ -8,7 +8,7 @@
 
 namespace test_support {
 
-// Looks at every iteration; figure(n) is the combined residual, the absolute volume change [%] and the error [%] alike.
+// Records every iteration; figure(n) is the combined residual, the absolute volume change [%] and the error [%] at once.
 inline experiments::IterationPath path_by(int most, const std::function<double(int)>& figure)
 {
     experiments::IterationPath path;
@@ -21,13 +21,13 @@ inline experiments::IterationPath path_by(int most, const std::function<double(i
     return path;
 }
 
-// From `above` its floor on, a share `rate` of what is left each iteration.
+// Starts at `above` its floor and keeps a share `rate` of the excess in each iteration.
 inline experiments::IterationPath path_to_floor(int most, double floor, double above, double rate)
 {
     return path_by(most, [=](int n) { return floor + above * std::pow(rate, n); });
 }
 
-// A character whose starts go to the floor 1 at the given rates; LBS first.
+// A character whose initial guesses converge to the floor 1 at the given rates, LBS first.
 inline experiments::ConvergencePaths starts_at_rates(int vertices, const std::vector<double>& rates, int most = 1000)
 {
     experiments::ConvergencePaths paths;

@@ -1,4 +1,4 @@
-// Made-up responses of flesh to a jolt: what the figures of C09 are made of.
+// Invented responses of flesh to a jolt, from which the values of C09 are computed.
 #pragma once
 
 #include "experiments/studies/jiggle/jiggle_figures.hpp"

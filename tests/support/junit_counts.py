@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Counts for tests/README.md what a run of ctest found, from its JUnit report.
+"""Counts for tests/README.md the results of a run of ctest, from its JUnit report.
 
     PBS_RELIABILITY_DIR=DIR junit_counts.py results/check/tsan.xml tsan "tests without a report of the thread sanitizer"
 """

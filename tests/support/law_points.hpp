@@ -1,4 +1,4 @@
-// Constitutive laws at a point, for tests: energy, stress and tangent in one call each, and deformation gradients to try them on.
+// Constitutive laws at a point, for tests: energy, stress and tangent in one call each, and deformation gradients at which they are tested.
 #pragma once
 
 #include "reference_fem/laws/constitutive_law.hpp"
@@ -17,7 +17,7 @@ using reference_fem::Model;
 struct NamedModel {
     Model model;
     std::string name;
-    bool through_inversion;  // defined at det F <= 0
+    bool through_inversion;  // true if defined at det F <= 0
 };
 
 inline const std::vector<NamedModel> nonlinear_models = {{Model::corotational, "corotational", true},
@@ -43,7 +43,7 @@ inline std::string name_of_model(const testing::TestParamInfo<NamedModel>& info)
     return info.param.name;
 }
 
-// Instantiated once, in verification/reference_fem/laws.cpp, for the tests of all files of that program.
+// Instantiated only in verification/reference_fem/laws.cpp, for the tests of all files of that program.
 class EveryLaw : public testing::TestWithParam<NamedModel> {};
 
 struct LawPoint {
@@ -74,14 +74,14 @@ inline Eigen::Matrix3d random_rotation(RandomPoints& random)
     return random.rigid_motion(0.0).linear();
 }
 
-// Any rotation, principal axes and stretches from 0.6 to 1.6.
+// Any rotation and principal axes, with stretches from 0.6 to 1.6.
 inline Eigen::Matrix3d random_stretch(RandomPoints& random)
 {
     const Eigen::Vector3d stretches(random.number(0.6, 1.6), random.number(0.6, 1.6), random.number(0.6, 1.6));
     return random_rotation(random) * stretches.asDiagonal() * random_rotation(random);
 }
 
-// The same turned inside out: det F < 0, no two signed stretches near a sum of 0.
+// The same, inverted: det F < 0, and no two signed stretches have a sum near 0.
 inline Eigen::Matrix3d random_inversion(RandomPoints& random)
 {
     const Eigen::Vector3d stretches(random.number(1.2, 1.6), random.number(0.9, 1.2), -random.number(0.3, 0.6));

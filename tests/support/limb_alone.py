@@ -1,5 +1,5 @@
-"""The study `frames` without the human: whole scene runs, with state hashes and frames on disk, in seconds. It has no option for that: in a
-mount namespace of its own it sees an empty folder where the motions are installed."""
+"""The study `frames` without the human: whole scene runs, with state hashes and frames on disk, in seconds. The study has no such option.
+In a mount namespace of its own, it sees an empty folder in place of the installed motions."""
 import functools
 import os
 import subprocess
@@ -18,7 +18,7 @@ def empty_folder():
 
 @functools.cache
 def before():
-    """The words that go before those of pbskin, which takes over their process; the test is skipped where none can be had."""
+    """The words to be put before those of pbskin, which replaces their process. The test is skipped if no namespace is available."""
     if not os.path.isdir(MOTIONS):
         return []
     for namespace in NAMESPACES:
@@ -32,6 +32,6 @@ def before():
 
 
 def state_hashes(records):
-    """`RUN/run.json DEFORMER` -> hash, of the records of a folder."""
+    """`RUN/run.json DEFORMER` -> hash, for the records of a folder."""
     return {f"{name} {label}": state for name, record in records.items() if name.endswith("run.json")
             for label, state in record.get("state_hash", {}).items()}

@@ -1,4 +1,4 @@
-// The two-bone limb as a character, for what takes one.
+// The two-bone limb as a character, for functions that take one.
 #pragma once
 
 #include "pbs/character/character.hpp"

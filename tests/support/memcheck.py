@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs the unit tests' programs under valgrind with a full search for leaks, and counts for tests/README.md how many were clean. What other
-libraries do is in valgrind_suppressions.txt, with the reason.
+"""Runs the programs of the unit tests under valgrind with a full search for leaks, and counts for tests/README.md how many were clean.
+Errors of other libraries are listed in valgrind_suppressions.txt, each with its reason.
 
     PBS_RELIABILITY_DIR=DIR memcheck.py build/valgrind/tests JOBS
 """
@@ -14,14 +14,15 @@ import xml.etree.ElementTree
 
 import reliability
 
-LIMIT_S = 300  # a program
-LEFT_OUT = {"test_unit_analysis_verdict": "VolumeIsPreserved.BreakdownDoesNotHold"}  # GSL's mean to the bit: valgrind has no 80 bits
+LIMIT_S = 300  # per program
+# compares GSL's mean to the bit, for which valgrind lacks the 80-bit numbers
+LEFT_OUT = {"test_unit_analysis_verdict": "VolumeIsPreserved.BreakdownDoesNotHold"}
 SUPPRESSIONS = pathlib.Path(__file__).with_name("valgrind_suppressions.txt")
 VALGRIND = ["valgrind", "-q", "--error-exitcode=9", "--leak-check=full", "--num-callers=20", f"--suppressions={SUPPRESSIONS}"]
 
 
 def run(program):
-    """(its name, tests that ran, what is wrong)"""
+    """(name of the program, number of tests that ran, errors)"""
     with tempfile.NamedTemporaryFile(suffix=".xml") as report:
         command = [*VALGRIND, str(program), f"--gtest_filter=-{LEFT_OUT.get(program.name, '')}", "--gtest_brief=1",
                    f"--gtest_output=xml:{report.name}"]

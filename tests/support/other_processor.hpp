@@ -1,5 +1,5 @@
-// Another model of processor for this process: the instruction CPUID is made to fault (Linux, arch_prctl(2), ARCH_SET_CPUID), and a handler
-// answers in its place, the family and model changed and all else as it is.
+// Simulates another processor model for this process. The instruction CPUID is made to fault (Linux, arch_prctl(2), ARCH_SET_CPUID), and a
+// handler answers in its place with the family and model changed and everything else unchanged.
 #pragma once
 
 #include <cpuid.h>
@@ -13,7 +13,8 @@ namespace test_support {
 
 class OtherProcessor {
 public:
-    // family and model as /proc/cpuinfo has them, both below 256. One object at a time, for the thread that makes it and those it starts.
+    // family and model as in /proc/cpuinfo, both below 256. There may be one object at a time; it acts on the thread that makes it and on
+    // threads which that thread starts.
     OtherProcessor(unsigned family, unsigned model)
     {
         const unsigned base_family = family < 15 ? family : 15;
@@ -32,7 +33,7 @@ public:
     OtherProcessor(const OtherProcessor&) = delete;
     OtherProcessor& operator=(const OtherProcessor&) = delete;
 
-    bool works() const { return works_; }  // false: this processor or kernel cannot make CPUID fault
+    bool works() const { return works_; }  // false if this processor or kernel cannot make CPUID fault
 
 private:
     static constexpr int set_cpuid = 0x1012;  // ARCH_SET_CPUID of <asm/prctl.h>
@@ -43,7 +44,7 @@ private:
     {
         greg_t* registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
         const auto* instruction = reinterpret_cast<const unsigned char*>(registers[REG_RIP]);
-        if (instruction[0] != 0x0f || instruction[1] != 0xa2) {  // a fault of another kind: met again without this handler
+        if (instruction[0] != 0x0f || instruction[1] != 0xa2) {  // a fault of another kind, which occurs again without this handler
             signal(SIGSEGV, SIG_DFL);
             return;
         }

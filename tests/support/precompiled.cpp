@@ -1,1 +1,1 @@
-// Compiled for its precompiled header alone, which the test programs share.
+// Compiled only for its precompiled header, which the test programs share.

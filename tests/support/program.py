@@ -1,4 +1,4 @@
-"""Runs the program under test from outside."""
+"""Runs the program under test as a user does."""
 import os
 import subprocess
 import tempfile

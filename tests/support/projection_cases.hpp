@@ -1,4 +1,4 @@
-// What kernels are held against their plain twins on: sizes, stiffnesses, well-shaped and degenerate tets.
+// The cases on which kernels are compared with their plain counterparts: sizes, stiffnesses, well-shaped and degenerate tets.
 #pragma once
 
 #include "pbs/geometry/types.hpp"
@@ -11,12 +11,12 @@ namespace test_support {
 inline const double sizes_m[] = {1e-6, 1e-3, 1.0, 1e3, 1e6};
 inline const double stiffnesses[] = {0.0, 0.3, 1.0};
 
-// The corners of a tet and what may follow it round its first edge; each three neighbours in the ring make a well-shaped tet.
+// The corners of a tet, and the points that may follow around its first edge; any three neighbours in the ring make a well-shaped tet.
 inline const pbs::Vec3 ring[] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0.5}, {0, 1, 0.5}, {-1, 0.1, 0.5}, {-0.3, -1, 0.5}};
 
 struct TetShape {
     std::string name;
-    std::array<pbs::Vec3, 4> corners;  // of dyadic coordinates where products must cancel exactly
+    std::array<pbs::Vec3, 4> corners;  // dyadic coordinates where products must cancel exactly
 };
 inline const TetShape degenerate_tets[] = {
     {"flat", {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}}},

@@ -1,5 +1,6 @@
-// How far two evaluations of one projection may lie apart that round differently (a fused a * b + c rounds once, a reciprocal is taken
-// before or after a product): what one step adds, and what it makes of a difference its positions come with.
+// The largest possible distance between two evaluations of one projection that round differently (a fused a * b + c rounds once; a
+// reciprocal is taken before or after a product): the distance that one step adds, and the factor by which it amplifies a difference in its
+// input.
 // Derivation, with eps the spacing of numbers at 1. Stretch: s p12 goes through some ten roundings of terms no larger than
 // w k / (w1 + w2) (l + d), volume: some sixteen of terms no larger than w k n L^3 / D, where n = 6 |g|, D = sum w n^2, L the longest edge;
 // the cross products of flat tets cancel, which magnifies their rounding by L^2 sqrt(sum w / D). Positions are rounded once: eps |p|.
@@ -17,7 +18,7 @@ namespace test_support {
 
 struct RoundingBound {
     double step = 0.0;    // [m]
-    double growth = 1.0;  // of a difference before
+    double growth = 1.0;  // factor for a difference in the input
 };
 
 template <typename Scalar>
@@ -67,7 +68,7 @@ RoundingBound rounding_of(const pbs::VolumeConstraint<Scalar>& c, const std::arr
     const double P = largest_coordinate<Scalar>({p[0], p[1], p[2], p[3]});
     if (!(D > 0.0)) return {eps * P, 1.0};
     const double six_C = p21.cross(p31).dot(p41) - 6.0 * c.rest_volume, moved = c.stiffness * w_n / D;
-    const double cancellation = L * std::sqrt(w_sum / D);  // 1 / m: of L^2 sqrt(sum w / D), one L of the step's own
+    const double cancellation = L * std::sqrt(w_sum / D);  // in 1 / m: one L of L^2 sqrt(sum w / D) is part of the step itself
     return {eps * (P + 16.0 * moved * (L * L * L + 6.0 * c.rest_volume + std::abs(six_C) * L * cancellation)),
             1.0 + 4.0 * moved * (n_largest + 3.0 * std::abs(six_C) * cancellation)};
 }

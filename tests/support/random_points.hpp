@@ -1,4 +1,4 @@
-// Seeded random points and rigid motions: the same in every run.
+// Random points and rigid motions with a fixed seed, the same in every run.
 #pragma once
 
 #include "pbs/geometry/types.hpp"

@@ -1,4 +1,5 @@
-"""What the tests of reliability counted, for tests/README.md: FILE.json in the folder that PBS_RELIABILITY_DIR names; without it, nothing.
+"""Writes the counts of the reliability tests for tests/README.md to FILE.json in the folder that PBS_RELIABILITY_DIR names; without it,
+nothing is written.
 
     reliability.tell("kills", "kills survived", 20, 20, note="seed 2014")
 """

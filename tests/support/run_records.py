@@ -1,4 +1,4 @@
-"""The files below a folder of records: whether each is whole, and what they say beside time and provenance."""
+"""The files below a folder of records: whether each is complete, and its content except time and provenance."""
 import csv
 import io
 import json
@@ -32,7 +32,7 @@ def rows(path):
 
 
 def what_is_torn(path):
-    """Why a file is not whole; nothing where it is."""
+    """Why a file is incomplete; nothing if it is complete."""
     try:
         if path.suffix == ".csv":
             rows(path)
@@ -64,6 +64,6 @@ def said(path):
 
 
 def records(folder, left_out=()):
-    """Name below the folder -> what the file says."""
+    """Name below the folder -> content of the file."""
     named = ((str(path.relative_to(folder)), path) for path in files(folder))
     return {name: said(path) for name, path in named if not name.endswith(tuple(left_out))}

@@ -1,4 +1,4 @@
-// A folder of the test's own, removed with it.
+// A temporary folder of the test, which is removed with the object.
 //   const test_support::ScratchFolder folder;  write(folder / "limb.msh");
 #pragma once
 

@@ -1,4 +1,4 @@
-// One batch of groups on vertices of their own, for the kernel to project and for its plain twins, one constraint after the other.
+// One batch of groups with their own vertices: the kernel projects them, and so does the plain form, one constraint after the other.
 //   SixteenGroups<float, GroupKind::tet> groups;
 //   groups.set_vertex(lane, v, point, w); groups.set_constraint(lane, c, rest, k); groups.expect_as_plain();
 #pragma once
@@ -16,7 +16,7 @@ public:
     using Shape = pbs::GroupShape<kind>;
     using Vector = pbs::Vector3<Scalar>;
     static constexpr int lanes = pbs::batch_size, vertices = Shape::vertices, constraints = Shape::constraints;
-    static constexpr std::size_t corners = pbs::of_edges<kind> ? 2 : 4;  // of a constraint
+    static constexpr std::size_t corners = pbs::of_edges<kind> ? 2 : 4;  // vertices per constraint
 
     void set_vertex(int lane, int v, const pbs::Vec3& point, double w)
     {
@@ -24,7 +24,7 @@ public:
         for (int axis = 0; axis < 3; ++axis) to[axis] = Scalar(point(axis));
         to[3] = Scalar(w);
     }
-    // rest: length [m] or volume [m^3]. After the vertices.
+    // rest: length [m] or volume [m^3]. To be called after the vertices are set.
     void set_constraint(int lane, int c, double rest, double k)
     {
         rest_[lane][c] = Scalar(rest);
@@ -51,7 +51,7 @@ public:
     Scalar* memory() { return xyzw_[0]; }
     void project() { pbs::project_batches<Scalar>(kind, &batch(), 1, memory()); }
 
-    // The kernel's positions against those of pbs/constraints; masses and pinned vertices to the bit.
+    // Compares the kernel's positions with those of pbs/constraints; masses and pinned vertices must agree to the bit.
     void expect_as_plain()
     {
         SixteenGroups kernel = *this;
@@ -68,7 +68,7 @@ public:
     }
 
 private:
-    // Returns how far the kernel may lie from it [m].
+    // Returns how far the kernel's result may differ [m].
     double project_plain(int lane)
     {
         double difference = 0.0;

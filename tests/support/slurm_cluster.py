@@ -1,11 +1,11 @@
 """A Slurm cluster of one node in a folder of its own: munged, slurmctld and slurmd on free ports of the loopback, with their own key,
-socket, configuration and state; no accounting, no cgroups. Nothing of a system's Slurm is read or touched, and root is not needed.
+socket, configuration and state, without accounting and cgroups. It neither reads nor changes a Slurm of the system, and does not need root.
 
     with slurm_cluster.SlurmCluster() as cluster:
         subprocess.run(["sbatch", ...], env=cluster.environment)
 
-It ends what it started, also after an error or ^C: orphans come to this process, which knows its children. Where this process itself is
-killed by SIGKILL, the daemons end with it, but jobs that run then go on to their end, and the folder stays."""
+It ends what it started, also after an error or ^C: orphans become children of this process, which knows its children. If this process
+itself is killed by SIGKILL, the daemons end with it, but running jobs continue to their end, and the folder remains."""
 import ctypes
 import getpass
 import os
@@ -49,7 +49,7 @@ DEATH_SIGNAL, SUBREAPER = 1, 36
 
 
 def missing():
-    """The programs that are not there."""
+    """The required programs that are missing."""
     return [name for name in PROGRAMS if not any(os.access(os.path.join(folder, name), os.X_OK) for folder in PATH.split(":"))]
 
 
@@ -70,7 +70,7 @@ def wait_for(what, condition, seconds=60):
 
 
 def children():
-    """Process ids of this process's children, orphans that came to it included."""
+    """The process ids of this process's children, including orphans that it inherited."""
     found = []
     for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
         try:
@@ -88,12 +88,12 @@ class SlurmCluster:
         self.before = children()
         try:
             self.begin()
-        except (OSError, RuntimeError):  # a port was taken between asking and listening
+        except (OSError, RuntimeError):  # another process took a port between the query and the start of listening
             self.begin()
         return self
 
     def begin(self):
-        """Started, or stopped again with an error that shows the logs."""
+        """Starts the cluster, or stops it again with an error that shows the logs."""
         self.daemons = []
         self.temporary = tempfile.TemporaryDirectory(prefix="slurm_")
         self.folder = pathlib.Path(self.temporary.name)
@@ -110,7 +110,7 @@ class SlurmCluster:
         self.stop()
 
     def start(self):
-        self.folder.chmod(0o711)  # munged wants its socket in the reach of all
+        self.folder.chmod(0o711)  # munged requires that all users can reach its socket
         for name, mode in (("munge", 0o711), ("state", 0o700), ("spool", 0o755)):
             (self.folder / name).mkdir()
             (self.folder / name).chmod(mode)
@@ -148,7 +148,7 @@ class SlurmCluster:
         return "\n".join(f"{path.name}: {path.read_text()[-2000:]}" for path in sorted(self.folder.glob("*.out")))
 
     def stop(self):
-        """Jobs first, then the daemons, then whatever of theirs is left."""
+        """Ends the jobs first, then the daemons, then their remaining processes."""
         if len(self.daemons) == 3:
             try:
                 self.told("scancel", "--user", getpass.getuser())

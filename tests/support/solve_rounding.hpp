@@ -1,6 +1,6 @@
-// What rounding may do to a solution of the reference, for tolerances: reference_fem/verification/rounding_bound.hpp has the derivation of
-// |e| <= c cond(K) |u|, where e is the error of the unknowns u, c = sqrt(n) eps and cond(K) is that of the very matrix. The rest follows
-// from the residual r = K e, for which |r| <= c |K| |u|, with V the smallest volume of a tet:
+// How much rounding may change a solution of the reference, for tolerances. reference_fem/verification/rounding_bound.hpp derives |e| <= c
+// cond(K) |u|, where e is the error of the unknowns u, c = sqrt(n) eps and cond(K) is the condition number of the matrix itself. The bounds
+// below follow from the residual r = K e, for which |r| <= c |K| |u|, with V the smallest volume of a tet:
 //   energy norm      |e|_K^2 = e^T K e = r^T K^-1 r <= |r|^2 / min|eigenvalue of K|;
 //   energy           |E(u + e) - E(u)| <= |u|_K |e|_K + |e|_K^2 / 2, with |u|_K = sqrt(2 E);
 //   total force      of the residual along one axis: |t . r| <= sqrt(nodes) |r|, t a unit translation of all nodes;
@@ -23,11 +23,11 @@ namespace test_support {
 
 struct SolveRounding {
     reference_fem::Spectrum spectrum;  // [N/m]
-    double size_m = 0.0;               // |u|, all unknowns
+    double size_m = 0.0;               // |u| over all unknowns
 
     double relative() const { return rounding_bound(spectrum); }
-    double error_m() const { return relative() * size_m; }                           // |e|, and so of any part of the unknowns
-    double residual_n() const { return error_m() * spectrum.smallest; }              // |r|
+    double error_m() const { return relative() * size_m; }               // |e|, which also bounds the error of any part of the unknowns
+    double residual_n() const { return error_m() * spectrum.smallest; }  // |r|
     double energy_norm() const { return error_m() * std::sqrt(spectrum.smallest); }  // |e|_K [sqrt(J)]
     double energy_j(double of_solution = 0.0) const { return (std::sqrt(2.0 * of_solution) + energy_norm() / 2.0) * energy_norm(); }
     double force_n(int nodes) const { return std::sqrt(3.0 * nodes) * residual_n(); }  // all three axes
@@ -38,7 +38,7 @@ struct SolveRounding {
     }
 };
 
-// |u| over displacements [m] and pressures in their unit.
+// |u| over displacements [m] and pressures in their own unit.
 inline double size_of(const reference_fem::LinearFlesh& flesh, const Eigen::VectorXd& displacement, const Eigen::VectorXd& pressure_pa)
 {
     const double pressures = pressure_pa.size() == 0 ? 0.0 : pressure_pa.norm() / flesh.pressure_unit_pa();
@@ -61,7 +61,7 @@ inline double relative_error(const reference_fem::BoundaryValueSolution& solutio
     return (solution.displacement - at_nodes).norm() / at_nodes.norm();
 }
 
-// Of LinearElasticity(mesh, options, attachment).
+// The spectrum of LinearElasticity(mesh, options, attachment).
 inline reference_fem::Spectrum spectrum_of(const pbs::TetMesh& mesh, const reference_fem::LinearOptions& options,
                                            const reference_fem::Attachment& attachment)
 {

@@ -1,5 +1,5 @@
-"""What is accepted: the files that the bad ones are made of, with the ends of lines of other systems, and what is told of those that their
-author may not have meant."""
+"""Inputs that are accepted: the files from which the bad ones are made, with the line ends of other systems, and the remarks printed on
+those whose properties the author may not have intended."""
 import bad_characters
 import bad_scenes
 import bad_surfaces
@@ -28,7 +28,7 @@ def surface(name, file, content, *says):
 
 
 def texts():
-    """(file, content, command) of every text that the program itself or a library reads."""
+    """(file, content, command) for every text that the program itself or a library reads."""
     yield "x.toml", bad_characters.SCENE, ["run", "x.toml", "-o", "out"]
     yield "x.skeleton.toml", foreign_arm.SKELETON, [*RUN, "character.skeleton=x.skeleton.toml"]
     yield "x.csv", bad_characters.WEIGHTS, [*RUN, "skinning.weights=x.csv"]
@@ -41,7 +41,7 @@ def texts():
 def sound():
     for file, content, command in texts():
         yield accepted(f"{file} with line ends of Windows", {file: content.replace("\n", "\r\n")}, command)
-    yield measured("x.vtu with a byte-order mark", "x.vtu", BYTE_ORDER_MARK + tet_texts.vtu(POINTS, TETS))  # XML allows it
+    yield measured("x.vtu with a byte-order mark", "x.vtu", BYTE_ORDER_MARK + tet_texts.vtu(POINTS, TETS))  # XML allows such a mark
     for name, write in (("msh 2.2, binary", binary_bytes.msh22), ("msh 4.1", binary_bytes.msh41),
                         ("msh 4.1, binary", binary_bytes.msh41_binary)):
         yield measured(name, "x.msh", write(POINTS, TETS))
@@ -60,12 +60,12 @@ def two_parts():
 
 
 def through_itself():
-    """MakeHuman's skins do, at lips and lids."""
+    """The skins of MakeHuman intersect themselves, at lips and lids."""
     return [*CORNERS, *[(x + 0.1, y + 0.1, z + 0.1) for x, y, z in CORNERS]], [*FACES, *[tuple(v + 4 for v in face) for face in FACES]]
 
 
 def told():
-    """Accepted, and said so."""
+    """Inputs that are accepted with a remark."""
     mesh = {"x.vtu": tet_texts.vtu(POINTS, turned(TETS))}
     yield accepted("turned tet, measure", mesh, ["measure", "x.vtu", "x.vtu"], "warning: x.vtu: inverted tets = 1: turned")
     yield accepted("turned tet, run", mesh, [*RUN, "character.mesh=x.vtu"], "warning: x.vtu: inverted tets = 1: turned")

@@ -1,4 +1,4 @@
-// The members of a struct, and the struct with one of them changed.
+// The members of a struct, and copies of the struct with one of them changed.
 //   for_each_change(JoltCase{...}, [](const JoltCase& changed, const std::string& what) { ... });
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace test_support {
 
-// References to all of them, in order.
+// References to all members, in order.
 template <typename Struct>
 auto members_of(Struct& of)
 {
@@ -72,7 +72,7 @@ inline constexpr bool is_optional<std::optional<Value>> = true;
 template <typename Struct, typename Visit>
 void for_each_change(const Struct& of, const Visit& visit);
 
-// Values that differ from this one, each in one way.
+// Values that differ from the given one, each in one way.
 template <typename Value, typename Visit>
 void for_each_other(const Value& value, const Visit& visit)
 {
@@ -131,8 +131,8 @@ void for_each_other(const Value& value, const Visit& visit)
     }
 }
 
-// The struct with each member changed in turn, the others as they are; a member that is a struct has its own members changed. visit is
-// called with the changed struct and what was changed.
+// Visits the struct with each member changed in turn and the others unchanged. If a member is a struct, each of its own members is changed
+// in turn. visit is called with the changed struct and a description of the change.
 template <typename Struct, typename Visit>
 void for_each_change(const Struct& of, const Visit& visit)
 {

@@ -22,7 +22,7 @@ inline pbs::TetMesh structured_bar(const pbs::Vec3& lower, const pbs::Vec3& uppe
                 mesh.rest.row(vertex(i, j, k)) =
                     lower + (upper - lower).cwiseProduct(pbs::Vec3(double(i) / nx, double(j) / ny, double(k) / nz));
 
-    // Each of the six tets walks from corner (0,0,0) to (1,1,1) along the axes in one order; odd orders are mirrored.
+    // Each of the six tets follows a path from corner (0,0,0) to (1,1,1) along the axes in one order; odd orders are mirrored.
     const std::array<std::array<int, 3>, 6> axis_orders = {{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
     mesh.tets.resize(6 * nx * ny * nz, 4);
     int t = 0;

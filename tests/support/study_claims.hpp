@@ -1,4 +1,4 @@
-// The project's own claims, and what a study's own runs measure for them.
+// The project's own claims, and the values that a study's own runs measure for them.
 //   const analysis::Records records = test_support::records_of(experiments::audit_study().plan(false));
 //   judge(test_support::claim("C13"), records)
 #pragma once
@@ -20,7 +20,7 @@ inline analysis::Claim claim(const std::string& id)
     return *std::find_if(claims.begin(), claims.end(), [&](const auto& one) { return one.id == id; });
 }
 
-// Carries out the plan's first `runs` of them, as `pbskin reproduce` does.
+// Carries out the first `runs` runs of the plan, like `pbskin reproduce`.
 inline analysis::Records records_of(experiments::StudyPlan plan, std::size_t runs = 1)
 {
     const ScratchFolder folder;

@@ -14,7 +14,7 @@ using Corners = std::array<pbs::Vector3<Scalar>, 4>;
 template <typename Scalar>
 using CornerMasses = std::array<Scalar, 4>;  // inverse masses
 
-// A unit corner with every point moved by up to `noise` of its size; the rest volume that goes with it without noise is 1 / 6.
+// A unit corner with every point moved by up to `noise` of its size; without noise, its rest volume is 1 / 6.
 inline Corners<double> noisy_corner(RandomPoints& random, double noise)
 {
     Corners<double> p = {pbs::Vec3(0, 0, 0), pbs::Vec3(1, 0, 0), pbs::Vec3(0, 1, 0), pbs::Vec3(0, 0, 1)};
@@ -41,7 +41,7 @@ Corners<Scalar> projected(const pbs::VolumeConstraint<Scalar>& constraint, const
     return p;
 }
 
-// Corners as one vector of 12 and back.
+// The corners as one vector of 12, and the reverse.
 inline Eigen::VectorXd stacked(const Corners<double>& p)
 {
     Eigen::VectorXd x(12);

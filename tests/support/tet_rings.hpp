@@ -1,4 +1,4 @@
-// Tets round one edge, and renumbered meshes: the topologies that fans, slabs and batches have to cope with.
+// Tets around one edge, and renumbered meshes: the topologies that fans, slabs and batches must handle.
 //   const pbs::Tets closed = tet_ring(5, true);   // five tets round the edge 0, 1, closed
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace test_support {
 
-// `count` tets round the edge 0, 1, of one orientation; ring vertices 2, 3 ... count + 1, and one more where the ring is open.
+// `count` tets of one orientation around the edge 0, 1; ring vertices 2, 3 ... count + 1, and one more if the ring is open.
 inline pbs::Tets tet_ring(int count, bool closed)
 {
     pbs::Tets tets(count, 4);
@@ -34,7 +34,7 @@ inline std::vector<std::array<int, 2>> rows_of(const pbs::Edges& edges)
     return rows;
 }
 
-// The same mesh, vertices and tets renumbered at random and each tet turned at random, its orientation kept.
+// The same mesh with randomly renumbered vertices and tets, and each tet's corners permuted at random without a change of orientation.
 inline pbs::Tets shuffled(const pbs::Tets& tets, int vertices, unsigned seed)
 {
     std::mt19937 engine(seed);
@@ -46,7 +46,7 @@ inline pbs::Tets shuffled(const pbs::Tets& tets, int vertices, unsigned seed)
     pbs::Tets result(tets.rows(), 4);
     for (Eigen::Index t = 0; t < tets.rows(); ++t) {
         for (int corner = 0; corner < 4; ++corner) result(t, corner) = vertex[tets(row[t], corner)];
-        for (int turns = static_cast<int>(engine() % 3); turns > 0; --turns) {  // three corners round: an even permutation
+        for (int turns = static_cast<int>(engine() % 3); turns > 0; --turns) {  // rotates three corners: an even permutation
             std::swap(result(t, 0), result(t, 1));
             std::swap(result(t, 1), result(t, 2));
         }
@@ -54,7 +54,7 @@ inline pbs::Tets shuffled(const pbs::Tets& tets, int vertices, unsigned seed)
     return result;
 }
 
-// Two meshes beside each other, the second's vertices counted after the first's.
+// Two meshes side by side; the vertices of the second are numbered after those of the first.
 inline pbs::Tets beside(const pbs::Tets& first, int vertices_of_first, const pbs::Tets& second)
 {
     pbs::Tets both(first.rows() + second.rows(), 4);

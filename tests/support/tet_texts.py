@@ -1,5 +1,5 @@
-"""Tet meshes as text, number by number, so that any of them can be wrong: points are triples and tets quadruples (from 0) of whatever is to
-stand in the file; `vertices` and `tets_told` are the counts that the file tells."""
+"""Writes tet meshes as text, number by number, so that any of the numbers can be wrong: points are triples and tets quadruples (from 0) of
+whatever the file shall contain; `vertices` and `tets_told` are the counts that the file states."""
 
 
 def rows(table):

@@ -1,4 +1,4 @@
-// A bar with two bones along x that meet at the origin, bent or twisted there: everything a step of the solver needs, without files.
+// A bar with two bones along x that meet at the origin, bent or twisted there: all inputs of a solver step, without files.
 //   const TwoBoneLimb limb = two_bone_limb({24, 4, 4}, {0, 0, 1}, 90.0);
 #pragma once
 
@@ -24,7 +24,7 @@ inline void pose_limb(TwoBoneLimb& limb, const pbs::Pose& pose)
     limb.bind_points = pbs::posed_bind_points(limb.binding, limb.pose);
 }
 
-// Any mesh round the x axis from joint - 1 m to joint + 1 m, at rest.
+// Any mesh around the x axis from joint - 1 m to joint + 1 m, at rest.
 inline TwoBoneLimb two_bones_in(pbs::TetMesh mesh, const pbs::Vec3& joint = pbs::Vec3::Zero())
 {
     const pbs::Vec3 along(1.0, 0.0, 0.0);

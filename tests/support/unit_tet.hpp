@@ -1,4 +1,4 @@
-// The unit tet, the smallest mesh there is: vertices at the origin and at 1 m on each axis, one positively oriented tet of 1/6 m^3 with
+// The unit tet, the smallest possible mesh: vertices at the origin and at 1 m on each axis, one positively oriented tet of 1/6 m^3 with
 // three edges of 1 m and three of sqrt 2 m.
 //   const pbs::TetMesh mesh = test_support::unit_tet();
 #pragma once

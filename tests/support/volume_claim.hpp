@@ -1,4 +1,4 @@
-// A claim of volume and one walk that it is judged by, for those who write verdicts down.
+// A claim of volume and one walk by which it is judged, for tests of functions that write verdicts.
 //   judge(test_support::volume_claim("volume is kept"), {.cases = {test_support::walk()}})
 #pragma once
 
@@ -24,7 +24,7 @@ inline analysis::Claim volume_claim(const std::string& statement)
     return claim;
 }
 
-// Four frames, the third out of bounds.
+// Four frames, the third outside the bounds.
 inline analysis::CaseRecord walk()
 {
     analysis::CaseRecord walk;
