@@ -1,6 +1,6 @@
 """Every bad input by name, through the program itself: exit status 2 and one line with file, line, field, value and rule, within seconds
-and a gigabyte, and nothing left behind. Truth: the contract in experiments/command_line/README.md. The sound files
-that the bad ones are made of are accepted."""
+and a gigabyte, with nothing left behind. Reference: the contract in experiments/command_line/README.md. The valid files from which the bad
+ones are made are accepted."""
 import unittest
 
 import bad_case
@@ -33,7 +33,7 @@ class BadInput(unittest.TestCase):
                          "process, nothing left behind", len(cases), len(every), note=skipped)
 
     def test_each_demands_a_rule(self):
-        """Not only what stands in the command line."""
+        """The expected words of each case include a rule, and not only parts of the command line."""
         self.assertEqual([case.name for case in input_cases.refused() if not bad_case.demands_a_rule(case)], [])
 
     def test_the_form(self):

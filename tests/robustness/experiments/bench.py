@@ -1,5 +1,5 @@
-"""`pbskin bench` as its users meet it: the fields of the contract, finite positive numbers, bad input refused. Quick runs: no time is
-judged. Truth: the contract in experiments/command_line/README.md."""
+"""`pbskin bench` as users run it: the fields of the contract, finite positive numbers, bad input refused. The runs are quick, and no time
+is judged. Reference: the contract in experiments/command_line/README.md."""
 import json
 import math
 import os

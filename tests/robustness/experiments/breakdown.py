@@ -1,5 +1,5 @@
-"""Numerical breakdown is an outcome: the frame and the worst element are on record and said, and the exit status is 3 where the run was
-expected to finish. Truth: the contract in experiments/command_line/README.md; the worst tet, found again in the frame that was written."""
+"""Numerical breakdown is an outcome: the frame and the worst element are recorded and printed, and the exit status is 3 if the run was
+expected to finish. Reference: the contract in experiments/command_line/README.md, and the worst tet as computed from the written frame."""
 import csv
 import json
 import unittest
@@ -66,7 +66,7 @@ class Breakdown(program.ProgramTest):
         self.assertIn("pose not reached: pbs is not converged in frame 0: worst tet", process.stderr)
 
     def test_a_step_between_frames_that_is_not_reached(self):
-        """The elbow is bent in each second step and straight in the frames, where PBS is within its stop residual."""
+        """The elbow is bent in every second step and straight in the frames, in which PBS is within its stop residual."""
         foreign_arm.write_bvh(self.path("arm.bvh"), [90.0 * (step % 2) for step in range(9)])
         self.write("arm.toml", foreign_arm.CLIP_SCENE % 50.0)
         process = program.run("run", self.path("arm.toml"), "-o", self.path("out"), "--set", "pbs.jiggle.k_stretch=0.5",

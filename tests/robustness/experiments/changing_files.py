@@ -1,5 +1,5 @@
-"""Files that shrink, vanish or are replaced while they are read: the answer is that of the whole file, or it is refused by its name,
-whatever the moment. Truth: what the program makes of the whole file that nobody touches; each disturbed state by itself is refused."""
+"""Files that shrink, vanish or are replaced while they are read: the result is that of the whole file, or the file is refused by name, at
+whatever moment it changes. Reference: the results for the whole, unchanged file; each changed state by itself is refused."""
 import json
 import pathlib
 import random
@@ -30,14 +30,14 @@ READ = {"x.vtu": (input_cases.COMMON["arm.vtu"], ["measure", "x.vtu", "x.vtu", "
 
 
 def put(path, content):
-    """In one step, as a careful writer does."""
+    """Replaces the file in one step, like a careful writer."""
     beside = path.with_suffix(".beside")
     beside.write_bytes(content)
     beside.replace(path)
 
 
 def written(out):
-    """What the program has written, and of which bytes it says that they were read."""
+    """The files that the program has written, and the bytes that it states to have read."""
     provenance = json.loads((out / "run.json").read_text())["provenance"] if (out / "run.json").exists() else {}
     return run_records.records(out), provenance.get("input_hashes")
 
@@ -70,7 +70,7 @@ class ChangingFiles(unittest.TestCase):
         bad_case.make(self.folder, input_cases.COMMON)
 
     def run_once(self, command):
-        """(exit status, stderr, what it has written)"""
+        """(exit status, stderr, the files that it has written)"""
         out = self.folder / "out"
         shutil.rmtree(out, ignore_errors=True)
         out.mkdir()
@@ -83,7 +83,7 @@ class ChangingFiles(unittest.TestCase):
         self.assertEqual([word for word in bad_case.WORDS_OF_NO_USER if word in told], [], told)
 
     def disturbed(self, name, whole, command, way):
-        """What the program says and writes while the file changes."""
+        """The program's messages and files while the input changes."""
         stop = threading.Event()
         disturber = threading.Thread(target=disturb, args=(self.folder / name, whole, way, stop, self.chance))
         disturber.start()

@@ -1,5 +1,6 @@
-"""`pbskin check` as a CI server meets it: exit status, JUnit (read back by Python's own parser), GitHub's annotations and summary, the
-baseline. Truth: the contract in experiments/command_line/README.md; what a bound allows is decided here, from the figures of the frames."""
+"""`pbskin check` as a CI server runs it: exit status, JUnit (read back by Python's own parser), GitHub's annotations and summary, and the
+baseline. Reference: the contract in experiments/command_line/README.md; whether a bound holds is decided here, from the values of the
+frames."""
 import csv
 import json
 import os
@@ -47,7 +48,7 @@ class Check(program.ProgramTest):
         return check_records.cases(self.path("volume.xml"))[VOLUME]
 
     def altered_baseline(self, column, change):
-        """The row of pbs in frame 3 with another value; the text of the file as it was."""
+        """Replaces a value in the row of pbs in frame 3; returns the previous text of the file."""
         with open(self.baseline, encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
         for row in rows:
@@ -62,7 +63,7 @@ class Check(program.ProgramTest):
         os.mkdir(self.path("experiments"))
         self.write(os.path.join("experiments", "limb_twist"), "no scene")
         process = program.run("check", "-o", "own", "--junit", "own.xml", "--require-all", env=self.environment, cwd=self.folder)
-        other_meshes = check_records.scenes_of_another_mesh(self.path("own"))  # another CGAL's: their baselines must tell
+        other_meshes = check_records.scenes_of_another_mesh(self.path("own"))  # meshes of another CGAL, whose baselines must differ
         failed = check_records.failed(self.path("own.xml"))
         self.assertEqual(failed, check_records.baselines_of(other_meshes, self.path("own.xml")), process.stderr)
         self.assertEqual(process.returncode, 1 if failed else 0, process.stderr)
@@ -77,7 +78,8 @@ class Check(program.ProgramTest):
 
     def test_a_bound_that_holds(self):
         process = self.check("--junit", self.path("volume.xml"))
-        errors = process.stderr.count("pbskin:") - process.stderr.count("pbskin: warning:")  # the arm's tets are turned, which is told
+        # the arm's tets are reoriented, with a warning
+        errors = process.stderr.count("pbskin:") - process.stderr.count("pbskin: warning:")
         self.assertEqual((process.returncode, errors), (0, 0), process.stderr)
         case = self.volume_case()
         self.assertEqual((case.get("classname"), case.find("failure")), ("arm", None))
@@ -132,7 +134,7 @@ class Check(program.ProgramTest):
             failure = check_records.cases(self.path("volume.xml"))["arm", "baseline of pbs"].find("failure").get("message")
             self.assertRegex(failure, r"^frame 3: %s was .*, is " % column)
             self.write("baseline.csv", kept)
-        self.altered_baseline("volume_change_pct", lambda v: v + 5e-5)  # half its tolerance
+        self.altered_baseline("volume_change_pct", lambda v: v + 5e-5)  # half of its tolerance
         self.assertEqual(self.check("--baseline", self.baseline).returncode, 0)
         self.altered_baseline("step_ms", lambda v: 1e3 * v)
         process = self.check("--baseline", self.baseline)
@@ -155,7 +157,7 @@ class Check(program.ProgramTest):
             self.assertEqual(process.returncode, 2, arguments)
             self.assertIn("cannot be written", process.stderr)
             self.assertFalse(os.path.exists(self.path("out", "arm")), arguments)
-        self.assertEqual(self.check("--junit", self.path("out", "volume.xml")).returncode, 0)  # in the folder that the check makes
+        self.assertEqual(self.check("--junit", self.path("out", "volume.xml")).returncode, 0)  # in the folder that the check creates
 
     def test_bounds_whose_name_is_not_utf8_lose_no_record(self):
         own = os.fsdecode(os.fsencode(self.path("che")) + b"\xff.toml")
@@ -211,7 +213,7 @@ class Check(program.ProgramTest):
 
     def test_a_scene_without_its_body_is_left_out_and_said_so(self):
         self.write("check.toml", BOUNDS % "-60.0" + '[[check.scene]]\nscene = "man_01_01"\nneeds = "man"\n')
-        empty = {"PBSKIN_CACHE": self.path("cache")}  # fetched bodies lie in the cache
+        empty = {"PBSKIN_CACHE": self.path("cache")}  # fetched bodies are in the cache
         process = self.check("--junit", self.path("volume.xml"), "--github", "--require-all", **empty)
         self.assertEqual(process.returncode, 2, process.stderr)
         process = self.check("--junit", self.path("volume.xml"), "--github", **empty)

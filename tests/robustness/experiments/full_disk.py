@@ -1,6 +1,7 @@
-"""A full disk is an error with nothing half-written: exit status 2, the file and the reason named, every other file whole; where there is
-room again the same command, or --resume, ends with the records of an undisturbed run. A limit on the size of a file (ulimit -f) stands for
-the disk at every file's own size; a small tmpfs is one, where it can be mounted. Truth: what an undisturbed run leaves."""
+"""A full disk is an error without half-written files: exit status 2, the file and the reason named, every other file complete. When there
+is space again, the same command, or --resume, ends with the records of an undisturbed run. A limit on the size of a file (ulimit -f)
+simulates the disk at every file's own size; a small tmpfs is a real one, where it can be mounted. Reference: the files of an undisturbed
+run."""
 import os
 import pathlib
 import re
@@ -41,7 +42,7 @@ class FullDisk(program.ProgramTest):
         self.scene = self.write("arm.toml", foreign_arm.SCENE + "[output]\nframes_every = 2\n")
 
     def expect_refused(self, process, folder):
-        """The file that could not be written, by what is said."""
+        """The file that could not be written, according to the message."""
         self.assertEqual(process.returncode, 2, process.stderr)
         self.assertRegex(process.stderr, FULL)
         refusal = next(line for line in process.stderr.splitlines() if re.search(FULL, line))
@@ -56,8 +57,8 @@ class FullDisk(program.ProgramTest):
         return program.run(*arguments, **options, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
 
     def refused_at_every_size(self, *sets):
-        """The endings of files that could not be written, one a size at which some file of the run does not fit: nine tenths of its own,
-        which its wall times change by less."""
+        """The endings of files that could not be written, one for each size at which some file of the run does not fit. The size is nine
+        tenths of the file's own, since wall times change a file by less than that."""
         whole, folder = pathlib.Path(self.path("whole")), pathlib.Path(self.path("out"))
         self.succeeds("run", self.scene, "-o", whole, *sets)
         sizes = sorted({path.stat().st_size for path in run_records.files(whole)})
@@ -75,7 +76,7 @@ class FullDisk(program.ProgramTest):
         for name in ("whole", "out"):
             shutil.rmtree(self.path(name))
         frames = self.refused_at_every_size()
-        self.assertEqual(set(frames), {".vtu"})  # they come first and are the largest
+        self.assertEqual(set(frames), {".vtu"})  # the frames are written first and are the largest files
         count = len(tables + frames)
         reliability.tell("full_disk", "limits on a file's size: the file named, nothing half-written", count, count)
 
@@ -88,7 +89,7 @@ class FullDisk(program.ProgramTest):
         self.assertEqual(run_records.records(folder), run_records.records(whole))
 
     def test_every_other_writer(self):
-        """At 100 bytes, where none of their files fits."""
+        """At 100 bytes, a limit that none of their files meets."""
         arm, bounds = self.path("arm.msh"), self.write("check.toml", CHECK)
         surface = self.write("good.off", bad_surfaces.off())
         for name, arguments in {"figures.csv": ["measure", arm, arm, "--csv", self.path("figures.csv")],
@@ -109,7 +110,7 @@ class FullDisk(program.ProgramTest):
         self.assertEqual(self.expect_refused(self.limited(size // 2, "report", folder), folder), page)
 
     def test_the_cache_is_left_alone(self):
-        """A body that finds no room there is made again the next time."""
+        """A body whose cache file cannot be written is made again the next time."""
         scene = self.write("limb.toml", LIMB)
         whole, cache = pathlib.Path(self.path("whole_cache")), pathlib.Path(self.path("cache"))
         self.succeeds("run", scene, "-o", self.path("whole"), env={**os.environ, "PBSKIN_CACHE": str(whole)})

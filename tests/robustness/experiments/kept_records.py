@@ -1,5 +1,5 @@
-"""What is kept of a study's records is enough to judge its claims again, and is kept whole or not at all. Truth: the verdicts of the
-records that it was taken from."""
+"""The kept part of a study's records is sufficient to judge its claims again, and is kept as a whole or not at all. Reference: the verdicts
+from the complete records."""
 import json
 import pathlib
 import subprocess

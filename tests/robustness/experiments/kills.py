@@ -1,6 +1,6 @@
-"""Killed at any moment, by any signal, once or several times: what lies there is whole, nothing of the program goes on, and --resume ends
-with the records and the state hashes of a run that nobody killed. Truth: those records; the exit status in
-experiments/command_line/README.md; /proc. Moments come from PBS_KILL_SEED."""
+"""A run that is killed at any moment, by any signal, once or several times: its files are complete, no process of the program continues,
+and --resume ends with the records and the state hashes of an undisturbed run. Reference: those records; the exit status in
+experiments/command_line/README.md; /proc. PBS_KILL_SEED determines the moments."""
 import itertools
 import os
 import pathlib
@@ -18,20 +18,20 @@ import run_records
 
 LONG = bool(os.environ.get("PBS_LONG"))
 SEED = int(os.environ.get("PBS_KILL_SEED", "2014"))
-STUDIES = ["momentum", "jiggle"] if LONG else ["momentum"]  # the limb and the human, in both
-KILLS = 10 if LONG else 2  # at least, of the studies and of the scenes' runs
+STUDIES = ["momentum", "jiggle"] if LONG else ["momentum"]  # limb and human, each of which both studies contain
+KILLS = 10 if LONG else 2  # least number of kills, for the studies and for the runs of scenes
 SIGNALS = [signal.SIGKILL, signal.SIGINT, signal.SIGTERM]
 AIMS = ["parent", "child", "group"]
 QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
 
 def statuses():
-    """Process -> (state, parent, session) of all there are."""
+    """Process -> (state, parent, session) of all processes."""
     found = {}
     for entry in os.listdir("/proc"):
         try:
             fields = pathlib.Path("/proc", entry, "stat").read_text().rsplit(")", 1)[1].split() if entry.isdigit() else None
-        except OSError:  # it ended meanwhile
+        except OSError:  # the process has ended meanwhile
             continue
         if fields:
             found[int(entry)] = (fields[0], int(fields[1]), int(fields[3]))
@@ -47,7 +47,7 @@ def children(of):
 
 
 def send(process, kill, aim, chance):
-    """Sends it and says to whom it went: a parent without children is hit itself."""
+    """Sends the signal and returns its receiver; a parent without children receives it itself."""
     targets = children(process.pid) if aim == "child" else []
     try:
         if aim == "group":
@@ -56,7 +56,7 @@ def send(process, kill, aim, chance):
         if targets:
             os.kill(chance.choice(targets), kill)
             return aim
-    except ProcessLookupError:  # it ended just now
+    except ProcessLookupError:  # the process has just ended
         pass
     process.send_signal(kill)
     return "parent"
@@ -65,7 +65,7 @@ def send(process, kill, aim, chance):
 def is_pbskin(process):
     try:
         return os.path.samefile(f"/proc/{process.pid}/exe", program.PBSKIN)
-    except OSError:  # it ended
+    except OSError:  # the process has ended
         return False
 
 
@@ -87,14 +87,14 @@ class Kills(program.ProgramTest):
         return [*self.before, program.PBSKIN, "reproduce", *self.studies, "-o", str(folder), "-j", "2", *more]
 
     def begin(self, folder):
-        """The process, where it is pbskin."""
+        """The process, once it executes pbskin."""
         process = subprocess.Popen(self.command(folder, "--resume"), start_new_session=True, **QUIET)
         while process.poll() is None and not is_pbskin(process):
             time.sleep(0.001)
         return process
 
     def expect_nothing_goes_on(self, session):
-        deadline = time.monotonic() + 1  # less than a run takes
+        deadline = time.monotonic() + 1  # shorter than a run
         while (left := of_session(session)) and time.monotonic() < deadline:
             time.sleep(0.01)
         self.assertEqual(left, [], "processes that go on")
@@ -109,13 +109,13 @@ class Kills(program.ProgramTest):
     def expect_status(self, status, kill, aim, folder):
         if aim == "child":  # the run is lost, and a verdict with it
             self.assertEqual(status, 1)
-        elif kill == signal.SIGKILL or not list(folder.glob("*/plan.json")):  # or before it watched for signals
+        elif kill == signal.SIGKILL or not list(folder.glob("*/plan.json")):  # without a plan, the program did not handle signals yet
             self.assertEqual(status, -kill)
         else:
             self.assertEqual(status, 130)
 
     def kill_once(self, folder, seconds):
-        """Whether that hit it at work; a resumed run keeps what the last one finished."""
+        """Whether the signal interrupted work; a resumed run keeps what the last one finished."""
         (kill, aim), moment = self.ways[0], self.chance.uniform(0.02, seconds)
         process = self.begin(folder)
         try:
@@ -124,7 +124,7 @@ class Kills(program.ProgramTest):
             self.ways.append(self.ways.pop(0))
             hit = send(process, kill, aim, self.chance)
             status = process.wait(60)
-            if status == 0:  # it was done before the signal came, or the child that it met was
+            if status == 0:  # it had finished before the signal, or the child that received it had
                 self.assertEqual(run_records.records(folder), self.undisturbed)
                 return False
             with self.subTest(kill=kill.name, hit=hit, moment_s=round(moment, 3), seed=SEED):
@@ -136,7 +136,7 @@ class Kills(program.ProgramTest):
         return False
 
     def kill_and_resume(self, studies, before=()):
-        """State hashes of the undisturbed run; those of every other were the same."""
+        """State hashes of the undisturbed run, after a check that those of every other run are equal."""
         self.studies, self.before = studies, before
         whole = pathlib.Path(self.path("whole"))
         start = time.monotonic()

@@ -1,5 +1,5 @@
-"""A clip that goes or is replaced while its motion is played: the run ends, and its record tells the bytes that were read. Truth: the hash
-that an undisturbed run of the same bytes records."""
+"""A clip that vanishes or is replaced while its motion is played: the run ends normally, and its record states the bytes that were read.
+Reference: the hash that an undisturbed run of the same bytes records."""
 import json
 import os
 import signal
@@ -10,7 +10,7 @@ import unittest
 import foreign_arm
 import program
 
-STEPS = 3000  # some seconds of work behind the first frame on disk
+STEPS = 3000  # some seconds of work after the first frame is on disk
 
 
 class ReplacedClip(program.ProgramTest):
@@ -27,7 +27,7 @@ class ReplacedClip(program.ProgramTest):
         return json.loads(self.read(folder, "run.json"))["provenance"]["input_hashes"]["arm.bvh"]
 
     def ends_after(self, change):
-        """The run is stopped once its first frame is on disk, and goes on after the change."""
+        """The run is stopped once its first frame is on disk, and continues after the change."""
         out = self.path("out")
         process = subprocess.Popen([program.PBSKIN, "run", self.path("arm.toml"), "-o", out, "--set", "output.frames=[0]",
                                     "--set", "output.frames_every=0"], stderr=subprocess.PIPE, text=True)

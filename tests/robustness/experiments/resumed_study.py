@@ -1,5 +1,5 @@
-"""A study that is killed goes on where it was: runs that ended are kept as they are, the others are done, and the records are those of a
-study that nobody killed, state hashes among them. Truth: files' own times, and the records of an undisturbed run."""
+"""A killed study resumes where it stopped: runs that ended are kept, the others are done, and the records equal those of an undisturbed
+study, including state hashes. Reference: the times of the files, and the records of an undisturbed run."""
 import json
 import os
 import pathlib
@@ -20,7 +20,7 @@ class ResumedStudy(program.ProgramTest):
         return [program.PBSKIN, "reproduce", study, "-o", str(results), "-j", "1", *more]
 
     def kill_after_first_run(self, command, study):
-        """The record of the run that ended."""
+        """Kills the study after its first run; returns the record of that run."""
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
         deadline = time.monotonic() + 120
         while not (ended := list(study.glob("*/run.json"))) and time.monotonic() < deadline:

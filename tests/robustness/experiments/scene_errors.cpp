@@ -1,4 +1,4 @@
-// Wrong scenes, one by one: each is refused with its file, line, key, value and rule.
+// Invalid scenes, one by one: each is refused with its file, line, key, value and rule.
 #include "experiments/scene/scene.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -10,7 +10,7 @@ namespace {
 struct WrongScene {
     const char* name;
     const char* text;
-    const char* message;  // a part of what is said
+    const char* message;  // a part of the message
 };
 
 const char* const head = "schema = 1\n[character]\nbody = \"limb\"\n[motion]\njoint = \"forearm\"\n";  // 5 lines
@@ -40,7 +40,7 @@ const WrongScene wrong_scenes[] = {
 };
 
 const WrongScene wrong_lines[] = {
-    // appended to `head` and `stated`: the line is the eleventh
+    // appended to `head` and `stated`, so the line is the eleventh
     {"unknown_key", "k_volum = 1.0\n", "scene.toml:11: pbs.k_volum = 1.0: unknown key; the nearest known one is pbs.k_volume"},
     {"negative_iterations", "iterations = -1\n", "scene.toml:11: pbs.iterations = -1: expected an integer from 0 to"},
     {"fractional_iterations", "iterations = 2.5\n", "scene.toml:11: pbs.iterations = 2.5: expected an integer"},

@@ -1,8 +1,8 @@
-"""Sweeps here and on a Slurm cluster of one node, which the test starts and stops. Run by `./check --long`, which sets PBS_LONG=1: then a
-program that is missing fails the test.
+"""Sweeps on this machine and on a Slurm cluster of one node, which the test starts and stops. `./check --long` runs it and sets PBS_LONG=1;
+with that, a missing program fails the test.
 
-Truth: the other engine. The same sweep makes the same bytes of sweep.csv, also where it was killed and begun again while its jobs were
-still queued; the reference on two tasks of a Slurm job is that of one process to within both residuals (see
+Reference: the other engine. The same sweep writes the same bytes of sweep.csv, also if it was killed and started again while its jobs were
+still queued. The reference solution on two tasks of a Slurm job equals that of one process to within both residuals (see
 verification/experiments/distributed)."""
 import csv
 import fcntl
@@ -24,7 +24,7 @@ import reliability
 import slurm_cluster
 
 SWEEPS = pathlib.Path(program.SOURCE, "experiments/sweeps")
-MODE_SHARE = 0.78  # of a uniform transverse load in a cantilever's first mode
+MODE_SHARE = 0.78  # share of a uniform transverse load in a cantilever's first mode
 BAD = """schema = 1
 scene = "limb_bend"
 [set]
@@ -99,7 +99,7 @@ class Sweeps(program.ProgramTest):
         example = SWEEPS / "examples/limb_bend.toml"
         self.sweep(example, "limb_here", "-j", "2")
         self.sweep(example, "limb_slurm", "--slurm")
-        self.assertEqual((len(self.jobs_of("limb_here")), len(self.jobs_of("limb_slurm"))), (0, 3))  # it was Slurm
+        self.assertEqual((len(self.jobs_of("limb_here")), len(self.jobs_of("limb_slurm"))), (0, 3))  # shows that Slurm was used
         self.assert_same_tables("limb_here", "limb_slurm", rows=6 * 3 * 7)
 
     def test_killed_and_begun_again_while_its_jobs_are_queued(self):
@@ -135,7 +135,7 @@ class Sweeps(program.ProgramTest):
         self.assertFalse(pathlib.Path(self.path("bad", "sweep.csv")).exists())
 
     def test_a_breakdown_is_a_row_of_the_table(self):
-        """One step to 150 degrees folds the crease's tets over."""
+        """One step to 150 degrees inverts the tets of the crease."""
         sweep = self.write("breaking.toml", BREAKING)
         self.sweep(sweep, "breaking_here")
         self.sweep(sweep, "breaking_slurm", "--slurm")
@@ -172,7 +172,7 @@ class Sweeps(program.ProgramTest):
 
 
 class Cluster(unittest.TestCase):
-    """Its start, without Slurm: a port can be taken between asking for it and listening."""
+    """Starting the cluster, without Slurm: another process can take a port between the query and the start of listening."""
 
     def begin(self, *outcomes):
         cluster = slurm_cluster.SlurmCluster()

@@ -1,5 +1,5 @@
-"""The steps of .github/workflows/volume.yml, and of the example for another repository, do what they say: those of pbskin are run in a
-folder of their own, by the shell of a container's job, those that build name functions, presets and targets that there are. Truth: the
+"""The steps of .github/workflows/volume.yml, and of the example for another repository, work as described: those of pbskin are run in a
+folder of their own by the shell of a container's job, and those that build name functions, presets and targets that exist. Reference: the
 files themselves."""
 import json
 import os
@@ -18,7 +18,7 @@ SHELL = ["sh", "-e", "-c"]
 
 
 def steps(workflow=WORKFLOW):
-    """The script of each step that has one, by its name: `run: COMMAND`, or `run: |` and the lines that stand deeper."""
+    """The script of each step that has one, by its name: `run: COMMAND`, or `run: |` and the lines with deeper indentation."""
     found, name, block = {}, None, None
     for line in workflow.read_text(encoding="utf-8").splitlines():
         depth = len(line) - len(line.lstrip())
@@ -74,7 +74,8 @@ class VolumeWorkflow(WorkflowTest):
         for name in ("Hold the bounds", "Measure written frames"):
             status[name] = self.act(steps()[name], environment).returncode
         report = self.path("results", "volume.xml")
-        other_meshes = check_records.scenes_of_another_mesh(self.path("results", "check"))  # another CGAL's: their baselines must tell
+        # meshes of another CGAL, whose baselines must differ
+        other_meshes = check_records.scenes_of_another_mesh(self.path("results", "check"))
         failed = check_records.failed(report)
         self.assertEqual(failed, check_records.baselines_of(other_meshes, report))
         self.assertEqual(status, {"Hold the bounds": 1 if failed else 0, "Measure written frames": 0})

@@ -1,5 +1,5 @@
-// A small package in MakeHuman's formats, whole and damaged: what is wrong is refused by file and field. Truth: the formats (three.js JSON
-// 3.1, the rig's vertex lists, int16 targets), laid out by hand.
+// A small package in MakeHuman's formats, complete and damaged: errors are refused with file and field. Reference: the formats (three.js
+// JSON 3.1, the rig's vertex lists, int16 targets), laid out by hand.
 #include "pbs/character/makehuman_figure.hpp"
 
 #include "tests/support/scratch_folder.hpp"
@@ -12,7 +12,7 @@ namespace {
 using namespace pbs;
 using nlohmann::json;
 
-// Every joint that the fold asks for lies at a vertex of its own: vertices 4, 5, ...; the body is the tetrahedron 0 to 3, in decimetres.
+// Every joint that the fold needs lies at a vertex of its own: vertices 4, 5, ...; the body is the tetrahedron 0 to 3, in decimetres.
 const std::vector<std::string> joints = {"root____head",         "spine04____head",      "spine02____head",    "neck01____head",
                                          "head____head",         "head____tail",         "clavicle.*____head", "upperarm01.*____head",
                                          "lowerarm01.*____head", "lowerarm02.*____head", "wrist.*____head",    "finger3-3.*____tail",

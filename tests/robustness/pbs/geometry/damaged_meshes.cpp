@@ -1,4 +1,5 @@
-// Truth: the interface. Whatever is wrong with a file, the answer is an InputError that names it, within a second, and nothing is printed.
+// Reference: the interface. Whatever the error in a file, the answer is an InputError that names it, within a second, and nothing is
+// printed.
 #include "pbs/geometry/mesh_io.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -36,7 +37,7 @@ void expect_refused(
     EXPECT_EQ(testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr(), "") << path;
     EXPECT_EQ(what.rfind(path.substr(0, path.find_last_of('.')), 0), 0u) << path << ": " << what;
     EXPECT_NE(what.find(words), std::string::npos) << path << ": " << what;
-    EXPECT_LT(seconds, 5.0) << path;  // a second on an idle machine
+    EXPECT_LT(seconds, 5.0) << path;  // takes a second on an idle machine
 }
 
 void expect_surface_refused(const std::string& path)
@@ -46,7 +47,7 @@ void expect_surface_refused(const std::string& path)
 
 void expect_surface_read([[maybe_unused]] const std::string& path)
 {
-#ifdef PBS_WITH_CGAL  // which reads .ply, .off and .stl
+#ifdef PBS_WITH_CGAL  // CGAL reads .ply, .off and .stl
     EXPECT_NO_THROW(pbs::read_surface(path)) << path;
 #endif
 }
@@ -72,7 +73,7 @@ std::string noise(std::size_t size)
     return bytes;
 }
 
-// One tet in three text formats, each with its place for a defect.
+// One tet in three text formats, each with a place for a defect.
 const std::string msh =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
     "$Elements\n1\n1 4 2 0 1 1 2 3 4\n$EndElements\n";
@@ -104,7 +105,7 @@ TEST_P(TetFormat, EmptyMissingNoiseFolderAndTruncated)
 
 INSTANTIATE_TEST_SUITE_P(Damaged, TetFormat, ::testing::Values(".msh", ".vtu", ".mesh"));
 
-TEST(DamagedMesh, TheSoundOnesAreRead)  // so that each refusal below is due to its defect
+TEST(DamagedMesh, TheSoundOnesAreRead)  // shows that each refusal below is due to its defect
 {
     const ScratchFolder folder;
     EXPECT_NO_THROW(pbs::read_tet_mesh(folder.file("a.msh", msh)));

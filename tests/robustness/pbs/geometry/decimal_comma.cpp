@@ -1,5 +1,5 @@
-// Files do not depend on the locale of the program that uses the library. Truth: the bytes that are written, and the points that are read,
-// under the classic one.
+// Reading and writing files does not depend on the locale of the program that uses the library. Reference: the bytes that are written and
+// the points that are read with the classic locale.
 #include "pbs/geometry/mesh_io.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 
 using test_support::ScratchFolder;
 
-// 1.234,5 as in German.
+// 1.234,5 as in German
 struct Commas : std::numpunct<char> {
     char do_decimal_point() const override { return ','; }
     char do_thousands_sep() const override { return '.'; }
@@ -39,7 +39,7 @@ protected:
 private:
     void SetUp() override
     {
-        // More than 999 points and tets, so that a separator of thousands would show.
+        // More than 999 points and tets, so that a thousands separator would be visible.
         constexpr int layers = 1200;
         mesh_.rest.resize(layers + 3, 3);
         mesh_.tets.resize(layers, 4);

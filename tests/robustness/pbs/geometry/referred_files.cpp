@@ -1,5 +1,5 @@
-// Truth: the interface. A surface's file may refer to files beside and below it; all others are not opened, and named where they are
-// needed.
+// Reference: the interface. The file of a surface may refer to files in and below its folder; no other file is opened, and the error names
+// it if it is needed.
 #include "pbs/geometry/mesh_io.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 using test_support::ScratchFolder;
 
-// A tet as glTF whose numbers lie in another file.
+// A tet as glTF whose numbers are in another file.
 std::string gltf(const std::string& buffer)
 {
     return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
@@ -46,7 +46,7 @@ std::string outcome(const std::string& path)
     } catch (const pbs::InputError& error) {
         said = error.what();
     }
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10)) << path;  // a reader that waits has 20 s
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10)) << path;  // a reader that blocks has a limit of 20 s
     return said;
 }
 

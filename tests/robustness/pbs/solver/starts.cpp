@@ -1,5 +1,5 @@
-// Truth: order `plain`, and that bind keeps a body within reach of its bones. Starts that no pose gives and that other solvers run away
-// from: flattened, mirrored, random, collapsed.
+// Reference: order `plain`, and that bind keeps a body within reach of its bones. The initial states are ones that no pose produces and in
+// which other solvers diverge: flattened, mirrored, random, collapsed.
 #include "pbs/solver/pbs_solver.hpp"
 
 #include "tests/support/random_points.hpp"
@@ -94,7 +94,7 @@ void for_each_start_and_order(Expect expect)
             }
 }
 
-// The body is 2 m long, and its farthest vertex at rest 1 m from the middle.
+// The body is 2 m long, and its farthest vertex at rest is 1 m from the middle.
 TEST(Starts, ComeBackWithinReachOfTheBones)
 {
     for_each_start_and_order([](const Positions& start, Order order, Precision precision) {
@@ -105,7 +105,7 @@ TEST(Starts, ComeBackWithinReachOfTheBones)
     });
 }
 
-// Without bind a body may stay collapsed, or, where every tet is flat but for rounding, fly apart; plain does so too.
+// Without bind a body may stay collapsed or, if every tet is flat up to rounding, fly apart. The order plain does so too.
 TEST(Starts, WithoutBindAreFiniteWherePlainIs)
 {
     for_each_start_and_order([](const Positions& start, Order order, Precision precision) {
@@ -116,7 +116,7 @@ TEST(Starts, WithoutBindAreFiniteWherePlainIs)
     });
 }
 
-// Neither edges nor tets of a point have a direction to go in; the same bits.
+// In a point, the corrections of edges and tets have no direction; the result has the same bits.
 TEST(Starts, APointWithoutBindStays)
 {
     for (const Order order : {Order::plain, Order::ordered, Order::grouped})
@@ -133,7 +133,7 @@ TEST(Starts, NotANumberIsAnOutcomeInEveryOrder)
             EXPECT_EQ(stepped(start, order, precision, 1.0).outcome, Outcome::not_finite);
 }
 
-// Infinite and huge coordinates: what comes of them is plain's outcome, never a hang or a throw.
+// Infinite and huge coordinates: the outcome is that of plain, never a hang or an exception.
 TEST(Starts, InfiniteCoordinatesAreAnOutcomeInEveryOrder)
 {
     Positions start = limb.lbs;
