@@ -1,6 +1,6 @@
-// Invariances of the ruler: rigid motion, order of tets and vertices, unit of length. Truth: none of them changes a ratio of volumes or
-// lengths. Tolerance: volumes come from products of three coordinate differences, each rounded to 1e-16 of the largest coordinate over
-// the shortest difference (some 100 here), so 1e-11 of the figure's size.
+// Invariances of the metrics: rigid motion, order of tets and vertices, unit of length. Reference: none of them changes a ratio of volumes
+// or lengths. Tolerance: volumes are products of three coordinate differences, each rounded to 1e-16 of the largest coordinate over the
+// shortest difference (some 100 here), which gives 1e-11 relative to the value.
 #include "analysis/frame_metrics.hpp"
 
 #include "tests/support/structured_bar.hpp"

@@ -1,4 +1,4 @@
-// Truth: the same frames one by one. A deformer that works ahead, several frames side by side on several threads, changes no bit.
+// Reference: the same frames one by one. A deformer that computes several frames at once on several threads changes no bit.
 #include "experiments/deformers/pbs/pbs_deformer.hpp"
 #include "tests/support/limb_character.hpp"
 
@@ -10,7 +10,7 @@ const test_support::TwoBoneLimb limb = test_support::two_bone_limb({16, 4, 4}, p
 
 const pbs::Character character = test_support::character_of(limb);
 
-// More than two lots of two threads, the last not full.
+// more than two batches for two threads, the last one not full
 const std::vector<pbs::Pose> poses = pbs::joint_sweep(limb.skeleton, 1, pbs::Vec3::UnitZ(), 90.0, 71, 0.01).steps;
 
 std::vector<pbs::Positions> played(const pbs::PbsOptions& options, bool foreseen)
@@ -40,7 +40,7 @@ TEST(FramesAhead, AreThoseOfOneByOneToTheBit)
         }
 }
 
-// What depends on the frame before, or is asked frame by frame, is not worked ahead; nothing changes there either.
+// Deformers that depend on the previous frame, or are called frame by frame, do not work ahead; for them nothing changes either.
 TEST(FramesAhead, LeaveOthersAlone)
 {
     pbs::PbsOptions plain, sleeping, stopping;

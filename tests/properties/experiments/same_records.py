@@ -1,6 +1,6 @@
-"""Runs repeat to the bit: state hashes and records do not depend on threads, on what is in the environment, on where the program starts, on
-where memory lies, on how many runs go side by side. Truth: the same run, once more. Meshes: a foreign arm, as small as a test wants it
-and large enough to be shared among threads; the human, where it is installed."""
+"""Runs repeat to the bit: state hashes and records do not depend on the number of threads, the environment, the folder in which the program
+starts, the addresses of memory, or the number of concurrent runs. Reference: the same run, repeated. Meshes: a foreign arm, which can be
+small or large enough to be shared among threads, and the human, where it is installed."""
 import itertools
 import json
 import os
@@ -24,7 +24,7 @@ ENVIRONMENTS = [{"LC_ALL": "de_DE.UTF-8", "LANG": "de_DE.UTF-8"}, {"LC_ALL": "C"
 
 
 class SameRecords(program.ProgramTest):
-    compared = equal = 0  # hashes
+    compared = equal = 0  # number of hashes
 
     @classmethod
     def tearDownClass(cls):
@@ -38,7 +38,7 @@ class SameRecords(program.ProgramTest):
         return self.write("arm.toml", text + "[output]\nframes_every = 2\n" + more)
 
     def run_once(self, *arguments, before=(), **options):
-        """What the run says; with its folder cleared, so that nothing is left of the last."""
+        """The results of the run; its folder is cleared first, so that nothing is left of the previous one."""
         folder = pathlib.Path(self.path("out"))
         command = [*before, program.PBSKIN, "run", *map(str, arguments), "-o", str(folder), "--quiet"]
         process = subprocess.run(command, capture_output=True, text=True, **options)
@@ -78,7 +78,7 @@ class SameRecords(program.ProgramTest):
                     self.expect_same(alone, self.run_once(scene, *sets, "--threads", threads), but_threads=True)
 
     def test_the_reference_whatever_its_algebra_is_told(self):
-        """On a mesh whose dense blocks OpenBLAS would share among threads; what they would change is in unit/reference_fem."""
+        """On a mesh whose dense blocks OpenBLAS would share among threads; unit/reference_fem tests what that would change."""
         scene = self.write_arm((14, 4, 4), '["p1", "snh"]', more=FEM)  # 375 vertices
         first = self.run_once(scene, env=os.environ | BLAS_THREADS[0])
         for change in BLAS_THREADS[2:]:
@@ -95,7 +95,7 @@ class SameRecords(program.ProgramTest):
         self.expect_same(first, self.run_once(*short, "--threads", 4), but_threads=True)
 
     def records_of_jobs(self, jobs, study, before=()):
-        """Of a study by so many runs at a time."""
+        """The records of a study with this number of concurrent runs."""
         folder = self.path(f"{study}_{jobs}")
         subprocess.run([*before, program.PBSKIN, "reproduce", study, "-j", str(jobs), "-o", folder], check=True, capture_output=True)
         return run_records.records(folder)

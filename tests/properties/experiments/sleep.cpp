@@ -1,4 +1,4 @@
-// Sleep on the human through a jump: the change against the full solve stays small. Truth: the same deformer with all awake.
+// Sleep on the human through a jump: the difference from the full solve stays small. Reference: the same deformer without sleep.
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/studies/features/feature.hpp"
 #include "experiments/studies/features/feature_cost.hpp"
@@ -34,8 +34,8 @@ double mean_edge_m(const pbs::TetMesh& mesh)
     return sum / static_cast<double>(edges.rows());
 }
 
-// A constraint that sleeps is off by at most the tolerance when the frame ends; over 24 iterations it would have moved a vertex by no more
-// than that each time, in one direction at worst.
+// A sleeping constraint is violated by at most the tolerance at the end of the frame. In each of the 24 iterations it would have moved a
+// vertex by no more than that, in the worst case always in one direction.
 TEST(SleepOnTheHuman, ChangesThePoseByLessThanItsTolerance)
 {
     const auto awake = human({}), asleep = human({.overrides = {"pbs.sleep=true"}});
@@ -45,7 +45,7 @@ TEST(SleepOnTheHuman, ChangesThePoseByLessThanItsTolerance)
     const pbs::PbsOptions& options = experiments::options_of<pbs::PbsOptions>(asleep->deformers.front());
     std::printf("largest change %.3g m, %.3g mean edges\n", change.distance_m, change.distance_m / edge_m);
     EXPECT_LT(change.distance_m, options.iterations * options.sleep_tolerance * edge_m);
-    EXPECT_LT(change.volume_difference_pct, 0.05);  // a tenth of the claim's bound
+    EXPECT_LT(change.volume_difference_pct, 0.05);  // a tenth of the bound of the claim
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Truth: a projection knows lengths and volumes only, so it commutes with rigid motions, renumbering, mirrors and changes of unit.
+// Reference: a projection depends only on lengths and volumes, so it commutes with rigid motions, renumbering, mirrors and changes of unit.
 #include "pbs/constraints/bind.hpp"
 #include "pbs/constraints/stretch.hpp"
 #include "tests/support/tet_corners.hpp"
@@ -82,7 +82,7 @@ TEST(ProjectionInvariance, MirrorTurnsTheOrientationRound)
     }
 }
 
-// An absolute threshold would show here: with one of 1e-6, tets with edges of 0.01 are skipped without a word.
+// This detects an absolute threshold: one of 1e-6 would silently skip tets with edges of 0.01.
 template <typename Scalar>
 class ProjectionScale : public testing::Test {
 };

@@ -1,5 +1,5 @@
-// Truth: Eq. 3-4. A projection moves points along gradients, which are perpendicular to rigid motions, so linear and angular momentum stay.
-// Tolerances: a few roundings of terms of order one (masses and positions are of order one), in double and float.
+// Reference: Eq. 3-4. A projection moves points along gradients, which are perpendicular to rigid motions, so linear and angular momentum
+// are conserved. Tolerances: a few roundings of terms of order one (masses and positions are of order one), in double and float.
 #include "pbs/constraints/bind.hpp"
 #include "pbs/constraints/stretch.hpp"
 #include "tests/support/tet_corners.hpp"
@@ -18,7 +18,7 @@ class Momentum : public testing::Test {
 protected:
     using Vector = pbs::Vector3<Scalar>;
 
-    // |sum m dp| and |sum r x m dp|, r from an arbitrary centre, in double.
+    // |sum m dp| and |sum r x m dp|, with r from an arbitrary centre, in double precision.
     void expect_conserved(const std::vector<Vector>& before, const std::vector<Vector>& after, const std::vector<Scalar>& w)
     {
         Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
@@ -78,7 +78,7 @@ TYPED_TEST(Momentum, OfVolumeIsConservedWithEqualAndUnequalMasses)
     }
 }
 
-// Without the weights (Eq. 8-9 as they stand) unequal masses lose momentum: the departure is needed.
+// Without the weights (Eq. 8-9 as printed), unequal masses lose momentum: the departure from the print is necessary.
 TEST(MomentumUnweighted, IsLostWithUnequalMasses)
 {
     Vec3 p1(0, 0, 0), p2(2, 0, 0);
@@ -87,8 +87,9 @@ TEST(MomentumUnweighted, IsLostWithUnequalMasses)
     EXPECT_GT(std::abs(m1 * p1.x() + m2 * (p2.x() - 2.0)), 0.5);
 }
 
-// The momentum that the vertex gets is what the bone would take as the heavy end of a rod between them (Eq. 8-9 on both ends), 1e8 times
-// the vertex's mass. The two differ by that share of a momentum below 3, and rounding of the bone's 1e-8 steps costs as much: below 6e-8.
+// The momentum of the vertex equals what the bone would receive as the heavy end of a rod between them (Eq. 8-9 at both ends), with 1e8
+// times the vertex's mass. The two differ by that share of a momentum below 3, and the rounding of the bone's 1e-8 steps is as large: below
+// 6e-8.
 TEST(MomentumOfBind, IsTakenByTheBone)
 {
     RandomPoints random(32);

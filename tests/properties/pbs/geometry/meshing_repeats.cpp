@@ -1,4 +1,4 @@
-// Truth: an invariance. The same call gives the same mesh to the bit, whatever was meshed before it.
+// Reference: an invariance. The same call gives the same mesh to the bit, whatever was meshed before.
 #include "pbs/geometry/meshing.hpp"
 
 #include "tests/support/closed_surfaces.hpp"
@@ -32,7 +32,7 @@ TEST(Meshing, OfASurfaceRepeatsToTheBit)
     expect_same(pbs::mesh_surface(sphere, options), first);
 }
 
-// Lengths are relative to the body; what is left is rounding (some 1e-14 m of 1 m).
+// Lengths are relative to the body; only rounding remains (some 1e-14 m of 1 m).
 TEST(Meshing, OfASurfaceHasNoUnit)
 {
     pbs::SurfaceMeshing options;

@@ -1,5 +1,5 @@
-// Refinement does not ask how a body lies or how it is numbered, and children are never much worse than their parents. Truth: the body is
-// the same; by the shortest diagonal a child's mean ratio is at least 3/4 of its parent's (refinement.hpp).
+// Refinement depends neither on the orientation of a body nor on its numbering, and children are never much worse than their parents.
+// Reference: the body is the same; with the shortest diagonal, a child's mean ratio is at least 3/4 of its parent's (refinement.hpp).
 #include "pbs/geometry/refinement.hpp"
 
 #include "pbs/geometry/quality.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 using pbs::TetMesh;
 
-// No two diagonals of an octahedron are equally long.
+// A bar in which no two diagonals of an octahedron are equally long.
 TetMesh jittered_bar()
 {
     TetMesh bar = test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {6, 2, 2});
@@ -29,7 +29,7 @@ TetMesh jittered_bar()
     return bar;
 }
 
-// 1 of a regular tet, 0 of a flat one.
+// 1 for a regular tet, 0 for a flat one.
 double mean_ratio(const TetMesh& mesh, Eigen::Index t)
 {
     double squares = 0.0;
@@ -91,13 +91,13 @@ TEST(RefinementQuality, OfAJitteredBarIsBoundedOverThreeRefinements)
         EXPECT_GT(pbs::tet_volumes(mesh.rest, mesh.tets).minCoeff(), 0.0);
     }
     const pbs::Quality fine = pbs::quality_of(mesh);
-    EXPECT_NEAR(fine.volume_m3, coarse.volume_m3, 1e-12);  // 70,000 terms, each rounded to 1e-16
+    EXPECT_NEAR(fine.volume_m3, coarse.volume_m3, 1e-12);  // the sum of 70,000 terms, each rounded to 1e-16
     EXPECT_TRUE(fine.topology.boundary_manifold);
     EXPECT_EQ(fine.topology.boundary_euler, 2);
-    EXPECT_NEAR(fine.longest_edge_m, coarse.longest_edge_m / 8.0, 0.25 * coarse.longest_edge_m / 8.0);  // or a diagonal
+    EXPECT_NEAR(fine.longest_edge_m, coarse.longest_edge_m / 8.0, 0.25 * coarse.longest_edge_m / 8.0);  // an edge or a diagonal
 }
 
-// Flat ones, needles and slivers: the worst child comes with the first or second refinement, and none falls below 3/4.
+// Flat tets, needles and slivers: the worst child arises in the first or second refinement, and none falls below 3/4.
 TEST(RefinementQuality, OfRandomTetsIsBoundedOverThreeRefinements)
 {
     test_support::RandomPoints random(2);
@@ -114,7 +114,7 @@ TEST(RefinementQuality, OfRandomTetsIsBoundedOverThreeRefinements)
     }
 }
 
-// Two diagonals of a Kuhn tet are equally long; whichever is taken, its children are no worse than 3/4.
+// Two diagonals of a Kuhn tet are equally long; with either of them, the children are no worse than 3/4.
 TEST(RefinementQuality, OfAKuhnSplitBarIsBounded)
 {
     TetMesh mesh = test_support::structured_bar({0, 0, 0}, {2, 2, 2}, {2, 2, 2});
@@ -122,7 +122,7 @@ TEST(RefinementQuality, OfAKuhnSplitBarIsBounded)
     for (int level = 1; level <= 3; ++level) {
         mesh = pbs::refine(mesh).mesh;
         EXPECT_GE(worst_mean_ratio(mesh), 0.75 * whole);
-        EXPECT_GE(pbs::quality_of(mesh).min_dihedral_deg, 35.26);  // acos(sqrt(2/3)), of the children round the other diagonal
+        EXPECT_GE(pbs::quality_of(mesh).min_dihedral_deg, 35.26);  // acos(sqrt(2/3)), for the children around the other diagonal
     }
 }
 

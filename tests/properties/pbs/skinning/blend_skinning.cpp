@@ -1,4 +1,4 @@
-// Truth: the plain blends, which read like the paper; rigid motions; what a change of origin may not change.
+// Reference: the plain blends, which follow the paper line by line; rigid motions; quantities that are invariant under a change of origin.
 #include "pbs/skinning/blend_skinning.hpp"
 
 #include "pbs/skinning/blend.hpp"
@@ -26,8 +26,8 @@ TYPED_TEST_SUITE(PackedBlends, Scalars);
 
 constexpr int bones = 12;
 
-// Numbers of order one go through some 40 roundings (8 bones, 4 columns, two cross products). DQS divides by |r|^2 of the blend, and the
-// heaviest of n bones leaves |r| >= 1 / n, which magnifies them.
+// Numbers of order one go through some 40 roundings (8 bones, 4 columns, two cross products). DQS divides by |r|^2 of the blend. The
+// largest weight of n bones gives |r| >= 1 / n, which amplifies them.
 template <class Scalar>
 double tolerance(int bones_a_vertex)
 {
@@ -40,7 +40,7 @@ struct RandomBody {
     Pose pose;
 };
 
-// Of each `period` vertices the last `repeats` have the row of weights of the one before.
+// In each `period` of vertices, the last `repeats` have the same weights as the vertex before them.
 struct RowPattern {
     int period = 3, repeats = 1, fewest_bones = 1;
 };
@@ -134,7 +134,7 @@ TYPED_TEST(PackedBlends, OfOneRigidMotionAreThatMotion)
     }
 }
 
-// Turns of 110 and -110 degrees are 140 degrees apart; their quaternions with a positive scalar part lie on opposite sides.
+// Rotations by 110 and -110 degrees are 140 degrees apart; their quaternions with a positive scalar part lie in opposite hemispheres.
 TYPED_TEST(PackedBlends, TakeTheShortWayForAntipodalQuaternions)
 {
     RandomBody body = random_body(64, 300, 6);
@@ -145,8 +145,8 @@ TYPED_TEST(PackedBlends, TakeTheShortWayForAntipodalQuaternions)
     expect_as_plain<TypeParam>(body, tolerance<TypeParam>(6));
 }
 
-// 10 km away the spacing of floats is 1 mm; blended about the body's middle no more than the roundings near the origin are left. The plain
-// blends in double lose 1e4 of their digits there, 40 x 1e4 x 2e-16 = 1e-10.
+// At a distance of 10 km the spacing of floats is 1 mm. Blending about the body's middle leaves only the roundings that occur near the
+// origin. The plain blends in double lose a factor of 1e4 in precision there, 40 x 1e4 x 2e-16 = 1e-10.
 TYPED_TEST(PackedBlends, FarFromTheOriginLoseNoDigits)
 {
     RandomBody body = random_body(65, 300, 4);

@@ -1,4 +1,4 @@
-// Truth: binding, weights and blends are geometry, so they commute with rigid motions, renumbering, mirrors and changes of unit.
+// Reference: binding, weights and blends are geometry, so they commute with rigid motions, renumbering, mirrors and changes of unit.
 #include "tests/support/random_points.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
@@ -41,7 +41,7 @@ pbs::Skeleton mapped(pbs::Skeleton skeleton, const Eigen::Affine3d& map)
     return skeleton;
 }
 
-// Vertices within 1e-6 of Eq. 2's bounds or of a bone's ends, where rounding may decide.
+// Whether a vertex lies within 1e-6 of the bounds of Eq. 2 or of a bone's ends, where rounding may decide.
 bool undecided(int vertex)
 {
     const double t = limb.binding.parameter(vertex);
@@ -57,7 +57,7 @@ TEST(SkinningInvariance, BindingAndWeightsUnderSimilarities)
         const pbs::Skeleton skeleton = mapped(limb.skeleton, map);
         const pbs::BoneBinding binding = pbs::bind_to_nearest_bone(rest, skeleton);
         const pbs::Weights weights = pbs::paper_weights(binding, skeleton);
-        const double tolerance = 1e-14 * (1.0 + 3.0 / size);  // the translation is of order one, so is its rounding
+        const double tolerance = 1e-14 * (1.0 + 3.0 / size);  // the translation is of order one, and so is its rounding
         for (int i = 0; i < rest.rows(); ++i) {
             if (undecided(i)) continue;
             EXPECT_EQ(binding.bone[i], limb.binding.bone[i]);

@@ -1,6 +1,6 @@
-// Truth: a step knows lengths and volumes only, so it commutes with rigid motions, mirrors, changes of unit, and with every renumbering
-// that keeps the order of projection (another order is another Gauss-Seidel sweep). Tolerance: rounding, carried through 24 iterations of
-// constraints that contradict each other; a gentle bend, in which no tet inverts, keeps that growth small.
+// Reference: a step depends only on lengths and volumes, so it commutes with rigid motions, mirrors, changes of unit, and every renumbering
+// that keeps the order of projection (another order is another Gauss-Seidel sweep). Tolerance: rounding, propagated through 24 iterations
+// of constraints that contradict each other; a gentle bend, in which no tet inverts, limits that growth.
 #include "pbs/solver/pbs_solver.hpp"
 
 #include "pbs/geometry/tet_volume.hpp"
@@ -24,7 +24,7 @@ const TwoBoneLimb limb = two_bone_limb({12, 3, 3}, Vec3::UnitZ(), 40.0);
 
 struct Setting {
     Precision precision;
-    double tolerance;  // of positions of order one
+    double tolerance;  // for positions of order one
 };
 const std::array<Setting, 2> settings = {{{Precision::f64, 1e-12}, {Precision::f32, 2e-5}}};
 
@@ -95,7 +95,7 @@ TEST(StepInvariance, PowersOfTwoChangeNoBit)
                   Positions(size * stepped(with(precision))));
 }
 
-// Reversing the numbers of the vertices keeps the order of the tets, but not that of the edges: without stretch no bit changes in file
+// Reversing the numbers of the vertices keeps the order of the tets, but not that of the edges. Without stretch, no bit changes in file
 // order.
 TEST(StepInvariance, PermutationWithoutStretchChangesNoBit)
 {
@@ -109,7 +109,7 @@ TEST(StepInvariance, PermutationWithoutStretchChangesNoBit)
     EXPECT_EQ(Positions(reversed.colwise().reverse()), stepped(options));
 }
 
-// Vertices no tet uses shift the numbers of the others and keep their order: no bit changes, with all constraints.
+// Vertices that no tet uses shift the numbers of the others and keep their order: no bit changes, with all constraints.
 TEST(StepInvariance, UnusedVerticesChangeNoBit)
 {
     const auto with_leading = [](const auto& array) {
@@ -126,8 +126,8 @@ TEST(StepInvariance, UnusedVerticesChangeNoBit)
     EXPECT_EQ(Positions(longer.bottomRows(limb.mesh.rest.rows())), stepped(with(Precision::f64)));
 }
 
-// Eq. 3 for whole iterations of stretch and volume; bind is left out, its bone takes the reaction. (Eq. 4 holds for each projection about
-// the positions it begins with, which the projections before it have moved: see constraints/momentum.)
+// Eq. 3 for whole iterations of stretch and volume. Bind is left out, since its bone takes the reaction. (Eq. 4 holds for each projection
+// about its initial positions, which the previous projections have moved: see constraints/momentum.)
 TEST(StepInvariance, LinearMomentumOfStretchAndVolumeIsConserved)
 {
     for (const auto& [precision, tolerance] : settings)

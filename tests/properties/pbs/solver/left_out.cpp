@@ -1,5 +1,5 @@
-// Nothing is built that a scene does not need. Truth: the list in architecture.md ("leave out what a scene does not need"), asked of the
-// solver's own parts, over every combination of classes with and without stiffness.
+// Nothing is built that a scene does not need. Reference: this requirement, checked in the solver's own parts for every combination of
+// classes with and without stiffness.
 #include "pbs/solver/batched/batched_constraints.hpp"
 #include "pbs/solver/particles.hpp"
 #include "pbs/solver/pbs_solver.hpp"
@@ -70,7 +70,7 @@ TEST_P(WithoutJiggle, NoVelocityExists)
         particles.predict(bar.rest, 0.01);
         particles.update(0.01);
         EXPECT_EQ(particles.velocities().rows(), 0);
-        EXPECT_EQ(particles.positions(), bar.rest);  // gravity acts on what is integrated
+        EXPECT_EQ(particles.positions(), bar.rest);  // gravity acts only on vertices that are integrated
     }
 }
 

@@ -1,8 +1,9 @@
-// Truth: order `plain`. Stretch, volume and bind contradict each other, so every order of projection settles on a limit of its own; here
-// is how far those lie from plain's on a limb twisted by 90 and bent by 60 degrees, after the paper's 24 iterations. Bounds of
-// `ordered`, 3 % and 8 %: what random orders of the plain loops differ by, some 1 % in stretch and 1 to 7 % in volume residual, and a
-// little room. Bounds of `grouped`, 9 % and 19 %, are our own past, no theory: its bias as once measured on a bar of 20,000 vertices.
-// Meshes are irregular: on a regular grid file order itself is a special one, 20 to 30 % below random orders of the same loops.
+// Reference: order `plain`. Stretch, volume and bind contradict each other, so every order of projection converges to a limit of its own.
+// The test measures how far those lie from plain's on a limb twisted by 90 and bent by 60 degrees, after the paper's 24 iterations. The
+// bounds of `ordered`, 3 % and 8 %, are the differences between random orders of the plain loops, some 1 % in stretch and 1 to 7 % in
+// volume residual, with a small margin. The bounds of `grouped`, 9 % and 19 %, are regression values, not theory: its bias as once measured
+// on a bar of 20,000 vertices. Meshes are irregular: on a regular grid the file order itself is special, 20 to 30 % below random orders of
+// the same loops.
 #include "pbs/solver/pbs_solver.hpp"
 
 #include "pbs/geometry/meshing.hpp"
@@ -42,7 +43,7 @@ pbs::Residuals residuals_after_24(const TwoBoneLimb& limb, Order order, Precisio
 }
 
 struct Bias {
-    double stretch, volume;  // residual over plain's, less one
+    double stretch, volume;  // residual relative to plain's, minus one
 };
 
 Bias bias_of(const TwoBoneLimb& limb, Order order, Precision precision)
@@ -89,7 +90,7 @@ TEST(Orders, OrderedSettlesNearPlain)
     expect_bias_below(Order::ordered, ordered_bound);
 }
 
-// Bodies of some 20,000 vertices, of more slabs than one, each projected by itself: refined, which takes 1 s where meshing takes 19 s.
+// Bodies of some 20,000 vertices with several slabs, each projected by itself. They are refined, which takes 1 s, while meshing takes 19 s.
 TwoBoneLimb twisted_and_bent_fine(const pbs::TetMesh& coarse)
 {
     return twisted_and_bent(pbs::refine(coarse).mesh);
@@ -100,21 +101,21 @@ TEST(Orders, OrderedSettlesNearPlainOnAFineLimb)
     expect_bias_below(twisted_and_bent_fine(pbs::mesh_limb(2900)), Order::ordered, Precision::f32, ordered_bound);
 }
 
-// The bound of 8 % does not hold in volume: -11.4 % here, +8.5 % on mesh_bar(19500), where shuffled tets move plain itself by less than 2
-// %. What is asked instead is our own past with a little room.
+// The bound of 8 % does not hold in volume: the difference is -11.4 % here and +8.5 % on mesh_bar(19500), where shuffled tets change plain
+// itself by less than 2 %. The test requires an earlier value of this code with a small margin instead.
 TEST(Orders, OrderedOnAFineBarIsFartherFromPlainInVolumeThanAsked)
 {
     const Bias past{ordered_bound.stretch, 0.12};
     expect_bias_below(twisted_and_bent_fine(pbs::mesh_bar(2900)), Order::ordered, Precision::f32, past);
 }
 
-// Offered with its bias, which is on record.
+// The order is offered with its bias, which is documented.
 TEST(Orders, GroupedHasABiasOfItsOwn)
 {
     expect_bias_below(Order::grouped, {0.09, 0.19});
 }
 
-// Precision is no order: in each of them float and double settle on the same residuals, to what 24 iterations make of 1e-7.
+// Precision is not an order: in each order float and double converge to the same residuals, up to the effect of 24 iterations on 1e-7.
 TEST(Orders, PrecisionsAgreeInEachOrder)
 {
     for (const Order order : {Order::plain, Order::ordered, Order::grouped}) {

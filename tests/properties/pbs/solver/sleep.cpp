@@ -1,4 +1,5 @@
-// Sleep: constraints that LBS satisfies, and all around them, are left out of the frame. Truth: the same solver with all awake.
+// Sleep: constraints that LBS satisfies, and whose neighbours it satisfies too, are left out of the frame. Reference: the same solver
+// without sleep.
 #include "pbs/solver/pbs_solver.hpp"
 
 #include "tests/support/structured_bar.hpp"
@@ -17,7 +18,7 @@ PbsOptions options_of(Order order, bool sleep)
     PbsOptions options;
     options.order = order;
     options.precision = Precision::f64;
-    options.k_bind = 0.0;  // nothing holds: what is disturbed at one end travels
+    options.k_bind = 0.0;  // without a constraint that holds them, disturbances at one end travel
     options.sleep = sleep;
     return options;
 }
@@ -36,7 +37,7 @@ Step step_from(const Positions& lbs, const PbsOptions& options)
     return step;
 }
 
-// The last layer pulled away from the rest.
+// The last layer, displaced from the rest.
 Positions pulled(double metres)
 {
     Positions lbs = bar.rest;
@@ -61,16 +62,16 @@ TEST_P(Sleep, EverythingSleepsWhereEverythingIsSatisfied)
     EXPECT_LT(largest_distance(step.positions, moved), 1e-12);
 }
 
-// The pull reaches farther within 24 iterations than the three rings kept awake around what it disturbs at once.
+// Within 24 iterations, the displacement reaches farther than the three rings that are kept awake around the disturbance.
 TEST_P(Sleep, AFrameIsRedoneWhereASleepingRegionIsDisturbed)
 {
     const Positions lbs = pulled(0.1);
     const Step asleep = step_from(lbs, options_of(GetParam(), true)), awake = step_from(lbs, options_of(GetParam(), false));
     EXPECT_GE(asleep.summary.wakings, 1);
-    EXPECT_GT(asleep.summary.sleeping_share, 0.1);  // and the far end sleeps on
+    EXPECT_GT(asleep.summary.sleeping_share, 0.1);  // and the far end still sleeps
     EXPECT_EQ(awake.summary.wakings, 0);
     EXPECT_EQ(awake.summary.sleeping_share, 0.0);
-    // A constraint left out would have corrected at most its error, below the tolerance times its edge, in each iteration it took part in.
+    // A constraint that was left out would have corrected at most its error, below the tolerance times its edge, in each iteration.
     const double tolerance = PbsOptions{}.sleep_tolerance;
     EXPECT_LT(largest_distance(asleep.positions, awake.positions), 24 * tolerance * bar_edge);
 }
@@ -81,7 +82,7 @@ TEST_P(Sleep, WithoutToleranceNothingThatIsOffSleeps)
     options.sleep_tolerance = 0.0;
     const Positions lbs = 1.01 * bar.rest;
     const Step asleep = step_from(lbs, options), awake = step_from(lbs, options_of(GetParam(), false));
-    EXPECT_LT(asleep.summary.sleeping_share, 0.01);  // batches of padding alone
+    EXPECT_LT(asleep.summary.sleeping_share, 0.01);  // only batches of padding
     EXPECT_EQ(asleep.positions, awake.positions);
 }
 

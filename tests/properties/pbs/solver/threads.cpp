@@ -1,4 +1,4 @@
-// Truth: the same run on one thread. Threads share a mesh by slabs, which belong to the mesh, so that no number of threads and no order
+// Reference: the same run on one thread. Threads share a mesh by slabs, which are defined by the mesh, so no number of threads and no order
 // of the slabs of one parity changes a bit; nor does a second run.
 #include "pbs/solver/batched/batch_kernels.hpp"
 #include "pbs/solver/batched/batched_constraints.hpp"
@@ -24,14 +24,14 @@ using pbs::Precision;
 using pbs::Vec3;
 
 #ifdef PBS_WITH_THREADS
-// oneTBB has no more threads than the machine has cores unless it is told so.
+// By default, oneTBB uses no more threads than the machine has cores.
 const tbb::global_control four_threads(tbb::global_control::max_allowed_parallelism, 4);
 #endif
 
 const TwoBoneLimb limb = two_bone_limb({550, 6, 6}, Vec3::UnitZ(), 60.0);  // 26,999 vertices
 const Order batched_orders[] = {Order::ordered, Order::grouped};
 
-// Of three steps, with a jiggling half.
+// The hash after three steps, with one jiggling half.
 std::string hash_of_run(Order order, Precision precision, int threads)
 {
     PbsOptions options;
@@ -51,7 +51,7 @@ std::string hash_of_run(Order order, Precision precision, int threads)
     return hash.hex();
 }
 
-// Four of each parity.
+// Four slabs of each parity.
 TEST(Threads, TheMeshHasSlabsForFourThreadsAtOnce)
 {
     const auto constraints = pbs::make_constraint_set<float>(limb.mesh, limb.binding.distance, {}, {});
@@ -85,7 +85,7 @@ struct alignas(64) Block {
     double xyzw[4 * pbs::batch_size];
 };
 
-// All volume constraints once, slabs of each parity from the first or from the last.
+// Projects all volume constraints once, with the slabs of each parity in forward or reverse order.
 std::vector<double> projected(const pbs::BatchedConstraints<double>& batched, bool from_the_last)
 {
     const int slabs = batched.order.slabs(), dummies = slabs * pbs::BatchProgram<double>::dummies_a_slab;
@@ -108,7 +108,8 @@ std::vector<double> projected(const pbs::BatchedConstraints<double>& batched, bo
     return {vertices, vertices + 4 * blocks.size() * pbs::batch_size};
 }
 
-// What makes threads safe, without any: a vertex that two slabs of one parity touch would be moved by one before the other.
+// The condition that makes threads safe, tested without threads: if two slabs of one parity touched a vertex, the first would move it
+// before the other.
 TEST(Threads, SlabsOfOneParityMayComeInAnyOrder)
 {
     for (const Order order : batched_orders) {
