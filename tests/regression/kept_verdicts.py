@@ -1,5 +1,5 @@
-"""The verdicts that README tells are still those of the records beside the sources, by the bounds of claims.toml: they change only with new
-records or another rule."""
+"""The verdicts in the README equal those of the kept records by the bounds of claims.toml: they change only with new records or another
+rule."""
 import pathlib
 import shutil
 import sys

@@ -1,5 +1,5 @@
 """Every study and every claim has its page, with the required sections, whose generated part is current. `pbskin explain` prints each page,
-and the files and columns that the pages quote are those of the kept records. Truth: the kept records, claims.toml and figures.toml."""
+and the files and columns that the pages quote are those of the kept records. Reference: the kept records, claims.toml and figures.toml."""
 import csv
 import fnmatch
 import pathlib
@@ -27,7 +27,7 @@ def sections(text):
 
 
 def quoted_columns(text):
-    """File and columns of each row of the table under `## Records`."""
+    """File and columns of each row of the table below `## Records`."""
     table = text.split("## Records\n", 1)[1].split("\n## ", 1)[0]
     for line in re.findall(r"^\| `.*$", table, re.MULTILINE):
         files, _, columns = (cell.strip() for cell in line.strip("|").split("|"))
@@ -36,7 +36,7 @@ def quoted_columns(text):
 
 
 def kept_tables(study, file):
-    """The kept tables that the name stands for: what is written in capitals is any name."""
+    """The kept tables that a name matches; capital letters in it match any text."""
     pattern = re.sub(r"[A-Z][A-Z_]+", "*", file)
     return [table for table in (KEPT / study).rglob("*.csv")
             if fnmatch.fnmatch(str(table.relative_to(KEPT / study)), pattern)]
@@ -123,7 +123,7 @@ class Pages(program.ProgramTest):
                 self.assertTrue(found or name in WRITTEN, f"{page.relative_to(SOURCE)}: {name}")
 
 
-WRITTEN = {"metrics.csv", "measurements.csv", "printed.csv"}  # by a run
+WRITTEN = {"metrics.csv", "measurements.csv", "printed.csv"}  # these files are written by runs
 
 
 if __name__ == "__main__":

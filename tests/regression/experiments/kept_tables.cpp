@@ -1,4 +1,4 @@
-// The kept records, read as rows and written again, have the same columns and cells. Truth: the files, which older builds wrote.
+// The kept records, read as rows and written again, have the same columns and cells. Reference: the files, which earlier versions wrote.
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/run/region_record.hpp"
 #include "experiments/studies/artefacts/artefact_figures.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The columns that a file has, in its order: some kept records leave columns out. std::out_of_range for one that is not declared.
+// The columns of a file, in its order; some kept records lack columns. std::out_of_range for a column that is not declared.
 template <typename Row>
 analysis::Columns<Row> columns_in(const analysis::CsvTable& table, const analysis::Columns<Row>& all)
 {
@@ -27,7 +27,7 @@ analysis::Columns<Row> columns_in(const analysis::CsvTable& table, const analysi
     return columns;
 }
 
-// The same text, or a number that is written in another way: 1.728e+07, 17280000.
+// Equal texts, or equal numbers in different spelling: 1.728e+07, 17280000.
 bool is_same_cell(const std::string& one, const std::string& other)
 {
     if (one == other) return true;
@@ -46,7 +46,7 @@ void expect_same_cells(const analysis::CsvTable& written, const analysis::CsvTab
                 << file << ", row " << row << ", " << column;
 }
 
-// Every STUDY/RUN/NAME of the kept records.
+// All files STUDY/RUN/NAME of the kept records.
 template <typename Row>
 void expect_same_records(const analysis::Columns<Row>& all, const std::string& study, const std::string& name, bool is_complete = true)
 {

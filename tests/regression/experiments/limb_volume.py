@@ -1,8 +1,9 @@
-"""The limb's volume as this project measured it before, in limb_volume.csv. Truth: our own past. A baseline of our own code is regression,
-never verification: a difference says that something changed, not that it is wrong. On failure the table that would pass is printed.
+"""The limb's volume compared with earlier measurements of this project in limb_volume.csv. Reference: our own past. A baseline from our own
+code is regression, never verification: a difference means that something has changed, not that it is wrong. On failure, the table that
+would pass is printed.
 
-Twist to 135 and bend to 90 degrees: beyond (twist 180, bend 120) the float of the projections decides which way the crease folds, and
-single and double precision give -1.9 and -0.4 % (twist), -2.1 and -1.6 % (bend)."""
+The sweeps end at a twist of 135 and a bend of 90 degrees. Beyond that (twist 180, bend 120), the float rounding of the projections decides
+how the crease folds, and single and double precision give -1.9 and -0.4 % (twist), -2.1 and -1.6 % (bend)."""
 import csv
 import io
 import json
@@ -12,16 +13,16 @@ import unittest
 import program
 
 TABLE = pathlib.Path(__file__).with_suffix(".csv")
-SWEEPS = {"limb_twist": 135.0, "limb_bend": 90.0}  # the last of four frames [deg]
+SWEEPS = {"limb_twist": 135.0, "limb_bend": 90.0}  # angle of the last of four frames [deg]
 VALUES = ("volume_change_pct", "volume_abs_change_pct", "inverted_tets")
 COLUMNS = ("tets_hash", "scene", "angle_deg", "deformer") + VALUES
 
-# Same tets, another compiler: blends are in double, roundings of 1e-16 over 1e4 tets. Projections are in float; in double they give figures
-# that differ by up to 5.8e-6 percentage points, the size of what another order of roundings can do; taken some tenfold. No tet but one that
-# is flat to rounding can change sides.
+# The same tets with another compiler: blends are in double precision, with roundings of 1e-16 over 1e4 tets. Projections are in float; in
+# double they give values that differ by up to 5.8e-6 percentage points, which is the size of the effect of another order of roundings. The
+# tolerance is some ten times that. Only a tet that is flat up to rounding can change its sign.
 SAME_TETS = {"lbs": (1e-9, 1e-9, 1), "dqs": (1e-9, 1e-9, 1), "pbs": (1e-4, 1e-4, 1)}
 
-# Another mesh of the same limb and size (another CGAL): twice the largest departure from the table over eight meshes of 1626 - 1877
+# Another mesh of the same limb and size (from another CGAL): twice the largest difference from the table over eight meshes of 1626 - 1877
 # vertices (character.vertices = 1650, 1700, 1740, 1760, 1800, 1820, 1860, 1900).
 OTHER_TETS = {"lbs": (0.35, 0.70, 45), "dqs": (0.30, 1.45, 30), "pbs": (0.10, 0.16, 4)}
 
