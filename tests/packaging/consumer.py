@@ -1,7 +1,7 @@
-"""Somebody else's project finds the installed method, builds with it and bends a bar; what is not there is named.
+"""Another project finds the installed method, builds with it and bends a bar; a component that is not installed is named.
 
-Truth: a bar of two halves that fold over each other by 90 degrees loses volume under linear blend skinning (Sec. 4 of the paper), and
-Eq. 11 gives most of it back; the consumer's own cache tells what was looked for.
+Reference: a bar of two halves that fold over each other by 90 degrees loses volume under linear blend skinning (Sec. 4 of the paper), and
+Eq. 11 recovers most of it. The consumer's own cache shows which packages were searched for.
 """
 import platform
 import re
@@ -12,7 +12,7 @@ import installation
 from installation import BUILD, CMAKE, SOURCE, folder, run
 
 project = SOURCE / "tests/packaging/method_consumer"
-# Of the build under test.
+# The flags of the build under test.
 own_flags = re.search(r"^CMAKE_CXX_FLAGS:STRING=(.*)$", (BUILD / "CMakeCache.txt").read_text(), re.MULTILINE)[1]
 
 
@@ -27,12 +27,12 @@ def configure(source, build, flags="", installed=None):
 
 
 def looked_for(build):
-    """The packages that a build's cache tells."""
+    """The packages that the cache of a build contains."""
     return set(re.findall(r"^([\w.]+)_DIR:PATH=", (folder / build / "CMakeCache.txt").read_text(), re.MULTILINE))
 
 
 def asking_for(name, components, version=""):
-    """A project that asks for these components and does no more."""
+    """A project that only requests these components."""
     source = folder / name
     source.mkdir()
     (source / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.25)\nproject(asks LANGUAGES CXX)\n"
@@ -60,7 +60,7 @@ class MethodTest(unittest.TestCase):
 
 class WithoutThreads(MethodTest):
     def test_eigen_is_all_that_the_method_needs(self):
-        """Built and used, it looks for nothing else, and threads change nothing."""
+        """Built and run, the method searches for no other package, and the number of threads does not change its result."""
         off = [f"-DPBS_WITH_{part}=OFF" for part in re.findall(r"option\(PBS_WITH_(\w+)", (SOURCE / "CMakeLists.txt").read_text())]
         self.assertIn("-DPBS_WITH_THREADS=OFF", off)
         flags = f"-DCMAKE_CXX_FLAGS={own_flags}"
@@ -76,7 +76,7 @@ class Consumer(MethodTest):
         self.expect_bent_bar("consumer", prefix)
         self.assertLessEqual(looked_for("consumer"), {"pbs", "Eigen3", "TBB"}, "the method asks for Eigen, and oneTBB with threads")
 
-    # An array allocated here and freed there would crash. EIGEN_MAX_ALIGN_BYTES bounds members of fixed size alone.
+    # An array that is allocated in one part and freed in the other would crash. EIGEN_MAX_ALIGN_BYTES limits only members of fixed size.
     @unittest.skipUnless(platform.machine() == "x86_64", "the registers of x86-64")
     def test_wider_registers_are_refused(self):
         for build, flags in (("wider", "-mavx"), ("bounded", "-mavx -DEIGEN_MAX_ALIGN_BYTES=16")):

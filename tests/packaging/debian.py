@@ -1,6 +1,7 @@
-"""The Debian packages: built, looked into, unpacked elsewhere and run. Long: a build of its own without this machine's instructions.
+"""The Debian packages are built, inspected, unpacked elsewhere and run. This takes long: a separate build without this machine's
+instructions.
 
-Truth: dpkg's own tools, and the packages' contents as a user gets them.
+Reference: dpkg's own tools, and the packages' contents as users get them.
 """
 import os
 import re
@@ -60,7 +61,7 @@ class Debian(unittest.TestCase):
         self.assertIn("tets 1920", run(folder / "consumer/bent_bar").stdout)
 
     def test_every_component_is_called(self):
-        """Flesh that is held by one tet, which is moved, goes with it, up to the rounding of its solve: 1e-11 m were seen."""
+        """Flesh that is held by one moved tet follows it, up to the rounding of its solve; 1e-11 m were observed."""
         configured = run(CMAKE, "-S", SOURCE / "tests/packaging/components_consumer", "-B", folder / "all", "-G", "Ninja",
                          f"-DCMAKE_PREFIX_PATH={root / 'usr'}")
         self.assertEqual(configured.returncode, 0, configured.stderr)

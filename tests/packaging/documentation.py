@@ -1,6 +1,6 @@
-"""The documentation of the headers builds without a warning and says what the headers say. Long.
+"""The documentation of the headers builds without a warning and contains the headers' comments. This takes long.
 
-Truth: the headers themselves; a page is Doxygen's reading of what cmake/documentation/comments.awk hands it.
+Reference: the headers themselves; a page is what Doxygen makes of the output of cmake/documentation/comments.awk.
 """
 import html
 import os

@@ -1,4 +1,4 @@
-"""Installs components of the build under test into a folder of its own, and moves them before they are used."""
+"""Installs components of the build under test into a separate folder, and moves them before they are used."""
 import os
 import pathlib
 import signal
@@ -15,7 +15,7 @@ unittest.addModuleCleanup(scratch.cleanup)
 
 
 def run(*words, timeout=1800, check=False, **options):
-    """As subprocess.run, with the texts; past its time the compilers that it started end with it."""
+    """Like subprocess.run, with text output; at a timeout, the compilers that the command started end with it."""
     words = [str(word) for word in words]
     with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True, **options) as process:
         try:
@@ -30,7 +30,7 @@ def run(*words, timeout=1800, check=False, **options):
 
 
 def install(component, build=BUILD):
-    """The prefix, which is not the one that it was installed to."""
+    """The prefix, which differs from the one at installation."""
     installed = run(CMAKE, "--install", build, "--component", component, "--prefix", folder / "installed")
     if installed.returncode != 0:
         raise RuntimeError(installed.stdout + installed.stderr)
@@ -38,6 +38,6 @@ def install(component, build=BUILD):
 
 
 def files_naming(prefix, path):
-    """Installed files with that path in them, links left out."""
+    """Installed files that contain that path, without links."""
     return [str(file.relative_to(prefix)) for file in sorted(prefix.rglob("*"))
             if file.is_file() and not file.is_symlink() and str(path).encode() in file.read_bytes()]

@@ -1,6 +1,6 @@
-"""The installed program runs in any folder, moved, and without the source tree: what it needs lies beside it.
+"""The installed program runs in any folder, after a move, and without the source tree: everything it needs is installed with it.
 
-Truth: the folders as the file system tells them; the records' own fields.
+Reference: the folders in the file system, and the fields of the records.
 """
 import json
 import shutil
@@ -23,7 +23,7 @@ class InstalledProgram(unittest.TestCase):
         self.assertEqual(process.returncode, 0, process.stderr)
         return process
 
-    # Whoever names the source tree needs it.
+    # A file that names the source tree would need it.
     def test_nothing_names_the_source_tree(self):
         self.assertEqual(installation.files_naming(prefix, SOURCE), [])
 

@@ -1,7 +1,7 @@
 """Manual pages, manual of scene files and completions: every verb, option and scene key is in them, and the shells accept them.
 
-Truth: `pbskin --help` and `pbskin VERB --help`, which CLI11 writes, not the description that the pages were written from; the schema's own
-answer to an unknown key; mandoc, a reader of manual pages, and bash and zsh themselves.
+Reference: `pbskin --help` and `pbskin VERB --help`, which CLI11 writes, not the description from which the pages were written; the schema's
+own answer to an unknown key; mandoc, a reader of manual pages; and bash and zsh themselves.
 """
 import os
 import re
@@ -29,7 +29,7 @@ def options(*verb):
 
 
 def completed(*words):
-    """COMPREPLY after `pbskin WORDS` and the tabulator key."""
+    """COMPREPLY after `pbskin WORDS` and the tab key."""
     script = (f'source "{pages / "pbskin"}"; COMP_WORDS=(pbskin "$@"); COMP_CWORD=$#; _pbskin; '
               'printf "%s\\n" "${#COMPREPLY[@]}" "${COMPREPLY[@]}"')
     environment = {**os.environ, "PATH": f"{PBSKIN.parent}:{os.environ['PATH']}"}
@@ -57,13 +57,13 @@ class ManPage(unittest.TestCase):
         for page in ("pbskin.1", "pbskin-scene.5"):
             checked = run("mandoc", "-Tlint", "-Wwarning", pages / page)
             self.assertEqual(checked.stdout + checked.stderr, "")
-        shown = re.sub(".\b", "", run("mandoc", "-Tascii", pages / "pbskin.1").stdout)  # struck twice is bold
+        shown = re.sub(".\b", "", run("mandoc", "-Tascii", pages / "pbskin.1").stdout)  # overstruck characters are bold
         self.assertIn("pbskin measure REST FRAMES ...", shown)
 
 
 class SceneManual(unittest.TestCase):
     def rows(self):
-        """Table -> keys of the committed manual."""
+        """Table -> keys of the installed manual."""
         sections = re.split(r"^## ", (SOURCE / "experiments/scene/manual.md").read_text(encoding="utf-8"), flags=re.MULTILINE)[1:]
         return {section.split("\n")[0].strip("[]"): re.findall(r"^\| `(\w+)` \|", section, re.MULTILINE) for section in sections}
 

@@ -1,6 +1,6 @@
 """`cmake --workflow --preset ci` is what ./check runs, and ./check is what continuous integration runs.
 
-Truth: the files themselves, read side by side.
+Reference: the files themselves, compared with each other.
 """
 import json
 import os
@@ -45,7 +45,7 @@ class Presets(unittest.TestCase):
         self.assertLessEqual(self.tested | set(re.findall(r"--preset (\w[\w-]*)", text("check"))), visible)
 
     def test_the_method_and_the_ruler_alone(self):
-        """What the presets leave out; threads are looked at, and the ruler is there."""
+        """The presets tsan and valgrind leave out every option except the metrics, the tests and threads."""
         options = set(re.findall(r'option\((PBS_WITH_\w+) ".*" ON\)', text("CMakeLists.txt")))
         for name in ("tsan", "valgrind"):
             parent = self.configured[self.configured[name]["inherits"]]["cacheVariables"]

@@ -1,4 +1,4 @@
-"""The README's own mesh: its scene is the file that it names, and its commands end as it states. Truth: the README's text."""
+"""The README's own mesh: its scene equals the file that it names, and its commands end as it states. Reference: the README's text."""
 import os
 import re
 import unittest
@@ -32,7 +32,8 @@ class OwnMesh(unittest.TestCase):
         stated, found = ends_of(section), ends_of(self.finished.stdout + self.finished.stderr)
         self.assertEqual(sorted(stated), ["lbs", "pbs"])
         for deformer, ends in stated.items():
-            self.assertAlmostEqual(ends[0], found[deformer][0], delta=0.1 * abs(ends[0]))  # another compiler meshes a little differently
+            # another compiler gives a slightly different mesh
+            self.assertAlmostEqual(ends[0], found[deformer][0], delta=0.1 * abs(ends[0]))
 
     def test_a_bound_that_does_not_hold_is_exit_status_1(self):
         measured = run("pbskin", "measure", "run/frames/lbs_000000.vtu", "run/frames/lbs_%06d.vtu", "--max-volume-change", "0.5",

@@ -1,4 +1,5 @@
-"""A command past its time ends with all that it started, as cmake with ninja and the compilers. Truth: the processes that there are."""
+"""A command that exceeds its time limit ends with all processes that it started, such as cmake with ninja and the compilers. Reference: the
+processes that exist."""
 import pathlib
 import subprocess
 import time
@@ -21,7 +22,7 @@ class Timeouts(unittest.TestCase):
             run("sh", "-c", "sleep 60 & echo $! >started; wait", cwd=folder, timeout=1)
         self.assertLess(time.monotonic() - begin, 30)
         stat = pathlib.Path("/proc", (folder / "started").read_text().strip(), "stat")
-        while state(stat) not in ("gone", "Z", "X"):  # a busy machine takes its time to carry a signal out
+        while state(stat) not in ("gone", "Z", "X"):  # a busy machine delivers a signal late
             self.assertLess(time.monotonic() - begin, 30)
             time.sleep(0.05)
 

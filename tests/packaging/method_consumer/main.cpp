@@ -1,5 +1,5 @@
-// A bar with two bones, bent by 90 degrees: how much of its volume linear blend skinning loses, and what position based skinning gives
-// back in 24 iterations. Uses nothing but the installed method.
+// A bar with two bones, bent by 90 degrees: the volume that linear blend skinning loses, and how much of it position based skinning
+// recovers in 24 iterations. It uses nothing but the installed method.
 //
 //   ______________________              ___________
 //  |    .     |     .     |   -->      |     .     |     prints: tets 1920, lbs -x.xxx %, pbs -x.xxx %
@@ -13,7 +13,7 @@
 
 namespace {
 
-// Cubes of 0.1 m, each split into six tets that walk from its lowest to its highest corner; x from -1 to 1 m.
+// Cubes of 0.1 m, each split into six tets that follow paths from its lowest to its highest corner; x from -1 to 1 m.
 pbs::TetMesh bar()
 {
     constexpr int nx = 20, n = 4;
