@@ -8,7 +8,7 @@
 namespace architecture {
 namespace {
 
-// CMake text of the folder and those above it, without comments.
+// The CMake text of the folder and of those above it, without comments.
 std::string cmake_text_above(const SourceTree& tree, const std::string& path)
 {
     std::string all;
@@ -28,7 +28,7 @@ bool names_word(const std::string& text, const std::string& word)
     return false;
 }
 
-// The words between "pbs_tests(" and ")", a call at a time.
+// The words between "pbs_tests(" and ")", one list per call.
 std::vector<std::vector<std::string>> calls_of_pbs_tests(const std::string& cmake)
 {
     const std::string opening = "pbs_tests(";
@@ -46,8 +46,8 @@ bool is_below(const std::string& path, const std::string& folder)
     return folder == "." || path == folder || path.starts_with(folder + "/");
 }
 
-// pbs_tests(KIND NAME FOLDERS FOLDER... FILES FILE... EXCEPT PATH...) compiles KIND/test.cpp. What an option leaves out is a variable's
-// and not looked at.
+// pbs_tests(KIND NAME FOLDERS FOLDER... FILES FILE... EXCEPT PATH...) compiles KIND/test.cpp. A variable holds the files that an option
+// leaves out; it is not evaluated here.
 bool compiles(const std::vector<std::string>& call, const std::string& kind, const std::string& test)
 {
     if (call.empty() || call[0] != kind) return false;

@@ -1,4 +1,4 @@
-// Nothing lies about unbuilt, and the unit tests mirror the source.
+// Every source file is built, and the unit tests mirror the source folders.
 #pragma once
 
 #include "tests/architecture/source_tree.hpp"

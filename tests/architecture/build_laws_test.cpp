@@ -1,4 +1,4 @@
-// Truth: the CMake files and the list of packages, held against the source tree as it is.
+// Reference: the CMake files and the list of packages, compared with the actual source tree.
 #include "tests/architecture/build_laws.hpp"
 #include "tests/architecture/expect_lawful.hpp"
 #include "tests/architecture/package_laws.hpp"

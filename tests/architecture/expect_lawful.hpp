@@ -1,5 +1,5 @@
-// How the architecture tests report: each violation a line. A law that a planted violation does not break proves nothing, so each test
-// file also plants some.
+// How the architecture tests report violations: one per line. A law that accepts a planted violation proves nothing, so each test file also
+// plants some.
 #pragma once
 
 #include "tests/architecture/source_tree.hpp"
@@ -17,7 +17,7 @@ inline void expect_lawful(Violations (*law)(const SourceTree&))
     EXPECT_TRUE(found.empty()) << found;
 }
 
-// The law finds exactly one violation in the planted files, and it says `expected`.
+// The law finds exactly one violation in the planted files, and its text contains `expected`.
 inline void expect_found(Violations (*law)(const SourceTree&), const SourceTree& planted, const std::string& expected)
 {
     const Violations violations = law(planted);

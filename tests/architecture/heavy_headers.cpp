@@ -6,9 +6,9 @@ namespace architecture {
 namespace {
 
 struct HeavyLibrary {
-    std::string header;                // how its includes begin
-    std::vector<std::string> at_home;  // where files may see it
-    std::size_t most_files;            // .cpp files outside tests that do
+    std::string header;                // the beginning of its includes
+    std::vector<std::string> at_home;  // the places whose files may see it
+    std::size_t most_files;            // limit for the number of .cpp files outside tests that see it
 };
 
 const std::vector<HeavyLibrary> heavy = {
@@ -20,11 +20,11 @@ const std::vector<HeavyLibrary> heavy = {
 
 bool is_heavy(const std::string& target, const HeavyLibrary& library)
 {
-    // vtk*.h stand in no folder of their own; "vtk..." of ours would.
+    // vtk*.h are in no folder of their own; a folder "vtk..." of this project would be.
     return target.starts_with(library.header) && (library.header != "vtk" || target.find('/') == std::string::npos);
 }
 
-// Does the file see the library, itself or through ours?
+// Whether the file includes the library, directly or through headers of this project.
 bool sees(const SourceTree& tree, const std::string& path, const HeavyLibrary& library, std::set<std::string>& visited)
 {
     const auto file = tree.find(path);

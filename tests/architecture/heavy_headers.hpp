@@ -1,5 +1,5 @@
-// Heavy headers (deal.II takes some 20 s a file) are seen, through whatever chain of includes, by few .cpp files of one place each, so
-// that a change in the method recompiles in seconds.
+// Few .cpp files, of one place per library, include heavy headers (deal.II takes some 20 s per file), through whatever chain of includes,
+// so that a change in the method recompiles in seconds.
 #pragma once
 
 #include "tests/architecture/source_tree.hpp"

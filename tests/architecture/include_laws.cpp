@@ -13,7 +13,7 @@ struct Law {
     std::vector<std::string> but_not = {};
 };
 
-// The first whose folder holds a file is the file's law.
+// The first entry whose folder contains a file is the law for that file.
 const std::vector<Law> laws = {
     {"pbs/geometry/", {"pbs/geometry/"}},
     {"pbs/skinning/", {"pbs/geometry/", "pbs/skinning/"}},
@@ -28,9 +28,9 @@ const std::vector<Law> laws = {
     {"tests/", {"pbs/", "reference_fem/", "analysis/", "experiments/", "tests/"}},
 };
 const std::vector<std::string> ours = {"pbs/", "reference_fem/", "analysis/", "experiments/", "tests/", "paper_figures/"};
-const std::string generated = "generated/";  // written by the build
+const std::string generated = "generated/";  // files that the build writes
 
-// The folders of experiments from the bottom up. A file includes its own folder and lower ones; folders of one line do not include each
+// The folders of experiments from the bottom up. A file includes its own folder and lower ones; folders in the same row do not include each
 // other.
 const std::vector<std::vector<std::string>> layers = {
     {"experiments/process/"},
@@ -39,14 +39,15 @@ const std::vector<std::vector<std::string>> layers = {
     {"experiments/scene/"},
     {"experiments/run/"},
     {"experiments/studies/shared/"},
-    {"experiments/studies/"},   // its own files: study.hpp, the list of studies, plans and costs
+    {"experiments/studies/"},   // the files in the folder itself: study.hpp, the list of studies, plans and costs
     {"experiments/studies/*"},  // the folder of each study
     {"experiments/verdicts/", "experiments/distributed/", "experiments/sweeps/"},
     {"experiments/command_line/"},
 };
 const std::string includes_studies = "experiments/studies/ambiguity/";  // measures each claim by the functions of the claim's own study
 
-// "experiments/studies/volume/" of "experiments/studies/volume/study.cpp"; of any other file the first two folders; "" of none.
+// "experiments/studies/volume/" for "experiments/studies/volume/study.cpp"; for any other file its first two folders, or "" if there are
+// none.
 std::string room_of(const std::string& path)
 {
     const std::string studies = "experiments/studies/";
@@ -56,7 +57,7 @@ std::string room_of(const std::string& path)
     return path.starts_with(studies) ? studies : "";
 }
 
-// The place of a room in `layers`; nothing where no layer has it.
+// The index of a room in `layers`; nothing if no layer contains it.
 std::optional<std::size_t> layer_of(const std::string& room)
 {
     std::optional<std::size_t> of_studies;

@@ -1,4 +1,4 @@
-// Truth: the include laws of the architecture, held against the source tree as it is.
+// Reference: the include laws of the architecture, compared with the actual source tree.
 #include "tests/architecture/expect_lawful.hpp"
 #include "tests/architecture/heavy_headers.hpp"
 #include "tests/architecture/include_laws.hpp"

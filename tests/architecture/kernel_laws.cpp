@@ -11,11 +11,11 @@ const std::vector<std::string> headers_of_kernels = {"array",   "cmath",       "
                                                      "utility", "type_traits", "experimental/simd", "immintrin.h"};
 const std::vector<std::string> headers_of_registers = {"experimental/simd", "immintrin.h", "x86intrin.h", "arm_neon.h"};
 
-// Targets built for the machine, and what tells of it in the records. The bench's are beside the library, not in it.
+// Targets built for the machine, and the definition that records this. Those of the benchmark are not in the library.
 const std::vector<std::string> built_for_the_machine = {"target_compile_options(pbs_kernels ", "target_compile_options(bench_kernels ",
                                                         "target_compile_options(pbskin_native_plain ", "\"PBS_KERNEL_FLAGS="};
 
-// Sources of an add_library(NAME ...), from the root.
+// The sources of an add_library(NAME ...), with paths from the root.
 std::vector<std::string> sources_of(const SourceTree& tree, const std::string& library)
 {
     std::vector<std::string> sources;
@@ -29,7 +29,7 @@ std::vector<std::string> sources_of(const SourceTree& tree, const std::string& l
     return sources;
 }
 
-// Headers not ours that the file sees, itself or through ours.
+// Headers of other projects that the file includes, directly or through headers of this project.
 void collect_foreign(const SourceTree& tree, const std::string& path, std::set<std::string>& visited, std::set<std::string>& foreign)
 {
     const auto file = tree.find(path);

@@ -1,4 +1,4 @@
-// Truth: the kernels' files and the CMake files as they are.
+// Reference: the actual files of the kernels and of CMake.
 #include "tests/architecture/expect_lawful.hpp"
 #include "tests/architecture/kernel_laws.hpp"
 

@@ -28,7 +28,7 @@ std::set<std::string> known_to_cmake(const SourceTree& tree)
     return names;
 }
 
-// The name looked for: find_package(NAME ...), find_library(VARIABLE NAME ...) also with NAMES before it.
+// The name that is searched for: find_package(NAME ...), or find_library(VARIABLE NAME ...), also with NAMES before it.
 std::string looked_for(const std::string& line)
 {
     static const std::regex call(R"(^[^#]*\bfind_(?:package\s*\(\s*|library\s*\(\s*\w+\s+(?:NAMES\s+)?)([\w.+-]+))");
@@ -58,7 +58,7 @@ Violations package_list_form(const SourceTree& tree)
 Violations package_list_cover(const SourceTree& tree)
 {
     std::set<std::string> known = known_to_cmake(tree);
-    known.insert("pbs");  // ourselves, as tests/packaging finds us
+    known.insert("pbs");  // this project, which tests/packaging finds
     Violations violations;
     for (const auto& [path, text] : tree) {
         if (!is_cmake_file(path)) continue;

@@ -1,4 +1,4 @@
-// cmake/packages.txt is the one list of what the project needs: well formed, and it covers what the CMake files look for.
+// cmake/packages.txt is the one list of the project's requirements: it is well formed, and covers what the CMake files search for.
 #pragma once
 
 #include "tests/architecture/source_tree.hpp"

@@ -1,4 +1,4 @@
-"""The README is short, its picture and its links exist, and so do those of every other page. Truth: the files of the source tree."""
+"""The README is short, its picture and its links exist, and so do those of every other page. Reference: the files of the source tree."""
 import os
 import pathlib
 import re
@@ -20,7 +20,7 @@ def pages():
 
 
 def prose_of(page):
-    """Without blocks of code, in which brackets mean something else."""
+    """The text without blocks of code, in which brackets have another meaning."""
     return re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
 
 
@@ -29,13 +29,13 @@ def links_of(page):
 
 
 def anchors_of(page):
-    """As GitHub makes them: lower case, blanks to hyphens, punctuation left out."""
+    """The anchors as GitHub makes them: lower case, blanks to hyphens, punctuation left out."""
     return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
             for title in re.findall(r"^#+ (.*)$", prose_of(page), re.MULTILINE)}
 
 
 def broken_links(page):
-    """Links within the source tree that lead to no file, folder or heading."""
+    """Links within the source tree whose file, folder or heading does not exist."""
     broken = []
     for link in links_of(page):
         path, _, anchor = link.partition("#")
@@ -46,7 +46,7 @@ def broken_links(page):
 
 
 def width_of(picture):
-    """Of a PNG, from its first chunk."""
+    """The width of a PNG, from its first chunk."""
     return struct.unpack(">I", picture.read_bytes()[16:20])[0]
 
 

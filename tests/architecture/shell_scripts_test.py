@@ -1,4 +1,4 @@
-"""shellcheck finds nothing in the shell scripts, what they mark themselves aside; and it does find what is planted."""
+"""shellcheck finds nothing in the shell scripts, except where they disable a rule themselves, and it does find planted errors."""
 import os
 import pathlib
 import re
@@ -24,7 +24,7 @@ def scripts():
 
 
 def findings(root, paths):
-    """(exit status, what shellcheck says) of these paths below root: 1 where it finds anything."""
+    """(exit status, output of shellcheck) for these paths below root; the status is 1 if it finds anything."""
     command = [os.environ["PBS_SHELLCHECK"], "-x", "--format=gcc", *paths]
     done = subprocess.run(command, cwd=root, capture_output=True, text=True, check=False)
     return done.returncode, done.stdout + done.stderr

@@ -24,13 +24,13 @@ bool is_line_of_source(const std::string& path)
     return is_source(path) || is_command(path) || ends_with_any(path, {".js", ".mjs", ".css", "Snakefile"});
 }
 
-// Of UTF-8 text: bytes that do not continue a character.
+// The number of characters of UTF-8 text: bytes that do not continue a character.
 int columns_of(const std::string& line)
 {
     return static_cast<int>(std::ranges::count_if(line, [](char byte) { return (byte & 0xC0) != 0x80; }));
 }
 
-// Too long, or more than one in ten above the usual size.
+// Violations for sizes above the limit, or if more than one in ten exceeds the usual size.
 Violations judge(const std::vector<Sized>& all, int longest, int usual, const std::string& thing)
 {
     Violations violations, above_usual;
@@ -43,7 +43,7 @@ Violations judge(const std::vector<Sized>& all, int longest, int usual, const st
     return violations;
 }
 
-// In this format a function's braces stand alone on their lines, at the indentation of its signature; so do those of loops and branches.
+// In this format a function's braces are alone on their lines, with the indentation of its signature; so are those of loops and branches.
 std::vector<Sized> functions_of(const std::string& path, const std::vector<std::string>& lines)
 {
     static const std::regex control(R"(^\s*(for|if|else|while|switch|do|try|catch|struct|class|enum|union)\b)");

@@ -1,4 +1,4 @@
-// Truth: the house sizes, measured on codes of the field that are easy to enter.
+// Reference: the sizes in well-regarded codes of the field.
 #include "tests/architecture/expect_lawful.hpp"
 #include "tests/architecture/size_laws.hpp"
 

@@ -1,4 +1,4 @@
-// The project's text files, as the architecture tests read them: from disk, or planted to see that a law bites.
+// The project's text files as the architecture tests read them: from disk, or planted to show that a law detects violations.
 #pragma once
 
 #include <map>
@@ -11,10 +11,10 @@ namespace architecture {
 // Path from the root, '/' between folders -> the file's text.
 using SourceTree = std::map<std::string, std::string>;
 
-// What breaks a law, as `path:line: what and why`.
+// Violations of a law, as `path:line: what and why`.
 using Violations = std::vector<std::string>;
 
-// Sources, scripts, CMake files, scenes and pages of the project; neither build folders nor results nor dot folders but .ci.
+// Sources, scripts, CMake files, scenes and pages of the project, without build folders, results, and dot folders except .ci.
 SourceTree read_source_tree();
 
 std::vector<std::string> lines_of(const std::string& text);
@@ -23,7 +23,7 @@ bool starts_with_any(std::string_view text, const std::vector<std::string>& pref
 bool ends_with_any(std::string_view text, const std::vector<std::string>& suffixes);
 bool is_cpp(const std::string& path);         // .cpp or .hpp
 bool is_cmake_file(const std::string& path);  // CMakeLists.txt or .cmake
-bool is_command(const std::string& path);     // a script that users start, without a suffix
+bool is_command(const std::string& path);     // a script without a suffix that users start
 
 struct Include {
     int line;

@@ -1,4 +1,4 @@
-"""cppcheck finds nothing in our own code, what cmake/cppcheck_suppressions.txt names aside; and it does find what is planted."""
+"""cppcheck finds nothing in the project's code, except what cmake/cppcheck_suppressions.txt lists, and it does find planted errors."""
 import os
 import pathlib
 import subprocess
@@ -18,7 +18,7 @@ int last(const std::vector<int>* values)
 
 
 def findings(root, paths, *options):
-    """(exit status, what cppcheck says) of these paths below root: 3 where it finds anything."""
+    """(exit status, output of cppcheck) for these paths below root; the status is 3 if it finds anything."""
     command = [os.environ["PBS_CPPCHECK"], "--std=c++20", "--enable=warning,performance,portability,information", "--quiet",
                "--error-exitcode=3", "--template={file}:{line}: {id}: {message}", "-I", ".", *options, *paths]
     done = subprocess.run(command, cwd=root, capture_output=True, text=True, check=False)
@@ -27,7 +27,7 @@ def findings(root, paths, *options):
 
 class Cppcheck(unittest.TestCase):
     def test_finds_nothing(self):
-        """A suppression that nothing needs any more is a finding too."""
+        """A suppression that is no longer needed is a finding too."""
         self.assertEqual(findings(SOURCE, FOLDERS, "--suppressions-list=cmake/cppcheck_suppressions.txt"), (0, ""))
 
     def test_finds_what_is_planted(self):

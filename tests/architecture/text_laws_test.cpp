@@ -1,4 +1,4 @@
-// Truth: the house rules on text. Planted marks are put together here so that this file keeps the law itself.
+// Reference: the project's rules on text. Planted violations are composed here, so that this file itself obeys the law.
 #include "tests/architecture/expect_lawful.hpp"
 #include "tests/architecture/text_laws.hpp"
 
