@@ -1,4 +1,4 @@
-// Truth: what interfaces promise of the built-in limb (capsule of radius 0.15 m round (-1,0,0) -> 0 -> (1,0,0)), and refusals by field.
+// Reference: the specified shape of the built-in limb (capsule of radius 0.15 m around (-1,0,0) -> 0 -> (1,0,0)), and refusals by field.
 #include "pbs/character/bodies.hpp"
 
 #include "tests/unit/pbs/character/expect_input_error.hpp"

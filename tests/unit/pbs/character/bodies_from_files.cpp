@@ -1,4 +1,4 @@
-// Truth: what was written to the files.
+// Reference: the contents written to the files.
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/mesh_io.hpp"

@@ -1,4 +1,4 @@
-// Truth: the promise of the cache: a hit is the mesh that was made, to the bit, and a damaged file is made anew.
+// Reference: the specification of the cache: a hit is the mesh that was made, to the bit, and a damaged file is made again.
 #include "pbs/character/body_cache.hpp"
 
 #include "pbs/geometry/mesh_io.hpp"
@@ -130,7 +130,7 @@ TEST_F(BodyCache, WhatAKilledMakerLeftIsRemovedAndWhatALivingOneMakesIsNot)
     EXPECT_TRUE(fs::exists(folder / (living + ".vtu")));
 }
 
-// Each maker adds a byte; the second process begins while the first one still makes.
+// Each maker appends a byte; the second process starts while the first one still works.
 TEST_F(BodyCache, OneProcessMakesWhileAnotherWaits)
 {
     const fs::path makers = folder.path() / "makers";

@@ -1,4 +1,4 @@
-// Truth: what assimp 5.2 lets pass and should not; each refusal by file, line and field.
+// Reference: the errors that assimp 5.2 accepts and should not; each refusal by file, line and field.
 #include "pbs/character/bvh_header.hpp"
 
 #include "tests/unit/pbs/character/expect_input_error.hpp"
@@ -10,7 +10,7 @@ using namespace pbs;
 std::string bvh(const std::string& frames, const std::string& time)
 {
     return "HIERARCHY\nROOT a { CHANNELS 3 Xrotation Yrotation Zrotation\n}\n\nMOTION\nFrames: " + frames + "\nFrame Time: " + time +
-           "\n0 0 0\n0 0 0\n";  // Frames in line 6
+           "\n0 0 0\n0 0 0\n";  // Frames is in line 6
 }
 
 TEST(BvhHeader, AWholeOnePasses)

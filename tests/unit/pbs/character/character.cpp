@@ -1,4 +1,4 @@
-// Truth: the jiggle zone as the paper defines it: farther from the nearest bone than the mean over all vertices (Sec. 4).
+// Reference: the jiggle zone as the paper defines it: vertices farther from the nearest bone than the mean over all vertices (Sec. 4).
 #include "pbs/character/character.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST(JiggleZone, NoVerticesNoZone)
     EXPECT_TRUE(zone_of({}).empty());
 }
 
-// Bone 0 has the mean 2, bone 1 the mean 15: of all it would be 8.5.
+// Bone 0 has the mean 2, bone 1 the mean 15; the mean over all vertices would be 8.5.
 TEST(JiggleZoneByBone, IsFartherThanTheMeanOfItsOwnBone)
 {
     BoneBinding binding;

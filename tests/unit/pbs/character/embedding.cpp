@@ -1,4 +1,4 @@
-// Truth: barycentric coordinates reproduce affine maps exactly, inside and outside; distances of points from a unit tet are elementary.
+// Reference: barycentric coordinates reproduce affine maps exactly, inside and outside; distances of points from a unit tet are elementary.
 #include "pbs/character/embedding.hpp"
 
 #include "tests/support/structured_bar.hpp"
@@ -76,8 +76,8 @@ TEST(Embedding, DistanceOutsideOfAFaceAnEdgeAndACorner)
 {
     EXPECT_NEAR(largest_distance({0.2, 0.3, -0.25}), 0.25, 1e-15);                // below the face z = 0
     EXPECT_NEAR(largest_distance({0.5, 0.5, 0.5}), 0.5 / std::sqrt(3.0), 1e-15);  // above the slanted face
-    EXPECT_NEAR(largest_distance({0.5, -0.3, -0.4}), 0.5, 1e-15);                 // off the edge along x
-    EXPECT_NEAR(largest_distance({-1.0, -2.0, -2.0}), 3.0, 1e-14);                // off the corner at the origin
+    EXPECT_NEAR(largest_distance({0.5, -0.3, -0.4}), 0.5, 1e-15);                 // outside the edge along x
+    EXPECT_NEAR(largest_distance({-1.0, -2.0, -2.0}), 3.0, 1e-14);                // outside the corner at the origin
     EXPECT_EQ(largest_distance({0.1, 0.1, 0.1}), 0.0);                            // inside
     EXPECT_EQ(largest_distance({0.0, 0.0, 0.0}), 0.0);                            // on a corner
 }
@@ -85,7 +85,7 @@ TEST(Embedding, DistanceOutsideOfAFaceAnEdgeAndACorner)
 TEST(Embedding, TheNearestTetCarriesAPointOutside)
 {
     Positions points(1, 3);
-    points << 1.2, 0.9, 0.1;  // beyond x = 1, where the first tet, x >= y >= z, has its face
+    points << 1.2, 0.9, 0.1;  // beyond x = 1, where the first tet, x >= y >= z, has a face
     const EmbeddedSurface surface = embed(points, Triangles(0, 3), cube());
     EXPECT_EQ(surface.tet(0), 0);
     EXPECT_NEAR(surface.largest_distance_outside_m, 0.2, 1e-15);

@@ -1,4 +1,4 @@
-// Runs something that must be refused and compares the beginning and one part of the message.
+// Runs a function that must throw an InputError and compares the beginning and one part of the message.
 #pragma once
 
 #include "pbs/geometry/input_error.hpp"

@@ -1,4 +1,4 @@
-// Truth: means by hand; a star is left and right.
+// Reference: means by hand; a star stands for left and right.
 #include "pbs/character/folded_skeleton.hpp"
 
 #include "tests/unit/pbs/character/expect_input_error.hpp"

@@ -1,4 +1,4 @@
-// Truth: what was written to the files, before and between.
+// Reference: the contents written to the files, before and between the calls.
 #include "pbs/character/input_file.hpp"
 
 #include "pbs/character/body_cache.hpp"
@@ -28,7 +28,7 @@ TEST(InputFile, OneThatIsOverwrittenIsRefused)
     const test_support::ScratchFolder folder;
     const std::string path = folder.file("arm.vtu", "one");
     const InputFile file(path);
-    folder.file("arm.vtu", "two");  // as long
+    folder.file("arm.vtu", "two");  // of the same length
     expect_input_error([&] { file.hashed(); }, path + ": ", changed);
 }
 

@@ -1,4 +1,4 @@
-// Truth: the format as described (a tetrahedron of volume 1/6 and two joints, laid out by hand); each refusal by file and field.
+// Reference: the documented format (a tetrahedron of volume 1/6 and two joints, laid out by hand); each refusal by file and field.
 #include "pbs/character/iqm.hpp"
 
 #include "tests/support/iqm_bytes.hpp"
@@ -35,8 +35,8 @@ TEST(Iqm, JointsStandWhereTheirParentsTurnThem)
     EXPECT_EQ(model.joints[0].name, "root");
     EXPECT_EQ(model.joints[1].name, "arm");
     EXPECT_EQ(model.joints[1].parent, 0);
-    // 3 along the root's x, which is the world's y, from a height of 2.
-    EXPECT_NEAR((model.joints[1].position - Vec3(0.0, 3.0, 2.0)).norm(), 0.0, 1e-6);  // of single precision
+    // The joint is 3 along the root's x, which is the world's y, from a height of 2.
+    EXPECT_NEAR((model.joints[1].position - Vec3(0.0, 3.0, 2.0)).norm(), 0.0, 1e-6);  // single precision
 }
 
 TEST(Iqm, EveryTruncationIsRefused)
@@ -47,7 +47,7 @@ TEST(Iqm, EveryTruncationIsRefused)
         const std::string path = folder.file("cut.iqm", whole.substr(0, bytes));
         EXPECT_THROW(read_iqm(path), InputError) << bytes;
         if (bytes < P::text) continue;
-        std::string consistent = whole.substr(0, bytes);  // its header knows of the loss
+        std::string consistent = whole.substr(0, bytes);  // its header states the reduced length
         test_support::put(consistent, P::file_size, static_cast<std::uint32_t>(bytes));
         const std::string same = folder.file("cut.iqm", consistent);
         EXPECT_THROW(read_iqm(same), InputError) << bytes;

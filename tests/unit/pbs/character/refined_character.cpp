@@ -1,4 +1,4 @@
-// Truth: the rules of binding and weights themselves, asked again of the finer mesh; and that refinement moves nothing.
+// Reference: the rules of binding and weights themselves, applied to the finer mesh; and that refinement moves no vertex.
 #include "pbs/character/refined_character.hpp"
 
 #include "pbs/geometry/refinement.hpp"
@@ -26,7 +26,7 @@ Character bar(WeightKind kind = WeightKind::paper)
     return character;
 }
 
-// Of bone 0; there are two.
+// The weight of bone 0; there are two bones.
 double weight_of_root(const Weights& weights, int vertex)
 {
     double weight = 0.0;
@@ -95,7 +95,7 @@ TEST(RefinedCharacter, RemembersWhatItIsARefinementOf)
     EXPECT_EQ(finer.mesh.rest.topRows(coarse.mesh.rest.rows()), coarse.mesh.rest);
 }
 
-// Points in and around the flesh, by an affine map of the rest pose: it carries them whichever tet holds them.
+// Points inside and around the flesh: an affine map of the rest pose moves them equally whichever tet holds them.
 TEST(RefinedCharacter, CarriesTheSameSurface)
 {
     Character coarse = bar();
@@ -110,7 +110,7 @@ TEST(RefinedCharacter, CarriesTheSameSurface)
     for (Eigen::Index s = 0; s < points.rows(); ++s) {
         EXPECT_EQ(fine.surface->tet(s) / 8, coarse.surface->tet(s));
         if (coarse.surface->barycentric.row(s).minCoeff() >= 0.0) {
-            EXPECT_GE(fine.surface->barycentric.row(s).minCoeff(), -1e-12);  // in the child that holds it
+            EXPECT_GE(fine.surface->barycentric.row(s).minCoeff(), -1e-12);  // the child that contains it
         }
     }
     EXPECT_EQ(fine.surface->largest_distance_outside_m, coarse.surface->largest_distance_outside_m);

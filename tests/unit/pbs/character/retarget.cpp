@@ -1,4 +1,4 @@
-// Truth: clips made by hand whose poses are known in closed form.
+// Reference: invented clips whose poses are known in closed form.
 #include "pbs/character/clip.hpp"
 
 #include "tests/unit/pbs/character/expect_input_error.hpp"
@@ -11,7 +11,7 @@ using namespace pbs;
 
 const Skeleton limb{{{"upper", -1, Vec3(-1, 0, 0), Vec3(0, 0, 0)}, {"forearm", 0, Vec3(0, 0, 0), Vec3(1, 0, 0)}}};
 
-// upper -> forearm -> hand along `direction`, bones 2 units long; frame f turns the forearm by 10 f degrees about z and moves the root by f
+// upper -> forearm -> hand along `direction`, bones 2 units long. Frame f turns the forearm by 10 f degrees about z and moves the root by f
 // along y.
 Clip bending_clip(int frames, const Vec3& direction = Vec3::UnitX())
 {
@@ -72,7 +72,7 @@ TEST(Retarget, TheDroppedFrameIsNotTheFirst)
 
 TEST(Retarget, AlignsTheRestDirections)
 {
-    // The clip's zero pose points along y: at frame 0 our bones, which rest along x, must point along y too.
+    // The clip's zero pose points along y. At frame 0 our bones, which point along x at rest, must point along y too.
     const Motion motion = retarget(bending_clip(3, Vec3::UnitY()), limb, whole_clip());
     for (int frame = 0; frame < 3; ++frame) {
         const double turned = frame * M_PI / 18.0;

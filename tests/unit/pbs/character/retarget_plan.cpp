@@ -1,4 +1,4 @@
-// Truth: the twist of q = swing * twist is the twist; CMU's names reach every bone of the human but the hips.
+// Reference: the twist of q = swing * twist is the twist; CMU's names cover every bone of the human except the hips.
 #include "pbs/character/retarget_plan.hpp"
 
 #include "pbs/character/human.hpp"

@@ -1,4 +1,4 @@
-// Truth: the format as documented (CSV vertex,joint,weight); each refusal by file, line and field.
+// Reference: the format as documented (CSV vertex,joint,weight); each refusal by file, line and field.
 #include "pbs/character/weights_file.hpp"
 
 #include "tests/unit/pbs/character/expect_input_error.hpp"

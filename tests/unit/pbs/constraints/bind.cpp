@@ -1,4 +1,4 @@
-// Truth: the distance to a point that does not give way, by hand; the gradient by an eps sweep.
+// Reference: the distance to a fixed point, by hand; the gradient by an eps sweep.
 #include "pbs/constraints/bind.hpp"
 
 #include "tests/support/eps_sweep.hpp"
@@ -57,7 +57,7 @@ TEST(BindConstraint, StiffnessIsTheShareOfTheErrorRemoved)
     }
 }
 
-// Momentum is not conserved: the bone takes -m dp, along the line from the vertex to q, so without a moment about q.
+// Momentum is not conserved: the bone takes -m dp along the line from the vertex to q, which has no moment about q.
 TEST(BindConstraint, ReactionOfTheBoneRunsThroughTheBindPoint)
 {
     test_support::RandomPoints random(10);

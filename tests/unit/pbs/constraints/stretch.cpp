@@ -1,4 +1,4 @@
-// Truth: Eq. 8-10 by hand; the gradient by an eps sweep.
+// Reference: Eq. 8-10 by hand; the gradient by an eps sweep.
 #include "pbs/constraints/stretch.hpp"
 
 #include "tests/support/eps_sweep.hpp"

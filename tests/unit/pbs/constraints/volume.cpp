@@ -1,4 +1,4 @@
-// Truth: Eq. 8, 9 and 11 by hand; the gradient by an eps sweep.
+// Reference: Eq. 8, 9 and 11 by hand; the gradient by an eps sweep.
 #include "pbs/constraints/volume.hpp"
 
 #include "tests/support/eps_sweep.hpp"
@@ -61,8 +61,8 @@ TEST(VolumeConstraint, ProjectionIsAStepAlongTheGradient)
     }
 }
 
-// The trap of leaving the sixth out of the gradients but not out of C: then a projection at k = 1 removes a sixth of the error only. Ours
-// removes all of the linearised error, so that what is left falls with the square of the deformation.
+// A possible error is to omit the factor 1/6 from the gradients but not from C, so that a projection at k = 1 removes only a sixth of the
+// error. Our projection removes all of the linearised error, so the remaining error falls with the square of the deformation.
 TEST(VolumeConstraint, ProjectionLeavesASecondOrderErrorOnly)
 {
     RandomPoints random(6);
@@ -74,7 +74,7 @@ TEST(VolumeConstraint, ProjectionLeavesASecondOrderErrorOnly)
         const double share = std::abs(value_at(corner_tet, projected(corner_tet, unit, p)) / value_at(corner_tet, p));
         EXPECT_LT(share, 2.0 * size);
         if (previous_share > 0.0) {
-            EXPECT_NEAR(std::log10(previous_share / share), 1.0, 0.2);  // |C| is of first order, so the share left is too
+            EXPECT_NEAR(std::log10(previous_share / share), 1.0, 0.2);  // |C| is of first order, so the remaining share is too
         }
         previous_share = share;
     }
@@ -97,7 +97,7 @@ TEST(VolumeConstraint, PinnedCornersStay)
     p[3].z() = 2.0;
     const Corners<double> moved = projected(corner_tet, {0.0, 0.0, 0.0, 1.0}, p);
     for (int i = 0; i < 3; ++i) EXPECT_EQ(moved[i], p[i]);
-    EXPECT_NEAR((moved[3] - Vec3(0, 0, 1)).norm(), 0.0, 1e-15);  // linear in one corner: one projection is exact
+    EXPECT_NEAR((moved[3] - Vec3(0, 0, 1)).norm(), 0.0, 1e-15);  // C is linear in one corner, so one projection is exact
     EXPECT_EQ(projected(corner_tet, {0.0, 0.0, 0.0, 0.0}, p), p);
 }
 
@@ -117,7 +117,7 @@ TEST(VolumeConstraint, TetCollapsedToALineOrAPointStays)
     EXPECT_EQ(projected(corner_tet, unit, point), point);
 }
 
-// The trap of taking |V|: a tet mirrored to -V0 counts as satisfied, and from -1.05 V0 the projection runs away.
+// A possible error is to use |V|: a tet mirrored to -V0 counts as satisfied, and from -1.05 V0 the projection diverges.
 TEST(VolumeConstraint, MirroredTetIsTurnedBack)
 {
     for (const double mirrored : {-1.0, -1.05, -3.0}) {

@@ -1,4 +1,4 @@
-// Truth: Eq. 12-20 as printed, beside the gradients that finite differences confirm (constraints/volume).
+// Reference: Eq. 12-20 as printed, and the gradients that finite differences confirm (constraints/volume).
 #include "pbs/constraints/volume_printed.hpp"
 
 #include "tests/support/eps_sweep.hpp"
@@ -30,7 +30,7 @@ Corners<double> projected_printed(Corners<double> p)
     return p;
 }
 
-// How far g . direction is from the slope that differences show.
+// The difference between g . direction and the slope by finite differences.
 double slope_error(const Corners<double>& g, const Corners<double>& p, const Eigen::VectorXd& direction)
 {
     const double h = 1e-5;
@@ -56,7 +56,7 @@ TEST(VolumePrinted, SumOfTheAbsoluteProductsIsTranslationInvariant)
     Corners<double> moved = p;
     for (Vec3& corner : moved) corner += Vec3(3, -2, 5);
     const Vec3 derived = gradient_at(corner_tet, p)[0];
-    EXPECT_NEAR((printed_at<Printed::labels_absolute>(p)[0] - derived).norm(), 0.0, 1e-15);  // Eq. 15-16 are right
+    EXPECT_NEAR((printed_at<Printed::labels_absolute>(p)[0] - derived).norm(), 0.0, 1e-15);  // Eq. 15-16 are correct
     EXPECT_NEAR((printed_at<Printed::labels_absolute>(moved)[0] - derived).norm(), 0.0, 1e-14);
     EXPECT_GT((printed_at<Printed::labels_absolute>(moved)[1] - printed_at<Printed::labels_absolute>(p)[1]).norm(), 0.1);  // Eq. 12 is not
 }
@@ -74,7 +74,7 @@ TEST(VolumePrinted, FiniteDifferencesContradictTheLabels)
         absolute = std::min(absolute, slope_error(printed_at<Printed::labels_absolute>(p), p, direction));
     }
     EXPECT_LT(derived, 1e-9);  // h^2 and rounding / h
-    EXPECT_LT(sign, 1e-9);     // there the gradient is right and Eq. 17-20 are not
+    EXPECT_LT(sign, 1e-9);     // here the gradient is correct, and Eq. 17-20 are not
     EXPECT_GT(relative, 1e-2);
     EXPECT_GT(absolute, 1e-2);
 }

@@ -1,4 +1,4 @@
-// Truth: what the file system holds afterwards. Failing writes: tests/unit/analysis/records/atomic_file.cpp.
+// Reference: the contents of the file system afterwards. Failing writes: tests/unit/analysis/records/atomic_file.cpp.
 #include "pbs/geometry/atomic_file.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -56,7 +56,7 @@ TEST(WriteAtomically, ANameOfTheGreatestLengthIsWritten)
     EXPECT_EQ(read_text_file(path), "whole");
 }
 
-// Who can write to the folder could lay a link where the name of the temporary file is known beforehand.
+// Anyone who can write to the folder could create a link with the name of the temporary file, if that name were predictable.
 TEST(WriteAtomically, NothingThatLiesThereIsWrittenThrough)
 {
     const ScratchFolder folder;

@@ -1,4 +1,5 @@
-// Truth: the form that the header tells. What a file holds neither breaks the one line nor reaches the terminal as a command.
+// Reference: the form that the header specifies. The content of a file neither breaks the single line nor reaches the terminal as a
+// command.
 #include "pbs/geometry/input_error.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +29,7 @@ TEST(InputError, ControlCharactersStandByTheirCodes)
                    "no such joint"),
               "joint = \\x9b"
               "2J \xc2\xa0\xc3\x9b\xc2: no such joint");
-    EXPECT_EQ(told("", 0, "", "", told("a\n", 0, "", "", "no such file")), "a\\n: no such file");  // told once more
+    EXPECT_EQ(told("", 0, "", "", told("a\n", 0, "", "", "no such file")), "a\\n: no such file");  // a message that contains a message
 }
 
 TEST(InputError, LongFieldsAndValuesAreCut)

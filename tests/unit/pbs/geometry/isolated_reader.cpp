@@ -1,4 +1,4 @@
-// Truth: what a reader gives back, or the way that it was made to die.
+// Reference: the value that a reader returns, or the way in which it was made to die.
 #include "pbs/geometry/isolated_reader.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -37,7 +37,7 @@ TEST(IsolatedReader, GivesBackEveryByte)
 {
     EXPECT_EQ(pbs::read_isolated("x", [](const std::string&) { return std::string("a\0b", 3); }), std::string("a\0b", 3));
     EXPECT_EQ(pbs::read_isolated("x", [](const std::string&) { return std::string(); }), "");
-    const std::string large(5'000'000, 'x');  // many times what a pipe holds
+    const std::string large(5'000'000, 'x');  // many times the capacity of a pipe
     EXPECT_EQ(pbs::read_isolated("x", [&](const std::string&) { return large; }), large);
 }
 
@@ -97,7 +97,7 @@ std::uintmax_t available_bytes()
     return 1024 * kilobytes;
 }
 
-// However large the file: a sparse one has any size at no cost.
+// The limit holds for any file size, since a sparse file may have any size at no cost.
 TEST(IsolatedReader, MoreThanHalfOfTheMemoryIsNotGiven)
 {
     if (std::getenv("PBS_SANITIZED")) GTEST_SKIP() << "sanitizers reserve terabytes: no limit on addresses";

@@ -1,4 +1,4 @@
-// Truth: what is written is read back to the bit, and files written by hand say what they say.
+// Reference: a mesh that is written is read back to the bit, and files written by hand give the numbers in them.
 #include "pbs/geometry/mesh_io.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 using test_support::ScratchFolder;
 
-// A bar whose coordinates have all their digits, some of them tiny and huge.
+// A bar whose coordinates have all digits, some of them tiny and some huge.
 pbs::TetMesh awkward_bar()
 {
     pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {3, 2, 2});

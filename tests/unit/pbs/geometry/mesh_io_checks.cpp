@@ -1,4 +1,4 @@
-// Truth: each breach of the rules, by name, on the smallest mesh that has it.
+// Reference: each violation of the rules, by name, on the smallest mesh that has it.
 #include "pbs/geometry/mesh_io_checks.hpp"
 
 #include "pbs/geometry/input_error.hpp"

@@ -1,4 +1,4 @@
-// Truth: a build without mesh files says so.
+// Reference: a build without mesh files states that in its errors.
 #include "pbs/geometry/mesh_io.hpp"
 
 #include "pbs/geometry/input_error.hpp"

@@ -1,4 +1,4 @@
-// Truth: the closed forms of the bodies' volumes, and what the header promises.
+// Reference: the closed forms of the bodies' volumes, and the specification in the header.
 #include "pbs/geometry/meshing.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -58,8 +58,8 @@ TEST(Limb, HasItsSkinOnTheCapsule)
         }
 }
 
-// What the facets cut off: the depth under a facet is, to leading order, a quadratic form that vanishes at its three corners; its mean is
-// 3/4 of its value at the middle whatever the form. The rest is of the order depth/radius, here 15 % of the cut.
+// The volume that the facets cut off: the depth under a facet is, to leading order, a quadratic form that vanishes at its three corners,
+// whose mean is always 3/4 of its value at the middle. The remainder is of the order depth/radius, here 15 % of the cut.
 TEST(Limb, HasTheVolumeOfTheCapsuleLessWhatItsFacetsCutOff)
 {
     for (const int vertices : {500, 1000}) {
@@ -82,7 +82,7 @@ TEST(Bar, IsSoundAtTheWantedSizeAndHasItsExactVolume)
     for (const int vertices : {150, 300, 600}) {
         const pbs::TetMesh bar = pbs::mesh_bar(vertices);
         expect_sound(bar, vertices);
-        EXPECT_NEAR(pbs::tet_volumes(bar.rest, bar.tets).sum(), 2.0 * 0.3 * 0.3, 1e-12);  // flat faces: rounding alone
+        EXPECT_NEAR(pbs::tet_volumes(bar.rest, bar.tets).sum(), 2.0 * 0.3 * 0.3, 1e-12);  // flat faces: only rounding
         EXPECT_LT((bar.rest.colwise().maxCoeff() - Eigen::RowVector3d(1, 0.15, 0.15)).norm(), 1e-12);
         EXPECT_LT((bar.rest.colwise().minCoeff() + Eigen::RowVector3d(1, 0.15, 0.15)).norm(), 1e-12);
     }

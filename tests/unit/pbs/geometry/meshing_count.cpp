@@ -1,4 +1,4 @@
-// Truth: a made-up mesher whose number of vertices is a known power of the cell size.
+// Reference: an artificial mesher whose number of vertices is a known power of the cell size.
 #include "pbs/geometry/meshing_count.hpp"
 
 #include <gtest/gtest.h>

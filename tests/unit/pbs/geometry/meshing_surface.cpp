@@ -1,4 +1,4 @@
-// Truth: the closed forms of sphere and torus, their topology, and what the header promises.
+// Reference: the closed forms of sphere and torus, their topology, and the specification in the header.
 #include "pbs/geometry/meshing.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -15,7 +15,7 @@ namespace {
 using test_support::icosphere;
 using test_support::torus;
 
-// Coarse wraps keep these quick.
+// Coarse wraps make these tests quick.
 pbs::SurfaceMeshing quick(double alpha, double offset, int vertices)
 {
     pbs::SurfaceMeshing options;

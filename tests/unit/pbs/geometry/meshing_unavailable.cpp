@@ -1,4 +1,4 @@
-// Truth: a build without meshing says so.
+// Reference: a build without meshing states that in its errors.
 #include "pbs/geometry/meshing.hpp"
 
 #include "pbs/geometry/input_error.hpp"

@@ -1,4 +1,4 @@
-// Truth: what the header promises of where modules are looked for.
+// Reference: the folders that the header specifies for the search for modules.
 #include "pbs/geometry/module.hpp"
 
 #include "pbs/geometry/input_error.hpp"

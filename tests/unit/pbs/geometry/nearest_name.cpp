@@ -1,4 +1,4 @@
-// Truth: edit distances counted by hand.
+// Reference: edit distances counted by hand.
 #include "pbs/geometry/nearest_name.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,8 @@ TEST(NearestName, ANameOfMegabytesTakesNoTime)
 {
     std::string endless;
     for (int i = 0; i < 2'000'000; ++i) endless += "elbow";
-    EXPECT_EQ(nearest_name(endless, std::vector<std::string>(1000, "shoulder")), "shoulder");  // half an hour, letter by letter
+    // a comparison letter by letter would take half an hour
+    EXPECT_EQ(nearest_name(endless, std::vector<std::string>(1000, "shoulder")), "shoulder");
     EXPECT_EQ(nearest_name(endless, {"shoulder", "elbow", "wrist"}), "elbow");
 }
 

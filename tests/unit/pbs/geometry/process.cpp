@@ -1,4 +1,4 @@
-// Truth: what this process makes of its own children.
+// Reference: the state of this process's own children.
 #include "pbs/geometry/process.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Truth: angles and sizes of tets known in closed form.
+// Reference: angles and sizes of tets known in closed form.
 #include "pbs/geometry/quality.hpp"
 
 #include "tests/support/structured_bar.hpp"

@@ -1,4 +1,4 @@
-// Truth: counts of red refinement (V + E vertices, 2E + 3F + T edges, 8T tets), Euler's formula, and the definition of a midpoint.
+// Reference: counts of red refinement (V + E vertices, 2E + 3F + T edges, 8T tets), Euler's formula, and the definition of a midpoint.
 #include "pbs/geometry/refinement.hpp"
 
 #include "pbs/geometry/quality.hpp"
@@ -34,7 +34,7 @@ TetMesh ring()
     return box;
 }
 
-// Of a point in a tet.
+// The coordinates of a point in a tet.
 Eigen::Vector4d barycentric(const TetMesh& mesh, Eigen::Index tet, const pbs::Vec3& point)
 {
     Eigen::Matrix4d corners = Eigen::Matrix4d::Ones();
@@ -100,14 +100,14 @@ TEST(Refinement, ChildrenLieInTheirParentAndAtItsCorners)
 
 TEST(Refinement, CutsTheOctahedronAlongItsShortestDiagonal)
 {
-    for (int longest = 0; longest < 3; ++longest) {  // pairs of opposite edges of a box: the diagonals are its extents
+    for (int longest = 0; longest < 3; ++longest) {  // pairs of opposite edges of a box, so that the diagonals are its extents
         const pbs::Vec3 extent = pbs::Vec3(longest == 0 ? 1 : 3, longest == 1 ? 1 : 3, longest == 2 ? 1 : 3);
         TetMesh mesh{pbs::Positions(4, 3), pbs::Tets(1, 4)};
         mesh.rest << 0, 0, 0, 1, 1, 0, 0, 1, 1, 1, 0, 1;
         mesh.rest = mesh.rest * extent.asDiagonal();
         mesh.tets << 0, 1, 2, 3;
         const TetMesh fine = pbs::refine(mesh).mesh;
-        std::set<double> inner;  // lengths of edges from midpoint to midpoint of opposite edges: along one axis alone
+        std::set<double> inner;  // lengths of the edges between the midpoints of opposite edges, which lie along one axis
         for (Eigen::Index t = 4; t < 8; ++t)
             for (int a = 0; a < 4; ++a)
                 for (int b = 0; b < a; ++b) {

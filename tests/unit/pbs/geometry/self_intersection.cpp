@@ -1,4 +1,4 @@
-// Truth: bodies whose contact can be seen.
+// Reference: bodies whose contact is obvious.
 #include "pbs/geometry/meshing.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -51,14 +51,15 @@ TEST(SelfIntersection, ABarBentThroughItselfIsFound)
     pbs::TetMesh bar = test_support::structured_bar({-1, -0.1, -0.1}, {1, 0.1, 0.1}, {20, 2, 2});
     const pbs::Triangles boundary = pbs::boundary_of(bar.tets);
     EXPECT_FALSE(pbs::self_intersects(bar.rest, boundary));
-    for (Eigen::Index i = 0; i < bar.rest.rows(); ++i) {  // on a circle of less than the bar's length
+    for (Eigen::Index i = 0; i < bar.rest.rows(); ++i) {  // bend the bar to a circle whose circumference is shorter than the bar
         const double angle = 4.0 * bar.rest(i, 0), r = 0.3 + bar.rest(i, 1);
         bar.rest.row(i) << r * std::sin(angle), r * std::cos(angle), bar.rest(i, 2);
     }
     EXPECT_TRUE(pbs::self_intersects(bar.rest, boundary));
 }
 
-// A torus round z, cut through its axis: two circles of the tube's radius; across its axis: two round each other; beside it: none.
+// A torus around z: a cut through its axis gives two circles of the tube's radius, one across its axis two concentric circles, and one
+// outside it none.
 TEST(SectionOutlines, OfATorus)
 {
     const pbs::SurfaceMesh torus = test_support::torus(1.0, 0.4, 40, 20);

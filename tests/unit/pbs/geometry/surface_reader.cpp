@@ -1,4 +1,4 @@
-// Truth: a cube, counted by hand, in each format.
+// Reference: a cube, counted by hand, in each format.
 #include "pbs/geometry/mesh_io.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -93,7 +93,7 @@ TEST(Surface, QuadsAreTriangulatedAndPointsJoinedInEveryFormat)
 TEST(Surface, PointsSplitAtTextureSeamsAreJoined)
 {
     const ScratchFolder folder;
-    std::ostringstream text;  // each corner of each face with a texture coordinate of its own
+    std::ostringstream text;  // each corner of each face has a texture coordinate of its own
     text << points("v ", 1.0);
     for (int i = 0; i < 24; ++i) text << "vt " << 0.01 * i << " 0.5\n";
     int texture = 1;
@@ -139,7 +139,7 @@ TEST(Surface, AnEdgeInThreeTrianglesIsRefusedByItsPlaceWhereAUserNamesTheFile)
     EXPECT_EQ(refusal(path), path +
                                  ": edge = (0, 0, 0) to (1, 0, 0): expected in one or two triangles; it is in 3, the surface not "
                                  "manifold there");
-    EXPECT_EQ(pbs::read_surface(path).triangles.rows(), 13);  // bodies by name stay as they are
+    EXPECT_EQ(pbs::read_surface(path).triangles.rows(), 13);  // separate bodies with names remain as they are
     EXPECT_EQ(refusal(folder.file("cube.obj", points("v ", 1.0) + faces("f", 1))), "");
 }
 
@@ -148,7 +148,7 @@ TEST(Surface, CrossingTrianglesAreToldWithTheFirstPlace)
 {
     const ScratchFolder folder;
     std::vector<std::string> remarks;
-    const std::string needle = "v 0.5 0.4 0.5\nv 0.5 0.6 0.5\nv 0.5 0.5 3\nf 9 10 11\n";  // through the lid, and open
+    const std::string needle = "v 0.5 0.4 0.5\nv 0.5 0.6 0.5\nv 0.5 0.5 3\nf 9 10 11\n";  // a triangle through the lid, and open
     pbs::read_surface(folder.file("x.obj", points("v ", 1.0) + faces("f", 1) + needle), remarks);
     ASSERT_EQ(remarks.size(), 2u);
     EXPECT_NE(remarks[1].find("pairs of triangles that meet = 2: it intersects or touches itself, first at ("), std::string::npos)
@@ -159,7 +159,7 @@ TEST(Surface, CrossingTrianglesAreToldWithTheFirstPlace)
 }
 #endif
 
-// The unit tetrahedron, whose last index is given, and how many of its twelve the file tells.
+// The unit tetrahedron with the given last index and the stated number of its twelve indices.
 std::string gltf(const ScratchFolder& folder, unsigned short last, int told)
 {
     const std::array<float, 12> points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};

@@ -1,4 +1,4 @@
-// Truth: volumes known in closed form.
+// Reference: volumes known in closed form.
 #include "pbs/geometry/tet_volume.hpp"
 
 #include "tests/support/structured_bar.hpp"

@@ -1,4 +1,4 @@
-// Truth: the bytes that were written.
+// Reference: the bytes that were written.
 #include "pbs/geometry/text_file.hpp"
 
 #include "tests/support/scratch_folder.hpp"
@@ -39,7 +39,7 @@ TEST(ReadTextFile, RefusesTooLargeAFileByItsSize)
     const std::string path = folder.file("text", "four");
     EXPECT_EQ(read_text_file(path, 4), "four");
     expect_input_error([&] { read_text_file(path, 3); }, path + ": bytes = 4: ", "expected at most 3");
-    std::filesystem::resize_file(path, std::uintmax_t(1) << 36);  // a hole, which is read as so many zeros
+    std::filesystem::resize_file(path, std::uintmax_t(1) << 36);  // a hole, which is read as that many zeros
     expect_input_error([&] { read_text_file(path); }, path + ": bytes = 68719476736: ", "expected at most 268435456");
 }
 

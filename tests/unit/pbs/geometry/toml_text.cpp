@@ -1,4 +1,4 @@
-// Truth: TOML's grammar, https://toml.io/en/v1.0.0: bare keys are ASCII; texts, comments and lists hold any number of dots.
+// Reference: TOML's grammar, https://toml.io/en/v1.0.0: bare keys are ASCII; texts, comments and lists hold any number of dots.
 #include "pbs/geometry/toml_text.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -58,7 +58,7 @@ TEST(TomlText, DotsElsewhereAreNoParts)
     EXPECT_EQ(message_of(repeated("x = \"", 100, "a.", "\"\n")), "accepted");
     EXPECT_EQ(message_of(repeated("# ", 100, "a.", "\n")), "accepted");
     EXPECT_EQ(message_of(repeated("x = [\n", 100, "0.5, ", "\n]\n")), "accepted");
-    EXPECT_EQ(message_of(repeated("\"", 100, "a.", "\" = 1\n")), "accepted");  // one part, whose name has dots
+    EXPECT_EQ(message_of(repeated("\"", 100, "a.", "\" = 1\n")), "accepted");  // a single part, whose name contains dots
 }
 
 TEST(TomlText, BareWordsAreAscii)

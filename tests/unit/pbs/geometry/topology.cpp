@@ -1,4 +1,4 @@
-// Truth: counts and Euler's formula of bodies that can be counted by hand.
+// Reference: counts and Euler's formula for bodies that can be counted by hand.
 #include "pbs/geometry/topology.hpp"
 
 #include "pbs/geometry/tet_volume.hpp"
@@ -19,7 +19,7 @@ Tets one_tet()
     return tets;
 }
 
-// Removes the tets for which keep(cell along x, y, z) is false from a Kuhn-split box of unit cubes.
+// Keeps only those tets of a Kuhn-split box of unit cubes for which keep(cell along x, y, z) is true.
 template <typename Keep>
 pbs::TetMesh carved_box(const std::array<int, 3>& cells, Keep keep)
 {
@@ -61,7 +61,7 @@ TEST(Boundary, OfOneTetIsItsFourFacesOutward)
     ASSERT_EQ(boundary.rows(), 4);
     const std::array<pbs::Vec3, 4> point = {pbs::Vec3(0, 0, 0), pbs::Vec3(1, 0, 0), pbs::Vec3(0, 1, 0), pbs::Vec3(0, 0, 1)};
     const pbs::Vec3 middle(0.25, 0.25, 0.25);
-    for (int f = 0; f < 4; ++f)  // the tet from a face to an inner point is negative where the face looks outward
+    for (int f = 0; f < 4; ++f)  // the tet from a face to an inner point is negative if the face points outward
         EXPECT_LT(pbs::tet_volume(point[boundary(f, 0)], point[boundary(f, 1)], point[boundary(f, 2)], middle), 0.0);
 }
 
@@ -134,7 +134,7 @@ TEST(Topology, CubesThatShareAVertexAreNotManifold)
 {
     const pbs::TetMesh pinched = carved_box({2, 2, 2}, [](int i, int j, int k) { return i == j && j == k; });
     const Topology topology = pbs::topology_of(pinched.tets, pinched.rest.rows());
-    EXPECT_FALSE(topology.boundary_manifold);  // every edge is in two triangles: only the fans tell
+    EXPECT_FALSE(topology.boundary_manifold);  // every edge is in two triangles; only the fans show the defect
     EXPECT_EQ(topology.boundary_components, 2);
 }
 

@@ -1,4 +1,4 @@
-// Truth: closed forms of two bones blended half and half.
+// Reference: closed forms of two bones blended half and half.
 #include "pbs/skinning/blend.hpp"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ TEST(DualQuaternionSkinning, BulgesWhereABendIsBlended)
     const pbs::Pose bent = pbs::joint_sweep(limb, 1, Vec3::UnitZ(), 90.0, 2, 0.01).steps[1];
     const Positions dqs = blended_point(pbs::dual_quaternion_skinning, {0, -0.2, 0}, half_and_half(), bent);
     const Positions lbs = blended_point(pbs::linear_blend_skinning, {0, -0.2, 0}, half_and_half(), bent);
-    EXPECT_NEAR(dqs.row(0).norm(), 0.2, 1e-15);  // on a circle round the joint, where LBS cuts the corner
+    EXPECT_NEAR(dqs.row(0).norm(), 0.2, 1e-15);  // on a circle around the joint, where LBS cuts the corner
     EXPECT_NEAR(lbs.row(0).norm(), 0.2 * std::cos(45.0 * degree), 1e-15);
 }
 
@@ -72,7 +72,7 @@ TEST(DualQuaternionSkinning, AgreesWithLinearBlendingWhereOneBoneMoves)
 
 TEST(DualQuaternionSkinning, TakesTheShortWayForAntipodalQuaternions)
 {
-    // Turns of 170 and -170 degrees are 20 degrees apart; their quaternions lie on opposite sides.
+    // Rotations by 170 and -170 degrees are 20 degrees apart; their quaternions lie in opposite hemispheres.
     pbs::Pose pose(2, Eigen::Isometry3d::Identity());
     pose[0].linear() = Eigen::AngleAxisd(170.0 * degree, Vec3::UnitX()).toRotationMatrix();
     pose[1].linear() = Eigen::AngleAxisd(-170.0 * degree, Vec3::UnitX()).toRotationMatrix();
@@ -82,7 +82,7 @@ TEST(DualQuaternionSkinning, TakesTheShortWayForAntipodalQuaternions)
 
 TEST(DualQuaternionSkinning, PivotsOnTheHeaviestBone)
 {
-    // The first entry has no weight: it must not decide the side of the others.
+    // The first entry has no weight, so it must not determine the hemisphere of the others.
     pbs::Pose pose(3, Eigen::Isometry3d::Identity());
     pose[1].linear() = Eigen::AngleAxisd(100.0 * degree, Vec3::UnitX()).toRotationMatrix();
     pose[2].linear() = Eigen::AngleAxisd(-100.0 * degree, Vec3::UnitX()).toRotationMatrix();

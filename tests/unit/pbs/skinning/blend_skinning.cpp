@@ -1,4 +1,4 @@
-// Truth: the rest pose, rigid transforms, and the memory that was handed over.
+// Reference: the rest pose, rigid transforms, and the caller's memory.
 #include "pbs/skinning/blend_skinning.hpp"
 
 #include "pbs/skinning/blend.hpp"
@@ -31,7 +31,7 @@ Pose two_bones()
     return pose;
 }
 
-// Rigid, blended by a row of its own, and two of a shared row.
+// One rigid vertex, one blended by its own row, and two with a shared row.
 const Weights four_vertices = {{0, 1, 3, 5, 7}, {1, 0, 1, 0, 1, 0, 1}, {1.0, 0.25, 0.75, 0.5, 0.5, 0.5, 0.5}};
 const Positions four_points = (Positions(4, 3) << 0.125, 0.5, -0.25, 0.25, -0.5, 1.0, -1.0, 0.0, 0.75, 0.5, 0.5, 0.5).finished();
 
@@ -93,7 +93,7 @@ TYPED_TEST(BlendSkinningOf, OneVertex)
     EXPECT_LT((posed - plain).norm(), 20.0 * std::numeric_limits<TypeParam>::epsilon());
 }
 
-TYPED_TEST(BlendSkinningOf, BonesWithoutVertices)  // 0 and 2 of four
+TYPED_TEST(BlendSkinningOf, BonesWithoutVertices)  // bones 0 and 2 of four
 {
     Pose pose(4, Eigen::Isometry3d::Identity());
     pose[0].translation() = pose[2].translation() = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());

@@ -1,4 +1,4 @@
-// Truth: projections on segments along the axes, by hand.
+// Reference: projections on segments along the axes, by hand.
 #include "pbs/skinning/bone_binding.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -73,7 +73,7 @@ TEST(PosedBindPoints, AreCarriedByTheirBones)
     EXPECT_NEAR((Vec3(points.row(1)) - Vec3(0, 0.5, 0)).norm(), 0.0, 1e-15);
 }
 
-// The forearm turned by 90 degrees about z stands along y; (0.1, 0.4, 0) is 0.4 along it, (0.3, 2, 0) beyond its tail.
+// The forearm turned by 90 degrees about z lies along y; (0.1, 0.4, 0) is 0.4 along it, and (0.3, 2, 0) beyond its tail.
 TEST(ReprojectedBindPoints, AreOnThePosedSegment)
 {
     pbs::Positions rest(2, 3);

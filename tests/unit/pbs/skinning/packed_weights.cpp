@@ -1,4 +1,4 @@
-// Truth: rows of weights written down by hand.
+// Reference: rows of weights written by hand.
 #include "pbs/skinning/packed_weights.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@ namespace {
 using pbs::PackedWeights;
 using pbs::Weights;
 
-// Vertices 0, 3: bone 2 alone; 1, 4: half and half of 0 and 1; 2: a row of its own, its second bone the heaviest.
+// Vertices 0, 3: only bone 2; 1, 4: equal parts of 0 and 1; 2: its own row, whose second bone has the largest weight.
 const Weights five_vertices = {{0, 1, 3, 5, 6, 8}, {2, 0, 1, 0, 1, 2, 0, 1}, {1.0, 0.5, 0.5, 0.25, 0.75, 1.0, 0.5, 0.5}};
 
 using Kind = pbs::VertexStretch::Kind;
@@ -40,7 +40,7 @@ TEST(PackedWeights, VerticesOfEqualRowsShareOne)
     const PackedWeights<double> packed = pbs::pack_weights<double>(five_vertices);
     EXPECT_EQ(packed.shared.rows(), 1);
     EXPECT_EQ(packed.shared.bone, (std::vector<int>{0, 1}));
-    EXPECT_EQ(packed.matrix[1], 3);  // behind the three bones
+    EXPECT_EQ(packed.matrix[1], 3);  // after the three bones
     EXPECT_EQ(packed.matrix[4], 3);
 }
 
@@ -75,17 +75,17 @@ TEST(PackedWeights, ManyVerticesOfOneMatrixAreAStretchOfTheirOwn)
 TEST(PackedWeights, TheHeaviestBoneIsThePivotAndEachPairStandsOnce)
 {
     const auto bones = pbs::pack_weights<double>(five_vertices).turned_bones;
-    EXPECT_EQ(bones, (std::vector<pbs::TurnedBone>{{0, 0}, {1, 0}, {0, 1}, {1, 1}}));  // the first of equals; then vertex 2's
+    EXPECT_EQ(bones, (std::vector<pbs::TurnedBone>{{0, 0}, {1, 0}, {0, 1}, {1, 1}}));  // the first of equal weights; then vertex 2's
 }
 
 TEST(PackedWeights, WeightsOfZeroAreLeftOut)
 {
     const PackedWeights<double> packed = pbs::pack_weights<double>({{0, 3, 5}, {0, 1, 2, 1, 4}, {0.0, 0.5, 0.5, 0.0, 1.0}});
     EXPECT_EQ(packed.own.bone, (std::vector<int>{1, 2}));
-    EXPECT_EQ(packed.matrix[1], 4);  // one bone is left, so it moves the vertex rigidly
+    EXPECT_EQ(packed.matrix[1], 4);  // one bone remains, so it moves the vertex rigidly
 }
 
-TEST(PackedWeights, RowsInAnotherOrderAreOthers)  // sums in another order have other roundings
+TEST(PackedWeights, RowsInAnotherOrderAreOthers)  // sums in another order are rounded differently
 {
     EXPECT_EQ(pbs::pack_weights<double>({{0, 2, 4}, {0, 1, 1, 0}, {0.5, 0.5, 0.5, 0.5}}).own.rows(), 2);
 }

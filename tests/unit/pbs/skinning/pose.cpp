@@ -1,4 +1,4 @@
-// Truth: forward kinematics of a straight chain, by hand.
+// Reference: forward kinematics of a straight chain, by hand.
 #include "pbs/skinning/pose.hpp"
 
 #include "pbs/geometry/input_error.hpp"

@@ -1,4 +1,4 @@
-// Truth: which bones meet where, read off the drawing.
+// Reference: the bones that meet at each point, read from the drawing.
 #include "pbs/skinning/skeleton.hpp"
 
 #include <gtest/gtest.h>

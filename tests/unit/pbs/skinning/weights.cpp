@@ -1,4 +1,4 @@
-// Truth: Eq. 2 evaluated by hand.
+// Reference: Eq. 2 evaluated by hand.
 #include "pbs/skinning/weights.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(PaperWeights, AreSharedByTheBonesAtTheJoint)
     EXPECT_EQ(weights.bone, (std::vector{0, 1, 2, 3}));
     EXPECT_EQ(weights.weight, std::vector(4, 0.25));
     EXPECT_TRUE(weights.blended(0));
-    EXPECT_EQ(weights_at(palm(), {1.1, 0.01, 0}).bone, (std::vector{2, 0, 1, 3}));  // from the other side the same four
+    EXPECT_EQ(weights_at(palm(), {1.1, 0.01, 0}).bone, (std::vector{2, 0, 1, 3}));  // the same four bones from the other side
 }
 
 TEST(PaperWeights, AreOneWhereOnlyOneBoneMeets)
@@ -90,7 +90,7 @@ TEST(RigidWeights, AreTheNearestBoneAlone)
     EXPECT_EQ(weights.weight, (std::vector{1.0, 1.0}));
 }
 
-// Bones a, b, c in a row: b touches a and c; near a's far end, a touches b alone.
+// Bones a, b, c in a row: b touches a and c; near its far end, a touches only b.
 TEST(EitherEndWeights, AreOfAllBonesThatTouchTheBone)
 {
     const pbs::Skeleton row = {{{"a", -1, {-3, 0, 0}, {0, 0, 0}}, {"b", 0, {0, 0, 0}, {3, 0, 0}}, {"c", 1, {3, 0, 0}, {6, 0, 0}}}};

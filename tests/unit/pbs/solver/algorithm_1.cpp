@@ -1,4 +1,4 @@
-// Truth: the particles Algorithm 1 integrates, against free fall in closed form.
+// Reference: free fall in closed form, for the particles that Algorithm 1 integrates.
 #include "pbs/solver/algorithm_1.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -40,7 +40,7 @@ TEST(Algorithm1, UnconstrainedParticlesFallFreely)
     const Vec3 fall(0, 0, -9.81 * dt * dt * 10 * 11 / 2);
     const Positions expected = limb.lbs.rowwise() + fall.transpose();
     EXPECT_LT((advanced<double>(all, jiggling_freely(), 10) - expected).cwiseAbs().maxCoeff(), 1e-14);
-    EXPECT_LT((advanced<float>(all, jiggling_freely(), 10) - expected).cwiseAbs().maxCoeff(), 1e-5);  // 6e-8 m a step, carried on by v
+    EXPECT_LT((advanced<float>(all, jiggling_freely(), 10) - expected).cwiseAbs().maxCoeff(), 1e-5);  // 6e-8 m per step, propagated by v
 }
 
 TEST(Algorithm1, ParticlesOutsideTheZoneDoNotFall)
@@ -80,9 +80,9 @@ TEST(Algorithm1, JigglingParticlesLagBehindAndFollow)
     const Eigen::RowVector3d shift(0, 0.02, 0);
     algorithm.advance(limb.lbs.rowwise() + shift, limb.bind_points.rowwise() + shift, dt);
     const Positions once = algorithm.positions();
-    EXPECT_GT((once.rowwise() - shift - limb.lbs).rowwise().norm().maxCoeff(), 1e-3);  // the sides of the bind spheres are behind
+    EXPECT_GT((once.rowwise() - shift - limb.lbs).rowwise().norm().maxCoeff(), 1e-3);  // the sides of the bind spheres do not follow
     algorithm.advance(limb.lbs.rowwise() + shift, limb.bind_points.rowwise() + shift, dt);
-    EXPECT_NE(algorithm.positions(), once);  // it has a velocity
+    EXPECT_NE(algorithm.positions(), once);  // it still has a velocity
 }
 
 TEST(Algorithm1, TimeStepMattersOnlyWhereParticlesAreIntegrated)

@@ -1,4 +1,4 @@
-// Truth: which constraints Sec. 3.3-3.6 ask for, counted by hand.
+// Reference: the constraints that Sec. 3.3-3.6 require, counted by hand.
 #include "pbs/solver/constraint_set.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -72,7 +72,7 @@ TEST(ConstraintSet, SoftensEdgesWithBothEndsInTheJiggleZone)
     for (const auto& edge : constraints_of(options, zone).stretch) EXPECT_EQ(edge.stiffness, 0.2);
 }
 
-// n projections of the share s leave (1 - s)^n: with Mueller's exponent that is 1 - k, whatever n.
+// n projections of the share s leave (1 - s)^n; with Mueller's exponent that is 1 - k for any n.
 TEST(ConstraintSet, MuellersExponentLeavesTheSameWhateverTheIterations)
 {
     PbsOptions options;
@@ -116,7 +116,7 @@ TEST(ConstraintSet, HeldVerticesHaveNoInverseMass)
 TEST(ConstraintSet, RefusesToHoldWhatIsIntegratedOrHasNoMass)
 {
     const std::vector<bool> held(bar.rest.rows(), true);
-    EXPECT_NO_THROW(pbs::make_constraint_set<double>(bar, distance, held, {}, held));  // the zone is off
+    EXPECT_NO_THROW(pbs::make_constraint_set<double>(bar, distance, held, {}, held));  // the zone is switched off
     PbsOptions options;
     options.jiggle = pbs::Jiggle{};
     EXPECT_THROW(pbs::make_constraint_set<double>(bar, distance, held, options, held), pbs::InputError);

@@ -1,4 +1,4 @@
-// Truth: the definition: every task once, and what a task throws reaches the caller.
+// Reference: the definition. Every task runs once, and an exception of a task reaches the caller.
 #include "pbs/solver/parallel.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace {
 
 #ifdef PBS_WITH_THREADS
-// oneTBB has no more threads than the machine has cores unless it is told so.
+// By default, oneTBB uses no more threads than the machine has cores.
 const tbb::global_control four_threads(tbb::global_control::max_allowed_parallelism, 4);
 #endif
 
@@ -52,7 +52,7 @@ TEST_P(ParallelTasks, OneIsTaskZero)
     EXPECT_EQ(runs_of_each(parallel_, 1), std::vector<int>{1});
 }
 
-// Plain writes of the tasks are there for the caller to read when the call returns.
+// When the call returns, the caller can read what the tasks have written.
 TEST_P(ParallelTasks, AreDoneOnReturn)
 {
     for (int call = 0; call < 100; ++call) {

@@ -1,4 +1,4 @@
-// Truth: lines 6-9 and 15-18 of Algorithm 1, free fall, and both readings of where LBS enters.
+// Reference: lines 6-9 and 15-18 of Algorithm 1, free fall, and both readings of the point at which LBS enters.
 #include "pbs/solver/particles.hpp"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST(Particles, ByIncrementKeepWhatProjectionsMadeOfThem)
     particles.update(dt_s);
     particles.predict(moved_by({0.25, 0, 0}), dt_s);
     EXPECT_NEAR(particles.predicted()(0, 0), 0.25, 1e-15);
-    EXPECT_NEAR(particles.predicted()(0, 1), 0.5 + 0.5, 1e-15);  // and as far again by its velocity
+    EXPECT_NEAR(particles.predicted()(0, 1), 0.5 + 0.5, 1e-15);  // and the same distance again due to its velocity
     EXPECT_EQ(particles.predicted().row(1), moved_by({0.25, 0, 0}).row(1));
 }
 

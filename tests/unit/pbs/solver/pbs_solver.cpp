@@ -1,4 +1,4 @@
-// Truth: Algorithm 1's fixed points and limits by theory; outcomes by definition.
+// Reference: Algorithm 1's fixed points and limits by theory; outcomes by definition.
 #include "pbs/solver/pbs_solver.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -47,7 +47,7 @@ TEST(PbsSolver, RestPoseStaysAtRestExactly)
     EXPECT_EQ(stepped(straight, options), straight.mesh.rest);
 }
 
-// Kernels may round a * b + c once where the rest data are rounded twice: each of 24 iterations may add a rounding of the 1 m half length.
+// Kernels may round a * b + c once where the rest data are rounded twice; each of 24 iterations may add a rounding of the 1 m half length.
 TEST(PbsSolver, RestPoseStaysAtRestInEveryOrder)
 {
     for (const pbs::Order order : {pbs::Order::ordered, pbs::Order::grouped}) {
@@ -87,7 +87,7 @@ TEST(PbsSolver, ReducesTheVolumeErrorOfLbs)
     EXPECT_LT(volume_change(bent, stepped(bent, in_double())), 0.5 * volume_change(bent, bent.lbs));
 }
 
-// Volumes alone can all be satisfied (the rest pose does), so their error has no floor: it falls however long one goes on.
+// Volumes alone can all be satisfied (as in the rest pose), so their error has no floor and keeps falling with the iterations.
 TEST(PbsSolver, VolumeAloneGoesOnConverging)
 {
     PbsOptions options = in_double();
@@ -112,13 +112,13 @@ TEST(PbsSolver, BindAloneIsExactAfterOneIteration)
 
 TEST(PbsSolver, FloatAgreesWithDouble)
 {
-    // Rounding of 6e-8 m, carried through 24 iterations of contradicting constraints.
+    // A rounding of 6e-8 m, propagated through 24 iterations of contradicting constraints.
     EXPECT_LT((stepped(bent, {}) - stepped(bent, in_double())).cwiseAbs().maxCoeff(), 2e-5);
 }
 
 TEST(PbsSolver, FloatKeepsItsDigitsFarFromTheOrigin)
 {
-    const Vec3 far(1000.0, -2000.0, 500.0);  // a float there has steps of 1e-4 m
+    const Vec3 far(1000.0, -2000.0, 500.0);  // the spacing of floats there is 1e-4 m
     PbsSolver solver(bent.mesh, bent.binding.distance, {}, {});
     solver.advance(bent.lbs.rowwise() + far.transpose(), bent.bind_points.rowwise() + far.transpose(), 0.01);
     EXPECT_LT(((solver.positions().rowwise() - far.transpose()) - stepped(bent, {})).cwiseAbs().maxCoeff(), 2e-5);

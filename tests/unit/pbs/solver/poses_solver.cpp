@@ -1,4 +1,4 @@
-// Truth: PbsSolver, one pose at a time. The two share their order of projection and their arithmetic, so nothing may differ but, with
+// Reference: PbsSolver, one pose at a time. The two share their order of projection and their arithmetic, so the only difference is, with
 // unequal masses, the rounding of k / (w1 + w2).
 #include "pbs/solver/poses_solver.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -26,7 +26,7 @@ PbsOptions with(Order order, Precision precision)
     return options;
 }
 
-// Twenty poses: more than a block, the last one not full.
+// Twenty poses: more than a block, with the last one not full.
 std::vector<PbsOptions> twenty(const PbsOptions& base)
 {
     std::vector<PbsOptions> poses(20, base);
@@ -93,7 +93,7 @@ TEST_P(Poses, HeldVerticesAndUnequalMasses)
     PosesSolver solver(limb.mesh, limb.binding.distance, {}, options, held);
     solver.advance({limb.lbs}, {limb.bind_points}, 0.01);
     const Positions expected = alone(base, limb.lbs, 1, {}, held);
-    // Each of 24 iterations may add a rounding of the 1 m half length in each of some 20 constraints at a vertex.
+    // Each of 24 iterations may add a rounding of the 1 m half length in each of the some 20 constraints at a vertex.
     const double rounding = base.precision == Precision::f32 ? 6e-8 : 1.1e-16;
     EXPECT_LT((solver.positions(1) - expected).cwiseAbs().maxCoeff(), 24 * 20 * rounding);
     EXPECT_EQ(solver.positions(1).row(7), expected.row(7));

@@ -1,4 +1,4 @@
-// Truth: one projection of constraints/ after the other, in file order.
+// Reference: the projections of constraints/, one after the other in file order.
 #include "pbs/solver/project_plain.hpp"
 
 #include "tests/support/random_points.hpp"

@@ -1,4 +1,4 @@
-// Truth: the classes projected by hand in the order that a class order names.
+// Reference: the classes projected by hand in the order that the class order states.
 #include "pbs/solver/reordered_projection.hpp"
 
 #include "tests/support/two_bone_limb.hpp"

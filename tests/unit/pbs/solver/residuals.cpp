@@ -1,4 +1,4 @@
-// Truth: root mean squares by hand.
+// Reference: root mean squares by hand.
 #include "pbs/solver/residuals.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Truth: the plain twins in pbs/constraints, constraint by constraint, within what rounding allows (projection_rounding.hpp).
+// Reference: the plain form in pbs/constraints, constraint by constraint, within the bounds of rounding (projection_rounding.hpp).
 #include "tests/support/projection_cases.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/sixteen_groups.hpp"
@@ -18,7 +18,7 @@ class BatchKernels : public testing::Test {
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(BatchKernels, Scalars);
 
-// Sixteen groups near rest, each of its own masses; bit v of a lane's `pinned` says whether vertex v is held.
+// Sixteen groups near rest, each with its own masses; bit v of a lane's `pinned` marks vertex v as pinned.
 template <typename Scalar, GroupKind kind>
 SixteenGroups<Scalar, kind> noisy_groups(RandomPoints& random, double size_m, double k, double noise, int pinned_of_lane_0 = 0)
 {
@@ -65,7 +65,7 @@ TYPED_TEST(BatchKernels, EveryKindAsItsConstraintsOneAfterTheOther)
     });
 }
 
-// All sixteen combinations of up to four pinned vertices, in one batch; of five and six vertices, in more batches.
+// All sixteen combinations of up to four pinned vertices in one batch; those of five and six vertices in more batches.
 TYPED_TEST(BatchKernels, EveryCombinationOfPinnedVertices)
 {
     for_each_kind([](auto kind) {
@@ -75,7 +75,7 @@ TYPED_TEST(BatchKernels, EveryCombinationOfPinnedVertices)
     });
 }
 
-// z turned round: volumes are minus what they should be, and the projections drive through flat.
+// z is mirrored: volumes have the wrong sign, and the projections pass through flat states.
 TYPED_TEST(BatchKernels, MirroredGroups)
 {
     for_each_kind([](auto kind) {
@@ -97,7 +97,7 @@ TYPED_TEST(BatchKernels, DegenerateTets)
             for (const double k : stiffnesses) {
                 SCOPED_TRACE(testing::Message() << shape.name << " size " << size_m << " k " << k);
                 SixteenGroups<TypeParam, GroupKind::tet> groups;
-                for (int lane = 0; lane < pbs::batch_size; ++lane) {  // each lane pins others
+                for (int lane = 0; lane < pbs::batch_size; ++lane) {  // each lane pins different vertices
                     for (int v = 0; v < 4; ++v)
                         groups.set_vertex(lane, v, size_m * shape.corners[v], lane >> v & 1 ? 0.0 : random.number(0.2, 5.0));
                     groups.set_constraint(lane, 0, std::pow(size_m, 3) / 6, k);
@@ -124,7 +124,7 @@ TYPED_TEST(BatchKernels, DegenerateEdges)
             }
 }
 
-// What is not a number stays so and stays in its lane; every other lane has the bits it has without it.
+// A NaN remains NaN and stays in its lane; every other lane has the same bits as without it.
 TYPED_TEST(BatchKernels, NotANumberStaysInItsLane)
 {
     for_each_kind([](auto kind) {
@@ -145,7 +145,7 @@ TYPED_TEST(BatchKernels, NotANumberStaysInItsLane)
     });
 }
 
-// What lanes without a group work on: no mass, no rest length, no stiffness, at the origin.
+// The input of lanes without a group: no mass, no rest length, no stiffness, at the origin.
 TYPED_TEST(BatchKernels, DummiesStayZero)
 {
     for_each_kind([](auto kind) {
@@ -156,7 +156,7 @@ TYPED_TEST(BatchKernels, DummiesStayZero)
     });
 }
 
-// l / l0 - 1 or V / V0 - 1 of constraint c, by its plain value.
+// l / l0 - 1 or V / V0 - 1 of constraint c, by its plain form.
 template <typename Scalar, GroupKind kind>
 double plain_error(SixteenGroups<Scalar, kind>& groups, int lane, int c)
 {
@@ -168,8 +168,8 @@ double plain_error(SixteenGroups<Scalar, kind>& groups, int lane, int c)
         return value(pbs::VolumeConstraint<Scalar>{{}, rest, 1}, p(0), p(1), p(2), p(3)) / rest;
 }
 
-// (l / l0 - 1)^2 and (V / V0 - 1)^2, by the plain values in the same precision: some twenty roundings of sums of positive terms, and of C
-// itself, whose two parts may cancel.
+// (l / l0 - 1)^2 and (V / V0 - 1)^2, by the plain form in the same precision: some twenty roundings of sums of positive terms, and those of
+// C itself, whose two parts may cancel.
 TYPED_TEST(BatchKernels, SumsOfSquaredErrors)
 {
     constexpr double eps = std::numeric_limits<TypeParam>::epsilon();
@@ -190,7 +190,7 @@ TYPED_TEST(BatchKernels, SumsOfSquaredErrors)
     });
 }
 
-// |l / l0 - 1| and |V / V0 - 1| of every group: the largest of its constraints' plain values, by the roundings of the sums above.
+// |l / l0 - 1| and |V / V0 - 1| of every group: the largest of its constraints' plain values, up to the rounding of the sums above.
 TYPED_TEST(BatchKernels, LargestErrorOfEachGroup)
 {
     constexpr double eps = std::numeric_limits<TypeParam>::epsilon();
@@ -208,7 +208,8 @@ TYPED_TEST(BatchKernels, LargestErrorOfEachGroup)
     });
 }
 
-// Whichever vertex is sick, of the first constraint or of the last: no error is below a tolerance then. The other lanes are told alike.
+// Whichever vertex is NaN, in the first constraint or in the last, no error is below a tolerance. The result for the other lanes does not
+// change.
 TYPED_TEST(BatchKernels, AGroupThatIsNotANumberIsNeverSatisfied)
 {
     for_each_kind([](auto kind) {
@@ -236,7 +237,7 @@ struct OneBind {
     double w, rest_m, k;
 };
 
-// Two batches of bind constraints by `of(vertex)`, projected by the kernel and by its twin.
+// Two batches of bind constraints with `of(vertex)`, projected by the kernel and by the plain form.
 template <typename Scalar>
 void expect_binds_as_plain(const std::function<OneBind(int)>& of)
 {

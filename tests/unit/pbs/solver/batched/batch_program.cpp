@@ -1,5 +1,5 @@
-// Truth: the groups a program was made of, found again lane by lane; and what threads lean on: slabs of one parity touch no vertex in
-// common, dummies included.
+// Reference: the groups from which a program was made, found again lane by lane; and the condition on which threads rely: slabs of one
+// parity have no vertex in common, including dummies.
 #include "pbs/solver/batched/batch_program.hpp"
 
 #include "pbs/geometry/topology.hpp"
@@ -23,7 +23,7 @@ class BatchPrograms : public testing::Test {
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(BatchPrograms, Scalars);
 
-// f(batch, kind) of every batch of a slab.
+// Calls f(batch, kind) for every batch of a slab.
 template <typename Scalar, typename F>
 void for_each_batch(const BatchProgram<Scalar>& program, int slab, F f)
 {
@@ -35,7 +35,7 @@ void for_each_batch(const BatchProgram<Scalar>& program, int slab, F f)
         });
 }
 
-// Every constraint is told by its rest value, 1 + its place in the class.
+// A constraint is identified by its rest value, 1 + its index in the class.
 template <typename Scalar>
 pbs::ConstraintValues<Scalar> numbered(std::size_t constraints)
 {
@@ -47,7 +47,7 @@ pbs::ConstraintValues<Scalar> numbered(std::size_t constraints)
     return values;
 }
 
-// Holds every lane of a program against the constraints it was made of.
+// Compares every lane of a program with the constraints from which it was made.
 template <typename Scalar, std::size_t corners>
 struct ReadBack {
     const std::vector<std::array<int, corners>>& constraints;
@@ -56,8 +56,8 @@ struct ReadBack {
 
     pbs::ConstraintValues<Scalar> values = numbered<Scalar>(constraints.size());
     std::vector<int> slab_of = order.slab_of_new();
-    std::vector<int> uses = std::vector<int>(constraints.size(), 0);                 // of each constraint
-    std::vector<std::set<int>> touched = std::vector<std::set<int>>(order.slabs());  // by each slab, in the new order
+    std::vector<int> uses = std::vector<int>(constraints.size(), 0);                 // how often each constraint occurs
+    std::vector<std::set<int>> touched = std::vector<std::set<int>>(order.slabs());  // vertices of each slab, in the new order
     int groups = 0;
 
     void read(const BatchProgram<Scalar>& program)
@@ -103,7 +103,7 @@ struct ReadBack {
     }
 };
 
-// Slabs 0, 2, 4 ... and 1, 3, 5 ... each.
+// Checks slabs 0, 2, 4 ... and slabs 1, 3, 5 ... separately.
 void expect_disjoint(const std::vector<std::set<int>>& touched_by)
 {
     for (const std::size_t parity : {0, 1}) {
@@ -139,7 +139,7 @@ void expect_sound(const pbs::Tets& tets, int vertices, int vertices_a_slab)
     expect_sound<Scalar>(pbs::grouped_tets(rows), rows, order);
 }
 
-// A cluster has a run of its own.
+// Checks that a cluster has its own range of batches.
 template <typename Scalar>
 void expect_two_runs(const std::vector<ConstraintGroup>& groups, GroupKind kind, const VertexOrder& order)
 {
@@ -190,7 +190,7 @@ TYPED_TEST(BatchPrograms, NoGroupsAreNoBatches)
     for (int slab = 0; slab < program.slabs(); ++slab) EXPECT_TRUE(program.runs(slab).empty());
 }
 
-// What the poses form works off: the same constraints, sixteen in a row without a common vertex.
+// The sequence in which the form for several poses projects: the same constraints, sixteen in a row without a common vertex.
 TYPED_TEST(BatchPrograms, ConstraintsInTheOrderOfProjection)
 {
     const VertexOrder order = pbs::order_vertices(bar.tets, bar_vertices, 30);

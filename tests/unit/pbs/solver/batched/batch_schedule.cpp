@@ -1,4 +1,5 @@
-// Truth: what the kernels lean on, asked of every batch: at most sixteen groups, no vertex twice, none of the batch before.
+// Reference: the conditions on which the kernels rely, checked for every batch: at most sixteen groups, no vertex twice, none of the
+// previous batch.
 #include "pbs/solver/batched/batch_schedule.hpp"
 
 #include "pbs/geometry/topology.hpp"
@@ -57,7 +58,7 @@ TEST(BatchSchedule, OneGroup)
     EXPECT_EQ(expect_sound(2, edges_between({{0, 1}})).size(), 1u);
 }
 
-// Groups that share nothing fill every lane.
+// Groups without common vertices fill every lane.
 TEST(BatchSchedule, DisjointGroupsFillAllLanes)
 {
     std::vector<std::array<int, 2>> edges;
@@ -67,7 +68,7 @@ TEST(BatchSchedule, DisjointGroupsFillAllLanes)
     for (std::size_t b = 0; b + 1 < batches.size(); ++b) EXPECT_EQ(batches[b].size(), 16u);
 }
 
-// One group a batch, and a batch of none between two: the only schedule there is.
+// One group per batch, with an empty batch between two: the only possible schedule.
 TEST(BatchSchedule, AllGroupsShareOneVertex)
 {
     std::vector<std::array<int, 2>> edges;
@@ -86,7 +87,7 @@ TEST(BatchSchedule, AChainOfEdges)
 {
     std::vector<std::array<int, 2>> edges;
     for (int i = 0; i < 400; ++i) edges.push_back({i, i + 1});
-    EXPECT_LE(expect_sound(401, edges_between(edges)).size(), 32u);  // 25 full ones, and some slack at the end
+    EXPECT_LE(expect_sound(401, edges_between(edges)).size(), 32u);  // 25 full batches, and a few more at the end
 }
 
 TEST(BatchSchedule, EveryKindOfGroupOnABar)

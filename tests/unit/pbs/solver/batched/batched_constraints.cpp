@@ -1,6 +1,6 @@
-// Truth: the plain twins of pbs/constraints, one constraint after the other in the order that the program says: the kernels project in
-// that order and no other. Positions of order one meter go through some 40 projections each, which pass earlier rounding on about
-// undiminished: 1,000 spacings of numbers at most. Another order differs by a thousand times more, and a test says so.
+// Reference: the plain form in pbs/constraints, one constraint after the other in the order of the program, since the kernels project in
+// exactly that order. Positions of order one meter go through some 40 projections each, which propagate earlier rounding almost
+// undiminished: at most 1,000 spacings of numbers. Another order differs by a thousand times more, which a test confirms.
 #include "pbs/solver/batched/batched_projection.hpp"
 #include "tests/support/two_bone_limb.hpp"
 

@@ -1,4 +1,4 @@
-// Truth: what went in comes out, the residuals of the plain form, and that what a scene does not ask for is not there.
+// Reference: the input comes out again, the residuals equal those of the plain form, and nothing exists that a scene does not need.
 #include "pbs/solver/batched/batched_projection.hpp"
 
 #include "pbs/solver/residuals.hpp"
@@ -55,7 +55,8 @@ void iterate(BatchedProjection<Scalar>& projection)
     projection.project_volume_constraints();
 }
 
-// To the bit in double; in float, half a spacing of numbers of the size of the body, and the double's own at the distance.
+// Exact to the bit in double. In float, the difference is half a spacing of numbers of the size of the body, plus that of double at the
+// distance.
 TYPED_TEST(BatchedProjections, WhatIsLoadedIsStored)
 {
     const Eigen::RowVector3d far(1e4, -1e4, 1e4);
@@ -71,7 +72,7 @@ TYPED_TEST(BatchedProjections, WhatIsLoadedIsStored)
         }
 }
 
-// Two evaluations of each error in the same precision, some twenty roundings of terms of order one, root mean square of all.
+// Two evaluations of each error in the same precision, with some twenty roundings of terms of order one; root mean square over all.
 TYPED_TEST(BatchedProjections, ResidualsAreThoseOfThePlainForm)
 {
     RandomPoints random(41);
@@ -106,7 +107,8 @@ TYPED_TEST(BatchedProjections, ClassesOfStiffnessZeroAreNotThere)
         options.k_volume = 0.0;
         auto nothing = projection_of<TypeParam>(options);
         EXPECT_LT(volume_alone, all);
-        EXPECT_EQ(nothing.bytes_an_iteration(), 2u * 3 * 4 * sizeof(TypeParam) * limb.lbs.rows());  // positions in and out of each class
+        // positions read and written by each class
+        EXPECT_EQ(nothing.bytes_an_iteration(), 2u * 3 * 4 * sizeof(TypeParam) * limb.lbs.rows());
         nothing.load(limb.lbs, limb.bind_points, Vec3::Zero());
         const Positions before = stored(nothing, Vec3::Zero());
         iterate(nothing);

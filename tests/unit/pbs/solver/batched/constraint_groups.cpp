@@ -1,4 +1,4 @@
-// Truth: the shapes written out by hand, and that groups of one are the constraints in file order.
+// Reference: the shapes written by hand, and that groups of one are the constraints in file order.
 #include "pbs/solver/batched/constraint_groups.hpp"
 
 #include "pbs/geometry/topology.hpp"
@@ -28,7 +28,7 @@ TEST(ConstraintGroups, SizesOfEachKind)
     }
 }
 
-// Every vertex of a group is joined by some constraint, and no two constraints of a group join the same vertices.
+// Some constraint joins each vertex of a group, and no two constraints of a group join the same vertices.
 TEST(ConstraintGroups, ShapesUseEachVertexAndRepeatNothing)
 {
     for (int kind = 0; kind <= static_cast<int>(GroupKind::tet_fan_3); ++kind) {

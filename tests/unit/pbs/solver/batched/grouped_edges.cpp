@@ -1,4 +1,4 @@
-// Truth: each edge in one group, and small meshes whose groups are counted by hand.
+// Reference: each edge in one group, and small meshes whose groups are counted by hand.
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/expect_groups.hpp"
 #include "tests/support/structured_bar.hpp"
@@ -31,7 +31,7 @@ TEST(GroupedEdges, OneTetIsOneGroup)
     EXPECT_EQ(count_by_kind(expect_sound(edges_of_rows(tet), tet)), (Counts{{GroupKind::edge_tet, 1}}));
 }
 
-// The second tet has three edges of its own, at one vertex.
+// The second tet adds three edges, all at one vertex.
 TEST(GroupedEdges, TwoTets)
 {
     const Tets tets = tet_ring(2, false);
@@ -59,7 +59,7 @@ TEST(GroupedEdges, TetsThatShareAnEdgeOrAVertexOnly)
 {
     Tets tets(3, 4);
     tets << 0, 1, 2, 3, 0, 1, 4, 5, 5, 6, 7, 8;
-    // The second tet lacks one edge and is a group all the same; the third is whole.
+    // The second tet lacks one edge and still forms a group; the third is complete.
     EXPECT_EQ(count_by_kind(expect_sound(edges_of_rows(tets), tets)), (Counts{{GroupKind::edge_tet, 3}}));
 }
 
@@ -70,12 +70,12 @@ TEST(GroupedEdges, BarInAnyNumbering)
     for (const Tets& tets : {bar.tets, shuffled(bar.tets, vertices, 3)}) {
         const EdgeList edges = edges_of_rows(tets);
         const auto groups = expect_sound(edges, tets);
-        EXPECT_LT(3 * groups.size(), 2 * edges.size());  // or grouping saves nothing
+        EXPECT_LT(3 * groups.size(), 2 * edges.size());  // otherwise grouping saves nothing
         EXPECT_GT(count_by_kind(groups)[GroupKind::edge_tet], 10);
     }
 }
 
-// k_stretch = 0 in part of the body: edges are missing from the list while the mesh still has them.
+// k_stretch = 0 in part of the body: the list lacks edges that the mesh has.
 TEST(GroupedEdges, OnlySomeEdgesAreConstrained)
 {
     const pbs::TetMesh bar = structured_bar({0, 0, 0}, {6, 2, 2}, {6, 2, 2});
@@ -98,7 +98,7 @@ TEST(GroupedEdges, PartsOfOneTet)
     EXPECT_EQ(count_by_kind(expect_sound({{3, 1}}, tet)), (Counts{{GroupKind::edge, 1}}));
 }
 
-// A star of edges that no tet knows: pairs at its centre.
+// A star of edges that belong to no tet: they form pairs at its centre.
 TEST(GroupedEdges, EdgesOfNoTet)
 {
     EdgeList star;

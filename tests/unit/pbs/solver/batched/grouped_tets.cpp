@@ -1,4 +1,4 @@
-// Truth: each tet in one group and of its own orientation, and small meshes whose fans are counted by hand.
+// Reference: each tet in one group with its own orientation, and small meshes whose fans are counted by hand.
 #include "tests/support/expect_groups.hpp"
 #include "tests/support/structured_bar.hpp"
 #include "tests/support/tet_rings.hpp"
@@ -43,7 +43,7 @@ TEST(GroupedTets, OpenRings)
     EXPECT_EQ(kinds_of_ring(6, false), (Counts{{GroupKind::tet_fan_3, 2}}));
 }
 
-// Round a closed ring of three a fan of three would come back to its first vertex: it has five vertices, not six.
+// In a closed ring of three tets, a fan of three would return to its first vertex: it has five vertices, not six.
 TEST(GroupedTets, ClosedRings)
 {
     EXPECT_EQ(kinds_of_ring(3, true), (Counts{{GroupKind::tet_fan_2, 1}, {GroupKind::tet, 1}}));
@@ -66,7 +66,7 @@ TEST(GroupedTets, TetsThatShareNoFaceAreAlone)
     EXPECT_EQ(count_by_kind(expect_sound({{0, 1, 2, 3}, {0, 1, 4, 5}, {5, 6, 7, 8}, {9, 10, 11, 12}})), (Counts{{GroupKind::tet, 4}}));
 }
 
-// A mirrored neighbour lies on the same side of their face, and no fan holds both.
+// A mirrored neighbour lies on the same side of the common face, and no fan contains both.
 TEST(GroupedTets, MirroredNeighbourIsNoFan)
 {
     EXPECT_EQ(count_by_kind(expect_sound({{0, 1, 2, 3}, {0, 1, 4, 3}})), (Counts{{GroupKind::tet, 2}}));
@@ -89,7 +89,7 @@ TEST(GroupedTets, BarInAnyNumbering)
     const pbs::TetMesh bar = structured_bar({0, 0, 0}, {8, 3, 3}, {8, 3, 3});
     for (const Tets& tets : {bar.tets, shuffled(bar.tets, static_cast<int>(bar.rest.rows()), 4)}) {
         const auto groups = expect_sound(rows_of(tets));
-        EXPECT_LT(5 * groups.size(), 2 * std::size_t(tets.rows()));  // 2.5 tets a group, or grouping saves little
+        EXPECT_LT(5 * groups.size(), 2 * std::size_t(tets.rows()));  // 2.5 tets per group; otherwise grouping saves little
     }
 }
 

@@ -1,4 +1,4 @@
-// Truth: the plain twins in pbs/constraints, pose by pose, within what rounding allows (projection_rounding.hpp).
+// Reference: the plain form in pbs/constraints, pose by pose, within the bounds of rounding (projection_rounding.hpp).
 #include "pbs/solver/batched/pose_kernels.hpp"
 
 #include "tests/support/projection_cases.hpp"
@@ -18,7 +18,7 @@ using pbs::Vec3;
 constexpr int poses = pbs::poses_a_block;
 constexpr int most_vertices = 6;
 
-// Sixteen poses of up to six vertices: masses are the mesh's, every pose has a stiffness of its own in each class.
+// Sixteen poses of up to six vertices: the masses belong to the mesh, and every pose has its own stiffness in each class.
 template <typename Scalar>
 class SixteenPoses {
 public:
@@ -35,10 +35,10 @@ public:
         }
         for (int pose = 0; pose < poses; ++pose)
             for (int which = 0; which < pbs::stiffness_classes; ++which)
-                k_[which][pose] = Scalar((5 * pose + 7 * which) % poses) / (poses - 1);  // 0 and 1 among them
+                k_[which][pose] = Scalar((5 * pose + 7 * which) % poses) / (poses - 1);  // includes 0 and 1
     }
 
-    // Between vertices [m] each, one after the other.
+    // Between the given vertices [m], one edge after the other.
     void expect_as_plain(const std::vector<Places<2>>& edges, double rest_length)
     {
         std::vector<pbs::PoseEdge<Scalar>> of_kernel;
@@ -83,7 +83,7 @@ public:
         });
     }
 
-    // Of every vertex v, rest distances [m] by `rest_distance(v)`, to the positions of `bind_points`.
+    // For every vertex v, with rest distances [m] by `rest_distance(v)`, to the positions of `bind_points`.
     void expect_as_plain(const SixteenPoses& bind_points, const std::function<double(int)>& rest_distance)
     {
         std::vector<pbs::PoseBind<Scalar>> binds;
@@ -114,7 +114,7 @@ private:
     }
     Scalar k(StiffnessOf which, int pose) const { return k_[static_cast<int>(which)][pose]; }
 
-    // project_plain moves a pose of this one and says how far the kernel's may lie from it [m]; pinned vertices to the bit.
+    // project_plain moves a pose of this one and returns how far the kernel's result may differ [m]; pinned vertices are equal to the bit.
     void for_each_pose(const SixteenPoses& kernel, const std::function<void(int, double&)>& project_plain)
     {
         for (int pose = 0; pose < poses; ++pose) {
@@ -139,7 +139,7 @@ const std::vector<std::array<std::uint32_t, 4>> tets_of_fan{{0, 1, 2, 3}, {0, 1,
 template <typename Scalar>
 class PoseKernels : public testing::Test {
 protected:
-    // The ring at another place in every pose, in noise; bit v of `pinned` says whether vertex v is held.
+    // The ring at a different place in every pose, with noise; bit v of `pinned` marks vertex v as pinned.
     SixteenPoses<Scalar> noisy_ring(double size_m, double noise, int pinned = 0, double mirror = 1.0)
     {
         return {[&](int, int v) -> Vec3 { return size_m * (ring[v] + random_.point(noise)).cwiseProduct(Vec3(1, 1, mirror)); },
@@ -175,7 +175,7 @@ TYPED_TEST(PoseKernels, EveryCombinationOfPinnedVertices)
     }
 }
 
-// Volumes are minus what they should be, and the projections drive through flat.
+// Volumes have the wrong sign, and the projections pass through flat states.
 TYPED_TEST(PoseKernels, Mirrored)
 {
     for (const double size_m : sizes_m) {
@@ -230,7 +230,7 @@ TYPED_TEST(PoseKernels, BindOnTheBoneAndOnTheBindPoint)
     this->noisy_ring(1.0, 0.5).expect_as_plain(bind_points, [](int) { return 0.0; });
 }
 
-// What is not a number stays so and stays in its pose.
+// A NaN remains NaN and stays in its pose.
 TYPED_TEST(PoseKernels, NotANumberStaysInItsPose)
 {
     alignas(64) TypeParam clean[4][3][poses], sick[4][3][poses], k[pbs::stiffness_classes][poses];

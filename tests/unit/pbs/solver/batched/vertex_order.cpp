@@ -1,5 +1,5 @@
-// Truth: what threads lean on. A group of constraints reaches no farther than one vertex and all its neighbours, so slabs of one parity
-// share nothing where no such star reaches beyond the slab of its first vertex and the next.
+// Reference: the condition on which threads rely. A group of constraints contains at most one vertex and all its neighbours, so slabs of
+// one parity share nothing if no such star extends beyond the slab of its first vertex and the next one.
 #include "pbs/solver/batched/vertex_order.hpp"
 
 #include "pbs/geometry/topology.hpp"
@@ -39,7 +39,7 @@ void expect_slab_sizes(const VertexOrder& order, int vertices, int vertices_a_sl
     }
 }
 
-// First and last slab among each vertex and its neighbours: the farthest a group round it reaches.
+// Checks the first and last slab among each vertex and its neighbours, which bound the extent of a group.
 void expect_stars_in_two_slabs(const VertexOrder& order, const Tets& tets)
 {
     const std::vector<int> slab_of = order.slab_of_new();
@@ -74,7 +74,7 @@ TEST(VertexOrder, BarInSlabsOfManySizes)
 
 TEST(VertexOrder, SlabsAreAsManyAsTheSizeAsksFor)
 {
-    EXPECT_GE(order_vertices(bar.tets, bar_vertices, 1).slabs(), 20);  // 40 or more levels, two a slab
+    EXPECT_GE(order_vertices(bar.tets, bar_vertices, 1).slabs(), 20);  // 40 or more levels, two per slab
     EXPECT_EQ(order_vertices(bar.tets, bar_vertices, bar_vertices).slabs(), 1);
     const int slabs = order_vertices(bar.tets, bar_vertices, bar_vertices / 8).slabs();
     EXPECT_GE(slabs, 4);
@@ -88,7 +88,7 @@ TEST(VertexOrder, NeighboursAreNearInMemoryHoweverTheMeshIsNumbered)
     int bandwidth = 0;
     for (const auto& edge : rows_of(pbs::edges_of(tets)))
         bandwidth = std::max(bandwidth, std::abs(order.new_of_old[edge[0]] - order.new_of_old[edge[1]]));
-    EXPECT_LE(bandwidth, 4 * 16);  // two levels, of hardly more than the 16 vertices of a section each
+    EXPECT_LE(bandwidth, 4 * 16);  // two levels, each with hardly more than the 16 vertices of a section
 }
 
 TEST(VertexOrder, AllVerticesRoundOneAreOneOrTwoSlabs)
@@ -131,7 +131,7 @@ TEST(VertexOrder, SeveralComponents)
     }
 }
 
-// Tets of their own, a level of one and one of three each: the end of one and the start of another share slabs.
+// Separate tets, each with a level of one vertex and one of three: the end of one and the start of the next share slabs.
 TEST(VertexOrder, ManySmallComponents)
 {
     Tets tets(0, 4);
