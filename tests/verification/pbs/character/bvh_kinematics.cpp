@@ -61,7 +61,7 @@ std::vector<Eigen::Isometry3d> forward(const Bvh& bvh, const std::vector<double>
 {
     std::vector<Eigen::Isometry3d> global;
     for (const Joint& joint : bvh.joints) {
-        const bool moves = !joint.channels.empty() && joint.channels[0].substr(1) == "position";  // then they stand for the offset
+        const bool moves = !joint.channels.empty() && joint.channels[0].substr(1) == "position";  // then they replace the offset
         Eigen::Isometry3d own = Eigen::Isometry3d::Identity();
         if (!moves) own.translation() = joint.offset;
         for (std::size_t c = 0; c < joint.channels.size(); ++c)

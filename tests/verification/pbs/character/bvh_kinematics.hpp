@@ -1,4 +1,4 @@
-// An independent reading of BVH for tests: every number by its place in the file, every rotation as a product of elementary matrices.
+// An independent reader of BVH for tests: every number by its place in the file, every rotation as a product of elementary matrices.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -24,7 +24,7 @@ struct Bvh {
 
 Bvh read(const std::string& path);
 
-// Global joint frames of one row of channels, and of all channels zero.
+// Global joint frames for one row of channels, and for all channels zero.
 std::vector<Eigen::Isometry3d> forward(const Bvh& bvh, const std::vector<double>& channels);
 std::vector<Eigen::Isometry3d> zero_pose(const Bvh& bvh);
 

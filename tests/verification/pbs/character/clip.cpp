@@ -1,4 +1,4 @@
-// Truth: an independent forward kinematics of BVH (bvh_kinematics.hpp) on a CMU clip, and a clip in closed form.
+// Reference: an independent forward kinematics of BVH (bvh_kinematics.hpp) on a CMU clip, and a clip in closed form.
 // Needs Debian's assimp-testmodels, which set-up installs.
 #include "pbs/character/clip.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 
 using namespace pbs;
 
-// Joint positions [clip's units] of one frame from the clip's rotations and the lengths of its zero pose.
+// Joint positions [clip's units] of one frame, from the clip's rotations and the lengths of its zero pose.
 Positions joint_positions(const Clip& clip, int frame)
 {
     Positions positions(clip.zero_pose.rows(), 3);
@@ -51,7 +51,7 @@ TEST(ReadClip, AgreesWithIndependentKinematicsOnACmuClip)
     }
     RecordProperty("largest_difference_clip_units", std::to_string(largest));
     // assimp computes in single precision: 2^-24 of coordinates up to 30 units, over a chain of 9 joints with three products of rotations
-    // each (30 * 6e-8 * 27 = 5e-5), twice for chance.
+    // each (30 * 6e-8 * 27 = 5e-5), with a factor of two as margin.
     EXPECT_LT(largest, 1e-4);
 }
 
@@ -87,7 +87,7 @@ TEST(ReadClip, ClosedForm)
     EXPECT_EQ(clip.parent, (std::vector<int>{-1, 0, 1}));
     Positions zero(3, 3), turned(3, 3);
     zero << 0, 0, 0, 2, 0, 0, 2, 3, 0;
-    // The root turns x to y; the forearm turns its y to z about its own x, so that the end site stands along the world's z.
+    // The root turns x to y; the forearm turns its y to z about its own x, so the end site points along the world's z.
     turned << -1, 0, 5, -1, 2, 5, -1, 2, 8;
     EXPECT_LT((clip.zero_pose - zero).cwiseAbs().maxCoeff(), 1e-6);
     EXPECT_LT((joint_positions(clip, 0) - (zero.rowwise() + Eigen::RowVector3d(1, 2, 3))).cwiseAbs().maxCoeff(), 1e-6);
@@ -96,7 +96,7 @@ TEST(ReadClip, ClosedForm)
 
 TEST(ReadClip, OtherFormatsThanBvh)
 {
-    // assimp's own simple_skin.gltf, the glTF tutorial's: joint 2 turns about z to 90 degrees and back, 5.5 s.
+    // assimp's own simple_skin.gltf from the glTF tutorial: joint 2 turns about z to 90 degrees and back, 5.5 s.
     const Clip clip = read_clip("/usr/share/assimp/models/glTF2/simple_skin/simple_skin.gltf");
     EXPECT_NEAR(clip.frames() * clip.frame_time_s, 5.5, 0.05);
     double largest = 0.0;

@@ -1,5 +1,5 @@
-// Man, Lady and Frankie where they are installed, and the ring. Truth: topology; Table 1's sizes; MakeHuman's own heights of its young
-// figures; the volume of a ring by Pappus; the joints that clips know.
+// Man, Lady and Frankie where they are installed, and the ring. Reference: topology; the sizes in Table 1; the heights of MakeHuman's young
+// figures; the volume of a ring by Pappus; the joints that clips name.
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/clip.hpp"
 #include "pbs/character/human.hpp"
@@ -32,7 +32,7 @@ TEST_P(FetchedBody, IsABallOfGoodTetsAsLargeAsInTable1)
     EXPECT_EQ(quality.topology.boundary_euler, 2);
     EXPECT_EQ(quality.topology.components, 1);
     EXPECT_GE(quality.min_dihedral_deg, 5.0);
-    EXPECT_NEAR(quality.vertices, GetParam().table_1_vertices, 0.1 * GetParam().table_1_vertices);  // what mesh_surface promises
+    EXPECT_NEAR(quality.vertices, GetParam().table_1_vertices, 0.1 * GetParam().table_1_vertices);  // the specification of mesh_surface
     const double height_m = body.mesh.rest.col(1).maxCoeff() - body.mesh.rest.col(1).minCoeff();
     EXPECT_GT(height_m, GetParam().lowest_height_m);
     EXPECT_LT(height_m, GetParam().highest_height_m);
@@ -51,7 +51,7 @@ TEST_P(FetchedBody, HasTheHumansBonesByName)
     EXPECT_GE(body.inputs.size(), 2u);
 }
 
-// The wrap lies up to an offset of the diagonal / 510 outside the skin: some millimetres on either end.
+// The wrap lies up to an offset of the diagonal / 510 outside the skin: some millimetres at either end.
 INSTANTIATE_TEST_SUITE_P(Bodies, FetchedBody,
                          testing::Values(Expected{"man", 1654, 1.74, 1.77, 23}, Expected{"lady", 1829, 1.60, 1.63, 23},
                                          Expected{"frankie", 2108, 0.57, 0.60, 26}),
@@ -65,8 +65,8 @@ TEST(Ring, HasOneHandleAndTheVolumeOfItsTube)
     EXPECT_EQ(quality.topology.boundary_euler, 0);
     EXPECT_EQ(quality.topology.components, 1);
     EXPECT_GE(quality.min_dihedral_deg, 5.0);
-    // Pappus: the section's area times the way of its centre. The wrap adds an offset of the diagonal / 510 all round; chords of facets
-    // take up to a few per cent.
+    // Pappus: the area of the section times the path of its centre. The wrap adds an offset of the diagonal / 510 all around; chords of
+    // facets reduce the volume by up to a few per cent.
     const double way_m = 4.0 * 0.36 + 2.0 * std::numbers::pi * 0.14, tube_m3 = std::numbers::pi * 0.07 * 0.07 * way_m;
     EXPECT_NEAR(quality.volume_m3 / tube_m3, 1.0, 0.1);
 }

@@ -1,5 +1,5 @@
-// Truth: topology of a ball; MakeHuman's own joints; the surface's own volume.
-// Needs Debian's assimp-testmodels, which set-up installs. The mesh comes from the cache where it was made before.
+// Reference: the topology of a ball; MakeHuman's own joints; the surface's own volume.
+// Needs Debian's assimp-testmodels, which the set-up installs. The mesh comes from the cache if it exists there.
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/human.hpp"
 #include "pbs/geometry/quality.hpp"
@@ -65,7 +65,7 @@ TEST(Human, HasTheVolumeOfItsSurfaceAndTheWrapsOffset)
     const double tets_m3 = quality_of(human().mesh).volume_m3;
     RecordProperty("surface_litres", std::to_string(1000.0 * inside_m3));
     RecordProperty("tets_litres", std::to_string(1000.0 * tets_m3));
-    // The wrap lies an offset of the diagonal / 510 outside the skin; chords cut off some of that again.
+    // The wrap lies an offset of the diagonal / 510 outside the skin; chords of facets cut off some of that.
     const double diagonal_m = (skin.colwise().maxCoeff() - skin.colwise().minCoeff()).norm();
     EXPECT_GT(tets_m3, inside_m3);
     EXPECT_LT(tets_m3, inside_m3 + diagonal_m / 510.0 * area(skin, surface.triangles));
@@ -86,7 +86,7 @@ TEST(Human, TheSkeletonIsOneTreeOfJoinedBones)
         EXPECT_GE(skeleton.bones[bone].parent, 0);
         const std::string& name = skeleton.bones[bone].name;
         const Bone& parent = skeleton.bones[skeleton.bones[bone].parent];
-        if (name.starts_with("clavicle") || name.starts_with("hip")) continue;  // they branch off their parents
+        if (name.starts_with("clavicle") || name.starts_with("hip")) continue;  // they branch off from their parents
         EXPECT_EQ(skeleton.bones[bone].head, parent.tail) << name;
     }
 }

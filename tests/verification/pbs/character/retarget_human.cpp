@@ -1,4 +1,4 @@
-// Truth: the source's own limb directions (independent kinematics, bvh_kinematics.hpp), rigid bones, and what a body can do in 10 ms.
+// Reference: the source's own limb directions (independent kinematics, bvh_kinematics.hpp), rigid bones, and what a body can do in 10 ms.
 // Needs Debian's assimp-testmodels, which set-up installs.
 #include "pbs/character/clip.hpp"
 #include "pbs/character/human.hpp"
@@ -17,7 +17,7 @@ using namespace pbs;
 
 constexpr double degrees = 180.0 / M_PI;
 
-// 01_01 at its own 120 Hz: step i is the clip's frame i + 1.
+// The clip 01_01 at its own 120 Hz: step i is the clip's frame i + 1.
 struct Retargeted {
     std::string path = find_clip("01_01.bvh", ".");
     Clip clip = read_clip(path);
@@ -47,7 +47,7 @@ Vec3 posed_direction(const Pose& pose, const std::string& bone)
 }
 
 struct Limb {
-    std::string bone, from, to;  // our bone, the source's joints at its ends
+    std::string bone, from, to;  // our bone, and the source's joints at its ends
 };
 
 std::vector<Limb> limbs()
@@ -152,7 +152,7 @@ TEST(RetargetHuman, BeginsAtItsRestPlaceAndJumpsAsHighAsALegAllows)
     for (const Pose& pose : cmu().motion.steps) highest_m = std::max(highest_m, (pose[0] * hip - hip)(1));
     RecordProperty("highest_hip_above_start_m", std::to_string(highest_m));
     EXPECT_GT(highest_m, 0.1);           // it does jump
-    EXPECT_LT(highest_m, 2.0 * shin_m);  // no unit is mistaken
+    EXPECT_LT(highest_m, 2.0 * shin_m);  // no unit is confused
 }
 
 TEST(RetargetHuman, TheForearmSharesTheWristsTwistInThirds)
@@ -163,14 +163,14 @@ TEST(RetargetHuman, TheForearmSharesTheWristsTwistInThirds)
             const auto rotation = [&](const std::string& bone) {
                 return Eigen::Quaterniond(pose[find_bone(cmu().skeleton, bone + side)].linear());
             };
-            // Both halves rest in one line, so their relative rotation is a third of the twist about that line and nothing else.
+            // Both halves lie in one line at rest, so their relative rotation is exactly a third of the twist about that line.
             const Eigen::AngleAxisd between(rotation("forearm_lower") * rotation("forearm_upper").conjugate());
             if (between.angle() * degrees < 0.5) continue;
             largest_twist_deg = std::max(largest_twist_deg, 3.0 * between.angle() * degrees);
             EXPECT_GT(std::abs(between.axis().dot(posed_direction(pose, "forearm_upper" + side))), 0.999);
         }
     RecordProperty("largest_wrist_twist_deg", std::to_string(largest_twist_deg));
-    EXPECT_GT(largest_twist_deg, 10.0);   // there is some
+    EXPECT_GT(largest_twist_deg, 10.0);   // there is a twist
     EXPECT_LT(largest_twist_deg, 150.0);  // and no wrist turns farther
 }
 

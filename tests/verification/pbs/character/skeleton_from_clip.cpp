@@ -1,4 +1,4 @@
-// The skeleton of a clip's file. Truth: the offsets as they stand in the header of CMU's 01_01.bvh, and the clip's own kinematics.
+// The skeleton of a clip's file. Reference: the offsets in the header of CMU's 01_01.bvh, and the clip's own kinematics.
 #include "pbs/character/skeleton_from_clip.hpp"
 
 #include "pbs/geometry/input_error.hpp"

@@ -1,4 +1,4 @@
-// Truth: another program. Gmsh and VTK's Python write what we read, and read what we write, to the bit.
+// Reference: another program. Gmsh and VTK's Python write files that this code reads, and read files that it writes, to the bit.
 #include "pbs/geometry/mesh_io.hpp"
 
 #include "tests/support/scratch_folder.hpp"
@@ -47,7 +47,7 @@ TEST(Gmsh, FilesOfBothVersionsAsciiAndBinaryAreRead)
             write_by_gmsh(path, version, binary);
             const pbs::MeshReading reading = pbs::read_tet_mesh(path);
             EXPECT_EQ(reading.mesh.tets, bar().tets) << path;
-            // Gmsh's ASCII has 16 significant digits, its binary files have all.
+            // Gmsh's ASCII files have 16 significant digits, its binary files have all.
             EXPECT_LE((reading.mesh.rest - bar().rest).cwiseAbs().maxCoeff(), binary ? 0.0 : 1e-15) << path;
         }
 }
@@ -130,7 +130,7 @@ for mode in ("ASCII", "Binary"):
               0);
     for (const char* name : {"Ascii.vtu", "Binary.vtu", "Appended.vtu", "ASCII.vtk", "Binary.vtk"}) {
         const pbs::MeshReading reading = pbs::read_tet_mesh(folder / name);
-        const double digits = std::string(name) == "ASCII.vtk" ? 1e-8 : 0.0;  // VTK writes this one with fewer digits
+        const double digits = std::string(name) == "ASCII.vtk" ? 1e-8 : 0.0;  // VTK writes this format with fewer digits
         EXPECT_LE((reading.mesh.rest - bar().rest).cwiseAbs().maxCoeff(), digits) << name;
         EXPECT_EQ(reading.mesh.tets, bar().tets) << name;
     }

@@ -1,7 +1,7 @@
-// Truth: linear algebra. One particle hangs from three held ones by the three edges of a tet, k_stretch on each: near rest the iterations
-// are a 3 x 3 matrix S (tests/support/hanging_tet.hpp), and Algorithm 1 is the recurrence
+// Reference: linear algebra. One particle hangs from three held ones by the three edges of a tet, k_stretch on each: near rest the
+// iterations are a 3 x 3 matrix S (tests/support/hanging_tet.hpp), and Algorithm 1 is the recurrence
 //   x(t+1) = S (2 x(t) - x(t-1) + g dt^2)
-// with the fixed point (I - S)^-1 S g dt^2. Tolerances: what is left out is of second order in displacement over length, 1e-6 here.
+// with the fixed point (I - S)^-1 S g dt^2. Tolerances: the neglected terms are of second order in displacement over length, 1e-6 here.
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/hanging_tet.hpp"
 
