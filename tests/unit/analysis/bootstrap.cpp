@@ -1,4 +1,4 @@
-// Truth: degenerate cases by definition, reproducibility by seed. Coverage is in tests/verification/analysis/bootstrap.cpp.
+// Reference: degenerate cases by definition, and reproducibility by seed. tests/verification/analysis/bootstrap.cpp tests the coverage.
 #include "analysis/bootstrap.hpp"
 
 #include <gtest/gtest.h>
@@ -61,7 +61,7 @@ TEST(Bootstrap, SeriesWithoutSpreadHasNoWidth)
     EXPECT_EQ(same.high, 3.5);
 }
 
-// Clopper and Pearson 1934: of n independent samples none holds with probability (1 - p)^n, which is 2.5 % at p = 1 - 0.025^(1/n).
+// Clopper and Pearson 1934: none of n independent samples holds with probability (1 - p)^n, which is 2.5 % at p = 1 - 0.025^(1/n).
 TEST(Bootstrap, AShareOfAllOrNoneHasTheExactBinomialBound)
 {
     const Interval none = bootstrap_share(std::vector<bool>(20, false));
@@ -75,7 +75,7 @@ TEST(Bootstrap, AShareOfAllOrNoneHasTheExactBinomialBound)
 TEST(Bootstrap, CorrelatedSamplesSayLessAboutNone)
 {
     const Interval correlated = bootstrap_share(std::vector<bool>(200, false), {.autocorrelation_time = 10.0});
-    EXPECT_NEAR(correlated.high, 0.16843, 1e-5);  // as good as 20 independent ones
+    EXPECT_NEAR(correlated.high, 0.16843, 1e-5);  // equivalent to 20 independent samples
 }
 
 TEST(Bootstrap, ShareStaysBetweenNoneAndAll)

@@ -1,4 +1,4 @@
-// Truth: the definition; a key comes back from its cells and from JSON, and every member has one field.
+// Reference: the definition. A key is recovered from its cells and from JSON, and every member has one field.
 #include "analysis/case_key.hpp"
 
 #include "pbs/geometry/input_error.hpp"

@@ -1,4 +1,4 @@
-// Truth: the rows of a metrics.csv with the columns of the contract.
+// Reference: the rows of a metrics.csv with the columns of the contract.
 #include "analysis/case_record.hpp"
 
 #include "pbs/geometry/input_error.hpp"

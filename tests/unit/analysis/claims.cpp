@@ -1,4 +1,4 @@
-// Truth: the file's own documented fields; what is wrong is named with its line.
+// Reference: the documented fields of the file; an error is named with its line.
 #include "analysis/claims.hpp"
 
 #include "analysis/records/atomic_file.hpp"

@@ -1,4 +1,4 @@
-// Truth: the contract of claims.json and claims.md.
+// Reference: the contract of claims.json and claims.md.
 #include "analysis/claims_report.hpp"
 
 #include "tests/support/volume_claim.hpp"
@@ -47,7 +47,7 @@ TEST(ClaimsJson, CarriesTheContractsFields)
     EXPECT_EQ(primary.at("bound_low"), 0.95);
     const auto& judged = claim.at("cases").at(0);
     EXPECT_EQ(judged.at("holds"), "none");
-    EXPECT_EQ(judged.at("body"), "walk");  // the scene's name, where the plan gives no body
+    EXPECT_EQ(judged.at("body"), "walk");  // the scene's name, since the plan states no body
     EXPECT_EQ(judged.at("deformer"), "pbs");
     EXPECT_EQ(judged.at("value"), 0.75);
     EXPECT_EQ(judged.at("deepest").at(0).at("frame"), 2.0);
@@ -55,7 +55,7 @@ TEST(ClaimsJson, CarriesTheContractsFields)
     EXPECT_EQ(document.at("claims").at(1).at("reason"), "no figures");
 }
 
-// No sentence: every text is a name, a title, a path, or what claims.toml says.
+// No sentence: every text is a name, a title, a path, or a text of claims.toml.
 TEST(ClaimsJson, HoldsNoSentence)
 {
     const auto document = document_of(two_verdicts());
@@ -104,7 +104,7 @@ TEST(ClaimsMarkdown, IsOneTableWithARowForEachClaim)
         const bool has_escaped_bar = line.find("\\|") != std::string::npos;
         EXPECT_EQ(bars, has_escaped_bar ? 13 : 12) << line;
     }
-    EXPECT_EQ(rows, 4);  // head, rule and two claims
+    EXPECT_EQ(rows, 4);  // header, rule and two claims
 }
 
 TEST(ClaimsMarkdown, GivesThePrimaryValueWithItsBound)

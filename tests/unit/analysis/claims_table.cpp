@@ -1,4 +1,4 @@
-// Truth: the definition: a claim in a few lines, its columns beginning at the same place, no line longer than the terminal's.
+// Reference: the definition. A claim takes a few lines, its columns begin at the same position, and no line is longer than the terminal's.
 #include "analysis/claims_table.hpp"
 
 #include "analysis/text_columns.hpp"

@@ -1,4 +1,4 @@
-// Truth: sections of boxes, pyramids and prisms in closed form. Tolerance 1e-13 relative to areas of order 0.1 to 10.
+// Reference: sections of boxes, pyramids and prisms in closed form. Tolerance 1e-13 relative to areas of order 0.1 to 10.
 #include "analysis/cross_section.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -128,7 +128,7 @@ TEST(SectionExtremes, OnlyTheTetsOfTheStationCount)
     auto mesh = bar();
     const Eigen::Index vertices = mesh.rest.rows(), tets = mesh.tets.rows();
     const auto limb = all_of(mesh.tets);
-    mesh.rest.conservativeResize(2 * vertices, 3);  // a second limb beside the first
+    mesh.rest.conservativeResize(2 * vertices, 3);  // a second limb next to the first
     mesh.rest.bottomRows(vertices) = mesh.rest.topRows(vertices).rowwise() + Eigen::RowVector3d(0.0, 1.0, 0.0);
     mesh.tets.conservativeResize(2 * tets, 4);
     mesh.tets.bottomRows(tets) = mesh.tets.topRows(tets).array() + static_cast<int>(vertices);
@@ -154,7 +154,7 @@ TEST(SectionExtremes, RefusesStationsThatCannotBeMeasured)
     EXPECT_THROW(extremes({outside, good, all_of(mesh.tets)}), pbs::InputError);
     EXPECT_THROW(extremes({good, no_normal, all_of(mesh.tets)}), pbs::InputError);
     EXPECT_THROW(extremes({good, good, {99999}}), pbs::InputError);
-    EXPECT_EQ(extremes({good, outside, all_of(mesh.tets)}).smallest_ratio, 0.0);  // torn off its place: a result, not an error
+    EXPECT_EQ(extremes({good, outside, all_of(mesh.tets)}).smallest_ratio, 0.0);  // displaced from its plane: a result, not an error
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Truth: theory. A stretch by s along x lengthens edges along x by s and leaves those across alone.
+// Reference: theory. A stretch by s along x lengthens edges along x by s and does not change those perpendicular to it.
 #include "analysis/edge_strain.hpp"
 #include "pbs/geometry/input_error.hpp"
 

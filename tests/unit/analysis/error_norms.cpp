@@ -1,4 +1,4 @@
-// Truth: closed forms for translations, single vertices and linear maps. Tolerance 1e-12 relative: a few hundred operations in double.
+// Reference: closed forms for translations, single vertices and linear maps. Tolerance 1e-12 relative: a few hundred operations in double.
 #include "analysis/error_norms.hpp"
 
 #include "pbs/geometry/input_error.hpp"

@@ -1,5 +1,5 @@
-// Truth: closed forms on maps with known answers. Tolerances: a few hundred operations in double on figures of order 1 to 100, so 1e-12
-// relative is two orders above what rounding can do.
+// Reference: closed forms on maps with known results. Tolerances: a few hundred operations in double on values of order 1 to 100, so 1e-12
+// relative is two orders of magnitude above the rounding.
 #include "analysis/frame_metrics.hpp"
 
 #include "pbs/geometry/input_error.hpp"

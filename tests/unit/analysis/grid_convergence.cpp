@@ -1,4 +1,4 @@
-// Degenerate series, factors, limits of the order used. Truth: the formulas of the header, worked by hand.
+// Degenerate series, factors, limits of the order used. Reference: the formulas of the header, evaluated by hand.
 #include "analysis/grid_convergence.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -117,7 +117,7 @@ TEST(ObservedOrder, BeyondWhatCanBeSeenIsInfinite)
     EXPECT_EQ(analysis::observed_order_of_three(0.0, {2.0, 1.5}), -std::numeric_limits<double>::infinity());
 }
 
-// |f1 - f2| = 1, |f2 - f3| = 2: in one direction f3 is 3 away from f1, in opposite ones 1.
+// |f1 - f2| = 1, |f2 - f3| = 2: with equal directions f3 is at a distance of 3 from f1, with opposite ones 1.
 TEST(Fields, WhoseDifferencesTurnRoundOscillate)
 {
     EXPECT_NEAR((FieldDifferences{1.0, 2.0, 3.0}.alignment()), 1.0, 1e-15);

@@ -136,7 +136,7 @@ TEST(Measurement, AVerdictCountsValuesBySubject)
     EXPECT_EQ(verdict.subjects[2].within, 1);
     EXPECT_EQ(verdict.subjects[2].all, 2);
     EXPECT_EQ(verdict.subjects[2].extent, Extent::part);
-    EXPECT_EQ(verdict.primary->of.body, "bar");  // what is not a number is farthest
+    EXPECT_EQ(verdict.primary->of.body, "bar");  // a value that is not a number is farthest outside
     claim.subject = "pose";
     EXPECT_EQ(judge(claim, records).subjects.size(), 3u);  // bent, straight, none
 }

@@ -1,4 +1,4 @@
-// Truth: functions whose minimum is known in closed form, and the jackknife of a mean, which is its standard error.
+// Reference: functions whose minimum is known in closed form, and the jackknife of a mean, which is its standard error.
 #include "analysis/minimise.hpp"
 
 #include "analysis/statistics.hpp"
@@ -25,7 +25,7 @@ TEST(Minimise, ParabolaIsFoundToTheTolerance)
 
 TEST(Minimise, LogarithmicValleyIsFoundToTheTolerance)
 {
-    const auto minimum = minimise([](double x) { return x - std::log(x); }, 0.1, 7.0);  // at 1, no symmetry
+    const auto minimum = minimise([](double x) { return x - std::log(x); }, 0.1, 7.0);  // the minimum is at 1, without symmetry
     EXPECT_EQ(minimum.outcome, MinimumOutcome::converged);
     EXPECT_NEAR(minimum.x, 1.0, 1e-5 * 6.9);
     EXPECT_TRUE(minimum.identifiable() == (minimum.rise >= 0.01));
@@ -87,7 +87,7 @@ TEST(Minimise, FlatBottomBetweenWallsIsNotIdentifiable)
 TEST(Minimise, ShallowValleyIsNotIdentifiable)
 {
     const auto valley = [](double depth) { return [depth](double x) { return 20.0 + depth * std::pow(x / 0.3 - 1.0, 2); }; };
-    // A change of 10 % raises it by depth / 100 of 20: 0.5 % and 5 %.
+    // A change of 10 % increases the value by depth / 100 of 20: 0.5 % and 5 %.
     EXPECT_FALSE(minimise(valley(10.0), 0.0, 0.5).identifiable());
     EXPECT_NEAR(minimise(valley(10.0), 0.0, 0.5).rise, 0.005, 1e-5);
     EXPECT_TRUE(minimise(valley(100.0), 0.0, 0.5).identifiable());
@@ -100,11 +100,11 @@ TEST(Minimise, NotFiniteIsAnOutcome)
     EXPECT_EQ(nowhere.outcome, MinimumOutcome::not_finite);
     EXPECT_TRUE(std::isnan(nowhere.x));
     EXPECT_FALSE(nowhere.identifiable());
-    // A number at one sample alone: no bracket.
+    // Only one sample is a number, so there is no bracket.
     const auto lonely = minimise([&](double x) { return x == 0.5 ? 1.0 : nan; }, 0.0, 1.0);
     EXPECT_EQ(lonely.outcome, MinimumOutcome::not_finite);
     EXPECT_EQ(lonely.x, 0.5);
-    // A hole elsewhere does not matter; one that Brent falls into is told, and the best number is kept.
+    // A hole elsewhere does not matter. One that Brent's method meets is reported, and the best number is kept.
     EXPECT_EQ(minimise([&](double x) { return x > 0.9 ? nan : std::pow(x - 0.3, 2); }, 0.0, 1.0).outcome, MinimumOutcome::converged);
     const auto hole = minimise([&](double x) { return std::abs(x - 0.31) < 5e-3 ? nan : std::pow(x - 0.31, 2); }, 0.0, 1.0, {.samples = 5});
     EXPECT_EQ(hole.outcome, MinimumOutcome::not_finite);

@@ -1,4 +1,4 @@
-// Fronts and crossings. Truth: the definitions, worked by hand on a few points.
+// Fronts and crossings. Reference: the definitions, evaluated by hand on a few points.
 #include "analysis/pareto_front.hpp"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST(ParetoFront, WhatIsNotFiniteNeitherStandsOnItNorDominates)
     EXPECT_EQ(pareto_front({{1.0, nan}, {nan, 1.0}, {-infinity, 0.0}, {2.0, 3.0}, {1.0, infinity}}), Front{3});
 }
 
-// Truth: the definition again, over many points: none on the front is dominated, each other one is.
+// Reference: the definition again, for many points: no point dominates one on the front, and some point dominates each other one.
 TEST(ParetoFront, OfManyPointsHoldsExactlyThoseThatNoneDominates)
 {
     std::mt19937 generator(7);
@@ -77,12 +77,12 @@ TEST(BestWithin, IsTheSmallestErrorThatTheBudgetPays)
     EXPECT_FALSE(best_within(points, 0.5));
     EXPECT_EQ(best_within(points, 1.0), 0u);
     EXPECT_EQ(best_within(points, 2.0), 1u);
-    EXPECT_EQ(best_within(points, 9.0), 1u);  // the cheaper of two as near
+    EXPECT_EQ(best_within(points, 9.0), 1u);  // the cheaper of two equal errors
 }
 
 TEST(NearerFrom, IsTheBudgetBeyondWhichItIsAlwaysSo)
 {
-    // Errors of the best within 1, 2, 3, 4: one 10 10 3 3, other 8 8 8 5.
+    // Errors of the best within 1, 2, 3, 4: for one 10 10 3 3, for the other 8 8 8 5.
     const auto crossing = nearer_from({{1.0, 10.0}, {3.0, 3.0}}, {{1.0, 8.0}, {4.0, 5.0}});
     ASSERT_TRUE(crossing);
     EXPECT_EQ(crossing->from, 3.0);
@@ -98,7 +98,8 @@ TEST(NearerFrom, IsNothingForOneThatIsOvertakenForGood)
 
 TEST(NearerFrom, CountsTheLastTimeOfSeveral)
 {
-    // one 9 9 2 2 1, other 10 3 3 2 2 at budgets 1 to 5: nearer at 1, not at 2, at 3, not (tie) at 4, nearer at 5.
+    // Errors at budgets 1 to 5: for one 9 9 2 2 1, for the other 10 3 3 2 2. One is better at 1, not at 2, better at 3, equal at 4, better
+    // at 5.
     const auto crossing = nearer_from({{1.0, 9.0}, {3.0, 2.0}, {5.0, 1.0}}, {{1.0, 10.0}, {2.0, 3.0}, {4.0, 2.0}});
     ASSERT_TRUE(crossing);
     EXPECT_EQ(crossing->from, 5.0);
@@ -110,7 +111,7 @@ TEST(NearerFrom, HoldsFromTheStartWhereTheOtherIsNeverAsNear)
     ASSERT_TRUE(crossing);
     EXPECT_TRUE(crossing->from_the_start);
     EXPECT_EQ(crossing->from, 1.0);
-    EXPECT_EQ(crossing->other_error, infinity);  // nothing of the other is so cheap
+    EXPECT_EQ(crossing->other_error, infinity);  // no point of the other is within that budget
 }
 
 TEST(NearerFrom, TheSameErrorIsNotNearer)

@@ -1,4 +1,4 @@
-// Truth: volumes of stretched unit cubes by hand; regions that cover all tets add up to the whole.
+// Reference: volumes of stretched unit cubes by hand; regions that cover all tets add up to the whole volume.
 #include "analysis/region_volume.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -13,7 +13,7 @@ using namespace analysis;
 
 const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
 
-// 0 left of x = 1, 1 right of it.
+// Region 0 is left of x = 1, region 1 right of it.
 std::vector<int> halves()
 {
     std::vector<int> region;

@@ -1,4 +1,4 @@
-// Truth: regular polygons, rectangles and a figure eight in closed form. Tolerance 1e-12 on lengths of order 1.
+// Reference: regular polygons, rectangles and a figure eight in closed form. Tolerance 1e-12 on lengths of order 1.
 #include "analysis/section_outline.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ TEST(SectionOutline, RegularPolygonHasItsAreaAndItsTwoRadii)
     EXPECT_NEAR(size.smallest_radius_m, std::sqrt(3.0), 1e-12);
 }
 
-// A vertex more on one side draws the vertices' mean, but not the centroid of the length.
+// An additional vertex on one side shifts the mean of the vertices, but not the centroid of the length.
 TEST(SectionOutline, DoesNotDependOnHowItsSidesAreCutUp)
 {
     Positions rectangle(5, 3);

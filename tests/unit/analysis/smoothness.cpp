@@ -1,4 +1,4 @@
-// Truth: strains and angles of boxes in closed form. Tolerance 1e-12 on figures of order 1.
+// Reference: strains and angles of boxes in closed form. Tolerance 1e-12 on values of order 1.
 #include "analysis/smoothness.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -40,8 +40,8 @@ TEST(Smoothness, RestRigidMotionAndUniformStretchAreSmooth)
     }
 }
 
-// The right half is stretched along x by s: E_xx = (s^2 - 1) / 2 there, 0 on the left. Only the faces in the plane x = 0 jump, so that the
-// rms is below it; and it is linear in E.
+// The right half is stretched along x by s: E_xx = (s^2 - 1) / 2 there, and 0 on the left. Only the faces in the plane x = 0 have a jump,
+// so the rms is smaller than it; and the rms is linear in E.
 TEST(Smoothness, JumpOfStrainAcrossAPlane)
 {
     const pbs::TetMesh mesh = bar();
@@ -58,7 +58,7 @@ TEST(Smoothness, JumpOfStrainAcrossAPlane)
     EXPECT_NEAR(ruler_of(mesh).measure(twice).strain_jump_rms, 2.0 * jump, 1e-12);
 }
 
-// Two tets on one triangle of area 1/2; the second one's apex is raised: its E_zz is known, the other's is 0.
+// Two tets share a triangle of area 1/2. The apex of the second one is raised: its E_zz is known, and that of the other is 0.
 TEST(Smoothness, JumpBetweenTwoTets)
 {
     pbs::TetMesh mesh;
@@ -71,7 +71,7 @@ TEST(Smoothness, JumpBetweenTwoTets)
     EXPECT_NEAR(ruler_of(mesh).measure(positions).strain_jump_rms, 1.5, 1e-12);
 }
 
-// The right end is sheared off: a region that it does not touch is smooth, and so is one without vertices.
+// The right end is sheared off. A region that it does not touch is smooth, and so is one without vertices.
 TEST(Smoothness, OnlyTheRegionIsMeasured)
 {
     const pbs::TetMesh mesh = test_support::structured_bar({-1.0, -0.5, -0.5}, {1.0, 0.5, 0.5}, {4, 1, 1});
@@ -89,7 +89,7 @@ TEST(Smoothness, OnlyTheRegionIsMeasured)
     EXPECT_EQ(SmoothnessRuler(mesh.rest, mesh.tets, std::vector<bool>(mesh.rest.rows(), false)).measure(positions).strain_jump_rms, 0.0);
 }
 
-// One tet whose apex over the base's edge is turned about that edge by 0.3: both dihedral angles there and nowhere else are known.
+// One tet whose apex is rotated by 0.3 about an edge of its base: the change of both dihedral angles is known, and no other angle changes.
 TEST(Smoothness, BendingOfASkinThatIsTurnedAboutOneEdge)
 {
     pbs::TetMesh mesh;

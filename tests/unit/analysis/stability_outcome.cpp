@@ -1,4 +1,4 @@
-// Truth: the definitions themselves, on trajectories made up so that each outcome and each side of its bound is known beforehand.
+// Reference: the definitions themselves, on invented trajectories for which each outcome and each side of its bound is known.
 #include "analysis/stability_outcome.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using Steps = std::vector<StabilityStep>;
 constexpr StabilityBounds bounds;
 constexpr int disturbed = 10, still = 90;
 
-// Disturbed by a motion of 0.1 a step, at rest from then on.
+// Disturbed by a motion of 0.1 per step, and at rest from then on.
 Steps calm()
 {
     Steps steps(disturbed + still);
@@ -47,7 +47,7 @@ TEST(StabilityOutcome, RecoveryCountsTheStillStepsThatWereNotAtRest)
 {
     Steps steps = calm();
     for (int i = 0; i < 7; ++i) steps[disturbed + i].motion = 1e-3;
-    steps[disturbed + 20].inverted_tets = 1;  // once more, after it had been at rest
+    steps[disturbed + 20].inverted_tets = 1;  // inverted again, after it had been at rest
     const StabilityResult result = outcome_of(steps, disturbed);
     EXPECT_EQ(result.outcome, StabilityOutcome::converged);
     EXPECT_EQ(result.recovery_steps, 21);
@@ -77,7 +77,7 @@ TEST(StabilityOutcome, FarAwayBeforeTheLastThirdIsForgiven)
     EXPECT_EQ(outcome(steps), StabilityOutcome::converged);
 }
 
-// The bones have gone and the step was taken back: the body is held up, it has not flown off.
+// The bones have moved away and the step was undone: the body is held up and has not diverged.
 TEST(StabilityOutcome, LeftBehindByAStepThatWasNotReachedIsBounded)
 {
     Steps steps = calm();
@@ -122,7 +122,7 @@ TEST(StabilityOutcome, ATetInvertedInTheLastStepIsInverted)
     steps.back().inverted_tets = 1;
     EXPECT_EQ(outcome(steps), StabilityOutcome::inverted);
     std::swap(steps.back(), steps[steps.size() - 2]);
-    EXPECT_EQ(outcome(steps), StabilityOutcome::bounded);  // not inverted at last, not at rest for long
+    EXPECT_EQ(outcome(steps), StabilityOutcome::bounded);  // not inverted at the end, and not at rest for long enough
 }
 
 TEST(StabilityOutcome, WhatStillMovesIsBounded)
@@ -153,14 +153,14 @@ TEST(StabilityOutcome, AStepThatWasNotReachedIsNeverConverged)
     EXPECT_EQ(outcome(steps), StabilityOutcome::converged);
 }
 
-// One tet, its place the sphere of radius 1 about the origin for every corner, 2 m a diagonal.
+// One tet whose corners all have the sphere of radius 1 about the origin as their place; the diagonal is 2 m.
 TEST(StabilityStep, MeasuresInDiagonals)
 {
     pbs::Positions rest(4, 3), after(4, 3);
     rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
     after = rest;
-    after(1, 0) = 4.0;   // 3 m farther, so 3 m from its place
-    after(3, 2) = -1.0;  // turned inside out
+    after(1, 0) = 4.0;   // 3 m farther away, so 3 m from its place
+    after(3, 2) = -1.0;  // inverted
     const pbs::Positions centres = pbs::Positions::Zero(4, 3);
     const Eigen::VectorXd distance = Eigen::VectorXd::Ones(4);
     const pbs::Tets tets = (pbs::Tets(1, 4) << 0, 1, 2, 3).finished();

@@ -1,4 +1,4 @@
-// Truth: closed forms, worked by hand and independent of GSL.
+// Reference: closed forms, evaluated by hand and independent of GSL.
 #include "analysis/statistics.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Truth: the octahedron's 4/3, the tets inside a boundary, s^3. Tolerance 1e-13 relative.
+// Reference: 4/3 for the octahedron, the tets inside a boundary, and s^3. Tolerance 1e-13 relative.
 #include "analysis/surface_volume.hpp"
 
 #include "pbs/geometry/input_error.hpp"

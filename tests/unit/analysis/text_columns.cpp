@@ -1,4 +1,4 @@
-// Truth: the definition: no line longer than asked for, every word there and in order, columns beginning at the same place.
+// Reference: the definition. No line is longer than requested, every word is there and in order, and columns begin at the same position.
 #include "analysis/text_columns.hpp"
 
 #include <gtest/gtest.h>

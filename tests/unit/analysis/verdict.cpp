@@ -1,4 +1,4 @@
-// Verdicts are computed: each kind follows from its records and flips when they are altered. Truth: the rules in
+// Verdicts are computed: each kind follows from its records and changes when they are altered. Reference: the rules in
 // experiments/verdicts/claims.toml.
 #include "analysis/verdict.hpp"
 
@@ -21,7 +21,7 @@ Claim claim_of(const std::string& id)
     return *std::find_if(claims.begin(), claims.end(), [&](const Claim& claim) { return claim.id == id; });
 }
 
-// Signed changes; the absolute ones twice as large and positive, no tet inverted.
+// The given signed changes; the absolute ones are twice as large and positive, and no tet is inverted.
 CaseRecord clip(const std::string& scene, const std::string& deformer, int iterations, const std::vector<double>& change_pct)
 {
     CaseRecord record;
@@ -45,7 +45,7 @@ void set_change(CaseRecord& record, int frame, double change_pct)
     record.volume_abs_change_pct[frame] = 2.0 * std::abs(change_pct);
 }
 
-// 10 deg a frame.
+// 10 deg per frame.
 CaseRecord sweep(const std::string& scene, const std::string& deformer, int iterations, const std::vector<double>& change_pct)
 {
     CaseRecord record = clip(scene, deformer, iterations, change_pct);
@@ -66,7 +66,7 @@ VerdictKind kind_for(const std::string& id, const std::vector<CaseRecord>& cases
 TEST(VolumeIsPreserved, ReproducedWhereEveryCaseHolds)
 {
     const auto walk = clip("walk", "pbs", 24, constant(100, -0.3));
-    const auto twist = sweep("twist", "pbs", 24, constant(18, -0.5));  // on the bound is within
+    const auto twist = sweep("twist", "pbs", 24, constant(18, -0.5));  // a value on the bound is within
     const Verdict verdict = judge(claim_of("C02"), {.cases = {walk, twist}});
     EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
     EXPECT_EQ(verdict.runs, (std::vector<std::string>{"volume/twist", "volume/walk"}));
@@ -77,7 +77,7 @@ TEST(VolumeIsPreserved, ReproducedWhereEveryCaseHolds)
     EXPECT_EQ(verdict.primary->bound_low, 0.95);
     EXPECT_EQ(verdict.within, 2);
     EXPECT_EQ(verdict.n, 2);
-    EXPECT_EQ(verdict.cases.size(), 4u);  // two cases under two metrics
+    EXPECT_EQ(verdict.cases.size(), 4u);  // two cases with two metrics
 }
 
 TEST(VolumeIsPreserved, FlipsWhenFramesOfAClipFail)
@@ -97,7 +97,7 @@ TEST(VolumeIsPreserved, GainCountsLikeLoss)
 TEST(VolumeIsPreserved, ShareAboveTheBoundWithAnIntervalBelowItDoesNotHold)
 {
     auto walk = clip("walk", "pbs", 24, constant(100, 0.0));
-    for (int i = 40; i < 43; ++i) set_change(walk, i, -2.0);  // 97 % hold, in a block of failures
+    for (int i = 40; i < 43; ++i) set_change(walk, i, -2.0);  // 97 % hold, and the failures are consecutive
     const Verdict verdict = judge(claim_of("C02"), {.cases = {walk}});
     EXPECT_NEAR(verdict.interval.estimate, 0.97, 1e-12);
     EXPECT_LT(verdict.interval.low, 0.95);
@@ -118,20 +118,20 @@ TEST(VolumeIsPreserved, SweepHoldsUpToItsFirstFailure)
     EXPECT_EQ(verdict.cases[0].extent, Extent::part);
     EXPECT_EQ(verdict.cases[1].metric, "volume_abs_change_pct");
     EXPECT_EQ(verdict.cases[1].angles.at(0).to_deg, 20.0);
-    EXPECT_FALSE(verdict.primary);  // sweeps alone
+    EXPECT_FALSE(verdict.primary);  // only sweeps
 
     set_change(twist, 4, -0.5);
     EXPECT_EQ(judge(claim_of("C02"), {.cases = {twist}}).cases[0].angles[0].to_deg, 50.0);
     set_change(twist, 6, -0.5);
     EXPECT_EQ(kind_for("C02", {twist}), VerdictKind::reproduced);
-    set_change(twist, 1, -0.7);  // the rest pose alone holds nothing
+    set_change(twist, 1, -0.7);  // a claim that holds in the rest pose alone holds nowhere
     EXPECT_EQ(kind_for("C02", {twist}), VerdictKind::not_reproduced);
 }
 
 TEST(VolumeIsPreserved, HoldingNearTheRestPoseAloneIsNotEnough)
 {
     auto twist = sweep("twist", "pbs", 24, constant(21, -2.0));
-    for (int i = 0; i <= 4; ++i) set_change(twist, i, 0.0);  // up to 40 of 200 deg: less than a quarter
+    for (int i = 0; i <= 4; ++i) set_change(twist, i, 0.0);  // up to 40 of 200 deg: less than one quarter
     EXPECT_EQ(kind_for("C02", {twist}), VerdictKind::not_reproduced);
     set_change(twist, 5, 0.0);
     EXPECT_EQ(kind_for("C02", {twist}), VerdictKind::reproduced_only_for);
@@ -308,7 +308,7 @@ TEST(OtherOrders, AreJudgedByThemselvesAndAreNoPartOfTheVerdict)
     const auto other = in_order(clip("walk", "pbs", 24, constant(100, -0.9)), "plain", "f64");
     const Verdict verdict = judge(claim_of("C02"), {.cases = {walk, other}});
     EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
-    EXPECT_EQ(verdict.cases.size(), 2u);  // one case under two metrics
+    EXPECT_EQ(verdict.cases.size(), 2u);  // one case with two metrics
     ASSERT_EQ(verdict.orders.size(), 1u);
     EXPECT_EQ(verdict.orders[0].kind, VerdictKind::not_reproduced);
     EXPECT_EQ(verdict.orders[0].own_kind, VerdictKind::reproduced);
@@ -329,7 +329,7 @@ TEST(OtherOrders, FlipWhenTheirRecordsAreAltered)
 
 TEST(OtherOrders, AreComparedOnTheScenesTheyWereRecordedOn)
 {
-    const auto walk = clip("walk", "pbs", 24, constant(100, -0.9));  // fails, and was recorded in one order alone
+    const auto walk = clip("walk", "pbs", 24, constant(100, -0.9));  // fails, and was recorded in only one order
     const auto twist = sweep("twist", "pbs", 24, constant(18, -0.3));
     const Verdict verdict =
         judge(claim_of("C02"), {.cases = {walk, twist, in_order(twist, "grouped", "f32"), in_order(twist, "grouped", "f64")}});
@@ -354,7 +354,7 @@ TEST(VolumeIsPreserved, TheSameBodyOnAnotherMeshIsShownAndNotJudged)
     finer.beside = true;
     const Verdict verdict = judge(claim_of("C02"), {.cases = {walk, finer}});
     EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
-    EXPECT_EQ(verdict.cases.size(), 2u);  // one case under two metrics
+    EXPECT_EQ(verdict.cases.size(), 2u);  // one case with two metrics
     ASSERT_EQ(verdict.compared.size(), 1u);
     EXPECT_EQ(verdict.compared[0].scene, "walk_4800");
     finer.beside = false;

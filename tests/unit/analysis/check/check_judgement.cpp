@@ -1,4 +1,4 @@
-// Truth: tables written here, whose worst frame and differences are seen by eye.
+// Reference: the tables below, whose worst frame and differences are visible at a glance.
 #include "analysis/check/check_judgement.hpp"
 #include "pbs/geometry/input_error.hpp"
 

@@ -1,4 +1,4 @@
-// Truth: GitHub's documented workflow commands; % \r \n are escaped in messages, : and , in properties besides.
+// Reference: GitHub's documented workflow commands; % \r \n are escaped in messages, and also : and , in properties.
 #include "analysis/check/github_report.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// Truth: what the file system holds after each way in which writing can fail. Whole files or none, never a left-over temporary.
+// Reference: the contents of the file system after each way in which writing can fail. Whole files or none, never a remaining temporary
+// file.
 #include "analysis/records/atomic_file.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -80,7 +81,7 @@ TEST_F(AtomicFile, FolderInPlaceOfFileIsRefusedAndNothingIsLeft)
 TEST_F(AtomicFile, ReadOnlyFolderIsRefused)
 {
     fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
-    const bool is_root = geteuid() == 0;  // whom no permission stops
+    const bool is_root = geteuid() == 0;  // permissions do not apply to root
     if (is_root) {
         ASSERT_EQ(seteuid(65534), 0);
     }
@@ -91,7 +92,7 @@ TEST_F(AtomicFile, ReadOnlyFolderIsRefused)
     EXPECT_EQ(files(), 0);
 }
 
-// What require_writable and then a write say; empty: nothing.
+// The messages of require_writable and of a write; empty if there is none.
 std::pair<std::string, std::string> refusals(const std::string& path)
 {
     const auto said_by = [&](auto write) -> std::string {
@@ -121,7 +122,7 @@ TEST_F(AtomicFile, WhatCannotBeWrittenIsSaidBeforehandInTheSameWords)
     EXPECT_EQ(files(), 2);
 }
 
-// A limit on file sizes stands for a full disk: write() ends short with an error.
+// A limit on file sizes simulates a full disk: write() ends early with an error.
 TEST_F(AtomicFile, FullDiskKeepsTheOldFile)
 {
     const std::string path = folder / "metrics.csv";
@@ -138,7 +139,7 @@ TEST_F(AtomicFile, FullDiskKeepsTheOldFile)
     EXPECT_EQ(files(), 1);
 }
 
-// A process that has ended and been waited for: its number is no process's.
+// A process that has ended and been waited for, so its number belongs to no process.
 pid_t ended_process()
 {
     const pid_t process = fork();
@@ -166,13 +167,13 @@ TEST_F(AtomicFile, WhatKilledWritersLeftIsRemovedAndNothingElse)
     analysis::remove_abandoned_files(folder / "missing");
 }
 
-// The writer is killed while its file grows; what it leaves is what is looked for.
+// The writer is killed while its file grows; the remaining file has the name that is searched for.
 TEST_F(AtomicFile, AKilledWriterLeavesTheOldFileAndWhatIsRemoved)
 {
     write_text_atomically(folder / "run.json", "old");
     const pid_t writer = fork();
     if (writer == 0) {
-        std::signal(SIGXFSZ, SIG_DFL);  // kills in the middle of the write
+        std::signal(SIGXFSZ, SIG_DFL);  // kills the process in the middle of the write
         const rlimit small{1000, 1000}, no_core{0, 0};
         setrlimit(RLIMIT_CORE, &no_core);
         setrlimit(RLIMIT_FSIZE, &small);

@@ -1,4 +1,4 @@
-// Truth: RFC 4180 and the identity: what is written reads back to the same bits.
+// Reference: RFC 4180 and the identity: a table that is written reads back to the same bits.
 #include "analysis/records/csv_table.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -159,7 +159,7 @@ TEST(CsvTable, AppendsTheRowsOfOthersUnderOneHead)
     all.append(parse_csv("a,b\n2,\n3,z\n", "second.csv"));
     EXPECT_EQ(all.text(), "a,b\n1,\"x,y\"\n2,\n3,z\n");
     EXPECT_FALSE(all.number_or_nothing(1, "b"));
-    EXPECT_THROW(all.number(2, "b"), pbs::InputError);  // its line is known as well
+    EXPECT_THROW(all.number(2, "b"), pbs::InputError);  // the error names its line as well
 }
 
 TEST(CsvTable, AppendsNoTableOfOtherColumns)

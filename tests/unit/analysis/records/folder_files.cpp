@@ -1,5 +1,5 @@
-// Truth: what was put on disk. Root may do all that modes forbid, so that a folder stands where a file is to be removed, and the other way
-// round.
+// Reference: the files created by the test. Since root may do everything that modes forbid, a folder takes the place of a file to be
+// removed, and the reverse.
 #include "analysis/records/folder_files.hpp"
 
 #include "pbs/geometry/input_error.hpp"

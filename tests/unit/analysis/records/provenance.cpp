@@ -1,4 +1,4 @@
-// Truth: what a reader of a record must find, and what must never be in one (host, user, folders).
+// Reference: the facts that every record must contain, and those that none may contain (host, user, folders).
 #include "analysis/records/provenance.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Truth: Unicode's definition of UTF-8 (RFC 3629).
+// Reference: Unicode's definition of UTF-8 (RFC 3629).
 #include "analysis/records/record_text.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Truth: the test vector of XXH3 128 for empty input with seed 0 (xxHash's own sanity test), and the command `xxhsum -H2` for a file.
+// Reference: the test vector of XXH3 128 for empty input with seed 0 (xxHash's own sanity test), and the command `xxhsum -H2` for a file.
 #include "analysis/records/state_hash.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Truth: RFC 4180 and the identity: rows that are written read back as they were.
+// Reference: RFC 4180 and the identity: rows that are written read back unchanged.
 #include "analysis/records/typed_table.hpp"
 
 #include "pbs/geometry/input_error.hpp"
