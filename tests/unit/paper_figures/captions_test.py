@@ -1,4 +1,4 @@
-"""Truth: the definition. The numbers of a caption are those of the rows behind its figure, and none stands in it that another run would
+"""Reference: the definition. The numbers of a caption are those of the rows behind its figure, and it contains none that another run would
 change."""
 import contextlib
 import csv
@@ -21,7 +21,7 @@ import records  # noqa: E402
 import synthetic_records  # noqa: E402
 
 listed = {entry.name: entry for entry in entries.read()}
-extents_differ = {"convergence", "jiggle", "stability", "stiffness", "volume", "work_precision"}  # fewer settings in a quick run
+extents_differ = {"convergence", "jiggle", "stability", "stiffness", "volume", "work_precision"}  # a quick run has fewer settings
 same_in_every_run = {"0.5 %", "8 frames in 10", "24 iterations", "after 24", "90 degrees", "2007", "4.5e15 N/m", "1 N", "1 m", "01_01"}
 
 

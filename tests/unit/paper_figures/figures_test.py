@@ -1,4 +1,5 @@
-"""Truth: the definition. Records are read by name, what is missing is said, figures show what the records hold and say where it is from."""
+"""Reference: the definition. Records are read by name, errors name what is missing, and figures show the records' values and their
+origin."""
 import contextlib
 import csv
 import io
@@ -69,7 +70,7 @@ class Figures(unittest.TestCase):
         with open(self.results / "figures" / "volume_over_iterations.csv", newline="") as stream:
             signed = [row for row in csv.DictReader(stream) if row["pose"] == "all frames" and row["measure"] == "volume_change_pct"]
         self.assertEqual([(row["iterations"], row["q10"], row["median"], row["q90"]) for row in signed],
-                         [(count, "-3.0", "-2.0", "-1.0") for count in ("1", "24", "96")])  # as recorded, not of the rows
+                         [(count, "-3.0", "-2.0", "-1.0") for count in ("1", "24", "96")])  # from the record, not computed from the rows
 
     def test_a_run_of_an_earlier_version_has_no_order_statistics(self):
         human = self.results / "volume" / "human_01_01"
@@ -168,7 +169,7 @@ class Figures(unittest.TestCase):
             cost = {(row["order"], row["precision"], row["tets"]): float(row["value"]) for row in rows
                     if row["shown"] == "ns_per_constraint"}
             self.assertEqual(len(cost), 8)
-            self.assertAlmostEqual(cost["plain", "f32", "400"], 1000.0)  # 24 us a constraint and step of 24 iterations
+            self.assertAlmostEqual(cost["plain", "f32", "400"], 1000.0)  # 24 us per constraint and step of 24 iterations
             self.assertAlmostEqual(cost["ordered", "f64", "5000"], 250.0)
             self.assertEqual({row["value"] for row in rows if row["shown"] == "speedup_by_threads"}, {"1.5"})
             band = next(row for row in rows if (row["order"], row["precision"], row["tets"]) == ("plain", "f32", "400"))
@@ -182,7 +183,7 @@ class Figures(unittest.TestCase):
             roofs = [row for row in rows if row["shown"] == "roof"]
             self.assertEqual([row["roof"] for row in roofs], ["multiply-add", "L1", "L2", "L3", "memory"] * 2)
             for row in roofs:
-                if row["gb_s"]:  # they meet the peak where they end
+                if row["gb_s"]:  # they meet the peak at their end
                     self.assertAlmostEqual(float(row["gb_s"]) * float(row["flops_per_byte"]), float(row["gflops"]))
             (results / "bench" / "bench.json").unlink()
             with contextlib.redirect_stderr(io.StringIO()) as said:

@@ -1,5 +1,5 @@
-"""Truth: the definition. Every figure is listed with what it needs, and none is drawn from records that are missing or do not belong
-together."""
+"""Reference: the definition. Every figure is listed with the records that it needs, and none is drawn from records that are missing or do
+not belong together."""
 import contextlib
 import importlib
 import inspect
@@ -23,7 +23,7 @@ import synthetic_tables  # noqa: E402
 
 
 def drawn(results, only=None):
-    """Exit status of make_all, and what it said to whom it may concern."""
+    """Exit status and output of make_all."""
     said = io.StringIO()
     with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(said):
         status = make_all.main(results, only)
@@ -106,7 +106,7 @@ class Planned(unittest.TestCase):
 
     def test_what_is_not_on_record_stands_in_the_caption(self):
         self.plan("limb_twist_90", "human_crouch", "man_crouch")
-        synthetic_tables.write_origin(self.results / "work_precision" / "man_crouch")  # run, and its table not kept
+        synthetic_tables.write_origin(self.results / "work_precision" / "man_crouch")  # a run whose table was not kept
         self.assertEqual(drawn(self.results, "error_parts"), (0, ""))
         self.assertTrue((self.results / "figures" / "error_parts.caption.txt").read_text()
                         .endswith(" Planned and not on record, 2 of 3: human_crouch, man_crouch.\n"))
@@ -152,7 +152,7 @@ class Staleness(unittest.TestCase):
     def test_two_revisions_in_one_figure(self):
         synthetic_tables.write_origin(self.volume / "limb_bend", of="f" * 40)
         self.assert_stale(f"of revision 0123456789, {self.volume / 'limb_bend'} of ffffffffff")
-        self.assertEqual(drawn(self.results, "volume_over_clip")[0], 0)  # of one revision
+        self.assertEqual(drawn(self.results, "volume_over_clip")[0], 0)  # all runs have one revision
 
     def test_a_dirty_tree_is_another_revision(self):
         run = self.volume / "limb_bend" / "run.json"

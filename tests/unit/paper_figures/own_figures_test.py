@@ -1,5 +1,5 @@
-"""Truth: the definition. The paper's own figures show what the frames on record hold, say whose body and motion it is, and refuse
-without; every figure says which runs it is of."""
+"""Reference: the definition. The paper's own figures show the recorded frames, name the origin of body and motion, and are refused without
+records; every figure names its runs."""
 import csv
 import importlib
 import json
@@ -65,7 +65,7 @@ class OwnFigures(unittest.TestCase):
         frames = self.frames()
         self.assertEqual(frames.frame_at_angle(70), 7)
         self.assertEqual(frames.row("pbs", 7)["min_section_pct"], "93")
-        self.assertEqual(frames.skin("lbs", 2), frames.tets("lbs", 2))  # no rendered surface: the tets' boundary
+        self.assertEqual(frames.skin("lbs", 2), frames.tets("lbs", 2))  # without a rendered surface, the boundary of the tets
         self.assert_missing("lbs_000099.vtu: does not exist", lambda: frames.tets("lbs", 99))
         self.assert_missing("no deformer labelled pbs_jiggle", lambda: frames.row("pbs_jiggle", 1))
         self.assert_missing("bones.csv: no frame 99", lambda: frames.bones(99))
@@ -91,15 +91,15 @@ class OwnFigures(unittest.TestCase):
         at_rest = numpy.array(synthetic_frames.skin_of(synthetic_frames.rest))
         numpy.testing.assert_allclose(away_mm, 1000 * 0.1 * (1.1 - 1.05) * 3 * numpy.linalg.norm(at_rest, axis=1), atol=1e-9)
         tets = frames.tets("pbs", 3)
-        self.assertEqual(recorded_distances.bone_under(frames, 2, tets), "bone 0")  # the first tet's first corner carries it alone
-        self.assertEqual(recorded_distances.bone_under(frames, 1, tets), "bone 2")  # -1/2 of vertex 1, equal halves of 2, 3 and 4
+        self.assertEqual(recorded_distances.bone_under(frames, 2, tets), "bone 0")  # only the first corner of the first tet carries it
+        self.assertEqual(recorded_distances.bone_under(frames, 1, tets), "bone 2")  # -1/2 of vertex 1, and equal halves of 2, 3 and 4
 
     def test_heading_is_forward_along_the_floor(self):
         tails = {"hip.L": [0, 1, -1.0], "hip.R": [0, 0.5, 1.0]}
         bones = [recorded_frames.Bone(name, None, numpy.array(tail)) for name, tail in tails.items()]
         forward, left = recorded_frames.heading_of(bones)
         numpy.testing.assert_allclose(left, [0, 0, -1])
-        numpy.testing.assert_allclose(forward, [1, 0, 0])  # left x up
+        numpy.testing.assert_allclose(forward, [1, 0, 0])  # left cross up
 
     def test_licences_are_those_of_what_is_shown(self):
         file = self.results / "frames" / "limb_bend" / "run.json"
@@ -121,7 +121,7 @@ class OwnFigures(unittest.TestCase):
         with open(figures / "fig_06_constraints.csv", newline="") as stream:
             rows = {row["state"]: row for row in csv.DictReader(stream)}
         growth = 1 + 0.1 * synthetic_frames.labels["pbs"] * 9
-        self.assertEqual(rows["rest"]["tet"], "1")  # points 2 to 5: the one that the records call squeezed most
+        self.assertEqual(rows["rest"]["tet"], "1")  # points 2 to 5: the tet that is compressed most in the records
         self.assertAlmostEqual(float(rows["rest"]["volume_cm3"]), 1e6 / 3)
         self.assertAlmostEqual(float(rows["pbs"]["volume_cm3"]), growth ** 3 * 1e6 / 3, places=3)
         self.assertAlmostEqual(float(rows["rest"]["length_12_mm"]), 1000 * 2 ** 0.5)
@@ -165,7 +165,7 @@ class Origin(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             results = pathlib.Path(folder)
             synthetic_records.write_study(results)
-            synthetic_tables.write_origin(results / "volume" / "a_first", of="f" * 40)  # before them in the alphabet
+            synthetic_tables.write_origin(results / "volume" / "a_first", of="f" * 40)  # before them in alphabetical order
             scenes = {}
             for name in ("limb_twist", "limb_bend"):
                 run = results / "volume" / name / "run.json"

@@ -1,4 +1,4 @@
-"""Truth: the definition. A plot shows the rows that it says it shows, with their numbers: in the CSV behind it and under the pointer."""
+"""Reference: the definition. A plot shows the rows that it names, with their numbers in the CSV behind it and under the pointer."""
 import contextlib
 import csv
 import io
@@ -28,7 +28,7 @@ class Plots(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.results = pathlib.Path(folder.name)
-        style.matplotlib.rcParams["savefig.dpi"] = 60  # quick
+        style.matplotlib.rcParams["savefig.dpi"] = 60  # makes the tests quick
 
     def drawn(self, name):
         """The rows of the CSV behind a figure."""
@@ -42,14 +42,14 @@ class Plots(unittest.TestCase):
             return list(csv.DictReader(stream))
 
     def titles(self, x_label):
-        """What the pointer shows in the panels of this x axis."""
+        """The titles under the pointer in the panels with this x axis."""
         page = ElementTree.parse(self.stem.with_suffix(".svg"))
         return [title.text for group in page.iter(svg + "g") if group.get("data-x") == x_label for title in group.iter(svg + "title")]
 
     def test_titles_of_a_line_are_its_numbers(self):
         synthetic_records.write_study(self.results)
         rows = [row for row in self.drawn("volume_over_angle") if row["deformer"] == "lbs" and row["scene"] == "limb_twist"]
-        shown = [title for title in self.titles("") if title.startswith("LBS: ")]  # the axis is named below
+        shown = [title for title in self.titles("") if title.startswith("LBS: ")]  # the label of the axis is below
         expected = ["LBS: {:.6g}, {:.6g}".format(float(row["angle_deg"]), float(row["volume_change_pct"])) for row in rows]
         self.assertEqual(shown[:len(expected)], expected)
 
@@ -68,7 +68,7 @@ class Plots(unittest.TestCase):
     def test_convergence(self):
         synthetic_tables.write_convergence(self.results / "convergence")
         rows = self.drawn("convergence_iterations")
-        self.assertEqual(len(rows), 3 * 2 * 4 * 4)  # cases, measures, starts, iterations
+        self.assertEqual(len(rows), 3 * 2 * 4 * 4)  # cases, measures, initial guesses, iterations
         values = {(row["case"], row["start"], row["measure"], float(row["iteration"])): float(row["value"]) for row in rows}
         self.assertEqual(values["human", "lbs", "error_joint_pct", 24.0], 60.0 / 25)
         self.assertEqual(values["limb_twist", "rest_pose", "combined", 0.0], 3.0)
@@ -114,7 +114,7 @@ class Plots(unittest.TestCase):
         synthetic_tables.write_stability(self.results / "stability")
         self.assertEqual(len(self.drawn("stability_maps")), 2 * 6)
         shown = self.titles("iterations")
-        self.assertIn("diverged: 10, 90", shown)  # as the axes name the cell
+        self.assertIn("diverged: 10, 90", shown)  # the names of the cell as on the axes
         self.assertIn("converged: at rest, as if undisturbed: 1, 0", shown)
         self.assertEqual(len(shown), 6)
         rows = self.drawn("stability_cells")
@@ -127,7 +127,7 @@ class Plots(unittest.TestCase):
         self.assertEqual([(float(row["k_stretch"]), float(row["frequency_hz"])) for row in rows], [(0.1, 10.0), (0.4, 20.0)])
         shown = [title for title in self.titles("k_stretch [1]") if title.startswith("neo-Hookean FEM in time, limb: ")]
         self.assertEqual(shown, ["neo-Hookean FEM in time, limb: 0.1, 0.5"])
-        self.assertEqual([title for title in self.titles("") if "FEM" in title], [])  # their frequency was asked for
+        self.assertEqual([title for title in self.titles("") if "FEM" in title], [])  # their frequency was chosen
 
     def test_stiffness_is_of_answers_that_converged(self):
         synthetic_tables.write_stiffness(self.results / "stiffness")
@@ -146,12 +146,12 @@ class Plots(unittest.TestCase):
             rows = self.drawn("stiffness")
         rows = [row for row in rows if (row["body"], row["varied"], row["method"]) == ("limb", "time_step_ms", "pbs")]
         self.assertEqual([row["time_step_ms"] for row in rows], ["10"])
-        self.assertEqual(self.stem.with_suffix(".svg").read_text().count("1 stiffer, left out"), 3)  # once a body
+        self.assertEqual(self.stem.with_suffix(".svg").read_text().count("1 stiffer, left out"), 3)  # once per body
 
     def test_momentum(self):
         synthetic_tables.write_momentum(self.results / "momentum")
         rows = self.drawn("momentum_drift")
-        self.assertEqual(len(rows), 2 * 3 * 3 * 2 * 2)  # bodies, masses, classes, momenta, precisions: not what a pass does
+        self.assertEqual(len(rows), 2 * 3 * 3 * 2 * 2)  # bodies, masses, classes, momenta, precisions, without the rows of a whole pass
         unweighted = [row for row in rows if row["constraints"] == "volume" and row["masses"] == "unequal_by_eq_8_9"]
         self.assertEqual({row["drift"] for row in unweighted}, {"0.25"})
         self.assertIn("limb, f32: 0.25, stretch, unequal, Eq. 8\u20139", self.titles("change over the momentum exchanged [1]"))
@@ -167,7 +167,8 @@ class Plots(unittest.TestCase):
         synthetic_tables.write_timing(self.results / "timing")
         rows = self.drawn("timing_sizes")
         stretch_ms = next(float(row["stretch_ms"]) for row in rows if (row["variant"], row["mesh"]) == ("plain", "man_1654"))
-        self.assertIn(f"stretch: {stretch_ms:.6g}, man, 1,654", self.titles("processor time of a frame [ms]"))  # not LBS and bind with it
+        # LBS and bind are not included
+        self.assertIn(f"stretch: {stretch_ms:.6g}, man, 1,654", self.titles("processor time of a frame [ms]"))
         shown = self.titles("vertices")
         self.assertIn("ordered, f32: 20000, 2.5", shown)
         self.assertIn("paper, by frame rate: 1654, 11", shown)

@@ -1,5 +1,5 @@
-"""README's tables are the records': what stands between two markers is written anew, the rest stays, and a README without the markers is
-refused. Truth: the definition."""
+"""The tables of the README come from the records: the text between two markers is written anew, the rest stays, and a README without the
+markers is refused. Reference: the definition."""
 import contextlib
 import io
 import json
@@ -30,7 +30,7 @@ class ReadmeTest(unittest.TestCase):
         self.readme = self.results / "README.md"
 
     def written(self, name, lines_of, text=None):
-        """Exit status and complaints of the script of this name, README being `text`, if not as usual."""
+        """Exit status and error messages of the script of this name for a README with `text`; by default the usual one."""
         self.readme.write_text(text if text is not None else "before\n{}\nold\n{}\nafter\n".format(*readme_part.markers(name)))
         with contextlib.redirect_stderr(io.StringIO()) as said:
             status = readme_part.main(name, lines_of, ["script", str(self.results)], "usage", self.readme)

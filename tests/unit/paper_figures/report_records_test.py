@@ -1,5 +1,5 @@
-"""Records of another shape are refused by the report: file, field, value and rule, exit status 2, no page. Truth: the contract in README.
-Every value of small records takes every other kind in turn, and no answer is a traceback."""
+"""The report refuses records of another shape with file, field, value and rule, exit status 2 and no page. Reference: the contract in
+README. Every value of small records takes every other kind in turn, and no result is a traceback."""
 import contextlib
 import io
 import json
@@ -20,7 +20,7 @@ import synthetic_records  # noqa: E402
 RUN, POSE, PLAN, CLAIMS = "volume/limb_twist/run.json", "work_precision/twist/run.json", "volume/plan.json", "claims.json"
 ANYTHING = (None, True, 3, -1e300, "x", "", [], [3], ["x"], {}, {"x": 3})
 
-# file, where in it, what stands there, what is said of it
+# file, place in it, its content, message
 REFUSED = (
     (RUN, (), [], "expected an object"),
     (RUN, (), 3, "expected an object"),
@@ -67,7 +67,7 @@ REFUSED = (
 
 
 def parts(value, place=()):
-    """Each place in a record; of a list the first and the last."""
+    """Each place in a record; in a list the first and the last."""
     yield place
     if isinstance(value, dict):
         for key, inner in value.items():
@@ -113,7 +113,7 @@ class ReportRecords(unittest.TestCase):
         return json.loads((self.results / name).read_text())
 
     def made(self):
-        """Exit status, what was complained of, whether there is a page."""
+        """Exit status, error messages, whether there is a page."""
         complaints = io.StringIO()
         with contextlib.redirect_stderr(complaints), contextlib.redirect_stdout(io.StringIO()):
             status = report.main(self.results)

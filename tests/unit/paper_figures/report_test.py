@@ -1,4 +1,4 @@
-"""Truth: the definition. The page's sentences and tables say what small records hold, it loads nothing, and it says what is missing."""
+"""Reference: the definition. The page's sentences and tables agree with small records, it loads nothing, and it names what is missing."""
 import contextlib
 import html.parser
 import io
@@ -22,7 +22,7 @@ from report import answers, costs, errors, figures, markup, origin, record_set  
 
 
 class Page(html.parser.HTMLParser):
-    """What is on it: ids, links, what would be loaded, headings, unclosed elements."""
+    """The contents of a page: ids, links, what would be loaded, headings, unclosed elements."""
 
     void = {"meta", "link", "img", "br", "input"}
 
@@ -57,7 +57,7 @@ class Report(unittest.TestCase):
         self.addCleanup(without_viewer.stop)
 
     def make(self):
-        """Exit status, the page's text, what was said and what was complained of."""
+        """Exit status, the text of the page, output and error messages."""
         said, complaints = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(complaints):
             status = report.main(self.results)
@@ -147,7 +147,7 @@ class Report(unittest.TestCase):
         synthetic_records.write_claims(self.results)
         text = self.make()[1]
         body = re.sub(r"<style>.*?</style>|<script>.*?</script>", "", text, flags=re.S)
-        self.assertEqual(len(re.findall("(?i)reproduced in part", body)), 5)  # counted, chip, when not, row, behind it
+        self.assertEqual(len(re.findall("(?i)reproduced in part", body)), 5)  # count, chip, section on limits, row, data behind it
         for other in ("in part, 1 ", "hold in part", "holds in part", "reproduced only"):
             self.assertNotIn(other, body.replace("is reproduced in part, 1 ", ""))
 
@@ -192,7 +192,7 @@ class Report(unittest.TestCase):
         (self.results / "volume" / "costs.csv").write_text("run,expected_cpu_s,cpu_s\na,10,60\nb,20,120\n")
         found = record_set.RecordSet(self.results)
         self.assertEqual(costs.sentence(found), "These records took 3 min of processor time (1 study).")
-        self.assertIn("<td>30</td><td>180</td><td>\u2013</td>", costs.section(found))  # of an earlier version: no wall time
+        self.assertIn("<td>30</td><td>180</td><td>\u2013</td>", costs.section(found))  # an earlier version recorded no wall time
 
     def test_wall_time_and_the_size_of_a_study_stand_beside_its_cost(self):
         synthetic_records.write_study(self.results)
@@ -339,7 +339,7 @@ class Report(unittest.TestCase):
 
 
 class Contrast(unittest.TestCase):
-    """WCAG 2.1, 1.4.3: text against its ground at 4.5 or more."""
+    """WCAG 2.1, 1.4.3: a contrast of text against its background of 4.5 or more."""
 
     def luminance(self, color):
         color = "".join(2 * digit for digit in color[1:]) if len(color) == 4 else color[1:]

@@ -1,4 +1,5 @@
-"""README's picture shows the records' numbers, and a run that disagrees with the records is refused. Truth: the kept records."""
+"""The picture of the README shows the records' numbers, and a run that disagrees with the records is refused. Reference: the kept
+records."""
 import csv
 import math
 import pathlib

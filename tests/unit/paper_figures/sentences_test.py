@@ -1,4 +1,4 @@
-"""Sentences say what the facts of small claims hold. Truth: the definition."""
+"""Sentences agree with the facts of small claims. Reference: the definition."""
 import pathlib
 import sys
 import tempfile

@@ -1,5 +1,5 @@
-"""Truth: the definition. A still shows tets in the colours of its bar, hides nothing that stands before it, and a clip plays at the
-records' speed. Needs a display: xvfb-run gives one."""
+"""Reference: the definition. A still shows tets in the colours of its bar and hides nothing in front of them, and a clip plays at the speed
+of the records. VTK needs a display; xvfb-run provides one."""
 import pathlib
 import sys
 import tempfile
@@ -36,16 +36,16 @@ class Stills(unittest.TestCase):
         return rendering.Stage(*size, background=(0.0, 0.0, 1.0)).shot(actors, view)
 
     def assert_hue(self, pixel, color):
-        """Shade aside: the channels in the proportions of the colour."""
+        """Compares hues without shading: the channels have the proportions of the colour."""
         numpy.testing.assert_allclose(pixel / pixel.max(), numpy.array(color) / max(color), atol=0.05)
 
     def test_tets_have_the_colours_of_the_bar(self):
         frames = self.write("limb_twist")
-        for frame in (0, 2, 3):  # in frame 2 it is inside out
+        for frame in (0, 2, 3):  # it is inverted in frame 2
             ratio = synthetic_frames.ratios_of("lbs", frame)[0]
             color = rendering.inverted_color if ratio < 0 else rendering.ratio_colors(rendering.ratio_scale(ratio))[:3]
             around = self.shot([rendering.tets(frames.tets("lbs", frame))], 0.3 * frame)[30:60, 45:75].reshape(-1, 3)
-            self.assert_hue(around[around.sum(axis=1).argmax()], color)  # the brightest: glare would wash it out
+            self.assert_hue(around[around.sum(axis=1).argmax()], color)  # the brightest pixel: a highlight would change its hue
 
     def test_the_scale_reads_in_grey_and_inverted_is_darker_than_all_of_it(self):
         colors = numpy.array([*rendering.ratio_colors(numpy.linspace(0, 1, 50))[:, :3], rendering.inverted_color])
@@ -65,11 +65,11 @@ class Stills(unittest.TestCase):
         self.assertLess(numpy.count_nonzero((plain != moved).any(axis=2)), 10)
         self.assertGreater(numpy.count_nonzero((plain != [0, 0, 255]).any(axis=2)), 100)
         hidden = self.shot([*bodies.bones([bone], 0.02), bodies.skin(self.write("limb_bend").tets("lbs", 0))])
-        self.assertTrue((hidden[size[1] // 2, size[0] // 2] > 60).any())  # the bone, black, lies within the tet
+        self.assertTrue((hidden[size[1] // 2, size[0] // 2] > 60).any())  # the bone, which is black, lies within the tet
 
     def test_the_cut_keeps_the_tets_behind_it(self):
         data = rendering.read(self.write("limb_bend").tets("lbs", 0))
-        ahead_m = numpy.array([-1.0, -0.1, -0.1, -0.1, 2.0])  # the second tet reaches far before the cut
+        ahead_m = numpy.array([-1.0, -0.1, -0.1, -0.1, 2.0])  # the second tet extends far in front of the cut
         kept = bodies.cut_open(data, ahead_m).GetMapper().GetInput()
         self.assertEqual(kept.GetNumberOfCells(), 4)
         self.assertEqual(kept.GetBounds(), (0, 1, 0, 1, 0, 1))
@@ -84,7 +84,7 @@ class Stills(unittest.TestCase):
             self.assertEqual((clip.n_frames, clip.width), (4, 3 * clip_jump.pixels[0]))
             clip.seek(1)
             clip.load()
-            self.assertEqual(clip.info["duration"], 10)  # frames 0.01 s apart
+            self.assertEqual(clip.info["duration"], 10)  # frames at intervals of 0.01 s
         self.assertIn(b"abc", file.read_bytes())
         self.assertIn(b"whose it is", file.read_bytes())
 

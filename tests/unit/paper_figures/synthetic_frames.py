@@ -1,10 +1,10 @@
-"""Recorded frames of a run in the layout of the study `frames`: two tets that grow, so that every number can be foreseen."""
+"""Recorded frames of a run in the layout of the study `frames`: two tets that grow, so that every number can be predicted."""
 import csv
 import json
 
 rest = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 1.0, 1.0)]
 tets = [(0, 1, 2, 3), (1, 2, 3, 4)]
-labels = {"snh_p1": 1.0, "lbs": 1.1, "dqs": 1.2, "pbs": 1.05}  # how fast each grows
+labels = {"snh_p1": 1.0, "lbs": 1.1, "dqs": 1.2, "pbs": 1.05}  # the rate at which each grows
 vtu = """<?xml version="1.0"?>
 <VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian"><UnstructuredGrid>
 <Piece NumberOfPoints="5" NumberOfCells="2">
@@ -39,7 +39,7 @@ def skin_of(positions):
 
 
 def ratios_of(label, frame):
-    """The first tet turns inside out in frame 2 of LBS."""
+    """The first tet is inverted in frame 2 of LBS."""
     return (-0.25 if (label, frame) == ("lbs", 2) else 1 + 0.1 * frame, 0.5)
 
 
@@ -57,7 +57,7 @@ def error_m(label, frame):
 
 
 def write_skin(folder):
-    """The rendered surface at rest, and what carries it."""
+    """The rendered surface at rest, and the tets that carry it."""
     (folder / "surface_rest.vtp").write_text(skin.format(positions=text(skin_of(rest))))
     with open(folder / "embedding.csv", "w", newline="") as stream:
         table = csv.writer(stream)
@@ -66,7 +66,7 @@ def write_skin(folder):
 
 
 def write_bones(folder, frames):
-    """bones.csv: two of them along x, in frame f at z = f; bones_rest.csv: the same at z = 0."""
+    """bones.csv: two bones along x, in frame f at z = f; bones_rest.csv: the same at z = 0."""
     ends = [f"{end}_{axis}_m" for end in ("head", "tail") for axis in "xyz"]
     with open(folder / "bones.csv", "w", newline="") as stream, open(folder / "bones_rest.csv", "w", newline="") as resting:
         posed, at_rest = csv.writer(stream), csv.writer(resting)

@@ -1,4 +1,4 @@
-"""Records in the layout of a run's directory, with made-up numbers that a test can foresee."""
+"""Records in the layout of a run's directory, with invented numbers that a test can predict."""
 import csv
 import json
 
@@ -27,7 +27,7 @@ def write_run(folder, frames=37, last_angle_deg=180.0):
 
 
 def write_frame_statistics(folder, deformer, iterations, **figures):
-    """One more row; p10, median and p90 of the volume's change are -3, -2 and -1 %, unless told."""
+    """One more row; p10, median and p90 of the change of volume are -3, -2 and -1 %, unless given."""
     shown = {"volume_change_p10_pct": -3.0, "volume_change_median_pct": -2.0, "volume_change_p90_pct": -1.0,
              "volume_abs_change_p10_pct": 1.0, "volume_abs_change_median_pct": 2.0, "volume_abs_change_p90_pct": 3.0,
              "error_joint_least_pct": "",
@@ -113,8 +113,8 @@ def write_fit(results):
 
 
 def write_work_precision(results):
-    """PBS: an error of 40 % / n after n iterations of a millisecond each; the reference's own is 15 % at most, the second solution 3 %
-    away."""
+    """PBS: an error of 40 % / n after n iterations of a millisecond each; the reference's own error is at most 15 %, and the second
+    solution differs by 3 %."""
     folder = results / "work_precision"
     (folder / "limb").mkdir(parents=True)
     (folder / "limb" / "run.json").write_text(json.dumps(origin))
@@ -137,7 +137,8 @@ def write_work_precision(results):
 
 
 def write_bench(results):
-    """A step of c microseconds a constraint, c = 24 for plain, 3 for ordered in f32, twice that in f64; two threads bring 1.5."""
+    """A step takes c microseconds per constraint, c = 24 for plain, 3 for ordered in f32, twice that in f64; two threads give a speedup of
+    1.5."""
     folder = results / "bench"
     (folder / "timings").mkdir(parents=True)
     (folder / "timings" / "run.json").write_text(json.dumps(origin))
@@ -175,7 +176,7 @@ def interval(estimate, low=None, high=None):
 
 
 def judged_run(body, motion, holds, mean, share, angles=None):
-    """A run of a scene as claims.json has it; angles: of a sweep."""
+    """A run of a scene as in claims.json; angles: of a sweep."""
     return {"body": body, "motion": motion, "deformer": "pbs", "iterations": 24, "quantity": "volume_change_pct",
             "statistic": "share_of_frames", "unit": "1", "value": share["estimate"], "low": share["low"], "high": share["high"],
             "holds": holds, "scene": f"{body}_{motion}", "run": "volume/limb_twist", "frames": 50, "sweep": angles is not None,
@@ -202,7 +203,7 @@ def value(quantity, number, low=None, high=None, unit="1", **key):
 
 
 def write_claims(results, statement="Volume is kept."):
-    """One claim of each kind: kept in part over a sweep and two clips, real time, in print, untestable."""
+    """One claim of each kind: held in part over a sweep and two clips, real time, about printed values, untestable."""
     runs = [judged_run("limb", "twist", "part", interval(-0.2), interval(0.9), [[0.0, 175.0]]),
             judged_run("human", "walk", "none", interval(-0.6, -0.7, -0.5), interval(0.4, 0.3, 0.5)),
             judged_run("human", "jump", "whole", interval(-0.1, -0.2, 0.0), interval(0.975, 0.96, 0.99))]
@@ -230,8 +231,8 @@ def write_claims(results, statement="Volume is kept."):
 
 
 def write_poses(results):
-    """Two poses of work_precision with PBS at 24 iterations, at another k_stretch and on a coarser mesh; in one the reference meets
-    itself."""
+    """Two poses of work_precision with PBS at 24 iterations, at another k_stretch and on a coarser mesh; in one of them the reference
+    collides with itself."""
     for pose, lbs, pbs, bar, meets in (("twist", 50.0, 20.0, 10.0, 0), ("crouch", 30.0, 8.0, 15.0, 1)):
         folder = results / "work_precision" / pose
         folder.mkdir(parents=True)
@@ -250,7 +251,7 @@ def write_poses(results):
 
 
 def write_timing(results):
-    """Two meshes of the paper's sizes, and one that is none."""
+    """Two meshes of sizes in the paper, and one of another size."""
     (results / "timing" / "man").mkdir(parents=True)
     (results / "timing" / "man" / "run.json").write_text(json.dumps({"provenance": {"version": "0.1.0", "git_revision": revision}}))
     rows = [{"mesh": mesh, "variant": variant, "precision": precision, "total_wall_ms": ms * scale, "frames_per_s": 1000 / (ms * scale),

@@ -1,4 +1,4 @@
-"""Tables of the studies that plots show, in their columns, with made-up numbers that a test can foresee."""
+"""Tables of the studies that plots show, in their columns, with invented numbers that a test can predict."""
 import csv
 import itertools
 import json
@@ -25,7 +25,7 @@ def write_runs(study, runs):
 
 
 def write_convergence(study):
-    """Residuals 1 / (1 + i) and errors of 60 % / (1 + i) from LBS, twice that from the second start and so on."""
+    """Residuals 1 / (1 + i) and errors of 60 % / (1 + i) from LBS, twice that from the second initial guess and so on."""
     paths = {"limb_twist": "twist 90", "limb_bend": "bend 90", "human": "01_01 crouch"}
     write_runs(study, [*paths, "ladder_twist", "ladder_bend"])
     starts = list(enumerate(("lbs", "previous_frame", "rest_pose", "rigid_bind"), 1))
@@ -44,7 +44,7 @@ def write_convergence(study):
 
 
 def write_error_parts(study):
-    """Solver 30 % / n beside a model of 20 %; other k_stretch, orders and substeps are not of the figure."""
+    """A solver part of 30 % / n and a model part of 20 %; rows with other k_stretch, orders and substeps are not part of the figure."""
     write_origin(study / "limb_twist_90")
     settings = [("ordered", 0.2, ""), ("plain", 0.2, ""), ("ordered", 0.9, ""), ("ordered", 0.2, ", 2 substeps")]
     write(study / "limb_twist_90" / "points.csv",
@@ -54,7 +54,7 @@ def write_error_parts(study):
 
 
 def write_error_split(study):
-    """As above; beneath, flesh held by the bind constraint is reached in the twist and not in the bend."""
+    """As above; in the lower panels, flesh held by the bind constraint converges in the twist and not in the bend."""
     for scene, angle_deg in (("limb_twist", 90), ("limb_bend", 60)):
         write_origin(study / scene)
         pose = {"scene": scene, "angle_deg": angle_deg}
@@ -68,7 +68,8 @@ def write_error_split(study):
 
 
 def write_artefacts(study):
-    """Sections every 10 cm: LBS leaves half of the area, DQS a tenth more, PBS and the elements all; on another mesh nought."""
+    """Sections every 10 cm: LBS leaves half of the area, DQS has a tenth more, PBS and the elements keep all; on another mesh the area is
+    zero."""
     cases = {"limb_twist": ("twist 90 deg", "twist 180 deg"), "limb_bend": ("bend 60 deg", "bend 90 deg"),
              "human_twist_forearm_upper.L": ("twist 90 deg",), "human_bend_shin.L": ("bend 90 deg",)}
     areas = {"lbs": 0.5, "dqs": 1.1, "pbs": 1.0, "snh_p1": 0.9, "snh_p2": 1.0, "delta_mush": 1.0}
@@ -83,7 +84,7 @@ def write_artefacts(study):
 
 
 def write_stability(study):
-    """Every outcome once in the maps; in the cells one factor by two methods."""
+    """Every outcome once in the maps; in the cells one factor for two methods."""
     outcomes = ["converged", "bounded", "inverted", "diverged", "not_finite", "converged"]
     maps = {"map_time_step_k_stretch": ("time step", "s", "k_stretch", "1"), "map_iterations_twist": ("iterations", "1", "twist", "deg")}
     write_origin(study / "pbs_maps")
@@ -99,7 +100,7 @@ def write_stability(study):
 
 
 def write_jiggle(study):
-    """A frequency of 10 Hz that goes as the root of k_stretch; with k_stretch 1 the swing is too short."""
+    """A frequency of 10 Hz that is proportional to the root of k_stretch; with k_stretch 1 the swing is too short."""
     def row(deformer="pbs", k=0.1, step=10, iterations=24):
         return {"deformer": deformer, "k_stretch": k, "time_step_ms": step, "iterations": iterations, "masses": "unit", "k_bind": 1,
                 "outcome": "too_short" if k == 1 else "found", "frequency_hz": 10 * (k / 0.1) ** 0.5, "frequency_low_hz": 9,
@@ -112,8 +113,8 @@ def write_jiggle(study):
 
 
 def write_stiffness(study):
-    """10 N/m an iteration over the time step squared; XPBD 50 N/m; what did not converge, is of another order or of a stiffer
-    material is not of the figure."""
+    """10 N/m per iteration over the time step squared; XPBD 50 N/m; rows that did not converge, have another order or a stiffer material
+    are not part of the figure."""
     for body, load in (("bar", "cantilever"), ("limb", "zone on held"), ("human", "zone on held")):
         for run, values in (("iterations", (6, 24)), ("time_step", (5, 10)), ("resolution", (300, 600))):
             write_origin(study / f"{run}_{body}")
@@ -130,7 +131,7 @@ def write_stiffness(study):
 
 
 def write_momentum(study):
-    """Rounding where masses weigh, a quarter where they do not; all to the bones."""
+    """Only rounding if masses are weighted, a quarter if they are not; all of it to the bones."""
     masses = {"equal": 1e-6, "unequal": 1e-6, "unequal_by_eq_8_9": 0.25}
     for body in ("limb", "human"):
         write_origin(study / body)
@@ -143,7 +144,7 @@ def write_momentum(study):
 
 
 def write_timing(study):
-    """A microsecond a vertex with plain loops, an eighth of it in order; one mesh is as large as one of the paper's."""
+    """A microsecond per vertex with plain loops, an eighth of it in order; one mesh has the size of one of the paper's."""
     write_origin(study / "man_1654")
     write(study / "timing.csv",
           [{"mesh": f"man_{vertices}", "body": "man", "variant": variant, "precision": precision, "vertices": vertices,
@@ -155,7 +156,7 @@ def write_timing(study):
 
 
 def write_features(study):
-    """Sleep halves a frame of the limb; the human's has one feature more."""
+    """Sleep halves the time of a frame of the limb; the human has one more feature."""
     for scene, features in (("limb", ("sleep",)), ("human", ("sleep", "rendered surface"))):
         write_origin(study / scene)
         write(study / scene / "features.csv",

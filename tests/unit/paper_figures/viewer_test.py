@@ -1,5 +1,5 @@
-"""Truth: the definition. What is packed for the viewer stands for what was recorded, within what the header states; what is missing is
-said, and no page is made from half of it."""
+"""Reference: the definition. The packed data represent the records within what the header states; errors name what is missing, and no page
+is made from incomplete data."""
 import base64
 import gzip
 import json

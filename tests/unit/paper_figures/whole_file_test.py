@@ -1,4 +1,4 @@
-"""Figures are whole or not there. Truth: what the folder holds after each way in which drawing can end."""
+"""Figures are complete or do not exist. Reference: the contents of the folder after each way in which drawing can end."""
 import os
 import pathlib
 import resource
@@ -25,7 +25,7 @@ class WholeFile(unittest.TestCase):
         return sorted(path.name for path in self.folder.iterdir())
 
     def drawn_elsewhere(self, lines):
-        """How a process of its own that draws ended."""
+        """How a separate process that draws has ended."""
         text = f"import os, pathlib, signal, whole_file\nwith whole_file.beside(pathlib.Path({str(self.file)!r})) as path:\n{lines}"
         paths = {**os.environ, "PYTHONPATH": str(pathlib.Path(whole_file.__file__).parent)}
         return subprocess.run([sys.executable, "-B", "-c", text], env=paths, capture_output=True).returncode
@@ -54,7 +54,7 @@ class WholeFile(unittest.TestCase):
 
     def test_a_full_disk_names_the_file_and_the_reason(self):
         usual = resource.getrlimit(resource.RLIMIT_FSIZE)
-        resource.setrlimit(resource.RLIMIT_FSIZE, (1000, usual[1]))  # Python ignores SIGXFSZ: write() fails
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1000, usual[1]))  # Python ignores SIGXFSZ, so write() fails
         self.addCleanup(resource.setrlimit, resource.RLIMIT_FSIZE, usual)
         with self.assertRaisesRegex(whole_file.CannotBeWritten,
                                     "volume.png: cannot be written: File too large"), whole_file.beside(self.file) as path:
@@ -62,7 +62,7 @@ class WholeFile(unittest.TestCase):
         self.assertEqual((self.file.read_text(), self.names()), ("old", ["volume.png"]))
 
     def test_a_reason_that_is_not_the_systems_is_told_in_its_own_words(self):
-        expected = "volume.png: cannot be written: encoder error -2 when writing image file"  # as an image library words it
+        expected = "volume.png: cannot be written: encoder error -2 when writing image file"  # the words of the image library
         with self.assertRaisesRegex(whole_file.CannotBeWritten, expected), whole_file.beside(self.file):
             raise OSError("encoder error -2 when writing image file")
 
@@ -75,7 +75,7 @@ class WholeFile(unittest.TestCase):
         with whole_file.beside(self.folder / "figures" / "new" / "a.png") as path:
             path.write_text("new")
         self.assertEqual((self.folder / "figures" / "new" / "a.png").read_text(), "new")
-        for below in ("volume.png/a.png", "volume.png/figures/a.png"):  # a file where the folder is to be
+        for below in ("volume.png/a.png", "volume.png/figures/a.png"):  # a file where the folder would be
             with self.subTest(below), self.assertRaisesRegex(whole_file.CannotBeWritten, "a.png: cannot be written: "):
                 with whole_file.beside(self.folder / below) as path:
                     path.write_text("new")

@@ -1,4 +1,4 @@
-// Truth: the definition of the packed bytes in viewer_data.py, by hand.
+// Reference: the definition of the packed bytes in viewer_data.py, by hand.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { codes_of, distances_mm, positions_of, ratio_of } from "../../../../paper_figures/viewer/src/codes.js";

@@ -1,4 +1,4 @@
-// Truth: geometry. The faces of a closed surface have the body's volume within and point outwards.
+// Reference: geometry. The faces of a closed surface enclose the body's volume and point outwards.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { area_normal, face_of, kept_by, neighbours_of, seen_faces, triangles_of, vertex_normals }

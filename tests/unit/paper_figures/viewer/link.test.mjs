@@ -1,4 +1,4 @@
-// Truth: the definition. An address and what is shown are the same thing; what is not ours is left alone.
+// Reference: the definition. An address and the view represent each other; an address of other origin is left alone.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { hash_of, pose_of } from "../../../../paper_figures/viewer/src/link.js";

@@ -1,4 +1,4 @@
-// Truth: the definition of what is shown: colours, numbers, panels.
+// Reference: the definition of the view: colours, numbers, panels.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { distance_shade, palette_of, ratio_shades, rgb_of, shade_of } from "../../../../paper_figures/viewer/src/colours.js";

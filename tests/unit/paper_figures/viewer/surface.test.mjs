@@ -1,4 +1,4 @@
-// Truth: an affine map carries barycentric coordinates along, inside a tet and outside.
+// Reference: an affine map preserves barycentric coordinates, inside a tet and outside.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { carried } from "../../../../paper_figures/viewer/src/surface.js";

@@ -1,4 +1,4 @@
-// Truth: the definition. One finger is left to the page, two are the view's own.
+// Reference: the definition. The page handles gestures with one finger, the view those with two.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { keep_level, leave_scrolling } from "../../../../paper_figures/viewer/src/touch.js";
@@ -9,7 +9,7 @@ function panel() {
     return element;
 }
 
-// Whether the page is kept from scrolling and zooming.
+// Whether the page is prevented from scrolling and zooming.
 function is_kept(gesture, fingers, cancelable = true) {
     const event = Object.assign(new Event(gesture, { cancelable }), { touches: Array(fingers).fill({}) });
     panel().dispatchEvent(event);
