@@ -10,9 +10,9 @@
 namespace experiments {
 
 struct FinishedRuns {
-    std::string folder;                // of the study
-    std::vector<std::string> folders;  // one per run that ended, in the plan's order
-    std::vector<std::string> missing;  // names of the planned runs that did not end
+    std::string folder = {};                // of the study
+    std::vector<std::string> folders = {};  // one per run that ended, in the plan's order
+    std::vector<std::string> missing = {};  // names of the planned runs that did not end
 
     bool none() const { return folders.empty(); }
 
