@@ -1,4 +1,4 @@
-# The headers as pages to read, with shapes, units, errors and sources as they stand there: the target `doc`, BUILD/doc/html/index.html.
+# The headers as pages, with their shapes, units, errors and sources: the target `doc` writes BUILD/doc/html/index.html.
 find_package(Doxygen 1.9)
 if(NOT DOXYGEN_FOUND)
     return()
@@ -10,10 +10,10 @@ set(DOXYGEN_USE_MDFILE_AS_MAINPAGE ${PROJECT_SOURCE_DIR}/README.md)
 set(DOXYGEN_STRIP_FROM_PATH ${PROJECT_SOURCE_DIR})
 set(DOXYGEN_STRIP_FROM_INC_PATH ${PROJECT_SOURCE_DIR})
 set(DOXYGEN_FULL_PATH_NAMES YES)
-set(DOXYGEN_FILE_PATTERNS *.hpp)  # and the README below, which is named
+set(DOXYGEN_FILE_PATTERNS *.hpp)  # and the README below, which is listed by name
 set(DOXYGEN_FILTER_PATTERNS "*.hpp=awk -f ${PROJECT_SOURCE_DIR}/cmake/documentation/comments.awk"
     "*.md=sed -E -f ${PROJECT_SOURCE_DIR}/cmake/documentation/links.sed")
-set(DOXYGEN_MARKDOWN_SUPPORT NO)   # of comments: they are plain text
+set(DOXYGEN_MARKDOWN_SUPPORT NO)   # since the comments are plain text
 set(DOXYGEN_EXTRACT_ALL YES)
 set(DOXYGEN_EXTRACT_LOCAL_CLASSES NO)
 set(DOXYGEN_HIDE_UNDOC_RELATIONS NO)

@@ -1,6 +1,6 @@
 # embed_text(TARGET NAMESPACE FILE...): each text file becomes `NAMESPACE::<file_name_with_underscores>`, a const std::string declared in
 # <generated/NAMESPACE_texts.hpp>, so that the program needs no data folder. A README.md is named after its folder: `volume_README_md`.
-# `NAMESPACE::by_name` finds a text by its file's name without the ending, a README.md by its folder's name.
+# `NAMESPACE::by_name` finds a text by the name of its file without the ending, and a README.md by the name of its folder.
 function(embed_text target namespace)
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/generated)
     set(declarations "#pragma once\n\n#include <map>\n#include <string>\n\nnamespace ${namespace} {\n")

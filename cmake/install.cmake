@@ -1,9 +1,9 @@
-# `cmake --install`: the libraries for `find_package(pbs COMPONENTS ...)`, an install component each, and the program with what it needs.
-# Everything is found relative to the prefix, so that an installation may be moved.
+# `cmake --install`: the libraries for `find_package(pbs COMPONENTS ...)`, one install component each, and the program with its data.
+# All paths are relative to the prefix, so that an installation may be moved.
 include(CMakePackageConfigHelpers)
 set(config_folder lib/cmake/pbs)
 
-# pbs_install_libraries(COMPONENT TARGET=NAME...): static libraries, known outside as pbs::NAME.
+# pbs_install_libraries(COMPONENT TARGET=NAME...): installs static libraries, which other projects know as pbs::NAME.
 function(pbs_install_libraries component)
     foreach(pair IN LISTS ARGN)
         string(REPLACE "=" ";" pair ${pair})
@@ -14,14 +14,15 @@ function(pbs_install_libraries component)
     install(EXPORT pbs-${component} FILE pbs-${component}-targets.cmake NAMESPACE pbs:: DESTINATION ${config_folder} COMPONENT ${component})
 endfunction()
 
-# pbs_install_headers(COMPONENT FOLDER...): by the same paths under include/ as in the sources; pbs/geometry's go where their library goes.
+# pbs_install_headers(COMPONENT FOLDER...): installs headers by the same paths below include/ as in the sources. Those of pbs/geometry
+# belong to the component of their library.
 function(pbs_install_headers component)
     foreach(folder IN LISTS ARGN)
         file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
         if(component STREQUAL "method")
             list(FILTER headers EXCLUDE REGEX "/(mesh_io|mesh_remarks|meshing|module)[a-z_]*\\.hpp$")
         endif()
-        set(no_call_for_users  # readers' and meshers' own; text and files of the program; what stands behind the solvers; parts of bodies
+        set(no_call_for_users  # headers internal to readers and meshers, to text and files, to solvers, and to parts of bodies
             "mesh_io_|meshing_|guarded_reading|isolated_reader|reading_limits|packed_bytes|assimp_files|vtk_messages|surface_checks"
             "geometry/(atomic_file|file_limits|nearest_name|number_text|process|stopwatch|text_file|toml_text)"
             "solver/(algorithm_1|hand_over|parallel|plain_projection|project_plain|reordered_projection)"

@@ -1,5 +1,5 @@
-# The program, its modules, and what it reads: bin/, lib/pbskin/ and share/pbskin/. A build has the same folders, so that the program
-# looks in one place, beside its own executable.
+# The program, its modules and its data: bin/, lib/pbskin/ and share/pbskin/. A build has the same folders, so that the program finds them
+# relative to its own executable.
 set(data_folder share/pbskin)
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/${data_folder})
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/paper_figures ${PROJECT_BINARY_DIR}/${data_folder}/paper_figures SYMBOLIC)
@@ -17,20 +17,20 @@ endif()
 install(TARGETS ${programs} RUNTIME DESTINATION bin COMPONENT program)
 install(TARGETS ${modules} LIBRARY DESTINATION lib/pbskin COMPONENT program)
 
-# The scripts that draw, with the viewer where it was built; its sources stay behind.
+# The scripts that draw, with the viewer if it was built, but without the sources of the viewer.
 install(DIRECTORY paper_figures DESTINATION ${data_folder} COMPONENT program
     PATTERN __pycache__ EXCLUDE PATTERN readme EXCLUDE PATTERN node_modules EXCLUDE PATTERN viewer/src EXCLUDE PATTERN viewer/*.json EXCLUDE
     PATTERN viewer/*.mjs EXCLUDE PATTERN viewer/.npmrc EXCLUDE)
 install(DIRECTORY experiments/scenes DESTINATION ${data_folder} COMPONENT program FILES_MATCHING PATTERN *.toml PATTERN *.obj)
 install(FILES CITATION.cff experiments/verdicts/claims.toml DESTINATION ${data_folder} COMPONENT program)
 
-# Parameter sweeps, as bin/pbskin-sweep; the scaling of the distributed reference is for a checkout.
+# Parameter sweeps, as bin/pbskin-sweep. The scaling study of the distributed reference is only part of a checkout.
 install(DIRECTORY experiments/sweeps DESTINATION ${data_folder} COMPONENT program USE_SOURCE_PERMISSIONS
     PATTERN __pycache__ EXCLUDE PATTERN distributed* EXCLUDE)
 file(CREATE_LINK ../${data_folder}/sweeps/sweep.py ${PROJECT_BINARY_DIR}/pbskin-sweep SYMBOLIC)
 install(FILES ${PROJECT_BINARY_DIR}/pbskin-sweep DESTINATION bin COMPONENT program)
 
-# The manual pages, the manual of scene files and the completions, from the program's description of itself.
+# The manual pages, the manual of scene files and the completions, which the program generates.
 find_program(PBS_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
 if(PBS_PYTHON)
     set(pages_folder ${PROJECT_BINARY_DIR}/pages)

@@ -1,5 +1,5 @@
-# The Debian packages, `cmake --workflow --preset package`: pbskin (the program) and libpbs-dev (the libraries). What they depend on is read
-# from what was linked.
+# The Debian packages, `cmake --workflow --preset package`: pbskin (the program) and libpbs-dev (the libraries). Their dependencies follow
+# from the linked libraries.
 set(CPACK_PACKAGE_NAME pbskin)
 set(CPACK_PACKAGE_VENDOR "The pbskin maintainers")
 set(CPACK_PACKAGE_CONTACT "The pbskin maintainers <pbskin@localhost>")
@@ -32,7 +32,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
     "libvtk9-dev, libassimp-dev, libcgal-dev, libpugixml-dev, libtomlplusplus-dev, nlohmann-json3-dev, libgsl-dev, libfmt-dev, \
 libxxhash-dev, libdeal.ii-dev, libsuitesparse-dev, libopenmpi-dev, libtrilinos-ml-dev")
 
-# Kernels for one machine's instructions are for no one else: refused by cpack.
+# cpack refuses kernels that are built for the instructions of one machine.
 set(CPACK_PBS_NATIVE ${PBS_NATIVE})
 set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/cmake/package/portable_only.cmake)
 

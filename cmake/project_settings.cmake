@@ -1,4 +1,4 @@
-# Settings every target of the project shares.
+# Settings that all targets of the project share.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -11,7 +11,7 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
     set(CMAKE_BUILD_TYPE Release CACHE STRING "build type" FORCE)
 endif()
 
-# ccache keeps what uses precompiled headers only under this sloppiness; `env` spares its users a setting of their own.
+# ccache caches objects with precompiled headers only with this sloppiness; `env` sets it for all users.
 find_program(CCACHE ccache)
 if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${CCACHE})
@@ -19,7 +19,7 @@ endif()
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 
-# The include root, the warnings and nothing else; an installation leaves the warnings to its user.
+# Only the include root and the warnings; an installation leaves the warnings to its user.
 add_library(pbs_settings INTERFACE)
 target_include_directories(pbs_settings INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include>)
 target_compile_options(pbs_settings INTERFACE
@@ -28,8 +28,8 @@ target_compile_features(pbs_settings INTERFACE cxx_std_20)
 target_compile_options(pbs_settings INTERFACE "$<INSTALL_INTERFACE:SHELL:-include pbs/geometry/installed_eigen.hpp>")
 target_link_libraries(pbs_settings INTERFACE Eigen3::Eigen)
 
-# unity_build(TARGET): its sources are compiled eight at once, so that their anonymous namespaces are one. Each alone is compiled by the
-# presets dev and package, which find a missing include; GCC 12 warns of its own headers where it inlines more.
+# unity_build(TARGET): compiles the sources eight at once, so that their anonymous namespaces are one. The presets dev and package compile
+# each source alone, which detects a missing include. GCC 12 warns of its own headers where it inlines more.
 function(unity_build target)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ${PBS_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 8)
     if(PBS_UNITY_BUILD)

@@ -1,11 +1,11 @@
-# Shared by ./reproduce and ./check: packages, build, time line. Sourced by bash from the repository root.
+# Functions that ./reproduce and ./check share: packages, build, timeline. Bash sources this file in the repository root.
 # shellcheck shell=bash disable=SC2034,SC2015
 
 packages_file=cmake/packages.txt
 build_folder=build/release
 timeline=()
 
-# Options of the calling script, see its usage().
+# Options of the calling script; see its usage().
 size=--quick
 install=yes
 output=
@@ -13,7 +13,7 @@ jobs=
 
 say() { printf '%s: %s\n' "${0##*/}" "$*"; }
 
-# 2: bad usage or a machine that is not ready.
+# Exits with status 2: the usage is wrong or the machine is not ready.
 refuse() {
     printf '%s: %s\n' "${0##*/}" "$*" >&2
     exit 2
@@ -34,11 +34,11 @@ parse_options() {
         shift
     done
     [[ $jobs ]] || jobs=$(default_jobs)
-    [[ -z $output || $output == /* ]] || output=$OLDPWD/$output  # of the folder the caller stands in
+    [[ -z $output || $output == /* ]] || output=$OLDPWD/$output  # relative to the folder of the caller
     [[ $output ]] || output=results/${0##*/}
 }
 
-# Lines `package group purpose` of the wanted groups.
+# Prints lines `package group purpose` for the given groups.
 packages_of() {
     awk -v wanted=" $* " '!/^#/ && NF { group = $3; name = $1; $1 = $2 = $3 = ""; sub(/^ +(\[[^]]*\] )?/, "")
         if (index(wanted, " " group " ")) print name, group, $0 }' "$packages_file"
@@ -48,16 +48,16 @@ package_is_installed() {
     [[ $(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
 }
 
-# Installs what is missing of GROUP..., after saying what and why.
+# provide_packages GROUP...: prints which packages are missing and their purpose, and installs them.
 provide_packages() {
     if ! command -v dpkg-query >/dev/null; then
-        say "no dpkg on this machine: CMake will tell what is missing (the list is $packages_file)"
+        say "no dpkg on this machine: CMake will report what is missing (the list is $packages_file)"
         return
     fi
     local missing=() name group purpose
     while read -r name group purpose; do
         package_is_installed "$name" && continue
-        [[ $group == full ]] && command -v "$name" >/dev/null && continue  # npm comes from elsewhere as often
+        [[ $group == full ]] && command -v "$name" >/dev/null && continue  # npm is often installed from another source
         ((${#missing[@]})) || say "missing packages:"
         printf '  %-24s (%s) %s\n' "$name" "$group" "$purpose"
         missing+=("$name")
@@ -78,7 +78,7 @@ install_packages() {
     "${apt[@]}" install -y -qq --no-install-recommends "$@" || refuse "apt-get install failed; by hand: $by_hand"
 }
 
-# One compiler at a time needs up to 3 GiB (CGAL, deal.II).
+# One compiler process needs up to 3 GiB (CGAL, deal.II).
 default_jobs() {
     local cores gib
     cores=$(nproc)
@@ -87,7 +87,7 @@ default_jobs() {
     echo $((cores < gib ? cores : gib))
 }
 
-# timed NAME COMMAND...: runs it, keeps its seconds, and returns its status.
+# timed NAME COMMAND...: runs the command, records its seconds, and returns its status.
 timed() {
     local name=$1 start=$SECONDS status=0
     shift
@@ -97,11 +97,12 @@ timed() {
     return "$status"
 }
 
-# The report's viewer, bundled with three.js, where npm is there; it fetches 50 MB, once. Without, the report says how to get it.
+# Builds the report's viewer, bundled with three.js, if npm is installed; npm fetches 50 MB once. Without the viewer, the report states how
+# to get it.
 build_viewer() {
     local folder=paper_figures/viewer
     if ! command -v npm >/dev/null; then
-        say "no npm: the report comes without its viewer; any npm will do (package npm)"
+        say "no npm: the report has no viewer; any version of npm is sufficient (package npm)"
         return 1
     fi
     if [[ ! $folder/node_modules -nt $folder/package-lock.json ]]; then
@@ -119,7 +120,7 @@ print_timeline() {
     say "minutes: ${line% | }"
 }
 
-# The first python3 that can draw: a version manager's python3 on the PATH often cannot.
+# Prints the first python3 that has the modules; a version manager's python3 on the PATH often lacks them.
 python_that_imports() {
     local modules=$1 python
     for python in /usr/bin/python3 python3; do

@@ -1,9 +1,9 @@
-# Doxygen reads `///`, the headers are written with `//`: a comment before a declaration, or behind it, becomes its documentation, the first
-# comment the file's, an indented line in it code. Lines keep their numbers: \file takes that of #pragma once.
+# Doxygen reads `///`, and the headers use `//`: a comment before or after a declaration becomes its documentation, the first
+# comment that of the file, and an indented line in it code. Lines keep their numbers; \file takes the line of #pragma once.
 BEGIN { several = "^ *[A-Za-z_][A-Za-z_0-9:<>, ]* +[a-z_0-9]+( = [^(){},]*)?(, *[a-z_0-9]+( = [^(){},]*)?)+;  +// " }
 
-# `TYPE a = 1.0, b = 2.0;` as a declaration each, all with the comment: Doxygen gives it to the last alone. Where another comment stands
-# above, that is the first's, and the one behind the last's.
+# Splits `TYPE a = 1.0, b = 2.0;` into single declarations, each with the comment, which Doxygen would give only to the last one. If there
+# is another comment above, it belongs to the first declaration, and the one behind to the last.
 function each_declared(code, text,    start, type, rest, names, n, i, line) {
     match(code, /^ *(const )?[A-Za-z_][A-Za-z_0-9:]*(<[^=;()]*>)?[&*]? +/)
     type = substr(code, 1, RLENGTH)

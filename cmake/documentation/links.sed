@@ -1,2 +1,2 @@
-# Links of the README as their text alone: the pages that they lead to are no part of the headers' documentation.
+# Replaces the links of the README by their text, since the documentation of the headers does not contain the linked pages.
 s/!?\[([^]]*)\]\([^)]*\)/\1/g
