@@ -43,7 +43,7 @@ def main(folder, jobs):
             clean, tests = clean + (not wrong), tests + ran
             if wrong:
                 print(f"{name}: {wrong}", file=sys.stderr)
-    reliability.tell("valgrind", "programs of unit tests of the method and the ruler without an error or a leak found by valgrind", clean,
+    reliability.tell("valgrind", "programs of unit tests of the method and the metrics without an error or a leak found by valgrind", clean,
                      len(programs), command="./check --long", note=f"{tests:,} tests")
     return 0 if programs and clean == len(programs) else 1
 
