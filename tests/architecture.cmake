@@ -1,4 +1,4 @@
-# Tests that read the source tree: what includes what, sizes, the build files, the text.
+# Tests that read the source tree: includes, sizes, build files and text.
 pbs_tests(architecture laws FOLDERS . LIBRARIES pbs_settings)
 set_source_files_properties(architecture/source_tree.cpp PROPERTIES COMPILE_DEFINITIONS PBS_SOURCE_ROOT="${PROJECT_SOURCE_DIR}")
 
@@ -11,7 +11,7 @@ if(PBS_CPPCHECK)
         COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/architecture/static_analysis_test.py)
     set_tests_properties(architecture/static_analysis PROPERTIES LABELS architecture TIMEOUT 600 ENVIRONMENT PBS_CPPCHECK=${PBS_CPPCHECK})
 else()
-    message(STATUS "cppcheck is not there: its test is left out")
+    message(STATUS "cppcheck is not installed: its test is left out")
 endif()
 
 find_program(PBS_SHELLCHECK NAMES shellcheck)
@@ -20,5 +20,5 @@ if(PBS_SHELLCHECK)
         COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/architecture/shell_scripts_test.py)
     set_tests_properties(architecture/shell_scripts PROPERTIES LABELS architecture TIMEOUT 60 ENVIRONMENT PBS_SHELLCHECK=${PBS_SHELLCHECK})
 else()
-    message(STATUS "shellcheck is not there: its test is left out")
+    message(STATUS "shellcheck is not installed: its test is left out")
 endif()

@@ -1,4 +1,4 @@
-# Benchmarks by Google Benchmark: built with the tests, run by hand; a busy machine must not fail a test.
+# Benchmarks with Google Benchmark. They are built with the tests and run by hand, since a busy machine must not fail a test.
 find_package(benchmark REQUIRED)
 add_executable(benchmark_blend benchmark/pbs/skinning/blend.cpp)
 target_link_libraries(benchmark_blend PRIVATE pbs_character pbs_method benchmark::benchmark)

@@ -1,4 +1,4 @@
-# Tests of the linear reference on several processes, from outside by mpirun.
+# Tests of the linear reference on several processes, which mpirun starts.
 if(NOT TARGET pbskin_distributed)
     return()
 endif()

@@ -3,7 +3,7 @@ if(NOT TARGET pbskin)
     return()
 endif()
 
-# What loads deal.II at run time, in the module pbskin_fem.
+# Tests that load deal.II at run time, in the module pbskin_fem.
 set(with_the_module experiments/deformers/fem/fem_module experiments/studies/convergence/convergence_case
     experiments/studies/fit/young_fit experiments/studies/stability/broken_fem_starts experiments/broken_bulge)
 set(left_out)
@@ -11,8 +11,8 @@ if(NOT PBS_WITH_FEM)
     set(left_out ${with_the_module})
 endif()
 
-# A verdict changes with its records: the project's own claims, the studies' own values. A broken solver changes the values and the verdicts
-# that theory says it must, and leaves the others.
+# A verdict changes with its records: the project's own claims with the values of the studies. A broken solver changes the values and
+# verdicts that it must change by theory, and no others.
 pbs_tests(claims experiments FOLDERS experiments EXCEPT ${left_out} LIBRARIES experiments)
 target_compile_definitions(test_claims_experiments PRIVATE ${claims_file})
 pbs_tests(unit experiments
@@ -36,7 +36,7 @@ if(PBS_WITH_FEM)
     endforeach()
 endif()
 
-# The program as its users meet it: exit status, messages, folders. Python stands outside, so that no code is shared with what it checks.
+# The program as users run it: exit status, messages, folders. The tests are in Python, so that they share no code with the program.
 function(pbs_program_test kind name)
     add_test(NAME ${kind}/${name} COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/${kind}/${name}.py)
     set_tests_properties(${kind}/${name} PROPERTIES LABELS ${kind} TIMEOUT 900

@@ -1,5 +1,5 @@
 # Tests of mesh files, meshing, characters and clips. Those of the human and of CMU's clips need Debian's assimp-testmodels and fail
-# without it. What an option leaves out has tests of its own.
+# without it. What an option leaves out has separate tests.
 set(left_out)
 if(PBS_WITH_MESH_IO)
     list(APPEND left_out pbs/geometry/mesh_io_unavailable)

@@ -1,6 +1,6 @@
-# Our own parsing, and the validation behind the readers' processes, on any bytes. In every build the corpus and past findings are replayed
-# (robustness); with PBS_WITH_FUZZ, by clang, libFuzzer looks for new ones: `cmake --preset fuzz`, then `ctest -L fuzz`, 60 s a
-# target (fuzz/targets.py).
+# Tests of the project's own parsing, and of the validation after the readers' processes, with any bytes. Every build replays the corpus and
+# past findings (robustness). With PBS_WITH_FUZZ and clang, libFuzzer searches for new ones: `cmake --preset fuzz`, then `ctest -L fuzz`,
+# 60 s per target (fuzz/targets.py).
 if(NOT PBS_WITH_RIG_IMPORT OR NOT PBS_WITH_EXPERIMENTS)
     return()
 endif()
@@ -8,8 +8,8 @@ find_package(fmt REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json REQUIRED)
 
-# fuzz_target(fuzz/NAME.cpp LIBRARY SOURCE...): a target and what it tries. The replay links the library. libFuzzer's program compiles the
-# sources for itself, so that all of them are instrumented.
+# fuzz_target(fuzz/NAME.cpp LIBRARY SOURCE...): a target and the sources that it tests. The replay links the library. libFuzzer's program
+# compiles the sources itself, so that all of them are instrumented.
 function(fuzz_target target library)
     cmake_path(GET target STEM name)
     set(folders ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${name})

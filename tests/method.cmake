@@ -1,4 +1,4 @@
-# Tests of the method and of the metrics: they need neither mesh files nor characters, and build where every option is off.
+# Tests of the method and of the metrics. They need neither mesh files nor characters, and build even if every option is off.
 set(threads)
 if(PBS_WITH_THREADS)
     find_package(TBB REQUIRED)

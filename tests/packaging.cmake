@@ -1,4 +1,4 @@
-# Tests of what is installed: by somebody else's project, and by the program away from its source tree.
+# Tests of the installation: by another project, and by the program outside of its source tree.
 function(pbs_packaging_test name)
     add_test(NAME packaging/${name} COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/packaging/${name}.py)
     set_tests_properties(packaging/${name} PROPERTIES LABELS packaging SKIP_RETURN_CODE 77 TIMEOUT 3600
@@ -14,8 +14,8 @@ if(TARGET pbskin)
     pbs_packaging_test(installed_program)
     pbs_packaging_test(pages)
     if(PBS_WITH_CGAL)
-        pbs_packaging_test(readme_example)  # its mesh is made from a surface
+        pbs_packaging_test(readme_example)  # the example makes its mesh from a surface
     endif()
     pbs_packaging_test(debian)
-    set_property(TEST packaging/debian PROPERTY RUN_SERIAL ON)  # a whole build, by CMAKE_BUILD_PARALLEL_LEVEL jobs
+    set_property(TEST packaging/debian PROPERTY RUN_SERIAL ON)  # makes a whole build with CMAKE_BUILD_PARALLEL_LEVEL jobs
 endif()

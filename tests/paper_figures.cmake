@@ -7,7 +7,7 @@ set_tests_properties(unit/paper_figures/listed unit/paper_figures/plots PROPERTI
 add_test(NAME unit/paper_figures/viewer COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/viewer_test.py)
 set_tests_properties(unit/paper_figures/viewer PROPERTIES LABELS unit TIMEOUT 300)
 
-# The viewer's own program, where there is a node to run it; ./check --long brings one.
+# Tests of the viewer's program, if node is installed; ./check --long installs it.
 find_program(PBS_NODE NAMES node nodejs)
 if(PBS_NODE)
     foreach(name codes faces link shown surface touch)
@@ -16,10 +16,10 @@ if(PBS_NODE)
         set_tests_properties(unit/paper_figures/viewer/${name} PROPERTIES LABELS unit TIMEOUT 300)
     endforeach()
 else()
-    message(STATUS "node is not there: the tests of the viewer's program are left out")
+    message(STATUS "node is not installed: the tests of the viewer's program are left out")
 endif()
 
-# In a real browser; skipped but by ./check --long.
+# Tests in a real browser; only ./check --long runs them.
 if(TARGET pbskin)
     add_test(NAME browser/viewer COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/browser/browser_test.py
         $<TARGET_FILE:pbskin> ${CMAKE_BINARY_DIR}/tests/browser)

@@ -1,4 +1,4 @@
-# Tests of the reference: on its own before it may judge anything, then through the attachment of the skeleton.
+# Tests of the reference: first by itself, before anything is compared with it, then with the attachment of the skeleton.
 if(NOT TARGET reference_fem)
     return()
 endif()

@@ -1,4 +1,4 @@
-# Tests of parameter sweeps; those on a Slurm cluster are skipped but by ./check --long.
+# Tests of parameter sweeps; only ./check --long runs those on a Slurm cluster.
 foreach(test atomic_text sweep_file sweep_merge sweep_runs sweep_start)
     add_test(NAME unit/experiments/sweeps/${test}
         COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/experiments/sweeps/${test}_test.py)
