@@ -1,5 +1,5 @@
-// Truth: the P1 stiffness in closed form on one tet, written down here by hand; rigid motions store no energy; the load adds up to the
-// weight; the energy is half of u K u.
+// Reference: the P1 stiffness of one tet in closed form, derived by hand; rigid motions store no energy; the load adds up to the weight;
+// the energy is half of u K u.
 #include "reference_fem/assembly.hpp"
 
 #include "pbs/geometry/tet_volume.hpp"
@@ -34,7 +34,7 @@ TEST(Assembly, StiffnessOfOneLinearTetIsTheClosedForm)
     tet.tets.resize(1, 4);
     tet.tets << 0, 1, 2, 3;
     Eigen::Matrix3d edges = (tet.rest.bottomRows(3).rowwise() - tet.rest.row(0)).transpose();
-    Eigen::Matrix<double, 3, 4> gradient;  // of the four shape functions
+    Eigen::Matrix<double, 3, 4> gradient;  // gradients of the four shape functions
     gradient.rightCols(3) = edges.inverse().transpose();
     gradient.col(0) = -gradient.rightCols(3).rowwise().sum();
     Eigen::MatrixXd expected(12, 12);
@@ -91,7 +91,8 @@ TEST(Assembly, LoadAddsUpToTheTotalForceAndItsMoment)
 
 TEST(Assembly, LoadOfACubicForceIsExactOnQuadraticTets)
 {
-    // Virtual work of f = x^3 e_x with v = x^2 e_x over [0, 2] x [0, 1]^2 is 2^6 / 6: degree 5, what three points a direction integrate.
+    // The virtual work of f = x^3 e_x with v = x^2 e_x over [0, 2] x [0, 1]^2 is 2^6 / 6. Its degree is 5, the highest that three points
+    // per direction integrate.
     const SimplexSpace space(bar, 2);
     const Eigen::VectorXd load = load_vector(space, [](const Vec3& x) -> Vec3 { return {x(0) * x(0) * x(0), 0, 0}; });
     const Eigen::VectorXd square = at_nodes(space, [](const Vec3& x) -> Vec3 { return {x(0) * x(0), 0, 0}; });

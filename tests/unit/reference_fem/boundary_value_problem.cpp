@@ -1,5 +1,6 @@
-// Truth: theory. The normal integrates to zero over a closed surface and x . n to three times the volume; a bar on rollers under uniform
-// tension has an affine displacement and a uniform stress. Tolerance: rounding, condition of some 1e4 times eps with room: 1e-11.
+// Reference: theory. The normal integrates to zero over a closed surface, and x . n to three times the volume. A bar on rollers under
+// uniform tension has an affine displacement and a uniform stress. Tolerance: the condition number of some 1e4 times eps, with a margin:
+// 1e-11.
 #include "reference_fem/boundary_value_problem.hpp"
 
 #include "tests/verification/reference_fem/jittered_cube.hpp"

@@ -1,4 +1,4 @@
-// Truth: a dense solve of the eliminated system by Eigen.
+// Reference: a dense solve of the eliminated system by Eigen.
 #include "reference_fem/eliminated_system.hpp"
 
 #include <Eigen/LU>
@@ -24,7 +24,7 @@ TEST(EliminatedSystem, PrescribedValuesStayAndFreeRowsHold)
     const SparseMatrix stiffness = tridiagonal(2.5);
     const EliminatedSystem system(stiffness, first_and_fifth, LinearSolver::cholmod);
     const Eigen::VectorXd load = Eigen::VectorXd::LinSpaced(6, 1.0, 2.0);
-    Eigen::VectorXd prescribed = Eigen::VectorXd::Constant(6, std::nan(""));  // read at prescribed degrees of freedom only
+    Eigen::VectorXd prescribed = Eigen::VectorXd::Constant(6, std::nan(""));  // read only at prescribed degrees of freedom
     for (const double first : {0.5, -3.0}) {
         prescribed(0) = first;
         prescribed(4) = 7.0;

@@ -1,4 +1,4 @@
-// What the judge refuses at the door, and what it reports of its set-up. That it solves rightly is shown under verification.
+// The input that the reference refuses, and what it reports about its set-up. The verification tests show that it solves correctly.
 #include "reference_fem/linear_elasticity.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -73,7 +73,7 @@ TEST(LinearElasticity, RefusesABodyThatCanMoveFreely)
     pbs::Positions on_one_line(3, 3);
     on_one_line << 0.1, 0.5, 0.5, 0.7, 0.5, 0.5, 1.9, 0.5, 0.5;
     expect_refused(bar, {}, springs_at(on_one_line), "attachment");
-    expect_refused(bar, {}, springs_at(three_points().array() + 10.0), "attachment");  // all outside
+    expect_refused(bar, {}, springs_at(three_points().array() + 10.0), "attachment");  // all points are outside
 }
 
 TEST(LinearElasticity, RefusesAPartOfTheMeshThatNothingHolds)
@@ -113,7 +113,7 @@ TEST(LinearElasticity, SpringsOutsideEveryTetAreLeftOutAndReported)
     EXPECT_GE(fem.setup().spring_tet[0], 0);
     EXPECT_EQ(fem.setup().spring_tet[3], -1);
     pbs::Positions targets = points;
-    targets.row(3).array() += 100.0;  // pulls at nothing
+    targets.row(3).array() += 100.0;  // a target that nothing is tied to
     ASSERT_TRUE(fem.solve(targets, bar.rest).finite);
     EXPECT_EQ(fem.positions(), bar.rest);
     EXPECT_TRUE(fem.spring_points_deformed().topRows(3).isApprox(points.topRows(3)));

@@ -1,4 +1,4 @@
-// Truth: by hand, from the weak forms in the header. That the formulations solve rightly is shown under verification.
+// Reference: the weak forms in the header, evaluated by hand. The verification tests show that the formulations solve correctly.
 #include "reference_fem/linear_flesh.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -43,7 +43,7 @@ TEST_P(EveryFormulation, AffineDisplacementsHaveTheEnergyByHand)
     }
 }
 
-// u K u / 2 is the energy where the pressure is lambda div u, for then the row of every q holds.
+// u K u / 2 is the energy if the pressure is lambda div u, since then the row of every q holds.
 TEST_P(EveryFormulation, TheMatrixHasTheEnergyOfAffineDisplacements)
 {
     const SimplexSpace space(cube, 2);
@@ -69,7 +69,7 @@ TEST_P(EveryFormulation, PressureAtAVertexIsLambdaTimesTheDilatation)
 INSTANTIATE_TEST_SUITE_P(Formulations, EveryFormulation,
                          testing::Values(Formulation::displacement, Formulation::mean_dilatation, Formulation::taylor_hood));
 
-// u = (x^2, 0, 0) on the unit tet: div u = 2 x, of mean 1/2; the mean of x^2 is 1/10.
+// u = (x^2, 0, 0) on the unit tet: div u = 2 x has the mean 1/2, and x^2 has the mean 1/10.
 TEST(LinearFlesh, MeanDilatationTakesEachTetsMean)
 {
     pbs::TetMesh tet{pbs::Positions::Zero(4, 3), pbs::Tets(1, 4)};

@@ -1,4 +1,4 @@
-// Truth: relations between elastic constants, by hand: E = mu (3 lambda + 2 mu) / (lambda + mu), nu = lambda / (2 (lambda + mu)).
+// Reference: relations between elastic constants, by hand: E = mu (3 lambda + 2 mu) / (lambda + mu), nu = lambda / (2 (lambda + mu)).
 #include "reference_fem/material.hpp"
 
 #include "pbs/geometry/input_error.hpp"

@@ -1,4 +1,4 @@
-// Truth: the same sums in a dense matrix.
+// Reference: the same sums in a dense matrix.
 #include "reference_fem/nodal_matrix.hpp"
 
 #include "tests/support/structured_bar.hpp"

@@ -1,4 +1,4 @@
-// Truth: the barycentric coordinates of a point that was put into a known tet, and a search through all tets.
+// Reference: the barycentric coordinates of a point that was placed in a known tet, and a search through all tets.
 #include "reference_fem/point_location.hpp"
 
 #include "tests/support/structured_bar.hpp"
@@ -23,7 +23,7 @@ Vec3 point_in(const pbs::TetMesh& mesh, int tet, const Vec3& barycentric)
     return point;
 }
 
-// The first tet, in order, whose smallest barycentric coordinate is not below -1e-10.
+// The first tet, in order, whose smallest barycentric coordinate is at least -1e-10.
 int first_tet_by_search(const pbs::TetMesh& mesh, const Vec3& point)
 {
     for (int t = 0; t < mesh.tets.rows(); ++t) {

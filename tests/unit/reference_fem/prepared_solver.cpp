@@ -1,4 +1,4 @@
-// Truth: a dense solve of the same small system by Eigen.
+// Reference: a dense solve of the same small system by Eigen.
 #include "reference_fem/prepared_solver.hpp"
 
 #include "reference_fem/assembly.hpp"
@@ -43,7 +43,7 @@ TEST(PreparedSolver, DirectSolversAgreeWithADenseSolveForManyRightHandSides)
     }
 }
 
-// |e| <= |A^-1| |r|, and |x| >= |b| / |A|: the condition times the residual that is asked for, 1e-10.
+// |e| <= |A^-1| |r|, and |x| >= |b| / |A|: the condition number times the required residual, 1e-10.
 TEST(PreparedSolver, ConjugateGradientsAgreeWithADenseSolveToTheirTolerance)
 {
     const SparseMatrix matrix = spring_chain(30, 2.0);
@@ -72,11 +72,11 @@ TEST(PreparedSolver, AnotherMatrixOfTheSamePatternIsSolvedAfterRefactor)
 
 TEST(PreparedSolver, ConjugateGradientsThatDoNotConvergeReportIt)
 {
-    const SparseMatrix floating = spring_chain(4, 0.0);  // and a load that no displacement answers
+    const SparseMatrix floating = spring_chain(4, 0.0);  // and a load that no displacement balances
     EXPECT_FALSE(prepare(floating, LinearSolver::cg_ml)->solve(Eigen::VectorXd::Ones(4)).allFinite());
 }
 
-// Open MPI's own variables make an mpirun among the children fail.
+// Open MPI's own variables would make an mpirun in a child process fail.
 TEST(PreparedSolver, StartingMpiLeavesTheEnvironmentAsItWas)
 {
     const auto count = [] {
@@ -84,7 +84,7 @@ TEST(PreparedSolver, StartingMpiLeavesTheEnvironmentAsItWas)
         for (char** variable = environ; *variable; ++variable) ++variables;
         return variables;
     };
-    const int before = count();  // where this test runs alone, as under ctest, MPI starts below
+    const int before = count();  // if this test runs alone, as in ctest, MPI starts below
     prepare(spring_chain(4, 1.0), LinearSolver::cg_ml);
     EXPECT_EQ(count(), before);
     EXPECT_EQ(std::getenv("PMIX_RANK"), nullptr);
@@ -110,7 +110,7 @@ TEST(PreparedSolver, CholmodRefusesAnIndefiniteMatrixThatUmfpackSolves)
     EXPECT_TRUE(prepare(indefinite, LinearSolver::umfpack)->usable());
 }
 
-// Stiffness of a bar on springs of a thousandth of its own: 9,000 unknowns, whose dense blocks OpenBLAS shares among its threads.
+// Stiffness of a bar on springs of a thousandth of its own stiffness: 9,000 unknowns, whose dense blocks OpenBLAS shares among its threads.
 SparseMatrix bar_on_springs()
 {
     const SimplexSpace space(test_support::structured_bar({0, 0, 0}, {1, 0.3, 0.3}, {12, 5, 5}), 2);
@@ -120,7 +120,7 @@ SparseMatrix bar_on_springs()
     return stiffness;
 }
 
-// Truth: one thread. The bound is the contract's; the condition, some 10^4, times the rounding stays below it.
+// Reference: one thread. The bound is that of the contract; the condition number, some 10^4, times the rounding is smaller.
 TEST(PreparedSolver, ThreadsOfTheBlasChangeTheSolutionByLessThanTheContractSays)
 {
     auto* set_threads = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
@@ -138,7 +138,7 @@ TEST(PreparedSolver, ThreadsOfTheBlasChangeTheSolutionByLessThanTheContractSays)
     }
 }
 
-// Whatever a user asks OpenBLAS for, as the environment does.
+// Holds for any number of threads that a user sets for OpenBLAS in the environment.
 TEST(PreparedSolver, PreparedOnOneThreadItRepeatsToTheBit)
 {
     const SparseMatrix matrix = bar_on_springs();

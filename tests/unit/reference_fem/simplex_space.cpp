@@ -1,4 +1,4 @@
-// Truth: the definition of nodal elements. Vertex v is node v, shape functions are 1 at their own node and 0 at the others.
+// Reference: the definition of nodal elements. Vertex v is node v, shape functions are 1 at their own node and 0 at the others.
 #include "reference_fem/simplex_space.hpp"
 
 #include "pbs/geometry/input_error.hpp"

@@ -1,4 +1,4 @@
-// Truth: rigid motion. M sums to the mass of the body, and a rigid velocity has the kinetic energy of mechanics.
+// Reference: rigid motion. M sums to the mass of the body, and a rigid velocity has the kinetic energy of mechanics.
 #include "reference_fem/dynamics/consistent_mass.hpp"
 
 #include "tests/verification/reference_fem/jittered_cube.hpp"
@@ -30,7 +30,7 @@ TEST_P(Mass, OfATranslationIsThatOfTheBody)
     EXPECT_NEAR(v.dot(mass.times(v)), 3.0 * velocity.squaredNorm(), 1e-12);
 }
 
-// A unit cube of density 3 that turns about the z axis through its corner: I = 3 (1/3 + 1/3).
+// A unit cube of density 3 that rotates about the z axis through its corner: I = 3 (1/3 + 1/3).
 TEST_P(Mass, OfARotationIsTheMomentOfInertia)
 {
     Eigen::Matrix3d spin = Eigen::Matrix3d::Zero();

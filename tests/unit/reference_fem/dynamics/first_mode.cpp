@@ -1,4 +1,4 @@
-// Truth: a dense eigenvalue problem by Eigen.
+// Reference: a dense eigenvalue problem by Eigen.
 #include "reference_fem/dynamics/first_mode.hpp"
 
 #include "reference_fem/dynamics/vibrating_body.hpp"

@@ -1,5 +1,5 @@
-// Truth: polynomials, whose rates are known. A parabola through three displacements gives the velocity of quadratic motion exactly, a cubic
-// through four the acceleration of cubic motion, for steps of any length.
+// Reference: polynomials, whose derivatives are known. A parabola through three displacements gives the velocity of quadratic motion
+// exactly, and a cubic through four the acceleration of cubic motion, for steps of any length.
 #include "reference_fem/dynamics/prescribed_motion.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,8 @@ TEST_F(Prescribed, RatesOfACubicAreExactInUnequalSteps)
         step(u(t), h);
     }
     EXPECT_NEAR(motion.acceleration(1), -6.0 + 3.0 * t, 1e-12);
-    EXPECT_NEAR(motion.velocity(1), 2.0 - 6.0 * t + 1.5 * t * t, 0.5 * 0.3 * 0.35);  // u''' / 6 times the distances to the last two
+    // u''' / 6 times the distances to the previous two points
+    EXPECT_NEAR(motion.velocity(1), 2.0 - 6.0 * t + 1.5 * t * t, 0.5 * 0.3 * 0.35);
 }
 
 TEST_F(Prescribed, TheFirstStepTakesTheVelocityItIsGiven)
@@ -46,7 +47,7 @@ TEST_F(Prescribed, TheFirstStepTakesTheVelocityItIsGiven)
     EXPECT_NEAR(motion.acceleration(1), 3.0, 1e-13);
 }
 
-// From rest to a constant velocity at once: the accelerations vanish after three steps, and their impulse is the velocity.
+// From rest, the velocity becomes constant at once: the accelerations vanish after three steps, and their impulse equals the velocity.
 TEST_F(Prescribed, AJumpOfTheVelocityIsForgottenAndItsImpulseIsWhole)
 {
     const double h = 0.1, velocity = 3.0;

@@ -1,4 +1,4 @@
-// Truth: the scheme's own three equations, which the accepted step must satisfy as they stand, and Chung and Hulbert's conditions.
+// Reference: the scheme's own three equations, which the accepted step must satisfy, and the conditions of Chung and Hulbert.
 #include "reference_fem/dynamics/time_scheme.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -31,7 +31,7 @@ TEST_P(Scheme, AnAcceptedStepSatisfiesTheEquationsOfTheScheme)
     EXPECT_LT((after.displacement - u).norm(), 1e-14);
     EXPECT_LT((after.velocity - v).norm(), 1e-14);
     EXPECT_LT((mean(s.alpha_f, before.displacement, after.displacement) - w).norm(), 1e-15);
-    // Eqs. (d) to (g): the rates that enter the balance are affine in w. Rounding: eps times c_m of some 1e2.
+    // Eqs. (d) to (g): the rates in the balance are affine in w. Rounding: eps times c_m of some 1e2.
     EXPECT_LT(
         (mean(s.alpha_m, before.acceleration, after.acceleration) - inertia_coefficient(s, h) * (w - inertia_centre(s, before, h))).norm(),
         1e-12);

@@ -1,4 +1,4 @@
-// Truth: the balance of forces, and what the header promises of failures, degenerate data and rest.
+// Reference: the balance of forces, and the specification in the header for failures, degenerate data and rest.
 #include "reference_fem/dynamics/time_stepper.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -85,10 +85,10 @@ TEST_F(Stepper, WithEveryDegreeOfFreedomPrescribedTheDataAreReturned)
     const MovingData data{[&](double fraction) -> Eigen::VectorXd { return fraction * end; }, {}};
     ASSERT_TRUE(step(time, 0.1, data).converged());
     EXPECT_EQ(time.motion().displacement, end);
-    EXPECT_LT((time.motion().velocity - 2.0 / 0.1 * end).norm(), 1e-13);  // from rest: the mean velocity doubled
+    EXPECT_LT((time.motion().velocity - 2.0 / 0.1 * end).norm(), 1e-13);  // from rest: twice the mean velocity
 }
 
-// Nothing holds it and nothing pulls: it goes on as it is.
+// Nothing holds the body and no force acts on it, so its motion continues.
 TEST_F(Stepper, AnUnheldBodyFliesOn)
 {
     TimeStepper time = stepper({}, Held::nowhere);
@@ -99,7 +99,7 @@ TEST_F(Stepper, AnUnheldBodyFliesOn)
     EXPECT_LT((time.motion().displacement - velocity).norm(), 1e-12);
 }
 
-// M a = -grad Pi - C v at the start; one short step later the velocity has changed by h a.
+// M a = -grad Pi - C v initially; after one short step the velocity has changed by h a.
 TEST_F(Stepper, TheFirstAccelerationFollowsFromTheBalanceOfForces)
 {
     const double density = 10.0, a = 2.0, b = 0.05, h = 1e-7;
@@ -125,7 +125,7 @@ void expect_same(const Motion& a, const Motion& b)
     EXPECT_EQ(a.acceleration, b.acceleration);
 }
 
-// The end asks for what is not a number: parts of the step are reached, and given up again with it.
+// The target at the end is NaN: parts of the step converge, and are discarded with it.
 TEST_F(Stepper, OfAStepThatFailsNothingIsKept)
 {
     TimeStepper time = stepper({.density_kg_m3 = 10.0});
@@ -156,7 +156,7 @@ TEST_F(Stepper, AFailureLeavesNoTraceInWhatFollows)
     expect_same(time.motion(), expected);
 }
 
-// Newton is given one iteration too few for the whole step: it is taken in parts that land on its end.
+// Newton's method has one iteration too few for the whole step, which is divided into parts that end at the same time.
 TEST_F(Stepper, AStepThatFailsIsTakenInParts)
 {
     TimeStepper time = stepper({.density_kg_m3 = 10.0});
@@ -168,7 +168,7 @@ TEST_F(Stepper, AStepThatFailsIsTakenInParts)
     EXPECT_EQ(path.steps.back().fraction, 1.0);
 }
 
-// A stretched bar under its own elasticity, damped by each part alone, ends up where it is at rest.
+// A stretched bar that moves by its own elasticity, with each kind of damping alone, comes to rest in its rest shape.
 TEST_F(Stepper, DampingBringsTheBarToRest)
 {
     for (const auto& [mass, stiffness] : {std::pair(2.0, 0.0), std::pair(0.0, 0.2)}) {

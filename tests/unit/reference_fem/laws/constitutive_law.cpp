@@ -1,4 +1,4 @@
-// Truth: the laws' formulas, by hand, where a deformation gradient degenerates. mu = 1 and lambda = 2 (any unit).
+// Reference: the formulas of the laws, evaluated by hand, where a deformation gradient degenerates. mu = 1 and lambda = 2 (any unit).
 #include "tests/support/law_points.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -98,7 +98,7 @@ TEST_P(EveryLaw, HoldsAtExtremeScales)
 
 INSTANTIATE_TEST_SUITE_P(Laws, EveryLaw, testing::ValuesIn(all_models()), name_of_model);
 
-// psi at F = 0 and at a mirror image, by hand.
+// psi at F = 0 and at a reflection, by hand.
 TEST(DegenerateStates, LinearTakesThemForLargeStrains)
 {
     EXPECT_NEAR(LawPoint(Model::linear, lame).energy(zero), 3.0 + 9.0, 1e-14);                      // eps = -I
@@ -132,7 +132,7 @@ TEST(DegenerateStates, StableNeoHookeanPushesAFlatTetOpen)
     EXPECT_LE((law.stress(diagonal(1.0, 1.0, 0.0)) - diagonal(1.0, 1.0, -4.0)).norm(), 1e-14);  // -mu - mu - lambda
 }
 
-// Which of the rotations R is, is chance; |F - R|^2 = |F|^2 + 3 - 2 tr S and tr S = s_1 + s_2 + s_3 are not.
+// The choice of the rotation R among several is arbitrary; |F - R|^2 = |F|^2 + 3 - 2 tr S and tr S = s_1 + s_2 + s_3 do not depend on it.
 TEST(DegenerateStates, CorotationalHasOneEnergyWhereTwoStretchesSumToZero)
 {
     const LawPoint law(Model::corotational, lame);
@@ -142,8 +142,8 @@ TEST(DegenerateStates, CorotationalHasOneEnergyWhereTwoStretchesSumToZero)
     for (const double side : {-1e-7, 1e-7}) EXPECT_NEAR(law.energy(diagonal(2.0, 1.0, -1.0 + side)), 6.0, 1e-6);
 }
 
-// Where two stretches sum to 0, or nearly, the energy has a ridge (2 mu + lambda (3 - tr S) > 0 times a concave kink): the tangent is
-// large, finite, symmetric and falls across the ridge, so that a check of definiteness cannot miss it.
+// If two stretches sum to 0 or nearly so, the energy has a ridge (2 mu + lambda (3 - tr S) > 0 times a concave kink). There the tangent is
+// large, finite, symmetric and negative across the ridge, so that a check of definiteness cannot miss it.
 TEST(DegenerateStates, CorotationalTangentStaysFiniteWhereTwoStretchesSumToZero)
 {
     for (const Eigen::Matrix3d& f : {diagonal(2.0, 1.0, -1.0), diagonal(2.0, 1.0, -1.0 + 1e-12), diagonal(1.0, 0.0, 0.0)}) {

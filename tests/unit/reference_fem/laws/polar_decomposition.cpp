@@ -1,5 +1,5 @@
-// Truth: what defines the polar decomposition, F = R S with R a rotation and S symmetric; and for its derivative, that R neither sees
-// F's scale nor a stretch along its own axes, and turns with F.
+// Reference: the definition of the polar decomposition, F = R S with R a rotation and S symmetric. For its derivative: R does not depend on
+// the scale of F or on a stretch along its own axes, and rotates with F.
 #include "reference_fem/laws/polar_decomposition.hpp"
 
 #include "reference_fem/laws/matrix_calculus.hpp"

@@ -1,4 +1,4 @@
-// Truth: an attempt whose failures are known beforehand.
+// Reference: an attempt that fails in a known way.
 #include "reference_fem/newton/load_path.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ NewtonSummary ended(NewtonOutcome outcome)
     return summary;
 }
 
-// Converges only in steps no longer than `longest`, and never beyond `wall`; u(0) follows the fraction.
+// Converges only in steps of at most `longest`, and never beyond `wall`; u(0) equals the fraction.
 struct Attempt {
     Eigen::VectorXd& u;
     double longest, wall = 2.0;
@@ -22,7 +22,7 @@ struct Attempt {
     NewtonSummary operator()(double fraction) const
     {
         const bool converges = fraction - u(0) <= longest + 1e-12 && fraction <= wall;
-        u(0) = converges ? fraction : -99.0;  // what a failed solve leaves behind
+        u(0) = converges ? fraction : -99.0;  // the state that a failed solve leaves
         return ended(converges ? NewtonOutcome::converged : NewtonOutcome::no_descent);
     }
 };
@@ -36,7 +36,7 @@ TEST(LoadPath, OneStepWhereItConverges)
     EXPECT_EQ(path.halvings(), 0);
 }
 
-// Two of Newton's steps an attempt.
+// Two Newton steps per attempt.
 TEST(LoadPath, EndsWhereItHasTakenTheStepsItMay)
 {
     Eigen::VectorXd u = Eigen::VectorXd::Zero(1);
@@ -50,7 +50,7 @@ TEST(LoadPath, EndsWhereItHasTakenTheStepsItMay)
     u.setZero();
     EXPECT_TRUE(follow_load_path(attempt, u, {.most_newton_steps = needed}).converged());
     u.setZero();
-    const LoadPathSummary path = follow_load_path(attempt, u, {.most_newton_steps = needed - 2});  // the last attempt is not begun
+    const LoadPathSummary path = follow_load_path(attempt, u, {.most_newton_steps = needed - 2});  // the last attempt is not started
     EXPECT_FALSE(path.converged());
     EXPECT_EQ(path.reached, u(0));
     EXPECT_GT(path.reached, 0.0);

@@ -1,4 +1,4 @@
-// Truth: minima known by hand, and the outcomes that each way of failing must have.
+// Reference: minima known by hand, and the outcome that each kind of failure must have.
 #include "reference_fem/newton/newton.hpp"
 
 #include "reference_fem/assembly.hpp"
@@ -18,7 +18,7 @@ using namespace reference_fem;
 const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
 const Lame lame = lame_parameters(1e3, 0.3);
 
-// The end x = 0 held.
+// The end x = 0 is held.
 std::vector<bool> held_end(const SimplexSpace& space)
 {
     std::vector<bool> held(space.dofs());
@@ -31,7 +31,7 @@ Eigen::VectorXd weight(const SimplexSpace& space, double force_n_m3)
     return load_vector(space, [&](const pbs::Vec3&) { return pbs::Vec3(0, 0, -force_n_m3); });
 }
 
-// Concave along every displacement: no Hessian of it is positive definite.
+// Concave along every displacement, so that no Hessian is positive definite.
 class Concave : public Potential {
 public:
     double value(const Eigen::VectorXd& u) const override { return -u.squaredNorm(); }
@@ -75,7 +75,8 @@ TEST(Newton, ConvergesFasterThanLinearly)
     ASSERT_GE(summary.iterations.size(), 4u);
     const auto& last = summary.iterations;
     const std::size_t n = last.size();
-    // Theory: r_{k+1} = O(r_k^2), so each reduction is stronger than the one before; a wrong tangent reduces by the same factor each time.
+    // Theory: r_{k+1} = O(r_k^2), so each reduction is stronger than the previous one; a wrong tangent reduces by the same factor each
+    // time.
     const double before_last = last[n - 3].residual_n / last[n - 4].residual_n, reduction = last[n - 2].residual_n / last[n - 3].residual_n;
     EXPECT_LT(reduction, 0.1 * before_last);
     for (std::size_t k = 1; k < n; ++k) EXPECT_LE(last[k].energy_j, last[k - 1].energy_j + 1e-12 * std::abs(last[k - 1].energy_j));
@@ -122,7 +123,7 @@ TEST(Newton, AnIndefiniteHessianIsProjectedAndSaidSo)
     const SimplexSpace space(bar, 1);
     const ElasticPotential flesh(space, Model::stable_neo_hookean, lame, Formulation::displacement);
     NewtonMinimiser newton(space, held_end(space), LinearSolver::cholmod);
-    Eigen::VectorXd u(space.dofs());  // squeezed flat and beyond
+    Eigen::VectorXd u(space.dofs());  // compressed flat and beyond
     for (int d = 0; d < space.dofs(); ++d) u(d) = d % 3 == 0 ? -1.4 * space.node_positions()(d / 3, 0) : 0.0;
     const NewtonSummary summary = newton.minimise({&flesh}, Eigen::VectorXd::Zero(space.dofs()), u, {});
     ASSERT_TRUE(summary.converged()) << name_of(summary.outcome);

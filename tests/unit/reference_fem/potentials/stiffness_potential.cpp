@@ -1,4 +1,4 @@
-// Truth: the algebra of c / 2 (u - u0)^T A (u - u0), and the linear law's energy, which it shall be by its matrix.
+// Reference: the algebra of c / 2 (u - u0)^T A (u - u0), and the energy of the linear law, which its matrix must give.
 #include "reference_fem/potentials/stiffness_potential.hpp"
 
 #include "reference_fem/dynamics/inertia_potential.hpp"
@@ -14,7 +14,7 @@ using namespace reference_fem;
 
 class QuadraticForm : public testing::TestWithParam<int> {
 protected:
-    // Value, gradient and Hessian are those of c / 2 (u - u0)^T A (u - u0), one by one and together.
+    // Checks that value, gradient and Hessian are those of c / 2 (u - u0)^T A (u - u0), separately and together.
     void expect_form(const Potential& potential, const SparseMatrix& A, double c) const
     {
         const Eigen::VectorXd offset = u - u0, gradient = c * (A * offset);

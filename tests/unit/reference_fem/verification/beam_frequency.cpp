@@ -1,4 +1,5 @@
-// Truth: beam theory. A slender beam is Bernoulli and Euler's, and what shear and rotary inertia take away goes with (h / L)^2.
+// Reference: beam theory. A slender beam follows Bernoulli and Euler, and the reduction by shear and rotary inertia is proportional to (h /
+// L)^2.
 #include "reference_fem/verification/beam_frequency.hpp"
 
 #include <gtest/gtest.h>

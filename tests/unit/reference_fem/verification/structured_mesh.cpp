@@ -1,4 +1,4 @@
-// Truth: volumes in closed form, and the topology of a ball.
+// Reference: volumes in closed form, and the topology of a ball.
 #include "reference_fem/verification/structured_mesh.hpp"
 
 #include "pbs/geometry/tet_volume.hpp"
