@@ -1,8 +1,8 @@
-// Truth: theory of the first-order autoregressive series x_t = phi x_{t-1} + e_t.
+// Reference: theory of the first-order autoregressive series x_t = phi x_{t-1} + e_t.
 //   variance of the mean of m samples: s^2/m (1 + 2 sum_{k<m} (1 - k/m) phi^k);   tau = (1 + phi) / (1 - phi).
-// The moving-block bootstrap with blocks of b reports on average the variance (b/n) (var_b - var_n), estimated from about 3/2 n/b blocks'
-// worth of freedom (overlapping blocks: Kunsch 1989). So its 95 % interval covers the true mean with probability
-// P(|t_nu| < 1.96 r), r^2 = reported over true variance, nu = 3/2 n/b. Tolerance: four binomial standard errors of the trials.
+// The moving-block bootstrap with blocks of length b reports on average the variance (b/n) (var_b - var_n), estimated with about 3/2 n/b
+// degrees of freedom (overlapping blocks: Kunsch 1989). So its 95 % interval contains the true mean with probability P(|t_nu| < 1.96 r),
+// r^2 = reported over true variance, nu = 3/2 n/b. Tolerance: four binomial standard errors of the trials.
 #include "analysis/bootstrap.hpp"
 #include "analysis/statistics.hpp"
 
@@ -21,7 +21,7 @@ std::vector<double> autoregressive_series(int n, std::mt19937_64& random)
 {
     std::normal_distribution<double> noise;
     std::vector<double> series;
-    double value = noise(random) / std::sqrt(1.0 - phi * phi);  // stationary from the start
+    double value = noise(random) / std::sqrt(1.0 - phi * phi);  // stationary from the first sample
     for (int i = 0; i < n; ++i) {
         series.push_back(value);
         value = phi * value + noise(random);
@@ -78,7 +78,7 @@ TEST_P(BlockBootstrap, CoversTheMeanAsTheorySays)
 
 INSTANTIATE_TEST_SUITE_P(OfAnAutoregressiveSeries, BlockBootstrap, testing::Values(1, 4, 16));
 
-// Blocks from the series itself: at least what half the best length for this phi would cover.
+// With the block length chosen from the series itself, at least the coverage of half the best length for this phi.
 TEST(BlockBootstrap, ChoosesABlockThatCovers)
 {
     const double tau = (1.0 + phi) / (1.0 - phi);

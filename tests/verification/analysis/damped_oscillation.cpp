@@ -1,4 +1,4 @@
-// Truth: series made from the formula, with and without noise of a known size.
+// Reference: series made from the formula, with and without noise of a known size.
 #include "analysis/damped_oscillation.hpp"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,8 @@ TEST(DampedOscillation, FrequencyAndDampingComeBack)
         }
 }
 
-// With white noise the 95 % interval holds the truth in 95 of 100 series; fewer than 85 would happen once in 30,000 times (binomial).
+// With white noise the 95 % interval contains the true value in 95 of 100 series; fewer than 85 would occur once in 30,000 times
+// (binomial).
 TEST(DampedOscillation, IntervalHoldsTheTruthAsOftenAsItSays)
 {
     int frequency_held = 0, damping_held = 0;
@@ -53,7 +54,7 @@ TEST(DampedOscillation, IntervalHoldsTheTruthAsOftenAsItSays)
     EXPECT_LE(frequency_held + damping_held, 199);
 }
 
-// 25 Hz with a damping ratio of 0.3 is over after 8 samples.
+// A swing of 25 Hz with a damping ratio of 0.3 has decayed after 8 samples.
 TEST(DampedOscillation, OneThatDiesAtOnceIsTooShort)
 {
     EXPECT_EQ(fit_damped_oscillation(oscillation(25.0, 0.3), 0.01).outcome, OscillationOutcome::too_short);

@@ -1,7 +1,6 @@
-// Grid convergence against figures in print and against series and fields that were made with a known order. Truth: the sample table of
-// I. B. Celik et al., Journal of Fluids Engineering 130, 078001, 2008 (three columns; tolerance: half the last printed digit); the worked
-// example of NASA's NPARC tutorial "Examining Spatial (Grid) Convergence" (J. W. Slater; pressure recovery of an inlet), which follows
-// P. J. Roache.
+// Grid convergence compared with printed values, and with series and fields of a known order. Reference: the sample table of I. B. Celik et
+// al., Journal of Fluids Engineering 130, 078001, 2008 (three columns; tolerance: half the last printed digit); the worked example of
+// NASA's NPARC tutorial "Examining Spatial (Grid) Convergence" (J. W. Slater; pressure recovery of an inlet), which follows P. J. Roache.
 #include "analysis/grid_convergence.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +13,7 @@ namespace {
 using analysis::GridBehaviour;
 using analysis::GridConvergence;
 
-constexpr double no_limit = 100.0;  // formal order: the observed one is used, as in print
+constexpr double no_limit = 100.0;  // formal order: the observed one is used, as in the print
 
 struct PrintedColumn {
     std::array<double, 3> values;
@@ -31,10 +30,10 @@ TEST_P(CelikTable, Monotone)
     const double fine = column.values[0];
     EXPECT_EQ(grids.behaviour, GridBehaviour::monotone);
     EXPECT_NEAR(grids.observed_order, column.order, 0.005);
-    EXPECT_NEAR(grids.extrapolated, column.extrapolated, 0.002);  // printed from an order of more digits than are printed
+    EXPECT_NEAR(grids.extrapolated, column.extrapolated, 0.002);  // the print uses an order with more digits than it shows
     EXPECT_NEAR(100.0 * std::abs((fine - column.values[1]) / fine), column.approximate_error_pct, 0.05);
     const double extrapolated_error_pct = 100.0 * std::abs((grids.extrapolated - fine) / grids.extrapolated);
-    EXPECT_NEAR(extrapolated_error_pct, column.extrapolated_error_pct, 0.06);  // 0.9 in print is 0.847 by the table's own values
+    EXPECT_NEAR(extrapolated_error_pct, column.extrapolated_error_pct, 0.06);  // the printed 0.9 is 0.847 by the table's own values
     EXPECT_NEAR(100.0 * grids.bounds[0] / fine, column.gci_pct, 0.05);
 }
 
@@ -48,7 +47,7 @@ TEST(CelikTable, Oscillating)
     const GridConvergence grids = analysis::three_grids({6.0042, 5.9624, 6.0909}, {2.0, 2.143}, no_limit);
     EXPECT_EQ(grids.behaviour, GridBehaviour::oscillating);
     EXPECT_NEAR(grids.observed_order, 1.51, 0.005);
-    // No limit is extrapolated, though the table does so: the bound is wider than its 0.5 %.
+    // No limit is extrapolated, although the table does so: the bound is wider than its 0.5 %.
     EXPECT_TRUE(std::isnan(grids.extrapolated));
     EXPECT_NEAR(grids.bounds[0], 3.0 * (6.0909 - 5.9624), 1e-12);
 }
@@ -64,7 +63,7 @@ TEST(NparcTutorial, PressureRecovery)
     EXPECT_NEAR(std::pow(2.0, grids.observed_order) * gci_12_pct / gci_23_pct, 0.997980, 5e-7);
 }
 
-// f + C h^p with unequal ratios is seen through exactly, whatever f, C and p.
+// f + C h^p with unequal ratios is recovered exactly, for any f, C and p.
 TEST(MadeUpSeries, HasItsOrderAndItsLimit)
 {
     for (const double order : {0.3, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0})
@@ -81,7 +80,7 @@ TEST(MadeUpSeries, HasItsOrderAndItsLimit)
                 }
 }
 
-// An order that decreases the closer one looks is told from one that does not: f + C h^-p.
+// A divergent series f + C h^-p has a negative order, which distinguishes it from a convergent one.
 TEST(MadeUpSeries, ThatDivergesHasItsNegativeOrder)
 {
     const auto value = [](double h) { return 2.0 + std::pow(h, -0.5); };
@@ -91,7 +90,7 @@ TEST(MadeUpSeries, ThatDivergesHasItsNegativeOrder)
     EXPECT_TRUE(std::isnan(grids.extrapolated));
 }
 
-// Two orders at once, as real errors are: the bound holds, and the nearer the limit the truer the order.
+// Two orders at once, as in real errors: the bound holds, and the observed order becomes more accurate closer to the limit.
 TEST(MadeUpSeries, WithATailOfHigherOrderIsCovered)
 {
     double last_gap = 1.0;

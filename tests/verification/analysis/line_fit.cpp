@@ -1,5 +1,5 @@
-// Truth: NIST Statistical Reference Dataset "Norris" (36 points, certified to 15 digits), and power laws. Tolerance for Norris: 1e-10
-// relative, what double leaves of 15 certified digits after sums over 36 points.
+// Reference: NIST Statistical Reference Dataset "Norris" (36 points, certified to 15 digits), and power laws. Tolerance for Norris: 1e-10
+// relative, the precision of double after sums over 36 points of 15 certified digits.
 #include "analysis/line_fit.hpp"
 
 #include "pbs/geometry/input_error.hpp"

@@ -1,4 +1,4 @@
-// Truth: theory of the schemes for linear systems. Newmark's average acceleration keeps v M v / 2 + u K u / 2 (T. Hughes, The Finite
+// Reference: theory of the schemes for linear systems. Newmark's average acceleration keeps v M v / 2 + u K u / 2 (T. Hughes, The Finite
 // Element Method, 1987, ch. 9); generalised-alpha damps each mode by the spectral radius of its amplification matrix, which falls from 1 at
 // low to rho at infinite frequency (J. Chung, G. Hulbert, J. Appl. Mech. 60(2), 1993); both are stable for every time step.
 #include "reference_fem/dynamics/vibrating_body.hpp"
@@ -16,7 +16,7 @@ using namespace reference_fem;
 
 class EnergyInTime : public testing::Test {
 protected:
-    // Entries in -1 to 1, 0 where the bar is held.
+    // Entries in -1 to 1, and 0 where the bar is held.
     Eigen::VectorXd random_vector() const
     {
         std::mt19937 random(7);
@@ -30,8 +30,8 @@ protected:
                       {.element_order = 1, .held = [](const pbs::Vec3& x) { return x.x() < 1e-9; }}};
 };
 
-// All modes at once, omega h from 0.03 to some 5. A step's direct solve is in error by some eps times the condition of c_m M + K, 1e2
-// here, of random sign: 1e-14 sqrt(300) of the energy.
+// All modes at once, omega h from 0.03 to some 5. The direct solve of a step has an error of some eps times the condition number of c_m M +
+// K, 1e2 here, with random sign: 1e-14 sqrt(300) of the energy.
 TEST_F(EnergyInTime, NewmarkKeepsItToRounding)
 {
     TimeStepper stepper = bar.stepper({});
@@ -44,8 +44,8 @@ TEST_F(EnergyInTime, NewmarkKeepsItToRounding)
     EXPECT_LT(largest_drift, 1e-12);
 }
 
-// The amplification matrix of (u, h v / Omega, h^2 a / Omega^2) for u'' + omega^2 u = 0 and Omega = omega h: the scheme's three equations
-// as they stand, each divided by Omega^2.
+// The amplification matrix of (u, h v / Omega, h^2 a / Omega^2) for u'' + omega^2 u = 0 and Omega = omega h: the scheme's three equations,
+// each divided by Omega^2.
 Eigen::Matrix3d amplification(const TimeScheme& s, double Omega)
 {
     const double one = 1.0 / (Omega * Omega), velocity = 1.0 / Omega;
@@ -67,19 +67,20 @@ TEST(SpectralRadius, FallsFromOneToRho)
         double before = 1.0;
         for (double Omega = 1e-3; Omega < 1e5; Omega *= 1.5) {
             const double radius = spectral_radius(scheme, Omega);
-            // Double eigenvalues are found to the root of rounding, of eps times the condition Omega + 1 / Omega^2.
+            // Double eigenvalues have an error of the square root of the rounding, eps times the condition number Omega + 1 / Omega^2.
             EXPECT_LE(radius, before + 1e-5) << "rho " << rho << " Omega " << Omega;
             before = radius;
         }
-        EXPECT_NEAR(before, rho, 1e-3);  // at Omega = 8e4: the triple eigenvalue at infinity is off by Omega^(-2/3)
+        EXPECT_NEAR(before, rho, 1e-3);  // at Omega = 8e4: the triple eigenvalue at infinity differs by Omega^(-2/3)
     }
     EXPECT_NEAR(spectral_radius(newmark(), 7.0), 1.0, 1e-14);
 }
 
 class DissipationInTime : public EnergyInTime, public testing::WithParamInterface<double> {};
 
-// A mode of the bar decays by its spectral radius a step. From a state that is not the eigenvector of the amplification matrix the ratio of
-// two energies two steps apart wavers, hence the mean over many; the complex pair of eigenvalues needs Omega at which there is one.
+// A mode of the bar decays by its spectral radius per step. From a state that is not an eigenvector of the amplification matrix, the ratio
+// of two energies two steps apart oscillates, so the mean over many is taken. The complex pair of eigenvalues requires an Omega at which it
+// exists.
 TEST_P(DissipationInTime, OfAModeIsTheSpectralRadiusOfTheory)
 {
     const TimeScheme scheme = generalized_alpha(GetParam());
@@ -87,21 +88,21 @@ TEST_P(DissipationInTime, OfAModeIsTheSpectralRadiusOfTheory)
     for (const double Omega : {0.5, 1.0, 2.0}) {
         const double expected = spectral_radius(scheme, Omega);
         ASSERT_LT(expected, 1.0);
-        Eigen::Vector3d state(1.0, 0.0, -1.0);  // what the scheme itself makes of one mode, from the same start
+        Eigen::Vector3d state(1.0, 0.0, -1.0);  // the result of the scheme itself for one mode, from the same initial state
         const int steps = 40;
         for (int k = 0; k < steps; ++k) state = amplification(scheme, Omega) * state;
         TimeStepper stepper = bar.stepper({.scheme = scheme});
         stepper.start(mode.shape);
         ASSERT_TRUE(bar.run(stepper, Omega / mode.omega_rad_s, steps));
         EXPECT_NEAR(bar.amplitude(stepper, mode), state(0), 1e-9) << "Omega " << Omega;
-        // Both quadratures of the oscillation: |u + i v / omega|, in the long run proportional to radius^k.
+        // Both quadratures of the oscillation: |u + i v / omega| is proportional to radius^k in the long run.
         const double envelope = std::hypot(state(0), state(1));
         EXPECT_NEAR(std::pow(envelope, 1.0 / steps), expected, 0.05 * expected) << "Omega " << Omega;
     }
 }
 
-// At infinite frequency rho is a triple eigenvalue: amplitudes go as a polynomial of degree 2 in n times rho^n, may overshoot at first, and
-// fall by rho to within 2 / n a step in the end.
+// At infinite frequency rho is a triple eigenvalue. Amplitudes are a polynomial of degree 2 in n times rho^n, may overshoot at first, and
+// finally fall by rho to within 2 / n per step.
 TEST_P(DissipationInTime, AtHighFrequencyIsMonotoneAfterTheOvershoot)
 {
     const double rho = GetParam();
@@ -117,7 +118,7 @@ TEST_P(DissipationInTime, AtHighFrequencyIsMonotoneAfterTheOvershoot)
 
 INSTANTIATE_TEST_SUITE_P(Rho, DissipationInTime, testing::Values(0.5, 0.8));
 
-// A time step of 0.1 s is 20 to 60 times what an explicit scheme could take: no mode grows.
+// A time step of 0.1 s is 20 to 60 times the limit of an explicit scheme, and still no mode grows.
 TEST_F(EnergyInTime, NoTimeStepIsTooLong)
 {
     for (const TimeScheme& scheme : {newmark(), generalized_alpha(0.8), generalized_alpha(0.0)})

@@ -1,4 +1,4 @@
-// Truth: theory of beams and of damped oscillators.
+// Reference: the theory of beams and of damped oscillators.
 #include "reference_fem/dynamics/vibrating_body.hpp"
 
 #include "tests/support/structured_bar.hpp"
@@ -19,8 +19,8 @@ bool at_x_0(const pbs::Vec3& x)
 }
 
 // Bernoulli-Euler: omega = 1.875104^2 sqrt(E I / (rho A L^4)). Rayleigh's quotient over that mode, for which the integrals of w'^2 over w^2
-// and of w'''^2 over w''^2 both are 4.647 / L^2, gives what rotary inertia and shear take away: 4.647 (r / L)^2 (1 + E / (k G)) / 2, with
-// r^2 = h^2 / 12 and E / (k G) = 12 / 5 for nu = 0. Its square, 4e-5, and the elements' own error, 1e-4 on this mesh, are left.
+// and of w'''^2 over w''^2 are both 4.647 / L^2, gives the reduction by rotary inertia and shear: 4.647 (r / L)^2 (1 + E / (k G)) / 2, with
+// r^2 = h^2 / 12 and E / (k G) = 12 / 5 for nu = 0. The remaining errors are its square, 4e-5, and that of the elements, 1e-4 on this mesh.
 TEST(FirstFrequency, OfQuadraticTetsIsThatOfABeam)
 {
     const VibratingBody bar(test_support::structured_bar({0, 0, 0}, {1, 0.1, 0.1}, {20, 2, 2}), {.poisson = 0.0, .held = at_x_0});
@@ -30,7 +30,7 @@ TEST(FirstFrequency, OfQuadraticTetsIsThatOfABeam)
     EXPECT_NEAR(ratio, 1.0 - 4.647 / 1200.0 * (1.0 + 2.4) / 2.0, 3e-4);
 }
 
-// The bar let go in its first mode crosses zero every half period.
+// A bar released in its first mode crosses zero every half period.
 TEST(FirstFrequency, OfTimeIntegrationIsTheEigenvalue)
 {
     VibratingBody bar(test_support::structured_bar({0, 0, 0}, {1, 0.2, 0.2}, {6, 1, 1}), {.held = at_x_0});
@@ -47,7 +47,8 @@ TEST(FirstFrequency, OfTimeIntegrationIsTheEigenvalue)
     }));
     ASSERT_GE(crossings.size(), 8u);
     const double half_period_s = (crossings.back() - crossings.front()) / (crossings.size() - 1.0);
-    // Average acceleration lengthens the period by (omega h)^2 / 12 (Hughes, ch. 9); a crossing is interpolated to (omega h)^3 / 8 / 6.
+    // Average acceleration lengthens the period by (omega h)^2 / 12 (Hughes, ch. 9); the interpolation of a crossing has an error of (omega
+    // h)^3 / 8 / 6.
     EXPECT_NEAR(half_period_s * mode.omega_rad_s / pi, 1.0 + 0.01 / 12.0, 5e-5);
 }
 
@@ -70,7 +71,7 @@ TEST_P(RayleighDamping, OfTheFirstModeIsTheDampingRatioOfTheory)
     const double decrement = std::log(one / bar.amplitude(stepper, mode));
     const double measured = decrement / std::hypot(2.0 * pi, decrement);
     RecordProperty("measured_damping_ratio", std::to_string(measured));
-    // Second order in omega h = 0.063: 4e-3 / 12, doubled for the phase that the maximum is missed by.
+    // Second order in omega h = 0.063: 4e-3 / 12, doubled for the phase by which the maximum is missed.
     EXPECT_NEAR(measured, zeta, 2e-3 * zeta);
 }
 

@@ -1,5 +1,5 @@
-// Truth: mechanics (momentum), theory (second order, here by refinement of the time step against a step eight times finer) and the exact
-// motion of the skeleton. Stable neo-Hookean flesh at finite rotations.
+// Reference: mechanics (momentum), theory (second order, by refinement of the time step compared with a step eight times finer) and the
+// exact motion of the skeleton. The material is stable neo-Hookean flesh at finite rotations.
 #include "reference_fem/elastic_body.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -21,7 +21,7 @@ using pbs::Vec3;
 
 const pbs::TetMesh bar = test_support::structured_bar({0, -0.1, -0.1}, {0.6, 0.1, 0.1}, {6, 2, 2});
 
-// A bar that flies, spins and vibrates under gravity: nothing holds it.
+// A bar that flies, rotates and vibrates under gravity; nothing holds it.
 class FreeFlight : public testing::TestWithParam<TimeScheme> {
 protected:
     struct Momenta {
@@ -39,7 +39,7 @@ protected:
         return sum;
     }
 
-    // Momenta at the start and after 0.2 s.
+    // Momenta initially and after 0.2 s.
     std::pair<Momenta, Momenta> fly(double step_s, const Vec3& gravity)
     {
         const ElasticPotential flesh(space, Model::stable_neo_hookean, lame_parameters(2e4, 0.3), Formulation::displacement);
@@ -66,8 +66,8 @@ protected:
     const SimplexSpace space{bar, 1};
 };
 
-// Internal forces cancel in every step of either scheme: the momentum changes by m g t. Tolerance: Newton's residual, 1e-10 of forces that
-// are some 1e2 times the change of momentum per second.
+// Internal forces cancel in every step of either scheme, so the momentum changes by m g t. Tolerance: Newton's residual, 1e-10 of forces
+// that are some 1e2 times the change of momentum per second.
 TEST_P(FreeFlight, MomentumChangesByTheWeightAlone)
 {
     const Vec3 gravity(0, 0, -9.81);
@@ -76,7 +76,7 @@ TEST_P(FreeFlight, MomentumChangesByTheWeightAlone)
     EXPECT_LT((after.linear - before.linear - impulse).norm(), 1e-8 * impulse.norm());
 }
 
-// Neither scheme keeps angular momentum (J. Simo, N. Tarnow, ZAMP 43, 1992, build one that does); it errs by second order.
+// Neither scheme conserves angular momentum (J. Simo, N. Tarnow, ZAMP 43, 1992, construct one that does); the error is of second order.
 TEST_P(FreeFlight, AngularMomentumErrsBySecondOrder)
 {
     const auto error = [&](double step_s) {
@@ -85,13 +85,13 @@ TEST_P(FreeFlight, AngularMomentumErrsBySecondOrder)
     };
     const double coarse = error(0.0025), fine = error(0.00125);
     RecordProperty("order", std::to_string(std::log2(coarse / fine)));
-    EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.15) << coarse << " " << fine;  // the next order still shows
+    EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.15) << coarse << " " << fine;  // the next order is still visible
 }
 
 INSTANTIATE_TEST_SUITE_P(Scheme, FreeFlight, testing::Values(newmark(), generalized_alpha(0.8)),
                          [](const auto& info) { return info.param.alpha_f == 0.0 ? "newmark" : "generalized_alpha"; });
 
-// The skeleton turns one end of the bar about its axis, starting smoothly: theta = 1.5 (1 - cos(3 t)) / 2.
+// The skeleton turns one end of the bar about its axis with a smooth beginning: theta = 1.5 (1 - cos(3 t)) / 2.
 class MovedBar : public testing::TestWithParam<std::tuple<Dynamics, bool>> {
 protected:
     Attachment attachment() const
@@ -124,7 +124,7 @@ protected:
         return {by_springs() ? Positions(resting_points() * turn) : Positions(0, 3), bar.rest * turn, {}};
     }
 
-    // Vertices after 0.8 s [m].
+    // The vertices after 0.8 s [m].
     Positions end(int steps) const
     {
         ElasticBody body(bar,
@@ -145,7 +145,7 @@ protected:
     bool by_springs() const { return std::get<1>(GetParam()); }
 };
 
-// A reference eight times finer than the finest is itself in error by 1/64 of that: 0.02 in the order.
+// A reference that is eight times finer than the finest has an error of 1/64 of that, which is 0.02 in the order.
 TEST_P(MovedBar, ConvergesWithSecondOrder)
 {
     const Positions reference = end(320);
@@ -189,7 +189,7 @@ TEST_F(Body, AfterASolveIsAtRest)
     ASSERT_TRUE(hanging.solve(rest, gravity).converged());
     const Positions equilibrium = hanging.positions();
     for (int k = 0; k < 10; ++k) ASSERT_TRUE(hanging.advance(rest, gravity, 0.01).converged());
-    // Newton's tolerance of 1e-8 on forces, under a few times the static deflection.
+    // Newton's tolerance of 1e-8 on forces, with a few times the static deflection.
     EXPECT_LT((hanging.positions() - equilibrium).norm(), 1e-6 * (equilibrium - bar.rest).norm());
 }
 

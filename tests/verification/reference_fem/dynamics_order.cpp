@@ -1,6 +1,6 @@
-// Truth: exact solutions of the semi-discrete problem M u'' + C u' + K u = f, so that what is left is the error in time, and theory: both
-// schemes are of second order (J. Chung, G. Hulbert, J. Appl. Mech. 60(2), 1993). Tolerance 0.1 on the observed order; the next terms of
-// the error, of relative size (omega h)^2 and for rho = 0 some omega h = 0.05 on the finest pair, leave up to 0.05.
+// Reference: exact solutions of the semi-discrete problem M u'' + C u' + K u = f, so that only the error in time remains, and theory: both
+// schemes are of second order (J. Chung, G. Hulbert, J. Appl. Mech. 60(2), 1993). Tolerance 0.1 on the observed order: the next terms of
+// the error, of relative size (omega h)^2 and for rho = 0 some omega h = 0.05 on the finest pair, contribute up to 0.05.
 #include "reference_fem/dynamics/vibrating_body.hpp"
 #include "reference_fem/potentials/elastic_potential.hpp"
 
@@ -40,7 +40,7 @@ protected:
     }
 };
 
-// u = phi e^(-zeta omega t) (cos omega_d t + zeta / sqrt(1 - zeta^2) sin omega_d t), from phi at rest.
+// u = phi e^(-zeta omega t) (cos omega_d t + zeta / sqrt(1 - zeta^2) sin omega_d t), from phi without velocity.
 struct DampedMode {
     double omega, zeta;
 
@@ -59,7 +59,7 @@ TEST_P(OrderInTime, OfTheFirstModeWithAndWithoutDamping)
                       {.element_order = 1, .held = [](const pbs::Vec3& x) { return x.x() < 1e-9; }});
     const Mode mode = bar.first_mode();
     for (const double zeta : {0.0, 0.1}) {
-        const double a = zeta * mode.omega_rad_s, b = zeta / mode.omega_rad_s;  // half of zeta each
+        const double a = zeta * mode.omega_rad_s, b = zeta / mode.omega_rad_s;  // each contributes half of zeta
         const DampedMode exact{mode.omega_rad_s, zeta};
         const double end_s = 4.0 / mode.omega_rad_s;
         std::array<double, 3> displacement_errors, velocity_errors;
@@ -76,9 +76,9 @@ TEST_P(OrderInTime, OfTheFirstModeWithAndWithoutDamping)
     }
 }
 
-// Every node of the surface moves as u = s(t) A x, an affine field that the elements contain and that strains uniformly: inside, internal
-// forces vanish and the body force M A x s'' + a M A x s' makes it the exact solution. What drives the inside through inertia is M's
-// coupling of free and prescribed nodes alone.
+// Every node of the surface moves as u = s(t) A x, an affine field that the elements contain and whose strain is uniform. Inside, internal
+// forces vanish, and the body force M A x s'' + a M A x s' makes it the exact solution. Only the coupling of free and prescribed nodes in M
+// drives the inside through inertia.
 struct AffineMotion {
     Eigen::VectorXd field;  // A x at the nodes [m], #dofs
 
@@ -119,7 +119,7 @@ public:
         }
     }
 
-    // Error of the displacement at the end, relative; in steps as a load path of that first step takes them.
+    // Relative error of the displacement at the end, with steps that a load path with the given first step takes.
     double error(const TimeScheme& scheme, int steps, double first_part = 1.0)
     {
         const double density = 1000.0, damping = 0.7, end_s = 1.0, h = end_s / steps;
@@ -156,7 +156,7 @@ TEST_P(OrderInTime, WithAPrescribedSurface)
                         "displacement");
 }
 
-// Each step in parts of 1/4, 1/4, 1/2: the length changes twice a step.
+// Each step is divided into parts of 1/4, 1/4, 1/2, so that the length changes twice per step.
 TEST_P(OrderInTime, WithStepsInUnequalParts)
 {
     MovedCube cube;

@@ -1,7 +1,7 @@
-// Truth: closed form (Timoshenko and Goodier, Theory of elasticity, art. 96). A bar along x, held at x = 0, under its own weight w [N/m^3]
-// along x carries sigma_xx = w (L - x) and nothing else: eps_xx = sigma_xx / E, eps_yy = eps_zz = -nu eps_xx, no shear. The displacement
-// is quadratic: P2 tets return it to rounding, sqrt(n) eps cond(K); P1 tets approach it with at least order 1 in the H1 seminorm (the L2
-// order is below 2: the dual problem is singular where the held face meets free ones).
+// Reference: closed form (Timoshenko and Goodier, Theory of elasticity, art. 96). A bar along x, held at x = 0, under its own weight w
+// [N/m^3] along x has sigma_xx = w (L - x) and no other stress: eps_xx = sigma_xx / E, eps_yy = eps_zz = -nu eps_xx, no shear. The
+// displacement is quadratic: P2 tets reproduce it up to rounding, sqrt(n) eps cond(K). P1 tets converge with at least order 1 in the H1
+// seminorm (the L2 order is below 2, since the dual problem is singular where the held face meets free ones).
 #include "reference_fem/boundary_value_problem.hpp"
 
 #include "tests/support/solve_rounding.hpp"
@@ -59,7 +59,7 @@ TEST(HangingBar, StoredEnergyIsTheClosedForm)
     EXPECT_NEAR(solution.strain_energy_j(material), energy, test_support::rounding_of(solution, material).energy_j(energy));
 }
 
-// Cea's lemma is a bound from above: at least order 1, less the 0.1 of two meshes so close.
+// Cea's lemma is an upper bound: at least order 1, minus 0.1 for two meshes of similar size.
 TEST(HangingBar, LinearTetsApproachWithOrderOneOrBetter)
 {
     const double coarse = hang(6, 1).errors(exact, exact_gradient).h1_seminorm,

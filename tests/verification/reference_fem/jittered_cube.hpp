@@ -1,4 +1,4 @@
-// The unit cube of n^3 Kuhn-split cells with its inner vertices moved at random, so that no symmetry of the mesh hides an error.
+// The unit cube of n^3 Kuhn-split cells whose inner vertices are displaced at random, so that no symmetry of the mesh hides an error.
 #pragma once
 
 #include "tests/support/structured_bar.hpp"

@@ -1,6 +1,7 @@
-// Truth: theory that every hyperelastic law obeys. Stress is the energy's derivative and the tangent the stress's (central differences,
-// in error by O(eps^2)); the tangent is symmetric; a rotation of the body after the deformation changes nothing, nor, in an isotropic law,
-// one before it; and for small strain all agree with linear elasticity to second order of the energy, so that they differ by third.
+// Reference: theory that every hyperelastic law obeys. Stress is the derivative of the energy and the tangent that of the stress (central
+// differences with an error of O(eps^2)). The tangent is symmetric. A rotation of the body after the deformation changes nothing, nor, for
+// an isotropic law, one before it. For small strain all laws agree with linear elasticity to second order of the energy, so they differ by
+// third order.
 #include "tests/support/eps_sweep.hpp"
 #include "tests/support/law_points.hpp"
 
@@ -29,13 +30,13 @@ Vector9 stacked(const Eigen::Matrix3d& matrix)
     return Eigen::Map<const Vector9>(matrix.data());
 }
 
-// A hundred roundings of the largest term a law has: of degree six in F.
+// A hundred roundings of the largest term of a law, which is of degree six in F.
 double rounding(const Eigen::Matrix3d& f)
 {
     return 100.0 * std::numeric_limits<double>::epsilon() * (lame.lambda_pa + lame.mu_pa) * std::pow(1.0 + f.squaredNorm(), 3);
 }
 
-// Large rotations and stretches, and, where the law is defined there, inversions.
+// Large rotations and stretches, and inversions if the law is defined for them.
 std::vector<Eigen::Matrix3d> states(const NamedModel& model)
 {
     RandomPoints random(7);
@@ -47,7 +48,7 @@ std::vector<Eigen::Matrix3d> states(const NamedModel& model)
 
 class NonlinearLaw : public testing::TestWithParam<NamedModel> {};
 
-// With lambda = 0 the sweep sees the shape alone; together with lambda it sees the dilatation, whose mean the elements may take.
+// With lambda = 0 the sweep tests only the shape. Together with lambda it tests the dilatation, of which elements may take the mean.
 TEST_P(NonlinearLaw, StressIsTheDerivativeOfTheEnergy)
 {
     const auto law = constitutive_law(GetParam().model, lame);
@@ -77,7 +78,7 @@ TEST_P(NonlinearLaw, TangentIsTheDerivativeOfTheStress)
         }
 }
 
-// A quadratic energy: differences are exact at any step.
+// For a quadratic energy, differences are exact for any step.
 TEST(LinearLaw, DifferencesAreExactAtAnyStep)
 {
     const LawPoint linear(Model::linear, lame);
@@ -99,7 +100,7 @@ TEST_P(EveryLaw, TangentIsSymmetric)
     }
 }
 
-// psi(Q F) = psi(F), P(Q F) = Q P(F), and the tangent turns with both.
+// psi(Q F) = psi(F), P(Q F) = Q P(F), and the tangent rotates with both.
 TEST_P(NonlinearLaw, IsIndifferentToTheFrame)
 {
     const LawPoint point(GetParam().model, lame);
@@ -125,8 +126,8 @@ TEST_P(NonlinearLaw, IsIsotropic)
     }
 }
 
-// The negative control. Linear elasticity is isotropic only to a turn of body and frame together; it takes a rotation by a for the strain
-// diag(cos a - 1, cos a - 1, 0), hence for the energy 2 (lambda + mu) (1 - cos a)^2.
+// The negative control. Linear elasticity is isotropic only under a rotation of body and frame together. It interprets a rotation by a as
+// the strain diag(cos a - 1, cos a - 1, 0), with the energy 2 (lambda + mu) (1 - cos a)^2.
 TEST(LinearLaw, IsIsotropicButNotIndifferentToTheFrame)
 {
     const LawPoint linear(Model::linear, lame);
@@ -147,8 +148,8 @@ TEST_P(NonlinearLaw, TangentAtRestIsLinearElasticitys)
     EXPECT_LE(difference.norm(), rounding(identity));
 }
 
-// psi(I + eps G) - psi_linear(I + eps G) = O(eps^3). At eps = 1e-5 the energy is 1e-10 of the moduli and the difference 1e-15: still seen,
-// since the laws sum up small terms, in error by rounding relative to themselves plus the rounding of 1 + eps, which costs 1e-16 eps.
+// psi(I + eps G) - psi_linear(I + eps G) = O(eps^3). At eps = 1e-5 the energy is 1e-10 of the moduli and the difference 1e-15. It is still
+// visible, since the laws sum small terms, whose error is the rounding relative to themselves plus the rounding of 1 + eps, 1e-16 eps.
 TEST_P(NonlinearLaw, LeavesLinearElasticityAtThirdOrder)
 {
     const LawPoint point(GetParam().model, lame), linear(Model::linear, lame);

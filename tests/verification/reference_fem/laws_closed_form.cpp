@@ -1,5 +1,6 @@
-// Truth: textbook stresses of each law, by hand from its energy in principal stretches or in shear, by formulas that no source file holds.
-// J. Bonet, R. Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, chapter 6; R. Ogden, Non-Linear Elastic Deformations.
+// Reference: textbook stresses of each law, derived by hand from its energy in principal stretches or in shear, by formulas that no source
+// file contains. J. Bonet, R. Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, chapter 6; R. Ogden, Non-Linear Elastic
+// Deformations.
 #include "tests/support/law_points.hpp"
 
 #include <cmath>
@@ -44,7 +45,7 @@ TEST_P(EveryLaw, UniaxialStrain)
     const std::map<Model, std::function<Pair(double)>> along_across = {
         {Model::linear, hooke},
         {Model::corotational, hooke},
-        {Model::stable_neo_hookean,  // along: the same straight line as Hooke's
+        {Model::stable_neo_hookean,  // along: the same straight line as Hooke's law
          [](double s) { return Pair((lambda + 2.0 * mu) * (s - 1.0), mu * (s - 1.0) * (s - 1.0) + lambda * s * (s - 1.0)); }},
         {Model::neo_hookean, [](double s) { return Pair(mu * (s - 1.0 / s) + lambda * std::log(s) / s, lambda * std::log(s)); }},
         {Model::st_venant_kirchhoff, [](double s) { return Pair((0.5 * lambda + mu) * s * (s * s - 1.0), 0.5 * lambda * (s * s - 1.0)); }},
@@ -63,7 +64,7 @@ TEST_P(EveryLaw, UniaxialStrain)
 Eigen::Matrix3d shear_stress(Model model, double g)
 {
     Eigen::Matrix3d p = Eigen::Matrix3d::Zero();
-    p(0, 1) = p(1, 0) = mu * g;  // the neo-Hookean laws agree: the volume stays
+    p(0, 1) = p(1, 0) = mu * g;  // the neo-Hookean laws agree, since the volume does not change
     if (model == Model::st_venant_kirchhoff) {
         const double normal = 0.5 * lambda * g * g;  // S = lambda tr E I + 2 mu E, P = F S
         p(0, 0) = normal + mu * g * g;
@@ -73,7 +74,7 @@ Eigen::Matrix3d shear_stress(Model model, double g)
     } else if (model == Model::isochoric_neo_hookean) {
         p.diagonal().setConstant(-mu * g * g / 3.0);
         p(1, 0) += mu * g * g * g / 3.0;
-    } else if (model == Model::corotational) {  // R turns by atan(g / 2), tr S = 1 + sqrt(4 + g^2)
+    } else if (model == Model::corotational) {  // R rotates by atan(g / 2), tr S = 1 + sqrt(4 + g^2)
         const double root = std::sqrt(4.0 + g * g), cosine = 2.0 / root, sine = g / root, pressure = lambda * (root - 2.0);
         p << 2.0 * mu * (1.0 - cosine) + pressure * cosine, 2.0 * mu * (g - sine) + pressure * sine, 0.0,  //
             (2.0 * mu - pressure) * sine, 2.0 * mu * (1.0 - cosine) + pressure * cosine, 0.0,              //
@@ -92,7 +93,7 @@ TEST_P(EveryLaw, SimpleShear)
     }
 }
 
-// The stretch across at which a bar pulled to s is free of stress there, by bisection.
+// The transverse stretch at which a bar stretched to s has no transverse stress, by bisection.
 double free_stretch_across(const LawPoint& point, double s)
 {
     double low = 0.3, high = 2.5;
@@ -105,9 +106,9 @@ double free_stretch_across(const LawPoint& point, double s)
 
 class NeoHookeanLaw : public testing::TestWithParam<NamedModel> {};
 
-// L. Treloar, The Physics of Rubber Elasticity: an incompressible neo-Hookean bar pulled to s carries mu (s - 1 / s^2) per unit of its
-// first cross-section. The pressure, of order mu, changes the volume of a compressible one by order mu / lambda, and its force likewise:
-// the difference to Treloar's falls a hundredfold where lambda grows so.
+// L. Treloar, The Physics of Rubber Elasticity: an incompressible neo-Hookean bar stretched to s carries mu (s - 1 / s^2) per unit of its
+// initial cross-section. The pressure, of order mu, changes the volume of a compressible bar by order mu / lambda, and its force likewise:
+// the difference from Treloar's falls a hundredfold if lambda grows a hundredfold.
 TEST_P(NeoHookeanLaw, TendsToTreloarsBarAsVolumeIsKept)
 {
     for (const double s : {0.6, 1.3, 2.0}) {
@@ -124,8 +125,8 @@ TEST_P(NeoHookeanLaw, TendsToTreloarsBarAsVolumeIsKept)
 INSTANTIATE_TEST_SUITE_P(Laws, NeoHookeanLaw, testing::Values(nonlinear_models[1], nonlinear_models[2], nonlinear_models[4]),
                          name_of_model);
 
-// The warning. St Venant-Kirchhoff, squeezed with its sides held, carries (lambda / 2 + mu) (s^3 - s): most at s = 1 / sqrt 3, whatever
-// the moduli; squeezed further it gives way, and at s = 0 it resists no longer at all.
+// A known defect: St Venant-Kirchhoff, compressed with its sides held, carries (lambda / 2 + mu) (s^3 - s), with its maximum at s = 1 /
+// sqrt 3 for any moduli. Under further compression it softens, and at s = 0 it has no resistance.
 TEST(StVenantKirchhoff, HasALimitPointUnderUniaxialStrain)
 {
     const double limit = 1.0 / std::sqrt(3.0);
@@ -139,7 +140,7 @@ TEST(StVenantKirchhoff, HasALimitPointUnderUniaxialStrain)
     }
 }
 
-// With its sides free, E_22 = -nu E_11, it carries Young's modulus times (s^3 - s) / 2: the same limit point.
+// With its sides free, E_22 = -nu E_11, it carries Young's modulus times (s^3 - s) / 2, with the same limit point.
 TEST(StVenantKirchhoff, HasTheSameLimitPointUnderUniaxialStress)
 {
     const LawPoint point(Model::st_venant_kirchhoff, lame);
@@ -153,7 +154,7 @@ TEST(StVenantKirchhoff, HasTheSameLimitPointUnderUniaxialStress)
     EXPECT_LT(force(1.0 / std::sqrt(3.0)), force(0.8));
 }
 
-// No other law gives way on the same path.
+// No other law softens on the same path.
 TEST(StVenantKirchhoff, IsAloneInGivingWay)
 {
     for (const NamedModel& model : all_models()) {

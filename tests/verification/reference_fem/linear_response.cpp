@@ -1,6 +1,6 @@
-// Truth: properties of linear elasticity (superposition, reciprocity, independence of Young's modulus and of the numbering) and of the
-// program (a kept factor gives what a fresh one gives; two solvers agree). Tolerances: rounding of a direct solve, cond(K) eps with a
-// condition of some 1e5 here: 1e-10.
+// Reference: properties of linear elasticity (superposition, reciprocity, independence of Young's modulus and of the numbering) and of the
+// program (a stored factorisation gives the same as a new one; two solvers agree). Tolerances: rounding of a direct solve, cond(K) eps with
+// a condition number of some 1e5 here: 1e-10.
 #include "reference_fem/linear_elasticity.hpp"
 
 #include "tests/verification/reference_fem/jittered_cube.hpp"
@@ -59,7 +59,7 @@ TEST_P(LinearResponse, CholmodAndUmfpackAgree)
     EXPECT_LT(other.residual, 1e-12);
 }
 
-// |e| / |u| <= cond(K) |r| / |f|: 1e5 times the 1e-10 that conjugate gradients are asked for.
+// |e| / |u| <= cond(K) |r| / |f|: 1e5 times the tolerance of conjugate gradients, 1e-10.
 TEST_P(LinearResponse, ConjugateGradientsAgreeWithCholmod)
 {
     LinearOptions second = options;
@@ -139,7 +139,7 @@ TEST_P(LinearResponse, NumberingOfVerticesAndTetsDoesNotMatter)
     EXPECT_LT(relative_difference(back, plain.positions()), 1e-10);
 }
 
-// Refinement of the element changes the answer, but not what it is asked: the same points are tied to the same targets.
+// A higher element order changes the solution, but not the problem: the same points are tied to the same targets.
 TEST_P(LinearResponse, TheSamePointsAreGrippedByEveryElementOrder)
 {
     LinearOptions other = options;

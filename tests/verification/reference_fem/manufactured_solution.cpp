@@ -1,7 +1,7 @@
-// Truth: a manufactured solution u_i = sin(a_i . x + phi_i), whose body force follows by hand. Theory (Brenner and Scott, The
+// Reference: a manufactured solution u_i = sin(a_i . x + phi_i), whose body force follows by hand. Theory (Brenner and Scott, The
 // mathematical theory of finite element methods, ch. 5): order p elements converge with h^(p+1) in L2 and h^p in the H1 seminorm.
-// Tolerance: an observed order between the two finest of three meshes is within 0.1 of it; on jittered meshes the error constant of one
-// mesh differs from the next by a few percent, 0.05 in the order.
+// Tolerance: the observed order between the two finest of three meshes lies within 0.1 of it; on jittered meshes the error constants of two
+// meshes differ by a few percent, 0.05 in the order.
 #include "reference_fem/boundary_value_problem.hpp"
 
 #include "tests/verification/reference_fem/jittered_cube.hpp"

@@ -1,4 +1,4 @@
-// Near incompressibility, nu up to 0.49999, in the forms that are made for it; P1, which locks, is the negative control.
+// Near incompressibility, nu up to 0.49999, in the formulations for it; P1, which locks, is the negative control.
 #include "reference_fem/boundary_value_problem.hpp"
 #include "reference_fem/linear_flesh.hpp"
 
@@ -20,8 +20,8 @@ struct Element {
 const Element taylor_hood{2, Formulation::taylor_hood}, mean_dilatation{2, Formulation::mean_dilatation},
     linear{1, Formulation::displacement};
 
-// Manufactured: u = w + grad(phi) / lambda with w_i = sin(a_i . x + phase_i), a_ii = 0, so that div w = 0, and laplace(phi) = p =
-// sin(b . x + c). Then lambda div u = p whatever lambda is, and f = -(1 + mu / lambda) grad p - mu laplace(u).
+// Manufactured: u = w + grad(phi) / lambda with w_i = sin(a_i . x + phase_i), a_ii = 0, so that div w = 0, and laplace(phi) = p = sin(b . x
+// + c). Then lambda div u = p for any lambda, and f = -(1 + mu / lambda) grad p - mu laplace(u).
 class KnownPressure {
 public:
     explicit KnownPressure(const ElasticMaterial& material) : lame_(lame_parameters(material.young_pa, material.poisson))
@@ -79,10 +79,10 @@ double order(double coarse, double fine)
     return std::log2(coarse / fine);
 }
 
-// Truth: theory. Taylor-Hood's error is that of the best approximation of u by P2 and of p by P1, whatever lambda is: order 3 in L2, 2 in
-// H1 and in the pressure (D. Boffi, F. Brezzi, M. Fortin, Mixed finite element methods and applications, Springer 2013, section 8.8;
-// D. Boffi, SIAM J. Numer. Anal. 34, 1997). Tolerance: on jittered meshes the constants of two differ by a few percent, 0.05 in the order.
-// The pressure's error is taken against its interpolation, which differs from it by that order too.
+// Reference: theory. Taylor-Hood's error is that of the best approximation of u by P2 and of p by P1, for any lambda: order 3 in L2, 2 in
+// H1 and in the pressure (D. Boffi, F. Brezzi, M. Fortin, Mixed finite element methods and applications, Springer 2013, section 8.8; D.
+// Boffi, SIAM J. Numer. Anal. 34, 1997). Tolerance: on jittered meshes the constants of two meshes differ by a few percent, 0.05 in the
+// order. The error of the pressure is measured against its interpolation, whose own error has that order too.
 TEST(NearIncompressible, TaylorHoodKeepsItsOrders)
 {
     const ElasticMaterial material{1.0, 0.4999};
@@ -92,8 +92,8 @@ TEST(NearIncompressible, TaylorHoodKeepsItsOrders)
     EXPECT_NEAR(order(coarse.pressure, fine.pressure), 2.0, 0.1);
 }
 
-// Truth: theory, as above: constant pressures approximate with order 1, and so H1 has order 1 and L2 order 2. These meshes are coarse for
-// that: with an error C h^p (1 + c h + ...) an observed order is p - c' h, so that two of them, on meshes twice as fine, extrapolate to
+// Reference: theory, as above: constant pressures approximate with order 1, so H1 has order 1 and L2 order 2. The meshes are coarse for
+// these orders: with an error C h^p (1 + c h + ...) an observed order is p - c' h, so two of them, on meshes twice as fine, extrapolate to
 // p + O(h^2).
 TEST(NearIncompressible, MeanDilatationOfQuadraticTetsHasOrdersTwoAndOne)
 {
@@ -106,9 +106,9 @@ TEST(NearIncompressible, MeanDilatationOfQuadraticTetsHasOrdersTwoAndOne)
     EXPECT_NEAR(2.0 * h1[1] - h1[0], 1.0, 0.1);
 }
 
-// Truth: theory, in the patch test's words: an affine displacement and its constant pressure are in the spaces. Tolerance: rounding of a
-// direct solve, sqrt(n) eps cond(K). LDL^T without pivoting, which a quasi-definite matrix has in every order, is the second opinion on the
-// same matrix.
+// Reference: theory, as in the patch test: an affine displacement and its constant pressure are in the spaces. Tolerance: rounding of a
+// direct solve, sqrt(n) eps cond(K). LDL^T without pivoting, which a quasi-definite matrix admits in every order, solves the same matrix
+// for comparison.
 TEST(NearIncompressible, TaylorHoodPassesThePatchTest)
 {
     const ElasticMaterial material{1.0, 0.4999};
@@ -145,7 +145,7 @@ TEST(NearIncompressible, TaylorHoodPassesThePatchTest)
     EXPECT_LT((second - exact(free)).norm(), bound * size);
 }
 
-// A cantilever, L = 10 m, h = 1 m, clamped whole at one end, 1 N of shear traction at the other: mean deflection of the loaded face.
+// A cantilever, L = 10 m, h = 1 m, fully clamped at one end, with 1 N of shear traction at the other: mean deflection of the loaded face.
 struct Beam {
     static constexpr double length_m = 10.0, young_pa = 1e5;
 
@@ -166,8 +166,8 @@ struct Beam {
     static double shear_m(double nu) { return length_m * (12.0 + 11.0 * nu) / (10.0 * (1.0 + nu)) * 2.0 * (1.0 + nu) / young_pa; }
 };
 
-// Truth: Timoshenko's beam with Cowper's shear coefficient, J. Appl. Mech. 33, 1966. The solid differs from it within one depth h of its
-// ends (Saint-Venant): the clamp holds the anticlastic curvature, at most 3 nu^2 h / L of the bending, and warping there may be free or
+// Reference: Timoshenko's beam with Cowper's shear coefficient, J. Appl. Mech. 33, 1966. The solid differs from it within one depth h of
+// its ends (Saint-Venant): the clamp holds the anticlastic curvature, at most 3 nu^2 h / L of the bending, and warping there may be free or
 // held, at most the shear deflection of one depth.
 TEST(NearIncompressible, TheCantileverBendsLikeTheBeamAtEveryPoissonRatio)
 {
@@ -180,16 +180,16 @@ TEST(NearIncompressible, TheCantileverBendsLikeTheBeamAtEveryPoissonRatio)
         }
 }
 
-// The negative control: a constraint on the volume of every tet leaves P1 next to nothing to bend with.
+// The negative control: a constraint on the volume of every tet leaves P1 almost no freedom to bend.
 TEST(NearIncompressible, LinearTetsLock)
 {
     EXPECT_GT(Beam::deflection_m(linear, 0.3, 3), 0.5 * Beam::bending_m());
     EXPECT_LT(Beam::deflection_m(linear, 0.4999, 3), 0.1 * Beam::bending_m());
 }
 
-// Truth: theory. The solution is analytic in 1/2 - nu and has the incompressible one for its limit, so what is missing to it falls in
-// proportion: (u(0.4999) - u(0.49999)) / (u(0.49999) - u(0.499999)) = 10 (1 + O(1e-4)). A matrix whose condition grew with lambda would
-// lose these differences, a millionth of u, to rounding: mean dilatation's does.
+// Reference: theory. The solution is analytic in 1/2 - nu and its limit is the incompressible one, so its distance from the limit falls
+// proportionally: (u(0.4999) - u(0.49999)) / (u(0.49999) - u(0.499999)) = 10 (1 + O(1e-4)). A matrix whose condition number grew with
+// lambda, as that of mean dilatation does, would lose these differences, a millionth of u, to rounding.
 TEST(NearIncompressible, TaylorHoodReachesTheIncompressibleLimitInProportion)
 {
     double at[3];
@@ -197,7 +197,7 @@ TEST(NearIncompressible, TaylorHoodReachesTheIncompressibleLimitInProportion)
     EXPECT_NEAR((at[0] - at[1]) / (at[1] - at[2]), 10.0, 0.05);
 }
 
-// Truth: closed form. A bar on rollers under tension t: stress diag(t, 0, 0), so p = lambda t (1 - 2 nu) / E. Tolerance: rounding of a
+// Reference: closed form. A bar on rollers under tension t: stress diag(t, 0, 0), so p = lambda t (1 - 2 nu) / E. Tolerance: rounding of a
 // direct solve, in the stress at a vertex and in the energy.
 TEST(NearIncompressible, StressesOfABarUnderTensionAreExactInEveryForm)
 {

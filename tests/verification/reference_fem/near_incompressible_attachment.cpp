@@ -1,4 +1,4 @@
-// The forms for near incompressibility under the skeleton's attachment, nu = 0.4999. Tolerances: rounding of direct solves. With mean
+// The formulations for near incompressibility with the skeleton's attachment, nu = 0.4999. Tolerances: rounding of direct solves. With mean
 // dilatation cond(K) is 7e7, since lambda / mu = 5e3 multiplies that of the compressible material; with Taylor-Hood it is 3e4.
 #include "reference_fem/boundary_value_problem.hpp"
 #include "reference_fem/elastic_body.hpp"
@@ -26,7 +26,7 @@ constexpr double young_pa = 1e5, poisson = 0.4999, cell_m = 0.25;
 const pbs::TetMesh bar =
     test_support::jittered(test_support::structured_bar({0, -0.25, -0.25}, {2, 0.25, 0.25}, {8, 2, 2}), Vec3::Constant(cell_m), 0.25);
 
-// Whole tets with every corner at most so far along the bar.
+// All tets whose corners are at most at x along the bar.
 std::vector<int> tets_up_to(double x)
 {
     std::vector<int> tets;
@@ -49,7 +49,8 @@ LinearOptions options_of(Formulation formulation)
 
 class Attached : public testing::TestWithParam<Formulation> {};
 
-// Truth: theory. A rotation's linear part x + w x x has no strain and no stress: prescribed at one end, the whole bar follows.
+// Reference: theory. The linear part of a rotation, x + w x x, has no strain and no stress: if it is prescribed at one end, the whole bar
+// follows.
 TEST_P(Attached, AnInfinitesimalRotationIsFollowedWithoutStrain)
 {
     const Attachment attachment = holding(tets_up_to(1.3 * cell_m));
@@ -64,7 +65,7 @@ TEST_P(Attached, AnInfinitesimalRotationIsFollowedWithoutStrain)
     EXPECT_LT(rounding.relative(), 1e-5) << "a bound that would let an error of a percent pass proves nothing";
 }
 
-// Truth: equilibrium of forces, exact since translations are in the space: the springs carry the weight.
+// Reference: equilibrium of forces, which is exact since translations are in the space: the springs carry the weight.
 TEST_P(Attached, SpringsCarryTheWeight)
 {
     Positions points(6, 3);
@@ -79,7 +80,7 @@ TEST_P(Attached, SpringsCarryTheWeight)
     ASSERT_TRUE(fem.solve(points, bar.rest).finite);
     const Vec3 reaction = k * (points - fem.spring_points_deformed()).colwise().sum().transpose();
     const Vec3 weight = options.density_kg_m3 * 0.5 * options.gravity_m_s2;  // 2 x 0.5 x 0.5 m^3
-    // The force that the residual leaves over, and the rounding of stretches, which are differences of positions of 2 m.
+    // The force due to the residual, and the rounding of stretches, which are differences of positions of 2 m.
     const SolveRounding rounding = rounding_of(fem, bar, options, attachment);
     const int nodes = static_cast<int>(fem.displacement().size()) / 3;
     const double of_stretches = k * 2.0 * std::numeric_limits<double>::epsilon() * std::sqrt(3.0 * points.rows());
@@ -89,7 +90,7 @@ TEST_P(Attached, SpringsCarryTheWeight)
 
 INSTANTIATE_TEST_SUITE_P(Formulations, Attached, testing::Values(Formulation::mean_dilatation, Formulation::taylor_hood));
 
-// Truth: another path to the same minimum, Newton on the potential of the same energy.
+// Reference: another path to the same minimum, Newton's method on the potential of the same energy.
 TEST(NearIncompressibleAttachment, MeanDilatationIsThatOfTheElasticBody)
 {
     const Attachment attachment = holding(tets_up_to(1.3 * cell_m));
@@ -107,13 +108,13 @@ TEST(NearIncompressibleAttachment, MeanDilatationIsThatOfTheElasticBody)
                         .path = {}},
                        attachment);
     ASSERT_TRUE(newton.solve([&](double) { return Targets{Positions(0, 3), bar.rest, {}}; }, gravity).converged());
-    // Newton's own tolerance of 1e-8 on the forces is met by one linear solve: two solves, whose errors are rounding.
+    // One linear solve meets Newton's tolerance of 1e-8 on the forces, so there are two solves with rounding errors.
     const SolveRounding rounding = rounding_of(kept, bar, options, attachment);
     EXPECT_LT((kept.positions() - newton.positions()).norm(), 2.0 * rounding.error_m());
     EXPECT_NEAR(kept.strain_energy_j(), newton.strain_energy_j(), 2.0 * rounding.energy_j(newton.strain_energy_j()));
 }
 
-// The flesh that is not held, as a mesh of its own, and where its vertices are in the bar.
+// The flesh that is not held, as a separate mesh, and the indices of its vertices in the bar.
 struct FreePart {
     pbs::TetMesh mesh;
     std::vector<int> vertex_of_bar;
@@ -140,8 +141,9 @@ FreePart without(const std::vector<int>& held_tets)
     return part;
 }
 
-// Truth: the boundary value problem of the free flesh alone, its nodes at the held tets given. What the tets are asked for, here to swell
-// by 3 s, has no pressure to share with the flesh beside them; it counts in the energy, V (lambda / 2 (3 s)^2 + 3 mu s^2).
+// Reference: the boundary value problem of the free flesh alone, with the nodes at the held tets prescribed. The prescribed state of the
+// tets, here an expansion by 3 s, shares no pressure with the adjacent flesh. It contributes to the energy, V (lambda / 2 (3 s)^2 + 3 mu
+// s^2).
 TEST(NearIncompressibleAttachment, HeldTetsActByTheirNodesAlone)
 {
     const std::vector<int> held = tets_up_to(1.3 * cell_m);
@@ -160,7 +162,7 @@ TEST(NearIncompressibleAttachment, HeldTetsActByTheirNodesAlone)
                    d = bar.rest.row(bar.tets(t, 3));
         held_volume += (b - a).cross(c - a).dot(d - a) / 6.0;
     }
-    const auto is_held_node = [&](const Vec3& x) {  // a corner of a held tet, or the middle of two
+    const auto is_held_node = [&](const Vec3& x) {  // a corner of a held tet, or the midpoint of two
         for (std::size_t k = 0; k < corners.size(); ++k)
             for (std::size_t l = k - k % 4; l <= k; ++l)
                 if ((x - (corners[k] + corners[l]) / 2.0).norm() < 1e-9) return true;

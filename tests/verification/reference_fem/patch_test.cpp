@@ -1,5 +1,5 @@
-// Truth: theory. A displacement that is affine in x has constant stress, needs no body force and lies in both finite element spaces, so
-// the solver must return it on any mesh (B. Irons, A. Razzaque, 1972). Tolerance: rounding of a direct solve, sqrt(n) eps cond(K).
+// Reference: theory. A displacement that is affine in x has constant stress, needs no body force and lies in both finite element spaces, so
+// the solver must reproduce it on any mesh (B. Irons, A. Razzaque, 1972). Tolerance: rounding of a direct solve, sqrt(n) eps cond(K).
 #include "reference_fem/boundary_value_problem.hpp"
 
 #include "tests/support/solve_rounding.hpp"

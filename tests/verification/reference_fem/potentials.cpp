@@ -1,5 +1,6 @@
-// Truth: calculus and theory. Each potential's gradient is the slope of its value and its Hessian the slope of its gradient (eps sweeps on
-// a distorted mesh, away from rest); the linear law's Hessian is the stiffness that deal.II assembles on its own; rotations store nothing.
+// Reference: calculus and theory. Each potential's gradient is the derivative of its value and its Hessian that of its gradient (eps sweeps
+// on a distorted mesh, away from rest); the Hessian of the linear law is the stiffness that deal.II assembles separately; rotations store
+// no energy.
 #include "reference_fem/assembly.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "reference_fem/potentials/bind_potential.hpp"
@@ -43,7 +44,7 @@ void expect_consistent(const Potential& potential, const SimplexSpace& space, do
     NodalMatrix hessian(space);
     potential.add_hessian(at, Definiteness::as_it_is, hessian);
     EXPECT_LE((hessian.matrix() - SparseMatrix(hessian.matrix().transpose())).norm(), 1e-13 * hessian.matrix().norm());
-    if (potential.is_quadratic()) {  // central differences of a quadratic are exact: there is no error to see falling
+    if (potential.is_quadratic()) {  // central differences of a quadratic are exact, so no decrease of the error is visible
         const double slope = (value(at + along) - value(at - along)) / 2.0;
         EXPECT_NEAR(slope, gradient(at).dot(along), 1e-11 * (std::abs(value(at + along)) + std::abs(value(at - along))));
         const Eigen::VectorXd turn = (gradient(at + along) - gradient(at - along)) / 2.0;
@@ -77,7 +78,7 @@ TEST_P(Flesh, ARotationStoresNothingUnlessTheLawIsLinear)
     const pbs::Positions moved = space.node_positions() * (turn - Eigen::Matrix3d::Identity()).transpose();
     const double energy = flesh.value(Eigen::Map<const Eigen::VectorXd>(moved.data(), moved.size()));
     if (GetParam().model == Model::linear)
-        EXPECT_GT(energy, lame.mu_pa);  // |u| is of order one: so is the fictitious strain
+        EXPECT_GT(energy, lame.mu_pa);  // |u| is of order one, and so is the fictitious strain
     else
         EXPECT_LT(std::abs(energy), 1e-12 * lame.mu_pa);
 }
@@ -86,7 +87,7 @@ TEST_P(Flesh, ProjectedHessianHasNoNegativeEigenvalues)
 {
     const SimplexSpace space(cube, GetParam().element_order);
     const ElasticPotential flesh(space, GetParam().model, lame, GetParam().formulation);
-    // Squeezed to half along x: compressed laws soften, so that the bare Hessian of most has negative eigenvalues.
+    // Compressed to half along x: compressed laws soften, so that the Hessian of most of them has negative eigenvalues.
     Eigen::VectorXd squeezed = random_dofs(space.dofs(), 0.02, 4);
     for (int n = 0; n < space.nodes(); ++n) squeezed(3 * n) -= 0.5 * space.node_positions()(n, 0);
     NodalMatrix hessian(space);
@@ -171,7 +172,7 @@ TEST(SpringPotential, IsConsistent)
 {
     for (const int order : {1, 2}) {
         const SimplexSpace space(cube, order);
-        const pbs::Positions points{{0.2, 0.3, 0.4}, {0.7, 0.6, 0.2}, {9.0, 9.0, 9.0}};  // the last lies outside and pulls nothing
+        const pbs::Positions points{{0.2, 0.3, 0.4}, {0.7, 0.6, 0.2}, {9.0, 9.0, 9.0}};  // the last point lies outside and has no effect
         const AttachedPoints springs(cube, space, points, Eigen::Vector3d(3.0, 5.0, 7.0));
         SpringPotential potential(springs);
         potential.move_to(pbs::Positions(points.array() + 0.25));

@@ -1,5 +1,6 @@
-// Truth: theory. Linear strain takes the rotation x -> R x by theta for the strain (R + R^T) / 2 - I, which is cos(theta) - 1 across the
-// axis: a stress that is not there. This is why the linear judge is a negative control beyond some 10 degrees, and by how much.
+// Reference: theory. Linear strain interprets the rotation x -> R x by theta as the strain (R + R^T) / 2 - I, which is cos(theta) - 1
+// across the axis: a fictitious stress. This is why the linear reference is only a negative control beyond some 10 degrees, and how large
+// its error is.
 #include "reference_fem/linear_elasticity.hpp"
 
 #include "pbs/geometry/tet_volume.hpp"
@@ -30,7 +31,7 @@ Positions rotated(const Positions& points, double angle)
 
 class RigidRotation : public testing::TestWithParam<double> {};
 
-// All tets prescribed: the map is x -> R x, its volume is right, its stress is fictitious: V (2 lambda + 2 mu) (1 - cos theta)^2.
+// All tets are prescribed: the map is x -> R x, its volume is correct, its stress is fictitious: V (2 lambda + 2 mu) (1 - cos theta)^2.
 TEST_P(RigidRotation, StoresFictitiousEnergy)
 {
     const double angle = GetParam() * std::acos(-1.0) / 180.0;
@@ -51,10 +52,10 @@ TEST_P(RigidRotation, StoresFictitiousEnergy)
     }
 }
 
-// Both ends turned alike, the rest free: far from the ends the flesh sheds the fictitious strain and keeps only the skew part of R, so
-// F = I + sin(theta) J and the volume ratio is 1 + sin^2(theta), where it should be 1. What the squeezed ends do to the middle: they are
-// squeezed by 1 - cos(theta) over about a width w and want to lengthen by no more than that strain, which the length L shares between two
-// ends held apart: below (1 - cos(theta)) w / L. (The rest of their influence decays like exp(-4 s / w), s the distance.)
+// Both ends are turned equally, and the rest is free. Far from the ends the flesh loses the fictitious strain and keeps only the skew part
+// of R, so F = I + sin(theta) J and the volume ratio is 1 + sin^2(theta) instead of 1. The effect of the compressed ends on the middle:
+// they are compressed by 1 - cos(theta) over about a width w and tend to lengthen by at most that strain, which the length L shares between
+// two fixed ends: below (1 - cos(theta)) w / L. (The rest of their influence decays like exp(-4 s / w) with the distance s.)
 TEST_P(RigidRotation, SwellsFreeFleshBySineSquared)
 {
     const double angle = GetParam() * std::acos(-1.0) / 180.0;

@@ -1,5 +1,5 @@
-// Truth: exact Dirichlet data, which springs approach with an error of order 1/q, and rigid translation, which the finite element space
-// contains and the springs therefore reproduce without any strain.
+// Reference: exact Dirichlet data, which springs approach with an error of order 1/q, and rigid translation, which the finite element space
+// contains and the springs therefore reproduce without strain.
 #include "reference_fem/linear_elasticity.hpp"
 
 #include "tests/verification/reference_fem/jittered_cube.hpp"
@@ -24,7 +24,7 @@ bool at_an_end(const Vec3& x)
     return x(0) < cell_m + 1e-3 || x(0) > 2.0 - cell_m - 1e-3;
 }
 
-// Tets within about one cell of the ends: whole, as the skeleton prescribes them.
+// Whole tets within about one cell of the ends, as the skeleton prescribes them.
 std::vector<int> end_tets()
 {
     std::vector<int> tets;
@@ -35,7 +35,7 @@ std::vector<int> end_tets()
     return tets;
 }
 
-// Where every node of the end tets is: their corners, and for quadratic tets the middles of their edges.
+// The positions of all nodes of the end tets: their corners, and for quadratic tets the midpoints of their edges.
 Positions end_nodes(int element_order)
 {
     std::set<std::array<double, 3>> points;
@@ -79,7 +79,8 @@ TEST_P(SpringAttachment, ApproachesExactDirichletDataWithOneOverQ)
         errors.push_back((tied.positions() - exact.positions()).norm() / size);
         RecordProperty("relative_error_at_q_" + std::to_string(static_cast<int>(q)), std::to_string(errors.back() * 1e6) + "e-6");
     }
-    // error = c / q (1 - d / q + ...), d the flesh's own stiffness at a tied node over E h, of order 10: the ratio of two errors ten apart
+    // error = c / q (1 - d / q + ...), where d, of order 10, is the stiffness of the flesh at a tied node over E h. The ratio of two errors
+    // whose q differ by a factor of ten is 10 to within d / q of the softer.
     // in q is 10 to within d / q of the softer.
     EXPECT_NEAR(errors[0] / errors[1], 10.0, 1.0);
     EXPECT_NEAR(errors[1] / errors[2], 10.0, 0.1);
@@ -93,7 +94,7 @@ TEST_P(SpringAttachment, RepeatsARigidTranslation)
     LinearElasticity fem(bar, {.element_order = GetParam(), .young_pa = young_pa}, {nodes, stiffness, {}});
     const Eigen::RowVector3d shift(3.0, -2.0, 1.0);
     ASSERT_TRUE(fem.solve(nodes.rowwise() + shift, bar.rest).finite);
-    // Rounding of a stiff system: cond of some 1e7 (q times the cells along the bar squared) times eps.
+    // Rounding of a stiff system: the condition number of some 1e7 (q times the square of the cells along the bar) times eps.
     EXPECT_LT((fem.positions() - (bar.rest.rowwise() + shift)).cwiseAbs().maxCoeff(), 1e-9);
     EXPECT_LT(fem.strain_energy_j(), 1e-12 * young_pa);
 }
@@ -113,7 +114,7 @@ TEST_P(SpringAttachment, ReactionsCarryTheWeight)
     EXPECT_LT((reaction + weight).norm() / weight.norm(), 1e-9);
 }
 
-// With the gravity given at the solve instead of in the options, nothing else changes.
+// If gravity is given at the solve instead of in the options, nothing else changes.
 TEST_P(SpringAttachment, GravityMayTurnBetweenFrames)
 {
     const Positions nodes = end_nodes(1);

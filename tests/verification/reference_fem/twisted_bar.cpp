@@ -1,7 +1,7 @@
-// Truth: an independent implementation of the same laws, elements and load steps, written before and apart from this one on deal.II and
-// CHOLMOD: bar of 3.5 x 1 x 1 m, 14 x 4 x 4 Kuhn-split cubes, P1, E = 1e5 Pa, both ends held, one turned by 180 degrees in ten steps.
-// Both stop at a residual of 1e-8 of the forces, Newton's last step being quadratic; figures of volume and energy agree to 1e-6 of
-// themselves. Newton may take 1.5 times that implementation's iterations.
+// Reference: an independent implementation of the same laws, elements and load steps, which was written earlier and separately with deal.II
+// and CHOLMOD: a bar of 3.5 x 1 x 1 m, 14 x 4 x 4 Kuhn-split cubes, P1, E = 1e5 Pa, both ends held, one turned by 180 degrees in ten steps.
+// Both stop at a residual of 1e-8 of the forces, after a quadratic last Newton step; values of volume and energy agree to a relative 1e-6.
+// Newton may take 1.5 times the iterations of that implementation.
 #include "reference_fem/newton/newton.hpp"
 #include "reference_fem/potentials/elastic_potential.hpp"
 
@@ -22,10 +22,10 @@ constexpr int steps = 10;
 struct Expected {
     Model model;
     double poisson;
-    int iterations;                                    // of all steps
+    int iterations;                                    // total over all steps
     double volume_change_at_90, volume_change_at_180;  // (V - V0) / V0
     double energy_j;                                   // at 180 degrees
-    int inverted;                                      // tets, at 180 degrees
+    int inverted;                                      // inverted tets at 180 degrees
 };
 
 class TwistedBar : public testing::TestWithParam<Expected> {
