@@ -10,7 +10,7 @@ const program = "/usr/bin/chromium";
 const options = ["--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
                  "--disable-background-networking"];
 
-// Opens the file in a window of this size; `problems` gathers what the page reports, and every address it asks for but itself.
+// Opens the file in a window of this size; `problems` collects what the page reports, and every address it requests except itself.
 export async function open(file, hash = "", { width = 1280, height = 900, scale = 1, touch = false } = {}) {
     const { chromium } = createRequire(path.join(root, "paper_figures/viewer/package.json"))("playwright-core");
     const profile = fs.mkdtempSync(path.join(os.tmpdir(), "pbskin_browser_"));
@@ -34,7 +34,7 @@ export async function open(file, hash = "", { width = 1280, height = 900, scale 
     return { page, problems, close };
 }
 
-// The same, with the viewer drawn.
+// Opens the file and waits until the viewer is drawn.
 export async function open_viewer(file, hash, size) {
     const opened = await open(file, hash, size);
     await opened.page.evaluate(() => window.viewer.ready);
@@ -42,7 +42,7 @@ export async function open_viewer(file, hash, size) {
     return opened;
 }
 
-// Two frames later everything asked for is on the screen.
+// Two frames later, everything requested is on the screen.
 export async function settle(page) {
     await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }

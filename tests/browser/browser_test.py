@@ -1,10 +1,10 @@
-"""The report and its viewer in Debian's Chromium, on a graphics card made of software. Run by `./check --long`, which sets
-PBS_LONG=1: then what is missing fails; without, the test is skipped (exit status 77).
+"""The report and its viewer in Debian's Chromium, with software rendering. `./check --long` runs this test and sets PBS_LONG=1; with that,
+missing programs fail the test, otherwise it is skipped (exit status 77).
 
     PBS_LONG=1 python3 tests/browser/browser_test.py build/release/bin/pbskin SCRATCH
 
-PBS_BROWSER_RESULTS=DIR takes the records of a run that is there, with its figures; else the records beside the sources are judged
-again, the studies `frames` and `audit` are run (a minute or two) and all figures drawn that can be drawn of these."""
+PBS_BROWSER_RESULTS=DIR uses the records and figures of an existing run. Otherwise the kept records are judged again, the studies `frames`
+and `audit` are run (a minute or two), and all figures are drawn that these records allow."""
 import csv
 import json
 import os
@@ -26,10 +26,10 @@ import viewer_html  # noqa: E402
 import viewer_poses  # noqa: E402
 
 skipped = 77
-bound_missed = figure_missed = 1  # exit statuses of a bound that does not hold, and of a figure that was not drawn
+bound_missed = figure_missed = 1  # exit statuses for a bound that does not hold, and for a figure that was not drawn
 sampled = {"limb_twist": ["lbs", "snh_p1"], "limb_bend": ["dqs"], "human_jump": ["pbs", "dqs"], "human_walk": ["pbs_jiggle"]}
-with_bones = "limb_bend"  # seen whole, and its skeleton moves
-# Of the records beside the sources, which hold verdicts rather than all tables.
+with_bones = "limb_bend"  # the whole limb is visible, and its skeleton moves
+# The kept records contain the verdicts, but not all tables.
 not_of_these_records = {"convergence_iterations", "fit", "roofline", "scaling", "section_profiles", "stability_cells", "volume_by_region",
                         "volume_over_angle", "volume_over_clip", "work_precision"}
 sampled_skins = {"human_jump": ["pbs"], "human_walk": ["lbs", "pbs_jiggle"]}
@@ -44,14 +44,14 @@ def what_is_missing():
 
 
 def recorded(program, scratch):
-    """A folder with DIR/frames, verdicts and figures in it."""
+    """A folder with DIR/frames, verdicts and figures."""
     if os.environ.get("PBS_BROWSER_RESULTS"):
         return pathlib.Path(os.environ["PBS_BROWSER_RESULTS"]).resolve()
     folder = scratch / "records"
     shutil.copytree(root / "experiments" / "records" / "full", folder, dirs_exist_ok=True)
     reproduce = [program, "reproduce", "--quiet", "-o", folder]
     run([*reproduce, "--resume", "frames", "audit"], [bound_missed])
-    run([*reproduce, "--judge"], [bound_missed])  # of all that is there
+    run([*reproduce, "--judge"], [bound_missed])  # of all existing records
     run(["xvfb-run", "-a", sys.executable, "-B", root / "paper_figures" / "make_all.py", folder], [figure_missed])
     missed = undrawn(folder)
     if missed != not_of_these_records:
@@ -60,20 +60,21 @@ def recorded(program, scratch):
 
 
 def run(command, accepted=(), **options):
-    """Ends the test with any exit status but 0 and those accepted."""
+    """Ends the test on any exit status except 0 and the accepted ones."""
     status = subprocess.run(command, stdout=subprocess.DEVNULL, **options).returncode
     if status not in (0, *accepted):
         sys.exit(f"{' '.join(map(str, command))}: exit status {status}")
 
 
 def undrawn(folder):
-    """Figures that the report cannot show."""
+    """The figures that the report cannot show."""
     there = {file.stem for file in (folder / "figures").glob("*") if file.suffix in (".svg", ".png", ".webp")}
     return {entry.name for entry in entries.read()} - there
 
 
 def sample_of(frames, label, frame):
-    """Positions [m], ratios and distances to the reference [m] by VTK's reader, numbers by the row of metrics.csv, bones' middles [m]."""
+    """Positions [m], ratios and distances to the reference [m] by VTK's reader, numbers from the row of metrics.csv, midpoints of bones
+    [m]."""
     row, reference = frames.row(label, frame), frames.run.reference()
     positions, _, ratios, _ = viewer_data.read_frame(frames.tets(label, frame))
     truth_m = viewer_data.read_frame(frames.tets(reference, frame))[0]
@@ -84,7 +85,7 @@ def sample_of(frames, label, frame):
 
 
 def skin_sample_of(frames, label, frame):
-    """Points of the rendered surface [m] as recorded, with the tets' vertices below."""
+    """Points of the rendered surface [m] as recorded, followed by the vertices of the tets."""
     skin_m = bodies.points_of(frames.skin(label, frame))
     return {**sample_of(frames, label, frame), "skin_m": skin_m.ravel().tolist()}
 
@@ -108,7 +109,7 @@ def truth_of(results):
 
 
 def unready():
-    """Exit status where the test cannot run, said why; None where it can."""
+    """The exit status if the test cannot run, after printing the reason; otherwise None."""
     missing = what_is_missing()
     if not os.environ.get("PBS_LONG"):
         print("skipped: part of ./check --long" + (f"; missing here: {', '.join(missing)}" if missing else ""))
@@ -120,7 +121,7 @@ def unready():
 
 
 def main(program, scratch):
-    """Exit status."""
+    """Returns the exit status."""
     if (status := unready()) is not None:
         return status
     scratch.mkdir(parents=True, exist_ok=True)

@@ -1,5 +1,5 @@
-// Truth: the records. The first screen is seen whole at the size of a desk; its distances and times are those of the tables that they
-// are from.
+// Reference: the records. The whole first screen is visible in a desktop window; its distances and times are those of the tables from which
+// they come.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { open } from "./browser.mjs";
@@ -13,12 +13,12 @@ before(async () => {
 });
 after(() => opened?.close());
 
-// Every number in a text, as the page writes them.
+// Every number in a text, in the format of the page.
 function numbers_in(text) {
     return [...text.replaceAll("\u2212", "-").matchAll(/-?\d+(?:\.\d+)?(?:e[-+]?\d+)?/g)].map(([number]) => Number(number));
 }
 
-// To three digits.
+// Compares to three digits.
 function assert_told(told, recorded, what) {
     assert.ok(Math.abs(told - recorded) <= 0.00501 * Math.abs(recorded), `${what}: ${told}, on record ${recorded}`);
 }
@@ -31,7 +31,7 @@ test("all four answers are seen before anything is scrolled", async () => {
     for (const [name, bottom, hidden] of ends) assert.ok(bottom <= 900 && hidden <= 0, `${name} ends at ${bottom} px, ${hidden} px hidden`);
 });
 
-// The rows that the first screen tells of a pose: LBS, the paper's PBS and the reference on the same tets.
+// The rows that the first screen states for a pose: LBS, the paper's PBS and the reference on the same tets.
 function pose_on_record(run) {
     const rows = table(`work_precision/${run}/points.csv`), reference = rows.find((row) => row.outcome === "reference");
     const k_stretch = json(`work_precision/${run}/run.json`).work?.settings?.scene?.pbs?.k_stretch ?? 0.2;

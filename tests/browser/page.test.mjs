@@ -1,5 +1,5 @@
-// Truth: the records and the definition of the page. Its answers and its verdicts say what claims.json says, the values under the
-// pointer stand in each figure's CSV, nothing overlaps or is wider than the window, keys alone get everywhere, and it prints.
+// Reference: the records and the definition of the page. Its answers and verdicts agree with claims.json, the values under the pointer are
+// in each figure's CSV, nothing overlaps or exceeds the window, every part is reachable by keyboard, and the page can be printed.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { open_viewer, settle } from "./browser.mjs";
@@ -14,7 +14,7 @@ let opened, page;
 before(async () => {
     opened = await open_viewer(file);
     page = opened.page;
-    await page.emulateMedia({ reducedMotion: "reduce" });  // else it scrolls for a while, which hides what is under the pointer
+    await page.emulateMedia({ reducedMotion: "reduce" });  // otherwise it scrolls for a while, which hides the values under the pointer
 });
 after(() => opened?.close());
 
@@ -54,7 +54,7 @@ test("every drawn figure is there, inline; of the others, and of no more, why no
     assert.ok(there.length >= 8, `${there.length} figures`);
 });
 
-// Lines of a plot: their points' numbers, by label; bars at a place with a name, one number each, by the words of both.
+// The lines of a plot: the numbers of their points, by label; bars at a named place have one number each, by both names.
 function lines_of(values) {
     const lines = new Map();
     for (const value of values) {
@@ -91,7 +91,7 @@ test("a value is shown under the pointer, with the names of its axes", async () 
         const plot = plots.nth(at), circles = plot.locator(".values circle"), count = await circles.count();
         for (const place of new Set([0, count >> 1, count - 1])) {
             await circles.nth(place).scrollIntoViewIfNeeded();
-            await settle(page);  // scrolling hides what is shown
+            await settle(page);  // scrolling hides the values
             await circles.nth(place).hover({ force: true });
             assert.ok(await page.locator("#readout").isVisible(), `plot ${at}: nothing shown`);
             const value = await page.locator(".values circle.shown").getAttribute("data-value");
@@ -100,7 +100,7 @@ test("a value is shown under the pointer, with the names of its axes", async () 
     }
 });
 
-// The same way of counting as in page.js would prove nothing: the nearest by the circles' own boxes.
+// The nearest value by the boxes of the circles; the algorithm of page.js itself would prove nothing.
 function nearest_value(plot, x, y) {
     return plot.locator(".values circle").evaluateAll((all, [px, py]) => {
         const away = (circle) => {
@@ -112,11 +112,11 @@ function nearest_value(plot, x, y) {
     }, [x, y]);
 }
 
-// The first plot with a place beside a value and one away from all, both in the window [px].
+// The first plot with a place next to a value and one far from all values, both in the window [px].
 async function plot_with_places(on) {
     for (const plot of await on.locator("svg.plot:has(.values circle)").all()) {
         await plot.scrollIntoViewIfNeeded();
-        await on.waitForTimeout(300);  // until it stands still
+        await on.waitForTimeout(300);  // until scrolling has ended
         const places = await plot.evaluate((one) => {
             const middles = [...one.querySelectorAll(".values circle")].map((circle) => circle.getBoundingClientRect())
                 .map((box) => [(box.left + box.right) / 2, (box.top + box.bottom) / 2]);
@@ -205,8 +205,8 @@ test("a claim's link to its pose takes the focus along", async () => {
     assert.ok(await page.evaluate(() => document.getElementById("frame-viewer").contains(document.activeElement)));
 });
 
-// Texts of elements beyond the window, but for those in a box of its own that scrolls (nothing does on paper); cells of one row that lie
-// over each other; cells whose content is wider than they are.
+// Elements with text outside the window, except those in a box that scrolls (nothing scrolls on paper); cells of one row that overlap;
+// cells whose content is wider than they are.
 function faults_of_layout(boxes) {
     const scrolls = (one) => one.closest(`${boxes}.unseen, .skip, #readout, details:not([open])`);
     const seen = (one) => one.getClientRects().length > 0;
@@ -249,7 +249,7 @@ test("on paper the tables are whole, without what can only be pressed", async ()
         && getComputedStyle(one).overflowY !== "visible").length);
     assert.equal(clipped, 0);
     const { width, height } = page.viewportSize();
-    await page.setViewportSize({ width: 718, height: 1046 });  // A4 at 96 points an inch within Chromium's margins of 1 cm
+    await page.setViewportSize({ width: 718, height: 1046 });  // A4 at 96 points per inch within Chromium's margins of 1 cm
     await settle(page);
     assert.deepEqual(await page.evaluate(faults_of_layout, "pre, "), { beyond: [], over: [] });
     if (pictures) await page.screenshot({ path: `${pictures}/page_paper.png` });

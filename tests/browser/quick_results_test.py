@@ -1,10 +1,10 @@
-"""A quick run's own records: every figure that can be redrawn in minutes is drawn of them by one make_all, and the report of them opens in
-Debian's Chromium without a complaint. Run by `./check --long`, which sets PBS_LONG=1; without, the test is skipped (exit status 77).
+"""The records of a quick run: one make_all draws every figure that can be redrawn in minutes, and their report opens in Debian's Chromium
+without errors. `./check --long` runs this test and sets PBS_LONG=1; otherwise it is skipped (exit status 77).
 
     PBS_LONG=1 python3 tests/browser/quick_results_test.py build/release/bin/pbskin SCRATCH
 
-PBS_QUICK_RESULTS=DIR takes the records of a quick run that is there, as ./reproduce leaves them; else one is made, which takes ten minutes
-on two cores. The records are copied: nothing is written into DIR."""
+PBS_QUICK_RESULTS=DIR uses the records of an existing quick run of ./reproduce; otherwise one is made, which takes ten minutes on two cores.
+The records are copied, so nothing is written into DIR."""
 import os
 import pathlib
 import shutil
@@ -18,7 +18,7 @@ import entries
 
 
 def quick_records(program, scratch):
-    """A folder of its own with a quick run's records, without figures."""
+    """A new folder with the records of a quick run, without figures."""
     folder = scratch / "records"
     shutil.rmtree(folder, ignore_errors=True)
     given = os.environ.get("PBS_QUICK_RESULTS")
@@ -30,17 +30,17 @@ def quick_records(program, scratch):
 
 
 def lacking(folder):
-    """Figures of studies that the quick set has not."""
+    """Figures of studies that are not in the quick set."""
     return {entry.name for entry in entries.read() if any(not (folder / study).is_dir() for study in entry.studies())}
 
 
 def main(program, scratch):
-    """Exit status."""
+    """Returns the exit status."""
     if (status := browser_test.unready()) is not None:
         return status
     scratch.mkdir(parents=True, exist_ok=True)
     folder = quick_records(program, scratch)
-    run(["xvfb-run", "-a", sys.executable, "-B", root / "paper_figures" / "make_all.py", folder])  # 0: none that could not be drawn
+    run(["xvfb-run", "-a", sys.executable, "-B", root / "paper_figures" / "make_all.py", folder])  # status 0: every figure was drawn
     undrawn, expected = browser_test.undrawn(folder), lacking(folder)
     redrawn = {entry.name for entry in entries.read() if entry.mark == "R"}
     print(f"{len(redrawn - undrawn)} of {len(redrawn)} figures of mark R drawn; without their studies: {', '.join(sorted(expected))}")

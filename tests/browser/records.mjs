@@ -1,4 +1,4 @@
-// The records that a report was made of, to hold the page against them.
+// The records from which a report was made, to be compared with the page.
 import fs from "node:fs";
 import path from "node:path";
 
@@ -6,9 +6,9 @@ export const file = process.env.PBS_REPORT_PAGE, pictures = process.env.PBS_VIEW
 export const results = path.dirname(file);
 export const claims = JSON.parse(fs.readFileSync(path.join(results, "claims.json"), "utf8")).claims;
 
-export const undrawn = JSON.parse(fs.readFileSync(process.env.PBS_VIEWER_TRUTH)).undrawn;  // figures that are not there
+export const undrawn = JSON.parse(fs.readFileSync(process.env.PBS_VIEWER_TRUTH)).undrawn;  // figures that do not exist
 
-// A figure's CSV: of each row its numbers, an array of [column, number] pairs, and its texts; "1654 / 1716" is two numbers of one column.
+// A figure's CSV: for each row its numbers, an array of [column, number] pairs, and its texts; "1654 / 1716" is two numbers of one column.
 export function rows_of(name) {
     const [header, ...rows] = cells_of(fs.readFileSync(path.join(results, "figures", `${name}.csv`), "utf8"));
     const numbers_of = (row) => row.flatMap((cell, at) => numbers_in(cell).map((number) => [header[at], number]));
@@ -25,7 +25,7 @@ export function table(name) {
     return rows.map((row) => Object.fromEntries(header.map((column, at) => [column, row[at]])));
 }
 
-// Folders of a study that hold this file.
+// Folders of a study that contain this file.
 export function runs_with(study, name) {
     const there = (run) => fs.existsSync(path.join(results, study, run, name));
     return fs.readdirSync(path.join(results, study)).filter(there);
@@ -35,7 +35,7 @@ export function json(name) {
     return JSON.parse(fs.readFileSync(path.join(results, name), "utf8"));
 }
 
-// Lines of cells; a cell in quotes may hold commas.
+// The cells of each line; a cell in quotes may contain commas.
 function cells_of(text) {
     return text.trim().split("\n").map((line) => [...line.matchAll(/(?:^|,)(?:"((?:[^"]|"")*)"|([^,]*))/g)]
         .map(([, quoted, plain]) => (quoted ?? plain).replaceAll('""', '"')));

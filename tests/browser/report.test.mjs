@@ -1,4 +1,5 @@
-// Truth: the definition of the report. It opens from disk, alone, at the width of a desk and of a phone, with the viewer in it.
+// Reference: the definition of the report. It opens from disk, without other files, in a desktop and a phone window, and contains the
+// viewer.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import { test } from "node:test";

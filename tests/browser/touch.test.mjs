@@ -1,4 +1,5 @@
-// Truth: the definition. On a phone one finger scrolls the page and leaves the view level, two fingers turn and zoom it and leave the page.
+// Reference: the definition. On a phone one finger scrolls the page and does not change the view; two fingers rotate and zoom the view and
+// do not move the page.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { open_viewer, settle } from "./browser.mjs";
@@ -25,7 +26,7 @@ function touch(type, points) {
     return client.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
 }
 
-// Each finger from its place to another, both relative to the middle of the first panel [px]; the state before and after.
+// Moves each finger from one place to another, relative to the middle of the first panel [px]; returns the state before and after.
 async function gesture(from, to, steps = 12) {
     await page.evaluate(() => document.querySelector("#frame-viewer .vw-view").scrollIntoView({ block: "center" }));
     await settle(page);
@@ -39,7 +40,7 @@ async function gesture(from, to, steps = 12) {
         await page.waitForTimeout(16);
     }
     await touch("touchEnd", []);
-    await page.waitForTimeout(500);  // the scrolling runs out
+    await page.waitForTimeout(500);  // until scrolling has ended
     await settle(page);
     return [first, await state()];
 }
@@ -80,7 +81,7 @@ test("two fingers shift the view once the button says so, and turn it after", as
     await button.tap();
     assert.equal(await button.getAttribute("aria-pressed"), "true");
     const [before, after] = await upwards();
-    assert.ok(after.target[1] < before.target[1] - 0.005, `from ${before.target} to ${after.target} m`);  // the body goes up with them
+    assert.ok(after.target[1] < before.target[1] - 0.005, `from ${before.target} to ${after.target} m`);  // the body moves up with them
     for (const kept of ["up", "around"]) assert_near(after[kept], before[kept], 1e-3);
     assert.equal(after.scrolled, before.scrolled);
     await button.tap();

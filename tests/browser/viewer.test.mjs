@@ -1,5 +1,5 @@
-// Truth: the records. What the viewer draws and says in a real browser is what the study `frames` wrote, within the stated quantisation.
-// Started by browser_test.py, which names the page and a file with samples of the records.
+// Reference: the records. The viewer in a real browser draws and states what the study `frames` wrote, within the stated quantisation.
+// browser_test.py starts this test and names the page and a file with samples of the records.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import { after, before, test } from "node:test";
@@ -16,7 +16,7 @@ before(async () => {
 });
 after(() => opened?.close());
 
-// How many colours the panel shows, and which share of its pixels is not the most frequent one.
+// The number of colours in the panel, and the share of its pixels that differ from the most frequent one.
 function colours_of(panel) {
     return page.evaluate((at) => {
         const bytes = window.viewer.pixels(at), counts = new Map();
@@ -33,7 +33,7 @@ async function show(changes) {
     await settle(page);
 }
 
-// x y z of each vertex [m] in the first panel; nan where no face is seen.
+// x y z of each vertex [m] in the first panel; nan where no face is visible.
 function drawn_positions() {
     return page.evaluate(() => [...window.viewer.drawn_positions(0)]);
 }
@@ -49,13 +49,13 @@ async function show_sample({ run, frame, label }, colour = "skin", { rendered = 
     await settle(page);
 }
 
-// Largest distance of a coordinate that is drawn to the record's [m], and how many there are.
+// The largest distance of a drawn coordinate from the record's [m], and the number of coordinates.
 function apart(drawn, recorded) {
     const known = drawn.map((value, i) => Math.abs(value - recorded[i])).filter((value) => !Number.isNaN(value));
     return { count: known.length, largest_m: Math.max(...known) };
 }
 
-// What single precision may take, relative to 2 ** -24 of the largest coordinate [m].
+// The rounding of single precision, in multiples of 2 ** -24 of the largest coordinate [m].
 function roundings(recorded, many) {
     return many * Math.max(...recorded.map(Math.abs)) * 2 ** -24;
 }
@@ -79,7 +79,8 @@ for (const sample of truth.samples) {
         const drawn = await drawn_positions(), step_m = await page.evaluate(() => window.viewer.viewer.run.step_m);
         const { count, largest_m } = apart(drawn, sample.positions_m);
         assert.ok(count > sample.positions_m.length / 3, `${count} coordinates drawn`);
-        const most_m = step_m / 2 + roundings(sample.positions_m, 2);  // the record's own, and that on the way to the card
+        // the rounding of the record, and that on the way to the graphics card
+        const most_m = step_m / 2 + roundings(sample.positions_m, 2);
         assert.ok(largest_m <= most_m, `${largest_m} m apart, half a step is ${step_m / 2} m`);
     });
     test(`numbers under the panel are the record's: ${name}`, async () => {
@@ -96,7 +97,7 @@ for (const sample of truth.samples) {
     });
 }
 
-// Which shade of a table each corner of the first panel has been painted with, and its vertex and the tet behind it.
+// The index of the shade with which each corner of the first panel is painted, with its vertex and the tet behind it.
 function painted() {
     return page.evaluate(() => {
         const { geometry, vertices, tets } = window.viewer.viewer.panels[0].body;
@@ -108,7 +109,7 @@ function painted() {
 const rgb_of = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255);
 const is_same = (one, other) => one.every((part, at) => Math.abs(part - other[at]) < 1e-3);
 
-// Each corner's shade is one of those that the value on record may have, once it is rounded; -1: none of the table.
+// Each corner's shade is one of those for the recorded value after rounding; -1: a shade that is not in the table.
 function assert_shades({ colours, vertices }, shades, allowed, fewest) {
     const table = shades.map(rgb_of), used = new Set();
     vertices.forEach((_, corner) => {
@@ -143,7 +144,7 @@ for (const sample of truth.samples.filter(({ frame }) => frame > 0)) {
         const { shades } = truth.colours.error, made = await painted(), last = shades.length - 1;
         const most_m = truth.largest_error_m[sample.run], step_m = await page.evaluate(() => window.viewer.viewer.run.step_m);
         const place = (distance_m) => Math.round(last * Math.sqrt(Math.min(1, Math.max(0, distance_m) / most_m)));
-        const rounding_m = Math.sqrt(3) * (step_m + roundings(sample.positions_m, 4));  // of both bodies
+        const rounding_m = Math.sqrt(3) * (step_m + roundings(sample.positions_m, 4));  // rounding of both bodies
         assert_shades(made, shades, (corner) => {
             const distance_m = sample.distances_m[made.vertices[corner]];
             return [place(distance_m - rounding_m), place(distance_m + rounding_m)];
@@ -151,7 +152,7 @@ for (const sample of truth.samples.filter(({ frame }) => frame > 0)) {
     });
 }
 
-// Red green blue, at the darkest pixel of those around a place [m] in the first panel.
+// Red, green and blue of the darkest pixel around a place [m] in the first panel.
 function darkest_at(place) {
     return page.evaluate(([x, y, z]) => {
         const { viewer } = window.viewer, bytes = window.viewer.pixels(0), { camera, renderer } = viewer.views;
@@ -228,8 +229,8 @@ function legend_words() {
     return page.locator("#frame-viewer .vw-caption").textContent();
 }
 
-// The same bound as in surface.js: half a step of each corner by the sizes of its shares. Rounded are the record, the shares, the corners,
-// four products and four sums.
+// The same bound as in surface.js: half a step of each corner times the absolute weights. The record, the weights, the corners, four
+// products and four sums are rounded.
 for (const sample of truth.skins) {
     const name = `${sample.run}, ${sample.label}, frame ${sample.frame}`;
     test(`points of the rendered surface are the record's: ${name}`, async () => {
@@ -417,7 +418,7 @@ for (const [name, width, height] of [["desktop", 1280, 900], ["phone", 390, 844]
             const cut = await other.page.locator("#frame-viewer .vw-panel select").evaluateAll((all) => all.filter((one) => {
                 const pen = document.createElement("canvas").getContext("2d");
                 pen.font = getComputedStyle(one).font;
-                return pen.measureText(one.selectedOptions[0].text).width + 20 > one.clientWidth;  // and the arrow
+                return pen.measureText(one.selectedOptions[0].text).width + 20 > one.clientWidth;  // plus the width of the arrow
             }).map((one) => one.selectedOptions[0].text));
             assert.deepEqual(cut, []);
             if (pictures) await other.page.screenshot({ path: `${pictures}/viewer_${name}.png`, fullPage: true });

@@ -1,4 +1,4 @@
-// Any bytes as what the clip reader's process gives back, on two skeletons: poses of finite numbers, or an InputError.
+// Any bytes as the output of the clip reader's process, for two skeletons: poses of finite numbers, or an InputError.
 #include "pbs/character/clip_bytes.hpp"
 #include "pbs/geometry/input_error.hpp"
 

@@ -1,5 +1,5 @@
-// Any bytes as a file that the program itself reads, by their first byte: TetGen's pair (parted by a zero byte), weights, IQM, and what is
-// looked at before Gmsh may see .mesh and .msh. A sound answer, or an InputError, nothing else.
+// Any bytes as a file that the program itself reads, selected by their first byte: TetGen's pair (separated by a zero byte), weights, IQM,
+// and the checks before Gmsh reads .mesh and .msh. The result is valid, or an InputError.
 #include "pbs/character/iqm.hpp"
 #include "pbs/character/weights_file.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -16,7 +16,7 @@
 
 namespace pbs {
 
-// Gmsh stays out: what it is given is the end of what is tried.
+// Gmsh is not called; the target ends at the input for it.
 const Module& load_module(const std::string& name)
 {
     static const Module none(name, nullptr);

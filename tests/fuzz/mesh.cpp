@@ -1,4 +1,4 @@
-// Any bytes as what the reader's process gives back: a mesh to compute on, every tet with a volume, or an InputError.
+// Any bytes as the output of the reader's process: a valid mesh in which every tet has a volume, or an InputError.
 #include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_checks.hpp"

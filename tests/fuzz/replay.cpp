@@ -1,4 +1,4 @@
-// Runs a fuzz target on the files of folders, without libFuzzer: the seeds and what was once found stay tests. `replay_scene FOLDER...`
+// Runs a fuzz target on the files of folders, without libFuzzer, so that the seeds and past findings remain tests. `replay_scene FOLDER...`
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Any text as a scene: a scene or an InputError, nothing else.
+// Any text as a scene: the result is a scene or an InputError.
 #include "experiments/settings/scene_values.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/fuzz/fuzzed_schema.hpp"

@@ -1,4 +1,4 @@
-// Any text as a skeleton: bones whose parents stand before them, or an InputError.
+// Any text as a skeleton: bones whose parents precede them, or an InputError.
 #include "pbs/character/skeleton_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 

@@ -1,6 +1,6 @@
-"""The fuzz targets, each for PBS_FUZZ_SECONDS (60) from the seeds, past findings and what earlier runs grew: none may find anything. What
-is found lies as a file in PBS_FUZZ_FOLDER/NAME, and belongs into tests/fuzz/findings/NAME once it is mended. Truth: libFuzzer's exit
-status, the sanitizers, and what each target says of a sound answer."""
+"""Runs each fuzz target for PBS_FUZZ_SECONDS (60) from the seeds, past findings and the inputs that earlier runs generated; none may find
+anything. A finding is a file in PBS_FUZZ_FOLDER/NAME, to be copied to tests/fuzz/findings/NAME once it is fixed. Reference: libFuzzer's
+exit status, the sanitizers, and each target's definition of a valid result."""
 import concurrent.futures
 import os
 import pathlib
@@ -17,7 +17,7 @@ NAMES = ["scene", "mesh", "skeleton", "clip", "texts", "files"]
 
 
 def fuzz(name):
-    """(runs executed, what went wrong); it keeps new inputs in the first folder, those that failed beside them."""
+    """(runs executed, errors); new inputs are kept in the first folder, failing ones next to them."""
     grown, failed = FOLDER / name / "grown", FOLDER / name
     grown.mkdir(parents=True, exist_ok=True)
     seeds = [folder for folder in (SOURCE / "corpus" / name, SOURCE / "findings" / name) if folder.exists()]
@@ -40,7 +40,7 @@ class Targets(unittest.TestCase):
         reliability.tell("fuzz", f"fuzz targets without a finding in {SECONDS} s", len(NAMES) - len(wrong), len(NAMES),
                          note=f"runs: {told}")
         self.assertEqual(wrong, [], "\n".join(wrong))
-        self.assertGreater(min(runs), 20 * SECONDS)  # that it fuzzed at all
+        self.assertGreater(min(runs), 20 * SECONDS)  # shows that it fuzzed at all
 
 
 if __name__ == "__main__":

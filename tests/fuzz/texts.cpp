@@ -1,5 +1,5 @@
-// Any text as what the program itself reads, by its first byte: a BVH's header, a CSV record, or --set (one a line) over a scene. What is
-// read, or an InputError, nothing else.
+// Any text as one that the program itself reads, selected by its first byte: a BVH's header, a CSV record, or --set (one per line) on a
+// scene. The result is valid or an InputError.
 #include "analysis/records/csv_table.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "pbs/character/bvh_header.hpp"
@@ -21,7 +21,7 @@ constexpr const char* scene =
     "gravity_m_s2 = [0.0, 0.0, 0.0]\n[[fem]]\nname = \"p1\"\nmodel = \"linear\"\n"
     "[[fem]]\nname = \"p2\"\nmodel = \"neo_hookean\"\n[deformers]\nuse = [\"lbs\", \"p1\"]\n";
 
-// What was read is written, and read again, as it was.
+// A table that was read is written and read again, without a change.
 void try_csv(const std::string& text)
 {
     const std::string once = analysis::parse_csv(text, "record.csv").text();

@@ -1,5 +1,5 @@
-// LBS and DQS, plain (blend.hpp) and packed (blend_skinning.hpp), in ns a vertex; what is held against them is a copy of as many bytes.
-// Read ratios from one run; absolute times are the machine's of that moment.
+// LBS and DQS, plain (blend.hpp) and packed (blend_skinning.hpp), in ns per vertex, compared with a copy of the same number of bytes.
+// Ratios of one run are meaningful; absolute times depend on the machine and its state.
 //   limb, human: the built-in characters    paper: two bones and Eq. 2's weights, ordered along them    mixed: the same in random order
 //   smooth: four bones of twenty and weights of its own for every vertex
 //   build/release/tests/benchmark_blend --benchmark_filter=paper
@@ -76,7 +76,7 @@ const PosedBody& body_of(const std::string& kind, int vertices)
     return body = kind == "smooth" ? smooth_body(vertices) : paper_body(vertices, kind == "mixed");
 }
 
-// Seconds a vertex, which the console prints as e.g. 0.52n.
+// Seconds per vertex, which the console prints as e.g. 0.52n.
 void count_vertices(benchmark::State& state, std::int64_t vertices)
 {
     using benchmark::Counter;
@@ -107,7 +107,7 @@ void packed(benchmark::State& state, const std::string& kind, RawBlend<Scalar> b
     count_vertices(state, body.rest.rows());
 }
 
-// Reads and writes what a blend must at least: rest and posed positions.
+// Copies the minimum that a blend must read and write: rest and posed positions.
 template <class Scalar>
 void copy(benchmark::State& state)
 {

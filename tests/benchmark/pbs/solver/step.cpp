@@ -1,5 +1,5 @@
-// One step of 24 iterations in each order and precision, on bars of about 2,200 and 19,500 vertices twisted by 90 degrees. Read ratios from
-// one run; absolute times are the machine's of that moment. `pbskin bench` compares more, by turns.
+// One step of 24 iterations in each order and precision, on bars of about 2,200 and 19,500 vertices twisted by 90 degrees. Ratios of one
+// run are meaningful; absolute times depend on the machine and its state. `pbskin bench` compares more cases, in turn.
 //   build/release/tests/benchmark_step --benchmark_filter=ordered
 #include "experiments/studies/bench/bench_body.hpp"
 #include "pbs/solver/pbs_solver.hpp"
@@ -28,7 +28,7 @@ void step(benchmark::State& state, pbs::Order order, pbs::Precision precision)
     pbs::PbsSolver solver(body.mesh(), body.character.binding.distance, {}, options, body.held);
     for (auto _ : state) solver.advance(body.twisted, body.bind_points, 0.01);
     const double constraints = double(body.mesh().rest.rows() + body.edges + body.mesh().tets.rows());
-    using benchmark::Counter;  // seconds a constraint, which the console prints as e.g. 0.9n
+    using benchmark::Counter;  // seconds per constraint, which the console prints as e.g. 0.9n
     state.counters["s_per_constraint"] = Counter(constraints * options.iterations, Counter::kIsIterationInvariantRate | Counter::kInvert);
 }
 
