@@ -1,6 +1,6 @@
-"""A broken solver changes the verdict: C02 judged from records of the twisted and the bent limb, by the solver as it is and by broken ones.
-Truth: the paper's bound of 0.5 % and the geometry; blending folds the sections of a twist and the crease of a bend, so where the volume
-constraints are dropped, their gradient's sign is turned round or nothing is projected, the volume holds at fewer angles."""
+"""A broken solver changes the verdict: C02 is judged from records of the twisted and the bent limb, by the correct solver and by broken
+ones. Reference: the paper's bound of 0.5 % and geometry. Blending folds the sections of a twist and the crease of a bend. If the volume
+constraints are dropped, their gradient has the wrong sign or nothing is projected, the volume therefore holds at fewer angles."""
 import json
 import pathlib
 import unittest
@@ -15,7 +15,7 @@ NOTHING = DROPPED + ("--set", "pbs.k_stretch=0.0", "--set", "pbs.k_bind=0.0")
 
 class BrokenSolver(program.ProgramTest):
     def verdict(self, scene, name, *overrides):
-        """The verdict, and up to which angle C02 holds."""
+        """The verdict, and the angle up to which C02 holds."""
         results = pathlib.Path(self.path(name))
         self.succeeds("run", scene, "-o", results / "volume" / scene, "--quiet", "--set", "motion.frames=10", "--set",
                       "output.frames_every=0", "--set", "reference.name=", "--set", 'deformers.use=["lbs", "pbs"]', "--set",

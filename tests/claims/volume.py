@@ -1,5 +1,5 @@
 """The volume claims (C01, C02) on the limb at k_stretch 0.2, as the program reports them: the pose decides, and a small signed change hides
-inverted tets. Truth: the bounds of claims.toml against the paper's figures; nothing here is a value of our own."""
+inverted tets. Reference: the bounds of claims.toml against the paper's values; no value here is our own."""
 import csv
 import unittest
 

@@ -1,5 +1,5 @@
-// C04, C05 and C06 are judged from the figures that the study of artefacts writes: alter the sections and strains behind them and the
-// verdicts turn round. Truth: the project's own claims.toml.
+// C04, C05 and C06 are judged from the values that the study of artefacts writes: if the sections and strains behind them are altered, the
+// verdicts change. Reference: the project's own claims.toml.
 #include "experiments/studies/artefacts/smoothness_comparison.hpp"
 #include "tests/support/artefact_samples.hpp"
 #include "tests/support/study_claims.hpp"
@@ -74,7 +74,7 @@ TEST_F(ArtefactsVerdict, AWideSectionIsABulge)
     EXPECT_EQ(verdict("C05", wide(samples)), VerdictKind::not_reproduced);
 }
 
-// Nothing puts the limb into another part but pbs itself.
+// Only pbs itself assigns the limb to another part.
 TEST_F(ArtefactsVerdict, HoweverWideASectionOfPbsAloneItFails)
 {
     for (const double wide_over_rest : {2.9, 3.1, 8.0})
@@ -82,7 +82,7 @@ TEST_F(ArtefactsVerdict, HoweverWideASectionOfPbsAloneItFails)
             << wide_over_rest;
 }
 
-// The body's own figure is over it, and its interval reaches over linear elements too.
+// The value of the body exceeds it, and its interval also covers linear elements.
 TEST_F(ArtefactsVerdict, QuadraticElementsAreTheReference)
 {
     std::vector<ArtefactSample> samples = {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1)};
@@ -108,7 +108,7 @@ TEST_F(ArtefactsVerdict, ARatioAboveOneIsNotSmoother)
             if (figure.quantity == quantity && analysis::matches(figure.of, of)) figure.value = figure.low = figure.high = ratio;
     };
     put("strain_jump_over_rigid_weights", {}, 0.5);
-    put("curvature_over_rigid_weights", {}, 9.0);  // reported
+    put("curvature_over_rigid_weights", {}, 9.0);  // reported only
     EXPECT_EQ(verdict("C06", measured), VerdictKind::reproduced);
     put("strain_jump_over_rigid_weights", {.deformer = "pbs"}, 1.1);
     EXPECT_EQ(verdict("C06", measured), VerdictKind::not_reproduced);

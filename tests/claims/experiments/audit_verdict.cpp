@@ -1,5 +1,5 @@
-// C13, C14 and C15 are judged from the paper's own figures, C16 from none: mend what is printed and the verdicts turn round. Truth: Euler's
-// formula, sums and quotients of Table 1, derivatives of Eq. 11.
+// C13, C14 and C15 are judged from the paper's printed values, and C16 from none: if the printed values are corrected, the verdicts change.
+// Reference: Euler's formula, sums and quotients of Table 1, derivatives of Eq. 11.
 #include "tests/support/study_claims.hpp"
 
 #include <gtest/gtest.h>

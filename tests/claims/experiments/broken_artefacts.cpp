@@ -1,10 +1,10 @@
-// C04 from a twisted limb, by the solver as it is and by broken ones. Truth:
-//   nothing projected        what is left is LBS, down to cos 85 deg = 0.09 of the radius and less: a candy wrapper
-//   bind dropped             bind constraints alone know the distance from the bone: at 170 degrees sections are narrower than with them
-//   volume sign              the volume projections undo what the bind constraints have put right: narrower
-//   volume, stretch dropped  the bind constraints still put every vertex at its distance, so that the verdict stays at 90 degrees. Of what
-//                            the other class then makes of the skin between them there is no theory: at 170 degrees, where the verdict was
-//                            expected to stay too, sections fall below the bound, however far they are above LBS's
+// C04 from a twisted limb, with the correct solver and with broken ones. Reference:
+// - nothing projected: LBS remains, with radii down to cos 85 deg = 0.09 of the radius and less: a candy wrapper.
+// - bind dropped: only bind constraints contain the distance from the bone, so at 170 degrees sections are narrower than with them.
+// - volume sign: the volume projections undo the effect of the bind constraints, so sections are narrower.
+// - volume or stretch dropped: the bind constraints still put every vertex at its distance, so the verdict stays at 90 degrees. There is no
+//   theory for the effect of the remaining class on the skin between the vertices. At 170 degrees, where the verdict was also expected to
+//   stay, sections fall below the bound, although they are far above those of LBS.
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/study_claims.hpp"
 
@@ -19,7 +19,7 @@ using analysis::VerdictKind;
 using test_support::Broken;
 using test_support::figures_of;
 
-// Without orders and meshes, which are the interval alone.
+// Without other orders and meshes, which only affect the interval.
 std::vector<Measurement> twisted(Broken how, const std::string& angle_deg = "170")
 {
     experiments::ArtefactCase of;
@@ -56,7 +56,7 @@ TEST(BrokenArtefacts, AsItIsThereIsNoCandyWrapper)
 {
     const auto measured = twisted(Broken::nothing);
     EXPECT_EQ(verdict(measured), VerdictKind::reproduced);
-    EXPECT_LT(smallest(measured, "radius_over_rest", "lbs"), 0.5);  // there is something to cure
+    EXPECT_LT(smallest(measured, "radius_over_rest", "lbs"), 0.5);  // there is an artefact to remove
 }
 
 TEST(BrokenArtefacts, NothingProjectedIsLbs)
@@ -94,7 +94,7 @@ TEST(BrokenArtefacts, WithoutVolumeOrStretchTheBindConstraintsStillHold)
     }
 }
 
-// Without bind constraints alone the candy wrapper comes back as it was: narrower than half of what any other class leaves.
+// Only without bind constraints, the candy wrapper returns: narrower than half of what remains without any other class.
 TEST(BrokenArtefacts, OfAllClassesBindIsTheCure)
 {
     const double without_bind = smallest(twisted(Broken::bind_dropped), "radius_over_rest");

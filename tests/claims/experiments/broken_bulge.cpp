@@ -1,13 +1,13 @@
-// C05 from a limb bent by 30 and 60 degrees over stable neo-Hookean elements, by the solver as it is, by broken ones and by a blend in its
-// place. Truth:
-//   nothing projected     what is left is LBS, whose crease stands out on the sides: wider than the reference
-//   DQS in its place      the bulge that the claim is about, a ridge across the joint: the radius tells it. Its sections hold hardly more
-//                         than the reference's, so that the bound of areas, by itself, lets it pass
-//   one class dropped     the crease of LBS stretches edges, moves skin off the bone and changes tets: the other two take it back
-//   volume sign           every projection doubles the error that it should remove: nothing keeps its size
-//   flesh taken too thick the solver's own rest state is 1.2 times as thick round the joint, its tets 1.44 times as large there, which all
-//                         constraints ask for: sections are 1.2 times as wide and 1.44 times as large at rest, by geometry, and bending
-//                         changes a section of the sound solver by far less than that
+// C05 from a limb bent by 30 and 60 degrees, compared with stable neo-Hookean elements, with the correct solver, with broken ones and with
+// a blend in its place. Reference:
+// - nothing projected: LBS remains, whose crease bulges to the sides: wider than the reference.
+// - DQS in its place: the bulge of the claim, a ridge across the joint, which the radius detects. Its sections are hardly larger than those
+//   of the reference, so the bound on areas alone accepts it.
+// - one class dropped: the crease of LBS stretches edges, moves skin off the bone and changes tets; the other two classes reverse it.
+// - volume sign: every projection doubles the error that it should remove, so nothing keeps its size.
+// - flesh too thick: the solver's own rest state is 1.2 times as thick around the joint, and its tets are 1.44 times as large there, as all
+//   constraints require. By geometry, sections are 1.2 times as wide and 1.44 times as large at rest, and bending changes a section of the
+//   correct solver by far less.
 #include "experiments/deformers/registry.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/broken_solver.hpp"
@@ -73,7 +73,7 @@ void add_samples(const std::string& group, const Shapes& shapes, int element_ord
     }
 }
 
-// With these shapes in the solver's place.
+// The values with these shapes in place of the solver's.
 std::vector<Measurement> figures(const Shapes& shapes)
 {
     std::vector<ArtefactSample> samples;
@@ -89,14 +89,14 @@ VerdictKind verdict(const std::vector<Measurement>& measured)
     return judge(test_support::claim("C05"), records).kind;
 }
 
-// By one bound alone.
+// The verdict by one bound alone.
 VerdictKind verdict(const std::vector<Measurement>& measured, const std::string& quantity)
 {
     EXPECT_EQ(figures_of(measured, quantity).size(), limb().of.poses.size());
     return verdict(figures_of(measured, quantity));
 }
 
-// Round the joint every vertex is farther from its bone.
+// Every vertex around the joint is farther from its bone.
 pbs::Character thickened(pbs::Character character, double factor)
 {
     const std::vector<bool> near = near_joint(character, limb().body.joints.at(0));
@@ -133,7 +133,7 @@ TEST(BrokenBulge, AsItIsThereIsNone)
     const auto measured = figures(solved(Broken::nothing));
     EXPECT_EQ(verdict(measured), VerdictKind::reproduced);
     for (const std::string& quantity : {radius, area}) EXPECT_EQ(verdict(measured, quantity), VerdictKind::reproduced) << quantity;
-    // Driven by hand, as the thick one is below, it is the same.
+    // The correct solver, driven by hand like the thick one below, gives the same result.
     const Shapes again = solved_with(limb().body.posed.character(), bent_poses()), own = solved(Broken::nothing);
     for (std::size_t pose = 0; pose < own.size(); ++pose) EXPECT_EQ(again.at(pose).positions, own[pose].positions);
 }
@@ -173,7 +173,7 @@ TEST(BrokenBulge, FleshTakenTooThickRoundTheJointTurnsBothBounds)
     for (const std::string& quantity : {radius, area}) EXPECT_EQ(verdict(measured, quantity), VerdictKind::not_reproduced) << quantity;
 }
 
-// Every constraint is satisfied by it, so that the solver leaves it as it is. Sections farther off than a radius have thin neighbours.
+// This shape satisfies every constraint, so the solver leaves it unchanged. Sections farther away than a radius have thin neighbours.
 TEST(BrokenBulge, AtRestItIsAsThickAsItWasTaken)
 {
     const pbs::Pose still(2, Eigen::Isometry3d::Identity());

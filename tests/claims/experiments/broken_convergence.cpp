@@ -1,13 +1,13 @@
-// C03 and C12 from a limb bent by 15 degrees, at which the sound solver brings the volume back from every start, iterated by the solver
-// as it is and by broken ones. Truth:
-//   volume sign        every projection doubles the error it should remove: no start comes within 0.5 % of the volume, and what is left
-//                      after 1000 iterations is far above what the sound solver leaves
-//   volume dropped     nothing brings the volume back: no start arrives by volume, so that 24 iterations do not suffice; C03 has no figure
-//                      by volume left, and is judged by the residual alone
-//   bind dropped       nothing draws the body to the pose: the rest pose satisfies all that is left, stays where it is and is there at
-//                      once, so that LBS is not the better start
-//   nothing projected  every start stays what it is, to the bit: the rest pose has its volume at once, LBS never
-//   stretch dropped    the bind and the volume constraints remain; the last residual of the edges is larger
+// C03 and C12 from a limb bent by 15 degrees, at which the correct solver restores the volume from every initial guess, iterated by the
+// correct solver and by broken ones. Reference:
+// - volume sign: every projection doubles the error that it should remove, so no initial guess comes within 0.5 % of the volume, and the
+//   error after 1000 iterations is far above that of the correct solver.
+// - volume dropped: nothing restores the volume, so no initial guess converges by volume, and 24 iterations do not suffice. C03 has no
+//   value by volume and is judged by the residual alone.
+// - bind dropped: nothing moves the body towards the pose. The rest pose satisfies all remaining constraints, stays in place and is
+//   converged at once, so LBS is not the better initial guess.
+// - nothing projected: every initial guess stays unchanged, to the bit: the rest pose has its volume at once, LBS never.
+// - stretch dropped: the bind and the volume constraints remain, and the last residual of the edges is larger.
 #include "experiments/studies/convergence/convergence_figures.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "tests/support/broken_solver.hpp"
@@ -58,7 +58,7 @@ VerdictKind verdict_of_c03(const std::vector<Measurement>& measured)
     return judge(claim("C03"), records).kind;
 }
 
-// The limb is reported with C12; judged as a character's value would be.
+// The limb is reported with C12; here it is judged like the value of a character.
 analysis::Extent twenty_four_suffice(Broken how)
 {
     Measurement figure = figures_of(figures(how), "iterations_to_tolerance_of_limbs", by_volume).at(0);
@@ -91,7 +91,7 @@ TEST(BrokenConvergence, TheSignTurnedRoundArrivesFromNowhere)
     EXPECT_NE(verdict_of_c03(figures(Broken::volume_sign)), VerdictKind::reproduced);
     const double sound = experiments::floor_of(bend(Broken::nothing).all.front().paths),
                  turned = experiments::floor_of(bend(Broken::volume_sign).all.front().paths);
-    EXPECT_FALSE(turned <= 10.0 * sound) << turned << " " << sound;  // not a number where nothing stayed finite
+    EXPECT_FALSE(turned <= 10.0 * sound) << turned << " " << sound;  // not a number if nothing stayed finite
 }
 
 TEST(BrokenConvergence, WithoutVolumeNoStartArrivesByVolume)
@@ -106,7 +106,7 @@ TEST(BrokenConvergence, WithoutBindTheRestPoseStaysAndIsThereAtOnce)
 {
     const experiments::IterationPath& rest = path(Broken::bind_dropped, SolverStart::rest_pose);
     EXPECT_LT(rest.looks.back().stretch_rms, 1e-5);                                  // rounding of f32
-    EXPECT_NEAR(rest.looks.back().bind_rms_m, rest.looks.front().bind_rms_m, 1e-4);  // it has not come any nearer
+    EXPECT_NEAR(rest.looks.back().bind_rms_m, rest.looks.front().bind_rms_m, 1e-4);  // it has not come any closer
     EXPECT_LE(from_rest_over_lbs_by_volume(Broken::bind_dropped), 1.0);
     EXPECT_NE(verdict_of_c03(figures(Broken::bind_dropped)), VerdictKind::reproduced);
 }

@@ -1,8 +1,8 @@
-// C07 from projections as they are and broken. Truth:
-//   volume sign        corrections are turned round, and still add up to nothing: the verdict must stay (Eq. 3-4 ask for no more)
-//   printed labels     gradients under the wrong particles still add up to nothing (Eq. 15), their moments do not: angular momentum
-//                      is lost, linear is not
-//   a class dropped    what is not projected has no drift that could be named, so it is not counted as conserved
+// C07 from correct and broken projections. Reference:
+// - volume sign: corrections are reversed and still add up to zero, so the verdict must stay (Eq. 3-4 require no more).
+// - printed labels: gradients at the wrong particles still add up to zero (Eq. 15), but their moments do not: angular momentum is lost,
+//   linear momentum is not.
+// - a class dropped: a class that is not projected has no drift, so it is not counted as conserved.
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/limb_character.hpp"
 #include "tests/support/study_claims.hpp"
@@ -29,7 +29,7 @@ pbs::PbsOptions in_double()
     return options;
 }
 
-// Single projections and a pass, equal masses, as the study has them.
+// Single projections and a pass, with equal masses, as in the study.
 std::vector<Measurement> drifts(const pbs::PbsOptions& options)
 {
     static const test_support::TwoBoneLimb limb = test_support::two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 60.0);
@@ -56,7 +56,7 @@ VerdictKind verdict(const std::vector<Measurement>& measured)
     return judge(test_support::claim("C07"), records).kind;
 }
 
-// A pass conserves angular momentum to first order alone, so that single projections carry the verdict.
+// A pass conserves angular momentum only to first order, so the verdict is based on single projections.
 std::vector<Measurement> single(const std::vector<Measurement>& measured, const std::string& of)
 {
     std::vector<Measurement> found;
@@ -77,7 +77,8 @@ TEST(BrokenMomentum, TheSignTurnedRoundConservesAsWell)
 {
     const auto sound = drifts(in_double()), turned = drifts(broken(in_double(), Broken::volume_sign));
     EXPECT_EQ(verdict(turned), verdict(sound));
-    EXPECT_NE(drift(turned, "angular_drift_of_a_pass", "volume"), drift(sound, "angular_drift_of_a_pass", "volume"));  // it is turned
+    // the sign is reversed
+    EXPECT_NE(drift(turned, "angular_drift_of_a_pass", "volume"), drift(sound, "angular_drift_of_a_pass", "volume"));
     for (const char* quantity : {"linear_drift", "angular_drift"}) {
         EXPECT_LT(drift(sound, quantity, "volume"), 1e-11);
         EXPECT_LT(drift(turned, quantity, "volume"), 1e-11);

@@ -1,8 +1,9 @@
-// C08 from cells of a jiggling limb that starts broken, by the solver as it is and by broken ones. Truth:
-//   volume sign          each projection doubles the error it should remove: it runs away, not reproduced
-//   nothing projected    flesh falls freely, g t^2 / 2 = 4.9 m in a second: it runs away; without jiggle nothing moves at all
-//   one class dropped    a projection takes no more than its own error, and what is left still holds on to the body: the verdict stays
-//   multipliers forgot   XPBD is no part of the claim; each of its projections still takes a share below one: as stable as with them
+// C08 from cells of a jiggling limb with a distorted initial state, with the correct solver and with broken ones. Reference:
+// - volume sign: each projection doubles the error that it should remove, so the limb diverges and the claim is not reproduced.
+// - nothing projected: flesh falls freely, g t^2 / 2 = 4.9 m in a second, and diverges; without jiggle nothing moves at all.
+// - one class dropped: a projection removes at most its own error, and the other classes still hold the body, so the verdict stays.
+// - multipliers forgotten: XPBD is not part of the claim; each of its projections still takes a share below one, so it is as stable as with
+//   them.
 #include "experiments/deformers/xpbd/xpbd_options.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
@@ -22,7 +23,7 @@ using analysis::VerdictKind;
 using test_support::broken;
 using test_support::Broken;
 
-constexpr int still_steps = 100;  // a second
+constexpr int still_steps = 100;  // one second
 
 std::vector<StabilityCell> chosen(const std::vector<StabilityCell>& cells, const std::string& factor)
 {

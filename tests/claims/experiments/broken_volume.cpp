@@ -1,6 +1,6 @@
-// C01 is about blending: whatever is broken in the solver must leave its verdict as it is, figure by figure, to the bit, while what is
-// measured of the solver beside it changes. A broken blend has to show. Truth: LBS knows nothing of Algorithm 1; weights that carry every
-// vertex by one bone spoil the tets across the joint alone, so that a twist loses less.
+// C01 is about blending: no defect of the solver may change its verdict, value by value and to the bit, while the values measured for the
+// solver change. A broken blend must change it. Reference: LBS does not depend on Algorithm 1; weights that bind every vertex to one bone
+// distort only the tets across the joint, so a twist loses less.
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/study_claims.hpp"
 

@@ -1,11 +1,11 @@
-// C06 from a limb twisted by 90 degrees, with the weights of Eq. 2, with broken ones in their place and by a broken solver. (In a bend the
-// sound ones fail it already.) Truth:
-//   Eq. 2              both bones carry the vertices within a sixth of their length from the joint, half and half: two layers of tets take
-//                      up half of the twist each; with rigid weights one layer takes up all of it
-//   rigid              weights that are the rigid ones after all are exactly as smooth, to the bit: 1, which is not smoother
-//   bones in turn      those vertices carried by one bone or the other: LBS tears each from its neighbours. Weights are where the solver
-//                      starts from and nothing else of it: it undoes what LBS has torn, so that its own figure does not turn
-//   nothing projected  what is left is LBS, of which no solver changes the figure; what is torn stays torn
+// C06 from a limb twisted by 90 degrees, with the weights of Eq. 2, with broken weights and with a broken solver. (In a bend the correct
+// weights already fail it.) Reference:
+// - Eq. 2: both bones carry the vertices within a sixth of their length from the joint with equal weights, so two layers of tets take half
+//   of the twist each; with rigid weights one layer takes all of it.
+// - rigid: weights that are in fact the rigid ones are exactly as smooth, to the bit: the ratio is 1, which is not smoother.
+// - bones in turn: those vertices are carried by one bone or the other, so LBS tears each from its neighbours. Weights only determine the
+//   initial guess of the solver, which undoes the tears, so its own value does not change.
+// - nothing projected: LBS remains, whose value no solver changes, and the tears remain.
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/hand_strain_jump.hpp"
 #include "tests/support/study_claims.hpp"
@@ -55,14 +55,14 @@ const pbs::Character& limb()
     return limb;
 }
 
-// Eq. 2 round the limb's joint: t within a sixth of the bone's length from it.
+// Eq. 2 around the limb's joint: t within a sixth of the bone's length from it.
 bool is_blended(int vertex)
 {
     const double t = limb().binding.parameter(vertex);
     return limb().binding.bone[vertex] == 0 ? t > 5.0 / 6.0 : t < 1.0 / 6.0;
 }
 
-// A weights file: of each blended vertex the forearm's weight by its number, of the others the nearest bone's alone.
+// Makes a weights file: each blended vertex has the forearm's weight by its number, and every other vertex belongs to the nearest bone.
 template <typename ForearmWeight>
 WeightsComparison twisted_with(ForearmWeight forearm_weight, Broken how = Broken::nothing)
 {
@@ -83,7 +83,7 @@ VerdictKind verdict(const std::vector<Measurement>& measured)
     return judge(test_support::claim("C06"), records).kind;
 }
 
-// By one deformer alone.
+// The verdict for one deformer alone.
 VerdictKind verdict(const WeightsComparison& comparison, const std::string& deformer)
 {
     EXPECT_EQ(figures_of(comparison.figures, strain_jump, {.deformer = deformer}).size(), 1u);
@@ -95,7 +95,7 @@ Measurement figure(const WeightsComparison& comparison, const std::string& defor
     return figures_of(comparison.figures, strain_jump, {.deformer = deformer}).at(0);
 }
 
-// Eq. 1 by hand, blended by Eq. 2 or not at all: the forearm is turned about the limb's axis, the upper arm stays.
+// Eq. 1 by hand, with weights of Eq. 2 or without blending: the forearm is rotated about the limb's axis, and the upper arm stays.
 pbs::Positions turned(bool is_by_eq_2)
 {
     const Eigen::Matrix3d quarter = Eigen::AngleAxisd(0.5 * std::numbers::pi, pbs::Vec3::UnitX()).toRotationMatrix();
@@ -121,7 +121,7 @@ TEST(BrokenWeights, TheFigureOfLbsIsTheRatioOfStrainsByHand)
     EXPECT_NEAR(figure(sound(), of_lbs).value, smooth / rough, 1e-9);  // f64
 }
 
-// What is planted below goes by a file, and Eq. 2 by that way is Eq. 2.
+// The defects below are introduced by a file; the weights of Eq. 2 from a file equal those of Eq. 2.
 TEST(BrokenWeights, Equation2FromAFileIsEquation2)
 {
     const WeightsComparison from_file = twisted_with([](int) { return 0.5; });

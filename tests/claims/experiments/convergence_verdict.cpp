@@ -1,5 +1,5 @@
-// The verdicts of C03 and C12 follow from the figures that the convergence study writes, and flip when the paths behind them are altered.
-// Truth: the rules in experiments/verdicts/claims.toml.
+// The verdicts on C03 and C12 follow from the values that the convergence study writes, and change when the paths behind them are altered.
+// Reference: the rules in experiments/verdicts/claims.toml.
 #include "experiments/studies/convergence/convergence_figures.hpp"
 
 #include "analysis/records/atomic_file.hpp"
@@ -24,7 +24,7 @@ VerdictKind kind_for(const std::string& id, const std::vector<ConvergencePaths>&
     return analysis::judge(*claim, {.measurements = experiments::convergence_figures({paths, false, ""})}).kind;
 }
 
-// Volume is there after one iteration from LBS and after two from everywhere else, so that the residual alone decides.
+// The volume converges after one iteration from LBS and after two from all other initial guesses, so only the residual decides.
 ConvergencePaths by_residual(const std::vector<double>& rates)
 {
     ConvergencePaths paths = starts_at_rates(1780, rates);
@@ -52,7 +52,7 @@ TEST(LbsIsTheBetterStart, FlipsWithAnotherOrderOfTheSamePose)
 TEST(LbsIsTheBetterStart, NotReproducedWhereItIsTheSlowest)
 {
     ConvergencePaths paths = by_residual({0.95, 0.8, 0.8, 0.8});
-    paths.paths[0] = path_by(1000, [](int n) { return n < 500 ? 2.0 : 1.0; });  // late by volume, too
+    paths.paths[0] = path_by(1000, [](int n) { return n < 500 ? 2.0 : 1.0; });  // late by volume too
     EXPECT_EQ(kind_for("C03", {paths}), VerdictKind::not_reproduced);
 }
 

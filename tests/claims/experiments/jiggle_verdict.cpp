@@ -1,5 +1,6 @@
-// C09 is judged from the figures that the study of jiggle writes: alter the responses behind them and the verdict turns round. Truth: the
-// project's own claims.toml; flesh that swings as theory has it for elastic flesh, f going with sqrt(k) whatever step and iterations.
+// C09 is judged from the values that the study of jiggle writes: if the responses behind them are altered, the verdict changes. Reference:
+// the project's own claims.toml; flesh that swings like elastic flesh, with f proportional to sqrt(k) for any step and number of
+// iterations.
 #include "tests/support/jiggle_responses.hpp"
 #include "tests/support/study_claims.hpp"
 
@@ -73,7 +74,7 @@ TEST(JiggleVerdict, OtherReadingsDoNotTurnIt)
     for (MeasuredJiggle& one : measured)
         if (!is_of_the_paper(one.setting)) {
             one = swinging(one.setting, 3.0);
-            one.response.swing.damping_ratio = {-0.2, -0.3, -0.1};  // grows
+            one.response.swing.damping_ratio = {-0.2, -0.3, -0.1};  // the amplitude grows
         }
     EXPECT_EQ(verdict({measured}), VerdictKind::reproduced);
 }

@@ -1,5 +1,5 @@
-// C07 is judged from the momentum study's own figures: alter them and the verdict turns round. Truth: Newton's third law; projections that
-// know the masses they are counted with conserve momentum, Eq. 8-9 for m = 1 on unequal masses do not.
+// C07 is judged from the momentum study's own values: if they are altered, the verdict changes. Reference: Newton's third law; projections
+// with the masses of the momentum conserve it, and Eq. 8-9 for m = 1 on unequal masses do not.
 #include "tests/support/study_claims.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// C17 is judged from what the setup study measures: alter its figures and the verdict turns round. Truth: the project's own claims.toml;
-// the frames are made up, the figures are computed from them as the study does.
+// C17 is judged from the measurements of the setup study: if they are altered, the verdict changes. Reference: the project's own
+// claims.toml. The frames are invented, and the values are computed from them by the study's own functions.
 #include "analysis/records/atomic_file.hpp"
 #include "analysis/claims.hpp"
 #include "analysis/verdict.hpp"
@@ -13,7 +13,7 @@ namespace {
 
 using analysis::VerdictKind;
 
-// A body's 100 frames, every n-th with an inverted tet; n = 0: none.
+// The 100 frames of a body, with an inverted tet in every n-th; n = 0: in none.
 std::vector<analysis::Measurement> body(const std::string& name, int every, const std::vector<std::string>& changed = {})
 {
     analysis::CsvTable metrics({"volume_change_pct", "inverted_tets"});
@@ -37,7 +37,7 @@ TEST(SetupVerdict, ABodyThatTurnsInsideOutIsNotAccommodated)
     EXPECT_EQ(verdict({body("human", 0), body("frankie", 2)}), VerdictKind::reproduced_only_for);
 }
 
-// The keys that a body which runs with those of `trial` alone has changed, as the study finds them.
+// The keys that a body has changed if it runs with only those of `trial`, as the study finds them.
 std::vector<std::string> changed_for(std::size_t trial)
 {
     using namespace experiments;

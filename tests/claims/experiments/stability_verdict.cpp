@@ -1,4 +1,4 @@
-// C08 judged from records as the stability study writes them: a single cell that runs away turns the verdict.
+// C08 judged from records like those of the stability study: a single cell that diverges changes the verdict.
 #include "analysis/records/atomic_file.hpp"
 #include "analysis/claims.hpp"
 #include "analysis/measurement.hpp"
@@ -84,7 +84,7 @@ std::vector<experiments::CellRow> rows_of_cells(const std::vector<MeasuredCell>&
     return rows;
 }
 
-// A map in which the sign as printed looks stable, or that never shows an outcome, says nothing: the study fails.
+// A map in which the printed sign looks stable, or in which an outcome never occurs, is meaningless: the study fails.
 TEST(StabilityVerdict, AMapThatCannotTellIsRefused)
 {
     std::vector<MeasuredCell> cells;
@@ -101,7 +101,7 @@ TEST(StabilityVerdict, AMapThatCannotTellIsRefused)
     EXPECT_EQ(blind_spots(rows_of_cells(cells)), "no cell is bounded\n");
 }
 
-// Quantities of a sweep stand in the order of claims.toml.
+// The quantities of a sweep have the order of claims.toml.
 TEST(StabilityVerdict, SharesAreOfTheCellsOfTheirSweep)
 {
     const analysis::CsvTable shares = stability_measurements(altered(0, StabilityOutcome::diverged));
@@ -112,10 +112,10 @@ TEST(StabilityVerdict, SharesAreOfTheCellsOfTheirSweep)
     EXPECT_EQ(shares.number(1, "value"), 0.5);  // the inverted one
     EXPECT_EQ(shares.number(2, "value"), 0.0);
     EXPECT_EQ(shares.number(3, "value"), 0.0);
-    EXPECT_EQ(shares.number(4, "value"), 0.0);  // of k_stretch
+    EXPECT_EQ(shares.number(4, "value"), 0.0);  // share for k_stretch
 }
 
-// Theory: nothing of n is at most 1 - 0.025^(1 / n), all of n at least that.
+// Theory: none of n is at most 1 - 0.025^(1 / n), all of n at least that.
 TEST(StabilityVerdict, ReportedSharesHaveAnIntervalAndTheJudgedOneHasNone)
 {
     const analysis::CsvTable shares = stability_measurements(stable);
@@ -125,7 +125,7 @@ TEST(StabilityVerdict, ReportedSharesHaveAnIntervalAndTheJudgedOneHasNone)
     EXPECT_EQ(shares.number(5, "low"), 0.0);
 }
 
-// A motion of 1e-4 diagonals a step is beyond the 1e-5 that count as rest; whether tets are inverted says nothing of it.
+// A motion of 1e-4 diagonals per step exceeds the 1e-5 that count as rest, whether or not tets are inverted.
 TEST(StabilityVerdict, WhatMovesToTheEndIsNotAtRest)
 {
     const auto moving = [](StabilityOutcome outcome, std::vector<double> motions) {
@@ -147,10 +147,10 @@ TEST(StabilityVerdict, WhatMovesToTheEndIsNotAtRest)
         EXPECT_EQ(share(moving(outcome, still)), 0.0);
         EXPECT_EQ(share(moving(outcome, long_ago)), 0.0);
     }
-    EXPECT_EQ(share(moving(StabilityOutcome::diverged, to_the_end)), 0.0);  // counted as that
+    EXPECT_EQ(share(moving(StabilityOutcome::diverged, to_the_end)), 0.0);  // counted as diverged
 }
 
-// Without jiggle the time step does not enter, so that sweep holds whatever the method: no figure of the claim.
+// Without jiggle the time step has no effect, so that sweep holds for any method and is not a value of the claim.
 TEST(StabilityVerdict, TimeStepsThatDoNotEnterAreNoFigure)
 {
     for (const bool full : {false, true}) {

@@ -1,5 +1,5 @@
-// C01 and C02 are judged from metrics.csv, frame by frame: alter the frames of one body and the verdicts turn round. Truth: the project's
-// own claims.toml; the frames are made up.
+// C01 and C02 are judged from metrics.csv, frame by frame: if the frames of one body are altered, the verdicts change. Reference: the
+// project's own claims.toml; the frames are invented.
 #include "analysis/records/atomic_file.hpp"
 #include "analysis/claims.hpp"
 #include "analysis/verdict.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 using analysis::VerdictKind;
 
-// 200 frames of a clip about a mean change.
+// 200 frames of a clip around a mean change.
 analysis::CaseRecord clip(const std::string& scene, const std::string& deformer, double change_pct)
 {
     analysis::CaseRecord record;

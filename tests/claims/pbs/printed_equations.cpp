@@ -1,5 +1,6 @@
-// Are Eq. 12-21 the gradients and corrections of Eq. 11? Truth: the volumes themselves. Each form, derived and as printed, runs on a
-// limb bent by 90 degrees (k_stretch 0.5, 24 iterations) and is judged by the sum of |V - V0| over the rest volume, in per cent.
+// Tests whether Eq. 12-21 are the gradients and corrections of Eq. 11. Reference: the volumes themselves. Each form, derived and as
+// printed, runs on a limb bent by 90 degrees (k_stretch 0.5, 24 iterations) and is measured by the sum of |V - V0| over the rest volume, in
+// per cent.
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/two_bone_limb.hpp"
@@ -68,7 +69,7 @@ TEST(PrintedEquations, AbsolutePositionsDependOnTheOrigin)
     EXPECT_NEAR(run(a_metre_away, VolumeForm::labels_absolute, pbs::Precision::f32).change_pct / there, 1.0, 0.2);
 }
 
-// Up to rounding, which the tets that LBS has turned inside out carry on; a twentieth of a per cent is far below what the forms differ by.
+// Equal up to rounding, which the tets inverted by LBS propagate; a twentieth of a per cent is far below the difference between the forms.
 TEST(PrintedEquations, DerivedFormDoesNotDependOnTheOrigin)
 {
     EXPECT_NEAR(run(a_metre_away, VolumeForm::derived).change_pct, run(at_the_joint, VolumeForm::derived).change_pct, 0.05);
@@ -85,7 +86,7 @@ TEST(PrintedEquations, AllErrorsTogetherAreWorseThanLbs)
 {
     const Finding printed = run(at_the_joint, VolumeForm::as_printed);
     RecordProperty("as_printed_pct", std::to_string(printed.change_pct));
-    EXPECT_FALSE(printed.change_pct <= lbs_pct) << printed.change_pct;  // or not a number
+    EXPECT_FALSE(printed.change_pct <= lbs_pct) << printed.change_pct;  // larger, or not a number
 }
 
 }  // namespace
