@@ -1,8 +1,8 @@
-"""The linear reference on one and two processes against the serial one's CHOLMOD, node by node.
+"""The linear reference on one and two processes compared with the serial solution by CHOLMOD, node by node.
 
-Truth: the same discrete problem, assembled and solved by other code. Tolerance: with a residual r, the error is K^-1 r, at most |r| over
-the lowest eigenvalue; the solution of a load f is at least its share in the softest mode over that eigenvalue. A cantilever's first
-bending mode has 0.78 of a uniform load across it, so |error| <= 1.3 |r| / |f| |solution|; both solutions' own residuals are recorded."""
+Reference: the same discrete problem, assembled and solved by other code. Tolerance: with a residual r, the error is K^-1 r, at most |r|
+over the lowest eigenvalue; the solution of a load f is at least its share in the softest mode over that eigenvalue. A cantilever's first
+bending mode has 0.78 of a uniform load across it, so |error| <= 1.3 |r| / |f| |solution|. Both solutions record their own residuals."""
 import csv
 import json
 import os
@@ -19,12 +19,12 @@ MPIRUN = [os.environ["MPIEXEC"], "--oversubscribe", "-n"]
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                    OMPI_MCA_btl_vader_single_copy_mechanism="none",
                    OMPI_MCA_mpi_yield_when_idle="1", OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
-MODE_SHARE = 0.78  # of a uniform transverse load in a cantilever's first mode
+MODE_SHARE = 0.78  # share of a uniform transverse load in a cantilever's first mode
 ACROSS = ("--gravity", 0, 0, -9.81, "--traction", 0, 0, -1000)
 
 
 def run(ranks, *arguments):
-    """The finished process; 0 ranks: without mpirun."""
+    """The finished process; 0 ranks: started without mpirun."""
     start = MPIRUN + [str(ranks)] if ranks else []
     return subprocess.run([*start, PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=200, env=ENVIRONMENT)
 
@@ -70,12 +70,14 @@ class Distributed(program.ProgramTest):
         self.compare(("--mesh", self.path("arm.msh"), "--order", 2, *ACROSS), self.of_residuals)
 
     def test_limb_held_by_its_skeleton(self):
-        """The springs' pull is some q = 1e4 times the forces in the flesh, and the residual is relative to it: q times the tolerance."""
+        """The force of the springs is some q = 1e4 times the forces in the flesh, and the residual is relative to it: q times the
+        tolerance."""
         limb = ("--limb", 1775, "--bend", 10, "--poisson", 0.45, "--tolerance")
         self.compare((*limb, 1e-12), lambda serial, record: 1e-8)
         _, _, expected = self.solve(0, *limb, 1e-12, "--solver", "cholmod")
         _, _, coarse = self.solve(2, *limb, 1e-6)
-        self.assertGreater(numpy.linalg.norm(coarse - expected) / numpy.linalg.norm(expected), 1e-6)  # it is the tolerance that tells
+        # shows that the tolerance determines the difference
+        self.assertGreater(numpy.linalg.norm(coarse - expected) / numpy.linalg.norm(expected), 1e-6)
 
 
 class Scaling(program.ProgramTest):

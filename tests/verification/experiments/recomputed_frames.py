@@ -1,5 +1,5 @@
-"""metrics.csv against volumes and inverted tets recomputed from the written frames by another program (VTK's reader and numpy), on a tet
-mesh and skeleton that the project has never seen. Truth: the definitions of the metrics. Tolerance: the contract's 1e-6 percentage
+"""metrics.csv compared with volumes and inverted tets recomputed from the written frames by another program (VTK's reader and numpy), on a
+tet mesh and skeleton that are not from the project. Reference: the definitions of the metrics. Tolerance: the contract's 1e-6 percentage
 points."""
 import csv
 import json

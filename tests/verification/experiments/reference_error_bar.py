@@ -1,6 +1,6 @@
-"""The reference's error bar against what it stands for. Truth: a better solution of the same problem, order 2 on refined tets, from another
-run of the program; distances recomputed with numpy from the written frames. A bar must cover the distance of the reference to it, and be of
-its size: the factors that the method puts on a difference are at most 6."""
+"""The reference's error bar compared with a real error. Reference: a better solution of the same problem, order 2 on refined tets, from
+another run of the program; distances are recomputed with numpy from the written frames. A bar must cover the distance of the reference to
+it and have its size: the factors that the method applies to a difference are at most 6."""
 import csv
 import json
 import unittest
@@ -76,13 +76,13 @@ class ReferenceErrorBar(program.ProgramTest):
                     figure = float(rows[deformer][column])
                     self.assertGreater(figure, error, name + " " + column)
                     self.assertLess(figure, 20.0 * error, name + " " + column)
-                    self.assertEqual(figure, float(rows["lbs"][column]))  # of the frame, whoever's row
+                    self.assertEqual(figure, float(rows["lbs"][column]))  # a value of the frame, the same in every row
                 self.assertEqual(rows[deformer]["error_below_reference_error"], "")
                 self.assertEqual(len(record["reference_error_method"]["solutions"]), 3 if bar == "both" else 2)
 
     def test_marks_what_it_does_not_tell_apart(self):
         rows, record = self.run_scene("marked", 'deformers.use=["p1", "p2", "lbs"]', "reference.name=p2", "reference.error_bar=orders")
-        # The difference to order 1 is what the bar is made of, times more than 3.
+        # The bar is the difference to order 1 times more than 3.
         self.assertEqual(rows["p1"]["error_below_reference_error"], "1")
         below = float(rows["lbs"]["error_joint_pct"]) <= float(rows["lbs"]["reference_error_joint_pct"])
         self.assertEqual(rows["lbs"]["error_below_reference_error"], "1" if below else "0")

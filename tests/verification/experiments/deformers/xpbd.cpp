@@ -1,8 +1,8 @@
-// Truth: statics. A particle hangs from three held ones by the three edges of a tet; each edge is a spring of stiffness 1 / alpha, so at
-// rest
+// Reference: statics. A particle hangs from three fixed ones by the three edges of a tet; each edge is a spring of stiffness 1 / alpha, so
+// at rest
 //   sum over edges of n n^T / alpha u = m g,
-// whatever the iterations and substeps that solve a step: a multiplier that were forgotten between iterations would make it stiffer with
-// each. Poisson's ratio 1/4 leaves the volume constraints out. Displacements are 1e-4 of an edge: what is left out is of second order.
+// for any number of iterations and substeps per step. A multiplier that were forgotten between iterations would stiffen it with each.
+// Poisson's ratio 1/4 leaves the volume constraints out. Displacements are 1e-4 of an edge; the neglected terms are of second order.
 #include "experiments/deformers/xpbd/xpbd_solver.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "tests/support/hanging_tet.hpp"
@@ -56,7 +56,7 @@ TEST_P(XpbdAtRest, HangsAsSpringsDo)
 
 INSTANTIATE_TEST_SUITE_P(IterationsAndSubsteps, XpbdAtRest, testing::Values(std::pair{10, 1}, std::pair{100, 1}, std::pair{10, 10}));
 
-// One iteration a substep does not solve the substep; the error falls with its length.
+// One iteration per substep does not solve the substep; the error falls with its length.
 TEST(XpbdAtRestWithSmallSteps, ConvergesWithTheSubsteps)
 {
     const auto error = [](int substeps) {

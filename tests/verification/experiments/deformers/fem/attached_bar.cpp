@@ -1,5 +1,5 @@
-// Truth: rigid motion and objectivity, which removing the root's motion makes exact for a linear law; the limit of stiff springs; a
-// second solver. The bar of two bones, both attachments, both element orders.
+// Reference: rigid motion and objectivity, which are exact for a linear law since the root's motion is removed; the limit of stiff springs;
+// a second solver. The body is the bar of two bones, with both attachments and both element orders.
 #include "experiments/deformers/fem/linear_fem_deformer.hpp"
 #include "tests/unit/experiments/deformers/fem/bar_character.hpp"
 
@@ -54,14 +54,14 @@ protected:
         .element_order = std::get<1>(GetParam()), .attachment = std::get<0>(GetParam()), .core_radius = 0.7, .spring_factor = 1e4};
 };
 
-// Sizes of metres and a condition of some 1e7 with springs: 1e-9 m.
+// Sizes of metres and a condition number of some 1e7 with springs: 1e-9 m.
 TEST_P(AttachedBar, FollowsARigidMotionOfAllBones)
 {
     const pbs::Pose rest(2, Eigen::Isometry3d::Identity());
     EXPECT_LT(largest_distance(deformed(options, moved(rest)), moved(bar().mesh.rest)), 1e-9);
 }
 
-// Turning the whole pose turns the answer, with gravity turned along.
+// If the whole pose and gravity are rotated, the solution rotates with them.
 TEST_P(AttachedBar, IsObjective)
 {
     FemOptions turned = options;
@@ -77,8 +77,8 @@ TEST_P(AttachedBar, UmfpackGivesTheSame)
     EXPECT_LT(largest_distance(deformed(options, bent(10.0)), cholmod), 1e-9);
 }
 
-// A rotation of the joint by a small angle must come out as it is asked for, far from the joint: where the bone's middle is held, the
-// flesh follows it but for the fictitious strain 1 - cos(theta) = 1.5e-4 at 1 degree, over the width.
+// A rotation of the joint by a small angle must be reproduced far from the joint. Where the bone's middle is held, the flesh follows it
+// except for the fictitious strain 1 - cos(theta) = 1.5e-4 at 1 degree, over the width.
 TEST_P(AttachedBar, FollowsASmallRotationWhereTheBoneHoldsIt)
 {
     const pbs::Pose pose = bent(1.0);
@@ -95,9 +95,9 @@ INSTANTIATE_TEST_SUITE_P(Attachments, AttachedBar,
 
 class EmbeddedBar : public testing::TestWithParam<int> {};
 
-// Doubling q from 1e4, the joint bent by 10 degrees, where a linear reference is of use at all. Stated bounds: the root mean square change,
-// which is what error_l2_pct reports, below 0.01 % of the diagonal, a tenth of what a claim is judged by; a single vertex below 0.05 %.
-// (A vertex that the springs reach only by a small shape function is held softly: it is the one that still moves.)
+// Doubling q from 1e4, with the joint bent by 10 degrees, for which a linear reference is still useful. Stated bounds: the root mean square
+// change, which error_l2_pct reports, is below 0.01 % of the diagonal, a tenth of the bound of a claim; that of a single vertex is below
+// 0.05 %. (A vertex that the springs reach only through a small shape function is held softly and still moves.)
 TEST_P(EmbeddedBar, DoublingTheSpringsChangesNothingThatIsReported)
 {
     FemOptions options{.element_order = GetParam()};
@@ -115,7 +115,7 @@ TEST_P(EmbeddedBar, DoublingTheSpringsChangesNothingThatIsReported)
 
 INSTANTIATE_TEST_SUITE_P(ElementOrder, EmbeddedBar, testing::Values(1, 2));
 
-// What is gripped belongs to the character alone: the same sample points, the same of them inside, the same tets.
+// The attachment depends only on the character: the same sample points, the same points inside, the same tets.
 TEST(EmbeddedBar, ElementOrderDoesNotChangeWhatIsGripped)
 {
     nlohmann::json grips[2];

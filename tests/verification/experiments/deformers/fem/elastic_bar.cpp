@@ -1,5 +1,5 @@
-// Truth: objectivity of the laws; equilibrium does not remember the way to it; the small-strain limit is the linear reference; what the
-// bind constraint holds and what it does not. The bar of two bones.
+// Reference: objectivity of the laws; the independence of an equilibrium from the path to it; the small-strain limit, which is the linear
+// reference; the motions that the bind constraint allows and prevents. The body is the bar of two bones.
 #include "experiments/deformers/fem/elastic_fem_deformer.hpp"
 #include "experiments/deformers/fem/linear_fem_deformer.hpp"
 #include "tests/unit/experiments/deformers/fem/bar_character.hpp"
@@ -47,8 +47,8 @@ protected:
     FemOptions options{.model = std::get<0>(GetParam()), .element_order = 1, .attachment = std::get<1>(GetParam()), .core_radius = 1.0};
 };
 
-// The whole pose turned, gravity with it: the answer turns along. Newton stops at 1e-8 of the forces; the softest motion of a bar of E 1e5
-// Pa, 2 m long, its ends hanging free, is some 1e3 times what a uniform strain of that stress would be: 1e-8 * 1e3 * 2 m = 2e-5 m.
+// If the whole pose and gravity are rotated, the solution rotates with them. Newton stops at 1e-8 of the forces. The softest motion of a
+// bar with E = 1e5 Pa, 2 m long and with free ends, is some 1e3 times that of a uniform strain with this stress: 1e-8 * 1e3 * 2 m = 2e-5 m.
 TEST_P(ElasticBar, IsObjective)
 {
     FemOptions along = options;
@@ -62,7 +62,7 @@ TEST_P(ElasticBar, IsObjective)
     EXPECT_LT(largest_distance(deformed(along, {moved}), there), 2e-5);
 }
 
-// Below where the flesh buckles there is one equilibrium. The same tolerance.
+// Below the load at which the flesh buckles there is one equilibrium. The tolerance is the same.
 TEST_P(ElasticBar, DoesNotRememberTheWay)
 {
     const pbs::Pose end = turned(60.0, Vec3::UnitZ());
@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, ElasticBar,
                          testing::Combine(testing::Values(Model::stable_neo_hookean, Model::corotational, Model::neo_hookean),
                                           testing::Values(FemAttachment::embedded, FemAttachment::nodes)));
 
-// What is not linear falls with the square of the angle: at half the angle a quarter, within 10 %.
+// The nonlinear part falls with the square of the angle: a quarter at half the angle, within 10 %.
 class SmallAngles : public testing::TestWithParam<Model> {};
 
 TEST_P(SmallAngles, TheDifferenceFromTheLinearReferenceIsOfSecondOrder)
@@ -104,7 +104,7 @@ TEST(MeanDilatation, OnLinearTetsItIsTheDisplacementFormulation)
     EXPECT_LT(largest_distance(deformed(options, frames), deformed(mean, frames)), 1e-9);
 }
 
-// The bind constraint keeps distances to the bone and nothing else. A turn about the bone itself moves no bind point, so the flesh stays.
+// The bind constraint only keeps distances to the bone. A rotation about the bone itself moves no bind point, so the flesh does not move.
 TEST(BoundBar, ATwistAboutTheBoneIsHeldByNothing)
 {
     FemOptions bound{.model = Model::stable_neo_hookean, .element_order = 1, .attachment = FemAttachment::bind};

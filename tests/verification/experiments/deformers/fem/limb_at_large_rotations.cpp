@@ -1,7 +1,7 @@
 // The limb twisted to 180 and bent to 110 degrees in steps of 30 to 45 degrees, stable neo-Hookean on linear tets, from compressible to
-// nearly incompressible. Truth: an equilibrium is one that Newton's method ends at, from whichever side it comes; the volume that a law
-// gives up falls as its bulk modulus rises: to first order with 1 - 2 nu, so from nu 0.45 to 0.49 to a fifth. Half of that fall is asked
-// for: at these angles and on linear tets it is no small strain.
+// nearly incompressible. Reference: Newton's method ends at the same equilibrium from either side. The volume that a law loses falls as its
+// bulk modulus rises, to first order with 1 - 2 nu, so from nu 0.45 to 0.49 to a fifth. The test requires half of that fall, since at these
+// angles and on linear tets the strain is not small.
 #include "experiments/deformers/fem/elastic_fem_deformer.hpp"
 #include "pbs/character/bodies.hpp"
 
@@ -17,7 +17,7 @@ const pbs::Character& limb()
     return character;
 }
 
-// The largest loss of volume over the frames, in per cent; each frame is to converge.
+// The largest loss of volume over the frames, in per cent; each frame must converge.
 double volume_loss_pct(double poisson, const pbs::Vec3& axis, double angle_deg, int frames)
 {
     ElasticFemDeformer fem({.model = reference_fem::Model::stable_neo_hookean, .element_order = 1, .poisson = poisson});

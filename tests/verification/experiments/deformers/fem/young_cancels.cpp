@@ -1,6 +1,7 @@
-// Truth: dimensional analysis. Displacement data, free surfaces, no body force: every force is in proportion to Young's modulus (of the
-// attachment's springs too, whose density is q E / r^2), so the positions do not depend on it, and nu is all that twist and bend can tell.
-// Tolerance: 1e-9 m on 2 m, rounding times the condition of some 1e6; Newton's stopping is relative to the forces.
+// Reference: dimensional analysis. With displacement data, free surfaces and no body force, every force is proportional to Young's modulus
+// (also those of the attachment's springs, whose density is q E / r^2). The positions therefore do not depend on it, and twist and bend can
+// only determine nu. Tolerance: 1e-9 m on 2 m, rounding times the condition number of some 1e6; Newton's stopping criterion is relative to
+// the forces.
 #include "experiments/deformers/fem/elastic_fem_deformer.hpp"
 #include "experiments/deformers/fem/linear_fem_deformer.hpp"
 #include "tests/unit/experiments/deformers/fem/bar_character.hpp"
@@ -19,7 +20,7 @@ const pbs::Character& bar()
     return character;
 }
 
-// The joint twisted and bent at once.
+// The positions with the joint twisted and bent at once.
 Positions turned(FemOptions options, double young_pa, double angle_deg)
 {
     options.young_pa = young_pa;

@@ -1,5 +1,5 @@
-// Truth: theory, and the equilibrium that the same body comes to from its rest pose. Finite elements of which Newton's method starts from
-// shapes that are broken.
+// Reference: theory, and the equilibrium that the same body reaches from its rest pose. Newton's method for finite elements begins at
+// distorted shapes.
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/stability/cell_run.hpp"
 #include "experiments/studies/stability/driven_body.hpp"
@@ -12,7 +12,7 @@ namespace {
 using namespace experiments;
 using analysis::StabilityOutcome;
 
-// Of the study: a limb of 400 vertices bent by 90 degrees.
+// From the study: a limb of 400 vertices bent by 90 degrees.
 StabilityCell cell_of(const std::string& model, Start start)
 {
     for (const StabilityCell& cell : fem_static_cells(false))
@@ -37,7 +37,7 @@ TEST(BrokenFemStarts, EveryModelInEquilibriumIsGivenThem)
         for (const Start start : broken_starts) EXPECT_EQ(options_of<FemOptions>(cell_of(model, start).spec).element_order, 1);
 }
 
-// Theory: one linear system, whatever was before.
+// Theory: the problem is one linear system, whatever the initial state.
 TEST(BrokenFemStarts, ALinearBodyHasNoStart)
 {
     StabilityCell cell = cell_of("fem_linear", Start::flattened);
@@ -51,7 +51,7 @@ TEST(BrokenFemStarts, ALinearBodyHasNoStart)
     EXPECT_EQ((after_a_step(cell) - flattened).cwiseAbs().maxCoeff(), 0.0);
 }
 
-// Its energy is defined for tets turned inside out and for those without a volume.
+// The energy is defined for inverted tets and for those without a volume.
 TEST(BrokenFemStarts, StableNeoHookeanFleshFindsBackFromBeingMirroredAndFromAPoint)
 {
     for (const Start start : {Start::mirrored, Start::point}) {
@@ -64,7 +64,7 @@ TEST(BrokenFemStarts, StableNeoHookeanFleshFindsBackFromBeingMirroredAndFromAPoi
     }
 }
 
-// Corotational energy does not punish a tet for being turned inside out: mirrored flesh ends between, and never within tolerance.
+// The corotational energy does not penalise the inversion of a tet: mirrored flesh ends between the states, and never within tolerance.
 TEST(BrokenFemStarts, CorotationalFleshStaysMirrored)
 {
     const CellResult result = run_cell(cell_of("fem_corotational", Start::mirrored));
@@ -72,7 +72,7 @@ TEST(BrokenFemStarts, CorotationalFleshStaysMirrored)
     EXPECT_FALSE(result.iterations_until_reached);
 }
 
-// Flattened flesh comes to rest in another equilibrium, without an inverted tet: bounded is not right.
+// Flattened flesh comes to rest in another equilibrium, without an inverted tet: bounded does not mean correct.
 TEST(BrokenFemStarts, AtRestElsewhereIsBounded)
 {
     const CellResult result = run_cell(cell_of("fem_stable_neo_hookean", Start::flattened));

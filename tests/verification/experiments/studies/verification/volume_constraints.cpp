@@ -1,5 +1,6 @@
-// Truth: for one tet and two, counting by hand; for a bar, the paper's solver itself, whose projections converge to the nearest point of
-// the set (S. Kaczmarz 1937, for consistent linear equations). The equilibrium stands beside the judge's linear tets in the locking table.
+// Reference: for one tet and two, counting by hand; for a bar, the paper's solver itself, whose projections converge to the nearest point
+// of the set (S. Kaczmarz 1937, for consistent linear equations). The locking table compares the equilibrium with the linear tets of the
+// reference.
 #include "experiments/studies/verification/volume_constraints.hpp"
 
 #include "pbs/solver/pbs_solver.hpp"
@@ -19,7 +20,7 @@ std::vector<bool> none_of(const pbs::TetMesh& mesh)
     return std::vector<bool>(mesh.rest.rows(), false);
 }
 
-// Bending in the plane of x and y that keeps volume: u = (-x y, x^2 / 2 + (y^2 - z^2) / 4, y z / 2).
+// A bend in the plane of x and y that preserves volume: u = (-x y, x^2 / 2 + (y^2 - z^2) / 4, y z / 2).
 Positions bent(const pbs::TetMesh& mesh)
 {
     Positions motion(mesh.rest.rows(), 3);
@@ -42,8 +43,8 @@ TEST(VolumeConstraints, OneTetHasOneConstraintOnTwelveMotions)
     EXPECT_EQ(volumes.rank(), 1);
 }
 
-// Six tets round a cube's diagonal: the six volumes are independent of each other with all vertices free (each tet has an edge of the
-// cube's boundary of its own); a tet whose four corners are held is no constraint at all.
+// Six tets around a cube's diagonal: with all vertices free, the six volumes are independent (each tet has an own edge of the cube's
+// boundary). A tet whose four corners are held is not a constraint.
 TEST(VolumeConstraints, RankOfACube)
 {
     const pbs::TetMesh cube = test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
@@ -63,8 +64,8 @@ TEST(VolumeConstraints, TranslationsAndRotationsAreNotTouched)
     EXPECT_LT((volumes.nearest(rigid) - rigid).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-// 4,000 iterations of the solver with k_volume = 1 and nothing else, from a bend of 1e-6: they end at the nearest point, to the second
-// order in the bend over a cell (1e-5 of it), and to 1e-6 of the bend by their own convergence on this mesh.
+// 4,000 iterations of the solver with k_volume = 1 and no other constraints, from a bend of 1e-6: they end at the nearest point, up to the
+// second order in the bend over a cell (1e-5 of it), and up to 1e-6 of the bend by their own convergence on this mesh.
 TEST(VolumeConstraints, NearestIsWhereTheSolverEnds)
 {
     const pbs::TetMesh bar = test_support::structured_bar({0, -0.5, -0.5}, {5, 0.5, 0.5}, {10, 2, 2});
@@ -78,8 +79,8 @@ TEST(VolumeConstraints, NearestIsWhereTheSolverEnds)
     solver.advance(bar.rest + amplitude * motion, bar.rest, 1.0);
     const Positions reached = (solver.positions() - bar.rest) / amplitude;
     EXPECT_LT((reached - nearest).norm(), 1e-5 * motion.norm());
-    EXPECT_GT((reached - motion).norm(), 0.05 * motion.norm());  // it did move
-    // And it is a projection: what was taken away is square to what is left.
+    EXPECT_GT((reached - motion).norm(), 0.05 * motion.norm());  // the body did move
+    // It is a projection: the part that was removed is orthogonal to the rest.
     EXPECT_NEAR((motion - nearest).cwiseProduct(nearest).sum(), 0.0, 1e-9 * motion.squaredNorm());
 }
 
@@ -96,7 +97,7 @@ TEST(VolumeConstraints, EquilibriumKeepsEveryVolumeAndBalancesTheLoad)
     const Positions u = volumes.equilibrium(load, 2.0);
     EXPECT_LT((volumes.nearest(u) - u).norm(), 1e-8 * u.norm());
     EXPECT_LT(u.col(2).minCoeff(), 0.0);
-    // Twice the shear modulus, half the motion.
+    // Twice the shear modulus gives half the motion.
     EXPECT_LT((volumes.equilibrium(load, 4.0) - 0.5 * u).norm(), 1e-9 * u.norm());
 }
 

@@ -1,4 +1,4 @@
-// Truth: another code. CalculiX on the same nodes, tets and data; its elements C3D4 and C3D10 are our P1 and P2, so both solve the same
+// Reference: another code. CalculiX on the same nodes, tets and data; its elements C3D4 and C3D10 are our P1 and P2, so both solve the same
 // system, and what differs is rounding. Tolerance of the linear problems: sqrt(n) eps cond(K) = 4e-8 for the cantilever, whose condition
 // number 4e6 is the stiffness of an edge, 5 E h, over that of the slowest mode, 12.4 E I / L^3 over a third of the nodes; twice that is
 // asked. At large strain CalculiX stops Newton at 1e-9 of the mean force, and quadratic convergence takes the displacements beyond.
