@@ -1,4 +1,4 @@
-// Truth: the permissions of the folder.
+// Reference: the permissions of the folder.
 #include "experiments/command_line/measure/frame_files.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -29,7 +29,7 @@ std::string refusal_of(const Work& work)
     return "accepted";
 }
 
-// Locks a folder. Where root runs the tests, whom no mode stops, the process becomes another user meanwhile.
+// Locks a folder. If root runs the tests, to whom modes do not apply, the process becomes another user meanwhile.
 class Locked {
 public:
     explicit Locked(const std::string& folder) : folder_(folder), self_(geteuid())

@@ -1,4 +1,4 @@
-// Truth: the definition, on small texts.
+// Reference: the definition, on small texts.
 #include "experiments/command_line/plain_markdown.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// A deformer that a program brings: its own options and keys, in a scene, a frame and the records, without a change elsewhere. Truth: the
-// promise of experiments/deformers/registry.hpp.
+// A deformer added by another program: its own options and keys, in a scene, a frame and the records, without a change elsewhere.
+// Reference: the specification in experiments/deformers/registry.hpp.
 #include "experiments/deformers/registry.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/scene/scene_keys.hpp"
@@ -132,7 +132,7 @@ TEST_F(AddedDeformer, DocumentsItsKeysWithTheDefaultsOfItsOptions)
     EXPECT_EQ(schema.find("lift.height_m")->rule(), "expected a number from 0 to 10");
     EXPECT_EQ(schema.find("lift.direction")->default_json, "\"up\"");
     EXPECT_EQ(schema.find("lift.direction")->rule(), "expected one of up, down");
-    EXPECT_FALSE(schema.find("lift.seen"));  // on record alone
+    EXPECT_FALSE(schema.find("lift.seen"));  // only in the records
 }
 
 TEST_F(AddedDeformer, RefusesValuesOutOfRangeAndUnknownKeys)

@@ -1,4 +1,4 @@
-// Truth: the contract of exit statuses (experiments/command_line/README.md).
+// Reference: the contract of exit statuses (experiments/command_line/README.md).
 #include "experiments/process/failure.hpp"
 
 #include "experiments/process/interruption.hpp"

@@ -1,4 +1,4 @@
-// Work in a process of its own. Truth: the contract of the header.
+// Work in a separate process. Reference: the contract of the header.
 #include "experiments/process/own_process.hpp"
 
 #include "pbs/geometry/input_error.hpp"

@@ -1,4 +1,4 @@
-// Colours and width. Truth: the conventions of no-color.org and CLICOLOR_FORCE; a test's standard output is no terminal.
+// Colours and width. Reference: the conventions of no-color.org and CLICOLOR_FORCE; a test's standard output is not a terminal.
 #include "experiments/process/terminal.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Work side by side in processes: results come back, and a worker's failure or death stays its own.
+// Work in several processes at once: results are returned, and a worker's failure or death does not affect the others.
 #include "experiments/process/worker_pool.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -53,7 +53,7 @@ TEST(WorkerPool, WhatIsThrownNeedBeNoException)
     EXPECT_NE(results[0].failure.find("internal error"), std::string::npos) << results[0].failure;
 }
 
-// More than a pipe holds, of both at once.
+// Texts that exceed the capacity of a pipe, from both workers at once.
 TEST(WorkerPool, WordsOfAnyLengthArrive)
 {
     const std::string words(300'000, 'x');
@@ -72,7 +72,7 @@ TEST(WorkerPool, RefusedInputIsToldFromOtherFailures)
     EXPECT_FALSE(results[1].refused);
 }
 
-// The process that owns the pool is killed: its worker, which tells its number and would sleep for a minute, ends too.
+// The process that owns the pool is killed. Its worker, which reports its number and would sleep for a minute, ends too.
 TEST(WorkerPool, WorkersEndWithTheirParent)
 {
     int ends[2];
@@ -93,7 +93,7 @@ TEST(WorkerPool, WorkersEndWithTheirParent)
     waitpid(owner, nullptr, 0);
     close(ends[1]);
     pollfd end{ends[0], POLLIN, 0};
-    EXPECT_EQ(poll(&end, 1, 10'000), 1) << "the worker goes on";  // the pipe ends with the last who could write
+    EXPECT_EQ(poll(&end, 1, 10'000), 1) << "the worker goes on";  // the pipe ends with the last process that could write
     if (!end.revents) kill(worker, SIGKILL);
     close(ends[0]);
 }

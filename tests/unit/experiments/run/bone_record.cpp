@@ -1,4 +1,4 @@
-// bones.csv, bones_rest.csv and binding.csv. Truth: rigid motion by hand, and the limb's own geometry.
+// bones.csv, bones_rest.csv and binding.csv. Reference: rigid motion by hand, and the limb's own geometry.
 #include "experiments/run/bone_record.hpp"
 
 #include "pbs/character/bodies.hpp"
@@ -56,7 +56,7 @@ TEST(BoneRecord, AVertexBelongsToItsNearestBone)
     int blended = 0;
     for (const BoundVertex& bound : vertices) {
         const double x = limb.mesh.rest(bound.vertex, 0), across = limb.mesh.rest.row(bound.vertex).tail(2).norm();
-        if (std::abs(x) < 1e-9) continue;  // as near to one bone as to the other
+        if (std::abs(x) < 1e-9) continue;  // equally close to both bones
         const double beyond = std::max(0.0, std::abs(x) - 1.0);
         EXPECT_EQ(bound.bone, x <= 0.0 ? "upper" : "forearm") << x;
         EXPECT_NEAR(bound.rest_distance_m, std::hypot(across, beyond), 1e-12);

@@ -1,4 +1,4 @@
-// Truth: which vertices and tets were broken.
+// Reference: the vertices and tets that were broken.
 #include "experiments/run/broken_frame.hpp"
 
 #include <gtest/gtest.h>

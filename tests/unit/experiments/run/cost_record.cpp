@@ -1,4 +1,4 @@
-// What a run cost. Truth: parts that take a known time at least, and memory that is asked for.
+// The cost of a run. Reference: parts that take at least a known time, and memory that is allocated.
 #include "experiments/run/cost_record.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Truth: distances of a handful of points by hand.
+// Reference: distances of a few points by hand.
 #include "experiments/run/distance_record.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ using experiments::DistanceRecord;
 pbs::Positions two_points(double x_m)
 {
     pbs::Positions points = pbs::Positions::Zero(2, 3);
-    points(1, 0) = x_m;  // the first stays
+    points(1, 0) = x_m;  // the first point does not move
     return points;
 }
 

@@ -1,4 +1,4 @@
-// One frame's figures, put together. Truth: maps with known answers on the built-in limb.
+// The metrics of one frame, combined. Reference: maps with known results on the built-in limb.
 #include "experiments/run/frame_measurement.hpp"
 
 #include "pbs/character/bodies.hpp"
@@ -92,12 +92,12 @@ TEST(FrameMeasurement, ABrokenFrameIsMeasuredNotRefused)
     EXPECT_FALSE(measured.min_section_pct);
 }
 
-// Judged at the joints; where nothing is blended there is no figure for them, and the whole body decides.
+// The error at the joints decides; if nothing is blended, the whole body decides, since there is no value for the joints.
 TEST(FrameMeasurement, AnErrorNotAboveTheReferencesOwnIsMarked)
 {
     experiments::FrameMeasurement measured;
     measured.errors = analysis::ErrorNorms{0.1, 2.0, 0.01};
-    EXPECT_FALSE(measured.error_below_reference_error());  // no bar
+    EXPECT_FALSE(measured.error_below_reference_error());  // there is no error bar
     measured.reference_error = analysis::ErrorNorms{0.5, 1.0, 0.5};
     EXPECT_FALSE(measured.error_below_reference_error());
     measured.reference_error->joint_pct = 2.0;

@@ -1,4 +1,4 @@
-// Truth: order statistics of a few frames by hand, linear between them.
+// Reference: order statistics of a few frames by hand, linear between them.
 #include "experiments/run/frame_statistics.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Truth: the outcomes that a deformer was told to have, step by step.
+// Reference: the outcomes prescribed for a deformer, step by step.
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/run/frame_step.hpp"
 
@@ -11,7 +11,7 @@ namespace {
 using experiments::FrameStep;
 using pbs::Outcome;
 
-// Its steps end as it is told, each in as many seconds as its number.
+// Its steps end as prescribed, each after as many seconds as its number.
 class FailingDeformer : public experiments::Deformer {
 public:
     explicit FailingDeformer(std::vector<Outcome> outcomes) : outcomes_(std::move(outcomes)) {}

@@ -1,4 +1,4 @@
-// Where limbs are cut. Truth: the built-in limb's geometry, a capsule of radius 0.15 m round (-1,0,0) -> 0 -> (1,0,0).
+// The places at which limbs are cut. Reference: the built-in limb's geometry, a capsule of radius 0.15 m around (-1,0,0) -> 0 -> (1,0,0).
 #include "experiments/run/limb_stations.hpp"
 
 #include "analysis/cross_section.hpp"
@@ -31,7 +31,7 @@ TEST(LimbStations, StandAlongBothBonesAndAcrossTheJoint)
     EXPECT_EQ(joints, 1);
 }
 
-// The polygon inscribed in the circle of radius r has at least half the area of the circle, and no more than it.
+// The polygon inscribed in the circle of radius r has at least half the area of the circle, and at most all of it.
 TEST(LimbStations, CutTheWholeLimb)
 {
     const pbs::Character limb = small_limb();
@@ -58,7 +58,7 @@ TEST(LimbStations, MoveWithTheirBones)
     }
 }
 
-// Opposite directions have no mean: the first bone's own is taken.
+// Opposite directions have no mean, so the direction of the first bone is used.
 TEST(LimbStations, AJointFoldedBackStillHasANormal)
 {
     const pbs::Character limb = small_limb();

@@ -1,6 +1,6 @@
-// Which solutions stand beside the reference, and what their differences become. Truth: the grid convergence index worked by hand;
-// stand-ins for the reference with known answers: LBS, which is the same at a vertex on every mesh, and PBS, solved on the refined limb by
-// hand.
+// The solutions that are compared with the reference, and the use of their differences. Reference: the grid convergence index evaluated by
+// hand; substitutes for the reference with known results: LBS, which is the same at a vertex on every mesh, and PBS, solved on the refined
+// limb by hand.
 #include "experiments/run/reference_error_bar.hpp"
 
 #include "experiments/deformers/fem/fem_options.hpp"
@@ -94,8 +94,8 @@ TEST(ReferenceErrorBar, IsSixTimesTheDifferenceToTheRefinedSolution)
     EXPECT_NEAR(bound->linf_m, 6.0 * difference.linf_m, 1e-12);
 }
 
-// PBS does not ask for the element order: solutions order 1 and 2 are the same one, the third differs. An infinite series of what is seen
-// would not converge, and 3 times the range stands for the error.
+// PBS does not depend on the element order: the solutions of order 1 and 2 are equal, and the third differs. An infinite series with these
+// differences would not converge, so 3 times the range bounds the error.
 TEST(ReferenceErrorBar, OfSolutionsThatDoNotConvergeIsThreeTimesTheirRange)
 {
     const pbs::Character limb = small_limb();
@@ -122,7 +122,7 @@ TEST(ReferenceErrorBar, SaysWhichSolutionsAndRatios)
         const auto orders = method(ErrorBar::orders, order), refined = method(ErrorBar::refined, order);
         ASSERT_EQ(orders["solutions"].size(), 2u);
         EXPECT_NEAR(orders["ratios"][0].get<double>(), between_orders, 1e-12);
-        EXPECT_EQ(orders["solutions"][0]["element_order"], 2);  // the finest first
+        EXPECT_EQ(orders["solutions"][0]["element_order"], 2);  // the finest comes first
         EXPECT_EQ(orders["solutions"][2 - order]["is_reference"], true);
         EXPECT_EQ(refined["ratios"], nlohmann::json({2.0}));
         EXPECT_EQ(refined["solutions"][0]["tets"], 8 * limb.mesh.tets.rows());

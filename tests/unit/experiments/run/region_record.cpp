@@ -1,5 +1,5 @@
-// Truth: geometry of a bar with two bones along x: tets lie with the bone they are nearest to, blended ones round the middle; a record's
-// shares add up to the body and its changes to the ruler's.
+// Reference: geometry of a bar with two bones along x: tets belong to the nearest bone, blended ones around the middle; the shares of a
+// record add up to the body and its changes to those of the metrics.
 #include "experiments/run/region_record.hpp"
 
 #include "analysis/frame_metrics.hpp"
@@ -42,7 +42,7 @@ TEST(BodyRegions, AJointHasTheBlendedTetsAlone)
     const BodyRegions regions = regions_by_joint(character_of(bent()));
     ASSERT_EQ(regions.names, (std::vector<std::string>{"upper - forearm"}));
     for (Eigen::Index tet = 0; tet < bent().mesh.tets.rows(); ++tet) {
-        const double longest_cell = 2.0 / 24.0;  // Eq. 2 blends within a sixth of the joint
+        const double longest_cell = 2.0 / 24.0;  // Eq. 2 blends within a sixth of the bone's length from the joint
         if (std::abs(middle(tet)) < 1.0 / 6.0 - longest_cell) {
             EXPECT_EQ(regions.of_tet[tet], 0);
         }
@@ -69,7 +69,7 @@ TEST(RegionRecord, BonesAddUpToTheRulersFigures)
     EXPECT_NEAR(sum_of(table, "bone", "rest_share_pct"), 100.0, 1e-10);
     EXPECT_NEAR(sum_of(table, "bone", "change_pct"), metrics.volume_change_pct, 1e-10);
     EXPECT_NEAR(sum_of(table, "bone", "abs_change_pct"), metrics.volume_abs_change_pct, 1e-10);
-    // LBS moves everything but the joint rigidly.
+    // LBS moves everything except the joint rigidly.
     EXPECT_NEAR(sum_of(table, "joint", "change_pct"), metrics.volume_change_pct, 1e-10);
     EXPECT_LT(metrics.volume_change_pct, -0.1);
 }

@@ -1,4 +1,4 @@
-// surface_rest.vtp and embedding.csv. Truth: an affine map carries barycentric coordinates along, inside a tet and outside.
+// surface_rest.vtp and embedding.csv. Reference: an affine map preserves barycentric coordinates, inside a tet and outside.
 #include "experiments/run/surface_record.hpp"
 
 #include "experiments/process/scratch_folder.hpp"
@@ -15,7 +15,7 @@ using namespace experiments;
 pbs::EmbeddedSurface triangle(const pbs::TetMesh& mesh)
 {
     pbs::Positions points(3, 3);
-    points << 0.1, 0.2, 0.3, 0.4, 0.4, 0.1, 0.9, 0.9, 0.9;  // the last lies outside
+    points << 0.1, 0.2, 0.3, 0.4, 0.4, 0.1, 0.9, 0.9, 0.9;  // the last point lies outside
     pbs::Triangles triangles(1, 3);
     triangles << 0, 1, 2;
     return pbs::embed(points, triangles, mesh);

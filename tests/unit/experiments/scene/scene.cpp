@@ -1,4 +1,4 @@
-// Scenes: what a file, --set and the defaults say together. Truth: the contract of scene files (experiments/scene/manual.md) and the
+// Scenes as the combination of a file, --set and the defaults. Reference: the contract of scene files (experiments/scene/manual.md) and the
 // options' own defaults.
 #include "experiments/scene/scene.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
@@ -17,7 +17,8 @@ using experiments::read_scene;
 using experiments::Scene;
 
 const std::string motion = "[motion]\njoint = \"forearm\"\nangle_deg = 90\n";
-const std::string stated = "[pbs]\nk_stretch = 0.2\nk_volume = 1.0\nk_bind = 1.0\ngravity_m_s2 = [0.0, 0.0, 0.0]\n";  // have no default
+// these keys have no default
+const std::string stated = "[pbs]\nk_stretch = 0.2\nk_volume = 1.0\nk_bind = 1.0\ngravity_m_s2 = [0.0, 0.0, 0.0]\n";
 const std::string smallest = "schema = 1\n[character]\nbody = \"limb\"\n" + motion + stated;
 
 TEST(Scene, DefaultsOfPbsAreThoseOfItsOptions)
@@ -25,7 +26,7 @@ TEST(Scene, DefaultsOfPbsAreThoseOfItsOptions)
     const test_support::ScratchFolder folder;
     const auto read = read_scene(folder.file("scene.toml", smallest + "[deformers]\nuse = [\"pbs\"]\n"), {}).deformers.at(0);
     experiments::DeformerSpec untouched = read;
-    untouched.options = pbs::PbsOptions{};  // `stated` says the same where the scene has no default
+    untouched.options = pbs::PbsOptions{};  // `stated` has the same values where the scene has no default
     EXPECT_EQ(to_json(read), to_json(untouched));
 }
 

@@ -1,4 +1,4 @@
-// Truth: sums and maxima by hand.
+// Reference: sums and maxima by hand.
 #include "experiments/studies/study_costs.hpp"
 
 #include "analysis/records/atomic_file.hpp"
@@ -55,7 +55,7 @@ TEST(StudyCosts, RecordsWithoutWallTimeAreRead)
     EXPECT_EQ(analysis::read_text(folder / "costs.csv"), "run,expected_cpu_s,cpu_s,wall_s\nlimb,10,12,\n");
 }
 
-// Killed before the table was written: each run's own record tells.
+// The process was killed before it wrote the table, so the record of each run supplies its cost.
 TEST(StudyCosts, AreCompletedFromTheRunsThatEndedInTheOrderOfThePlan)
 {
     const ScratchFolder folder;
@@ -65,15 +65,15 @@ TEST(StudyCosts, AreCompletedFromTheRunsThatEndedInTheOrderOfThePlan)
     StudyPlan plan;
     for (const char* run : {"scene", "lost", "work"}) plan.runs.push_back({.name = run, .cost_s = 2.0});
     StudyCosts costs(folder.path().string());
-    costs.add("lost", 2.0, 100.0);  // of an earlier time; it did not end again
-    costs.add("work", 2.0, 8.5);    // as the parent saw it
+    costs.add("lost", 2.0, 100.0);  // from an earlier run; it did not end again
+    costs.add("work", 2.0, 8.5);    // as measured by the parent
     costs.complete(folder.path().string(), plan);
     costs.write();
     std::ifstream file(folder / "costs.csv");
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "run,expected_cpu_s,cpu_s,wall_s\nscene,2,3.5,\nwork,2,8.5,9\n");
 }
 
-// Records of another version, or a file that is none: their cost is not known, and that ends nothing.
+// Records of another version, or a file that is not a record: their cost is unknown, which is not an error.
 TEST(StudyCosts, RunsThatDoNotTellTheirCostAreLeftOutButForWhatTheParentSaw)
 {
     const ScratchFolder folder;

@@ -1,4 +1,4 @@
-// Pieces of work in their folders. Truth: the contract of the header: run.json comes last and only of a run that ended.
+// Pieces of work in their folders. Reference: the contract of the header: run.json is written last, and only for a run that ended.
 #include "experiments/studies/study_run.hpp"
 
 #include "experiments/run/run.hpp"
@@ -71,7 +71,7 @@ TEST_F(StudyRunTest, ABreakdownIsOnRecordAndTheRunEnded)
     EXPECT_EQ(breakdown_on_record(run, folder), "step 7 diverged");
 }
 
-// Two iterations do not come within 1e-12 of anything.
+// Two iterations do not reach a tolerance of 1e-12.
 TEST_F(StudyRunTest, AFrameThatWasNotReachedIsABreakdownWhereTheSceneWasExpectedToFinish)
 {
     StudyRun run = {.name = "limb",
@@ -81,7 +81,7 @@ TEST_F(StudyRunTest, AFrameThatWasNotReachedIsABreakdownWhereTheSceneWasExpected
     EXPECT_EQ(result.breakdown, "");
     EXPECT_EQ(result.bad_frame.rfind("pose not reached: pbs is not converged in frame 0: worst tet ", 0), 0u) << result.bad_frame;
     EXPECT_EQ(carry_out(run, folder), result.bad_frame);
-    EXPECT_TRUE(is_finished(run, folder));  // on record all the same
+    EXPECT_TRUE(is_finished(run, folder));  // recorded nevertheless
     EXPECT_EQ(breakdown_on_record(run, folder), result.bad_frame);
     run.bad_frames_are_results = true;
     EXPECT_EQ(carry_out(run, folder), "");

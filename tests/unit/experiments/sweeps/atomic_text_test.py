@@ -1,4 +1,5 @@
-"""Truth: the definition. A reader finds the whole file of before or of after, and an error leaves nothing of what was begun."""
+"""Reference: the definition. A reader finds either the complete old file or the complete new one, and an error leaves nothing
+half-written."""
 import pathlib
 import sys
 import tempfile

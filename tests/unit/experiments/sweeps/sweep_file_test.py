@@ -1,5 +1,5 @@
-"""Truth: the definition. A sweep expands to every combination once, by names that depend on scene and keys alone; bad ones are refused with
-file, line, field, value and rule."""
+"""Reference: the definition. A sweep expands to every combination once, with names that depend only on scene and keys; invalid ones are
+refused with file, line, field, value and rule."""
 import itertools
 import pathlib
 import sys
@@ -21,7 +21,7 @@ deformers.use = ["lbs", "pbs"]
 pbs.k_stretch = [0.1, 0.2]
 pbs.iterations = [1, 2, 3]
 """
-REFUSED = {  # name: (replaced, by, line, what the message holds)
+REFUSED = {  # name: (replaced, by, line, part of the message)
     "no TOML": ("[grid]", "[grid", 6, "no TOML"),
     "a key twice": ("pbs.iterations", "pbs.k_stretch", 8, "no TOML"),
     "no schema": ("schema = 1\n", "", 1, "schema = None: expected 1"),
@@ -83,7 +83,7 @@ class SweepFile(unittest.TestCase):
             (self.file.parent / name).write_text(text)
 
     def expect_in_the_names(self, scene, *expected):
-        """These files, which a scene names by itself or by another of them, and not other.csv."""
+        """Expects these files, which a scene names itself or through another of them, and not other.csv."""
         self.write(**{"arm.toml": scene, "other.csv": "1"})
         before, files = self.names(GOOD.replace('"limb_bend"', '"arm.toml"'))
         self.assertEqual(sorted(files), sorted(expected))
@@ -103,7 +103,7 @@ class SweepFile(unittest.TestCase):
         self.expect_in_the_names('[character]\nmesh = "arm.node"\n', "arm.ele", "arm.node")
 
     def test_the_buffers_of_a_gltf(self):
-        """By any name, as it is written, for so assimp opens it; one is inside, and one is not there."""
+        """A buffer may have any name, used literally as by assimp; one is inside the file, and one does not exist."""
         uris = '{"uri": "skin.bin"}, {"uri": "a%20clip.dat"}, {"uri": "data:;base64,AAAA"}, {"uri": "absent.bin"}, {"byteLength": 4}'
         self.write(**{"arm.gltf": '{"buffers": [%s]}' % uris, "skin.bin": "1", "a%20clip.dat": "1", "arm.bin": "1"})
         self.expect_in_the_names('[character]\nmesh = "arm.gltf"\n', "arm.gltf", "skin.bin", "a%20clip.dat")

@@ -1,5 +1,5 @@
-"""Truth: the definition, on runs whose metrics are known. The table does not depend on the order, the times or the machine of the runs; a
-run that is missing or cut short is an error, which leaves the table of before."""
+"""Reference: the definition, for runs whose metrics are known. The table does not depend on the order, the times or the machine of the
+runs. A run that is missing or incomplete is an error, which leaves the previous table."""
 import csv
 import json
 import pathlib
@@ -78,7 +78,7 @@ class SweepMerge(unittest.TestCase):
             _, _, first = self.merged(sweep, "first" + rows, seed=1)
             _, _, second = self.merged(sweep, "second" + rows, seed=2)
             self.assertEqual((first / "sweep.csv").read_bytes(), (second / "sweep.csv").read_bytes())
-            self.assertNotEqual((first / "costs.csv").read_bytes(), (second / "costs.csv").read_bytes())  # or nothing was shuffled
+            self.assertNotEqual((first / "costs.csv").read_bytes(), (second / "costs.csv").read_bytes())  # otherwise nothing was shuffled
 
     def test_a_row_a_frame(self):
         rows, _, _ = self.merged(self.read(SWEEP + '[output]\nrows = "frames"\n'))

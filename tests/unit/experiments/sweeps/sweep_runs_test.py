@@ -1,5 +1,5 @@
-"""Truth: the definition, with a program that stands for pbskin. A run that ended is never started again; a numerical breakdown is an
-outcome; bad input and crashes are none, and their message is kept. The sizes on paper are arithmetic."""
+"""Reference: the definition, with a substitute for pbskin. A run that ended is never started again; a numerical breakdown is an outcome;
+bad input and crashes are not, and their message is kept. The expected sizes are arithmetic."""
 import json
 import os
 import pathlib
@@ -109,7 +109,7 @@ class SweepRuns(unittest.TestCase):
         self.assertAlmostEqual(total["core_hours"], (9000 * 2.0 + 1000 * 6.0) / 3600)
         self.assertAlmostEqual(total["wall_hours"], total["core_hours"] / 10)
         one = sweep_size.paper([(1.0, 1e6, 5)], runs=9, batch=9, cores=10, job_start_s=6.0)
-        self.assertAlmostEqual(one["wall_hours"], 15.0 / 3600)  # one job is not cut
+        self.assertAlmostEqual(one["wall_hours"], 15.0 / 3600)  # one job is not divided
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
-"""Truth: the definition, with a program that stands for pbskin and snakemake itself where it is installed. What was removed is made again;
-what is told to end ends with all that it started, and goes on later; bad usage is refused before anything starts."""
+"""Reference: the definition, with a substitute for pbskin, and with snakemake itself where it is installed. Removed results are made again.
+A sweep that is told to end ends with all that it started, and can continue later. Wrong usage is refused before anything starts."""
 import fcntl
 import json
 import os
@@ -39,7 +39,7 @@ class Program(unittest.TestCase):
             of_tree, of_prefix = tree / "build/release/bin/pbskin", prefix / "bin/pbskin"
             scripts = {of_tree: tree / "experiments/sweeps", of_prefix: prefix / "share/pbskin/sweeps"}
             for place, here in scripts.items():
-                self.assertEqual(pbskin_program.found(here), place)  # which says what is missing
+                self.assertEqual(pbskin_program.found(here), place)  # the message states what is missing
             on_path = self.made(pathlib.Path(folder, "path/pbskin"))
             for place, here in scripts.items():
                 self.assertEqual(pbskin_program.found(here), on_path)
@@ -77,7 +77,7 @@ class SweepStart(unittest.TestCase):
         return sorted((self.folder / "starts").read_text().split())
 
     def finished(self, sweep):
-        """As a sweep leaves it, without snakemake."""
+        """The state that a sweep leaves, without snakemake."""
         for run in sweep.runs:
             synthetic_runs.write(self.out / "runs" / run.name, 1)
             (self.out / "runs" / run.name / "outcome.json").write_text("{}")
@@ -166,7 +166,7 @@ class SweepStart(unittest.TestCase):
 
 
 def sweep_start_options(words, output, program):
-    """Of `sweep.py run`."""
+    """The options of `sweep.py run`."""
     import sweep
     return sweep.arguments(["run", "sweep.toml", "-o", str(output), "--pbskin", str(program), *map(str, words)])[0]
 

@@ -1,6 +1,6 @@
-"""Stands for pbskin: what a sweep starts, with metrics that are known. As a program: `run SCENE --quiet -o DIR --set k=v...`;
-pbs.iterations tells the metrics (100: refused, 101: a breakdown, 102: killed, 103: a minute, with the process in `slow` beside STARTS), and
-every start leaves a line in the file that STARTS names."""
+"""A substitute for pbskin that a sweep starts, with known metrics. As a program: `run SCENE --quiet -o DIR --set k=v...`; pbs.iterations
+determines the metrics (100: refused, 101: a breakdown, 102: killed, 103: a minute, with the process in `slow` next to STARTS), and every
+start appends a line to the file that STARTS names."""
 import json
 import os
 import pathlib
@@ -12,7 +12,7 @@ COLUMNS = "scene,deformer,variant,order,precision,iterations,threads,frame,time_
 
 
 def write(folder, iterations, step_ms=1.0, status=0, volumes=(0.1, 0.2, 0.6)):
-    """Records of a run of deformers lbs and pbs, volumes times the iterations; step_ms and memory are what no two runs share."""
+    """Records of a run of deformers lbs and pbs, with volumes times the iterations; step_ms and memory differ from run to run."""
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     lines = [COLUMNS]

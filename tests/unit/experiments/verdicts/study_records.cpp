@@ -1,4 +1,4 @@
-// Truth: what the plan says and what is put on disk; a verdict rests on runs that ended, and on no others.
+// Reference: the plan and the files on disk. A verdict is based only on runs that ended.
 #include "experiments/verdicts/study_records.hpp"
 
 #include "analysis/records/atomic_file.hpp"
@@ -45,7 +45,7 @@ TEST(StudyRecords, ComeFromRunsThatEnded)
     EXPECT_EQ(records.measurements[0].run, "momentum/limb");
     EXPECT_EQ(records.measurements[1].value, 3.0);
     EXPECT_EQ(records.missing_runs, std::vector<std::string>{"human"});
-    EXPECT_TRUE(records.planned_scenes.empty());  // work, no scenes
+    EXPECT_TRUE(records.planned_scenes.empty());  // pieces of work, no scenes
 }
 
 TEST(StudyRecords, KnowWhatWasPlannedAndLeftOut)

@@ -46,7 +46,8 @@ TEST(DeltaMush, WithoutSmoothingItIsTheBlend)
     EXPECT_EQ(mushed(bent.lbs, {.iterations = 5, .step = 0.0}), bent.lbs);
 }
 
-// The bulge and the crease of a blend are its sharpest details: smoothing takes them, and what is put back is the rest shape's.
+// The bulge and the crease of a blend are its sharpest details: smoothing removes them, and the details that are restored are those of the
+// rest shape.
 TEST(DeltaMush, LosesLessOfEachTetThanTheBlend)
 {
     const auto lost = [&](const Positions& positions) {

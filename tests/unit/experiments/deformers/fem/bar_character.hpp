@@ -1,4 +1,4 @@
-// The two-bone bar as a character: what a deformer is reset with, without files.
+// The two-bone bar as a character: the input for resetting a deformer, without files.
 #pragma once
 
 #include "pbs/character/character.hpp"

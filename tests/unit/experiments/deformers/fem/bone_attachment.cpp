@@ -1,4 +1,4 @@
-// Truth: the definitions of the attachments (springs of density q E / r^2 over the capsule; whole tets, no vertex of two bones; bind
+// Reference: the definitions of the attachments (springs of density q E / r^2 over the capsule; whole tets, no vertex of two bones; bind
 // stiffness of density q E / R^2 over the flesh).
 #include "experiments/deformers/fem/bone_attachment.hpp"
 
@@ -16,7 +16,7 @@ using namespace experiments;
 
 const FemOptions options{.young_pa = 2e5, .spring_factor = 1e3};
 
-// The integral of q E / r^2 over pi r^2 L is q E pi L, whatever the radius.
+// The integral of q E / r^2 over pi r^2 L is q E pi L for any radius.
 TEST(EmbeddedAttachment, SpringsAddUpToTheirDensityTimesTheCapsule)
 {
     const BoneAttachment bones = embedded_attachment(test_support::bar_character({24, 2, 2}), options);
@@ -51,7 +51,7 @@ TEST(NodesAttachment, WholeTetsInsideTheCapsulesAndNoVertexOfTwoBones)
     EXPECT_EQ(bones.attachment.spring_points.rows(), 0);
 }
 
-// Two bones on the same place claim the same vertices: the later one gives way, and is then left with nothing.
+// Two bones at the same place claim the same vertices: the later one yields, and has no vertices left.
 TEST(NodesAttachment, TheLaterBoneGivesWay)
 {
     auto character = test_support::bar_character({48, 8, 8});
@@ -76,7 +76,7 @@ TEST(NodesAttachment, AMeshTooCoarseForWholeTetsIsRefusedWithTheBonesName)
     }
 }
 
-// The integral of q E / R^2 over the flesh of both bones, whatever the mesh: sum k_i R^2 = q E V.
+// The integral of q E / R^2 over the flesh of both bones, for any mesh: sum k_i R^2 = q E V.
 TEST(BindAttachment, StiffnessAddsUpToItsDensityTimesTheFlesh)
 {
     for (const auto& cells : {std::array{24, 2, 2}, std::array{16, 4, 4}}) {

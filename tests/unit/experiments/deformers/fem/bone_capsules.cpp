@@ -1,4 +1,4 @@
-// Truth: the capsule of a bone of a bar of known width, by hand.
+// Reference: the capsule of a bone of a bar of known width, by hand.
 #include "experiments/deformers/fem/bone_capsules.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -26,7 +26,7 @@ TEST(BoneCapsules, SpanTheMiddleOfTheBone)
     EXPECT_LT((capsules[1].end - Vec3(5.0 / 6.0, 0, 0)).norm(), 1e-15);
 }
 
-// With two cells across, the skin round the axis has 4 vertices at the half width a and 4 at sqrt(2) a: the mean is a (1 + sqrt(2)) / 2.
+// With two cells across, the skin around the axis has 4 vertices at the half width a and 4 at sqrt(2) a: the mean is a (1 + sqrt(2)) / 2.
 TEST(BoneCapsules, RadiusIsAShareOfTheMeanDistanceOfTheSkin)
 {
     for (const BoneCapsule& capsule : bone_capsules(bar(), 0.35)) {
@@ -71,8 +71,8 @@ TEST(BoneCapsules, ContainsItsAxisAndNothingBeyondItsEndsOrRadius)
 }
 
 // Equal shares of the volume: means over the samples are those over the capsule, centre (1, 0, 0) and <radius^2> = r^2 / 2. A ring at the
-// radius that halves its area has exactly the mean square of the area it stands for; the centre point alone, 1 / n of the disc, is
-// counted with 0 instead of r^2 / (2 n), n = 193 points a disc: 1.3e-5 of r^2.
+// radius that halves its area has exactly the mean square of that area. Only the centre point, 1 / n of the disc, is counted with 0 instead
+// of r^2 / (2 n), n = 193 points per disc: 1.3e-5 of r^2.
 TEST(BoneCapsules, SamplesStandForEqualSharesOfTheVolume)
 {
     const BoneCapsule capsule{{0, 0, 0}, {2, 0, 0}, 0.5, ""};

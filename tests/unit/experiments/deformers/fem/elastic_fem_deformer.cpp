@@ -1,5 +1,5 @@
-// What the deformer does about frames: how it gets to them, what it reports of those it does not reach. That it deforms rightly is shown
-// under verification.
+// How the deformer reaches frames, and what it reports of those that it does not reach. The verification tests show that it deforms
+// correctly.
 #include "experiments/deformers/fem/elastic_fem_deformer.hpp"
 
 #include "pbs/character/refined_character.hpp"
@@ -33,8 +33,8 @@ pbs::Pose not_a_number()
     return broken;
 }
 
-// The forearm pushed 0.7 m into the upper arm: the flesh between the capsules' facing ends, 1/3 m long, would have to turn inside out,
-// which a law that is infinite at det F <= 0 does not.
+// The forearm is pushed 0.7 m into the upper arm: the flesh between the facing ends of the capsules, 1/3 m long, would have to invert,
+// which a law that is infinite at det F <= 0 prevents.
 pbs::Pose crushed()
 {
     pbs::Pose pose = bent(0.0);
@@ -66,7 +66,7 @@ TEST(ElasticFemDeformer, RecordsModelGripAndNewton)
     EXPECT_GT(record["attachment"]["bones"][0]["grip_error_rms_m"].get<double>(), 0.0);
 }
 
-// Truth: an equilibrium does not know the way to it.
+// Reference: an equilibrium does not depend on the path to it.
 TEST(ElasticFemDeformer, ANestedStartLeadsToTheSameSolutionInFewerSteps)
 {
     FemOptions options{.model = Model::stable_neo_hookean, .element_order = 2, .formulation = reference_fem::Formulation::mean_dilatation};
@@ -82,7 +82,7 @@ TEST(ElasticFemDeformer, ANestedStartLeadsToTheSameSolutionInFewerSteps)
     EXPECT_LT(steps(nested), steps(along_the_way));
 }
 
-// Truth: an equilibrium does not know the way to it.
+// Reference: an equilibrium does not depend on the path to it.
 TEST(ElasticFemDeformer, ARefinedCharactersNestedStartIsTheUnrefinedOnesSolution)
 {
     const pbs::Character fine = pbs::refined(bar());
@@ -143,7 +143,7 @@ TEST(ElasticFemDeformer, TheSecondFailureInARowIsTriedAgainFromRestOnce)
     EXPECT_EQ(fem.advance(bent(10.0), 0.01).outcome, pbs::Outcome::finished);
 }
 
-// Theory: at a minimum Newton has nothing left to do.
+// Theory: at a minimum Newton's method makes no further progress.
 TEST(ElasticFemDeformer, StartedFromItsEquilibriumItStaysThere)
 {
     ElasticFemDeformer fem(coarse);
@@ -153,12 +153,12 @@ TEST(ElasticFemDeformer, StartedFromItsEquilibriumItStaysThere)
     fem.start_from(equilibrium);
     const pbs::StepSummary again = fem.advance(bent(40.0), 0.0);
     EXPECT_EQ(again.outcome, pbs::Outcome::finished);
-    EXPECT_LE(again.iterations, 1);  // rounding on the way into the root's frame and back
+    EXPECT_LE(again.iterations, 1);  // rounding in the transformation into the root's frame and back
     EXPECT_LT(largest_distance(fem.positions(), equilibrium), 1e-9);
 }
 
-// Turned inside out, stable neo-Hookean flesh finds back, whatever was asked before; a law that is infinite there cannot begin: the start
-// is the last iterate, the next frame fails from it, and the second that does sets out from rest.
+// From an inverted state, stable neo-Hookean flesh returns, whatever was requested before. A law that is infinite there cannot start: the
+// initial guess is the last iterate, the next frame fails from it, and after the second failure the deformer starts from rest.
 TEST(ElasticFemDeformer, ABrokenStartIsTakenAsItIs)
 {
     const pbs::Pose pose = bent(40.0);
@@ -235,7 +235,7 @@ protected:
     FemOptions options = coarse;
 };
 
-// The first pose is taken in equilibrium under gravity and at rest, so nothing moves after it. Tolerance: Newton's, on a sag of some cm.
+// The first pose is taken at rest in equilibrium under gravity, so nothing moves after it. Tolerance: Newton's, for a sag of some cm.
 TEST_P(InTime, StartsInEquilibriumAndStaysThere)
 {
     ElasticFemDeformer fem(options);

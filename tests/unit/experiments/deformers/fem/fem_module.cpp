@@ -1,4 +1,4 @@
-// The module as the program uses it: loaded at run time, errors thrown inside it caught outside. This test itself links no deal.II.
+// The module as the program uses it: loaded at run time, with errors thrown inside and caught outside. This test itself links no deal.II.
 #include "experiments/deformers/fem/fem_module.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -55,7 +55,7 @@ TEST(FemModule, ConjugateGradientsRunInsideIt)
     EXPECT_FALSE(direct->record().contains("most_iterations"));
 }
 
-// At nu = 0.3 nothing locks, and the forms differ by their discretisation errors: a few percent of the motion on these tets.
+// At nu = 0.3 nothing locks, and the formulations differ by their discretisation errors: a few percent of the motion on these tets.
 TEST(FemModule, EveryFormulationOfTheLinearModelKeepsItsFactor)
 {
     const auto character = test_support::bar_character({24, 4, 4});

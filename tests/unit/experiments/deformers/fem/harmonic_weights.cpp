@@ -1,4 +1,4 @@
-// Truth: harmonic functions of one coordinate are linear in it, and linear elements hold those exactly.
+// Reference: harmonic functions of one coordinate are linear in it, and linear elements represent those exactly.
 #include "experiments/deformers/fem/harmonic_weights.hpp"
 
 #include "tests/support/structured_bar.hpp"
@@ -18,7 +18,7 @@ double weight_of(const pbs::Weights& weights, int vertex, int bone)
     return 0.0;
 }
 
-// Gripped beyond x = 0.2 and x = 0.7, whole cross-sections each. Tolerance: what keeps the matrix regular, 1e-9 of its diagonal.
+// Whole cross-sections are gripped beyond x = 0.2 and x = 0.7. Tolerance: the term that keeps the matrix regular, 1e-9 of its diagonal.
 TEST(HarmonicWeights, AreLinearBetweenGrippedCrossSections)
 {
     std::vector<int> gripping(bar.rest.rows(), -1);

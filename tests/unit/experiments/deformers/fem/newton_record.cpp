@@ -1,4 +1,4 @@
-// Truth: sums and extremes over made-up ways of known numbers.
+// Reference: sums and extremes over invented paths with known numbers.
 #include "experiments/deformers/fem/newton_record.hpp"
 
 #include <gtest/gtest.h>

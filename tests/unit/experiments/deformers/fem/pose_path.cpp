@@ -1,4 +1,4 @@
-// Truth: rigid kinematics. A joint is joined where parent and child carry it to the same place; slerp turns at an even rate.
+// Reference: rigid kinematics. A joint is connected if parent and child move it to the same place; slerp rotates at a constant rate.
 #include "experiments/deformers/fem/pose_path.hpp"
 
 #include <gtest/gtest.h>
@@ -67,7 +67,7 @@ TEST(PosePath, TheRootMovesInAStraightLine)
     EXPECT_LT((path.at(0.5)[0] * arm.bones[0].head - Vec3(2, 2, 0)).norm(), 1e-14);
 }
 
-// A clip may shift a bone on its parent: the head then moves evenly in the parent's frame.
+// A clip may shift a bone relative to its parent: the head then moves at a constant rate in the parent's frame.
 TEST(PosePath, AHeadThatLeavesItsParentMovesEvenly)
 {
     pbs::Pose pulled(3, Eigen::Isometry3d::Identity());

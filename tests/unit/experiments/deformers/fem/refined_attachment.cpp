@@ -1,4 +1,4 @@
-// What holds the flesh is the same on a refined character. Truth: the continuous problem does not know the mesh.
+// The attachment of the flesh is the same on a refined character. Reference: the continuous problem does not depend on the mesh.
 #include "experiments/deformers/fem/bone_attachment.hpp"
 #include "pbs/character/refined_character.hpp"
 #include "pbs/geometry/tet_volume.hpp"
@@ -18,8 +18,8 @@ double volume_of(const pbs::TetMesh& mesh, const std::vector<int>& tets)
     return volume;
 }
 
-// Skin vertices give the radius: in the middle of edges and faces they lie nearer to the bone, so that without what the character
-// remembers the capsules would shrink.
+// Skin vertices determine the radius. In the middle of edges and faces they are closer to the bone, so without the stored radii of the
+// character the capsules would shrink.
 TEST(RefinedAttachment, CapsulesAndSamplePointsAreTheSame)
 {
     const pbs::Character coarse = test_support::bar_character({24, 2, 2});

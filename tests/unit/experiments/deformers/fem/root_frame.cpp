@@ -1,4 +1,4 @@
-// Truth: a rigid motion and its inverse.
+// Reference: a rigid motion and its inverse.
 #include "experiments/deformers/fem/root_frame.hpp"
 
 #include <gtest/gtest.h>

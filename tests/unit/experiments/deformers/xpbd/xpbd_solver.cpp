@@ -21,7 +21,7 @@ Positions stepped(const Positions& lbs, const Positions& bind_points, const Xpbd
     return solver.positions();
 }
 
-// Each of 24 iterations may add a rounding of the 1 m half length in each of some 20 constraints at a vertex.
+// Each of 24 iterations may add a rounding of the 1 m half length in each of the some 20 constraints at a vertex.
 TEST(XpbdSolver, RestStaysAtRest)
 {
     const Positions still = stepped(bent.mesh.rest, bent.binding.rest_point, {});

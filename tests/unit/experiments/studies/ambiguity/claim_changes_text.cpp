@@ -1,4 +1,4 @@
-// Truth: the words of claim_changes_text.hpp; figures made up.
+// Reference: the words of claim_changes_text.hpp; figures made up.
 #include "experiments/studies/ambiguity/claim_changes_text.hpp"
 
 #include "experiments/studies/ambiguity/claim_changes.hpp"

@@ -1,4 +1,4 @@
-// The figures of C04 and C05 from made-up sections of a small limb. Truth: the ratios of the sizes put in.
+// The values of C04 and C05 from invented sections of a small limb. Reference: the ratios of the given sizes.
 #include "pbs/character/bodies.hpp"
 #include "tests/support/artefact_samples.hpp"
 
@@ -40,8 +40,8 @@ TEST_F(BulgeFigures, AreOverQuadraticElementsWhereverTheyComeAmongTheSamples)
     samples = {sample("pbs", 0, 1.2), sample("reference", 0, 1.0, 1), sample("reference", 0, 1.5, 2), sample("reference", 0, 0.8, 1)};
     ASSERT_EQ(figures().size(), 1u);
     EXPECT_DOUBLE_EQ(figures()[0].value, 1.2 / 1.5);
-    EXPECT_DOUBLE_EQ(figures()[0].low, 1.2 / 1.5);   // over the largest reference
-    EXPECT_DOUBLE_EQ(figures()[0].high, 1.2 / 0.8);  // and the smallest
+    EXPECT_DOUBLE_EQ(figures()[0].low, 1.2 / 1.5);   // relative to the largest reference
+    EXPECT_DOUBLE_EQ(figures()[0].high, 1.2 / 0.8);  // relative to the smallest
     EXPECT_EQ(text_of(figures()[0].of), "limb, bend, upper|forearm, 30 deg, pbs, reference snh_p2");
 }
 
@@ -82,7 +82,7 @@ TEST_F(BulgeFigures, SectionsOfAPartThatTheReferenceHasGoneIntoAreLeftOut)
     EXPECT_EQ(remark(1), "");
 }
 
-// However wide: a bulge of pbs is what C05 denies.
+// Whatever its width, C05 only denies a bulge of pbs.
 TEST_F(BulgeFigures, WhatIsWideUnderPbsOrABlendAloneIsJudgedWithARemark)
 {
     samples = {sample("pbs", 0, 1.0), sample("pbs", 0, 3.1), sample("reference", 0, 1.0, 1), sample("dqs", 0, 8.0)};
@@ -148,7 +148,7 @@ TEST(CandyWrapperFigures, TakeTheThinnestOfAllAndDoWithoutTheReference)
     EXPECT_TRUE(of_quantity(figures, "smallest_section_area_over_rest", "reference").empty());
     const auto outcomes = experiments::section_outcomes(of, body, samples);
     EXPECT_EQ(outcomes[1].outcome, SectionOutcome::pbs_did_not_finish);
-    EXPECT_EQ(outcomes[2].outcome, SectionOutcome::measured);  // bent, which is no matter here
+    EXPECT_EQ(outcomes[2].outcome, SectionOutcome::measured);  // bent, which has no effect here
 }
 
 }  // namespace

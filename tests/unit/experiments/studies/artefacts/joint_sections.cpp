@@ -1,6 +1,6 @@
-// Truth: theory of the blends on the built-in limb, whose vertices near the joint are blended half and half by Eq. 2. Twisted by t, LBS
-// brings them nearer to the axis by cos(t/2), so that the area of the section falls by cos^2(t/2): exactly, where the plane cuts only
-// triangles of such vertices.
+// Reference: theory of the blends on the built-in limb, whose vertices near the joint are blended with equal weights by Eq. 2. For a twist
+// by t, LBS reduces their distance from the axis by cos(t/2), so the area of the section falls by cos^2(t/2). This is exact where the plane
+// cuts only triangles of such vertices.
 #include "experiments/studies/artefacts/joint_sections.hpp"
 
 #include "pbs/character/bodies.hpp"
@@ -38,7 +38,7 @@ TEST_F(JointSectionsOfLimb, AreWholeAtRest)
         EXPECT_NEAR(section.area, 1.0, 1e-12);
         EXPECT_NEAR(section.smallest_radius, 1.0, 1e-12);
         EXPECT_EQ(section.outlines, 1);
-        EXPECT_EQ(section.limb_share, 1.0);  // both bones hang on the parent
+        EXPECT_EQ(section.limb_share, 1.0);  // both bones are children of the parent
     }
 }
 

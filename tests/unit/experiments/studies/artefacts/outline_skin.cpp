@@ -1,4 +1,4 @@
-// Truth: prisms over a triangle with sides 3, 4 and 5, cut across; a corner of the outline stands for half of each side that it ends.
+// Reference: prisms over a triangle with sides 3, 4 and 5, cut across; a corner of the outline stands for half of each side that it ends.
 #include "experiments/studies/artefacts/outline_skin.hpp"
 
 #include <gtest/gtest.h>

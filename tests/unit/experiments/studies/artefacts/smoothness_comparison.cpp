@@ -1,5 +1,5 @@
-// The weights of Eq. 2 beside rigid ones on a small limb. Truth: the records that the figures are the ratios of; a twist by rigid weights
-// is taken up by one layer of tets; without a pose there is nothing to be smooth; weights do not move what the solver goes to.
+// The weights of Eq. 2 compared with rigid ones on a small limb. Reference: the records whose ratios are the values; with rigid weights one
+// layer of tets takes all of a twist; without a pose there is no roughness; weights do not change the limit of the solver.
 #include "experiments/studies/artefacts/smoothness_comparison.hpp"
 
 #include "tests/support/artefact_samples.hpp"
@@ -46,7 +46,7 @@ TEST(WeightsComparison, FiguresAreTheRatiosOfTheRecords)
     }
 }
 
-// On tets that are smaller than the region that Eq. 2 blends.
+// On tets that are smaller than the region blended by Eq. 2.
 TEST(WeightsComparison, RigidBlendingShearsOneLayerInATwistWhatEquation2SpreadsOverMany)
 {
     auto of = test_support::small_limb(experiments::ArtefactCase::Claim::candy_wrapper);
@@ -57,7 +57,7 @@ TEST(WeightsComparison, RigidBlendingShearsOneLayerInATwistWhatEquation2SpreadsO
     EXPECT_LT(figure(twisted, "strain_jump_over_rigid_weights", "lbs")->value, 0.8);
 }
 
-// The blend by Eq. 2 is nearer to a crease than two rigid halves that go through each other.
+// The blend by Eq. 2 is closer to a crease than two rigid halves that penetrate each other.
 TEST(WeightsComparison, IterationsAreTheRatioOfTheirRecordAndRigidHalvesTakeMore)
 {
     auto of = test_support::small_limb(experiments::ArtefactCase::Claim::bulge);
@@ -76,7 +76,7 @@ TEST(WeightsComparison, IterationsAreTheRatioOfTheirRecordAndRigidHalvesTakeMore
 TEST(WeightsComparison, AtRestThereIsNothingToCompareButTheSameStart)
 {
     const WeightsComparison rest = compared({{0, "rest"}});
-    EXPECT_EQ(figure(rest, "strain_jump_over_rigid_weights", "lbs"), nullptr);  // rounding over rounding
+    EXPECT_EQ(figure(rest, "strain_jump_over_rigid_weights", "lbs"), nullptr);  // a ratio of roundings
     EXPECT_LT(strain_jump(rest, "rigid", "lbs"), 1e-12);
     ASSERT_NE(figure(rest, "iterations_over_rigid_weights"), nullptr);
     EXPECT_DOUBLE_EQ(figure(rest, "iterations_over_rigid_weights")->value, 1.0);

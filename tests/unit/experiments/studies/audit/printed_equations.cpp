@@ -1,4 +1,4 @@
-// Truth: difference quotients of Eq. 11, which is linear in each coordinate.
+// Reference: difference quotients of Eq. 11, which is linear in each coordinate.
 #include "experiments/studies/audit/printed_equations.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Truth: paths made up from formulas; iterations to tolerance of a rate r are ceil(log 0.05 / log r).
+// Reference: paths defined by formulas; a rate r needs ceil(log 0.05 / log r) iterations to the tolerance.
 #include "experiments/studies/convergence/convergence_figures.hpp"
 
 #include "tests/support/iteration_paths.hpp"
@@ -55,7 +55,7 @@ TEST(ConvergenceFigures, AStartThatNeverArrivesGivesABound)
     EXPECT_EQ(ratio[0].limit, analysis::Limit::at_least);
 }
 
-// Volume stays at 1 % from every start: three comparisons of three.
+// Volume stays at 1 % from every initial guess: three comparisons of three.
 TEST(ConvergenceFigures, WhereNeitherArrivesThereIsNoneAndItIsCounted)
 {
     const auto all = convergence_figures({{starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})}, false, ""});
@@ -99,7 +99,7 @@ TEST(ConvergenceFigures, TwistsAndTheLimbAreReportedAndNotJudged)
     EXPECT_EQ(figures_named(all, "iterations_over_lbs_guess_in_a_twist", "previous_frame").at(0).value, 59.0 / 29.0);
 }
 
-// Rates exp(-1 / sqrt(vertices)) need log 20 sqrt(vertices) iterations, rounded up: 1 of 67 at most, 1.5 % at one end of a factor of 64.
+// Rates exp(-1 / sqrt(vertices)) need log 20 sqrt(vertices) iterations, rounded up: by at most 1 in 67, 1.5 % at one end of a factor of 64.
 TEST(ConvergenceFigures, ExponentOfALadderIsThatOfTheFormula)
 {
     ConvergenceResult ladder;
@@ -111,12 +111,12 @@ TEST(ConvergenceFigures, ExponentOfALadderIsThatOfTheFormula)
             ladder.all.back().setting.order = order;
         }
     const auto exponent = figures_named(convergence_figures(ladder), "exponent_of_iterations_over_vertices");
-    ASSERT_EQ(exponent.size(), 2u);  // each order its own
+    ASSERT_EQ(exponent.size(), 2u);  // one for each order
     EXPECT_EQ(exponent[1].value, 0.0);
     EXPECT_NEAR(exponent[0].value, 0.5, 0.015 / std::log(64.0) * 2.0);
     EXPECT_LE(exponent[0].low, exponent[0].value);
     EXPECT_GE(exponent[0].high, exponent[0].value);
-    EXPECT_EQ(figures_named(convergence_figures(ladder), "iterations_to_tolerance").size(), 8u);  // each size its own, by two tolerances
+    EXPECT_EQ(figures_named(convergence_figures(ladder), "iterations_to_tolerance").size(), 8u);  // one for each size, with two tolerances
 }
 
 TEST(ConvergenceFigures, ErrorsOfNoReferenceAreLeftOut)

@@ -1,4 +1,4 @@
-// Truth: the definition of each start.
+// Reference: the definition of each initial guess.
 #include "experiments/studies/convergence/starts.hpp"
 
 #include "pbs/solver/pbs_solver.hpp"

@@ -1,4 +1,4 @@
-// Truth: the recurrence's closed form, worked for one eigenvalue, and its limits.
+// Reference: the recurrence's closed form, worked for one eigenvalue, and its limits.
 #include "experiments/studies/fit/fit_records.hpp"
 
 #include <gtest/gtest.h>

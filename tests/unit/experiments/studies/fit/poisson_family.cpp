@@ -1,4 +1,4 @@
-// Truth: an interpolant is exact at its nodes and for polynomials of its degree in the variable it is a polynomial of.
+// Reference: an interpolant is exact at its nodes and for polynomials of its degree in the variable it is a polynomial of.
 #include "experiments/studies/fit/poisson_family.hpp"
 
 #include <gtest/gtest.h>

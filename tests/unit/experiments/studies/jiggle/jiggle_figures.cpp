@@ -1,4 +1,4 @@
-// The figures of C09 from made-up responses. Truth: the ratios and ranks of the frequencies put in.
+// The values of C09 from invented responses. Reference: the ratios and ranks of the given frequencies.
 #include "tests/support/jiggle_responses.hpp"
 
 #include <gtest/gtest.h>
@@ -92,7 +92,8 @@ TEST(JiggleFigures, CorrelationIsOfRanksAndTakesTheLeastWithoutOne)
     EXPECT_LT(of_quantity(measured, correlation)[0].low, 0.0);
 }
 
-// However many settings there are, rounding must not take a perfect order out of [-1, 1], nor the figure out of its interval.
+// For any number of settings, rounding must neither move the correlation of a perfect order out of [-1, 1] nor the value out of its
+// interval.
 TEST(JiggleFigures, CorrelationOfAPerfectOrderIsOneAndInItsInterval)
 {
     std::vector<MeasuredJiggle> measured;

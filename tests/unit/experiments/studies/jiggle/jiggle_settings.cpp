@@ -1,4 +1,4 @@
-// Truth: what one-at-a-time means, and what the paper's own method is (all masses 1, every vertex bound).
+// Reference: the definition of one-at-a-time variation, and the paper's own method (all masses 1, every vertex bound).
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
 #include "pbs/solver/options.hpp"
 

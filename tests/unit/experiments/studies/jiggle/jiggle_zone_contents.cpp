@@ -1,4 +1,4 @@
-// Truth: the built-in limb, whose skin is farther from the bones than the mean vertex; and a zone that falls into two known pieces.
+// Reference: the built-in limb, whose skin is farther from the bones than the mean vertex, and a zone that consists of two known pieces.
 #include "experiments/studies/jiggle/jiggle_zone_contents.hpp"
 
 #include "pbs/character/bodies.hpp"
@@ -23,7 +23,7 @@ TEST(JiggleZoneContents, OfTheLimbIsMostlySkinInOnePieceOnBothBones)
     EXPECT_NEAR(zone.bones[0].share_of_zone + zone.bones[1].share_of_zone, 1.0, 1e-12);
 }
 
-// Only the two ends of a bar lie far from a distance that is given by hand.
+// Only the two ends of a bar are farther away than a prescribed distance.
 TEST(JiggleZoneContents, TwoEndsAreTwoPiecesAndTogetherTheWholeZone)
 {
     pbs::Character bar = test_support::character_of(test_support::two_bone_limb({10, 2, 2}, {0, 0, 1}, 0.0));

@@ -1,5 +1,5 @@
-// Truth: what cannot be otherwise. Flesh that does not jiggle is where the bones take it; flesh without constraints stays behind, at rest;
-// a jolt the other way round is its mirror image.
+// Reference: necessary behaviour. Flesh that does not jiggle follows the bones; flesh without constraints stays behind, at rest; a jolt in
+// the opposite direction gives the mirror image.
 #include "experiments/studies/jiggle/jolt_response.hpp"
 
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
@@ -46,7 +46,7 @@ TEST_F(JoltResponseOfLimb, FreeFleshStaysBehind)
     EXPECT_EQ(free.overshoot_over_jolt, 0.0);
 }
 
-// The way from step to step does not know the clock (Algorithm 1, lines 7, 8 and 16).
+// The motion from step to step does not depend on time (Algorithm 1, lines 7, 8 and 16).
 TEST_F(JoltResponseOfLimb, WithoutWeightTheSeriesIsTheSameAtEveryTimeStep)
 {
     spec = experiments::jiggling(spec, {});
@@ -56,7 +56,7 @@ TEST_F(JoltResponseOfLimb, WithoutWeightTheSeriesIsTheSameAtEveryTimeStep)
     for (std::size_t i = 0; i < slow.excursion_m.size(); ++i) EXPECT_NEAR(quick.excursion_m[i], slow.excursion_m[i], 1e-12) << i;
 }
 
-// The skin is held by its bones: it swings about where they take it, and calms down.
+// The bones hold the skin: it swings about the place to which they move it, and comes to rest.
 TEST_F(JoltResponseOfLimb, HeldFleshSwingsAndCalmsDown)
 {
     spec = experiments::jiggling(spec, {});

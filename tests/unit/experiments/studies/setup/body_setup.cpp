@@ -1,4 +1,4 @@
-// Truth: differences of scenes by hand; shares and means of a few frames by hand.
+// Reference: differences of scenes, and shares and means of a few frames, by hand.
 #include "experiments/studies/setup/body_setup.hpp"
 
 #include "pbs/geometry/input_error.hpp"

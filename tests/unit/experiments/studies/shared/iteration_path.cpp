@@ -1,4 +1,4 @@
-// Truth: the solver's own step for where a path leads, its own residuals for what is measured on positions, and a uniformly scaled body,
+// Reference: the solver's own step for the end of a path, its own residuals for the measurements on positions, and a uniformly scaled body,
 // whose residuals are known.
 #include "experiments/studies/shared/iteration_path.hpp"
 
@@ -40,7 +40,7 @@ TEST_P(IterationPathOf, LeadsWhereTheSolverGoesToTheBit)
     EXPECT_EQ(path_of(options, limb.lbs, 24).last, solver.positions());
 }
 
-// Float residuals of the solver are sums of rounded values: some 1e-7 each, over lengths that are 1e-2 off.
+// Float residuals of the solver are sums of rounded values: some 1e-7 each, over lengths that differ by 1e-2.
 TEST_P(IterationPathOf, HasTheResidualsOfTheSolverMeasuredOnItsPositions)
 {
     pbs::PbsOptions options;

@@ -1,5 +1,5 @@
-// Truth: the built-in limb's skeleton, (-1,0,0) -> 0 -> (1,0,0), and a bent one drawn by hand; of joints by hand, the limb under Frankie's
-// names, and where he is installed, his skin.
+// Reference: the built-in limb's skeleton, (-1,0,0) -> 0 -> (1,0,0), and a bent one drawn by hand; for joints by hand, the limb with
+// Frankie's names and, where he is installed, his skin.
 #include "experiments/studies/shared/limb_joints.hpp"
 
 #include "analysis/section_outline.hpp"
@@ -24,7 +24,7 @@ TEST(LimbJoints, LimbHasOneInItsMiddle)
     EXPECT_EQ(joints[0].name, "upper|forearm");
     EXPECT_NEAR(joints[0].point.norm(), 0.0, 1e-12);
     EXPECT_NEAR(joints[0].reach_parent_m, 0.5, 1e-12);
-    EXPECT_NEAR(joints[0].radius_m, 0.15, 1e-3);  // the caps' vertices lie as far from the bones' ends
+    EXPECT_NEAR(joints[0].radius_m, 0.15, 1e-3);  // the vertices of the caps have the same distance from the bones' ends
     EXPECT_NEAR((experiments::twist_axis(limb.skeleton, joints[0]) - Vec3::UnitX()).norm(), 0.0, 1e-12);
     EXPECT_NEAR((experiments::hinge_axis(limb.skeleton, joints[0]) - Vec3::UnitZ()).norm(), 0.0, 1e-12);
 }
@@ -138,8 +138,8 @@ Section section_across(const pbs::Character& body, const experiments::LimbJoint&
     return own ? Section{analysis::winding_number(*own, {point, normal}), analysis::outline_size(*own)} : Section{0, {}};
 }
 
-// One limb's: the outline goes round the bone, and nowhere farther from its middle than 2.2 of the joint's radii; the trunk has four.
-// Planes fan out over 3 radii on each side, as those of JointSections.
+// The section belongs to one limb: the outline encloses the bone, and no point is farther from its middle than 2.2 of the joint's radii;
+// the trunk has four. The planes cover 3 radii on each side, like those of JointSections.
 TEST(JointsByHand, SectionsOfFrankieAreOneLimbs)
 {
     if (!pbs::body_is_installed("frankie")) GTEST_SKIP() << "pbskin fetch frankie";

@@ -1,4 +1,4 @@
-// Truth: the paper's Table 1 counted by hand.
+// Reference: the paper's Table 1 counted by hand.
 #include "experiments/studies/shared/table_1.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Truth: the sound solver beside one that is broken on purpose. The outcome has to tell them apart.
+// Reference: the correct solver compared with a deliberately broken one, which the outcome must distinguish.
 #include "experiments/studies/stability/cell_run.hpp"
 
 #include "experiments/deformers/registry.hpp"
@@ -46,7 +46,7 @@ TEST(CellRun, SignOfTheVolumeGradientAsPrintedDiverges)
     EXPECT_EQ(outcome(cell), StabilityOutcome::diverged);
 }
 
-// The square of 1e25 m has no number in f32, but it has one in f64.
+// The square of 1e25 m is not representable in f32, but it is in f64.
 TEST(CellRun, ATeleportBeyondTheNumbersIsNotFinite)
 {
     StabilityCell cell = pbs_cell();
@@ -64,7 +64,7 @@ TEST(CellRun, WithoutVolumeConstraintsTetsStayInverted)
     EXPECT_EQ(outcome(cell), StabilityOutcome::inverted);
 }
 
-// Nothing that jiggles knows where it belongs without them: a fall without end.
+// Without constraints, no jiggling vertex knows its place: the fall has no end.
 TEST(CellRun, WithoutAnyConstraintWhatJigglesFallsAway)
 {
     StabilityCell cell = pbs_cell();
@@ -88,7 +88,7 @@ TEST(CellRun, WithoutJiggleTheTimeStepDoesNotEnter)
     for (std::size_t i = 0; i < second.steps.size(); ++i) EXPECT_EQ(hundredth.steps[i].reach, second.steps[i].reach);
 }
 
-// Where a soft body comes to under forgotten multipliers is not where the sound one is: it has been stiffened by its iterations.
+// With forgotten multipliers, a soft body comes to rest in another state than the correct one, since its iterations have stiffened it.
 TEST(CellRun, ForgottenMultipliersEndElsewhere)
 {
     StabilityCell cell = pbs_cell();
@@ -116,8 +116,8 @@ TEST(CellRun, ForgottenMultipliersEndElsewhere)
     EXPECT_EQ(outcome_against(broken), StabilityOutcome::bounded);
 }
 
-// Theory: predicted positions are x + (x - x_before) + g dt^2, so that a hundred times the step is ten thousand times the gravity. From
-// a smooth start, in double: where tets are turned inside out, roundings grow to centimetres within a few steps.
+// Theory: predicted positions are x + (x - x_before) + g dt^2, so a hundred times the step equals ten thousand times the gravity. The test
+// uses a smooth initial state in double, since roundings grow to centimetres within a few steps where tets are inverted.
 TEST(CellRun, WithJiggleTheTimeStepEntersBesideGravityAlone)
 {
     StabilityCell cell = pbs_cell();

@@ -1,4 +1,4 @@
-// Truth: what a sweep is asked for; a cell counts for the claim where its base and every factor of it are the paper's.
+// Reference: the requirements on a sweep; a cell counts for the claim if its base and all its factors are the paper's.
 #include "experiments/studies/stability/cell_sweep.hpp"
 
 #include "experiments/deformers/registry.hpp"
@@ -56,7 +56,7 @@ TEST(CellSweep, AMapIsAsPublishedWhereAllOfItIs)
             }
 }
 
-// --resume compares to_json; undisturbed states are shared by setting_of.
+// --resume compares to_json; setting_of identifies shared undisturbed states.
 TEST(CellSweep, ARecordTellsWhatACellStandsForAndItsSettingDoesNot)
 {
     StabilityCell cell = cells_of_map(iterations(true), mass_ratio(true), pbs_cell(), false).front();

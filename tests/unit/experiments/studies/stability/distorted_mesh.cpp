@@ -1,4 +1,4 @@
-// Truth: heights and lengths of the tets themselves.
+// Reference: the heights and lengths of the tets themselves.
 #include "experiments/studies/stability/distorted_mesh.hpp"
 
 #include "pbs/geometry/tet_volume.hpp"
@@ -27,8 +27,8 @@ TEST(DistortedMesh, NoneChangesNothing)
     EXPECT_EQ(experiments::distorted(mesh, Defect::none, 1e-3).rest, mesh.rest);
 }
 
-// A tet with a vertex at the share s of its height has s of its volume; with an edge of s of its length, towards the corner it goes to,
-// too. The corners of a thin tet stay where they are, and no other is as thin. Ten roundings of a metre over heights of some centimetres.
+// A tet with a vertex at the share s of its height has s of its volume; so does one whose edge is shortened to s of its length towards one
+// corner. The corners of a thin tet stay in place, and no other tet is as thin. Ten roundings of a metre over heights of some centimetres.
 TEST(DistortedMesh, TheThinnestTetKeepsTheWantedShareOfItsVolume)
 {
     for (const Defect defect : {Defect::slivers, Defect::needles})

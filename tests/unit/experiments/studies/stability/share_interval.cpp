@@ -1,4 +1,4 @@
-// Truth: theory where none or all are counted; else the definition, by sums of the binomial distribution.
+// Reference: theory where none or all are counted; else the definition, by sums of the binomial distribution.
 #include "experiments/studies/stability/share_interval.hpp"
 
 #include <gtest/gtest.h>

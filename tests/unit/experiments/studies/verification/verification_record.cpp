@@ -1,4 +1,4 @@
-// Truth: the rules in the header, by hand.
+// Reference: the rules in the header, by hand.
 #include "experiments/studies/verification/verification_record.hpp"
 
 #include "analysis/records/csv_table.hpp"

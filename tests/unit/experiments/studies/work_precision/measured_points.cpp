@@ -1,5 +1,5 @@
-// Where errors are measured and by which reference. Truth: a rigid motion and an affine field are carried exactly by barycentric
-// coordinates; the grid convergence index worked by hand; the choice of the reference by its header.
+// Where errors are measured and against which reference. Reference: barycentric coordinates reproduce a rigid motion and an affine field
+// exactly; the grid convergence index evaluated by hand; the rule for the choice of the reference in the header.
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/work_precision/reached_reference.hpp"
 
@@ -107,7 +107,7 @@ TEST_F(Choice, OneThatIsNotReachedGivesWayToTheLinearOne)
     add(2, coarse_, 300, false, 0.01);
     const ReachedReference reference = choose();
     EXPECT_EQ(reference.point, &points_[0]);
-    EXPECT_EQ(reference.beside, nullptr);  // of another element order on another mesh
+    EXPECT_EQ(reference.beside, nullptr);  // has another element order on another mesh
     EXPECT_FALSE(reference.bar);
 }
 
@@ -122,7 +122,7 @@ TEST_F(Choice, BesideALinearOneStandsThatOnTetsCutIntoEight)
     EXPECT_EQ(reference.beside, &points_[2]);
     const double ratio = std::cbrt(double(fine.character().mesh.rest.rows()) / double(base_->mesh.rest.rows()));
     ASSERT_TRUE(reference.bar);
-    EXPECT_NEAR(reference.bar->linf_m, 3.0 * 0.01 * ratio / (ratio - 1.0), 1e-12);  // of the coarser of the two
+    EXPECT_NEAR(reference.bar->linf_m, 3.0 * 0.01 * ratio / (ratio - 1.0), 1e-12);  // for the coarser of the two
 }
 
 TEST_F(Choice, WithoutASolutionThereIsNone)
@@ -147,7 +147,7 @@ TEST(PointSettings, AreEachOnceInWordsAndEightOrMoreOfEachDeformerWithSomethingT
         ++of_deformer[setting.deformer];
     }
     for (const auto& [deformer, count] : of_deformer) EXPECT_GE(count, deformer == "lbs" || deformer == "dqs" ? 1 : 8) << deformer;
-    EXPECT_EQ(of_deformer["lbs"], 5);  // and on the other meshes
+    EXPECT_EQ(of_deformer["lbs"], 5);  // and those on the other meshes
     EXPECT_EQ(of_deformer.size(), 10u);
 }
 
@@ -197,7 +197,7 @@ TEST(PosedDeformers, TellARoundThatDoesNotArriveAndTheOneThatSetsOutFromThere)
     EXPECT_GT(good.turn().at(0), 0.0);
     EXPECT_TRUE(lost.reach().finished);
     EXPECT_TRUE(std::isnan(lost.turn().at(0)));
-    EXPECT_TRUE(std::isnan(lost.turn().at(0)));  // back, but not from the other pose
+    EXPECT_TRUE(std::isnan(lost.turn().at(0)));  // it returns, but not from the other pose
     EXPECT_FALSE(PosedDeformer(setting, *body, nowhere_and_back).reach().finished);
 }
 

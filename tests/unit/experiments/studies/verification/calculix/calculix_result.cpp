@@ -1,4 +1,4 @@
-// Truth: what was put into the files. Fortran prints 1p,e13.6, leaves the E of a three-digit exponent out, and puts a record's length
+// Reference: what was put into the files. Fortran prints 1p,e13.6, leaves the E of a three-digit exponent out, and puts a record's length
 // before and after its data.
 #include "experiments/studies/verification/calculix/calculix_result.hpp"
 

@@ -1,4 +1,4 @@
-// Truth: what the stand-in programs do, shell scripts in the place of ccx.
+// Reference: what the stand-in programs do, shell scripts in the place of ccx.
 #include "experiments/studies/verification/calculix/calculix_run.hpp"
 #include "tests/support/scratch_folder.hpp"
 
