@@ -1,5 +1,5 @@
 "use strict";
-// Values of plots under the pointer, the finger, or by the arrow keys; a claim's link opens what is behind it.
+// Shows the values of plots under the pointer, the finger, or by the arrow keys; a claim's link opens the data behind it.
 const readout = document.getElementById("readout");
 let shown = null;
 
@@ -22,7 +22,7 @@ function show(circle) {
   readout.style.top = `${Math.max(8, box.top - readout.offsetHeight - 6)}px`;
 }
 
-// The circle nearest to a place in the window, of those within reach [px]; null: none.
+// The circle nearest to a place in the window, among those within reach [px]; null if there is none.
 const reach = 20;
 function nearest(plot, x, y) {
   let best = null, least = reach;
@@ -68,7 +68,7 @@ function openTarget() {
   const row = location.hash.length > 1 && document.getElementById(location.hash.slice(1));
   if (row && row.matches("tr.claim")) row.nextElementSibling.querySelector("details").open = true;
 }
-// "See it move": to the viewer, and the keys with it.
+// "See it move" scrolls to the viewer and moves the keyboard focus there.
 function goToViewer() {
   const viewer = document.getElementById("frame-viewer") ?? document.getElementById("viewer");
   viewer.tabIndex = -1;

@@ -1,5 +1,4 @@
-// Bundles src/main.js and three.js, with the text of its licence, into one script: $PBS_VIEWER_BUILD/viewer.js (dist/ where that is not
-// set).
+// Bundles src/main.js and three.js, with the text of its licence, into one script: $PBS_VIEWER_BUILD/viewer.js (dist/ if that is not set).
 import { build } from "esbuild";
 import fs from "node:fs";
 import path from "node:path";

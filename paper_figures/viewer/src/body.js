@@ -1,9 +1,9 @@
-// One deformer's body in three dimensions: the faces that are seen, shaded and coloured. Each face has corners of its own.
+// One deformer's body in three dimensions: the visible faces, shaded and coloured. Each face has its own corners.
 import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Mesh, ShaderMaterial } from "three";
 import { area_normal, triangles_of } from "./faces.js";
 
-// Light from the camera's left above, and a floor of brightness so that colours read as in the legend. Faces of the cut get the outline
-// of their tets, thin and a shade of their own colour, so that small faces show it as well.
+// The light comes from the upper left of the camera, with a minimum brightness so that colours match the legend. Faces of the cut show the
+// thin outline of their tets in a shade of their own colour, so that small faces show it too.
 const vertex_shader = `
 attribute vec3 colour;
 attribute float is_cut;
@@ -47,19 +47,20 @@ export class Body {
         this.mesh.frustumCulled = false;
     }
 
-    // Which faces of tets are drawn; `outer` tells those of the whole body's surface, which are shaded smoothly, from those of the cut.
+    // Sets the faces of tets that are drawn; `outer` distinguishes those of the body's surface, which are shaded smoothly, from those of
+    // the cut.
     show_faces(corners, faces, outer) {
         this.show_triangles(triangles_of(corners, faces), Uint32Array.from(faces, (face) => face >> 2),
                             Uint8Array.from(faces, (face) => outer(face) ? 1 : 0));
     }
 
-    // The rendered surface; see surface.js.
+    // Sets the rendered surface; see surface.js.
     show_surface({ corners, tets }) {
         const behind = Uint32Array.from({ length: corners.length / 3 }, (_, face) => tets[corners[3 * face]]);
         this.show_triangles(corners, behind, new Uint8Array(behind.length).fill(1));
     }
 
-    // vertices: three each triangle; of each triangle the tet that is behind it, and whether it is shaded smoothly.
+    // vertices: three per triangle; for each triangle the tet behind it, and whether it is shaded smoothly.
     show_triangles(vertices, tets, smooth) {
         Object.assign(this, { vertices, tets, smooth });
         this.geometry.dispose();
@@ -99,7 +100,7 @@ export class Body {
         this.material.depthWrite = opacity === 1;
     }
 
-    // Positions [m] as they are drawn, by vertex; nan for vertices of no face that is seen.
+    // Positions [m] as drawn, by vertex; nan for vertices of no visible face.
     drawn_positions(count) {
         const drawn = new Float32Array(3 * count).fill(NaN);
         const from = this.geometry.attributes.position.array;

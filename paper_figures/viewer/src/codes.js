@@ -1,6 +1,6 @@
-// What the packed bytes stand for: positions on a grid, volume ratios, float32 bone ends. The counterpart of viewer_data.py.
+// Decodes the packed bytes: positions on a grid, volume ratios, float32 bone ends. viewer_data.py encodes them.
 
-// Differences to the frame before, low bytes then high bytes, to codes frame by frame.
+// Converts differences from the previous frame, low bytes then high bytes, to codes frame by frame.
 export function codes_of(bytes, frames, numbers) {
     const count = frames * numbers;
     const codes = new Uint16Array(count);
@@ -18,12 +18,12 @@ export function positions_of(codes, low_m, step_m) {
     return positions;
 }
 
-// 0: inverted; else (code - 1) / steps.
+// 0: inverted; otherwise (code - 1) / steps.
 export function ratio_of(code, steps) {
     return code === 0 ? -Infinity : (code - 1) / steps;
 }
 
-// Distance [mm] of each vertex to the reference's.
+// The distance [mm] of each vertex from that of the reference.
 export function distances_mm(positions, reference) {
     const distances = new Float32Array(positions.length / 3);
     for (let v = 0; v < distances.length; ++v)

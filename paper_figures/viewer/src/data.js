@@ -1,4 +1,4 @@
-// The recorded runs of the page: header (JSON) and block (base64, gzip), read once.
+// The recorded runs of the page: header (JSON) and block (base64, gzip), which are read once.
 import { codes_of, distances_mm, positions_of } from "./codes.js";
 import { carried } from "./surface.js";
 
@@ -14,7 +14,7 @@ async function unpacked(base64) {
     return new Response(stream).arrayBuffer();
 }
 
-// One run: its header's fields, its arrays as views, its frames by their place in `frames`.
+// One run: the fields of its header, its arrays as views, and its frames by their index in `frames`.
 export class Run {
     constructor(header, block) {
         const { bones, surface, ...rest } = header;
@@ -44,7 +44,7 @@ export class Run {
         return new Uint8Array(this.block, this.deformer(label).ratios + at * this.tets, this.tets);
     }
 
-    // Positions [m] of the points that are drawn: of the tets' vertices, or of the rendered surface that they carry.
+    // Positions [m] of the points that are drawn: the tets' vertices, or the points of the rendered surface.
     points(label, at, rendered) {
         const positions = this.positions(label, at);
         return rendered ? carried(this.surface, this.corners, positions) : positions;
@@ -54,13 +54,13 @@ export class Run {
         return distances_mm(this.points(label, at, rendered), this.points(this.reference, at, rendered));
     }
 
-    // Head and tail [m] of every bone.
+    // The head and tail [m] of every bone.
     posed_bones(at) {
         const numbers = 6 * this.bone_names.length;
         return this.bone_ends.subarray(numbers * at, numbers * (at + 1));
     }
 
-    // Lowest and highest coordinate at rest [m].
+    // The lowest and highest coordinate at rest [m].
     rest_range(axis) {
         let low = Infinity, high = -Infinity;
         for (let i = "xyz".indexOf(axis); i < this.rest.length; i += 3) {
@@ -70,33 +70,33 @@ export class Run {
         return [low, high];
     }
 
-    // The cut's place moved by hundredths of the body [m].
+    // The position of the cut, moved by hundredths of the body [m].
     stepped(cut, by) {
         const [low, high] = this.rest_range(cut.axis);
         return Math.min(high, Math.max(low, cut.at_m + by * (high - low) / 100));
     }
 
-    // A recorded number of one frame; null where the record has none.
+    // A recorded number of one frame; null if the record has none.
     figure(label, column, at) {
         return this.deformer(label).figures[column][at];
     }
 
-    // Whether the solve of this frame reached its pose, as recorded.
+    // Whether the solve of this frame reached its pose, according to the record.
     reached(label, at) {
         return !this.deformer(label).not_reached.includes(at);
     }
 
-    // Whether a distance of this deformer to the reference says anything: both reached the frame's pose.
+    // Whether a distance of this deformer from the reference is meaningful: both reached the pose of the frame.
     has_errors(label, at) {
         return this.labels.includes(this.reference) && this.reached(label, at) && this.reached(this.reference, at);
     }
 
-    // Whether the reference is recorded to pass through itself, so that distances to it say less.
+    // Whether the record states that the reference intersects itself, which makes distances from it less meaningful.
     reference_intersects(at) {
         return this.deformers.some((deformer) => deformer.figures.reference_self_intersects[at] === 1);
     }
 
-    // Place of the frame nearest to this number.
+    // The index of the frame nearest to this number.
     place_of(frame) {
         let best = 0;
         this.frames.forEach((number, at) => { if (Math.abs(number - frame) < Math.abs(this.frames[best] - frame)) best = at; });

@@ -1,8 +1,8 @@
-// Faces of a tet mesh: which are seen when only some tets are kept.
+// The faces of a tet mesh, and which are visible if only some tets are kept.
 
 const face_corners = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];  // face i is opposite corner i; outwards for positive volumes
 
-// The tet behind each face, 4 x tets; -1: none.
+// The tet behind each face, 4 x tets; -1 if there is none.
 export function neighbours_of(corners) {
     const neighbours = new Int32Array(corners.length).fill(-1);
     const open = new Map();
@@ -19,13 +19,13 @@ export function neighbours_of(corners) {
     return neighbours;
 }
 
-// Three vertices of face 4 tet + i.
+// The three vertices of face 4 tet + i.
 export function face_of(corners, face) {
     const tet = face & ~3;
     return face_corners[face & 3].map((corner) => corners[tet + corner]);
 }
 
-// Faces between a kept tet and none or one that is left out.
+// Faces between a kept tet and no tet, or one that is left out.
 export function seen_faces(neighbours, kept) {
     const faces = [];
     for (let face = 0; face < neighbours.length; ++face)
@@ -33,7 +33,7 @@ export function seen_faces(neighbours, kept) {
     return faces;
 }
 
-// The tets whose centre at rest lies below the plane (or above): 1 each. No plane: all.
+// Marks the tets whose centre at rest lies below the plane (or above it) by 1. Without a plane: all.
 export function kept_by(cut, corners, rest) {
     const kept = new Uint8Array(corners.length / 4).fill(1);
     if (!cut) return kept;
@@ -46,12 +46,12 @@ export function kept_by(cut, corners, rest) {
     return kept;
 }
 
-// Three vertices of each face, one behind the other.
+// The three vertices of each face, one face after the other.
 export function triangles_of(corners, faces) {
     return Uint32Array.from(faces.flatMap((face) => face_of(corners, face)));
 }
 
-// Normals (not unit) at the vertices of a surface, each triangle by its area; x y z of each vertex of the mesh.
+// Normals (not normalised) at the vertices of a surface, weighted by the areas of the triangles; x y z of each vertex of the mesh.
 export function vertex_normals(positions, triangles) {
     const normals = new Float32Array(positions.length);
     for (let at = 0; at < triangles.length; at += 3) {

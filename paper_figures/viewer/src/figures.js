@@ -1,4 +1,4 @@
-// The recorded numbers of the frame under each panel.
+// Shows the recorded numbers of the frame under each panel.
 import { shown, signed } from "./numbers.js";
 
 const lines = [

@@ -1,4 +1,4 @@
-// Keys, while the focus is inside the viewer. A control that uses a key itself keeps it.
+// Handles keys while the focus is inside the viewer. A control that uses a key itself keeps it.
 
 export const help = "Keys inside the viewer: space plays, comma and full stop step a frame, Home and End go to the first and last; "
     + "s, v, e, i colour by skin, volume ratio, error, inverted tets; k rendered skin or tets; b bones; c cut, [ and ] move it; "
@@ -19,7 +19,7 @@ export function listen(root, actions) {
     });
 }
 
-// Whether the key means something here.
+// Whether the key has a function here.
 function act({ key, shiftKey }, in_panel, actions) {
     if (in_panel && key in turns && shiftKey) return run(() => actions.shift(...turns[key].map((degrees) => degrees / 160)));
     if (in_panel && key in turns) return run(() => actions.turn(...turns[key]));

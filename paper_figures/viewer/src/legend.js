@@ -1,4 +1,4 @@
-// What the colours mean, with numbers: those of the scale and those on record.
+// The meaning of the colours, with the numbers of the scale and of the record.
 import { shown as text } from "./numbers.js";
 import { draws_surface } from "./state.js";
 
@@ -35,7 +35,7 @@ export function draw_legend(element, header, run, state) {
     element.replaceChildren(...parts, caption);
 }
 
-// Which panels have no distance in this frame.
+// The panels that have no distance in this frame.
 function without_errors(run, { colour, panels, at }) {
     const grey = colour === "error" ? panels.filter((label) => !run.has_errors(label, at)) : [];
     return grey.length ? `; grey: no distance, for ${grey.length === panels.length ? "FEM" : "it"} did not reach this frame's pose` : "";

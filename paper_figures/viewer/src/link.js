@@ -3,7 +3,7 @@
 
 export const colourings = ["skin", "ratio", "error", "inverted"];
 
-// What the address asks for; null where it is not one of ours.
+// The pose that the address states; null if it is not an address of the viewer.
 export function pose_of(hash) {
     const words = new URLSearchParams(hash.replace(/^#/, ""));
     if (!words.has("run") && !words.has("claim")) return null;

@@ -1,9 +1,9 @@
-// Starts the viewer in #frame-viewer and leaves window.viewer for tests and the curious:
+// Starts the viewer in #frame-viewer and sets window.viewer for tests and for interactive use:
 //
 //   viewer.data.runs                     the recorded runs, see data.js
-//   viewer.state.now, viewer.state.set   what is shown, see state.js; set({ at: 3, colour: "error" })
-//   viewer.drawn_positions(panel)        positions [m] as drawn, x y z of each vertex (of the rendered surface, where that is drawn);
-//                                        nan where no face is seen
+//   viewer.state.now, viewer.state.set   the state, see state.js; set({ at: 3, colour: "error" })
+//   viewer.drawn_positions(panel)        positions [m] as drawn, x y z of each vertex (of the rendered surface, if that is drawn);
+//                                        nan where no face is visible
 //   viewer.pixels(panel)                 red green blue alpha of a panel
 //   viewer.ready                         resolves when the first frame is drawn
 import style from "./style.css";

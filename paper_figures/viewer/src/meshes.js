@@ -1,4 +1,4 @@
-// What of a run's tet mesh is seen: worked out once a run, and again when the cut moves.
+// The visible part of a run's tet mesh, computed once per run, and again when the cut moves.
 import { kept_by, neighbours_of, seen_faces, triangles_of } from "./faces.js";
 
 export class Meshes {
@@ -6,7 +6,7 @@ export class Meshes {
         this.topologies = new Map();
     }
 
-    // The same object as long as run and cut stay the same.
+    // Returns the same object as long as run and cut stay the same.
     of(run, cut) {
         const key = JSON.stringify([run.name, cut]);
         if (this.key === key) return this.mesh;

@@ -1,4 +1,4 @@
-// What is to be known of the frame that is shown: which FEM it is, how many frames are kept, how they are rounded, whose the body is.
+// Notes on the frame that is shown: the kind of FEM, the number of stored frames, their rounding, and the origin of the body.
 
 const locking = "The FEM shown has linear elements (P1), which lock: they are stiffer than the material. How far they are from quadratic "
     + "ones, and the reference\u2019s own error, stand in the report: \u201cHow far from the finite elements?\u201d, \u201cDistance from "

@@ -1,6 +1,6 @@
-// Numbers as they are shown.
+// Numbers as the page shows them.
 
-// Three significant digits; a dash where nothing is on record.
+// Three significant digits; a dash if nothing is recorded.
 export function shown(value) {
     if (value === null || value === undefined || Number.isNaN(value)) return "\u2013";
     if (value === 0) return "0";

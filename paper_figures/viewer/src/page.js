@@ -1,4 +1,4 @@
-// The viewer's own elements. Every control is a native one, named for those who do not see it.
+// The elements of the viewer. Every control is a native one, with a name for screen readers.
 
 export function element(tag, attributes = {}, ...children) {
     const made = document.createElement(tag);

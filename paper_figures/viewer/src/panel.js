@@ -1,4 +1,4 @@
-// One panel's scene: the body (tets or rendered surface), its inverted tets, the skeleton; brought up to date with what is shown.
+// The scene of one panel: the body (tets or rendered surface), its inverted tets and the skeleton, updated when the state changes.
 import { distance_shade } from "./colours.js";
 import { vertex_normals } from "./faces.js";
 import { Body } from "./body.js";

@@ -1,4 +1,4 @@
-// Plays the recorded frames, so many a second, round and round.
+// Plays the recorded frames at a given rate, in a loop.
 
 const frames_per_second = 12;
 

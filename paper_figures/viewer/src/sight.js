@@ -1,4 +1,4 @@
-// Where the camera looks: at the first frame's body, and on with it.
+// The direction and target of the camera: the body of the first frame, and later its motion.
 import { Vector3 } from "three";
 
 export class Sight {
@@ -24,14 +24,14 @@ export class Sight {
     }
 }
 
-// Mean of the posed bones' ends [m], the same for all deformers.
+// The mean of the posed bones' ends [m], the same for all deformers.
 function middle_of(run, at) {
     const ends = run.posed_bones(at), sum = new Vector3();
     for (let i = 0; i < ends.length; i += 3) sum.add(new Vector3(ends[i], ends[i + 1], ends[i + 2]));
     return sum.divideScalar(ends.length / 3);
 }
 
-// Points of the body about its middle [m] in some frames of the run: enough of them to know what room it takes.
+// Points of the body relative to its middle [m] in some frames of the run, enough to determine the space that it takes.
 function cloud_of(run, label) {
     const points = [];
     for (let at = 0; at < run.frames.length; at += 3) {
@@ -42,7 +42,7 @@ function cloud_of(run, label) {
     return points;
 }
 
-// Whether it takes more room sideways than upwards.
+// Whether it takes more space horizontally than vertically.
 export function is_wide(run) {
     const [left, right] = run.rest_range("x"), [low, high] = run.rest_range("y");
     return right - left > 1.5 * (high - low);

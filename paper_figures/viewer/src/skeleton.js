@@ -1,4 +1,4 @@
-// The posed bones, over the body: a line each, a dot where it begins.
+// The posed bones, drawn over the body: a line for each, with a dot at its head.
 import { Group, Points, PointsMaterial, BufferGeometry, BufferAttribute } from "three";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
@@ -12,7 +12,7 @@ function line(linewidth, color) {
 
 export class Skeleton {
     constructor() {
-        this.lines = [line(5, 0xffffff), line(2.5, dark)];  // dark on a white seam, seen on any body
+        this.lines = [line(5, 0xffffff), line(2.5, dark)];  // dark on a white seam, visible on any body
         const dot = new PointsMaterial({ color: dark, size: 6, sizeAttenuation: false, depthTest: false });
         this.dots = new Points(new BufferGeometry(), dot);
         this.group = new Group();
@@ -23,7 +23,7 @@ export class Skeleton {
         });
     }
 
-    // Head and tail [m] of every bone.
+    // The head and tail [m] of every bone.
     pose(ends) {
         for (const line of this.lines) {
             line.geometry.dispose();

@@ -1,6 +1,6 @@
-// The rendered surface, carried by the tets: each of its points is the sum of its tet's corners by their shares.
+// The rendered surface, which the tets carry: each of its points is the weighted sum of its tet's corners.
 
-// x y z of each point. surface: { points, tets, shares } (the carrying tet of each point, four shares each); corners: of the tets.
+// x y z of each point. surface: { points, tets, shares } (the tet of each point, and four weights each); corners: of the tets.
 export function carried(surface, corners, positions) {
     const { points, tets, shares } = surface, to = new Float32Array(3 * points);
     for (let point = 0; point < points; ++point)

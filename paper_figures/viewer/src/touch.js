@@ -1,12 +1,12 @@
-// Fingers on a panel: one up or down scrolls the page, sideways it turns the view; two turn and zoom it.
-// OrbitControls would keep the page from scrolling; the second finger keeps it from scrolling and zooming the page itself.
+// Gestures on a panel: one finger up or down scrolls the page, sideways it turns the view; two fingers turn and zoom the view.
+// OrbitControls would prevent the page from scrolling; the second finger prevents it from scrolling and zooming itself.
 export function leave_scrolling(element) {
     element.style.touchAction = "pan-y";
     const keep = (event) => { if (event.touches.length > 1 && event.cancelable) event.preventDefault(); };
     for (const gesture of ["touchstart", "touchmove"]) element.addEventListener(gesture, keep, { passive: false });
 }
 
-// One finger does not tilt the view, for it scrolls the page as it goes up and down.
+// One finger does not tilt the view, since it scrolls the page vertically.
 export function keep_level(element, controls) {
     const fingers = new Set();
     const count = (event) => {

@@ -1,4 +1,4 @@
-// Holds the parts together: state in, panels, legend and address out.
+// Connects the parts: state on one side; panels, legend and address on the other.
 import { palette_of, ratio_shades } from "./colours.js";
 import { Controls, colour_names } from "./controls.js";
 import { draw_figures } from "./figures.js";
@@ -51,7 +51,7 @@ export class Viewer {
         new ResizeObserver(() => this.redraw()).observe(this.panels_element);
     }
 
-    // One element each panel: choice of deformer, view, recorded numbers.
+    // Makes one element per panel: choice of deformer, view, recorded numbers.
     build_panels(now) {
         for (const made of this.panel_elements ?? []) made.whole.remove();
         const options = this.run.deformers.map((deformer) => [deformer.label, deformer.title]);
@@ -111,14 +111,14 @@ export class Viewer {
         });
     }
 
-    // A change made by hand: the address follows it, and the claim's pose is left.
+    // Applies a change by the user: the address follows it, and the claim's pose is left.
     user(changes) {
         this.state.set({ claim: null, ...changes });
         const { now } = this.state;
         if (!now.playing) history.replaceState(null, "", hash_of({ ...now, frame: this.run.frames[now.at] }));
     }
 
-    // The pose of an address; one that names a claim alone is the claim's own. A claim's pose shows the skin as it is rendered.
+    // Shows the pose of an address; an address that only names a claim means the claim's own pose. A claim's pose shows the rendered skin.
     open(hash, scroll) {
         const asked = pose_of(hash);
         if (!asked) return;
@@ -173,7 +173,7 @@ export class Viewer {
     }
 }
 
-// Where no address asks for a pose: a claim's own says more than a body at rest.
+// Without a pose in the address, the pose of a claim is shown, which is more instructive than a body at rest.
 function first_pose(poses) {
     return poses.length ? `#claim=${poses[0].claim}` : "";
 }

@@ -1,9 +1,9 @@
-// All panels by one WebGL context: a scissored part of one canvas each, one camera for all, controls on every panel.
+// Draws all panels with one WebGL context: each canvas shows a scissored part, one camera serves all, and every panel has controls.
 import { Color, ColorManagement, LinearSRGBColorSpace, PerspectiveCamera, Scene, TOUCH, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { keep_level, leave_scrolling } from "./touch.js";
 
-ColorManagement.enabled = false;  // colours go to the screen as they stand in the legend
+ColorManagement.enabled = false;  // colours appear on the screen as in the legend
 const background = new Color(0xf1f3f5), most_pixels_per_point = 2;
 const first_direction = new Vector3(0.45, 0.12, 1).normalize();
 
@@ -19,7 +19,7 @@ export class Views {
         this.views = [];
     }
 
-    // One view for each of these elements, with what its scene holds.
+    // Makes a view for each of these elements, with the contents of its scene.
     show(elements, contents) {
         for (const view of this.views) view.controls.dispose();
         this.views = elements.map((element, at) => {
@@ -36,13 +36,13 @@ export class Views {
         });
     }
 
-    // One finger turns; two come nearer, and shift or turn.
+    // One finger turns the view; two fingers zoom, and shift or turn it.
     two_fingers(shift) {
         const touches = { ONE: TOUCH.ROTATE, TWO: shift ? TOUCH.DOLLY_PAN : TOUCH.DOLLY_ROTATE };
         for (const { controls } of this.views) controls.touches = touches;
     }
 
-    // Looks at this middle from so far that all points of a cloud about it [m] are in the panel.
+    // Points the camera at this middle, at a distance from which all points of a cloud around it [m] are in the panel.
     look_at(middle, cloud) {
         const right = new Vector3(first_direction.z, 0, -first_direction.x).normalize();
         const up = new Vector3().crossVectors(first_direction, right);
@@ -59,7 +59,7 @@ export class Views {
         return box.height > 0 ? box.width / box.height : 1;
     }
 
-    // Moves on with the body.
+    // Moves the camera with the body.
     follow(step) {
         this.target.add(step);
         this.camera.position.add(step);
@@ -74,7 +74,7 @@ export class Views {
         this.camera.lookAt(this.target);
     }
 
-    // By shares of what a panel shows from top to bottom.
+    // Shifts by fractions of the height that a panel shows.
     shift(right, up) {
         const height = 2 * this.camera.position.distanceTo(this.target) * Math.tan(this.camera.fov / 2 * Math.PI / 180);
         this.camera.updateMatrix();
@@ -110,7 +110,7 @@ export class Views {
         }
     }
 
-    // Red green blue alpha of one panel as drawn now.
+    // Red, green, blue and alpha of the pixels of one panel.
     pixels(at) {
         this.draw();
         const context = this.renderer.getContext(), ratio = this.renderer.getPixelRatio();
