@@ -31,7 +31,7 @@ def whole(entry, figures, origin):
 
 
 def not_on_record(names, planned):
-    return f" Planned and not on record, {len(names)} of {planned}: {', '.join(names)}." if names else ""
+    return f" Planned runs without records, {len(names)} of {planned}: {', '.join(names)}." if names else ""
 
 
 def write(entry, results, figures):

@@ -4,8 +4,8 @@ import entries
 import records
 import style
 
-measures = [("frame_cpu_ms_ratio", "a frame's processor time, with over without [1]"),
-            ("step_cpu_ms_ratio", "a step's processor time, with over without [1]")]
+measures = [("frame_cpu_ms_ratio", "processor time per frame, with over without [1]"),
+            ("step_cpu_ms_ratio", "processor time per step, with over without [1]")]
 scenes = ("limb", "human")
 columns = {"feature", *(measure + part for measure, _ in measures for part in ("", "_lower", "_upper"))}
 

@@ -52,7 +52,7 @@ def draw_rule(panel, frames):
         x, y = ([float(row[name]) for row in rows] for name in ("parameter", "rest_distance_m"))
         named = f"human's vertices {'on ' if blended == '0' else ''}{label}: {len(rows)}"
         panel.plot(x, 1000 * numpy.array(y), linestyle="", marker=marker, color=color, markersize=1.6, label=named)
-    panel.set(xlabel="place of its projection from $s_j$ (0) to $d_j$ (1) [1]", ylabel="distance to the bone [mm]", xlim=(-0.25, 1.75))
+    panel.set(xlabel="position of its projection from $s_j$ (0) to $d_j$ (1) [1]", ylabel="distance to the bone [mm]", xlim=(-0.25, 1.75))
     panel.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)
 
 

@@ -84,8 +84,8 @@ def main(results, only=None, folder=None):
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", metavar="DIR", type=pathlib.Path, help="the records of ./reproduce")
-    parser.add_argument("--only", metavar="NAME", help="this figure alone")
-    parser.add_argument("--into", metavar="FOLDER", type=pathlib.Path, help="where figures go (default: DIR/figures)")
+    parser.add_argument("--only", metavar="NAME", help="draw only this figure")
+    parser.add_argument("--into", metavar="FOLDER", type=pathlib.Path, help="folder of the figures (default: DIR/figures)")
     return parser.parse_args()
 
 

@@ -49,7 +49,7 @@ def draw_cost(axes, record, precision):
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("tets")
-    axes.set_ylabel("ns a constraint and iteration")
+    axes.set_ylabel("ns per constraint and iteration")
     axes.set_ylim(bottom=axes.get_ylim()[0] / 7)
     axes.set_title(f"{precision}, one thread")
     return rows + write_exponents(axes, record, precision)
@@ -71,7 +71,7 @@ def draw_threads(axes, record):
     axes.axhline(1, color="#808080", linewidth=0.6)
     axes.set_xscale("log")
     axes.set_xlabel("tets")
-    axes.set_ylabel("times quicker than one thread")
+    axes.set_ylabel("speedup over one thread")
     axes.set_title(f"{threads} threads: f32 solid, f64 dashed")
     return rows
 

@@ -188,7 +188,7 @@ def outcome(claim, in_short=False):
     if runs:
         return runs_outcome(claim, runs)
     if claim["rule"] == "printed" and claim["n"]:
-        return f"{within(claim)} with the paper\u2019s others"
+        return f"{within(claim)} with the paper\u2019s other values"
     if not claim["subjects"]:
         return claim["reason"] or "; ".join(left_out(claim))
     told = [farthest(claim, in_short)] if claim["verdict"] == "not_reproduced" else []

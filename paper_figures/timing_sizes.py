@@ -30,7 +30,7 @@ def draw_sizes(axes, rows):
     style.decades(axes.xaxis)
     style.log_scale(axes.yaxis)
     axes.set_xlabel("vertices")
-    axes.set_ylabel("wall-clock time of a frame [ms]")
+    axes.set_ylabel("wall-clock time per frame [ms]")
 
 
 def draw_parts(axes, rows, variant, precision):
@@ -45,7 +45,7 @@ def draw_parts(axes, rows, variant, precision):
     axes.set_yticks(range(len(shown)), [f"{row['body']}, {int(row['vertices']):,}" for row in shown], fontsize=6)
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
-    axes.set_xlabel("processor time of a frame [ms]")
+    axes.set_xlabel("processor time per frame [ms]")
     axes.set_title(kernels[variant, precision])
 
 

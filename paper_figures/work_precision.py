@@ -57,7 +57,7 @@ def draw_case(axes, rows, fronts):
     draw_bounds(axes, bound, beside)
     style.log_scale(axes.yaxis)
     axes.set_title((f"{case}; bound {float(bound):.3g} %" if bound else case).replace(" deg", "\u00b0"))
-    axes.set_xlabel("processor time a frame [ms]")
+    axes.set_xlabel("processor time per frame [ms]")
     axes.set_ylabel("error at the joints [%]")
     points = [{"shown": "point"} | {name: row[name] for name in point_numbers} for row in measured(rows)]
     of_fronts = [{"shown": f"front of {row['front']}"} | {name: row[name] for name in point_numbers[2:]} for row in fronts]
@@ -86,6 +86,6 @@ def draw(results, figures):
     for panel in axes.flat[len(shown):]:
         panel.set_visible(False)
     axes.flat[0].plot([], [], linestyle="none", marker="o", color="#777777", markersize=2.6, alpha=0.45,
-                      label="small marks: every setting; lines: each one's front")
+                      label="small marks: all settings; lines: the front of each deformer")
     style.legend_above(figure, columns=4)
     style.save(figure, figures / "work_precision", entries.origin_of(results, "work_precision"), style.aligned(behind))

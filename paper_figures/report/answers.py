@@ -8,8 +8,8 @@ from report.markup import Markup, element, escaped, items, joined, table
 from report.record_set import not_run, number
 from report.verdict_names import mark_of
 
-who = ("Each entry lists the bodies that the claim was tried on; in brackets how many of a body\u2019s values lie within the claim\u2019s "
-       "bound.")
+who = ("Each entry lists the bodies on which the claim was tested; brackets state how many of a body\u2019s values lie within the "
+       "claim\u2019s bound.")
 failing = ("not_reproduced", "reproduced_only_for", "inconsistent_in_print", "not_computable")
 
 
@@ -84,7 +84,7 @@ def planned_without_table(found):
 
 def left_out_sentence(names):
     """Names the poses that lack one of the three, including planned ones."""
-    told = f"Without an error of PBS, LBS or the reference on record, and so left out: {'; '.join(names)}."
+    told = f"Left out, since no error of PBS, LBS or the reference is recorded: {'; '.join(names)}."
     return element("p", told, class_="missing") if names else ""
 
 
@@ -109,7 +109,7 @@ def distance_sentence(shown):
 
 def bar_of(row):
     bar = number(row, "reference_error_joint_pct")
-    return "\u2013" if bar is None else f"\u2264 {figure(bar)}" + (", meets itself" if row["reference_self_intersects"] == "1" else "")
+    return "\u2013" if bar is None else f"\u2264 {figure(bar)}" + (", intersects itself" if row["reference_self_intersects"] == "1" else "")
 
 
 def pose_table(shown):
@@ -123,9 +123,9 @@ def bar_sentence(shown):
     """States the error of the reference, which is itself a computation."""
     below = sum(pose.pbs["below_reference_error"] == "1" for pose in shown)
     if not below:
-        return "Each of these distances is above the bound of the reference's own error."
-    return (f"In {below} of {counted(len(shown), 'pose')} PBS lies within the bound of the reference's own error: the distance is then not "
-            "settled; how far apart two FEM solutions are is the other measure of it.")
+        return "Each of these distances exceeds the bound on the reference's own error."
+    return (f"In {below} of {counted(len(shown), 'pose')} PBS lies within the bound on the reference's own error, so that the distance "
+            "is not significant. The distance between two FEM solutions is another measure of that error.")
 
 
 def at_what_cost(found):
@@ -147,9 +147,9 @@ def frame_sentence(found):
         return span([number(row, column) for row in rows])
 
     return joined([element("b", f"PBS, 24 iterations, meshes of Table 1's sizes, one core ({quick[0]['cpu_model']}): "
-                                f"{told(quick, 'total_wall_ms')} ms a frame"),
-                   f" in single precision and sorted ({told(quick, 'frames_per_s')} frames a second); written plainly in double precision "
-                   f"{told(plain, 'total_wall_ms')} ms ({told(plain, 'frames_per_s')} frames a second; Table 1 prints "
+                                f"{told(quick, 'total_wall_ms')} ms per frame"),
+                   f" in single precision and ordered ({told(quick, 'frames_per_s')} frames per second); "
+                   f"plain loops in double precision take {told(plain, 'total_wall_ms')} ms ({told(plain, 'frames_per_s')} frames per second; Table 1 prints "
                    f"{told(plain, 'paper_frames_per_s')})."])
 
 
@@ -158,7 +158,7 @@ def beside_sentence(found):
     if not shown:
         return ""
     ms = {name: span([number(getattr(pose, name), "ms_median") for pose in shown]) for name in ("lbs", "pbs", "reference")}
-    return f"In the poses of the comparison: LBS {ms['lbs']} ms, PBS {ms['pbs']} ms, the FEM reference {ms['reference']} ms a pose."
+    return f"In the poses of the comparison: LBS {ms['lbs']} ms, PBS {ms['pbs']} ms, the FEM reference {ms['reference']} ms per pose."
 
 
 def first_screen(found):

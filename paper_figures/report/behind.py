@@ -74,4 +74,4 @@ def of(claim, found):
     runs = joined((folder_link(found.results, run) for run in claim["runs"] or [claim["study"]]), ", ")
     parts.append(element("p", joined(["Runs (", beside_the_page("folders"), "): ", runs])))
     count = f" ({counted(len(claim['runs']), 'run')})" if claim["runs"] else ""
-    return details(f"{claim['id']}: what is behind it{count}", joined(parts, "\n"))
+    return details(f"{claim['id']}: the data behind it{count}", joined(parts, "\n"))

@@ -41,7 +41,7 @@ def section(found):
     studies = of_studies(found)
     if not studies:
         return element("p", "no study left its costs.csv", class_="missing")
-    header = ["runs", "processor, expected [s]", "processor, taken [s]", "runs' wall time in all [s]"]
+    header = ["runs", "processor, expected [s]", "processor, taken [s]", "total wall time of the runs [s]"]
     rows = [[study, size(found, study), *totals(rows)] for study, rows in studies]
     rows.append([element("b", "all"), "", *totals([row for _, rows in studies for row in rows])])
     single = [[f"{study}/{row['run']}", *totals([row])[1:]] for study, rows in studies for row in rows]

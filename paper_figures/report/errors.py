@@ -47,7 +47,7 @@ def section(found):
         reason = "not on record:" if missing else f"{not_run(found, 'volume')}."
         told = element("p", f"The distance over whole sweeps and clips is {reason}", class_="missing")
         return joined([told, left_out], "\n"), missing
-    header = ["run", "reference", *(label for _, label in shown), "frames in which the reference meets itself"]
+    header = ["run", "reference", *(label for _, label in shown), "frames in which the reference intersects itself"]
     caption = "Error at the joints [% of the mean distance to the bone]: median over the frames (least to most)"
     where = element("p", f"The runs are {beside_the_page('folders')}.", class_="lead")
     return joined([table(caption, header, rows), where, left_out], "\n"), missing

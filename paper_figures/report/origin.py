@@ -11,7 +11,7 @@ licences = {
     "frankie": "Frankie: CC-BY 3.0, John \u201cgeartrooper\u201d Siar, Gregor Koch, the Apricot project; Debian\u2019s cube2-data; "
                "made into tets and posed here.",
 }
-viewer = "Viewer: three.js, MIT licence, the three.js authors; the licence\u2019s text stands in this page before the program."
+viewer = "Viewer: three.js, MIT licence, the three.js authors; this page contains the text of the licence before the program."
 motion_capture = ("Clips: CMU Graphics Lab Motion Capture Database (mocap.cs.cmu.edu), free to use; created with funding from "
                   "NSF EIA-0196217.")
 

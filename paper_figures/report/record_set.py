@@ -52,7 +52,7 @@ def not_run(found, study):
 def why_absent(found, study):
     if study in found.studies:
         return f"the runs of the study {study} have none of it"
-    return f"the study {study} was begun and has not ended" if (found.results / study).is_dir() else f"the study {study} was not run"
+    return f"the study {study} was started and has not ended" if (found.results / study).is_dir() else f"the study {study} was not run"
 
 
 def number(row, column):

@@ -11,7 +11,7 @@ header = ["problem", "quantity", "elements", "material", "mesh", "degrees of fre
 def verdict(rows):
     """How many of the values with a bound lie within it."""
     bounded = [row["holds"] for row in rows if row["holds"]]
-    return (f"{bounded.count('yes')} of {counted(len(bounded), 'value')} with a bound set beforehand keep it; "
+    return (f"{bounded.count('yes')} of {counted(len(bounded), 'value')} with a bound fixed beforehand lie within it; "
             f"{len(rows) - len(bounded)} more have no bound and are reported only.")
 
 

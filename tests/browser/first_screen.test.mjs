@@ -54,7 +54,7 @@ test("how far from the finite elements is what points.csv says, pose by pose", a
         const recorded = [lbs.error_joint_pct, pbs.error_joint_pct, reference.error_joint_beside_pct, pbs.reference_error_joint_pct];
         const told = rows.find(([first]) => first === name).slice(1);
         recorded.forEach((value, at) => assert_told(numbers_in(told[at])[0], Number(value), `${name}, column ${at + 1}`));
-        assert.equal(told[3].includes("meets itself"), pbs.reference_self_intersects === "1", name);
+        assert.equal(told[3].includes("intersects itself"), pbs.reference_self_intersects === "1", name);
     }
     const ends = ["pbs", "lbs"].flatMap((deformer) => {
         const errors = poses.map((pose) => Number(pose[deformer].error_joint_pct));

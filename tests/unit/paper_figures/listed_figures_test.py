@@ -109,7 +109,7 @@ class Planned(unittest.TestCase):
         synthetic_tables.write_origin(self.results / "work_precision" / "man_crouch")  # a run whose table was not kept
         self.assertEqual(drawn(self.results, "error_parts"), (0, ""))
         self.assertTrue((self.results / "figures" / "error_parts.caption.txt").read_text()
-                        .endswith(" Planned and not on record, 2 of 3: human_crouch, man_crouch.\n"))
+                        .endswith(" Planned runs without records, 2 of 3: human_crouch, man_crouch.\n"))
 
     def test_of_a_pattern_those_that_it_matches(self):
         synthetic_tables.write_jiggle(self.results / "jiggle")

@@ -168,7 +168,7 @@ class Plots(unittest.TestCase):
         rows = self.drawn("timing_sizes")
         stretch_ms = next(float(row["stretch_ms"]) for row in rows if (row["variant"], row["mesh"]) == ("plain", "man_1654"))
         # LBS and bind are not included
-        self.assertIn(f"stretch: {stretch_ms:.6g}, man, 1,654", self.titles("processor time of a frame [ms]"))
+        self.assertIn(f"stretch: {stretch_ms:.6g}, man, 1,654", self.titles("processor time per frame [ms]"))
         shown = self.titles("vertices")
         self.assertIn("ordered, f32: 20000, 2.5", shown)
         self.assertIn("paper, by frame rate: 1654, 11", shown)
@@ -177,7 +177,7 @@ class Plots(unittest.TestCase):
     def test_costs_of_features(self):
         synthetic_tables.write_features(self.results / "features")
         self.assertEqual(len(self.drawn("features_cost")), 3)
-        shown = self.titles("a frame's processor time, with over without [1]")
+        shown = self.titles("processor time per frame, with over without [1]")
         self.assertEqual(shown, ["limb: 0.5, sleep", "human: 0.5, sleep", "human: 1.5, rendered surface"])
 
 

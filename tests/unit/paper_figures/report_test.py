@@ -112,10 +112,10 @@ class Report(unittest.TestCase):
         _, text, _, _ = self.make()
         self.assertIn("PBS with 24 iterations is 8 to 20 % away from stable neo-Hookean finite elements, LBS 30 to 50 %", text)
         self.assertIn("In 1 of 2 poses PBS lies within the bound", text)
-        self.assertIn("\u2264 15, meets itself", text)
-        self.assertIn("0.5 to 1 ms a frame", text)
-        self.assertIn("(1000 to 2000 frames a second)", text)
-        self.assertIn("LBS 0.1 ms, PBS 0.7 ms, the FEM reference 900 ms a pose", text)
+        self.assertIn("\u2264 15, intersects itself", text)
+        self.assertIn("0.5 to 1 ms per frame", text)
+        self.assertIn("(1000 to 2000 frames per second)", text)
+        self.assertIn("LBS 0.1 ms, PBS 0.7 ms, the FEM reference 900 ms per pose", text)
 
     def test_a_study_that_was_not_run_is_named(self):
         synthetic_records.write_study(self.results)
@@ -128,7 +128,7 @@ class Report(unittest.TestCase):
         synthetic_records.write_study(self.results)
         (self.results / "timing").mkdir()
         _, text, said, _ = self.make()
-        self.assertIn("the study timing was begun and has not ended", text)
+        self.assertIn("the study timing was started and has not ended", text)
         self.assertNotIn("the study timing was not run", text + said)
 
     def test_a_pose_without_an_error_of_pbs_is_named(self):
@@ -140,7 +140,7 @@ class Report(unittest.TestCase):
         file.write_text("\n".join(row for row in rows if not row.startswith("pbs,") and ",pbs," not in row) + "\n")
         shown, left_out = answers.poses(found)
         self.assertEqual((len(shown), len(left_out)), (len(whole) - 1, 1))
-        self.assertIn(f"left out: {left_out[0]}.", answers.how_far(found))
+        self.assertIn(f"the reference is recorded: {left_out[0]}.", answers.how_far(found))
 
     def test_a_verdict_has_one_name_on_the_page(self):
         synthetic_records.write_study(self.results)
@@ -158,7 +158,7 @@ class Report(unittest.TestCase):
         (self.results / "work_precision" / "plan.json").write_text(json.dumps(plan))
         shown, left_out = answers.poses(record_set.RecordSet(self.results))
         self.assertEqual((len(shown), left_out), (len(names), ["human landing"]))
-        self.assertIn("and so left out: human landing.", self.make()[1])
+        self.assertIn("the reference is recorded: human landing.", self.make()[1])
         for file in self.results.glob("work_precision/*/points.csv"):
             file.unlink()
         self.assertIn("human landing", answers.how_far(record_set.RecordSet(self.results)))
@@ -236,7 +236,7 @@ class Report(unittest.TestCase):
         synthetic_records.write_verification(self.results)
         _, text, _, _ = self.make()
         self.assertIn('<th scope="row">beam</th><td>deflection</td>', text)
-        self.assertIn("1 of 2 values with a bound set beforehand keep it; 16 more have no bound", text)
+        self.assertIn("1 of 2 values with a bound fixed beforehand lie within it; 16 more have no bound", text)
         self.assertIn("<li>closed form: a beam</li>", text)
 
     def test_provenance_and_records_of_two_revisions(self):
