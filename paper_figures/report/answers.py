@@ -149,7 +149,8 @@ def frame_sentence(found):
     return joined([element("b", f"PBS, 24 iterations, meshes of Table 1's sizes, one core ({quick[0]['cpu_model']}): "
                                 f"{told(quick, 'total_wall_ms')} ms per frame"),
                    f" in single precision and ordered ({told(quick, 'frames_per_s')} frames per second); "
-                   f"plain loops in double precision take {told(plain, 'total_wall_ms')} ms ({told(plain, 'frames_per_s')} frames per second; Table 1 prints "
+                   f"plain loops in double precision take {told(plain, 'total_wall_ms')} ms "
+                   f"({told(plain, 'frames_per_s')} frames per second; Table 1 prints "
                    f"{told(plain, 'paper_frames_per_s')})."])
 
 
