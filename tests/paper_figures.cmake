@@ -1,7 +1,8 @@
 # Tests of the figure scripts. Those that draw take longer than 2 s: they have the label drawing instead of unit.
-# figures_test(NAME FILE LABEL [COMMAND...]): runs FILE of unit/paper_figures, by COMMAND where it is given.
+# figures_test(NAME FILE LABEL [COMMAND...]): runs FILE of unit/paper_figures, with COMMAND if it is given.
 function(figures_test name file label)
-    add_test(NAME unit/paper_figures${name} COMMAND ${ARGN} ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/${file}_test.py)
+    add_test(NAME unit/paper_figures${name}
+        COMMAND ${ARGN} ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/${file}_test.py)
     set_tests_properties(unit/paper_figures${name} PROPERTIES LABELS ${label} TIMEOUT 300)
 endfunction()
 figures_test("" figures drawing)
