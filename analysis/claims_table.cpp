@@ -53,6 +53,7 @@ Layout layout_of(const std::vector<Verdict>& verdicts, std::size_t width)
 std::string spoken(VerdictKind kind)
 {
     std::string name = name_of(kind);
+    if (name == "reproduced_only_for") return "reproduced in part";
     std::replace(name.begin(), name.end(), '_', ' ');
     return name;
 }
@@ -79,8 +80,7 @@ std::string counts_text(const std::vector<Verdict>& verdicts)
     for (const VerdictKind kind : all_kinds) {
         const auto same = [kind](const Verdict& verdict) { return verdict.kind == kind; };
         const auto count = std::count_if(verdicts.begin(), verdicts.end(), same);
-        const char* rest = kind == VerdictKind::reproduced_only_for ? " some" : "";
-        if (count > 0) counts.push_back(fmt::format("{} {}{}", count, spoken(kind), rest));
+        if (count > 0) counts.push_back(fmt::format("{} {}", count, spoken(kind)));
     }
     return fmt::format("{} claim{}: {}", verdicts.size(), verdicts.size() == 1 ? "" : "s", fmt::join(counts, ", "));
 }

@@ -1,5 +1,5 @@
 // Text for a terminal: lines wrapped between words to a width, and columns side by side.
-//   fmt::print("{}", side_by_side({{"C02", 4}, {"reproduced only for", 14}, {statement, 40}}));
+//   fmt::print("{}", side_by_side({{"C02", 4}, {"reproduced in part", 14}, {statement, 40}}));
 #pragma once
 
 #include <string>

@@ -10,7 +10,7 @@ import record_shapes
 import records
 import sentences
 
-columns = ("claim", "verdict", "values within the bound; the farthest from it [95 % interval]", "page")
+columns = ("claim", "verdict", "values within the bound; the farthest one [interval], expected", "page")
 pages = "experiments/verdicts/claims"
 
 

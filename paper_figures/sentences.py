@@ -292,7 +292,7 @@ def measured_in_line(claim):
 
 
 def key_number(claim):
-    """How many values hold; then the value farthest outside its bound or, if all hold, nearest to it, with its interval and body."""
+    """How many values hold; then the value farthest outside its bound or, if all hold, nearest to it, with its interval, case and bound."""
     primary = claim["primary"]
     if primary is None or primary["statistic"] == "printed":
         return within(claim) if claim["n"] else ""
@@ -301,6 +301,11 @@ def key_number(claim):
     value = with_interval({"estimate": primary["value"], "low": ends[0], "high": ends[1]}, 100 if by_share else 1)
     name = title(claim, primary["quantity"])
     named = {"share_of_frames": "share of frames", "mean": f"mean {name}"}.get(primary["statistic"], name)
-    place = ", ".join(part for part in (primary.get("body", ""), case_words.motion(primary)) if part)
+    other = "" if primary.get("deformer") == "pbs" or "deformer" in claim["of"] else primary.get("deformer", "")
+    place = [primary.get("body", ""), case_words.motion(primary), case_words.of_field("deformer", other)]
+    place += [case_words.of_field(field, primary[field]) for field in ("initial_guess", "masses") if field in primary]
     unit = " %" if by_share else with_unit(primary["unit"])
-    return f"{claim['within']} of {claim['n']} within; {named} {value}{unit}" + (f" ({place})" if place else "")
+    ends = [end if end is None else 100 * end if by_share else end for end in (primary["bound_low"], primary["bound_high"])]
+    expected_of_it = f"expected {bound(*ends)}" + (" %" if by_share else "")
+    told = f"{claim['within']} of {claim['n']} within; {named} {value}{unit}"
+    return f"{told} ({', '.join(filter(None, place))}), {expected_of_it}" if any(place) else f"{told}, {expected_of_it}"

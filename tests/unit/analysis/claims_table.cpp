@@ -58,7 +58,7 @@ TEST(ClaimsTable, GivesTheFactsAndCountsTheVerdicts)
     const std::string text = claims_table(three_verdicts(), 160, false);
     for (const char* part : {"reproduced", "within the bound: 1 of 2", "frames_per_s: 9 1/s [8, 10]; bound 30 or more", "of: giant",
                              "cannot be", "reason: no figures", "share_of_frames of volume_change_pct: 0.75 [",
-                             "3 claims: 1 reproduced only for some, 1 not reproduced, 1 cannot be tested here"})
+                             "3 claims: 1 reproduced in part, 1 not reproduced, 1 cannot be tested here"})
         EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 

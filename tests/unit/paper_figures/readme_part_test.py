@@ -93,8 +93,8 @@ class Tables(ReadmeTest):
         synthetic_records.write_claims(self.results)
         self.assert_written("claims", readme_claims.lines_of,
                             "| Volume is kept. (Sec. 4) | reproduced in part | 1 of 3 within; share of frames 40 [30, 50] % "
-                            "(human, clip walk) | [C02](experiments/verdicts/claims/C02.md) |",
-                            "| 2 of 2 within; frames per second 107 [100, 110] 1/s (frankie) | [C10](experiments/verdicts/claims/C10.md) |",
+                            "(human, clip walk), expected 95 to 100 % | [C02](experiments/verdicts/claims/C02.md) |",
+                            "| 2 of 2 within; frames per second 107 [100, 110] 1/s (frankie), expected 30 or more | [C10](experiments/verdicts/claims/C10.md) |",
                             "| 1 of 2 values consistent | [C13](experiments/verdicts/claims/C13.md) |",
                             f"\nMeasured at revision {synthetic_records.revision[:12]}.")
 
@@ -103,7 +103,7 @@ class Tables(ReadmeTest):
         synthetic_records.write_claims(self.results)
         status, said = self.written("findings", readme_findings.lines_of)
         self.assertEqual(status, 2)
-        self.assertRegex(said, r"claims.json: C02: 0 with .*human_01_01.*: expected one")
+        self.assertRegex(said, r"claims.json: claims: 0 with .*C04.*: expected one")
 
     def test_features(self):
         synthetic_records.write_study(self.results)
