@@ -2,11 +2,13 @@
 // contains and the springs therefore reproduce without strain.
 #include "reference_fem/linear_elasticity.hpp"
 
+#include "tests/support/solve_rounding.hpp"
 #include "tests/verification/reference_fem/jittered_cube.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <set>
 
 namespace {
@@ -90,13 +92,15 @@ TEST_P(SpringAttachment, ApproachesExactDirichletDataWithOneOverQ)
 TEST_P(SpringAttachment, RepeatsARigidTranslation)
 {
     const Positions nodes = end_nodes(1);
-    const Eigen::VectorXd stiffness = Eigen::VectorXd::Constant(nodes.rows(), 1e4 * young_pa * cell_m);
-    LinearElasticity fem(bar, {.element_order = GetParam(), .young_pa = young_pa}, {nodes, stiffness, {}});
+    const Attachment attachment{nodes, Eigen::VectorXd::Constant(nodes.rows(), 1e4 * young_pa * cell_m), {}};
+    const LinearOptions options{.element_order = GetParam(), .young_pa = young_pa};
+    LinearElasticity fem(bar, options, attachment);
     const Eigen::RowVector3d shift(3.0, -2.0, 1.0);
     ASSERT_TRUE(fem.solve(nodes.rowwise() + shift, bar.rest).finite);
-    // Rounding of a stiff system: the condition number of some 1e7 (q times the square of the cells along the bar) times eps.
-    EXPECT_LT((fem.positions() - (bar.rest.rowwise() + shift)).cwiseAbs().maxCoeff(), 1e-9);
-    EXPECT_LT(fem.strain_energy_j(), 1e-12 * young_pa);
+    const test_support::SolveRounding rounding = test_support::rounding_of(fem, bar, options, attachment);
+    EXPECT_LT((fem.positions() - (bar.rest.rowwise() + shift)).norm(), rounding.error_m());
+    EXPECT_LT(rounding.relative(), 1e-5) << "a bound that would let an error of a percent pass proves nothing";
+    EXPECT_LT(fem.strain_energy_j(), rounding.energy_j());
 }
 
 // The reaction of all springs carries the weight: translations are in the space, so equilibrium of forces is exact.
@@ -105,13 +109,18 @@ TEST_P(SpringAttachment, ReactionsCarryTheWeight)
     const Positions nodes = end_nodes(1);
     const double k = 1e3 * young_pa * cell_m, density = 1000.0;
     const Vec3 gravity(1.0, -2.0, -9.81);
-    LinearElasticity fem(bar, {.element_order = GetParam(), .young_pa = young_pa, .density_kg_m3 = density, .gravity_m_s2 = gravity},
-                         {nodes, Eigen::VectorXd::Constant(nodes.rows(), k), {}});
+    const LinearOptions options{.element_order = GetParam(), .young_pa = young_pa, .density_kg_m3 = density, .gravity_m_s2 = gravity};
+    const Attachment attachment{nodes, Eigen::VectorXd::Constant(nodes.rows(), k), {}};
+    LinearElasticity fem(bar, options, attachment);
     ASSERT_TRUE(fem.solve(nodes, bar.rest).finite);
     const Vec3 reaction = k * (nodes - fem.spring_points_deformed()).colwise().sum().transpose();
     const Vec3 weight = density * 0.5 * gravity;  // 2 x 0.5 x 0.5 m^3
-    // Each spring's stretch is a difference of positions of 2 m: eps * 2 m * k * sqrt(springs) = 1e-7 N of 5e3 N.
-    EXPECT_LT((reaction + weight).norm() / weight.norm(), 1e-9);
+    // The force that the residual leaves over, and the rounding of stretches, which are differences of positions of 2 m.
+    const test_support::SolveRounding rounding = test_support::rounding_of(fem, bar, options, attachment);
+    const double of_stretches = k * 2.0 * std::numeric_limits<double>::epsilon() * std::sqrt(3.0 * nodes.rows());
+    const double bound_n = rounding.force_n(static_cast<int>(fem.displacement().size()) / 3) + of_stretches;
+    EXPECT_LT((reaction + weight).norm(), bound_n);
+    EXPECT_LT(bound_n, 1e-4 * weight.norm()) << "a bound that would let an error of a percent pass proves nothing";
 }
 
 // If gravity is given at the solve instead of in the options, nothing else changes.
