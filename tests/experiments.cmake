@@ -15,19 +15,19 @@ endif()
 # verdicts that it must change by theory, and no others.
 pbs_tests(claims experiments FOLDERS experiments EXCEPT ${left_out} LIBRARIES experiments)
 target_compile_definitions(test_claims_experiments PRIVATE ${claims_file})
-pbs_tests(unit experiments
+pbs_tests(unit experiments BLAS
     FOLDERS experiments/process experiments/scene experiments/run experiments/deformers experiments/verdicts experiments/command_line
     FILES experiments/deformers/fem/fem_module
     EXCEPT experiments/deformers/fem ${left_out}
     LIBRARIES experiments)
-pbs_tests(unit experiments_studies FOLDERS experiments/studies
+pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies
     EXCEPT experiments/studies/verification/calculix ${left_out}
     LIBRARIES experiments)
 pbs_tests(properties experiments FOLDERS experiments LIBRARIES experiments)
 pbs_tests(regression experiments FOLDERS experiments LIBRARIES experiments)
 target_compile_definitions(test_regression_experiments PRIVATE PBS_KEPT_RECORDS="${PROJECT_SOURCE_DIR}/experiments/records/full")
 pbs_tests(robustness experiments FOLDERS experiments LIBRARIES experiments)
-pbs_tests(verification experiments FOLDERS experiments
+pbs_tests(verification experiments BLAS FOLDERS experiments
     EXCEPT experiments/deformers/fem experiments/studies/verification/calculix experiments/verification_record ${left_out}
     LIBRARIES experiments)
 if(PBS_WITH_FEM)
@@ -61,6 +61,8 @@ endif()
 pbs_program_test(verification experiments/recomputed_frames)
 if(PBS_WITH_FEM)
     pbs_program_test(verification experiments/reference_error_bar)
+    set_tests_properties(verification/experiments/reference_error_bar verification/experiments/recomputed_frames
+        PROPERTIES LABELS "verification;blas")
 endif()
 pbs_program_test(claims volume)
 pbs_program_test(claims broken_solver)

@@ -4,9 +4,9 @@ if(NOT TARGET reference_fem)
 endif()
 
 pbs_tests(unit reference_fem_laws FOLDERS reference_fem/laws LIBRARIES reference_fem_laws)
-pbs_tests(unit reference_fem FOLDERS reference_fem EXCEPT reference_fem/laws LIBRARIES reference_fem_verification)
+pbs_tests(unit reference_fem BLAS FOLDERS reference_fem EXCEPT reference_fem/laws LIBRARIES reference_fem_verification)
 pbs_tests(verification reference_fem_laws FILES reference_fem/laws reference_fem/laws_closed_form LIBRARIES reference_fem_laws)
-pbs_tests(verification reference_fem FOLDERS reference_fem
+pbs_tests(verification reference_fem BLAS FOLDERS reference_fem
     EXCEPT reference_fem/laws reference_fem/laws_closed_form
     LIBRARIES reference_fem_verification)
 if(NOT TARGET fem_verification)
@@ -20,10 +20,10 @@ endif()
 if(NOT PBS_WITH_RIG_IMPORT OR NOT PBS_WITH_CGAL OR NOT PBS_WITH_MESH_IO)
     list(APPEND left_out experiments/deformers/fem/human_grip experiments/deformers/fem/limb_at_large_rotations)
 endif()
-pbs_tests(unit experiments_fem FOLDERS experiments/deformers/fem experiments/studies/verification/calculix
+pbs_tests(unit experiments_fem BLAS FOLDERS experiments/deformers/fem experiments/studies/verification/calculix
     EXCEPT experiments/deformers/fem/fem_module
     LIBRARIES calculix pbs_character)
-pbs_tests(verification experiments_fem FOLDERS experiments/deformers/fem experiments/studies/verification/calculix
+pbs_tests(verification experiments_fem BLAS FOLDERS experiments/deformers/fem experiments/studies/verification/calculix
     FILES experiments/verification_record
     EXCEPT ${left_out}
     LIBRARIES fem_verification experiments)
