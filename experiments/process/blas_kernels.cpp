@@ -35,7 +35,7 @@ InstructionSet instructions_of(std::string_view core_type)
 
 using Text = char*();
 
-// OpenBLAS where the process has loaded it, else null; its own functions tell it from another BLAS.
+// A function that only OpenBLAS has; null where the process has loaded no OpenBLAS.
 Text* openblas_text(void* library, const char* function)
 {
     return library ? reinterpret_cast<Text*>(dlsym(library, function)) : nullptr;
@@ -44,7 +44,7 @@ Text* openblas_text(void* library, const char* function)
 void* loaded_library()
 {
     void* library = dlopen(library_file, RTLD_NOW | RTLD_NOLOAD);
-    if (library) dlclose(library);  // a count of references: what has loaded it keeps it
+    if (library) dlclose(library);  // lowers a count of references: whoever loaded it still holds it
     return library;
 }
 
@@ -73,7 +73,7 @@ Processor this_processor()
 std::string better_core_type(const std::string& selected, const Processor& processor)
 {
     const InstructionSet in_use = instructions_of(selected);
-    if (processor.is_zen) return processor.has_avx2 && in_use < avx2 ? "Zen" : "";  // OpenBLAS takes Zen for all of them
+    if (processor.is_zen) return processor.has_avx2 && in_use < avx2 ? "Zen" : "";  // OpenBLAS has Zen for all of them
     if (processor.has_avx512) return in_use < avx512 ? "SkylakeX" : "";
     return processor.has_avx2 && in_use < avx2 ? "Haswell" : "";
 }
@@ -86,7 +86,7 @@ void select_blas_kernels()
         void* library = dlopen(library_file, RTLD_NOW | RTLD_LOCAL);
         Text* core_type = openblas_text(library, "openblas_get_corename");
         const std::string better = core_type ? better_core_type(core_type(), this_processor()) : "";
-        if (better.empty()) return;  // stays loaded for the module
+        if (better.empty()) return;  // it stays loaded for the module
         dlclose(library);
         if (loaded_library()) return;  // it does not unload, so that nothing reads the variable again
         setenv(core_type_variable, better.c_str(), 1);
@@ -122,7 +122,7 @@ void restart_with_better_blas_kernels(char** argv)
     setenv(core_type_variable, better.c_str(), 1);
     setenv(restarted_variable, better.c_str(), 1);
     execv("/proc/self/exe", argv);
-    unsetenv(core_type_variable);  // it cannot be started again: it goes on with the kernels that it has
+    unsetenv(core_type_variable);  // the program cannot be started again and goes on with the kernels that it has
     unsetenv(restarted_variable);
 }
 

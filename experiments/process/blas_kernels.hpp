@@ -3,7 +3,7 @@
 // has AVX-512. Its environment variable OPENBLAS_CORETYPE overrides the selection, and is read at that moment only.
 //   load_module_with_blas("pbskin_fem");     // selects the right kernels first
 //   provenance.blas = blas_in_use();
-// A processor other than x86-64 and a BLAS other than OpenBLAS are left alone.
+// On a processor other than x86-64 and with a BLAS other than OpenBLAS nothing is done.
 #pragma once
 
 #include "pbs/geometry/module.hpp"
@@ -13,7 +13,8 @@
 
 namespace experiments {
 
-// What decides on kernels. The instructions count only where the operating system saves their registers.
+// The properties of a processor that the selection depends on. An instruction set counts only where the operating system saves its
+// registers.
 struct Processor {
     bool is_zen = false;      // AMD, family 17h or later
     bool has_avx2 = false;    // AVX2 and FMA: what the kernels Haswell and Zen need
@@ -21,13 +22,13 @@ struct Processor {
 };
 Processor this_processor();
 
-// The core type to ask OpenBLAS for in place of `selected`, its own selection: empty where that uses all the instructions that the
-// processor has, or has a name that is not known here.
+// The core type to request from OpenBLAS instead of `selected`, its own selection. Empty where `selected` uses all the instructions that
+// the processor has, or is not known here.
 std::string better_core_type(const std::string& selected, const Processor& processor);
 
-// Loads OpenBLAS, if it is what libblas.so.3 is, and loads it anew with OPENBLAS_CORETYPE set where there is a better core type. A user's
-// own OPENBLAS_CORETYPE stands, and so does an OpenBLAS that the process has loaded before. Only the first call does anything; from any
-// thread.
+// If libblas.so.3 is OpenBLAS, loads it, and loads it again with OPENBLAS_CORETYPE set where there is a better core type. A core type that
+// the user has set in OPENBLAS_CORETYPE is kept, and so is an OpenBLAS that the process has loaded before. Only the first call has an
+// effect. Thread-safe.
 void select_blas_kernels();
 const pbs::Module& load_module_with_blas(const std::string& name);  // pbs::load_module after select_blas_kernels
 
@@ -35,8 +36,8 @@ const pbs::Module& load_module_with_blas(const std::string& name);  // pbs::load
 // "pbskin", "OpenBLAS", or "user" where the environment held OPENBLAS_CORETYPE. Empty where this process has loaded no OpenBLAS.
 std::map<std::string, std::string> blas_in_use();
 
-// For a program that is linked with BLAS, before anything else in main: where there is a better core type, the program starts again with
-// OPENBLAS_CORETYPE set. Returns if it does not.
+// For a program that is linked with BLAS; call it first in main. Where there is a better core type and the user has not set one, the
+// program starts again with OPENBLAS_CORETYPE set; otherwise the function returns.
 void restart_with_better_blas_kernels(char** argv);
 
 }  // namespace experiments

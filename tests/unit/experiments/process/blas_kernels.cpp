@@ -1,5 +1,5 @@
 // Truth: which instructions each processor has, by its data sheet, and which kernels OpenBLAS 0.3.21 selects for its family and model; the
-// library's own word on what it uses.
+// library's own report of the kernels it uses.
 #include "experiments/process/blas_kernels.hpp"
 
 #ifdef __x86_64__
@@ -8,8 +8,12 @@
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
+#include <string>
 
 namespace {
 
@@ -42,21 +46,54 @@ TEST(BetterCoreType, IsNoneWhereAllInstructionsAreUsed)
           Case{"Broadwell, family 6, model 79", "Haswell", intel_avx2, ""},
           Case{"Sandy Bridge, family 6, model 42", "Sandybridge", sse, ""}, Case{"Nehalem, family 6, model 26", "Nehalem", sse, ""},
           Case{"Prescott, family 15, model 3", "Prescott", sse, ""}, Case{"Zen 2, family 17h", "Zen", zen, ""},
-          Case{"Zen 4, family 19h: OpenBLAS 0.3.21 means Zen", "Zen", zen_4, ""},
+          Case{"Zen 4, family 19h: OpenBLAS 0.3.21 selects Zen", "Zen", zen_4, ""},
           Case{"a core type of a later OpenBLAS", "GraniteRapids", intel_avx512, ""}})
         EXPECT_EQ(better_core_type(c.selected, c.has), c.better) << c.processor;
 }
 
-// A process of its own for each, as under ctest: OpenBLAS is loaded once and the selection happens once.
+// A process loads OpenBLAS once and selects its kernels once, so each test starts this program anew for itself alone: whatever ran before,
+// BLAS is not loaded there yet.
 class SelectBlasKernels : public testing::Test {
 protected:
-    void SetUp() override
+    // True in the process that runs the test's body; elsewhere false, after that process has run.
+    static bool is_own_process()
     {
-        unsetenv("OPENBLAS_CORETYPE");
-        ASSERT_TRUE(blas_in_use().empty()) << "this program must not be linked with BLAS";
+        if (std::getenv(mark)) {
+            unsetenv("OPENBLAS_CORETYPE");
+            EXPECT_TRUE(blas_in_use().empty()) << "this program must not be linked with BLAS";
+            return true;
+        }
+        const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+        const std::string filter = std::string("--gtest_filter=") + test.test_suite_name() + "." + test.name();
+        std::fflush(nullptr);
+        const pid_t child = fork();
+        if (child == 0) {
+            setenv(mark, "1", 1);
+            execl("/proc/self/exe", "/proc/self/exe", filter.c_str(), static_cast<char*>(nullptr));
+            _exit(127);
+        }
+        int status = -1;
+        waitpid(child, &status, 0);
+        EXPECT_TRUE(WIFEXITED(status)) << "status " << status;
+        if (WEXITSTATUS(status) == skipped)
+            report_skip();
+        else
+            EXPECT_EQ(WEXITSTATUS(status), 0) << "see the output of the test's own process above";
+        return false;
     }
 
-    // As the module that needs BLAS does.
+    void TearDown() override
+    {
+        if (!std::getenv(mark) || !IsSkipped()) return;
+        std::fflush(nullptr);
+        _exit(skipped);
+    }
+
+    static constexpr const char* mark = "PBS_TEST_OWN_PROCESS";
+    static constexpr int skipped = 77;
+    static void report_skip() { GTEST_SKIP() << "in the test's own process, see above"; }
+
+    // Loads BLAS as a module that needs it does.
     static std::map<std::string, std::string> loaded_blas()
     {
         if (!dlopen("libblas.so.3", RTLD_NOW)) ADD_FAILURE() << dlerror();
@@ -66,6 +103,7 @@ protected:
 
 TEST_F(SelectBlasKernels, AUsersOwnChoiceStands)
 {
+    if (!is_own_process()) return;
     setenv("OPENBLAS_CORETYPE", "Nehalem", 1);
     select_blas_kernels();
     auto blas = loaded_blas();
@@ -76,6 +114,7 @@ TEST_F(SelectBlasKernels, AUsersOwnChoiceStands)
 
 TEST_F(SelectBlasKernels, OnThisProcessorNoInstructionIsLeftUnused)
 {
+    if (!is_own_process()) return;
     select_blas_kernels();
     auto blas = loaded_blas();
     if (blas.empty()) GTEST_SKIP() << "libblas.so.3 is not OpenBLAS";
@@ -87,6 +126,7 @@ TEST_F(SelectBlasKernels, OnThisProcessorNoInstructionIsLeftUnused)
 // Model 255 of Intel's family 6 does not exist. This processor answers as if it were one, with its own instructions.
 TEST_F(SelectBlasKernels, OnAModelThatOpenBlasDoesNotKnowTheInstructionsDecide)
 {
+    if (!is_own_process()) return;
     const std::string expected = better_core_type("Prescott", this_processor());
     if (expected.empty() || this_processor().is_zen) GTEST_SKIP() << "not an Intel processor with AVX2";
     const test_support::OtherProcessor unknown(6, 255);
@@ -100,6 +140,7 @@ TEST_F(SelectBlasKernels, OnAModelThatOpenBlasDoesNotKnowTheInstructionsDecide)
 
 TEST_F(SelectBlasKernels, AnOpenBlasThatIsLoadedAlreadyIsLeftAsItIs)
 {
+    if (!is_own_process()) return;
     const test_support::OtherProcessor unknown(6, 255);
     auto before = loaded_blas();
     if (before.empty()) GTEST_SKIP() << "libblas.so.3 is not OpenBLAS";
