@@ -19,7 +19,7 @@ std::vector<int> tets_inside(const pbs::TetMesh& mesh, const BoneCapsule& capsul
     return inside;
 }
 
-// The children of the tets that are held in the unrefined character: the same parts of the flesh.
+// The children of the tets that are held in the unrefined character, which are the same parts of the flesh.
 BoneAttachment nodes_of_unrefined(const pbs::Character& character, const FemOptions& options)
 {
     const BoneAttachment coarse = nodes_attachment(*character.unrefined, options);

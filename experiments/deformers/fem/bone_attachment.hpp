@@ -1,5 +1,5 @@
-// From bones to what the finite element solver is given: springs at sample points, prescribed tets, or bound vertices, each with the bone
-// that moves it. "Attachment of the reference to the skeleton" in three forms, see FemAttachment.
+// The attachment of the reference to the skeleton in its three forms (see FemAttachment): springs at sample points, prescribed tets, or
+// bound vertices, each with the bone that moves it.
 #pragma once
 
 #include "experiments/deformers/fem/bone_capsules.hpp"
@@ -14,28 +14,30 @@ struct BoneAttachment {
     std::vector<int> spring_bone;          // #springs
     std::vector<int> vertex_bone;          // #V, -1: not prescribed
     std::vector<int> tet_bone;             // of each prescribed tet
-    pbs::BoneBinding binding;              // of bound vertices, else empty
+    pbs::BoneBinding binding;              // of bound vertices; otherwise empty
 };
 
-BoneAttachment bone_attachment(const pbs::Character& character, const FemOptions& options);  // as the options have it
+BoneAttachment bone_attachment(const pbs::Character& character, const FemOptions& options);  // by options.attachment
 
 // Springs of density q E / r^2 over each capsule's volume.
 BoneAttachment embedded_attachment(const pbs::Character& character, const FemOptions& options);
 
 // Whole tets inside the capsules. No vertex is shared by two bones: the tet of the later bone is left out. A bone that keeps no tet
-// (fewer than four vertices that are not in one plane) is a pbs::InputError. Of a refined character: the children of the unrefined one's.
+// (fewer than four vertices that are not in one plane) is a pbs::InputError. A refined character has the children of the tets of the
+// unrefined one.
 BoneAttachment nodes_attachment(const pbs::Character& character, const FemOptions& options);
 
 // Every vertex at its rest distance d from its rest projection on its bone: k_i = q E V_i / R^2, V_i the vertex's lumped rest volume and R
 // the limb radius of its bone. The sum over the vertices is then the vertex rule for the integral over the flesh of
-// q E / (2 R^2) (|x - q(X)| - d(X))^2 dV, which knows nothing of the mesh. The weight is R, not d, since 1 / d^2 is not integrable at the
-// bone.
+// q E / (2 R^2) (|x - q(X)| - d(X))^2 dV, which does not depend on the mesh. The weight is R, not d, because 1 / d^2 is not integrable at
+// the bone.
 BoneAttachment bind_attachment(const pbs::Character& character, const FemOptions& options);
 
 // The bone that grips each vertex by springs or as prescribed, #V, -1: none. spring_tet: the tet that holds each spring, -1: outside.
 std::vector<int> gripping_bones(const BoneAttachment& bones, const pbs::Tets& tets, const std::vector<int>& spring_tet);
 
-// Where a pose takes what is attached [m]: #springs x 3; #V x 3, rest positions where nothing is prescribed; all of it.
+// Positions [m] of what is attached, in a pose: of springs, #springs x 3; of vertices, #V x 3, with rest positions where nothing is
+// prescribed; of everything.
 pbs::Positions spring_targets(const BoneAttachment& bones, const pbs::Pose& pose);
 pbs::Positions vertex_targets(const BoneAttachment& bones, const pbs::Positions& rest, const pbs::Pose& pose);
 reference_fem::Targets targets(const BoneAttachment& bones, const pbs::Positions& rest, const pbs::Pose& pose);

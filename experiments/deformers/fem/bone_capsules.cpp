@@ -92,7 +92,7 @@ pbs::Positions sample_points(const BoneCapsule& capsule)
         const pbs::Vec3 centre = capsule.start + (station + 0.5) / stations * axis;
         points.row(next++) = centre;
         for (int ring = 0; ring < rings; ++ring) {
-            // Of the disc's points, those further in and half of this ring's own lie within: half its area.
+            // The points further in and half of this ring's own points lie within this radius, and so does their share of the area.
             const double radius = capsule.radius_m * std::sqrt((1.0 + spokes * (ring + 0.5)) / points_per_disc);
             for (int spoke = 0; spoke < spokes; ++spoke) {
                 const double angle = 2.0 * std::numbers::pi * spoke / spokes;

@@ -1,6 +1,6 @@
-// Each bone as a rigid capsule inside the flesh: what the reference is held by. The capsule is the bone's middle (1/6 to 5/6 of its
-// length, the part that Eq. 2 gives to one bone alone) with core_radius times the local limb radius. It is defined by the character
-// alone, so the continuous problem does not depend on the elements. Its ends are flat: a cylinder, no half spheres.
+// Each bone as a rigid capsule inside the flesh, which holds the reference. The capsule is the bone's middle (1/6 to 5/6 of its length, the
+// part that Eq. 2 gives to one bone alone); its radius is core_radius times the local limb radius. It depends on the character alone, so
+// the continuous problem does not depend on the elements. Its ends are flat: it is a cylinder without half spheres.
 #pragma once
 
 #include "pbs/character/character.hpp"
@@ -13,7 +13,7 @@ namespace experiments {
 struct BoneCapsule {
     pbs::Vec3 start, end;  // of its axis [m]
     double radius_m = 0.0;
-    std::string radius_from;  // which vertices gave the limb radius
+    std::string radius_from;  // the vertices that gave the limb radius
 
     bool contains(const pbs::Vec3& point) const;  // between the ends and within the radius
     double volume_m3() const;
@@ -21,13 +21,13 @@ struct BoneCapsule {
 
 // The local limb radius is the mean rest distance to the bone over the skin vertices that are nearest to it and project on its middle;
 // where there are none, over all skin vertices nearest to it; where there are none either, over the whole skin to its nearest bones.
-// A refined character has the capsules of the unrefined one, though its skin vertices are others. A bone without length is a
+// A refined character has the capsules of the unrefined one, although its skin has other vertices. A bone without length is a
 // pbs::InputError.
 std::vector<BoneCapsule> bone_capsules(const pbs::Character& character, double core_radius);
 
-// Sample points of a capsule [m], 7,720 x 3, each standing for the same share of its volume: 40 stations along the axis, and in each disc
-// the centre and eight rings of 24, at the radii that halve the areas they stand for. The same for every mesh and element order, and dense
-// enough to be a volume also to tets refined twice: a few points would be point loads there, which give way without limit.
+// Sample points of a capsule [m], 7,720 x 3, each with the same share of its volume: 40 stations along the axis, and in each disc the
+// centre and eight rings of 24 points, at the radii that halve their areas. They are the same for every mesh and element order, and dense
+// enough to act as a volume on tets refined twice: a few points would be point loads there, under which the flesh yields without limit.
 pbs::Positions sample_points(const BoneCapsule& capsule);
 
 }  // namespace experiments

@@ -13,7 +13,7 @@ namespace experiments {
 namespace {
 
 constexpr double largest_turn_deg = 45.0;  // of a bone in one solve
-constexpr double far_turn_deg = 15.0;      // from where on the solution with fewer nodes is nearer than the last frame's
+constexpr double far_turn_deg = 15.0;      // beyond it the solution with fewer nodes is a better initial guess than the last frame's
 
 reference_fem::ElasticOptions solver_options(const FemOptions& options)
 {
@@ -37,7 +37,7 @@ pbs::Pose placed(pbs::Pose pose, const Eigen::Isometry3d& place)
     return pose;
 }
 
-// What carries each bone from one pose to the other.
+// The motion of each bone from one pose to the other.
 pbs::Pose turned_from(const pbs::Pose& from, pbs::Pose to)
 {
     for (std::size_t j = 0; j < to.size(); ++j) to[j] = to[j] * from[j].inverse();
@@ -47,7 +47,7 @@ pbs::Pose turned_from(const pbs::Pose& from, pbs::Pose to)
 FemOptions with_order_1(FemOptions options)
 {
     options.element_order = 1;
-    if (options.formulation == reference_fem::Formulation::mean_dilatation)  // the same on order 1
+    if (options.formulation == reference_fem::Formulation::mean_dilatation)  // equal to it on order 1
         options.formulation = reference_fem::Formulation::displacement;
     return options;
 }
@@ -109,7 +109,7 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
     return summary;
 }
 
-// Equilibria along a way of poses, in their place in the world.
+// Solves for equilibria along a path of poses, each placed in the world.
 void ElasticFemDeformer::follow(const PosePath& way, const Eigen::Isometry3d& place, const pbs::Vec3& gravity_m_s2, FrameSolve& solve)
 {
     const pbs::Positions& rest = character_->mesh.rest;
@@ -131,7 +131,7 @@ void ElasticFemDeformer::follow(const PosePath& way, const Eigen::Isometry3d& pl
     reached_pose_ = placed(way.at(solve.reached), place);
 }
 
-// Where it does not arrive the body is back where it was, mid-edge nodes halfway.
+// Where this fails, the body returns to where it was, with mid-edge nodes halfway between their ends.
 bool ElasticFemDeformer::settle_from_fewer_nodes(const pbs::Pose& pose, const RootFrame& frame, FrameSolve& solve)
 {
     const bool far = PosePath(character_->skeleton, reached_pose_, frame.pose()).largest_turn_deg() > far_turn_deg;
@@ -151,7 +151,7 @@ bool ElasticFemDeformer::settle_from_fewer_nodes(const pbs::Pose& pose, const Ro
     return false;
 }
 
-// In the root's frame, as they are.
+// The positions of the body with fewer nodes, in the root's frame; prolongated to the refined mesh.
 pbs::Positions ElasticFemDeformer::from_fewer_nodes() const
 {
     pbs::Positions start = fewer_nodes_->body_->positions();

@@ -1,17 +1,16 @@
-// The judge at large rotations as a deformer: any of the laws on the character's own tets, held by its bones, solved by Newton's method, in
-// equilibrium with every pose or in time.
+// The reference at large rotations as a deformer: any of the laws on the character's own tets, held by its bones, solved by Newton's
+// method, in equilibrium with every pose or in time.
 //
-// Quasi-static: the way from the last solved pose to the frame's is followed in stages in which no bone turns by more than 45 degrees, each
-// halved as often as it takes. Of a frame that is not reached the positions are those of the last equilibrium on the way, the outcome is
-// not_converged and the next frame sets out from there; the second in a row is tried again from rest, once. With nested_start a body
-// with fewer nodes goes the way to a pose far from the last, and this one sets out from where it arrived; only where that fails it goes the
-// way itself. The body with fewer nodes: with order 2 the same one with order 1, of a refined character the unrefined one, each from its
-// own such one.
-// start_from(): the next frame is Newton's method alone, in the frame's own pose from that shape. Where it does not arrive the positions
-// are its last iterate, and the frame after it goes on from there.
+// Quasi-static: the path from the last solved pose to the frame's pose is followed in stages. No bone turns by more than 45 degrees in a
+// stage, and each stage is halved until its parts converge. Where a frame is not reached, the positions are those of the last equilibrium
+// on the path, the outcome is not_converged, and the next frame begins there. The second such frame in a row is tried again from rest,
+// once. nested_start: a body with fewer nodes follows the path to a pose far from the last one, and its solution is the initial guess of
+// this body, which follows the path itself only where that fails. For order 2 that body has order 1; for a refined character it is the
+// unrefined one. start_from(): the next frame is Newton's method alone, in the frame's own pose, from that shape. Where it does not
+// converge, the positions are its last iterate, and the following frame continues from there.
 //
-// In time: the first pose is where the body rests in equilibrium; then every step is a time step. One that does not converge is taken
-// back, and the next one covers its time too.
+// In time: the body rests in equilibrium in the first pose; then every step is a time step. A step that does not converge is undone, and
+// the next step covers its time too.
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"
@@ -53,12 +52,12 @@ private:
     FemOptions options_;
     const pbs::Character* character_ = nullptr;
     BoneAttachment bones_;
-    pbs::Weights guide_weights_;  // empty where the attachment leaves turns free: the start alone would decide on them
+    pbs::Weights guide_weights_;  // empty where the attachment leaves rotations free: the initial guess alone would determine them
     std::unique_ptr<reference_fem::ElasticBody> body_;
-    pbs::Pose reached_pose_;   // that the body is in: relative to the root, or in the world where it moves in time
-    double unspent_s_ = 0.0;   // time of steps that were taken back
-    pbs::Positions start_;     // of the next frame, in the world [m], #V x 3; empty: the last state
-    bool is_started_ = false;  // in time: the first pose is there
+    pbs::Pose reached_pose_;   // of the body: relative to the root, or in the world where it moves in time
+    double unspent_s_ = 0.0;   // time of the steps that were undone
+    pbs::Positions start_;     // initial guess of the next frame, in the world [m], #V x 3; empty: the last state
+    bool is_started_ = false;  // in time: the first pose has been solved
     int failures_in_a_row_ = 0;
     std::unique_ptr<ElasticFemDeformer> fewer_nodes_;  // nested_start
     FemRecord record_;

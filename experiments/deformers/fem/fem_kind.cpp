@@ -7,7 +7,7 @@
 namespace experiments {
 namespace {
 
-// deal.II and some 200 shared objects: loaded when a scene first asks for a reference.
+// Loads deal.II and some 200 shared objects, when a scene first uses a reference.
 std::unique_ptr<Deformer> make_fem(const DeformerSpec& spec)
 {
     const auto make = load_module_with_blas("pbskin_fem").function<decltype(pbskin_make_fem)>("pbskin_make_fem");

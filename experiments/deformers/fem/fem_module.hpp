@@ -1,4 +1,4 @@
-// The one entry of the module lib/libpbskin_fem.so, which carries deal.II: loaded when a scene first asks for a reference.
+// The entry for deformers into the module lib/libpbskin_fem.so, which carries deal.II and is loaded when a scene first uses a reference.
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"

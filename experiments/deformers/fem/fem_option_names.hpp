@@ -1,4 +1,4 @@
-// The words that options of the finite element reference have in scenes and records.
+// The names of the values of the reference's options in scenes and records.
 #pragma once
 
 #include "experiments/deformers/fem/fem_options.hpp"

@@ -10,8 +10,8 @@
 
 namespace experiments {
 
-// embedded: each bone is a rigid capsule inside the flesh, tied to it by springs. nodes: whole tets inside the capsule are prescribed.
-// bind: the paper's bind constraint as an energy, for nonlinear models.
+// How the bones hold the flesh. embedded: each bone is a rigid capsule inside the flesh, tied to it by springs. nodes: whole tets inside
+// the capsule are prescribed. bind: the paper's bind constraint as an energy, for nonlinear models.
 enum class FemAttachment { embedded, nodes, bind };
 
 struct FemOptions {
@@ -27,10 +27,10 @@ struct FemOptions {
     double rayleigh_stiffness_s = 0.0;
     FemAttachment attachment = FemAttachment::embedded;
     double core_radius = 0.35;     // capsule radius over local limb radius
-    double spring_factor = 1.0e4;  // q: springs of density q E / r^2, r the capsule's radius; doubling it changes nothing that is reported
+    double spring_factor = 1.0e4;  // q: springs of density q E / r^2, r the capsule's radius; doubling it changes no reported value
     reference_fem::LinearSolver solver = reference_fem::LinearSolver::cholmod;
-    int most_newton_steps = 0;  // quasi-static: of a way to a pose, or of each stage of it; then it is not reached; 0: no limit
-    bool nested_start = false;  // nonlinear: far poses are set out for from the solution with fewer nodes (order 1, unrefined)
+    int most_newton_steps = 0;  // quasi-static: per stage of the way to a pose, which is then not reached; 0: no limit
+    bool nested_start = false;  // nonlinear: the way to a far pose begins at the solution with fewer nodes (order 1, unrefined)
 };
 
 }  // namespace experiments

@@ -1,5 +1,5 @@
-// What goes on record beside a reference's frames, whatever its model: what was gripped of each bone and how well, set-up, the largest
-// rotation. Accumulated over the frames so far.
+// The record of a reference's frames, for every model: what the attachment grips of each bone and how well, the set-up, and the largest
+// rotation. It accumulates over the frames.
 #pragma once
 
 #include "experiments/deformers/fem/bone_attachment.hpp"
@@ -8,14 +8,14 @@
 
 namespace experiments {
 
-// What the attachment takes hold of for one bone.
+// What the attachment holds for one bone.
 struct BoneGrip {
     std::string name;
     int holds = 0;             // embedded: sample points; bind: vertices
-    int inside = 0;            // of these, in the flesh
+    int inside = 0;            // the holds that are in the flesh
     int tets = 0;              // tets gripped
     double skin_share = 0.0;   // share of the gripped tets' vertices that lie on the skin
-    int shared_vertices = 0;   // of the gripped tets' vertices, those that another bone grips too: P1 cannot follow both
+    int shared_vertices = 0;   // vertices of the gripped tets that another bone grips too: P1 cannot follow both
     double error_rms_m = 0.0;  // largest over the frames of the frame's rms error of its holds
 };
 
@@ -23,12 +23,12 @@ class FemRecord {
 public:
     FemRecord() = default;
 
-    // spring_tet: the tet that holds each spring, -1: outside. A bone that grips nothing is a pbs::InputError, but where it binds.
+    // spring_tet: the tet that holds each spring, -1: outside. A bone that grips nothing is a pbs::InputError, except with bind.
     FemRecord(const pbs::Character& character, const FemOptions& options, const BoneAttachment& bones, const std::vector<int>& spring_tet);
 
     void add_frame(const pbs::Pose& relative_pose);  // relative to the root
-    // Where the holds (springs, or bind points) were to be [m], #holds x 3, and by how much the flesh misses them [m], #holds; not a number
-    // for a hold outside the flesh.
+    // targets [m], #holds x 3: where the holds (springs, or bind points) should be. errors_m, #holds: the distance of the flesh from them;
+    // not a number for a hold outside the flesh.
     void add_grip(const pbs::Positions& targets, const Eigen::VectorXd& errors_m);
 
     nlohmann::json to_json(const reference_fem::SetupSummary& setup) const;

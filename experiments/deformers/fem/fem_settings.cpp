@@ -16,8 +16,8 @@ void add_material_keys(OptionFields<FemOptions>& fields)
         .add("element_order", &FemOptions::element_order, {.lowest = 1, .highest = 2, .meaning = "polynomial order of the simplices"})
         .add("formulation", &FemOptions::formulation,
              {.meaning =
-                  "how volume enters: displacement; mean_dilatation (one volume constraint a tet), which on order 1 is the same; "
-                  "taylor_hood (order 2 with a continuous pressure, the most accurate near nu = 1/2; of the linear model, quasi-static)"})
+                  "how volume enters: displacement; mean_dilatation (one volume constraint per tet), which equals displacement on order 1; "
+                  "taylor_hood (order 2 with a continuous pressure, the most accurate near nu = 1/2; for the linear model, quasi-static)"})
         .add("young_pa", &FemOptions::young_pa,
              {.unit = "Pa",
               .lowest = above_zero,
@@ -31,7 +31,7 @@ void add_material_keys(OptionFields<FemOptions>& fields)
              {.meaning = "time integration: quasi_static (equilibrium in every frame), newmark (average acceleration), generalized_alpha"});
 }
 
-// One key, two members.
+// One key sets two members.
 void add_rayleigh_key(OptionFields<FemOptions>& fields)
 {
     const auto read = [](FemOptions& options, const SceneValues& values, const std::string& path) {
@@ -65,24 +65,24 @@ void add_solution_keys(OptionFields<FemOptions>& fields)
              {.lowest = 1e-3,
               .highest = 1e9,
               .meaning = "q: the attachment's density is q E / r^2, r the capsule's radius (embedded) or the local limb radius (bind)"})
-        .add("solver", &FemOptions::solver,
-             {.meaning = "cholmod; umfpack is the second opinion on the linear model; cg_ml: conjugate gradients with algebraic multigrid, "
-                         "linear model, for what a factor does not fit in memory for"})
+        .add(
+            "solver", &FemOptions::solver,
+            {.meaning = "cholmod; umfpack, for comparison, with the linear model; cg_ml: conjugate gradients with algebraic multigrid, for "
+                        "linear models whose factor does not fit in memory"})
         .add("most_newton_steps", &FemOptions::most_newton_steps,
              {.lowest = 0,
               .highest = 1e9,
               .meaning =
-                  "nonlinear model, dynamics quasi_static: a stage of the way to a pose that has taken so many of Newton's steps ends, "
-                  "and the pose is not reached; 0: no limit"})
+                  "nonlinear model, dynamics quasi_static: a stage of the way to a pose ends after this number of Newton steps, and the "
+                  "pose is not reached; 0: no limit"})
         .add("nested_start", &FemOptions::nested_start,
              {.meaning =
-                  "element_order 2 or a refined character, nonlinear model: to a pose in which a bone is turned by more than 15 degrees "
-                  "from "
-                  "the last, Newton's iterations start from the solution with order 1, of the unrefined one: a shorter way to the same "
-                  "solution"});
+                  "nonlinear model, with element_order 2 or a refined character: where a bone turns by more than 15 degrees from the last "
+                  "pose, Newton's iterations start from the solution with order 1 or of the unrefined character: a shorter way to the "
+                  "same solution"});
 }
 
-// Rules that more than one key takes part in.
+// The rules that involve more than one key.
 void check(const SceneValues& values, const std::string& table, const FemOptions& options)
 {
     const bool linear = options.model == reference_fem::Model::linear;
@@ -91,7 +91,7 @@ void check(const SceneValues& values, const std::string& table, const FemOptions
         values.refuse(table + ".attachment", "expected embedded or nodes with model linear: the bind constraint is not linear");
     if (!linear && options.solver != reference_fem::LinearSolver::cholmod)
         values.refuse(table + ".solver",
-                      "expected cholmod with a nonlinear model: Newton must be told of a matrix that is not positive definite");
+                      "expected cholmod with a nonlinear model: Newton needs to know where a matrix is not positive definite");
     if (options.formulation == reference_fem::Formulation::taylor_hood)
         if (!linear || !quasi_static || options.element_order != 2 || !(options.poisson > 0.0) ||
             options.solver == reference_fem::LinearSolver::cg_ml)
@@ -99,7 +99,7 @@ void check(const SceneValues& values, const std::string& table, const FemOptions
                 table + ".formulation",
                 "expected taylor_hood only with model linear, dynamics quasi_static, element_order 2, poisson > 0 and a direct solver");
     if (quasi_static && (options.rayleigh_mass_1_s > 0.0 || options.rayleigh_stiffness_s > 0.0))
-        values.refuse(table + ".rayleigh", "expected [0, 0] with dynamics quasi_static: nothing moves there that could be damped");
+        values.refuse(table + ".rayleigh", "expected [0, 0] with dynamics quasi_static: nothing moves there");
     if (options.nested_start && (linear || !quasi_static || (options.element_order != 2 && values.integer("character.refine") == 0)))
         values.refuse(table + ".nested_start",
                       "expected false unless element_order is 2 or character.refine > 0, the model nonlinear and dynamics quasi_static");

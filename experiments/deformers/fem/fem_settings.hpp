@@ -1,4 +1,4 @@
-// The options of the finite element reference in scenes and records: keys, and how they are read.
+// The options of the finite element reference in scenes and records: their keys, and how they are read.
 #pragma once
 
 #include "experiments/deformers/deformer_spec.hpp"

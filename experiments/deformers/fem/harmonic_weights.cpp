@@ -6,12 +6,12 @@ namespace experiments {
 namespace {
 
 constexpr double negligible = 1e-6;
-constexpr double regular = 1e-9;  // keeps a part that nothing grips from being singular; its weights come out as 0
+constexpr double regular = 1e-9;  // keeps the system of a part that nothing grips from being singular; its weights become 0
 
 using Laplacian = Eigen::SparseMatrix<double>;
 using Gradients = Eigen::Matrix<double, 3, 4>;
 
-// Gradients of the four barycentric coordinates [1/m], one a column, and the tet's volume [m^3].
+// Gradients of the four barycentric coordinates [1/m], one per column, and the tet's volume [m^3].
 Gradients barycentric_gradients(const pbs::TetMesh& mesh, Eigen::Index tet, double& volume_m3)
 {
     Eigen::Matrix3d edges;
@@ -23,7 +23,7 @@ Gradients barycentric_gradients(const pbs::TetMesh& mesh, Eigen::Index tet, doub
     return gradients;
 }
 
-// Rows of gripped vertices are those of the identity; what they would couple to goes to the right-hand side.
+// The rows of gripped vertices are those of the identity; their couplings go to the right-hand side.
 Laplacian held_laplacian(const pbs::TetMesh& mesh, const std::vector<int>& gripping_bone, Eigen::MatrixXd& right_hand_sides)
 {
     std::vector<Eigen::Triplet<double>> entries;

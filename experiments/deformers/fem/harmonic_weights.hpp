@@ -1,5 +1,5 @@
 // Smooth weights of the bones in the flesh: each bone's weight is harmonic, 1 where that bone grips the flesh and 0 where another does.
-// They tell where the flesh will roughly go when the bones move, so that Newton starts near; nothing that is reported depends on them.
+// They predict where the flesh moves with the bones and so give Newton's method its initial guess; no reported value depends on them.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -7,7 +7,7 @@
 
 namespace experiments {
 
-// gripping_bone: #V, -1 where no bone grips. By linear elements. A connected part that nothing grips goes with the first bone.
+// gripping_bone: #V, -1 where no bone grips. Linear elements. A connected part that nothing grips belongs to the first bone.
 pbs::Weights harmonic_weights(const pbs::TetMesh& mesh, const std::vector<int>& gripping_bone, int bones);
 
 }  // namespace experiments

@@ -1,4 +1,4 @@
-// Linear elasticity on the character's own tets, held by its bones, quasi-static: one factor, and a re-solve a frame.
+// Linear elasticity on the character's own tets, held by its bones, quasi-static: one factor, and one re-solve per frame.
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"
@@ -27,13 +27,12 @@ public:
 private:
     FemOptions options_;
     const pbs::Character* character_ = nullptr;
-    int root_ = 0;
     BoneAttachment bones_;
     std::unique_ptr<reference_fem::LinearElasticity> elasticity_;
     FemRecord record_;
     int frames_not_finite_ = 0;
     double largest_residual_ = 0.0;
-    int most_iterations_ = 0;   // of an iterative solver, in a frame
+    int most_iterations_ = 0;   // of an iterative solver, per frame
     pbs::Positions positions_;  // [m], #V x 3
 };
 

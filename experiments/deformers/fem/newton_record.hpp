@@ -1,5 +1,5 @@
-// What goes on record of Newton's method beside a nonlinear reference's frames: what it cost, which guards were needed, and each frame
-// that was not reached, with the reason. Accumulated over the frames so far.
+// The record of Newton's method for a nonlinear reference: its cost, the guards that were needed, and each frame that was not reached, with
+// the reason. It accumulates over the frames.
 #pragma once
 
 #include "reference_fem/elastic_body.hpp"
@@ -8,10 +8,10 @@
 
 namespace experiments {
 
-// What was done for one frame.
+// The solves for one frame.
 struct FrameSolve {
-    std::vector<reference_fem::LoadPathSummary> stages;  // in their order; after a restart those of both tries
-    double reached = 0.0;                                // fraction of the last way taken, 1: the frame's own pose
+    std::vector<reference_fem::LoadPathSummary> stages;  // in their order; after a restart those of both attempts
+    double reached = 0.0;                                // fraction of the last path, 1: the frame's own pose
     bool restarted = false;                              // from rest
 
     bool converged() const { return reached >= 1.0; }
@@ -22,7 +22,7 @@ public:
     NewtonRecord() = default;
     explicit NewtonRecord(double rest_volume_m3) : rest_volume_m3_(rest_volume_m3) {}
 
-    void add_frame(const FrameSolve& solve, const reference_fem::Jacobians& flesh);  // the flesh as the frame left it
+    void add_frame(const FrameSolve& solve, const reference_fem::Jacobians& flesh);  // flesh: at the end of the frame
 
     nlohmann::json to_json() const;
 
@@ -31,12 +31,12 @@ private:
     void add_failure(const FrameSolve& solve, const reference_fem::Jacobians& flesh);
 
     int frames_ = 0, restarts_ = 0;
-    int newton_steps_ = 0, most_newton_steps_ = 0;  // in all, and of one frame
+    int newton_steps_ = 0, most_newton_steps_ = 0;  // in total, and the most of one frame
     int factorisations_ = 0, projected_ = 0, halvings_ = 0;
     double seconds_ = 0.0, longest_s_ = 0.0;
     nlohmann::json not_converged_ = nlohmann::json::array();
 
-    // Of the frames that converged, at the elements' own quadrature points.
+    // Over the frames that converged, at the elements' own quadrature points.
     double rest_volume_m3_ = 0.0, smallest_volume_change_ = 0.0, largest_volume_change_ = 0.0;
     double lowest_det_f_ = 1.0;
     int most_inverted_points_ = 0;

@@ -1,5 +1,5 @@
-// A way from one pose to another on which joints stay joined: each bone turns relative to its parent at an even rate, the short way round
-// (slerp), and its head moves on its parent in a straight line; roots turn and move so in the world.
+// A path from one pose to another on which joints stay joined: each bone turns relative to its parent at an even rate, the short way round
+// (slerp), and its head moves in a straight line relative to its parent. Roots turn and move in the world in the same way.
 //   const PosePath path(skeleton, from, to);
 //   path.at(0.5);
 #pragma once
@@ -17,8 +17,8 @@ public:
 
 private:
     struct Joint {
-        Eigen::Quaterniond rotation;  // relative to the parent's
-        pbs::Vec3 head;               // where it sits, in the parent's rest coordinates [m]
+        Eigen::Quaterniond rotation;  // relative to the parent
+        pbs::Vec3 head;               // its place in the parent's rest coordinates [m]
     };
     std::vector<Joint> joints_of(const pbs::Pose& pose) const;
 

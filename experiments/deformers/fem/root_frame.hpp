@@ -1,5 +1,5 @@
-// A pose as seen from its root bone, and back: the rigid motion of the whole body is removed before a quasi-static solve and put back
-// after. That is exact: no law of the reference but the linear one notices a rigid motion, and the linear one must not be shown any.
+// A pose relative to its root bone, and back: the rigid motion of the whole body is removed before a quasi-static solve and applied after
+// it. This is exact: all laws except the linear one are invariant under a rigid motion, and the linear one must not see any.
 #pragma once
 
 #include "pbs/skinning/pose.hpp"
