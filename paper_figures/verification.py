@@ -1,8 +1,6 @@
 """The finite element reference against theory: errors of a manufactured solution against the cell size, with the theoretical slopes; the
 stiffness in bending and torsion that remains as Poisson's ratio approaches 1/2; and the difference of every benchmark from its reference on
 the finest mesh."""
-import re
-
 import entries
 import records
 import style
@@ -26,10 +24,6 @@ benchmarks = {
     ("twisted_beam", "tip deflection, load across the tip's width (out of plane)"): "MacNeal\u2013Harder twisted beam, out of plane",
     ("thick_plate", "sigma_yy at D"): "NAFEMS LE10, stress at D",
 }
-
-
-def poisson(row):
-    return re.search(r"nu = ([0-9.]+)", row["material"]).group(1)
 
 
 def theory(ladder, order):
@@ -65,7 +59,7 @@ def draw_convergence(axes, rows):
 
 def shown_of(row):
     """The members of a row that the locking panel and the CSV show."""
-    distance = 1.0 - 2.0 * float(poisson(row)) if row["elements"] in looks else 0.0  # rows without a volume change have no distance
+    distance = 1.0 - 2.0 * float(row["poisson"]) if row["elements"] in looks else 0.0  # rows without a volume change have no distance
     return {"one_less_two_nu": distance, "value_over_reference": float(row["value"]) / float(row["reference"])}
 
 
@@ -102,7 +96,7 @@ def finest(rows):
 
 
 def label_of(row):
-    return f"{benchmarks[row['problem'], row['quantity']]}, \u03bd = {float(poisson(row)):.4g}"
+    return f"{benchmarks[row['problem'], row['quantity']]}, \u03bd = {float(row['poisson']):.4g}"
 
 
 def draw_benchmarks(axes, rows):
@@ -140,7 +134,7 @@ def facts(rows):
 
 def draw(results, figures):
     rows = records.table(results / "verification" / "verification.csv",
-                         {"problem", "quantity", "elements", "material", "h_m", "dofs", "value", "reference", "difference_pct"})
+                         {"problem", "quantity", "elements", "material", "poisson", "h_m", "dofs", "value", "reference", "difference_pct"})
     manufactured, locking = ([row for row in rows if row["problem"] == name] for name in ("manufactured_solution", "locking"))
     shown = finest(rows)
     if not shown:

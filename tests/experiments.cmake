@@ -20,9 +20,7 @@ pbs_tests(unit experiments BLAS
     FILES experiments/deformers/fem/fem_module
     EXCEPT experiments/deformers/fem ${left_out}
     LIBRARIES experiments)
-pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies
-    EXCEPT experiments/studies/verification/calculix ${left_out}
-    LIBRARIES experiments)
+pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${left_out} LIBRARIES experiments)
 pbs_tests(properties experiments FOLDERS experiments LIBRARIES experiments)
 pbs_tests(regression experiments FOLDERS experiments LIBRARIES experiments)
 target_compile_definitions(test_regression_experiments PRIVATE PBS_KEPT_RECORDS="${PROJECT_SOURCE_DIR}/experiments/records/full")

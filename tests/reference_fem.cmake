@@ -15,15 +15,15 @@ endif()
 
 set(left_out)
 if(NOT PBS_WITH_CGAL)
-    list(APPEND left_out experiments/studies/verification/calculix/calculix)
+    list(APPEND left_out experiments/studies/verification/calculix)
 endif()
 if(NOT PBS_WITH_RIG_IMPORT OR NOT PBS_WITH_CGAL OR NOT PBS_WITH_MESH_IO)
     list(APPEND left_out experiments/deformers/fem/human_grip experiments/deformers/fem/limb_at_large_rotations)
 endif()
-pbs_tests(unit experiments_fem BLAS FOLDERS experiments/deformers/fem experiments/studies/verification/calculix
+pbs_tests(unit experiments_fem BLAS FOLDERS experiments/deformers/fem
     EXCEPT experiments/deformers/fem/fem_module
-    LIBRARIES calculix pbs_character)
-pbs_tests(verification experiments_fem BLAS FOLDERS experiments/deformers/fem experiments/studies/verification/calculix
-    FILES experiments/verification_record
+    LIBRARIES fem_deformer pbs_character)
+pbs_tests(verification experiments_fem BLAS FOLDERS experiments/deformers/fem
+    FILES experiments/studies/verification/calculix experiments/verification_record
     EXCEPT ${left_out}
     LIBRARIES fem_verification experiments)

@@ -1,7 +1,7 @@
 // pbskin report DIR: the records and the figures drawn from them as one self-contained page, DIR/report.html.
+#include "analysis/records/scratch_folder.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/program_run.hpp"
-#include "experiments/process/scratch_folder.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <cstdio>
@@ -23,7 +23,7 @@ fs::path page_maker()
 // Debian's first: a version manager's python3 on the PATH often has not what the figures need.
 std::string python_that_draws()
 {
-    const ScratchFolder scratch;
+    const analysis::ScratchFolder scratch;
     for (const char* python : {"/usr/bin/python3", "python3"})
         if (run_program({python, "-c", "import numpy, matplotlib"}, scratch.path()).succeeded()) return python;
     throw pbs::InputError("", 0, "report", "",

@@ -21,11 +21,16 @@ std::string elements_name(int element_order, Formulation formulation)
     return order;
 }
 
-std::string linear_material(double poisson)
+RowMaterial material_of(const std::string& law, double poisson)
 {
     char text[64];
-    std::snprintf(text, sizeof text, "linear, nu = %.6g", poisson);
-    return text;
+    std::snprintf(text, sizeof text, ", nu = %.6g", poisson);
+    return {law + text, poisson};
+}
+
+RowMaterial linear_material(double poisson)
+{
+    return material_of("linear", poisson);
 }
 
 double order_between(double coarse, double fine)

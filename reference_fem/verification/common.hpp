@@ -22,14 +22,16 @@ VerificationRows thick_plate_rows(const Effort& effort);
 VerificationRows half_turn_rows(const Effort& effort);
 VerificationRows dynamics_rows(const Effort& effort);
 VerificationRows moving_skeleton_rows(const Effort& effort);
+VerificationRows distributed_rows(const Effort& effort);
 
 // What the solver is given in place of `material`: the same, unless the effort asks for an error in lambda.
 ElasticMaterial solver_material(const Effort& effort, const ElasticMaterial& material);
 
 // P1, P2, P2 mean dilatation, P2 Taylor-Hood
 std::string elements_name(int element_order, Formulation formulation = Formulation::displacement);
-std::string linear_material(double poisson);       // linear, nu = 0.3
-double order_between(double coarse, double fine);  // of errors on two meshes, one twice as fine
+RowMaterial material_of(const std::string& law, double poisson);  // neo-Hookean, nu = 0.3
+RowMaterial linear_material(double poisson);                      // linear, nu = 0.3
+double order_between(double coarse, double fine);                 // of errors on two meshes, one twice as fine
 
 // R. MacNeal, R. Harder, A proposed standard set of problems to test finite element accuracy, Finite Elements in Analysis and Design 1
 // (1985) 3-20, Table 13: an element that is within 2 % of the reference is given an A.

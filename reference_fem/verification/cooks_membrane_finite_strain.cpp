@@ -21,7 +21,7 @@ VerificationRow row_of(const Effort& effort, bool plane_strain, int element_orde
     return {.problem = "cooks_membrane_finite_strain",
             .quantity = plane_strain ? "rise of the corner (48,60), plane strain" : "rise of the corner (48,60), free faces",
             .elements = elements_name(element_order),
-            .material = "isochoric neo-Hookean, nu = 0.3",
+            .material = material_of("isochoric neo-Hookean", poisson),
             .mesh = text_of({n, n, 1}),
             .h_m = 16.0 / n * 1e-3,
             .dofs = solution.space->dofs(),

@@ -8,7 +8,6 @@
 #include "reference_fem/potentials/elastic_potential.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 
@@ -88,13 +87,11 @@ Figures turn(const SimplexSpace& space, const ElasticPotential& flesh)
 
 VerificationRow row_of(const Law& law, const std::string& quantity, const std::string& unit, double value, double reference)
 {
-    char poisson[32];
-    std::snprintf(poisson, sizeof poisson, ", nu = %.6g", law.poisson);
     constexpr double same = 1e-6;  // both stop at forces of 1e-8, Newton's last step being quadratic
     return {.problem = "half_turn",
             .quantity = quantity,
             .elements = elements_name(1),
-            .material = law.name + poisson,
+            .material = material_of(law.name, law.poisson),
             .mesh = text_of(divisions),
             .h_m = length_m / divisions[0],
             .value = value,

@@ -68,7 +68,7 @@ VerificationRow row_of(const Law& law, const std::string& quantity, double value
     return {.problem = "laws",
             .quantity = quantity,
             .elements = "one point",
-            .material = law.name + ", nu = 0.4",
+            .material = material_of(law.name, 0.4),
             .mesh = "none",
             .value = value,
             .unit = "1",

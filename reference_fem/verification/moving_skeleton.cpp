@@ -92,7 +92,7 @@ void add_orders(const Effort& effort, const Skeleton& skeleton, Dynamics dynamic
                                                        dynamics == Dynamics::newmark ? "Newmark" : "generalised-alpha, rho = 0.8",
                                                        skeleton.name, 1e3 * end_s / steps),
                                .elements = "P1",
-                               .material = "stable neo-Hookean, nu = 0.3",
+                               .material = material_of("stable neo-Hookean", 0.3),
                                .mesh = text_of(divisions),
                                .h_m = cell_m,
                                .dofs = static_cast<int>(3 * skeleton.mesh.rest.rows()),

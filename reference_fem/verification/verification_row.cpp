@@ -45,7 +45,8 @@ nlohmann::json to_json(const VerificationRow& row)
     return {{"problem", row.problem},
             {"quantity", row.quantity},
             {"elements", row.elements},
-            {"material", row.material},
+            {"material", row.material.text},
+            {"poisson", to_json(row.material.poisson)},
             {"mesh", row.mesh},
             {"h_m", row.h_m},
             {"dofs", row.dofs},
@@ -69,7 +70,7 @@ VerificationRow verification_row(const nlohmann::json& json)
     row.problem = json.at("problem");
     row.quantity = json.at("quantity");
     row.elements = json.at("elements");
-    row.material = json.at("material");
+    row.material = {json.at("material"), optional_number(json, "poisson")};
     row.mesh = json.at("mesh");
     row.h_m = json.at("h_m");
     row.dofs = json.at("dofs");

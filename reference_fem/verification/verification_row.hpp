@@ -10,13 +10,18 @@
 
 namespace reference_fem {
 
+struct RowMaterial {
+    std::string text = {};               // law and parameters in words, or none
+    std::optional<double> poisson = {};  // Poisson's ratio, of an elastic law
+};
+
 struct VerificationRow {
     std::string problem = {};   // its name in the list of problems
     std::string quantity = {};  // what is compared
     std::string elements = {};  // P1, P2, with the formulation where it is not that of displacements
-    std::string material = {};  // law and Poisson's ratio
-    std::string mesh = {};      // divisions
-    double h_m = 0.0;           // edge of a cell
+    RowMaterial material = {};
+    std::string mesh = {};  // divisions
+    double h_m = 0.0;       // edge of a cell
     int dofs = 0;
     double value = 0.0, reference = 0.0;
     std::string unit = {};    // of both; 1 where there is none

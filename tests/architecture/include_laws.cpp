@@ -20,7 +20,7 @@ const std::vector<Law> laws = {
     {"pbs/constraints/", {"pbs/geometry/", "pbs/constraints/"}},
     {"pbs/solver/", {"pbs/geometry/", "pbs/constraints/", "pbs/solver/"}},
     {"pbs/character/", {"pbs/"}},
-    {"reference_fem/verification/", {"pbs/geometry/", "reference_fem/"}},
+    {"reference_fem/verification/", {"pbs/geometry/", "reference_fem/", "analysis/records/"}},
     {"reference_fem/", {"pbs/geometry/", "reference_fem/"}, {"reference_fem/verification/"}},
     {"analysis/records/", {"pbs/geometry/", "analysis/records/"}},
     {"analysis/", {"pbs/geometry/", "analysis/"}},

@@ -1,6 +1,6 @@
 // Which folder may include which: geometry < skinning < character; geometry < constraints < solver. The reference (reference_fem) and the
-// metrics (analysis) share only the mesh with the method. The experiments depend on all of them and have layers of their own, in which no
-// study includes another one. A drawn figure computes nothing.
+// metrics (analysis) share only the mesh with the method; the verification of the reference writes records (analysis/records). The
+// experiments depend on all of them and have layers of their own, in which no study includes another one. A drawn figure computes nothing.
 #pragma once
 
 #include "tests/architecture/source_tree.hpp"

@@ -62,6 +62,12 @@ TEST(IncludeLawsBite, TheReferenceIncludesItsVerification)
                  "reference_fem/ may not include reference_fem/verification/a.hpp");
 }
 
+TEST(IncludeLawsBite, TheReferencesVerificationIncludesMetrics)
+{
+    expect_found(include_direction, {{"reference_fem/verification/x.cpp", "#include \"analysis/error_norms.hpp\"\n"}},
+                 "reference_fem/verification/ may not include analysis/error_norms.hpp");
+}
+
 TEST(IncludeLawsBite, RecordsIncludeVerdicts)
 {
     expect_found(include_direction, {{"analysis/records/x.cpp", "#include \"analysis/verdict.hpp\"\n"}},

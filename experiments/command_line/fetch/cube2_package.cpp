@@ -1,7 +1,7 @@
 #include "experiments/command_line/fetch/cube2_package.hpp"
 
+#include "analysis/records/scratch_folder.hpp"
 #include "experiments/process/program_run.hpp"
-#include "experiments/process/scratch_folder.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/frankie.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -19,7 +19,7 @@ std::string bring_cube2()
 {
     const std::string by_hand = "as root: apt-get install --no-install-recommends cube2-data";
     std::vector<std::string> install = {"apt-get", "install", "-y", "-qq", "--no-install-recommends", "cube2-data"};
-    const ScratchFolder scratch;
+    const analysis::ScratchFolder scratch;
     if (::geteuid() != 0) {
         if (!run_program({"sudo", "-n", "true"}, scratch.path()).succeeded())
             throw pbs::InputError("", 0, "cube2-data", "", "not root, and sudo wants a password; " + by_hand);

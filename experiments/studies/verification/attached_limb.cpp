@@ -1,7 +1,7 @@
-// The judge as a deformer, on a coarse limb whose forearm turns: what must hold of it whatever the flesh.
-//   Young's modulus cancels where displacements alone drive the body; a pose that turns the whole limb leaves its shape alone however
-//   the bones hold it; a fit of Poisson's ratio to the judge's own shape finds the ratio that it was made with; a further frame of the
-//   linear reference costs a re-solve.
+// The reference as a deformer, on a coarse limb whose forearm turns: properties that do not depend on the flesh.
+//   Young's modulus cancels where displacements alone drive the body. A pose that turns the whole limb does not change its shape, however
+//   the bones hold it. A fit of Poisson's ratio to the reference's own shape finds the ratio that the shape was made with. A further frame
+//   of the linear reference costs one re-solve.
 #include "experiments/studies/verification/problem.hpp"
 #include "reference_fem/verification/common.hpp"
 
@@ -35,7 +35,7 @@ pbs::Pose turned_whole(const pbs::Character& limb, double angle_deg)
     return pbs::Pose(limb.skeleton.bones.size(), Eigen::Isometry3d(turn));
 }
 
-// Not a number where the pose is not reached.
+// The values are not a number where the pose is not reached.
 pbs::Positions shape(const pbs::Character& limb, const FemOptions& options, const pbs::Pose& pose)
 {
     ElasticFemDeformer deformer(options);
@@ -56,7 +56,7 @@ VerificationRow row_of(const pbs::Character& limb, const std::string& quantity, 
     return {.problem = "attached_limb",
             .quantity = quantity,
             .elements = "P1",
-            .material = "stable neo-Hookean, nu = 0.45",
+            .material = material_of("stable neo-Hookean", 0.45),
             .mesh = "limb, " + std::to_string(limb.mesh.rest.rows()) + " vertices",
             .dofs = static_cast<int>(3 * limb.mesh.rest.rows()),
             .value = value,
@@ -123,7 +123,7 @@ VerificationRow kept_factor(const pbs::Character& limb)
     row.low.reset();
     row.high.reset();
     row.elements = "P2";
-    row.material = "linear, nu = 0.45";
+    row.material = linear_material(0.45);
     row.source = "none: a cost of this run; at most 1/50 is wanted of a factor that is kept";
     return row;
 }

@@ -1,5 +1,5 @@
-// The split of an error into solver, model and discretisation, on a coarse limb whose forearm is twisted: what must hold of its parts
-// whatever the flesh, and what the attachment and the bones' thickness are worth there, to be seen.
+// The split of an error into solver, model and discretisation, on a coarse limb whose forearm is twisted: properties of its parts that do
+// not depend on the flesh; and, for information, the effect of the attachment and of the bones' thickness.
 #include "experiments/studies/verification/problem.hpp"
 #include "reference_fem/verification/common.hpp"
 
@@ -36,11 +36,11 @@ public:
     explicit TwistedLimb(pbs::Character limb)
         : limb_(std::move(limb)),
           pose_(pbs::joint_sweep(limb_.skeleton, 1, pbs::Vec3::UnitX(), angle_deg, 2, 0.01).steps.back()),
-          ruler_({limb_.mesh.rest, limb_.mesh.tets, {}, blended_vertices(limb_), limb_.binding.distance})
+          norms_({limb_.mesh.rest, limb_.mesh.tets, {}, blended_vertices(limb_), limb_.binding.distance})
     {
     }
 
-    // Not a number where the pose is not reached.
+    // The values are not a number where the pose is not reached.
     pbs::Positions flesh(const FemOptions& options) const
     {
         ElasticFemDeformer deformer(options);
@@ -63,7 +63,7 @@ public:
 
     double distance_pct(const pbs::Positions& one, const pbs::Positions& other) const
     {
-        return ruler_.measure(one.topRows(limb_.mesh.rest.rows()), other.topRows(limb_.mesh.rest.rows())).joint_pct;
+        return norms_.measure(one.topRows(limb_.mesh.rest.rows()), other.topRows(limb_.mesh.rest.rows())).joint_pct;
     }
 
     VerificationRow row(const std::string& quantity, const std::string& unit, double value) const
@@ -71,7 +71,7 @@ public:
         return {.problem = "error_split",
                 .quantity = quantity,
                 .elements = "P1",
-                .material = "stable neo-Hookean, nu = 0.45",
+                .material = material_of("stable neo-Hookean", 0.45),
                 .mesh = fmt::format("limb, {} vertices, twist of {:.0f} degrees", limb_.mesh.rest.rows(), angle_deg),
                 .dofs = static_cast<int>(3 * limb_.mesh.rest.rows()),
                 .value = value,
@@ -81,10 +81,10 @@ public:
 private:
     pbs::Character limb_;
     pbs::Pose pose_;
-    analysis::ErrorRuler ruler_;
+    analysis::ErrorRuler norms_;
 };
 
-// In one norm the whole is between the difference and the sum of its two parts.
+// In a norm, the whole lies between the difference and the sum of its two parts.
 VerificationRow whole_and_parts(const TwistedLimb& limb, const pbs::Positions& flesh, int iterations)
 {
     const pbs::Positions converged = limb.skinned(4000), stopped = limb.skinned(iterations);
@@ -98,7 +98,7 @@ VerificationRow whole_and_parts(const TwistedLimb& limb, const pbs::Positions& f
     return row;
 }
 
-// The bound from P1 on two meshes against a solution of higher order on the finer one.
+// Compares the bound from P1 on two meshes with a solution of higher order on the finer one.
 VerificationRow bound_covers(const TwistedLimb& limb, const TwistedLimb& refined, const pbs::Positions& flesh, const FemOptions& options)
 {
     FemOptions quadratic = options;

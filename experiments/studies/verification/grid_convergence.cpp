@@ -16,7 +16,7 @@ VerificationRow row_of(const std::string& quantity, const std::string& unit, dou
     return {.problem = "grid_convergence",
             .quantity = quantity,
             .elements = "three grids",
-            .material = "none",
+            .material = {"none"},
             .mesh = "ratio 2",
             .value = value,
             .reference = reference,

@@ -1,8 +1,8 @@
-// PBS's column of the locking table: what one volume constraint a tet does to the cantilever of cantilever.cpp.
-//   tip deflection   linear tets of a given shear modulus, every volume kept exactly: what P1 tends to as nu goes to 1/2
-//   motions left     by the constraints on the free vertices, by rank; counting has it that fewer than none are left
+// PBS's rows of the locking table: the effect of one volume constraint per tet on the cantilever of cantilever.cpp.
+//   tip deflection   of linear tets with a given shear modulus that keep every volume exactly, the limit of P1 as nu goes to 1/2
+//   motions left     by the constraints on the free vertices, by rank; by counting, fewer than none are left
 //   sag              of PBS itself, settled under its own weight (k_stretch gives the stiffness), with volume constraints over without
-// The latter is 5/6 where the constraints do no more than incompressibility does: edges alone are a body of central forces, nu = 1/4 and
+// The sag is 5/6 where the constraints do no more than incompressibility does: edges alone are a body of central forces, with nu = 1/4 and
 // E = 2.5 mu, and where no volume changes E = 3 mu.
 #include "experiments/studies/verification/problem.hpp"
 #include "experiments/studies/shared/near_rest/step_near_rest.hpp"
@@ -66,8 +66,8 @@ VerificationRow row_on(const Clamped& clamped, const std::string& quantity)
     return row;
 }
 
-// Deflection is linear in 1 / lambda as lambda grows, with an error of the second order: from two of P1's, a tenth of their difference is a
-// generous bound on what the line misses.
+// The deflection is linear in 1 / lambda as lambda grows, with an error of the second order. A tenth of the difference between two
+// deflections of P1 is a generous bound on the error of the line through them.
 VerificationRows deflection_rows(const Effort& effort, const Clamped& clamped)
 {
     const Positions load = end_load(clamped.bar);
@@ -77,7 +77,7 @@ VerificationRows deflection_rows(const Effort& effort, const Clamped& clamped)
     const VerificationRow near = p1(0.4999), nearer = p1(0.49999);
 
     VerificationRow beam = row_on(clamped, "tip deflection");
-    beam.material = "linear, nu = 0.5";
+    beam.material = linear_material(0.5);
     beam.value = deflection_m;
     beam.reference = nearer.reference;
     beam.unit = "m";
@@ -126,7 +126,7 @@ VerificationRows sag_rows(const Clamped& clamped, double k_stretch)
     for (const double k_volume : {0.01, 0.1, 1.0}) {
         VerificationRow row = row_on(clamped, "sag over sag without volume constraints");
         row.elements = "PBS";
-        row.material = fmt::format("k_stretch {:g}, k_volume {:g}, {} iterations", k_stretch, k_volume, iterations);
+        row.material.text = fmt::format("k_stretch {:g}, k_volume {:g}, {} iterations", k_stretch, k_volume, iterations);
         row.value = sag_over_dt2(clamped, k_stretch, k_volume) / without;
         row.reference = 5.0 / 6.0;
         row.source = "closed form: E = 2.5 mu of central forces, 3 mu where no volume changes";

@@ -1,13 +1,14 @@
-// The verification of the judge: patch tests, manufactured solutions, closed forms and published benchmarks, each problem a run of its own.
-// No claim rests on it; it says how far the reference itself may be trusted. Rows into DIR/verification/verification.csv, .json, .md.
+// The verification of the reference: patch tests, manufactured solutions, closed forms and published benchmarks, each problem a run of its
+// own. No claim depends on it; it shows how far the reference itself can be trusted. The rows are in DIR/verification/verification.csv,
+// .json and .md.
 #include "analysis/records/atomic_file.hpp"
 #include "experiments/process/blas_kernels.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/verification/verification_module.hpp"
-#include "experiments/studies/verification/verification_record.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "reference_fem/verification/verification_record.hpp"
 
 #include <fmt/format.h>
 
@@ -20,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// deal.II is loaded here, when the study is asked for.
+// Loads deal.II, when the study is planned or run.
 const std::vector<VerificationProblem>& problems_of_module()
 {
     return *load_module_with_blas("pbskin_fem").function<decltype(pbskin_verification_problems)>("pbskin_verification_problems")();

@@ -42,7 +42,7 @@ VolumeConstraints::VolumeConstraints(const pbs::TetMesh& mesh, const std::vector
 
 int VolumeConstraints::rank() const
 {
-    // Columns are the constraints: those that are not independent of the ones before are what pivoting finds.
+    // The constraints are the columns; pivoting finds those that depend on the others.
     Eigen::SparseQR<Sparse, Eigen::COLAMDOrdering<int>> qr;
     qr.setPivotThreshold(1e-10);
     Sparse columns = gradients_.transpose();
@@ -65,7 +65,7 @@ Positions VolumeConstraints::nearest(const Positions& motion) const
 
 Positions VolumeConstraints::equilibrium(const Positions& load_n, double shear_pa) const
 {
-    const double penalty = 1e4;  // over the shear modulus: large enough to converge in a few rounds, small enough to keep digits
+    const double penalty = 1e4;  // relative to the shear modulus: large enough to converge in a few rounds, small enough to keep digits
     const Sparse matrix = shear_stiffness() + penalty * Sparse(gradients_.transpose() * gradients_);
     const Eigen::SimplicialLDLT<Sparse> factor(matrix);
     const Eigen::VectorXd load = free_of(load_n) / shear_pa;

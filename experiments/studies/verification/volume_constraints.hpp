@@ -15,7 +15,7 @@ namespace experiments {
 
 class VolumeConstraints {
 public:
-    VolumeConstraints(const pbs::TetMesh& mesh, const std::vector<bool>& held);  // held: #V; those do not move
+    VolumeConstraints(const pbs::TetMesh& mesh, const std::vector<bool>& held);  // held: #V, the vertices that do not move
 
     int constraints() const { return static_cast<int>(gradients_.rows()); }
     int dofs() const { return static_cast<int>(gradients_.cols()); }  // of the vertices that are not held
@@ -24,8 +24,8 @@ public:
     // #T x dofs, row t: grad C_t / sqrt(V0_t) [m^(1/2)], so that gradients^T gradients is the integral of div phi_i div phi_j.
     const Eigen::SparseMatrix<double>& gradients() const { return gradients_; }
 
-    // The motion that keeps every volume and is nearest to the given one, all vertices weighing alike: what projections with unit masses
-    // converge to. #V x 3.
+    // The motion that keeps every volume and is nearest to the given one, with equal weights for all vertices: the limit of projections
+    // with unit masses. #V x 3.
     pbs::Positions nearest(const pbs::Positions& motion) const;
 
     // Displacement [m], #V x 3, of linear tets of this shear modulus [Pa] that keep every volume, under a load [N], #V x 3; at least three

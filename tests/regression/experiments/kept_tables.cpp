@@ -8,6 +8,7 @@
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
+#include "reference_fem/verification/verification_record.hpp"
 
 #include <gtest/gtest.h>
 
@@ -82,6 +83,14 @@ TEST(KeptTables, OfJiggle)
     expect_same_records(experiments::response_columns, "jiggle", "responses.csv");
     expect_same_records(experiments::zone_columns, "jiggle", "zone.csv");
     expect_same_records(experiments::walk_columns, "jiggle", "walk.csv");
+}
+
+TEST(KeptTables, OfTheVerification)
+{
+    const fs::path file = fs::path(PBS_KEPT_RECORDS) / "verification" / "verification.csv";
+    const analysis::CsvTable table = analysis::read_csv(file.string());
+    const analysis::Columns<reference_fem::RecordedRow>& columns = reference_fem::verification_columns();
+    expect_same_cells(table_of(columns, rows_of(columns, table)), table, file.string());
 }
 
 TEST(KeptTables, OfTheOtherStudies)

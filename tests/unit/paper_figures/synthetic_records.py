@@ -64,7 +64,7 @@ def write_regions(results):
                                  "change_pct": change, "own_change_pct": 10 * change})
 
 
-verification_columns = ["problem", "quantity", "elements", "material", "mesh", "h_m", "dofs", "value", "reference", "unit",
+verification_columns = ["problem", "quantity", "elements", "material", "poisson", "mesh", "h_m", "dofs", "value", "reference", "unit",
                         "difference_pct", "source", "bound_from", "low", "high", "observed_order", "expected_order", "note", "holds"]
 
 
@@ -80,14 +80,14 @@ def write_verification(results):
             for h in (0.5, 0.25, 0.125):
                 for norm, gain in (("error in L2 over that of the solution", 1), ("error in the H1 seminorm over that of the solution", 0)):
                     writer.writerow({"problem": "manufactured_solution", "quantity": norm, "elements": f"P{order}", "h_m": h, "dofs": 1 / h,
-                                     "value": h ** (order + gain), "material": "linear, nu = 0.3", "difference_pct": ""})
+                                     "value": h ** (order + gain), "material": "linear, nu = 0.3", "poisson": 0.3, "difference_pct": ""})
             for dofs, difference in ((10, -30.0), (20, -10.0 / order ** 4)):
                 writer.writerow({"problem": "cantilever", "quantity": "tip deflection", "elements": f"P{order}", "h_m": 1, "dofs": dofs,
-                                 "value": 1, "reference": 1, "material": "linear, nu = 0.3", "difference_pct": difference})
+                                 "value": 1, "reference": 1, "material": "linear, nu = 0.3", "poisson": 0.3, "difference_pct": difference})
         for problem, holds in (("beam", "yes"), ("sphere", "no")):
             writer.writerow({"problem": problem, "quantity": "deflection", "elements": "P1", "h_m": 1, "dofs": 9, "value": 2,
-                             "reference": 1,
-                             "material": "linear, nu = 0.3", "source": "closed form: a beam", "low": 0.5, "high": 1.5, "holds": holds})
+                             "reference": 1, "material": "linear, nu = 0.3", "poisson": 0.3,
+                             "source": "closed form: a beam", "low": 0.5, "high": 1.5, "holds": holds})
 
 
 def write_fit(results):

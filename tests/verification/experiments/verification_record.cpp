@@ -1,6 +1,6 @@
-// The quick verification record of the judge. Truth: what each row cites: closed forms, published benchmarks, other codes; its tolerance
-// and where that comes from stand in the row. And that the record can fail: with an error of 5 % in the solver's lambda, of which no
-// reference knows, named rows do not hold.
+// The quick verification record of the reference. Truth: what each row cites (closed forms, published benchmarks, other codes); the row
+// states its tolerance and where that comes from. The record can fail: with an error of 5 % in the solver's lambda, which the compared
+// values do not have, named rows do not hold.
 #include "experiments/studies/verification/problem.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST_P(VerificationRecord, EveryJudgedRowHoldsAndSaysWhy)
     int judged = 0;
     const VerificationRows rows = problem(GetParam()).rows({});
     for (const VerificationRow& row : rows) {
-        const std::string place = row.quantity + ", " + row.elements + ", " + row.material + ", " + row.mesh;
+        const std::string place = row.quantity + ", " + row.elements + ", " + row.material.text + ", " + row.mesh;
         EXPECT_NO_THROW(problem(row.problem)) << place;
         EXPECT_FALSE(row.quantity.empty() || row.elements.empty() || row.mesh.empty() || row.unit.empty()) << place;
         EXPECT_FALSE(row.source.empty()) << place;

@@ -1,7 +1,7 @@
 // surface_rest.vtp and embedding.csv. Reference: an affine map preserves barycentric coordinates, inside a tet and outside.
 #include "experiments/run/surface_record.hpp"
 
-#include "experiments/process/scratch_folder.hpp"
+#include "analysis/records/scratch_folder.hpp"
 #include "tests/support/unit_tet.hpp"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ TEST(SurfaceRecord, ItsSharesCarryThePointsAlong)
 
 TEST(SurfaceRecord, BothFilesStandInTheFolder)
 {
-    const ScratchFolder folder;
+    const analysis::ScratchFolder folder;
     const pbs::TetMesh mesh = test_support::unit_tet();
     write_surface(triangle(mesh), mesh, folder.path());
     EXPECT_GT(std::filesystem::file_size(folder.path() + "/surface_rest.vtp"), 0U);

@@ -1,7 +1,6 @@
-#include "experiments/studies/verification/verification_record.hpp"
+#include "reference_fem/verification/verification_record.hpp"
 
 #include "analysis/records/atomic_file.hpp"
-#include "analysis/records/typed_table.hpp"
 
 #include <fmt/format.h>
 
@@ -9,50 +8,13 @@
 #include <filesystem>
 #include <limits>
 
-namespace experiments {
+namespace reference_fem {
 namespace {
 
 std::string verdict_of(const VerificationRow& row)
 {
     const std::optional<bool> held = holds(row);
     return !held ? "" : *held ? "yes" : "no";
-}
-
-// A row with what follows from it.
-struct RecordedRow {
-    VerificationRow row;
-    std::optional<double> difference_pct;
-    std::string holds;
-};
-const analysis::Columns<RecordedRow> columns = {
-    {"problem", [](auto& one) -> decltype(auto) { return (one.row.problem); }  // namespace
-     ,
-     "", "name of the problem"}  // namespace experiments
-    ,
-    {"quantity", [](auto& one) -> decltype(auto) { return (one.row.quantity); }, "", "what is computed"},
-    {"elements", [](auto& one) -> decltype(auto) { return (one.row.elements); }, "", "elements and formulation"},
-    {"material", [](auto& one) -> decltype(auto) { return (one.row.material); }, "", "constitutive law and its parameters"},
-    {"mesh", [](auto& one) -> decltype(auto) { return (one.row.mesh); }, "", "the mesh in words"},
-    {"h_m", [](auto& one) -> decltype(auto) { return (one.row.h_m); }, "m", "size of its elements"},
-    {"dofs", [](auto& one) -> decltype(auto) { return (one.row.dofs); }, "", "degrees of freedom"},
-    {"value", [](auto& one) -> decltype(auto) { return (one.row.value); }, "", "computed value, in the row's unit"},
-    {"reference", [](auto& one) -> decltype(auto) { return (one.row.reference); }, "", "value that it is compared with, in the row's unit"},
-    {"unit", [](auto& one) -> decltype(auto) { return (one.row.unit); }, "", "unit of both"},
-    {"source", [](auto& one) -> decltype(auto) { return (one.row.source); }, "", "where the reference is from"},
-    {"difference_pct", &RecordedRow::difference_pct, "%", "difference of the value from the reference"},
-    {"low", [](auto& one) -> decltype(auto) { return (one.row.low); }, "", "lower bound of the value"},
-    {"high", [](auto& one) -> decltype(auto) { return (one.row.high); }, "", "upper bound of the value"},
-    {"bound_from", [](auto& one) -> decltype(auto) { return (one.row.bound_from); }, "", "where the bounds are from"},
-    {"observed_order", [](auto& one) -> decltype(auto) { return (one.row.observed_order); }, "", "observed order of convergence"},
-    {"expected_order", [](auto& one) -> decltype(auto) { return (one.row.expected_order); }, "", "order of convergence by theory"},
-    {"note", [](auto& one) -> decltype(auto) { return (one.row.note); }, "", "remark"},
-    {"holds", &RecordedRow::holds, "", "yes, no, or empty where nothing is judged"}};
-
-std::string csv_text(const VerificationRows& rows)
-{
-    std::vector<RecordedRow> recorded;
-    for (const VerificationRow& row : rows) recorded.push_back({row, difference_pct(row), verdict_of(row)});
-    return table_of(columns, recorded).text();
 }
 
 std::string number(const std::optional<double>& value, const char* format = "{:.6g}")
@@ -98,15 +60,15 @@ std::string markdown(const VerificationRows& rows)
         "holds | notes |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const VerificationRow& row : rows)
         text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.6g} | {} | {} | {} | {} | {} | {} | {} |\n", row.problem,
-                            row.quantity + (row.note.empty() ? "" : " (" + row.note + ")"), row.elements, row.material, row.mesh, row.dofs,
-                            row.value, row.reference == 0.0 ? "0" : number(row.reference), row.unit, number(difference_pct(row), "{:+.3g}"),
-                            order_text(row), bounds_text(row), verdict_of(row), marks(row, notes));
+                            row.quantity + (row.note.empty() ? "" : " (" + row.note + ")"), row.elements, row.material.text, row.mesh,
+                            row.dofs, row.value, row.reference == 0.0 ? "0" : number(row.reference), row.unit,
+                            number(difference_pct(row), "{:+.3g}"), order_text(row), bounds_text(row), verdict_of(row), marks(row, notes));
     text += "\n";
     for (std::size_t k = 0; k < notes.size(); ++k) text += fmt::format("{}. {}\n", k + 1, notes[k]);
     return text;
 }
 
-// Of what was seen of a quantity.
+// The values that a quantity had.
 struct Range {
     double low = std::numeric_limits<double>::infinity(), high = -low;
 
@@ -123,9 +85,9 @@ struct Range {
 };
 
 struct ProblemSummary {
-    int judged = 0, held = 0, beside = 0;
-    Range difference_pct, order_difference;  // of the judged rows
-    std::string failing;                     // a line each
+    int judged = 0, held = 0, without_bounds = 0;
+    Range difference_pct, order_difference;  // of the rows that are judged
+    std::string failing;                     // one line per row
 };
 
 ProblemSummary summarise(const std::string& problem, const VerificationRows& rows)
@@ -135,7 +97,7 @@ ProblemSummary summarise(const std::string& problem, const VerificationRows& row
         if (row.problem != problem) continue;
         const std::optional<bool> row_holds = holds(row);
         if (!row_holds) {
-            ++summary.beside;
+            ++summary.without_bounds;
             continue;
         }
         ++summary.judged;
@@ -144,27 +106,66 @@ ProblemSummary summarise(const std::string& problem, const VerificationRows& row
         if (row.expected_order && row.observed_order) summary.order_difference.add(*row.observed_order - *row.expected_order);
         if (!*row_holds)
             summary.failing += fmt::format("  does not hold: {}, {}, {}, {}: {} {}, expected {} {}\n", row.quantity, row.elements,
-                                           row.material, row.mesh, number(row.value), row.unit, bounds_text(row), order_text(row));
+                                           row.material.text, row.mesh, number(row.value), row.unit, bounds_text(row), order_text(row));
     }
     return summary;
 }
 
 }  // namespace
 
+const analysis::Columns<RecordedRow>& verification_columns()
+{
+    static const analysis::Columns<VerificationRow> compared = {{"problem", &VerificationRow::problem, "", "name of the problem"},
+                                                                {"quantity", &VerificationRow::quantity, "", "what is computed"},
+                                                                {"elements", &VerificationRow::elements, "", "elements and formulation"},
+                                                                {"material", [](auto& row) -> auto& {return row.material.text;
+}
+, "", "constitutive law and its parameters"
+}  // namespace reference_fem
+, {"poisson", [](auto& row) -> auto& {return row.material.poisson;
+}
+, "", "Poisson's ratio, of an elastic law"
+}
+, {"mesh", &VerificationRow::mesh, "", "the mesh in words"}, {"h_m", &VerificationRow::h_m, "m", "size of its elements"},
+    {"dofs", &VerificationRow::dofs, "", "degrees of freedom"}, {"value", &VerificationRow::value, "", "computed value, in the row's unit"},
+    {"reference", &VerificationRow::reference, "", "value that it is compared with, in the row's unit"},
+    {"unit", &VerificationRow::unit, "", "unit of both"},
+{
+    "source", &VerificationRow::source, "", "where the reference is from"
+}
+}
+;
+static const analysis::Columns<VerificationRow> bounds = {
+    {"low", &VerificationRow::low, "", "lower bound of the value"},
+    {"high", &VerificationRow::high, "", "upper bound of the value"},
+    {"bound_from", &VerificationRow::bound_from, "", "where the bounds are from"},
+    {"observed_order", &VerificationRow::observed_order, "", "observed order of convergence"},
+    {"expected_order", &VerificationRow::expected_order, "", "order of convergence by theory"},
+    {"note", &VerificationRow::note, "", "remark"}};
+static const analysis::Columns<RecordedRow> all =
+    within(&RecordedRow::row, compared) +
+    analysis::Columns<RecordedRow>{{"difference_pct", &RecordedRow::difference_pct, "%", "difference of the value from the reference"}} +
+    within(&RecordedRow::row, bounds) +
+    analysis::Columns<RecordedRow>{{"holds", &RecordedRow::holds, "", "yes, no, or empty where the row has no bounds"}};
+return all;
+}
+
 void write_verification_record(const std::string& folder, const VerificationRows& rows)
 {
-    nlohmann::json json = {{"schema", 1}, {"order_tolerance", reference_fem::order_tolerance}, {"rows", nlohmann::json::array()}};
+    nlohmann::json json = {{"schema", 2}, {"order_tolerance", order_tolerance}, {"rows", nlohmann::json::array()}};
     for (const VerificationRow& row : rows) json["rows"].push_back(to_json(row));
+    std::vector<RecordedRow> recorded;
+    for (const VerificationRow& row : rows) recorded.push_back({row, difference_pct(row), verdict_of(row)});
     const std::filesystem::path path(folder);
-    analysis::write_text_atomically((path / "verification.csv").string(), csv_text(rows));
+    analysis::write_text_atomically((path / "verification.csv").string(), table_of(verification_columns(), recorded).text());
     analysis::write_text_atomically((path / "verification.json").string(), json.dump(2) + "\n");
     analysis::write_text_atomically((path / "verification.md").string(), markdown(rows));
 }
 
 std::string verification_table(const VerificationRows& rows)
 {
-    constexpr auto line = "{:<30} {:>8} {:>7}   {:<22} {:<18}\n";
-    std::string text = fmt::format(line, "problem", "hold", "beside", "difference [%]", "order less theory");
+    constexpr auto line = "{:<30} {:>8} {:>14}   {:<22} {:<18}\n";
+    std::string text = fmt::format(line, "problem", "hold", "without bounds", "difference [%]", "order less theory");
     std::vector<std::string> problems;
     for (const VerificationRow& row : rows)
         if (!std::count(problems.begin(), problems.end(), row.problem)) problems.push_back(row.problem);
@@ -173,11 +174,11 @@ std::string verification_table(const VerificationRows& rows)
         const ProblemSummary summary = summarise(problem, rows);
         judged += summary.judged;
         held += summary.held;
-        text += fmt::format(line, problem, fmt::format("{}/{}", summary.held, summary.judged), summary.beside,
+        text += fmt::format(line, problem, fmt::format("{}/{}", summary.held, summary.judged), summary.without_bounds,
                             summary.difference_pct.text("{:+.3g}"), summary.order_difference.text("{:+.2f}")) +
                 summary.failing;
     }
-    return text + fmt::format("{} of {} rows hold; {} more are there to be seen\n", held, judged, rows.size() - judged);
+    return text + fmt::format("{} of {} rows hold; {} more have no bounds\n", held, judged, rows.size() - judged);
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

@@ -1,12 +1,11 @@
-// What solves systems that a factor does not fit in memory for, against CHOLMOD on the same cantilever: conjugate gradients with algebraic
-// multigrid in this process, and the program pbskin_distributed on one and two ranks. Without it beside this program, or without mpirun,
-// one row says so.
-#include "experiments/studies/verification/problem.hpp"
-#include "experiments/process/scratch_folder.hpp"
+// The solvers of systems whose factor does not fit in memory, compared with CHOLMOD on the same cantilever: conjugate gradients with
+// algebraic multigrid in this process, and the program pbskin_distributed on one and two ranks. One row states it where that program is not
+// in this program's folder or mpirun is not installed.
 #include "reference_fem/verification/common.hpp"
 #include "reference_fem/verification/structured_mesh.hpp"
 
 #include "analysis/records/csv_table.hpp"
+#include "analysis/records/scratch_folder.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -14,13 +13,9 @@
 #include <limits>
 #include <stdexcept>
 
-namespace experiments {
-
-using namespace reference_fem;
-
+namespace reference_fem {
 namespace {
 
-using namespace reference_fem;
 namespace fs = std::filesystem;
 
 // A residual r is an error of at most |r| over the lowest eigenvalue; a uniform load f across a cantilever has 0.78 of itself in that
@@ -29,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr double mode_share = 0.78;
 const std::string bound_text = "both solutions' relative residuals over 0.78, the share of a uniform load in a cantilever's first mode";
 
-// What the shell says, or nothing where the command fails.
+// The output of a shell command; nothing where it fails.
 std::optional<std::string> output_of(const std::string& command)
 {
     FILE* pipe = popen(command.c_str(), "r");
@@ -50,12 +45,12 @@ class Program {
 public:
     Program() : path_(fs::read_symlink("/proc/self/exe").parent_path() / "pbskin_distributed") {}
 
-    bool is_there() const { return fs::exists(path_) && output_of("command -v mpirun"); }
+    bool is_installed() const { return fs::exists(path_) && output_of("command -v mpirun"); }
 
-    // ranks 0: without mpirun.
+    // Without mpirun where ranks is 0.
     std::optional<Answer> solve(int ranks, int element_order, const std::string& arguments) const
     {
-        const ScratchFolder folder;
+        const analysis::ScratchFolder folder;
         const std::string launch = ranks ? "mpirun --allow-run-as-root --oversubscribe -n " + std::to_string(ranks) + " " : "";
         const auto text = output_of(launch + "'" + path_.string() + "' --bar 3000 --gravity 0 0 -9.81 --order " +
                                     std::to_string(element_order) + " --nodes -o " + folder.path() + " " + arguments + " 2>/dev/null");
@@ -140,7 +135,7 @@ VerificationRows distributed_rows(const Effort& effort)
                                       .unit = "1",
                                       .source = "CHOLMOD, one process",
                                       .note = "no pbskin_distributed beside this program, or no mpirun"};
-    if (!program.is_there()) {
+    if (!program.is_installed()) {
         rows.push_back(left_out);
         return rows;
     }
@@ -157,4 +152,4 @@ VerificationRows distributed_rows(const Effort& effort)
     return rows;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

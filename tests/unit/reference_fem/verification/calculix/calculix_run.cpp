@@ -1,5 +1,5 @@
 // Reference: what the stand-in programs do, shell scripts in the place of ccx.
-#include "experiments/studies/verification/calculix/calculix_run.hpp"
+#include "reference_fem/verification/calculix/calculix_run.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 namespace {
 
-using namespace experiments;
+using namespace reference_fem;
 
 class CalculixStandIn : public testing::Test {
 protected:

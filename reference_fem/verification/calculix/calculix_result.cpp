@@ -1,4 +1,4 @@
-#include "experiments/studies/verification/calculix/calculix_result.hpp"
+#include "reference_fem/verification/calculix/calculix_result.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 
@@ -11,7 +11,7 @@
 #include <sstream>
 #include <vector>
 
-namespace experiments {
+namespace reference_fem {
 namespace {
 
 constexpr const char* printed_name = "deck.dat";
@@ -145,4 +145,4 @@ CalculixDisplacements read_displacements(const std::string& printed, const std::
     return result;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

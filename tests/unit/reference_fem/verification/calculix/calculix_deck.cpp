@@ -1,7 +1,7 @@
 // Reference: CalculiX's manual. A number has 20 characters at most, *BOUNDARY lists node, first and last component, value; *CLOAD node,
 // component, value; C3D10's middle nodes lie on the edges 12 23 31 14 24 34.
-#include "experiments/studies/verification/calculix/calculix_deck.hpp"
-#include "tests/unit/experiments/studies/verification/calculix/one_tet_problem.hpp"
+#include "reference_fem/verification/calculix/calculix_deck.hpp"
+#include "tests/unit/reference_fem/verification/calculix/one_tet_problem.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 
 namespace {
 
-using namespace experiments;
+using namespace reference_fem;
 
 std::string deck_of(const NodalProblem& problem, const DeckOptions& options = {})
 {

@@ -1,10 +1,10 @@
-#include "experiments/studies/verification/calculix/calculix_deck.hpp"
+#include "reference_fem/verification/calculix/calculix_deck.hpp"
 
 #include <charconv>
 #include <cmath>
 #include <ostream>
 
-namespace experiments {
+namespace reference_fem {
 namespace {
 
 constexpr std::size_t number_width = 20;  // of CalculiX's Fortran format f20.0
@@ -115,4 +115,4 @@ void write_calculix_deck(std::ostream& deck, const NodalProblem& problem, const 
     deck << "*NODE PRINT, NSET=NODES, FREQUENCY=100000\nU\n*END STEP\n";
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

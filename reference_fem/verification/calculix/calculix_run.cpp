@@ -1,6 +1,6 @@
-#include "experiments/studies/verification/calculix/calculix_run.hpp"
+#include "reference_fem/verification/calculix/calculix_run.hpp"
 
-#include "experiments/process/scratch_folder.hpp"
+#include "analysis/records/scratch_folder.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
@@ -23,7 +23,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace experiments {
+namespace reference_fem {
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,7 +59,8 @@ bool wait_until_closed(int pipe, double seconds)
     return false;
 }
 
-// What the child starts with: `folder` as its own, its words into a file there, and the writing end of a pipe that closes with it.
+// The child's surroundings: `folder` as its working directory, its output in a file there, and the writing end of a pipe that closes when
+// it ends.
 class SpawnActions {
 public:
     SpawnActions(const std::string& folder, int pipe_end)
@@ -141,7 +142,7 @@ std::optional<std::string> calculix_on_path()
 
 std::string calculix_version(const std::string& program)
 {
-    const ScratchFolder folder;
+    const analysis::ScratchFolder folder;
     double cpu_s = 0.0;
     run_in(folder.path(), program, "-v", 10.0, cpu_s);
     const std::string output = text_of(folder / "output.txt");
@@ -151,7 +152,7 @@ std::string calculix_version(const std::string& program)
 
 CalculixRun run_calculix(const std::string& program, const std::function<void(std::ostream&)>& write_deck, const CalculixLimits& limits)
 {
-    const ScratchFolder folder;
+    const analysis::ScratchFolder folder;
     {
         std::ofstream deck(folder / "deck.inp");
         write_deck(deck);
@@ -168,4 +169,4 @@ CalculixRun run_calculix(const std::string& program, const std::function<void(st
     return run;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

@@ -1,5 +1,5 @@
 // Reference: the rules in the header, by hand.
-#include "experiments/studies/verification/verification_record.hpp"
+#include "reference_fem/verification/verification_record.hpp"
 
 #include "analysis/records/csv_table.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -10,14 +10,14 @@
 
 namespace {
 
-using namespace experiments;
+using namespace reference_fem;
 
 VerificationRow row()
 {
     return {.problem = "beam",
             .quantity = "deflection, \"mean\"",
             .elements = "P2",
-            .material = "linear, nu = 0.3",
+            .material = {"linear, nu = 0.3", 0.3},
             .mesh = "4 x 1 x 1",
             .h_m = 0.25,
             .dofs = 90,
@@ -79,7 +79,7 @@ TEST(VerificationRowTest, ComesBackFromJson)
     VerificationRow written = row();
     written.observed_order = 1.9;
     written.value = std::nan("");
-    const VerificationRow read = reference_fem::verification_row(nlohmann::json::parse(to_json(written).dump()));
+    const VerificationRow read = verification_row(nlohmann::json::parse(to_json(written).dump()));
     EXPECT_TRUE(std::isnan(read.value));
     VerificationRow comparable = read;
     comparable.value = written.value = 1.0;
@@ -91,12 +91,16 @@ TEST(VerificationRecordTest, IsWrittenAsCsvJsonAndMarkdown)
     const test_support::ScratchFolder folder;
     VerificationRow seen = row();
     seen.low = seen.high = std::nullopt;
+    seen.material = {"none"};
     write_verification_record(folder.path().string(), {row(), seen});
     const analysis::CsvTable table = analysis::read_csv(folder / "verification.csv");
     EXPECT_EQ(table.rows(), 2);
     EXPECT_EQ(table.text_at(0, "quantity"), "deflection, \"mean\"");
     EXPECT_EQ(table.number(0, "value"), 1.96);
+    EXPECT_EQ(table.text_at(0, "material"), "linear, nu = 0.3");
+    EXPECT_EQ(table.number(0, "poisson"), 0.3);
     EXPECT_EQ(table.text_at(0, "holds"), "yes");
+    EXPECT_EQ(table.text_at(1, "poisson"), "");
     EXPECT_EQ(table.text_at(1, "holds"), "");
     EXPECT_TRUE(std::filesystem::exists(folder / "verification.json"));
     EXPECT_TRUE(std::filesystem::exists(folder / "verification.md"));

@@ -3,9 +3,10 @@
 // number 4e6 is the stiffness of an edge, 5 E h, over that of the slowest mode, 12.4 E I / L^3 over a third of the nodes; twice that is
 // asked. At large strain CalculiX stops Newton at 1e-9 of the mean force, and quadratic convergence takes the displacements beyond.
 // Skipped where ccx is not on the PATH.
-#include "experiments/studies/verification/calculix/second_opinion.hpp"
-#include "experiments/studies/verification/calculix/second_opinion_cases.hpp"
+#include "experiments/studies/verification/held_frame.hpp"
 #include "pbs/character/bodies.hpp"
+#include "reference_fem/verification/calculix/loaded_cantilever.hpp"
+#include "reference_fem/verification/calculix/second_opinion.hpp"
 #include "tests/support/structured_bar.hpp"
 
 #include <gtest/gtest.h>
@@ -13,6 +14,8 @@
 namespace {
 
 using namespace experiments;
+using reference_fem::CalculixAnalysis;
+using reference_fem::DeckOptions;
 
 constexpr reference_fem::ElasticMaterial flesh{.young_pa = 1e5, .poisson = 0.3};
 constexpr double tolerance = 1e-7;

@@ -3,19 +3,19 @@
 // Elements C3D4 and C3D10, nodes and tets numbered from 1 in our order. A node that is held is held in all three components.
 #pragma once
 
-#include "experiments/studies/verification/calculix/nodal_problem.hpp"
+#include "reference_fem/verification/calculix/nodal_problem.hpp"
 
 #include <iosfwd>
 #include <string>
 
-namespace experiments {
+namespace reference_fem {
 
 enum class CalculixAnalysis {
     linear,
     // NLGEOM: second Piola-Kirchhoff stress linear in the Green-Lagrange strain, the law of St Venant and Kirchhoff. Data grow linearly
     // with the fraction of the step.
     large_strain,
-    none,  // nodes, tets and material without a step: what reading costs
+    none,  // nodes, tets and material without a step: the cost of reading
 };
 
 struct DeckOptions {
@@ -26,7 +26,7 @@ struct DeckOptions {
 
 void write_calculix_deck(std::ostream& deck, const NodalProblem& problem, const DeckOptions& options);
 
-// CalculiX reads the first 20 characters of a number and refuses or, worse, cuts the rest: the nearest one that fits. At least 14 digits.
+// The nearest number that fits in 20 characters, with at least 14 digits: CalculiX refuses or, worse, cuts what is longer.
 std::string calculix_number(double value);
 
-}  // namespace experiments
+}  // namespace reference_fem

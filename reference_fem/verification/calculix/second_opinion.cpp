@@ -1,8 +1,10 @@
-#include "experiments/studies/verification/calculix/second_opinion.hpp"
+#include "reference_fem/verification/calculix/second_opinion.hpp"
 
-#include "experiments/studies/verification/calculix/calculix_result.hpp"
+#include "reference_fem/verification/calculix/calculix_result.hpp"
 
-namespace experiments {
+namespace reference_fem {
+
+using namespace reference_fem;
 
 SecondOpinion second_opinion(const std::string& program, const AnsweredProblem& ours, const DeckOptions& options,
                              const CalculixLimits& limits)
@@ -23,4 +25,4 @@ SecondOpinion second_opinion(const std::string& program, const AnsweredProblem& 
     return opinion;
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

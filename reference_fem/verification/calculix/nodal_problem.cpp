@@ -1,8 +1,8 @@
-#include "experiments/studies/verification/calculix/nodal_problem.hpp"
+#include "reference_fem/verification/calculix/nodal_problem.hpp"
 
 #include "reference_fem/eliminated_system.hpp"
 
-namespace experiments {
+namespace reference_fem {
 
 Eigen::Map<const Eigen::VectorXd> as_dofs(const pbs::Positions& at_nodes)
 {
@@ -14,7 +14,7 @@ pbs::Positions at_nodes(const Eigen::VectorXd& dofs)
     return Eigen::Map<const pbs::Positions>(dofs.data(), dofs.size() / 3, 3);
 }
 
-NodalProblem nodal_problem(const reference_fem::SimplexSpace& space, const reference_fem::ElasticMaterial& material)
+NodalProblem nodal_problem(const SimplexSpace& space, const ElasticMaterial& material)
 {
     NodalProblem problem;
     problem.nodes = space.node_positions();
@@ -25,17 +25,15 @@ NodalProblem nodal_problem(const reference_fem::SimplexSpace& space, const refer
     return problem;
 }
 
-pbs::Positions linear_displacements(const reference_fem::SimplexSpace& space, const NodalProblem& problem)
+pbs::Positions linear_displacements(const SimplexSpace& space, const NodalProblem& problem)
 {
-    const auto lame = reference_fem::lame_parameters(problem.material.young_pa, problem.material.poisson);
+    const auto lame = lame_parameters(problem.material.young_pa, problem.material.poisson);
     const pbs::Vec3 body_force = problem.density_kg_m3 * problem.gravity_m_s2;
-    const Eigen::VectorXd load =
-        reference_fem::load_vector(space, [&](const pbs::Vec3&) { return body_force; }) + as_dofs(problem.forces_n);
+    const Eigen::VectorXd load = load_vector(space, [&](const pbs::Vec3&) { return body_force; }) + as_dofs(problem.forces_n);
     std::vector<bool> prescribed(space.dofs());
     for (int dof = 0; dof < space.dofs(); ++dof) prescribed[dof] = problem.held[dof / 3];
-    const reference_fem::EliminatedSystem system(reference_fem::stiffness_matrix(space, lame), prescribed,
-                                                 reference_fem::LinearSolver::cholmod);
+    const EliminatedSystem system(stiffness_matrix(space, lame), prescribed, LinearSolver::cholmod);
     return at_nodes(system.solve(load, as_dofs(problem.held_at)).displacement);
 }
 
-}  // namespace experiments
+}  // namespace reference_fem

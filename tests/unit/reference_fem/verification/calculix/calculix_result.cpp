@@ -1,6 +1,6 @@
 // Reference: what was put into the files. Fortran prints 1p,e13.6, leaves the E of a three-digit exponent out, and puts a record's length
 // before and after its data.
-#include "experiments/studies/verification/calculix/calculix_result.hpp"
+#include "reference_fem/verification/calculix/calculix_result.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 
@@ -11,7 +11,7 @@
 
 namespace {
 
-using namespace experiments;
+using namespace reference_fem;
 
 const std::string header = "\n displacements (vx,vy,vz) for set NODES and time  0.1000000E+01\n\n";
 const std::string first = "         1  1.234568E-03 -2.000000E+00  0.000000E+00\n";

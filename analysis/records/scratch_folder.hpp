@@ -11,7 +11,7 @@
 
 #include <stdlib.h>
 
-namespace experiments {
+namespace analysis {
 
 class ScratchFolder {
 public:
@@ -38,4 +38,4 @@ private:
     std::filesystem::path path_;
 };
 
-}  // namespace experiments
+}  // namespace analysis

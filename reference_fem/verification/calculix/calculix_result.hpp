@@ -1,4 +1,4 @@
-// Displacements out of what CalculiX wrote. It prints 7 digits (deck.dat); its restart file (deck.rout, *RESTART, WRITE: Fortran records
+// Displacements from CalculiX's files. It prints 7 digits (deck.dat); its restart file (deck.rout, *RESTART, WRITE: Fortran records
 // of raw memory) holds them in double. Which record of it they are depends on CalculiX's version, so it is recognised: the one of the
 // right length that agrees with every printed number to its last digit.
 #pragma once
@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace experiments {
+namespace reference_fem {
 
 struct CalculixDisplacements {
     pbs::Positions displacements;  // [m], #nodes x 3
@@ -21,4 +21,4 @@ pbs::Positions read_printed_displacements(const std::string& text, const std::st
 // Both; a restart file that is empty or holds no such record leaves the printed digits. pbs::InputError where it is cut short.
 CalculixDisplacements read_displacements(const std::string& printed, const std::string& restart, Eigen::Index nodes);
 
-}  // namespace experiments
+}  // namespace reference_fem
