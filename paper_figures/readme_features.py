@@ -8,8 +8,8 @@ import readme_part
 import records
 
 page = readme_part.source / "experiments" / "studies" / "features" / "README.md"
-head = ["| feature | ms of processor a frame without | with | ratio [quartiles] | start [s] without | with | peak [MB] without | with "
-        "| the answer moves |", "|---|---|---|---|---|---|---|---|---|"]
+head = ["| feature | processor ms per frame without | with | ratio [quartiles] | start [s] without | with | peak [MB] without | with "
+        "| the result moves |", "|---|---|---|---|---|---|---|---|---|"]
 
 
 def line(row):

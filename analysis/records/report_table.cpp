@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace analysis {
 namespace {
@@ -30,6 +31,18 @@ std::vector<std::vector<std::string>> shown_rows(const CsvTable& table, const st
 }
 
 }  // namespace
+
+std::vector<ReportColumn> report_columns(const std::string& names)
+{
+    std::vector<ReportColumn> columns;
+    std::istringstream words(names);
+    for (std::string word; words >> word;) {
+        const auto end = word.find(':');
+        const std::string name = word.substr(0, end);
+        columns.push_back({name, name, end == std::string::npos ? "" : fmt::format("{{{}}}", word.substr(end))});
+    }
+    return columns;
+}
 
 std::string markdown_table(const CsvTable& table, const std::vector<ReportColumn>& columns)
 {

@@ -5,16 +5,15 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <map>
 
 namespace experiments {
 namespace {
 
-constexpr int usual_bars[] = {2200, 19'500};  // vertices, of the targets
-constexpr int quick_bar = 300;                // vertices
+constexpr int usual_bars[] = {2200, 19'500}, quick_bar = 300;  // vertices
 constexpr int smallest_tets = 300, largest_tets = 20'000'000;
 
 using BodyMaker = std::function<BenchBody()>;
@@ -49,28 +48,18 @@ double machine_load()
     return getloadavg(&load, 1) == 1 ? load : 0.0;
 }
 
-bool of_same_kind(const ProjectionTiming& a, const ProjectionTiming& b)
-{
-    return a.variant == b.variant && a.precision == b.precision && a.threads == b.threads;
-}
-
 }  // namespace
 
 std::vector<ScalingFit> fit_scaling(const std::vector<MeshTimings>& meshes)
 {
     std::vector<ScalingFit> fits;
     if (meshes.size() < 2) return fits;
-    for (const ProjectionTiming& kind : meshes.front().projections) {
+    for (const ProjectionKind& kind : meshes.front().projections) {
         std::vector<double> constraints, ms_step;
-        for (const MeshTimings& mesh : meshes) {
-            const auto found = std::find_if(mesh.projections.begin(), mesh.projections.end(),
-                                            [&](const ProjectionTiming& timing) { return of_same_kind(timing, kind); });
-            if (found == mesh.projections.end()) continue;
-            constraints.push_back(mesh.constraints());
-            ms_step.push_back(found->ms_step.median);
-        }
-        if (constraints.size() == meshes.size())
-            fits.push_back({kind.variant, kind.precision, kind.threads, analysis::observed_order(constraints, ms_step).slope});
+        for (const MeshTimings& mesh : meshes)
+            for (const ProjectionTiming& timing : mesh.projections)
+                if (kind == timing) constraints.push_back(mesh.constraints()), ms_step.push_back(timing.ms_step.median);
+        if (constraints.size() == meshes.size()) fits.push_back({kind, analysis::observed_order(constraints, ms_step).slope});
     }
     return fits;
 }
@@ -80,7 +69,7 @@ BenchRecord run_bench(const BenchOptions& options)
     BenchRecord record;
     record.options = options;
     record.load_before = machine_load();
-    spdlog::info("the machine's limits");
+    spdlog::info("measuring the machine's limits");
     record.limits = options.quick ? measure_limits(1e-4, 1e6) : measure_limits(0.05);
     for (const BodyMaker& make : bodies_of(options)) {
         const BenchBody body = make();
@@ -96,10 +85,10 @@ int parse_size(const std::string& text)
 {
     char* end = nullptr;
     double number = std::strtod(text.c_str(), &end);
-    const std::string unit = end;
-    if (unit == "k" || unit == "K") number *= 1e3;
-    if (unit == "m" || unit == "M") number *= 1e6;
-    const bool known = unit.empty() || unit == "k" || unit == "K" || unit == "m" || unit == "M";
+    static const std::map<std::string, double> units = {{"", 1.0}, {"k", 1e3}, {"K", 1e3}, {"m", 1e6}, {"M", 1e6}};
+    const auto unit = units.find(end);
+    const bool known = unit != units.end();
+    if (known) number *= unit->second;
     if (!known || end == text.c_str() || !(number >= smallest_tets && number <= largest_tets))
         throw pbs::InputError("", 0, "--sizes", text, "expected numbers of tets from 300 to 20M, e.g. 1K,10K,100K,1M");
     return static_cast<int>(number);

@@ -4,42 +4,80 @@
 #pragma once
 
 #include "analysis/line_fit.hpp"
-#include "experiments/studies/bench/mesh_timings.hpp"
+#include "experiments/process/peak_memory.hpp"
+#include "experiments/studies/bench/projection_timing.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace experiments {
 
-struct BenchOptions {
-    std::string mesh;        // a tet mesh file; empty: built-in bars
-    bool bars = false;       // the two usual bars, of about 2,200 and 19,500 vertices, also where sizes are asked for
-    std::vector<int> sizes;  // bars of so many tets, ascending, and how the cost grows; empty: the two usual bars
-    int threads = 1;         // timed beside one thread
-    bool quick = false;      // a few milliseconds, to see that it runs: no figure of it is worth anything
-    double seconds = 4.0;    // of rounds on each body, about
+// LBS or DQS, in processor time of one thread: as the paper's Eq. 1 reads (`plain`), or packed for many poses of one body (`packed`).
+struct SkinningTiming {
+    std::string blend;      // lbs, dqs
+    std::string variant;    // plain, packed
+    std::string precision;  // f32, f64
+    Spread ns_vertex;
+    Spread ratio_to_plain;        // plain is in f64
+    double gb_s = 0.0;            // rest positions in and posed positions out, which a blend must move at least
+    double share_of_limit = 0.0;  // of the copy bandwidth at that working set
 };
 
+// The reference on the same tets (linear elasticity, P1, bones embedded): the first frame with its whole set-up, and every further frame.
+// Processor time of one thread, to which the BLAS is limited.
+struct FemTiming {
+    Spread ms_first_solve;    // elements, stiffness, elimination, symbolic analysis, factorisation, solve
+    Spread ms_further_frame;  // loads of another pose, and a solve
+    double further_to_first = 0.0;
+};
+
+struct MeshTimings {
+    std::string name;
+    int vertices = 0, edges = 0, tets = 0;
+    std::vector<ProjectionTiming> projections;
+    std::vector<SkinningTiming> skinning;
+    std::optional<FemTiming> fem;
+    std::string fem_left_out;  // the reason, where the reference could not be timed
+    PeakMemory memory;         // of a solver and one step of `ordered` in f32
+
+    double constraints() const { return double(vertices) + edges + tets; }
+};
+
+struct MeshTimingOptions {
+    std::vector<int> threads = {1};
+    Rounds rounds = {};
+    bool fem = true;
+};
+
+MeshTimings time_mesh(const BenchBody& body, const MachineLimits& limits, const MeshTimingOptions& options);
+
+struct BenchOptions {
+    std::string mesh;        // a tet mesh file; empty: built-in bars
+    bool bars = false;       // the two usual bars, of about 2,200 and 19,500 vertices, as well as the sizes
+    std::vector<int> sizes;  // bars with so many tets, ascending, for the growth of the cost; empty: the two usual bars
+    int threads = 1;         // timed as well as one thread
+    bool quick = false;      // a few milliseconds, to see that it runs; the times are worthless
+    double seconds = 4.0;    // of rounds on each body, about
+};
+nlohmann::json to_json(const BenchOptions& options);
+
 // How the cost of a step grows with the mesh: ms_step = c (number of constraints)^exponent, over bodies of growing size.
-struct ScalingFit {
-    std::string variant, precision;
-    int threads = 1;
+struct ScalingFit : ProjectionKind {
     analysis::Interval exponent;  // 95 %; bounds are NaN for two sizes
 };
 
-// One a variant, precision and number of threads that all meshes have; none for fewer than two meshes.
+// One per variant, precision and number of threads that all meshes have; none for fewer than two meshes.
 std::vector<ScalingFit> fit_scaling(const std::vector<MeshTimings>& meshes);
-
-void to_json(nlohmann::json& json, const ScalingFit& fit);
 
 struct BenchRecord {
     BenchOptions options;
     MachineLimits limits;
     std::vector<MeshTimings> meshes;
     std::vector<ScalingFit> scaling;             // where sizes were asked for
-    double load_before = 0.0, load_after = 0.0;  // of the machine: runnable processes, mean of a minute; 1 is this bench alone
+    double load_before = 0.0, load_after = 0.0;  // runnable processes of the machine, mean of a minute; 1 is this bench alone
 };
 
 BenchRecord run_bench(const BenchOptions& options);

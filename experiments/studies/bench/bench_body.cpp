@@ -31,7 +31,8 @@ Axis longest_axis(const pbs::Positions& rest)
     return axis;
 }
 
-// The bar's meshes have 6.0 V - 21.5 V^(2/3) tets, within some 5 % from 600 to 100,000: fewer at the skin, whose share falls with the size.
+// The bar's meshes have 6.0 V - 21.5 V^(2/3) tets, to within 5 % from 600 to 100,000: there are fewer at the skin, whose share falls with
+// the size.
 int vertices_for_tets(int tets)
 {
     double vertices = tets / 6.0;

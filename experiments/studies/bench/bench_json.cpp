@@ -1,23 +1,27 @@
 #include "experiments/studies/bench/bench.hpp"
 
 #include "analysis/records/provenance.hpp"
+#include "experiments/settings/option_fields.hpp"
 #include "pbs/solver/batched/batch_kernels.hpp"
 
-#include <nlohmann/json.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
 namespace experiments {
 namespace {
 
-nlohmann::json json_of(const MachineLimits& limits)
+using nlohmann::json;
+
+json json_of(const MachineLimits& limits)
 {
-    nlohmann::json copy = nlohmann::json::array();
+    json copy = json::array();
     for (const CopyBandwidth& point : limits.copy) copy.push_back({{"bytes", point.bytes}, {"gb_s", point.gb_s}});
     return {{"fma_gflops_f32", limits.gflops_f32}, {"fma_gflops_f64", limits.gflops_f64}, {"copy", copy}};
 }
 
-nlohmann::json context_of(const BenchRecord& record)
+json context_of(const BenchRecord& record)
 {
     const analysis::Provenance provenance = analysis::collect_provenance(record.options.threads);
     return {{"cpu", provenance.cpu_model},
@@ -28,41 +32,129 @@ nlohmann::json context_of(const BenchRecord& record)
             {"compiler", provenance.compiler},
             {"flags", provenance.flags},
             {"kernel_flags", PBS_KERNEL_FLAGS},
-            {"iterations", iterations_a_step},
+            {"iterations", iterations_per_step},
             {"quick", record.options.quick},
             {"limits_of_one_core", json_of(record.limits)},
             {"load", {record.load_before, record.load_after}},
             {"provenance", provenance}};
 }
 
-nlohmann::json bound(double value)
+json json_of(const ProjectionKind& kind)
 {
-    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+    return {{"variant", kind.variant}, {"precision", kind.precision}, {"threads", kind.threads}};
+}
+
+json json_of(const ProjectionTiming& timing)
+{
+    json result = json_of(static_cast<const ProjectionKind&>(timing));
+    result.update({{"poses", timing.poses},
+                   {"clock", timing.threads == 1 ? "thread_cpu" : "wall"},
+                   {"ms_transfer", timing.ms_transfer},
+                   {"working_set_bytes", timing.working_set_bytes},
+                   {"residuals",
+                    {{"stretch_rms", timing.residuals.stretch_rms},
+                     {"volume_rms", timing.residuals.volume_rms},
+                     {"bind_rms_m", timing.residuals.bind_rms_m}}}});
+    for (const auto& [name, of] :
+         {std::pair("stretch", &timing.stretch), std::pair("volume", &timing.volume), std::pair("bind", &timing.bind)}) {
+        put_spread(result, std::string("ns_") + name, of->ns);
+        if (!of->roofline) continue;
+        result["roofline"][name] = {{"flops_per_byte", of->roofline->flops_per_byte},
+                                    {"gflops", of->roofline->gflops},
+                                    {"attainable_gflops", of->roofline->attainable_gflops},
+                                    {"share_of_limit", of->roofline->share_of_limit}};
+    }
+    put_spread(result, "ms_step", timing.ms_step);
+    put_spread(result, "ratio_to_plain", timing.ratio_to_plain);
+    put_spread(result, "ratio_to_plain_native", timing.ratio_to_plain_native);
+    put_spread(result, "ratio_to_plain_spread", timing.ratio_to_plain_spread);
+    if (timing.speedup_by_threads) put_spread(result, "speedup_by_threads", *timing.speedup_by_threads);
+    if (timing.best_speedup_by_threads) result["best_speedup_by_threads"] = *timing.best_speedup_by_threads;
+    if (timing.ms_floor) result["ms_floor"] = *timing.ms_floor;
+    if (timing.stretch_fill) result["fill"] = {{"stretch", *timing.stretch_fill}, {"volume", *timing.volume_fill}};
+    return result;
+}
+
+json json_of(const SkinningTiming& timing)
+{
+    json result = {{"blend", timing.blend}, {"variant", timing.variant}, {"precision", timing.precision},          {"threads", 1},
+                   {"clock", "thread_cpu"}, {"gb_s", timing.gb_s},       {"share_of_limit", timing.share_of_limit}};
+    put_spread(result, "ns_vertex", timing.ns_vertex);
+    put_spread(result, "ratio_to_plain", timing.ratio_to_plain);
+    return result;
+}
+
+json json_of(const FemTiming& timing, double plain_step_ms)
+{
+    json result = {{"variant", "fem"},
+                   {"model", "linear"},
+                   {"element_order", 1},
+                   {"precision", "f64"},
+                   {"threads", 1},
+                   {"clock", "thread_cpu"},
+                   {"further_to_first", timing.further_to_first},
+                   {"ratio_to_plain", plain_step_ms / timing.ms_further_frame.median}};
+    put_spread(result, "ms_first_solve", timing.ms_first_solve);
+    put_spread(result, "ms_further_frame", timing.ms_further_frame);
+    return result;
+}
+
+json json_of(const MeshTimings& timings)
+{
+    json result = {{"mesh", {{"name", timings.name}, {"vertices", timings.vertices}, {"edges", timings.edges}, {"tets", timings.tets}}},
+                   {"memory", {{"peak_bytes", timings.memory.peak_bytes}, {"growth_bytes", timings.memory.growth_bytes()}}}};
+    for (const char* list : {"results", "yardsticks", "skinning", "fem"}) result[list] = json::array();
+    double plain_f64_step_ms = 0.0;
+    for (const ProjectionTiming& timing : timings.projections) {
+        result[timing.is_baseline() ? "yardsticks" : "results"].push_back(json_of(timing));
+        if (timing == ProjectionKind{"plain", "f64", 1}) plain_f64_step_ms = timing.ms_step.median;
+    }
+    for (const SkinningTiming& timing : timings.skinning) result["skinning"].push_back(json_of(timing));
+    if (timings.fem) result["fem"].push_back(json_of(*timings.fem, plain_f64_step_ms));
+    if (!timings.fem_left_out.empty()) result["fem_left_out"] = timings.fem_left_out;
+    return result;
+}
+
+json bound(double value)
+{
+    return std::isfinite(value) ? json(value) : json();
+}
+
+json json_of(const ScalingFit& fit)
+{
+    json result = json_of(static_cast<const ProjectionKind&>(fit));
+    result.update({{"exponent", fit.exponent.estimate},
+                   {"interval", {bound(fit.exponent.low), bound(fit.exponent.high)}},
+                   {"level", fit.exponent.level},
+                   {"sizes", fit.exponent.n}});
+    return result;
 }
 
 }  // namespace
 
-void to_json(nlohmann::json& json, const ScalingFit& fit)
+nlohmann::json to_json(const BenchOptions& options)
 {
-    json = {{"variant", fit.variant},
-            {"precision", fit.precision},
-            {"threads", fit.threads},
-            {"exponent", fit.exponent.estimate},
-            {"interval", {bound(fit.exponent.low), bound(fit.exponent.high)}},
-            {"level", fit.exponent.level},
-            {"sizes", fit.exponent.n}};
+    static const auto fields = OptionFields<BenchOptions>("bench")
+                                   .record("mesh", &BenchOptions::mesh)
+                                   .record("bars", &BenchOptions::bars)
+                                   .record("sizes", &BenchOptions::sizes)
+                                   .record("threads", &BenchOptions::threads)
+                                   .record("quick", &BenchOptions::quick)
+                                   .record("seconds", &BenchOptions::seconds)
+                                   .complete();
+    return fields.json(options);
 }
 
 nlohmann::json bench_json(const BenchRecord& record)
 {
-    nlohmann::json meshes = nlohmann::json::array();
+    json meshes = json::array();
     for (const MeshTimings& mesh : record.meshes) meshes.push_back(json_of(mesh));
-    nlohmann::json json = meshes.front();
-    json["schema"] = 1;
-    json["context"] = context_of(record);
-    json["meshes"] = meshes;
-    if (!record.scaling.empty()) json["scaling"] = record.scaling;
-    return json;
+    json bench = meshes.front();
+    bench["schema"] = 1;
+    bench["context"] = context_of(record);
+    bench["meshes"] = meshes;
+    for (const ScalingFit& fit : record.scaling) bench["scaling"].push_back(json_of(fit));
+    return bench;
 }
 
 }  // namespace experiments

@@ -1,83 +1,63 @@
+#include "analysis/records/report_table.hpp"
 #include "experiments/studies/bench/bench.hpp"
 
-#include "analysis/records/provenance.hpp"
-#include "pbs/solver/batched/batch_kernels.hpp"
-
 #include <fmt/format.h>
-
-#include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace experiments {
 namespace {
 
+using nlohmann::json;
+
 constexpr double quiet_load = 0.5;
 
-std::string limits_text(const MachineLimits& limits)
-{
-    std::string copy;
-    for (const double bytes : {32e3, 512e3, 8e6, 256e6}) copy += fmt::format("{:8.0f}", bandwidth_at(limits, bytes));
-    return fmt::format("one core: multiply-add {:.0f} / {:.0f} GFLOP/s (f32 / f64); copy{} GB/s over 32 KB, 512 KB, 8 MB, 256 MB\n",
-                       limits.gflops_f32, limits.gflops_f64, copy);
-}
+constexpr const char* legend =
+    "\nRead ratios, not times. A step is 24 iterations; ns_stretch, ns_volume and ns_bind are per constraint. ratio_to_plain: times "
+    "faster\n"
+    "than order `plain`, which is built for the same bits on every machine; ratio_to_plain_native: than the same loops with all that this\n"
+    "compiler offers; ratio_to_plain_spread: than those on constraints whose neighbours in the list share no vertex. ms_floor: the time "
+    "that\n"
+    "moving the bytes takes. share_of_limit: of min(peak, operations per byte x copy bandwidth at that working set). exponent: the cost "
+    "of\n"
+    "a step is ~ constraints^exponent.\n";
 
-std::string share_text(const ClassTiming& timing)
+// One line per entry of bench.json. Each column is a place inside the entry, with a format for a number.
+std::string table(const json& entries, const std::string& places)
 {
-    return timing.roofline ? fmt::format("{:3.0f}%", 100.0 * timing.roofline->share_of_limit) : "    ";
-}
-
-std::string floor_text(const ProjectionTiming& timing)
-{
-    return timing.ms_floor ? fmt::format(" {:>7.1f}", timing.ms_step.median / *timing.ms_floor) : "        ";
-}
-
-std::string projection_line(const ProjectionTiming& t)
-{
-    const std::string name = t.variant + (t.poses > 1 ? fmt::format(" x {}", t.poses) : "");
-    std::string line = fmt::format("  {:<13}{:<5}{:>3} ", name, t.precision, t.threads);
-    for (const ClassTiming* of : {&t.stretch, &t.volume, &t.bind}) line += fmt::format(" {:>9.3f} {}", of->ns.median, share_text(*of));
-    line += fmt::format(" {:>10.4g} {:>9.4g}..{:<8.4g}", t.ms_step.median, t.ms_step.lower, t.ms_step.upper);
-    line += floor_text(t);
-    for (const Spread& ratio : {t.ratio_to_plain, t.ratio_to_plain_native, t.ratio_to_plain_spread})
-        line += fmt::format(" {:>8.2f}", ratio.median);
-    if (t.best_speedup_by_threads) line += fmt::format("   x {:.2f} one thread's best", *t.best_speedup_by_threads);
-    return line + "\n";
-}
-
-std::string projections_text(const std::vector<ProjectionTiming>& timings)
-{
-    std::string text =
-        fmt::format("  {:<13}{:<5}{:>3} {:>14} {:>14} {:>14} {:>10} {:>19} {:>7} {:>8} {:>8} {:>8}\n", "order", "", "thr", "ns stretch lim",
-                    "ns volume lim", "ns bind lim", "ms step", "quartiles", "x floor", "x plain", "x native", "x spread");
-    for (const ProjectionTiming& timing : timings) text += projection_line(timing);
-    return text;
-}
-
-std::string skinning_text(const std::vector<SkinningTiming>& timings)
-{
-    std::string text = fmt::format("  {:<5}{:<8}{:<5} {:>10} {:>9} {:>8}\n", "", "", "", "ns vertex", "GB/s", "x plain");
-    for (const SkinningTiming& t : timings)
-        text += fmt::format("  {:<5}{:<8}{:<5} {:>10.3f} {:>9.1f} {:>8.2f}\n", t.blend, t.variant, t.precision, t.ns_vertex.median, t.gb_s,
-                            t.ratio_to_plain.median);
-    return text;
-}
-
-std::string fem_text(const MeshTimings& mesh)
-{
-    if (!mesh.fem_left_out.empty()) return fmt::format("  fem left out: {}\n", mesh.fem_left_out);
-    if (!mesh.fem) return "";
-    return fmt::format("  fem linear P1: first solve {:.4g} ms, further frame {:.4g} ms (1/{:.0f})\n", mesh.fem->ms_first_solve.median,
-                       mesh.fem->ms_further_frame.median, 1.0 / mesh.fem->further_to_first);
-}
-
-std::string scaling_text(const std::vector<ScalingFit>& fits)
-{
-    if (fits.empty()) return "";
-    std::string text = "cost of a step ~ constraints^e\n";
-    for (const ScalingFit& fit : fits) {
-        text += fmt::format("  {:<13}{:<5}{:>2} threads  e = {:.3f}", fit.variant, fit.precision, fit.threads, fit.exponent.estimate);
-        if (std::isfinite(fit.exponent.low)) text += fmt::format("  [{:.3f}, {:.3f}] at 95 %", fit.exponent.low, fit.exponent.high);
-        text += "\n";
+    if (entries.empty()) return "";
+    const std::vector<analysis::ReportColumn> columns = analysis::report_columns(places);
+    std::vector<std::string> names;
+    for (const analysis::ReportColumn& column : columns) names.push_back(column.column);
+    analysis::CsvTable cells(names);
+    for (const json& entry : entries) {
+        std::vector<analysis::CsvTable::Cell> row;
+        for (const std::string& name : names) {
+            const json value = entry.value(json::json_pointer("/" + name), json());
+            if (value.is_number())
+                row.emplace_back(value.get<double>());
+            else
+                row.emplace_back(value.is_string() ? value.get<std::string>() : "");
+        }
+        cells.add_row(row);
     }
+    return fmt::format("\n{}", text_table(cells, columns));
+}
+
+std::string mesh_text(const json& timed)
+{
+    json projections = timed.at("results");
+    for (const json& baseline : timed.at("yardsticks")) projections.push_back(baseline);
+    const std::string kind = "variant precision threads:.0f ";
+    std::string text = table(json::array({timed}), "mesh/name mesh/vertices:.0f mesh/edges:.0f mesh/tets:.0f memory/growth_bytes:.3g");
+    text += table(projections, kind +
+                                   "poses:.0f ns_stretch:.3f ns_volume:.3f ns_bind:.3f ms_step:.4g quartiles/ms_step/0:.4g "
+                                   "quartiles/ms_step/1:.4g ratio_to_plain:.2f ratio_to_plain_native:.2f ratio_to_plain_spread:.2f");
+    text += table(projections, kind +
+                                   "ms_floor:.2g roofline/stretch/share_of_limit:.2f roofline/volume/share_of_limit:.2f "
+                                   "roofline/bind/share_of_limit:.2f best_speedup_by_threads:.2f");
+    text += table(timed.at("skinning"), "blend variant precision ns_vertex:.3f gb_s:.1f ratio_to_plain:.2f");
+    text += table(timed.at("fem"), "variant ms_first_solve:.4g ms_further_frame:.4g further_to_first:.2g");
+    if (timed.contains("fem_left_out")) text += fmt::format("\nfem is left out: {}\n", timed.at("fem_left_out").get<std::string>());
     return text;
 }
 
@@ -85,25 +65,15 @@ std::string scaling_text(const std::vector<ScalingFit>& fits)
 
 std::string bench_table(const BenchRecord& record)
 {
-    const analysis::Provenance provenance = analysis::collect_provenance(record.options.threads);
-    std::string text =
-        fmt::format("{}, {} cores, load {:.1f}; kernels: {}, {} / {} lanes; {}\n", provenance.cpu_model, provenance.logical_cpus,
-                    record.load_after, pbs::kernel_instructions(), pbs::kernel_lanes(4), pbs::kernel_lanes(8), provenance.compiler);
-    if (record.load_before > quiet_load)
-        text += fmt::format("other work ran beside this (load {:.1f} before): wall times, and so threads, are worth little\n",
-                            record.load_before);
-    text += limits_text(record.limits);
-    for (const MeshTimings& mesh : record.meshes) {
-        text += fmt::format("\n{}: {} vertices, {} edges, {} tets; a step is {} iterations; memory of a solver {:.0f} MB\n", mesh.name,
-                            mesh.vertices, mesh.edges, mesh.tets, iterations_a_step, 1e-6 * mesh.memory.growth_bytes());
-        text += projections_text(mesh.projections) + skinning_text(mesh.skinning) + fem_text(mesh);
-    }
-    text +=
-        "\nlim: share of min(peak, operations a byte x copy bandwidth at that working set). x floor: times what moving the bytes takes.\n"
-        "x plain: times quicker than order `plain`, which is built for the same bits on every machine; x native: than the same loops with\n"
-        "all this compiler offers; x spread: than those on constraints whose neighbours in the list share no vertex. Read ratios, not "
-        "times.\n";
-    return text + scaling_text(record.scaling);
+    const json bench = bench_json(record), &context = bench.at("context");
+    std::string text = table(json::array({context}), "cpu cores:.0f load/0:.1f load/1:.1f kernel_instructions compiler");
+    if (record.load_before > quiet_load) text += "Other work ran at the same time: wall times, and so threads, are worth little.\n";
+    text += fmt::format("\nOne core: multiply-add {:.0f} / {:.0f} GFLOP/s (f32 / f64), and copies:\n", record.limits.gflops_f32,
+                        record.limits.gflops_f64);
+    text += table(context.at("limits_of_one_core").at("copy"), "bytes:.0f gb_s:.0f");
+    for (const json& mesh : bench.at("meshes")) text += mesh_text(mesh);
+    return text + table(bench.value("scaling", json::array()), "variant precision threads:.0f exponent:.3f interval/0:.3f interval/1:.3f") +
+           legend;
 }
 
 }  // namespace experiments

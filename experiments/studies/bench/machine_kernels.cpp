@@ -7,7 +7,7 @@ namespace {
 
 namespace stdx = std::experimental;
 
-constexpr int chains = 12;  // more than latency (4) times throughput (2) of today's multiply-add
+constexpr int chains = 12;  // more than the latency (4) times the throughput (2) of a multiply-add
 
 }  // namespace
 
@@ -29,10 +29,10 @@ double multiply_add(std::size_t rounds, Scalar start, Scalar a, Scalar b, Scalar
 void copy_floats(const float* from, float* to, std::size_t count)
 {
     using Lanes = stdx::native_simd<float>;
-    constexpr std::size_t a_turn = 4 * Lanes::size();
-    for (std::size_t i = 0; i < count; i += a_turn)
+    constexpr std::size_t stride = 4 * Lanes::size();
+    for (std::size_t i = 0; i < count; i += stride)
 #pragma GCC unroll 4
-        for (std::size_t k = 0; k < a_turn; k += Lanes::size())
+        for (std::size_t k = 0; k < stride; k += Lanes::size())
             Lanes(from + i + k, stdx::vector_aligned).copy_to(to + i + k, stdx::vector_aligned);
 }
 

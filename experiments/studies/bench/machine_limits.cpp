@@ -5,9 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <memory>
-#include <new>
 
 namespace experiments {
 namespace {
@@ -15,20 +12,12 @@ namespace {
 constexpr int turns = 3;
 constexpr double smallest_bytes = 16 * 1024.0;
 
-struct FreeAligned {
-    void operator()(float* floats) const { std::free(floats); }
+struct alignas(64) CacheLine {
+    float floats[16];
 };
-using AlignedFloats = std::unique_ptr<float, FreeAligned>;
 
-AlignedFloats aligned_floats(std::size_t count)
-{
-    AlignedFloats floats(static_cast<float*>(std::aligned_alloc(64, count * sizeof(float))));
-    if (!floats) throw std::bad_alloc();
-    std::fill_n(floats.get(), count, 1.0f);
-    return floats;
-}
-
-// Largest amount of work a second over the turns; work(repeats) does and returns it. Repeats are found that take some `seconds`.
+// The largest amount of work per second over the turns. work(repeats) does the work and returns its amount; the number of repeats is chosen
+// so that they take about `seconds`.
 template <typename Work>
 double best_rate(double seconds, const Work& work)
 {
@@ -51,7 +40,7 @@ double best_rate(double seconds, const Work& work)
 template <typename Scalar>
 double peak_gflops(double seconds)
 {
-    volatile Scalar start = Scalar(1), a = Scalar(0.999), b = Scalar(0.001);  // the compiler does not know them
+    volatile Scalar start = Scalar(1), a = Scalar(0.999), b = Scalar(0.001);  // unknown to the compiler
     volatile Scalar sink = Scalar(0);
     return 1e-9 * best_rate(seconds, [&](std::size_t repeats) {
                Scalar sum;
@@ -64,9 +53,9 @@ double peak_gflops(double seconds)
 double copy_gb_s(double bytes, double seconds)
 {
     const std::size_t count = static_cast<std::size_t>(bytes / 2.0 / sizeof(float)) / 64 * 64;
-    const AlignedFloats from = aligned_floats(count), to = aligned_floats(count);
+    std::vector<CacheLine> from(count / 16, CacheLine{{1.0f}}), to = from;
     return 1e-9 * best_rate(seconds, [&](std::size_t repeats) {
-               for (std::size_t repeat = 0; repeat < repeats; ++repeat) copy_floats(from.get(), to.get(), count);
+               for (std::size_t repeat = 0; repeat < repeats; ++repeat) copy_floats(from[0].floats, to[0].floats, count);
                return 2.0 * double(repeats) * double(count) * sizeof(float);
            });
 }
@@ -91,13 +80,12 @@ double bandwidth_at(const MachineLimits& limits, double bytes)
     if (above == copy.begin()) return copy.front().gb_s;
     if (above == copy.end()) return copy.back().gb_s;
     const CopyBandwidth &low = *(above - 1), &high = *above;
-    const double share = std::log(bytes / low.bytes) / std::log(high.bytes / low.bytes);
-    return low.gb_s + share * (high.gb_s - low.gb_s);
+    return std::lerp(low.gb_s, high.gb_s, std::log(bytes / low.bytes) / std::log(high.bytes / low.bytes));
 }
 
-double attainable_gflops(double peak_gflops, double gb_s, double flops_a_byte)
+double attainable_gflops(double peak_gflops, double gb_s, double flops_per_byte)
 {
-    return std::min(peak_gflops, gb_s * flops_a_byte);
+    return std::min(peak_gflops, gb_s * flops_per_byte);
 }
 
 }  // namespace experiments

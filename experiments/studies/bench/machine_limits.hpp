@@ -1,6 +1,6 @@
-// What one core of this machine can do at best: multiply-adds a second, and bytes a second copied between and within its caches and memory.
+// What one core of this machine can do at best: multiply-adds per second, and bytes per second copied within its caches and memory.
 //   const MachineLimits limits = measure_limits(0.02);
-//   bandwidth_at(limits, 2.5e6);   // GB/s of a loop that goes over 2.5 MB
+//   bandwidth_at(limits, 2.5e6);   // GB/s of a loop over 2.5 MB
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 namespace experiments {
 
 struct CopyBandwidth {
-    double bytes = 0.0;  // working set: what is read and what is written
-    double gb_s = 0.0;   // read and written, 1e9 bytes a second
+    double bytes = 0.0;  // working set, read and written
+    double gb_s = 0.0;   // read and written, 1e9 bytes per second
 };
 
 struct MachineLimits {
@@ -17,14 +17,14 @@ struct MachineLimits {
     std::vector<CopyBandwidth> copy;            // by growing working set
 };
 
-// The best of three turns of some `seconds` each, processor time: a limit is what is reached undisturbed. Working sets double from 16 KiB
-// to `largest_bytes`, which should lie well beyond the last cache.
+// The best of three turns of about `seconds` of processor time each, since a limit is reached only undisturbed. Working sets double from
+// 16 KiB to `largest_bytes`, which should be well beyond the last cache.
 MachineLimits measure_limits(double seconds, double largest_bytes = 256e6);
 
-// Linear in the logarithm of the working set between what was measured, constant beyond.
+// Interpolates linearly in the logarithm of the working set; constant outside the measured sizes.
 double bandwidth_at(const MachineLimits& limits, double bytes);
 
-// The roofline: no loop of so many operations a byte does more than this, GFLOP/s.
-double attainable_gflops(double peak_gflops, double gb_s, double flops_a_byte);
+// The roofline [GFLOP/s]: no loop with so many operations per byte does more.
+double attainable_gflops(double peak_gflops, double gb_s, double flops_per_byte);
 
 }  // namespace experiments

@@ -1,6 +1,6 @@
-// The loops of order `plain`, as two builds of the same source have them: the library's own, which gives the same bits on every machine
-// (no -march=native, no fused multiply-add), and that of the module pbskin_native_plain, compiled for this one (PBS_NATIVE): what a user
-// who compiles the paper's loops with all the compiler offers would have. A module, because inline functions of the two must not mix.
+// The loops of order `plain` in two builds of the same source. The library's own build gives the same bits on every machine (no
+// -march=native, no fused multiply-add). The module pbskin_native_plain is compiled for this machine (PBS_NATIVE), as by a user who
+// compiles the paper's loops with all that the compiler offers. It is a module because inline functions of the two builds must not mix.
 #pragma once
 
 #include "pbs/solver/constraint_set.hpp"

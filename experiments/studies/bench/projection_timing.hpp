@@ -1,16 +1,13 @@
-// How long the projections take: every order, precision and number of threads on one body, by turns.
+// How long the projections take: every order, precision and number of threads on one body, in turns.
 //   for (const ProjectionTiming& timing : time_projections(body, {1, 2}, limits, rounds)) ...
-// A step is 24 iterations over all constraints, without the way of positions into and out of an order's own layout, which is told beside
-// it. One thread: processor time of that thread. Several: wall time.
+// A step is 24 iterations over all constraints. The transfer of positions into an order's own layout and back is reported separately. One
+// thread is measured in its processor time, several threads in wall time.
 #pragma once
 
-#include "experiments/studies/bench/bench_body.hpp"
 #include "experiments/studies/bench/machine_limits.hpp"
 #include "experiments/studies/bench/projection_work.hpp"
+#include "experiments/studies/bench/step_loops.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
-#include "pbs/solver/step_summary.hpp"
-
-#include <nlohmann/json_fwd.hpp>
 
 #include <optional>
 #include <string>
@@ -18,41 +15,38 @@
 
 namespace experiments {
 
-inline constexpr int iterations_a_step = 24;
+inline constexpr int iterations_per_step = 24;
 
-// How near one thread of a class comes to what the machine allows.
+// How near one class of constraints on one thread comes to the machine's limit.
 struct RooflinePoint {
-    double flops_a_byte = 0.0;
-    double gflops = 0.0;             // useful ones, reached
-    double attainable_gflops = 0.0;  // min(peak, bandwidth where the working set lives times flops_a_byte)
+    double flops_per_byte = 0.0;
+    double gflops = 0.0;             // useful operations
+    double attainable_gflops = 0.0;  // min(peak, flops_per_byte times the bandwidth at the working set)
     double share_of_limit = 0.0;
 };
 
 struct ClassTiming {
-    Spread ns;                              // a constraint (and pose)
-    std::optional<RooflinePoint> roofline;  // of one thread
+    Spread ns;                              // per constraint and pose
+    std::optional<RooflinePoint> roofline;  // for one thread
 };
 
-struct ProjectionTiming {
-    std::string variant, precision;
-    int threads = 1, poses = 1;
+struct ProjectionTiming : ProjectionKind {
+    int poses = 1;
     ClassTiming stretch, volume, bind;
-    Spread ms_step;                  // a pose
-    std::optional<double> ms_floor;  // a pose, of one thread: what an iteration has to move over the bandwidth at its working set
+    Spread ms_step;                  // per pose
+    std::optional<double> ms_floor;  // per pose, for one thread: the bytes that a step has to move, over the bandwidth at its working set
     double ms_transfer = 0.0;        // load and store, median
-    Spread ratio_to_plain, ratio_to_plain_native, ratio_to_plain_spread;  // of times of the same round; same precision
-    std::optional<double> best_speedup_by_threads;                        // of the quickest rounds, which other work disturbed least
-    std::optional<Spread> speedup_by_threads;                             // of wall times over one thread's
+    Spread ratio_to_plain, ratio_to_plain_native, ratio_to_plain_spread;  // ratios within a round, at the same precision
+    std::optional<double> best_speedup_by_threads;                        // ratio of the fastest rounds, which were disturbed least
+    std::optional<Spread> speedup_by_threads;                             // wall time of one thread over this one's
     double working_set_bytes = 0.0;
     pbs::Residuals residuals;  // after the step
     std::optional<double> stretch_fill, volume_fill;
 
-    bool is_yardstick() const { return variant == "plain_native" || variant == "plain_spread"; }  // of the bench alone
+    bool is_baseline() const { return variant == "plain_native" || variant == "plain_spread"; }  // which no scene can ask for
 };
 
 std::vector<ProjectionTiming> time_projections(const BenchBody& body, const std::vector<int>& threads, const MachineLimits& limits,
                                                const Rounds& rounds);
-
-void to_json(nlohmann::json& json, const ProjectionTiming& timing);
 
 }  // namespace experiments

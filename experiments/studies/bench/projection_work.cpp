@@ -3,43 +3,47 @@
 namespace experiments {
 namespace {
 
-constexpr double difference = 3, dot = 5, cross = 9, scaled_and_added = 6;  // of vectors in space
+constexpr double difference = 3, dot = 5, cross = 9, scaled_and_added = 6;  // operations on vectors in space
+
+// Operations of one projection, and how many indices and scalars a constraint has for one pose and when many poses share it.
+struct Work {
+    double operations;
+    double indices, scalars, shared_indices, shared_scalars;
+};
+// p12; its length; C; k_s; both corrections with their inverse mass
+constexpr Work stretch_work = {difference + (dot + 1) + 1 + 2 + 2 * (1 + scaled_and_added), 2, 2, 3, 4};
+// three edges; 6 C; n2, n3, n4; n1; denominator; its rounding; k_s; four corrections
+constexpr Work volume_work = {
+    3 * difference + (dot + 1) + 3 * cross + 2 * 3 + (4 * (dot + 1) + 3) + (3 * dot + 6) + 2 + 4 * (1 + scaled_and_added), 4, 2, 5, 5};
+// p - q; its length; C; k_s; the correction
+constexpr Work bind_work = {difference + (dot + 1) + 1 + 2 + scaled_and_added, 0, 2, 0, 2};
 
 constexpr ConstraintClass all_classes[] = {ConstraintClass::stretch, ConstraintClass::volume, ConstraintClass::bind};
+
+const Work& work_of(ConstraintClass of)
+{
+    return of == ConstraintClass::stretch ? stretch_work : of == ConstraintClass::volume ? volume_work : bind_work;
+}
 
 double position_bytes(const Layout& layout)
 {
     return (layout.poses == 1 ? 4.0 : 3.0) * layout.scalar_bytes;
 }
 
+// A constraint's own data, shared by all poses.
+double data_bytes_of(ConstraintClass of, const Layout& layout)
+{
+    constexpr double index_bytes = 4.0;
+    const Work& work = work_of(of);
+    if (layout.poses == 1) return work.indices * index_bytes + work.scalars * layout.scalar_bytes;
+    return work.shared_indices * index_bytes + work.shared_scalars * layout.scalar_bytes;
+}
+
 }  // namespace
 
 double flops_of(ConstraintClass of)
 {
-    switch (of) {
-        case ConstraintClass::stretch:  // p12; its length; C; k_s; both corrections with their inverse mass
-            return difference + (dot + 1) + 1 + 2 + 2 * (1 + scaled_and_added);
-        case ConstraintClass::volume:  // three edges; 6 C; n2, n3, n4; n1; denominator; its rounding; k_s; four corrections
-            return 3 * difference + (dot + 1) + 3 * cross + 2 * 3 + (4 * (dot + 1) + 3) + (3 * dot + 6) + 2 + 4 * (1 + scaled_and_added);
-        case ConstraintClass::bind:  // p - q; its length; C; k_s; the correction
-            break;
-    }
-    return difference + (dot + 1) + 1 + 2 + scaled_and_added;
-}
-
-double data_bytes_of(ConstraintClass of, const Layout& layout)
-{
-    constexpr double index = 4.0;
-    const bool alone = layout.poses == 1;
-    switch (of) {
-        case ConstraintClass::stretch:
-            return alone ? 2 * index + 2 * layout.scalar_bytes : 3 * index + 4 * layout.scalar_bytes;
-        case ConstraintClass::volume:
-            return alone ? 4 * index + 2 * layout.scalar_bytes : 5 * index + 5 * layout.scalar_bytes;
-        case ConstraintClass::bind:
-            break;
-    }
-    return 2 * layout.scalar_bytes;
+    return work_of(of).operations;
 }
 
 double BodySize::constraints(ConstraintClass of) const
@@ -53,7 +57,7 @@ double bytes_of(ConstraintClass of, const Layout& layout, const BodySize& size)
     return data_bytes_of(of, layout) / layout.poses + bind_point + 2.0 * position_bytes(layout) * size.vertices / size.constraints(of);
 }
 
-double bytes_an_iteration(const Layout& layout, const BodySize& size)
+double bytes_per_iteration(const Layout& layout, const BodySize& size)
 {
     double bytes = 0.0;
     for (const ConstraintClass of : all_classes) bytes += layout.poses * size.constraints(of) * bytes_of(of, layout, size);

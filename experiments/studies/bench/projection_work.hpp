@@ -1,9 +1,9 @@
 // What one projection of each class asks of a machine, counted by hand: the numerator and the denominator of the roofline.
-// Operations: every +, -, *, / and square root of real numbers is one, a change of sign or a comparison none; a multiply-add is two. They
-// are those of pbs/solver/batched/project_lanes.hpp, which precomputes what no frame changes (k over w1 + w2, 6 V0), and stand for every
-// order alike, so that GFLOP/s are useful ones: what `plain` does beyond them is its own affair.
-// Bytes: what has to pass between the core and the level that holds the working set, once a pass over the class: the constraint's own data
-// once, its share of the positions (x, y, z, w) once in and once out. Loads that a nearer cache answers are not counted.
+// Operations: every +, -, *, / and square root of real numbers counts one, a change of sign or a comparison none, and a multiply-add two.
+// They are those of pbs/solver/batched/project_lanes.hpp, which computes in advance what no frame changes (k over w1 + w2, 6 V0). The same
+// count is used for every order, so that GFLOP/s are useful ones; what `plain` does beyond them is not counted.
+// Bytes: what has to pass between the core and the level that holds the working set in one pass over the class: the constraint's own data
+// once, and its share of the positions (x, y, z, w) once in and once out. Loads that a nearer cache answers are not counted.
 #pragma once
 
 namespace experiments {
@@ -12,15 +12,13 @@ enum class ConstraintClass { stretch, volume, bind };
 
 double flops_of(ConstraintClass of);
 
-// How constraints and positions lie in memory. One pose: a vertex index of 4 bytes each, rest value and stiffness, of bind d and k; a
-// vertex is x, y, z, w. Many poses side by side share the constraints, which then carry inverse masses and a class of stiffness; a vertex
-// is x, y, z of each. Bind points, x, y, z, belong to each pose.
+// How constraints and positions lie in memory. One pose: a constraint has a vertex index of 4 bytes for each vertex, its rest value and its
+// stiffness, a bind constraint d and k; a vertex is x, y, z, w. Many poses side by side share the constraints, which then carry inverse
+// masses and a class of stiffness; a vertex is x, y, z for each pose. Bind points, x, y, z, belong to each pose.
 struct Layout {
     double scalar_bytes = 4.0;
     int poses = 1;
 };
-
-double data_bytes_of(ConstraintClass of, const Layout& layout);  // of a constraint, shared by all poses
 
 struct BodySize {
     double vertices = 0.0, edges = 0.0, tets = 0.0;
@@ -28,13 +26,13 @@ struct BodySize {
     double constraints(ConstraintClass of) const;
 };
 
-// Of one pass over a class [bytes a constraint and pose].
+// One pass over a class [bytes per constraint and pose].
 double bytes_of(ConstraintClass of, const Layout& layout, const BodySize& size);
 
-// Of one iteration over all three, all poses together [bytes]: no step is quicker than these over the bandwidth.
-double bytes_an_iteration(const Layout& layout, const BodySize& size);
+// One iteration over all three classes, all poses together [bytes]: no step is faster than these bytes over the bandwidth.
+double bytes_per_iteration(const Layout& layout, const BodySize& size);
 
-// What one iteration over all three goes over [bytes].
+// The memory that one iteration over all three classes touches [bytes].
 double working_set_bytes(const Layout& layout, const BodySize& size);
 
 }  // namespace experiments

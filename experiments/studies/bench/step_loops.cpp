@@ -1,6 +1,7 @@
 #include "experiments/studies/bench/step_loops.hpp"
 
-#include "experiments/studies/bench/plain_step.hpp"
+#include "experiments/studies/bench/plain_loops.hpp"
+#include "pbs/geometry/module.hpp"
 #include "pbs/solver/batched/batched_projection.hpp"
 #include "pbs/solver/batched/pose_projection.hpp"
 #include "pbs/solver/parallel.hpp"
@@ -8,9 +9,80 @@
 
 #include <algorithm>
 #include <thread>
+#include <type_traits>
 
 namespace experiments {
 namespace {
+
+template <typename Scalar>
+constexpr const char* precision_of = std::is_same_v<Scalar, float> ? "f32" : "f64";
+
+// The stiffnesses are the scenes' defaults.
+pbs::PbsOptions bench_options(pbs::Order order, int threads)
+{
+    pbs::PbsOptions options;
+    options.order = order;
+    options.threads = threads;
+    return options;
+}
+
+template <typename Scalar>
+pbs::ConstraintSet<Scalar> bench_constraints(const BenchBody& body)
+{
+    return pbs::make_constraint_set<Scalar>(body.mesh(), body.character.binding.distance, {}, pbs::PbsOptions(), body.held);
+}
+
+template <typename Scalar>
+std::vector<pbs::Vector3<Scalar>> points_of(const pbs::Positions& positions)
+{
+    std::vector<pbs::Vector3<Scalar>> points;
+    for (const auto& row : positions.rowwise()) points.push_back(row.transpose().template cast<Scalar>());
+    return points;
+}
+
+template <typename Scalar>
+PlainLoops<Scalar> native_loops()
+{
+    const pbs::Module& module = pbs::load_module("pbskin_native_plain");
+    PlainLoops<Scalar> loops;
+    if constexpr (std::is_same_v<Scalar, float>)
+        module.function<decltype(pbskin_native_plain_f32)>("pbskin_native_plain_f32")(&loops);
+    else
+        module.function<decltype(pbskin_native_plain_f64)>("pbskin_native_plain_f64")(&loops);
+    return loops;
+}
+
+template <typename Scalar>
+ProjectionVariant of_native_loops(const BenchBody& body, const char* name, pbs::ConstraintSet<Scalar> constraints)
+{
+    struct State {
+        pbs::ConstraintSet<Scalar> constraints;
+        std::vector<pbs::Vector3<Scalar>> initial, q, p;
+    };
+    const PlainLoops<Scalar> loops = native_loops<Scalar>();
+    const auto points = points_of<Scalar>(body.twisted);
+    const auto state = std::make_shared<State>(State{std::move(constraints), points, points_of<Scalar>(body.bind_points), points});
+    ProjectionVariant variant{{name, precision_of<Scalar>}};
+    variant.loops = {[state] { state->p = state->initial; },
+                     [state, loops] { loops.bind(state->constraints, state->q, state->p); },
+                     [state, loops] { loops.stretch(state->constraints, state->p); },
+                     [state, loops] { loops.volume(state->constraints, state->p); },
+                     [] {},
+                     [state] { return pbs::residuals_of(state->constraints, state->p, state->q); }};
+    return variant;
+}
+
+// Neighbours in the list come from eight distant parts of the old list in turn.
+template <typename Constraint>
+std::vector<Constraint> spread(const std::vector<Constraint>& constraints)
+{
+    constexpr std::size_t parts = 8;
+    std::vector<Constraint> result;
+    const std::size_t length = (constraints.size() + parts - 1) / parts;
+    for (std::size_t i = 0; i < length; ++i)
+        for (std::size_t k = i; k < constraints.size(); k += length) result.push_back(constraints[k]);
+    return result;
+}
 
 template <typename Scalar>
 ProjectionVariant of_order(const BenchBody& body, const char* name, pbs::Order order, int threads)
@@ -18,7 +90,7 @@ ProjectionVariant of_order(const BenchBody& body, const char* name, pbs::Order o
     const pbs::PbsOptions options = bench_options(order, threads);
     const std::shared_ptr<pbs::Projection<Scalar>> projection =
         pbs::make_projection(bench_constraints<Scalar>(body), body.mesh().tets, options);
-    ProjectionVariant variant{name, precision_of<Scalar>, threads};
+    ProjectionVariant variant{{name, precision_of<Scalar>, threads}};
     variant.loops = {[projection, &body] { projection->load(body.twisted, body.bind_points, pbs::Vec3::Zero()); },
                      [projection] { projection->project_bind_constraints(); },
                      [projection] { projection->project_stretch_constraints(); },
@@ -32,7 +104,7 @@ ProjectionVariant of_order(const BenchBody& body, const char* name, pbs::Order o
     return variant;
 }
 
-// Sixteen poses are a block, one for each thread; of more threads than the machine has none, for blocks cost memory.
+// A block has sixteen poses, and each thread has one block. Threads beyond the machine's have none, since blocks cost memory.
 int pose_blocks(int threads)
 {
     return std::min(threads, std::max(2, static_cast<int>(std::thread::hardware_concurrency())));
@@ -74,7 +146,7 @@ ProjectionVariant of_poses(const BenchBody& body, int threads)
         for (const Block& block : all->blocks)
             for (int lane = 0; lane < pbs::poses_a_block; ++lane) block.store(lane, pbs::Vec3::Zero(), all->posed);
     };
-    ProjectionVariant variant{"poses", precision_of<Scalar>, threads, pose_blocks(threads) * pbs::poses_a_block};
+    ProjectionVariant variant{{"poses", precision_of<Scalar>, threads}, pose_blocks(threads) * pbs::poses_a_block};
     variant.loops = {[all, load] { all->on_all(load); },
                      [all] { all->on_all([](Block& block) { block.project_bind_constraints(); }); },
                      [all] { all->on_all([](Block& block) { block.project_stretch_constraints(); }); },
@@ -92,8 +164,11 @@ template <typename Scalar>
 void append(const BenchBody& body, const std::vector<int>& threads, std::vector<ProjectionVariant>& variants)
 {
     variants.push_back(of_order<Scalar>(body, "plain", pbs::Order::plain, 1));
-    variants.push_back(native_plain<Scalar>(body));
-    variants.push_back(native_plain_spread<Scalar>(body));
+    pbs::ConstraintSet<Scalar> constraints = bench_constraints<Scalar>(body);
+    variants.push_back(of_native_loops<Scalar>(body, "plain_native", constraints));
+    constraints.stretch = spread(constraints.stretch);
+    constraints.volume = spread(constraints.volume);
+    variants.push_back(of_native_loops<Scalar>(body, "plain_spread", std::move(constraints)));
     for (const int count : threads) {
         variants.push_back(of_order<Scalar>(body, "ordered", pbs::Order::ordered, count));
         variants.push_back(of_order<Scalar>(body, "grouped", pbs::Order::grouped, count));

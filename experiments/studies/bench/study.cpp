@@ -1,25 +1,21 @@
-// How long a step takes: every order, precision and number of threads beside plain loops and the machine's limits, over meshes of growing
-// size (bench/bench.hpp). One run, so that nothing of the study runs beside it. Writes DIR/bench/bench.json and bench.txt.
+// How long a step takes: every order, precision and number of threads, relative to plain loops and to the machine's limits, over meshes of
+// growing size (bench/bench.hpp). The study has one run, so that nothing else runs meanwhile. Writes DIR/bench/bench.json and bench.txt.
 #include "analysis/records/atomic_file.hpp"
+#include "analysis/records/folder_files.hpp"
 #include "experiments/studies/bench/bench.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <thread>
 
 namespace experiments {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr const char* files[] = {"bench.json", "bench.txt"};
-
 std::string time_and_record(const BenchOptions& options, const std::string& folder)
 {
     const BenchRecord record = run_bench(options);
-    analysis::write_text_atomically((fs::path(folder) / "bench.json").string(), bench_json(record).dump(2) + "\n");
-    analysis::write_text_atomically((fs::path(folder) / "bench.txt").string(), bench_table(record));
+    analysis::write_text_atomically(analysis::path_in(folder, "bench.json"), bench_json(record).dump(2) + "\n");
+    analysis::write_text_atomically(analysis::path_in(folder, "bench.txt"), bench_table(record));
     return "";
 }
 
@@ -31,19 +27,16 @@ StudyPlan plan(bool full)
     if (full) options.sizes.insert(options.sizes.end(), {300'000, 1'000'000});
     options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     StudyPlan plan;
-    plan.runs.push_back({.name = "timings",
-                         .cost_s = full ? 240.0 : 90.0,
-                         .work = [options](const std::string& folder) { return time_and_record(options, folder); },
-                         .settings = {{"sizes", options.sizes}, {"threads", options.threads}}});
+    plan.runs.push_back(work_run("timings", options, full ? 240.0 : 90.0, time_and_record));
     return plan;
 }
 
 StudyConclusion conclude(const FinishedRuns& finished)
 {
     if (finished.none()) return {"bench: nothing was timed\n", false};
-    for (const std::string name : files)
+    for (const char* name : {"bench.json", "bench.txt"})
         for (const std::string& file : finished.files(name)) finished.write(name, analysis::read_text(file));
-    return {analysis::read_text((fs::path(finished.folder) / "bench.txt").string()), true};
+    return {analysis::read_text(analysis::path_in(finished.folder, "bench.txt")), true};
 }
 
 }  // namespace

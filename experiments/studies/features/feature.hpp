@@ -1,4 +1,4 @@
-// What a scene may ask for or leave out, as pairs of scenes that differ in that alone.
+// What a scene may ask for or leave out, as pairs of scenes that differ in nothing else.
 #pragma once
 
 #include "experiments/scene/scene.hpp"
@@ -8,7 +8,7 @@
 
 namespace experiments {
 
-// A scene's settings on top of `bare_scene`; equal ones are measured once.
+// A scene's settings on top of the bare scene: PBS alone, no reference, no frames on disk and no metrics except the volume.
 struct Variant {
     std::vector<std::string> overrides = {};  // key=value
     int threads = 1;
@@ -19,15 +19,11 @@ struct Variant {
 
 struct Feature {
     std::string name;
-    Variant without, with;
-    bool changes_answer = false;  // the positions: how far is measured too
-    bool needs_surface = false;   // makes sense where a rendered surface is carried along
+    Variant without = {}, with = {};
+    bool changes_result = false;  // the positions; how far they move is measured too
+    bool needs_surface = false;   // only for a character with a rendered surface
 };
 
-// PBS alone, no reference, no frames, the volume columns alone: what every feature comes on top of.
-std::vector<std::string> bare_scene();
-
-// Those of architecture.md's list and the other switches of a scene.
 const std::vector<Feature>& features();
 
 Scene scene_of(const std::string& name, const std::vector<std::string>& cut, const Variant& variant);

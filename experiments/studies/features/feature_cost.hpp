@@ -1,32 +1,52 @@
-// What a feature costs: both scenes of the pair by turns, each run in a process of its own.
+// What a feature costs: time and memory of both scenes of the pair, and how far the result moves.
+//   const Samples with = take_turns(...)[0];   // each turn is costs_of_run(run_scene_alone(scene, folder), scene)
+//   table_of(feature_columns, {feature_row("limb", "sleep", without, with)}).write("features.csv");
 #pragma once
 
 #include "experiments/studies/features/feature.hpp"
+#include "experiments/studies/shared/timed_rounds.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace experiments {
 
-// One run of a scene.
-struct SceneCost {
-    double frame_ms = 0.0;      // everything done a frame, wall time
-    double frame_cpu_ms = 0.0;  // the same in processor time of all threads: other work on the machine stretches it less
-    double step_ms = 0.0;       // PBS's step alone, wall time
-    double step_cpu_ms = 0.0;
-    double start_s = 0.0;  // character, motion, deformers, ruler, modules loaded; wall time
-    double peak_mb = 0.0;  // 10^6 bytes
-    int shared_objects = 0;
-    std::string breakdown = {};  // RunResult::breakdown
+// A scene with features. `scene` and `cut` are a built-in scene and its overrides.
+struct FeaturesCase {
+    std::string name, scene;
+    std::vector<std::string> cut;
+    bool has_surface = false;
+    Rounds rounds = {};
 };
+nlohmann::json to_json(const FeaturesCase& of);
 
-// How far the answer is from the one without the feature, over the frames.
-struct AnswerChange {
+struct Compared {
+    Spread without, with, ratio;  // ratio: with / without in the same round
+};
+// std::logic_error unless both have the same number of rounds, at least one.
+Compared compare(const std::vector<double>& without, const std::vector<double>& with);
+
+// How far the result is from the one without the feature, over the frames.
+struct ResultChange {
     double distance_m = 0.0;             // largest of a vertex
     double volume_difference_pct = 0.0;  // largest |difference of volume_change_pct|
 };
+ResultChange change_between(const Scene& without, const Scene& with);  // of their PBS deformers
 
-SceneCost cost_of(const Scene& scene, const Variant& variant, const std::string& scratch_folder);
-AnswerChange change_between(const Scene& without, const Scene& with);  // of their PBS deformers
+struct FeatureRow {
+    std::string scene, feature;
+    int rounds = 0;
+    Compared frame_ms, frame_cpu_ms, step_ms, step_cpu_ms, start_s, peak_mb;
+    int shared_objects_without = 0, shared_objects_with = 0;
+    std::optional<ResultChange> change;
+};
+extern const analysis::Columns<FeatureRow> feature_columns;
+
+// The costs of one run of a scene from its run.json, in the order of FeatureRow: frame_ms to peak_mb, then the shared objects.
+std::vector<double> costs_of_run(const nlohmann::json& run, const Scene& scene);
+
+FeatureRow feature_row(const std::string& scene, const std::string& feature, const Samples& without, const Samples& with,
+                       const std::optional<ResultChange>& change = {});
 
 }  // namespace experiments

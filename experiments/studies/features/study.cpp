@@ -1,102 +1,96 @@
-// What a feature of a scene costs: time a frame, time to start and peak memory with and without it, by turns in one run, each scene in a
-// process of its own; and how far the answer moves.
+// What a feature of a scene costs: time per frame, time to start and peak memory, with it and without it, and how far the result moves. The
+// scenes take turns in one run, each in a process of its own.
 //
 //   limb   the capsule limb, bent to 150 degrees in 11 frames
 //   human  MakeHuman's body, 21 frames of the clip's jump
 //
 // Writes DIR/features/SCENE/features.csv, DIR/features/features.csv and features.md.
-#include "analysis/records/atomic_file.hpp"
-#include "experiments/studies/features/feature_table.hpp"
+#include "analysis/records/folder_files.hpp"
+#include "analysis/records/report_table.hpp"
 #include "experiments/process/own_process.hpp"
+#include "experiments/process/progress.hpp"
+#include "experiments/studies/features/feature_cost.hpp"
+#include "experiments/studies/shared/scene_alone.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 
 namespace experiments {
 namespace {
 
-namespace fs = std::filesystem;
+constexpr const char* shown_columns =
+    "scene feature frame_cpu_ms_without:.2f frame_cpu_ms_with:.2f frame_cpu_ms_ratio:.2f frame_cpu_ms_ratio_lower:.2f "
+    "frame_cpu_ms_ratio_upper:.2f frame_ms_without:.2f frame_ms_with:.2f step_cpu_ms_without:.2f step_cpu_ms_with:.2f "
+    "start_s_without:.2f start_s_with:.2f peak_mb_without:.0f peak_mb_with:.0f shared_objects_without shared_objects_with "
+    "largest_distance_m:.2g volume_difference_pct:.2g";
 
-struct CutScene {
-    std::string name, built_in;
-    std::vector<std::string> cut;
-    bool has_surface = false;
-    Rounds rounds = {};
-};
-
-// Each variant once, however many features it is a part of.
-std::vector<Variant> variants_of(const std::vector<Feature>& asked)
+// Gives stderr a terminal of its own, so that the bar is drawn and nobody sees it.
+void draw_progress_unseen()
 {
-    std::vector<Variant> variants;
-    for (const Feature& feature : asked)
-        for (const Variant& variant : {feature.without, feature.with})
-            if (std::find(variants.begin(), variants.end(), variant) == variants.end()) variants.push_back(variant);
-    return variants;
+    const int master = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+    if (master < 0 || grantpt(master) != 0 || unlockpt(master) != 0) throw std::runtime_error("no terminal to draw a bar on");
+    const int slave = open(ptsname(master), O_RDWR | O_NOCTTY | O_NONBLOCK);
+    if (slave < 0 || dup2(slave, STDERR_FILENO) < 0) throw std::runtime_error("no terminal to draw a bar on");
+    show_progress();
 }
 
-std::vector<std::vector<SceneCost>> costs_by_turns(const CutScene& scene, const std::vector<Variant>& variants, const std::string& scratch)
+std::optional<ResultChange> change_by(const Feature& feature, const FeaturesCase& of)
 {
-    std::vector<std::vector<SceneCost>> costs(variants.size());
-    std::vector<TimedVariant> turns;
-    for (std::size_t i = 0; i < variants.size(); ++i)
-        turns.push_back([&, i] {
-            costs[i].push_back(cost_of(scene_of(scene.built_in, scene.cut, variants[i]), variants[i], scratch));
-            return std::vector<double>{};
-        });
-    take_turns(turns, scene.rounds);
-    for (auto& rounds : costs) rounds.erase(rounds.begin());  // the first warms up
-    return costs;
-}
-
-// The first one's, if any: bad frames are no failure here, a bend of 150 degrees is none that a reference must reach.
-std::string breakdown_among(const std::vector<std::vector<SceneCost>>& costs)
-{
-    for (const auto& rounds : costs)
-        for (const SceneCost& cost : rounds)
-            if (!cost.breakdown.empty()) return cost.breakdown;
-    return "";
-}
-
-std::optional<AnswerChange> change_of(const CutScene& scene, const Feature& feature)
-{
-    if (!feature.changes_answer) return std::nullopt;
-    const Scene without = scene_of(scene.built_in, scene.cut, feature.without), with = scene_of(scene.built_in, scene.cut, feature.with);
-    const nlohmann::json told = in_own_process([&] {
-        const AnswerChange change = change_between(without, with);
-        return nlohmann::json{change.distance_m, change.volume_difference_pct};
+    if (!feature.changes_result) return std::nullopt;
+    const Scene without = scene_of(of.scene, of.cut, feature.without), with = scene_of(of.scene, of.cut, feature.with);
+    const nlohmann::json change = in_own_process([&] {
+        const ResultChange found = change_between(without, with);
+        return nlohmann::json{found.distance_m, found.volume_difference_pct};
     });
-    return AnswerChange{told.at(0).get<double>(), told.at(1).get<double>()};
+    return ResultChange{change.at(0), change.at(1)};
 }
 
-std::string measure_and_record(const CutScene& scene, const std::string& folder)
+// Returns the first breakdown. A bad frame is no failure here, since no reference has to reach a bend of 150 degrees.
+std::string measure_and_record(const FeaturesCase& of, const std::string& folder)
 {
     std::vector<Feature> asked;
-    for (const Feature& feature : features())
-        if (scene.has_surface || !feature.needs_surface) asked.push_back(feature);
-    const std::vector<Variant> variants = variants_of(asked);
-    const std::string scratch = (fs::path(folder) / "scratch").string();
-    const auto costs = costs_by_turns(scene, variants, scratch);
-    fs::remove_all(scratch);
-    const auto costs_of = [&](const Variant& variant) {
+    std::vector<Variant> variants;  // each once, however many features it is a part of
+    for (const Feature& feature : features()) {
+        if (feature.needs_surface && !of.has_surface) continue;
+        asked.push_back(feature);
+        for (const Variant& variant : {feature.without, feature.with})
+            if (std::find(variants.begin(), variants.end(), variant) == variants.end()) variants.push_back(variant);
+    }
+    const std::string scratch = analysis::path_in(folder, "scratch");
+    std::string breakdown;
+    std::vector<TimedVariant> turns;
+    for (const Variant& variant : variants)
+        turns.push_back([&] {
+            const Scene scene = scene_of(of.scene, of.cut, variant);
+            const nlohmann::json run = run_scene_alone(scene, scratch, variant.progress ? draw_progress_unseen : nullptr);
+            if (breakdown.empty()) breakdown = run.at("outcome").at("breakdown");
+            return costs_of_run(run, scene);
+        });
+    const std::vector<Samples> costs = take_turns(turns, of.rounds);
+    std::filesystem::remove_all(scratch);
+
+    const auto costs_with = [&](const Variant& variant) {
         return costs[std::find(variants.begin(), variants.end(), variant) - variants.begin()];
     };
     std::vector<FeatureRow> rows;
     for (const Feature& feature : asked)
-        rows.push_back({scene.name, feature.name, costs_of(feature.without), costs_of(feature.with), change_of(scene, feature)});
-    features_csv(rows).write((fs::path(folder) / "features.csv").string());
-    return breakdown_among(costs);
+        rows.push_back(feature_row(of.name, feature.name, costs_with(feature.without), costs_with(feature.with), change_by(feature, of)));
+    table_of(feature_columns, rows).write(analysis::path_in(folder, "features.csv"));
+    return breakdown;
 }
 
-StudyRun features_run(CutScene scene, double cost_s, bool full)
+StudyRun features_run(FeaturesCase of, double cost_s, bool full)
 {
-    scene.rounds = {.seconds = cost_s, .fewest = 3, .most = full ? 25 : 7};
-    read_scene(scene.built_in, scene.cut);  // not installed: told before anything runs
-    return {.name = scene.name,
-            .cost_s = cost_s + 10.0,
-            .work = [scene](const std::string& folder) { return measure_and_record(scene, folder); },
-            .settings = {{"scene", scene.built_in}, {"cut", scene.cut}, {"full", full}}};
+    of.rounds = {.seconds = cost_s, .fewest = 3, .most = full ? 25 : 7};
+    read_scene(of.scene, of.cut);  // a body that is not installed is refused before anything runs
+    return work_run(of.name, of, cost_s + 10.0, measure_and_record);
 }
 
 StudyPlan plan(bool full)
@@ -115,9 +109,9 @@ StudyPlan plan(bool full)
 StudyConclusion conclude(const FinishedRuns& finished)
 {
     if (finished.none()) return {"", false};
-    const analysis::CsvTable all = finished.gathered("features.csv");
+    const analysis::CsvTable all = table_of(feature_columns, finished.rows(feature_columns, "features.csv"));
     finished.write("features.csv", all);
-    const std::string text = features_markdown(all);
+    const std::string text = markdown_table(all, analysis::report_columns(shown_columns));
     finished.write("features.md", text);
     return {text, true};
 }

@@ -1,15 +1,16 @@
-// A character from 2,000 to 1,000,000 tets, end to end: mesh, set-up, LBS and PBS, ruler, frames on disk; seconds of each part and peak
-// memory, and how they grow.
+// A character from 2,000 to 1,000,000 tets: the time of mesh, set-up, LBS and PBS, metrics and frames on disk, the peak memory, and how
+// they grow.
 //
 //   human  MakeHuman's body, 6 frames of the clip's jump, at 600 to 20,000 vertices (--full: to 190,000)
 //
-// The sizes run one after the other, each in a process of its own with nothing beside it, and mesh anew. Writes
-// DIR/scale/sizes/VERTICES/... (a run's directory), DIR/scale/scale.csv and scale.md.
-#include "analysis/records/atomic_file.hpp"
-#include "experiments/process/own_process.hpp"
-#include "analysis/records/kept_record.hpp"
-#include "experiments/run/run.hpp"
-#include "experiments/studies/scale/scale_table.hpp"
+// The sizes run one after the other, each in a process of its own with an empty cache of meshes. Writes DIR/scale/sizes/VERTICES/... (a
+// run's folder), DIR/scale/scale.csv and scale.md.
+#include "analysis/line_fit.hpp"
+#include "analysis/records/folder_files.hpp"
+#include "analysis/records/report_table.hpp"
+#include "experiments/settings/option_fields.hpp"
+#include "experiments/studies/scale/scale_records.hpp"
+#include "experiments/studies/shared/scene_alone.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 
@@ -22,7 +23,7 @@
 namespace experiments {
 namespace {
 
-namespace fs = std::filesystem;
+using Rows = analysis::Columns<ScaleRow>;
 
 Scene human_of(int vertices)
 {
@@ -31,43 +32,33 @@ Scene human_of(int vertices)
                                       "output.frames=[]", "output.frame_names=[]"});
 }
 
-ScaleRow row_of(const fs::path& folder)
+std::string run_sizes(const ScaleCase& of, const std::string& folder)
 {
-    const analysis::CsvTable metrics = analysis::read_csv((folder / "metrics.csv").string());
-    return analysis::from_record((folder / "run.json").string(), [&](const nlohmann::json& run) { return scale_row(run, metrics); });
-}
-
-std::string run_sizes(const std::vector<int>& sizes, const std::string& folder)
-{
-    const fs::path cache = fs::path(folder) / "cache";
+    const std::string cache = analysis::path_in(folder, "cache");
     std::vector<ScaleRow> rows;
-    std::string breakdown;
-    for (const int vertices : sizes) {
-        const fs::path run = fs::path(folder) / std::to_string(vertices);
-        fs::remove_all(cache);
-        const nlohmann::json told = in_own_process([&] {
-            setenv("PBSKIN_CACHE", cache.c_str(), 1);
-            return nlohmann::json(run_scene(human_of(vertices), run.string()).failure());
-        });
-        if (!told.get<std::string>().empty()) breakdown += fmt::format("{} vertices: {} ", vertices, told.get<std::string>());
-        rows.push_back(row_of(run));
-        spdlog::info("{} tets: {:.3g} ms a step, {:.3g} s in all", rows.back().tets, rows.back().step_ms, rows.back().total_s);
+    std::string failures;
+    for (const int vertices : of.vertices) {
+        const std::string run_folder = analysis::path_in(folder, std::to_string(vertices));
+        std::filesystem::remove_all(cache);
+        const nlohmann::json run = run_scene_alone(human_of(vertices), run_folder, [&] { setenv("PBSKIN_CACHE", cache.c_str(), 1); });
+        const nlohmann::json& outcome = run.at("outcome");
+        for (const char* failure : {"breakdown", "bad_frame"})
+            if (const std::string words = outcome.at(failure); !words.empty()) failures += fmt::format("{} vertices: {} ", vertices, words);
+        rows.push_back(scale_row(run, analysis::read_csv(analysis::path_in(run_folder, "metrics.csv"))));
+        spdlog::info("{} tets: {:.3g} ms per step, {:.3g} s in all", rows.back().tets, rows.back().step_ms, rows.back().total_s);
     }
-    fs::remove_all(cache);
-    scale_csv(rows).write((fs::path(folder) / "scale.csv").string());
-    return breakdown;
+    std::filesystem::remove_all(cache);
+    table_of(scale_columns, rows).write(analysis::path_in(folder, "scale.csv"));
+    return failures;
 }
 
 StudyPlan plan(bool full)
 {
-    std::vector<int> sizes = {600, 2400, 7000, 20000};
-    if (full) sizes.insert(sizes.end(), {60000, 190000});
+    ScaleCase of{{600, 2400, 7000, 20000}};
+    if (full) of.vertices.insert(of.vertices.end(), {60000, 190000});
     StudyPlan plan;
     try {
-        plan.runs.push_back({.name = "sizes",
-                             .cost_s = full ? 500.0 : 60.0,
-                             .work = [sizes](const std::string& folder) { return run_sizes(sizes, folder); },
-                             .settings = {{"scene", resolved_with_deformers(human_of(sizes.front()))}, {"vertices", sizes}}});
+        plan.runs.push_back(work_run("sizes", of, full ? 500.0 : 60.0, run_sizes));
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({"human", error.what()});
     }
@@ -77,7 +68,7 @@ StudyPlan plan(bool full)
 StudyConclusion conclude(const FinishedRuns& finished)
 {
     if (finished.none()) return {"scale: nothing ran\n", false};
-    const analysis::CsvTable table = finished.gathered("scale.csv");
+    const analysis::CsvTable table = table_of(scale_columns, finished.rows(scale_columns, "scale.csv"));
     finished.write("scale.csv", table);
     const std::string text = scale_markdown(table);
     finished.write("scale.md", text);
@@ -85,6 +76,71 @@ StudyConclusion conclude(const FinishedRuns& finished)
 }
 
 }  // namespace
+
+const Rows scale_columns = {{"vertices", &ScaleRow::vertices, "", "vertices of the mesh"},
+                            {"edges", &ScaleRow::edges, "", "edges of the mesh"},
+                            {"tets", &ScaleRow::tets, "", "tets of the mesh"},
+                            {"constraints", &ScaleRow::constraints, "", "bind, stretch and volume constraints"},
+                            {"iterations", &ScaleRow::iterations, "", "iterations per step"},
+                            {"frames", &ScaleRow::frames, "", "frames of the motion"},
+                            {"step_ms", &ScaleRow::step_ms, "ms", "a step of PBS, mean over the frames"},
+                            {"ns_a_constraint", &ScaleRow::ns_per_constraint, "ns", "the same per constraint and iteration"},
+                            {"character_s", &ScaleRow::character_s, "s", "mesh, weights and surface"},
+                            {"set_up_s", &ScaleRow::set_up_s, "s", "set-up of the deformers"},
+                            {"ruler_set_up_s", &ScaleRow::ruler_set_up_s, "s", "set-up of the metrics"},
+                            {"ruler_ms", &ScaleRow::ruler_ms, "ms", "metrics, per frame and deformer"},
+                            {"write_ms", &ScaleRow::write_ms, "ms", "a frame on disk, per deformer"},
+                            {"records_s", &ScaleRow::records_s, "s", "records of the run"},
+                            {"total_s", &ScaleRow::total_s, "s", "the whole run"},
+                            {"peak_mb", &ScaleRow::peak_mb, "MB", "peak memory, 10^6 bytes"}};
+
+nlohmann::json to_json(const ScaleCase& of)
+{
+    static const auto fields =
+        OptionFields<ScaleCase>("scale")
+            .record("vertices", &ScaleCase::vertices)
+            .derived("scene", [](const ScaleCase& of) { return resolved_with_deformers(human_of(of.vertices.front())); })
+            .complete();
+    return fields.json(of);
+}
+
+ScaleRow scale_row(const nlohmann::json& run, const analysis::CsvTable& metrics)
+{
+    ScaleRow row;
+    const nlohmann::json &character = run.at("character"), &seconds = run.at("cost").at("cpu_seconds");
+    row.vertices = character.at("vertices");
+    row.edges = character.at("quality").at("edges");
+    row.tets = character.at("tets");
+    row.constraints = static_cast<double>(row.vertices + row.edges + row.tets);
+    row.frames = run.at("outcome").at("frames");
+    for (int i = 0; i < metrics.rows(); ++i)
+        if (metrics.text_at(i, "deformer") == "pbs") row.iterations = static_cast<int>(metrics.integer(i, "iterations"));
+    row.step_ms = 1e3 * seconds.at("deformers").at("pbs").at("step").get<double>() / row.frames;
+    row.ns_per_constraint = 1e6 * row.step_ms / (row.constraints * row.iterations);
+    row.character_s = seconds.at("character");
+    row.set_up_s = seconds.at("set_up");
+    row.ruler_set_up_s = seconds.at("ruler_set_up");
+    row.records_s = seconds.at("records");
+    row.total_s = seconds.at("total");
+    row.ruler_ms = 1e3 * seconds.at("ruler").get<double>() / metrics.rows();
+    row.write_ms = 1e3 * seconds.at("frames").get<double>() / metrics.rows();
+    row.peak_mb = run.at("cost").at("peak_memory_mb");
+    return row;
+}
+
+std::string scale_markdown(const analysis::CsvTable& table)
+{
+    std::string text =
+        markdown_table(table, analysis::report_columns("tets constraints:.0f step_ms:.3g ns_a_constraint:.2f character_s:.3g set_up_s:.3g "
+                                                       "ruler_set_up_s:.3g ruler_ms:.3g write_ms:.3g total_s:.3g frames peak_mb:.0f"));
+    if (table.rows() < 2) return text;
+    text += "\n| cost | grows with constraints^p, p [95 %] |\n|---|---|\n";
+    for (const char* cost : {"step_ms", "character_s", "set_up_s", "ruler_ms", "write_ms", "peak_mb"}) {
+        const analysis::Interval p = analysis::observed_order(table.numbers("constraints"), table.numbers(cost)).slope;
+        text += fmt::format("| {} | {:.2f} [{:.2f}, {:.2f}] |\n", scale_columns.named(cost).meaning, p.estimate, p.low, p.high);
+    }
+    return text;
+}
 
 Study scale_study()
 {

@@ -1,8 +1,7 @@
 #include "experiments/studies/shared/timed_rounds.hpp"
 
-#include "experiments/settings/option_fields.hpp"
-
 #include "analysis/statistics.hpp"
+#include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <nlohmann/json.hpp>
@@ -21,9 +20,9 @@ nlohmann::json to_json(const Rounds& rounds)
     return fields.json(rounds);
 }
 
-std::vector<std::vector<std::vector<double>>> take_turns(const std::vector<TimedVariant>& variants, const Rounds& rounds)
+std::vector<Samples> take_turns(const std::vector<TimedVariant>& variants, const Rounds& rounds)
 {
-    std::vector<std::vector<std::vector<double>>> samples(variants.size());
+    std::vector<Samples> samples(variants.size());
     for (std::size_t i = 0; i < variants.size(); ++i) samples[i].resize(variants[i]().size());
     const pbs::Stopwatch stopwatch;
     for (int round = 0; round < rounds.most && (round < rounds.fewest || stopwatch.seconds() < rounds.seconds); ++round)
@@ -42,7 +41,8 @@ Spread spread_of(const std::vector<double>& samples)
 
 Spread spread_of_ratios(const std::vector<double>& numerator, const std::vector<double>& denominator, double factor)
 {
-    if (numerator.empty() || numerator.size() != denominator.size()) throw std::logic_error("ratios of two variants with other rounds");
+    if (numerator.empty() || numerator.size() != denominator.size())
+        throw std::logic_error("ratios of two variants need the same number of rounds");
     std::vector<double> ratios;
     for (std::size_t round = 0; round < numerator.size(); ++round) ratios.push_back(factor * numerator[round] / denominator[round]);
     return spread_of(ratios);
@@ -58,6 +58,14 @@ void put_spread(nlohmann::json& json, const std::string& name, const Spread& spr
     json[name] = spread.median;
     json["quartiles"][name] = {spread.lower, spread.upper};
     json["rounds"] = spread.rounds;
+}
+
+analysis::Columns<Spread> spread_columns(const std::string& name, const std::string& unit, const std::string& meaning,
+                                         const QuartileEndings& endings)
+{
+    return {{name, &Spread::median, unit, meaning + ", median of the rounds"},
+            {name + endings.lower, &Spread::lower, unit, meaning + ", lower quartile"},
+            {name + endings.upper, &Spread::upper, unit, meaning + ", upper quartile"}};
 }
 
 }  // namespace experiments

@@ -1,11 +1,12 @@
-// Timings that can be compared: all variants by turns, A B C A B C ..., so that what disturbs the machine disturbs them alike; of each the
-// median and the quartiles over the rounds. What a variant costs relative to another is the median of the ratios within a round, which a
-// disturbance of the machine disturbs less than a ratio of medians.
+// Timings that can be compared. All variants take turns, A B C A B C ..., so that a disturbance of the machine meets them alike; each one
+// has the median and the quartiles over the rounds. The cost of one variant relative to another is the median of the ratios within a
+// round, which a disturbance changes less than a ratio of medians.
 //   const auto samples = take_turns({[&] { return seconds_of(a); }, [&] { return seconds_of(b); }}, {.seconds = 2.0});
 //   spread_of(samples[0][0]).median
 //   spread_of_ratios(samples[0][0], samples[1][0]).median   // a over b
 #pragma once
 
+#include "analysis/records/typed_table.hpp"
 #include "experiments/process/cpu_clock.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -17,7 +18,7 @@
 namespace experiments {
 
 struct Rounds {
-    double seconds = 3.0;  // so long at most, once the fewest are done [s]
+    double seconds = 3.0;  // no round begins later than this, except the fewest [s]
     int fewest = 3, most = 61;
 };
 
@@ -28,11 +29,12 @@ struct Spread {
     int rounds = 0;
 };
 
-// One timing of a variant: it measures itself, and returns what it measured, always as many numbers.
+// One timing of a variant. It measures itself and returns what it measured, the same number of values each time.
 using TimedVariant = std::function<std::vector<double>()>;
+using Samples = std::vector<std::vector<double>>;  // [value][round]
 
-// samples[variant][which number][round]. A first round warms up and is not kept.
-std::vector<std::vector<std::vector<double>>> take_turns(const std::vector<TimedVariant>& variants, const Rounds& rounds);
+// The samples of each variant. A first round warms up and is not kept.
+std::vector<Samples> take_turns(const std::vector<TimedVariant>& variants, const Rounds& rounds);
 
 Spread spread_of(const std::vector<double>& samples);
 Spread spread_of_ratios(const std::vector<double>& numerator, const std::vector<double>& denominator, double factor = 1.0);  // by round
@@ -41,7 +43,14 @@ Spread scaled(const Spread& spread, double factor);
 // The median under `name`, its quartiles under "quartiles", and the number of rounds.
 void put_spread(nlohmann::json& json, const std::string& name, const Spread& spread);
 
-// What the calling thread's work takes of its processor [s].
+// The columns NAME of the median, and NAME with these endings of the quartiles. The number of rounds has no column here.
+struct QuartileEndings {
+    std::string lower = "_low", upper = "_high";
+};
+analysis::Columns<Spread> spread_columns(const std::string& name, const std::string& unit, const std::string& meaning,
+                                         const QuartileEndings& endings = {});
+
+// Processor time of the calling thread for this work [s].
 template <typename Work>
 double cpu_seconds(const Work& work)
 {

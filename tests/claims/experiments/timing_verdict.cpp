@@ -1,9 +1,9 @@
-// C10 is judged from what the study of timing measures: alter its times and the verdict turns round. Truth: the project's own claims.toml;
-// the times are made up.
+// C10 is judged from what the study `timing` measures: other times reverse the verdict. The claim is that of claims.toml, and the times are
+// made up.
 #include "analysis/verdict.hpp"
 
 #include "analysis/records/atomic_file.hpp"
-#include "experiments/studies/timing/timing_table.hpp"
+#include "experiments/studies/timing/timing_records.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,26 +14,24 @@ namespace {
 using analysis::VerdictKind;
 using namespace experiments;
 
-TimedMesh timed(const std::string& body, const std::string& model, double median_ms, double upper_ms)
+std::vector<TimingRow> timed(const std::string& body, const std::string& model, double median_ms, double upper_ms)
 {
-    TimedMesh mesh{.name = body, .body = body, .model = model};
     FrameTiming timing{.variant = "plain", .precision = "f64"};
     timing.total_wall_ms = {median_ms, 0.9 * median_ms, upper_ms, 9};
     timing.total_ms = {1.0, 1.0, 1.0, 9};  // processor time is not judged
     FrameTiming quicker{.variant = "ordered", .precision = "f32"}, slower{.variant = "plain", .precision = "f32"};
     quicker.total_wall_ms = {1.0, 1.0, 1.0, 9};
-    slower.total_wall_ms = {1e3, 1e3, 1e3, 9};  // nor are they
-    mesh.timings = {timing, quicker, slower};
-    return mesh;
+    slower.total_wall_ms = {1e3, 1e3, 1e3, 9};  // neither are these
+    return timing_rows({.name = body, .body = body, .model = model}, {timing, quicker, slower});
 }
 
-VerdictKind verdict(const std::vector<TimedMesh>& meshes)
+VerdictKind verdict(const std::vector<std::vector<TimingRow>>& meshes)
 {
     const auto claims = analysis::parse_claims(analysis::read_text(PBS_CLAIMS_FILE), PBS_CLAIMS_FILE);
     const auto claim = std::find_if(claims.begin(), claims.end(), [](const analysis::Claim& of) { return of.id == "C10"; });
     analysis::Records records;
-    for (const TimedMesh& mesh : meshes)
-        for (const auto& measurement : timing_measurements(mesh)) records.measurements.push_back(measurement);
+    for (const auto& rows : meshes)
+        for (const auto& measurement : timing_measurements(rows)) records.measurements.push_back(measurement);
     return judge(*claim, records).kind;
 }
 

@@ -40,7 +40,7 @@ TEST(SleepOnTheHuman, ChangesThePoseByLessThanItsTolerance)
 {
     const auto awake = human({}), asleep = human({.overrides = {"pbs.sleep=true"}});
     if (!awake || !asleep) GTEST_SKIP() << "assimp-testmodels is not installed";
-    const AnswerChange change = change_between(*awake, *asleep);
+    const ResultChange change = change_between(*awake, *asleep);
     const double edge_m = mean_edge_m(pbs::make_character(awake->character).mesh);
     const pbs::PbsOptions& options = experiments::options_of<pbs::PbsOptions>(asleep->deformers.front());
     std::printf("largest change %.3g m, %.3g mean edges\n", change.distance_m, change.distance_m / edge_m);

@@ -5,8 +5,10 @@
 #include "experiments/studies/artefacts/smoothness_comparison.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
+#include "experiments/studies/features/feature_cost.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
+#include "experiments/studies/timing/timing_records.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
 #include "reference_fem/verification/verification_record.hpp"
 
@@ -91,6 +93,12 @@ TEST(KeptTables, OfTheVerification)
     const analysis::CsvTable table = analysis::read_csv(file.string());
     const analysis::Columns<reference_fem::RecordedRow>& columns = reference_fem::verification_columns();
     expect_same_cells(table_of(columns, rows_of(columns, table)), table, file.string());
+}
+
+TEST(KeptTables, OfTimedStudies)
+{
+    expect_same_records(experiments::timing_columns, "timing", "timing.csv");
+    expect_same_records(experiments::feature_columns, "features", "features.csv");
 }
 
 TEST(KeptTables, OfTheOtherStudies)

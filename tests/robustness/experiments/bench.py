@@ -70,7 +70,7 @@ class Bench(program.ProgramTest):
         process = self.succeeds("bench", "--quick", "--mesh", self.arm(), "-o", self.path("out"))
         with open(self.path("out", "bench.json"), encoding="utf-8") as file:
             self.assertIn("results", json.load(file))
-        for word in ("ordered", "grouped", "poses", "x plain", "lbs", "GFLOP/s"):
+        for word in ("ordered", "grouped", "poses", "ratio_to_plain", "lbs", "GFLOP/s"):
             self.assertIn(word, process.stdout)
 
     def test_sizes_tell_how_the_cost_grows(self):

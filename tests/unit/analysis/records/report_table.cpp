@@ -24,6 +24,12 @@ TEST(ReportTable, MarkdownHasOneRuleBelowTheHeadingsAndAScaledNumberPerRow)
     EXPECT_EQ(markdown_table(table(), columns), "| body | step [ms] |\n|---|---|\n| limb | 12.5 |\n| lady | - |\n");
 }
 
+TEST(ReportTable, ColumnsUnderTheirOwnNames)
+{
+    EXPECT_EQ(markdown_table(table(), analysis::report_columns("body step_s:.2f")),
+              "| body | step_s |\n|---|---|\n| limb | 0.01 |\n| lady |  |\n");
+}
+
 TEST(ReportTable, TextAlignsWordsLeftAndNumbersRight)
 {
     EXPECT_EQ(text_table(table(), columns),

@@ -5,12 +5,16 @@
 #include "experiments/deformers/xpbd/xpbd_options.hpp"
 #include "experiments/studies/ambiguity/reading_figures.hpp"
 #include "experiments/studies/artefacts/artefact_figures.hpp"
+#include "experiments/studies/bench/bench.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
+#include "experiments/studies/features/feature_cost.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
+#include "experiments/studies/scale/scale_records.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
 #include "experiments/studies/stability/stability_cell.hpp"
 #include "experiments/studies/study_run.hpp"
+#include "experiments/studies/timing/timing_records.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/struct_members.hpp"
@@ -98,6 +102,28 @@ TEST(RecordedSettings, OfBodySetup)
 {
     const BodySetup of{"ring", 0, {"pbs.k_volume=0.5"}};
     EXPECT_GE(expect_each_change_repeats(of), 4);
+}
+
+TEST(RecordedSettings, OfTimedStudies)
+{
+    EXPECT_GE(expect_each_change_repeats(BenchOptions{.mesh = "bar.msh", .sizes = {1000}}), 7);
+    EXPECT_GE(expect_each_change_repeats(TimedCase{.scene = limb(), .model = "Man"}), 6);
+    EXPECT_GE(expect_each_change_repeats(FeaturesCase{.name = "limb", .scene = "limb_bend", .cut = {"motion.frames=11"}}), 8);
+}
+
+// The scale study's scene is the human.
+TEST(RecordedSettings, OfScale)
+{
+    if (!pbs::body_is_installed("human")) GTEST_SKIP() << "the human is not installed";
+    EXPECT_GE(expect_each_change_repeats(ScaleCase{{2400}}), 2);
+}
+
+TEST(RecordedSettings, OfATimedCaseHasTheRefinementsOfItsMesh)
+{
+    TimedCase of{.scene = limb(), .model = ""};
+    const nlohmann::json recorded = to_json(of);
+    of.scene.character.refinements = 2;
+    EXPECT_NE(to_json(of), recorded);
 }
 
 template <typename Options>

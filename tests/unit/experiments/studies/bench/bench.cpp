@@ -1,5 +1,4 @@
-// Truth: the definitions of sizes and fits; that both builds of the plain loops are the same mathematics; that the body is the twist it
-// says.
+// Sizes and fits follow their definitions, both builds of the plain loops are the same mathematics, and the body is twisted as stated.
 #include "experiments/studies/bench/bench.hpp"
 
 #include "experiments/studies/bench/step_loops.hpp"
@@ -79,7 +78,7 @@ TEST(ProjectionVariants, SettleOnTheSameResiduals)
     ASSERT_EQ(variants.size(), 18u);  // of each precision three plain ones, and ordered, grouped, poses by one and by two threads
     for (const ProjectionVariant& variant : variants) {
         variant.loops.load();
-        for (int i = 0; i < iterations_a_step; ++i) variant.loops.bind(), variant.loops.stretch(), variant.loops.volume();
+        for (int i = 0; i < iterations_per_step; ++i) variant.loops.bind(), variant.loops.stretch(), variant.loops.volume();
         residuals.push_back(variant.loops.residuals());
     }
     for (std::size_t i = 0; i < variants.size(); ++i) {

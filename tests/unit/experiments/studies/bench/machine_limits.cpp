@@ -1,4 +1,4 @@
-// Truth: the definition of the roofline and of interpolation; of what is measured only that it is there and of the machine's order.
+// The roofline and the interpolation follow their definitions. Measured limits are only checked to be finite and positive.
 #include "experiments/studies/bench/machine_limits.hpp"
 
 #include "experiments/studies/bench/machine_kernels.hpp"

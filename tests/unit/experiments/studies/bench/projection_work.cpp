@@ -1,5 +1,5 @@
-// Truth: counting. The operations of a projection are counted by a number that counts them, run through pbs/constraints as they stand
-// there; what those do beyond the count (they recompute what no frame changes) is named one by one.
+// The operations of a projection are counted by a type of number that counts them, passed through pbs/constraints. Their operations beyond
+// the count (they recompute what no frame changes) are listed one by one.
 #include "experiments/studies/bench/projection_work.hpp"
 
 #include "pbs/constraints/bind.hpp"
@@ -95,7 +95,7 @@ TEST(ProjectionWork, BindIsCountedOperationByOperation)
     EXPECT_EQ(done, experiments::flops_of(ConstraintClass::bind) + recomputed);
 }
 
-// By hand, in f32: an edge is 2 indices, a length, a stiffness; each of 10 vertices goes in and out once for 50 edges.
+// By hand, in f32: an edge has 2 indices, a length and a stiffness; each of 10 vertices goes in and out once for 50 edges.
 TEST(ProjectionWork, BytesOfOnePose)
 {
     const BodySize size{10, 50, 30};
@@ -103,7 +103,7 @@ TEST(ProjectionWork, BytesOfOnePose)
     EXPECT_DOUBLE_EQ(experiments::bytes_of(ConstraintClass::volume, {4, 1}, size), 24 + 2 * 16 * 10 / 30.0);
     EXPECT_DOUBLE_EQ(experiments::bytes_of(ConstraintClass::bind, {8, 1}, size), 40 + 2 * 32);
     EXPECT_DOUBLE_EQ(experiments::working_set_bytes({4, 1}, size), 50 * 16 + 30 * 24 + 10 * (20 + 16));
-    EXPECT_DOUBLE_EQ(experiments::bytes_an_iteration({4, 1}, size), 50 * 16 + 30 * 24 + 10 * 20 + 3 * 2 * 16 * 10);
+    EXPECT_DOUBLE_EQ(experiments::bytes_per_iteration({4, 1}, size), 50 * 16 + 30 * 24 + 10 * 20 + 3 * 2 * 16 * 10);
 }
 
 // Sixteen poses share what a constraint knows; positions (x, y, z) and bind points are each one's own.
@@ -113,7 +113,7 @@ TEST(ProjectionWork, BytesOfManyPoses)
     EXPECT_DOUBLE_EQ(experiments::bytes_of(ConstraintClass::stretch, {4, 16}, size), 28 / 16.0 + 2 * 12 * 10 / 50.0);
     EXPECT_DOUBLE_EQ(experiments::bytes_of(ConstraintClass::volume, {4, 16}, size), 40 / 16.0 + 2 * 12 * 10 / 30.0);
     EXPECT_DOUBLE_EQ(experiments::bytes_of(ConstraintClass::bind, {8, 16}, size), 16 / 16.0 + 24 + 2 * 24);
-    EXPECT_DOUBLE_EQ(experiments::bytes_an_iteration({4, 16}, size), 50 * 28 + 30 * 40 + 10 * 8 + 16 * 10 * (12 + 3 * 2 * 12));
+    EXPECT_DOUBLE_EQ(experiments::bytes_per_iteration({4, 16}, size), 50 * 28 + 30 * 40 + 10 * 8 + 16 * 10 * (12 + 3 * 2 * 12));
     EXPECT_DOUBLE_EQ(experiments::working_set_bytes({4, 16}, size), 50 * 28 + 30 * 40 + 10 * 8 + 16 * 10 * (12 + 12));
 }
 

@@ -1,4 +1,4 @@
-// The pairs of scenes. Truth: a pair differs in its feature alone, and every scene is one that the program reads.
+// A pair of scenes differs in its feature alone, and the program reads every scene.
 #include "experiments/studies/features/feature.hpp"
 
 #include <gtest/gtest.h>

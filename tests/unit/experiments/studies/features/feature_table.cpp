@@ -1,5 +1,5 @@
-// The arithmetic of the cost table. Truth: medians, quartiles and ratios by hand, on rounds whose disturbances are known.
-#include "experiments/studies/features/feature_table.hpp"
+// The arithmetic of the cost table. Expected: medians, quartiles and ratios by hand, on rounds whose disturbances are known.
+#include "experiments/studies/features/feature_cost.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,29 +9,41 @@ namespace {
 
 using namespace experiments;
 
-SceneCost cost(double frame_ms)
+// The run.json of a run of three frames in `frame_s` each, half of which is PBS's step.
+nlohmann::json run(double frame_s, double start_s)
 {
-    return {.frame_ms = frame_ms,
-            .frame_cpu_ms = frame_ms,
-            .step_ms = 0.5 * frame_ms,
-            .step_cpu_ms = 0.5 * frame_ms,
-            .start_s = 0.1,
-            .peak_mb = 40.0 + frame_ms,
-            .shared_objects = 60};
+    const nlohmann::json seconds = {
+        {"character", start_s}, {"total", 3.0 * frame_s + start_s}, {"deformers", {{"pbs", {{"step", 1.5 * frame_s}}}}}};
+    return {{"outcome", {{"frames", 3}}},
+            {"cost", {{"seconds", seconds}, {"cpu_seconds", seconds}, {"peak_memory_mb", 42.0}, {"shared_objects", 60}}}};
 }
 
-FeatureRow row(const std::vector<double>& without, const std::vector<double>& with)
+Samples costs(const std::vector<double>& frame_ms)
 {
-    FeatureRow made{.scene = "limb", .feature = "sleep", .without = {}, .with = {}, .change = {}};
-    for (const double frame_ms : without) made.without.push_back(cost(frame_ms));
-    for (const double frame_ms : with) made.with.push_back(cost(frame_ms));
-    return made;
+    Samples samples(7);
+    for (const double ms : frame_ms) {
+        const auto one = costs_of_run(run(1e-3 * ms, 0.125), scene_of("limb_bend", {"motion.frames=3"}, {}));
+        for (std::size_t k = 0; k < samples.size(); ++k) samples[k].push_back(one.at(k));
+    }
+    return samples;
+}
+
+TEST(FeatureTable, CostsComeFromTheRunsRecord)
+{
+    const Samples one = costs({2.0});
+    EXPECT_NEAR(one[0][0], 2.0, 1e-12);  // frame, wall and processor
+    EXPECT_NEAR(one[1][0], 2.0, 1e-12);
+    EXPECT_NEAR(one[2][0], 1.0, 1e-12);  // step
+    EXPECT_NEAR(one[3][0], 1.0, 1e-12);
+    EXPECT_EQ(one[4][0], 0.125);
+    EXPECT_EQ(one[5][0], 42.0);
+    EXPECT_EQ(one[6][0], 60.0);
 }
 
 TEST(FeatureTable, RatioIsTheMedianOfTheRatiosWithinARound)
 {
-    // The machine halves its speed in the second round: both runs double, their ratio of 1.5 stays.
-    const Compared compared = compare(row({2.0, 4.0, 2.0}, {3.0, 6.0, 3.0}), &SceneCost::frame_ms);
+    // The machine halves its speed in the second round: both runs double, and their ratio of 1.5 stays.
+    const Compared compared = compare({2.0, 4.0, 2.0}, {3.0, 6.0, 3.0});
     EXPECT_EQ(compared.without.median, 2.0);
     EXPECT_EQ(compared.with.median, 3.0);
     EXPECT_EQ(compared.ratio.median, 1.5);
@@ -42,7 +54,7 @@ TEST(FeatureTable, RatioIsTheMedianOfTheRatiosWithinARound)
 
 TEST(FeatureTable, SpreadIsTheQuartiles)
 {
-    const Compared compared = compare(row({1.0, 1.0, 1.0, 1.0, 1.0}, {1.0, 2.0, 3.0, 4.0, 5.0}), &SceneCost::frame_ms);
+    const Compared compared = compare({1.0, 1.0, 1.0, 1.0, 1.0}, {1.0, 2.0, 3.0, 4.0, 5.0});
     EXPECT_EQ(compared.ratio.lower, 2.0);
     EXPECT_EQ(compared.ratio.median, 3.0);
     EXPECT_EQ(compared.ratio.upper, 4.0);
@@ -50,22 +62,23 @@ TEST(FeatureTable, SpreadIsTheQuartiles)
 
 TEST(FeatureTable, RoundsWithAndWithoutBelongTogether)
 {
-    EXPECT_THROW(compare(row({1.0, 1.0}, {1.0}), &SceneCost::frame_ms), std::logic_error);
-    EXPECT_THROW(compare(row({}, {}), &SceneCost::frame_ms), std::logic_error);
+    EXPECT_THROW(compare({1.0, 1.0}, {1.0}), std::logic_error);
+    EXPECT_THROW(compare({}, {}), std::logic_error);
 }
 
-TEST(FeatureTable, OnlyAFeatureThatMovesTheAnswerHasAChange)
+TEST(FeatureTable, OnlyAFeatureThatMovesTheResultHasAChange)
 {
-    FeatureRow moving = row({1.0}, {2.0});
-    moving.change = AnswerChange{.distance_m = 2e-3, .volume_difference_pct = 0.25};
-    const analysis::CsvTable table = features_csv({row({1.0}, {2.0}), moving});
+    const FeatureRow still = feature_row("limb", "sleep", costs({1.0}), costs({2.0}));
+    const FeatureRow moving = feature_row("limb", "sleep", costs({1.0}), costs({2.0}), ResultChange{2e-3, 0.25});
+    const analysis::CsvTable table = table_of(feature_columns, std::vector<FeatureRow>{still, moving});
     EXPECT_FALSE(table.number_or_nothing(0, "largest_distance_m").has_value());
     EXPECT_EQ(table.number(1, "largest_distance_m"), 2e-3);
+    EXPECT_EQ(table.number(1, "volume_difference_pct"), 0.25);
     EXPECT_EQ(table.number(1, "peak_mb_with"), 42.0);
-    EXPECT_EQ(table.number(1, "step_ms_without"), 0.5);
-    const std::string text = features_markdown(table);
-    EXPECT_NE(text.find("| limb | sleep | 1.00 | 2.00 | 2.00 [2.00, 2.00] |"), std::string::npos) << text;
-    EXPECT_NE(text.find("| 2 mm, 0.25 % |"), std::string::npos) << text;
+    EXPECT_NEAR(table.number(1, "step_ms_without"), 0.5, 1e-12);
+    EXPECT_NEAR(table.number(1, "frame_cpu_ms_ratio"), 2.0, 1e-12);
+    EXPECT_EQ(table.integer(1, "shared_objects_with"), 60);
+    EXPECT_EQ(table.integer(1, "rounds"), 1);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Truth: the definition. Variants take turns, and each one's numbers come back round by round; medians and quartiles by hand.
+// Variants take turns, and each one's values come back round by round. Medians and quartiles are computed by hand.
 #include "experiments/studies/shared/timed_rounds.hpp"
 
 #include <gtest/gtest.h>
@@ -41,6 +41,13 @@ TEST(TimedRounds, MedianAndQuartiles)
     EXPECT_EQ(odd.rounds, 5);
     EXPECT_DOUBLE_EQ(spread_of({1.0, 2.0, 3.0, 10.0}).median, 2.5);  // one disturbed round does not move it far
     EXPECT_DOUBLE_EQ(scaled(odd, 10.0).upper, 40.0);
+}
+
+TEST(TimedRounds, ColumnsOfASpread)
+{
+    const analysis::Columns<experiments::Spread> columns = experiments::spread_columns("step_ms", "ms", "a step");
+    EXPECT_EQ(table_of(columns, std::vector<experiments::Spread>{{2.0, 1.5, 4.0, 7}}).text(),
+              "step_ms,step_ms_low,step_ms_high\n2,1.5,4\n");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Truth: timings made up as a power of the size.
-#include "experiments/studies/timing/timing_report.hpp"
+// Expected values follow from timings that are a power of the size.
+#include "experiments/studies/timing/timing_records.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ TEST(RealTimeEnd, IsWhereAFrameTakesAThirtieth)
     }
 }
 
-TEST(RealTimeEnd, BeyondWhatWasMeasuredIsToldSo)
+TEST(RealTimeEnd, BeyondTheMeasuredSizesIsMarked)
 {
     const RealTimeEnd above = real_time_end({1e3, 1e4}, {total_ms(1e3), total_ms(1e4)});
     EXPECT_NEAR(above.vertices, 50e3, 1e-6);
