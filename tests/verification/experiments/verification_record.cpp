@@ -20,7 +20,7 @@ const VerificationProblem& problem(const std::string& name)
     return *found;
 }
 
-// The quick ones; the longer ones have tests of their own.
+// The quick problems; the longer ones have separate tests.
 std::vector<std::string> names()
 {
     std::vector<std::string> quick;
@@ -45,12 +45,12 @@ TEST_P(VerificationRecord, EveryJudgedRowHoldsAndSaysWhy)
         EXPECT_FALSE(row.bound_from.empty()) << place;
         EXPECT_TRUE(*holds(row)) << place << ": " << to_json(row).dump(2);
     }
-    EXPECT_TRUE(judged > 0 || rows.empty());  // none: without the body or the program that the problem asks for
+    EXPECT_TRUE(judged > 0 || rows.empty());  // no rows: the body or the program that the problem needs is missing
 }
 
 INSTANTIATE_TEST_SUITE_P(Problem, VerificationRecord, testing::ValuesIn(names()), [](const auto& info) { return info.param; });
 
-// (problem, beginning of the quantity): of the finest mesh's row.
+// (problem, beginning of the quantity), for the row of the finest mesh.
 using Named = std::pair<const char*, const char*>;
 class WrongLameParameter : public testing::TestWithParam<Named> {};
 

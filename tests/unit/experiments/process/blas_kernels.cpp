@@ -21,7 +21,7 @@ using namespace experiments;
 
 struct Case {
     const char* processor;
-    const char* selected;  // by OpenBLAS 0.3.21 as Debian 12 has it
+    const char* selected;  // by OpenBLAS 0.3.21 of Debian 12
     Processor has;
     const char* better;
 };
@@ -123,7 +123,7 @@ TEST_F(SelectBlasKernels, OnThisProcessorNoInstructionIsLeftUnused)
 }
 
 #ifdef __x86_64__
-// Model 255 of Intel's family 6 does not exist. This processor answers as if it were one, with its own instructions.
+// Model 255 of Intel's family 6 does not exist. This processor pretends to be one, with its own instructions.
 TEST_F(SelectBlasKernels, OnAModelThatOpenBlasDoesNotKnowTheInstructionsDecide)
 {
     if (!is_own_process()) return;

@@ -35,7 +35,7 @@ MeshTimings of_size(int tets, double ms_step)
     return mesh;
 }
 
-// A cost of c n^1.1 has the exponent 1.1, and no width.
+// A cost of c n^1.1 has the exponent 1.1, with an interval of width zero.
 TEST(BenchScaling, ExponentOfAPower)
 {
     std::vector<MeshTimings> meshes;
@@ -69,13 +69,13 @@ TEST(BenchBody, IsTwistedByNinetyDegreesFromTheHeldEnd)
 }
 
 // Every variant projects the same problem: after a step each is within some per cent of `plain`, whose residuals are of the order of 0.1.
-// The native build differs from the library's by rounding alone.
+// The native build differs from the library's only by rounding.
 TEST(ProjectionVariants, SettleOnTheSameResiduals)
 {
     const BenchBody body = make_bench_body("bar", test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {8, 2, 2}));
     std::vector<pbs::Residuals> residuals;
     const auto variants = projection_variants(body, {1, 2});
-    ASSERT_EQ(variants.size(), 18u);  // of each precision three plain ones, and ordered, grouped, poses by one and by two threads
+    ASSERT_EQ(variants.size(), 18u);  // for each precision three plain variants, and ordered, grouped and poses on one and on two threads
     for (const ProjectionVariant& variant : variants) {
         variant.loops.load();
         for (int i = 0; i < iterations_per_step; ++i) variant.loops.bind(), variant.loops.stretch(), variant.loops.volume();

@@ -35,7 +35,8 @@ TEST(MachineLimits, MultiplyAddsAreDoneAndCounted)
 {
     float sum = 0.0f;
     const double flops = experiments::multiply_add<float>(10, 1.0f, 1.0f, 1.0f, sum);
-    // Twelve chains of `lanes` numbers, chain c from 1 + c, ten times plus one: the sum over chains is lanes (12 + 66 + 120).
+    // Twelve chains of `lanes` numbers, chain c starting at 1 + c, are ten times incremented by one: the sum over chains is lanes (12 + 66
+    // + 120).
     const double lanes = flops / (2.0 * 10 * 12);
     EXPECT_FLOAT_EQ(sum, float(lanes * 198.0));
     EXPECT_EQ(lanes, std::floor(lanes));

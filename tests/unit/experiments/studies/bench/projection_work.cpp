@@ -70,7 +70,7 @@ TEST(ProjectionWork, StretchIsCountedOperationByOperation)
     Point p1(0.0, 0.0, 0.0), p2(1.0, 2.0, 3.0);
     const pbs::StretchConstraint<Counted> edge{{0, 1}, Counted(1.0), Counted(0.2)};
     const int done = count([&] { project(edge, Counted(1.0), Counted(1.0), p1, p2); });
-    // w1 + w2; its product with the length; and k_s times the gradient before the masses: three products in place of one for each end.
+    // w1 + w2; its product with the length; and k_s times the gradient before the masses: three products instead of one for each end.
     const int recomputed = 1 + 1 + 3 - 2;
     EXPECT_EQ(done, experiments::flops_of(ConstraintClass::stretch) + recomputed);
 }
@@ -81,7 +81,7 @@ TEST(ProjectionWork, VolumeIsCountedOperationByOperation)
     const pbs::VolumeConstraint<Counted> tet{{0, 1, 2, 3}, Counted(0.1), Counted(1.0)};
     const Counted w(1.0);
     const int done = count([&] { project(tet, w, w, w, w, p1, p2, p3, p4); });
-    // Sixths of C and of three gradients; the constants of the rounding; the negative of g1 is none.
+    // Sixths of C and of three gradients; the constants of the rounding; the negation of g1 does not count.
     const int recomputed = 1 + 3 * 3 + 2;
     EXPECT_EQ(done, experiments::flops_of(ConstraintClass::volume) + recomputed);
 }
@@ -91,7 +91,7 @@ TEST(ProjectionWork, BindIsCountedOperationByOperation)
     Point p(1.0, 2.0, 3.0);
     const pbs::BindConstraint<Counted> bind{0, Counted(1.0), Counted(1.0)};
     const int done = count([&] { project(bind, Counted(1.0), Point(0.0, 0.0, 0.0), p); });
-    const int recomputed = 1;  // w times the distance, which asks whether the vertex is pinned
+    const int recomputed = 1;  // w times the distance, which tests whether the vertex is pinned
     EXPECT_EQ(done, experiments::flops_of(ConstraintClass::bind) + recomputed);
 }
 
@@ -106,7 +106,7 @@ TEST(ProjectionWork, BytesOfOnePose)
     EXPECT_DOUBLE_EQ(experiments::bytes_per_iteration({4, 1}, size), 50 * 16 + 30 * 24 + 10 * 20 + 3 * 2 * 16 * 10);
 }
 
-// Sixteen poses share what a constraint knows; positions (x, y, z) and bind points are each one's own.
+// Sixteen poses share the data of a constraint; each has its own positions (x, y, z) and bind points.
 TEST(ProjectionWork, BytesOfManyPoses)
 {
     const BodySize size{10, 50, 30};

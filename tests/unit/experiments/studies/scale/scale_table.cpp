@@ -52,7 +52,7 @@ TEST(ScaleTable, ARunIsReadFromItsRecords)
     const ScaleRow row = scale_row(run, metrics);
     EXPECT_EQ(row.step_ms, 4.0);  // of PBS alone, per frame
     EXPECT_EQ(row.iterations, 24);
-    EXPECT_DOUBLE_EQ(row.ruler_ms, 100.0);  // of six measurements
+    EXPECT_DOUBLE_EQ(row.ruler_ms, 100.0);  // six measurements
     EXPECT_DOUBLE_EQ(row.write_ms, 50.0);
     EXPECT_EQ(row.constraints, 60.0);  // of all three classes
     EXPECT_DOUBLE_EQ(row.ns_per_constraint, 4e6 / (60.0 * 24.0));

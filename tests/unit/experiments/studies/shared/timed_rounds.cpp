@@ -39,7 +39,7 @@ TEST(TimedRounds, MedianAndQuartiles)
     EXPECT_DOUBLE_EQ(odd.lower, 2.0);
     EXPECT_DOUBLE_EQ(odd.upper, 4.0);
     EXPECT_EQ(odd.rounds, 5);
-    EXPECT_DOUBLE_EQ(spread_of({1.0, 2.0, 3.0, 10.0}).median, 2.5);  // one disturbed round does not move it far
+    EXPECT_DOUBLE_EQ(spread_of({1.0, 2.0, 3.0, 10.0}).median, 2.5);  // one disturbed round changes it little
     EXPECT_DOUBLE_EQ(scaled(odd, 10.0).upper, 40.0);
 }
 

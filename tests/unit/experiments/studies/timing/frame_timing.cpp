@@ -24,7 +24,7 @@ TEST(FrameTiming, OfEveryVariantByTurns)
         EXPECT_EQ(timing.total_ms.rounds, 5);
         EXPECT_GT(timing.lbs_ms.median, 0.0);
         EXPECT_GT(timing.bind_ms.median, 0.0);
-        EXPECT_GT(timing.stretch_ms.median, timing.bind_ms.median);  // seven times as many
+        EXPECT_GT(timing.stretch_ms.median, timing.bind_ms.median);  // seven times as many constraints
         EXPECT_GT(timing.total_ms.median, timing.lbs_ms.median);
         EXPECT_GT(timing.rest_ms.lower, 0.0);
         EXPECT_GT(timing.total_ms.median, timing.rest_ms.median);  // which has no iterations

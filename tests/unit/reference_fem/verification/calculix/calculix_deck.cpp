@@ -1,4 +1,4 @@
-// Reference: CalculiX's manual. A number has 20 characters at most, *BOUNDARY lists node, first and last component, value; *CLOAD node,
+// Reference: CalculiX's manual. A number has 20 characters at most; *BOUNDARY lists node, first and last component, value; *CLOAD node,
 // component, value; C3D10's middle nodes lie on the edges 12 23 31 14 24 34.
 #include "reference_fem/verification/calculix/calculix_deck.hpp"
 #include "tests/unit/reference_fem/verification/calculix/one_tet_problem.hpp"
@@ -22,7 +22,7 @@ std::string deck_of(const NodalProblem& problem, const DeckOptions& options = {}
     return deck.str();
 }
 
-// The lines between a card and the next.
+// The lines between a card and the next one.
 std::vector<std::string> lines_of(const std::string& deck, const std::string& card)
 {
     std::vector<std::string> lines;

@@ -1,4 +1,4 @@
-// One tet, P1 or P2, held at two nodes and loaded at a third: the smallest problem with every card.
+// One tet, P1 or P2, held at two nodes and loaded at a third: the smallest problem that uses every card.
 #pragma once
 
 #include "reference_fem/verification/calculix/nodal_problem.hpp"
