@@ -14,10 +14,10 @@
 namespace {
 
 using namespace experiments;
-using reference_fem::CalculixAnalysis;
+using namespace reference_fem;
 using reference_fem::DeckOptions;
 
-constexpr reference_fem::ElasticMaterial flesh{.young_pa = 1e5, .poisson = 0.3};
+constexpr ElasticMaterial flesh{.young_pa = 1e5, .poisson = 0.3};
 constexpr double tolerance = 1e-7;
 
 class Calculix : public testing::TestWithParam<int> {
