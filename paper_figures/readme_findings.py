@@ -36,9 +36,9 @@ def volume(claims):
         raise records.RecordsMissing("claims.json: C02: no clip with volume_change_pct")
     best, worst = (choose(clips, key=lambda case: case["share_of_frames"]["estimate"]) for choose in (max, min))
     share = best["share_of_frames"]
-    return (f"**Volume.** With 24 iterations, PBS keeps the volume within 0.5 % in at most {100 * share['estimate']:.0f} % of the frames of a "
-            f"clip (95 % interval {100 * share['low']:.0f} to {100 * share['high']:.0f} %; {case_words.run(best)}). In the worst of "
-            f"{len(clips)} clips it is {100 * worst['share_of_frames']['estimate']:.0f} % of the frames ({case_words.run(worst)}).")
+    return (f"**Volume.** With 24 iterations, PBS keeps the volume within 0.5 % in at most {100 * share['estimate']:.0f} % of the "
+            f"frames of a clip (95 % interval {100 * share['low']:.0f} to {100 * share['high']:.0f} %; {case_words.run(best)}). "
+            f"In the worst of {len(clips)} clips it is {100 * worst['share_of_frames']['estimate']:.0f} % of the frames ({case_words.run(worst)}).")
 
 
 def artefacts(claims):
@@ -49,8 +49,8 @@ def artefacts(claims):
     held = [case for case in sections if case["angle_deg"] < first and case["quantity"] == "smallest_section_radius_over_rest"]
     if not held:
         raise records.RecordsMissing("claims.json: C04: no section holds at the smallest angle")
-    text = (f"**Artefacts.** Up to a twist of {max(case['angle_deg'] for case in held):.0f}\u00b0 PBS shows no candy wrapper: sections keep at "
-            f"least {100 * min(case['value'] for case in held):.0f} % of their radius.")
+    text = (f"**Artefacts.** Up to a twist of {max(case['angle_deg'] for case in held):.0f}\u00b0 PBS shows no candy wrapper: sections "
+            f"keep at least {100 * min(case['value'] for case in held):.0f} % of their radius.")
     if failing:
         radii = [case["value"] for case in failing if case["angle_deg"] == first]
         text += f" At {first:.0f}\u00b0 a section of the {failing[0]['body']} collapses to {100 * min(radii):.0f} %."
@@ -59,8 +59,8 @@ def artefacts(claims):
 
 def convergence(claims):
     claim = of(claims, "C12")
-    return (f"**Convergence.** 24 iterations suffice in {claim['within']} of {claim['n']} cases. In the others, the volume or the residual needs "
-            "more to come within its tolerance.")
+    return (f"**Convergence.** 24 iterations suffice in {claim['within']} of {claim['n']} cases. In the others, the volume or the residual "
+            "needs more to come within its tolerance.")
 
 
 def stiffness(claims):
@@ -73,8 +73,8 @@ def speed(claims):
     claim = of(claims, "C10")
     rates = values_of(claims, "C10", "frames_per_s")
     bound = only(claim["bounds"], "claims.json: C10: bounds", quantity="frames_per_s")["low"]
-    return (f"**Speed.** At the sizes of Table 1 the method in file order and double precision reaches at least {min(rates):.3g} frames per second "
-            f"on one core. The bound is {bound:.0f}; the paper reports 66 to 91 on a processor of its time.")
+    return (f"**Speed.** At the sizes of Table 1 the method in file order and double precision reaches at least {min(rates):.3g} frames "
+            f"per second on one core. The bound is {bound:.0f}; the paper reports 66 to 91 on a processor of its time.")
 
 
 def lines_of(results):

@@ -94,7 +94,8 @@ class Tables(ReadmeTest):
         self.assert_written("claims", readme_claims.lines_of,
                             "| Volume is kept. (Sec. 4) | reproduced in part | 1 of 3 within; share of frames 40 [30, 50] % "
                             "(human, clip walk), expected 95 to 100 % | [C02](experiments/verdicts/claims/C02.md) |",
-                            "| 2 of 2 within; frames per second 107 [100, 110] 1/s (frankie), expected 30 or more | [C10](experiments/verdicts/claims/C10.md) |",
+                            "| 2 of 2 within; frames per second 107 [100, 110] 1/s (frankie), expected 30 or more "
+                            "| [C10](experiments/verdicts/claims/C10.md) |",
                             "| 1 of 2 values consistent | [C13](experiments/verdicts/claims/C13.md) |",
                             f"\nMeasured at revision {synthetic_records.revision[:12]}.")
 
