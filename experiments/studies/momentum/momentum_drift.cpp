@@ -1,8 +1,8 @@
 #include "experiments/studies/momentum/momentum_drift.hpp"
 
+#include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/constraints/volume_printed.hpp"
 #include "pbs/geometry/tet_volume.hpp"
-#include "pbs/skinning/blend.hpp"
 #include "pbs/solver/particles.hpp"
 #include "pbs/solver/projection.hpp"
 
@@ -11,20 +11,13 @@
 namespace experiments {
 namespace {
 
-pbs::Positions blended(const pbs::Character& character, const pbs::Pose& pose)
-{
-    pbs::Positions positions;
-    pbs::linear_blend_skinning(character.mesh.rest, character.weights, pose, positions);
-    return positions;
-}
-
 Eigen::VectorXd masses_of(const pbs::Character& character, pbs::Masses counted)
 {
     if (counted == pbs::Masses::unit) return Eigen::VectorXd::Ones(character.mesh.rest.rows());
     return pbs::lumped_volumes(character.mesh.rest, character.mesh.tets);
 }
 
-// Momentum of corrections with and without direction.
+// The momentum of corrections, as a vector sum and as a sum of norms.
 struct Momentum {
     pbs::Vec3 linear = pbs::Vec3::Zero(), angular = pbs::Vec3::Zero();
     double linear_sum = 0.0, angular_sum = 0.0;
@@ -38,35 +31,18 @@ struct Momentum {
     }
 };
 
-// What single projections leave, one after the other added up without direction.
-class SingleProjections {
-public:
-    SingleProjections(const pbs::Vec3& centre, const Eigen::VectorXd& mass) : centre_(centre), mass_(mass) {}
+// Positions relative to the centre of mass, rounded once to the scalar of the projection. They must be kept in memory: where the optimiser
+// sees both a position in double and its rounded value, GCC 12 at -O3 uses the former in place of the latter, and the difference to the
+// corrected position then contains the rounding of the initial one.
+template <typename Scalar>
+std::vector<pbs::Vector3<Scalar>> rounded(const pbs::Positions& positions, const pbs::Vec3& centre)
+{
+    std::vector<pbs::Vector3<Scalar>> points;
+    for (const auto& position : positions.rowwise()) points.push_back((position.transpose() - centre).template cast<Scalar>());
+    return points;
+}
 
-    template <typename Scalar, std::size_t n>
-    void add(const std::array<int, n>& vertex, const std::array<pbs::Vector3<Scalar>, n>& before,
-             const std::array<pbs::Vector3<Scalar>, n>& after)
-    {
-        Momentum own;
-        for (std::size_t i = 0; i < n; ++i) {
-            const pbs::Vec3 p = before[i].template cast<double>();
-            own.add(p - centre_, mass_(vertex[i]) * (after[i].template cast<double>() - p));
-        }
-        linear_ += own.linear.norm();
-        angular_ += own.angular.norm();
-        linear_sum_ += own.linear_sum;
-        angular_sum_ += own.angular_sum;
-    }
-
-    MomentumDrift drift() const { return {linear_ / linear_sum_, angular_ / angular_sum_}; }
-
-private:
-    pbs::Vec3 centre_;
-    const Eigen::VectorXd& mass_;
-    double linear_ = 0.0, angular_ = 0.0, linear_sum_ = 0.0, angular_sum_ = 0.0;
-};
-
-// The printed forms are for m_i = 1.
+// The printed forms hold for m_i = 1 only.
 template <typename Scalar>
 void project_as(pbs::VolumeForm form, const pbs::VolumeConstraint<Scalar>& tet, const std::vector<Scalar>& w,
                 std::array<pbs::Vector3<Scalar>, 4>& p)
@@ -92,37 +68,34 @@ MomentumDrift single_projections(const pbs::Character& character, const pbs::Pos
                                  ProjectedClass projected, const Eigen::VectorXd& mass)
 {
     const auto set = pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, {}, options);
-    const pbs::Positions positions = blended(character, pose), q = pbs::posed_bind_points(character.binding, pose);
+    const pbs::Positions positions = blended(character, pose);
     const pbs::Vec3 centre = positions.transpose() * mass / mass.sum();
-    const auto point = [&](const pbs::Positions& of, int i) -> pbs::Vector3<Scalar> {
-        return (of.row(i).transpose() - centre).template cast<Scalar>();
-    };
+    const auto points = rounded<Scalar>(positions, centre), q = rounded<Scalar>(pbs::posed_bind_points(character.binding, pose), centre);
     const auto& w = set.inverse_mass;
-    SingleProjections sum(pbs::Vec3::Zero(), mass);
-    for (const auto& edge : set.stretch) {
-        if (projected != ProjectedClass::stretch) break;
-        const auto [i, j] = edge.vertex;
-        const std::array before = {point(positions, i), point(positions, j)};
-        auto after = before;
-        project(edge, w[i], w[j], after[0], after[1]);
-        sum.add(edge.vertex, before, after);
-    }
-    for (const auto& tet : set.volume) {
-        if (projected != ProjectedClass::volume) break;
-        const auto [i, j, k, l] = tet.vertex;
-        const std::array before = {point(positions, i), point(positions, j), point(positions, k), point(positions, l)};
-        auto after = before;
-        project_as(options.volume_form, tet, w, after);
-        sum.add(tet.vertex, before, after);
-    }
-    for (const auto& bind : set.bind) {
-        if (projected != ProjectedClass::bind) break;
-        const std::array before = {point(positions, bind.vertex)};
-        auto after = before;
-        project(bind, w[bind.vertex], point(q, bind.vertex), after[0]);
-        sum.add(std::array{bind.vertex}, before, after);
-    }
-    return sum.drift();
+    double linear = 0.0, angular = 0.0, linear_sum = 0.0, angular_sum = 0.0;
+    const auto add = [&]<std::size_t n>(const std::array<int, n>& vertices, const auto& project_corners) {
+        std::array<pbs::Vector3<Scalar>, n> after;
+        for (std::size_t i = 0; i < n; ++i) after[i] = points[vertices[i]];
+        project_corners(after);
+        Momentum own;
+        for (std::size_t i = 0; i < n; ++i) {
+            const pbs::Vec3 p = points[vertices[i]].template cast<double>();
+            own.add(p, mass(vertices[i]) * (after[i].template cast<double>() - p));
+        }
+        linear += own.linear.norm();
+        angular += own.angular.norm();
+        linear_sum += own.linear_sum;
+        angular_sum += own.angular_sum;
+    };
+    if (projected == ProjectedClass::stretch)
+        for (const auto& edge : set.stretch)
+            add(edge.vertex, [&](auto& p) { project(edge, w[edge.vertex[0]], w[edge.vertex[1]], p[0], p[1]); });
+    if (projected == ProjectedClass::volume)
+        for (const auto& tet : set.volume) add(tet.vertex, [&](auto& p) { project_as(options.volume_form, tet, w, p); });
+    if (projected == ProjectedClass::bind)
+        for (const auto& bind : set.bind)
+            add(std::array{bind.vertex}, [&](auto& p) { project(bind, w[bind.vertex], q[bind.vertex], p[0]); });
+    return {linear / linear_sum, angular / angular_sum};
 }
 
 template <typename Scalar>
@@ -134,7 +107,7 @@ MomentumDrift one_pass(const pbs::Character& character, const pbs::Pose& pose, c
     pbs::Positions before = blended(character, pose), after = before;
     const pbs::Vec3 origin = pbs::local_origin<Scalar>(before);
     projection->load(before, pbs::posed_bind_points(character.binding, pose), origin);
-    projection->store(origin, before);  // rounded as the projection has them
+    projection->store(origin, before);  // rounded as in the projection
     if (projected == ProjectedClass::stretch) projection->project_stretch_constraints();
     if (projected == ProjectedClass::volume) projection->project_volume_constraints();
     if (projected == ProjectedClass::bind) projection->project_bind_constraints();

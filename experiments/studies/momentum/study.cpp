@@ -1,6 +1,7 @@
-// C07: do projections conserve linear and angular momentum? Single projections, and a pass over each class in every order, from the LBS
-// shape of a bent limb and of the human's crouch, in both precisions, with equal and unequal masses; Eq. 8-9 as printed, for m_i = 1,
-// beside them; and what the bones take of the bind constraints. Writes DIR/momentum/CASE/measurements.csv.
+// C07: do projections conserve linear and angular momentum? Measured are single projections, and a pass over each class in every order,
+// from the LBS shape of a bent limb and of the human's crouch, in both precisions, with equal and unequal masses. Eq. 8-9 as printed, for
+// m_i = 1, are measured for comparison, as is the momentum that the bones take up from the bind constraints.
+// Writes DIR/momentum/CASE/measurements.csv.
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/settings/option_fields.hpp"
@@ -9,16 +10,15 @@
 #include "experiments/studies/study.hpp"
 
 #include "analysis/measurement.hpp"
+#include "analysis/records/folder_files.hpp"
 #include "pbs/geometry/input_error.hpp"
-
-#include <filesystem>
 
 namespace experiments {
 namespace {
 
 struct Setting {
     std::string name;
-    pbs::Masses known, counted;  // to the projection; to the momentum
+    pbs::Masses known, counted;  // the masses that the projection uses, and those of the momentum
 };
 const std::vector<Setting> settings = {{"equal", pbs::Masses::unit, pbs::Masses::unit},
                                        {"unequal", pbs::Masses::lumped, pbs::Masses::lumped},
@@ -54,18 +54,14 @@ nlohmann::json to_json(const MomentumCase& of)
 const std::pair<ProjectedClass, const char*> classes[] = {
     {ProjectedClass::stretch, "stretch"}, {ProjectedClass::volume, "volume"}, {ProjectedClass::bind, "bind"}};
 
-class DriftTable {
-public:
-    // The bones take up the momentum of bind constraints: no part of the claim.
-    void add(ProjectedClass projected, const std::string& suffix, const analysis::CaseKey& of, const MomentumDrift& drift)
-    {
-        const std::string bones = projected == ProjectedClass::bind ? "_taken_by_bones" : "";
-        rows.push_back({"C07", "linear_drift" + suffix + bones, of, drift.linear, drift.linear, drift.linear, "1"});
-        rows.push_back({"C07", "angular_drift" + suffix + bones, of, drift.angular, drift.angular, drift.angular, "1"});
-    }
-
-    std::vector<analysis::Measurement> rows;
-};
+// The bones take up the momentum of bind constraints, which is no part of the claim.
+void add(std::vector<analysis::Measurement>& rows, ProjectedClass projected, const std::string& suffix, const analysis::CaseKey& of,
+         const MomentumDrift& drift)
+{
+    const std::string bones = projected == ProjectedClass::bind ? "_taken_by_bones" : "";
+    for (const auto& [quantity, value] : {std::pair{"linear_drift", drift.linear}, {"angular_drift", drift.angular}})
+        rows.push_back({"C07", quantity + suffix + bones, of, value, value, value, "1"});
+}
 
 std::string measure_drift(const MomentumCase& of, const std::string& folder)
 {
@@ -74,21 +70,21 @@ std::string measure_drift(const MomentumCase& of, const std::string& folder)
     const pbs::Pose& pose = motion.steps.at(static_cast<std::size_t>(of.frame) * motion.steps_per_frame);
     pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec_of(of.scene, "pbs"));
     options.jiggle.reset();
-    DriftTable table;
+    std::vector<analysis::Measurement> rows;
     for (const auto& [precision, precision_name] : OptionNames<pbs::Precision>::table)
         for (const Setting& setting : settings)
             for (const auto& [projected, class_name] : classes) {
                 options.precision = precision;
                 options.masses = setting.known;
                 analysis::CaseKey key = {.body = of.name, .precision = precision_name, .masses = setting.name, .constraint = class_name};
-                table.add(projected, "", key, drift_of_projections(character, pose, options, projected, setting.counted));
+                add(rows, projected, "", key, drift_of_projections(character, pose, options, projected, setting.counted));
                 for (const pbs::Order order : {pbs::Order::ordered, pbs::Order::grouped, pbs::Order::plain}) {
                     options.order = order;
                     key.order = name_of(order);
-                    table.add(projected, "_of_a_pass", key, drift_of_a_pass(character, pose, options, projected, setting.counted));
+                    add(rows, projected, "_of_a_pass", key, drift_of_a_pass(character, pose, options, projected, setting.counted));
                 }
             }
-    analysis::measurement_table(table.rows).write((std::filesystem::path(folder) / "measurements.csv").string());
+    analysis::measurement_table(rows).write(analysis::path_in(folder, "measurements.csv"));
     return {};
 }
 

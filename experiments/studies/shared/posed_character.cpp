@@ -14,6 +14,13 @@
 
 namespace experiments {
 
+pbs::Positions blended(const pbs::Character& character, const pbs::Pose& pose)
+{
+    pbs::Positions positions;
+    pbs::linear_blend_skinning(character.mesh.rest, character.weights, pose, positions);
+    return positions;
+}
+
 PosedCharacter::PosedCharacter(const Scene& scene, const std::vector<int>& frames)
     : character_(pbs::make_character(scene.character)),
       time_step_s_(scene.motion.time_step_s),
@@ -51,7 +58,7 @@ std::vector<Shapes> PosedCharacter::shapes(const std::vector<pbs::PbsOptions>& o
     for (const pbs::PbsOptions& own : options)
         for (const pbs::Pose& pose : poses_) {
             of_lane.push_back(own);
-            pbs::linear_blend_skinning(character_.mesh.rest, character_.weights, pose, lbs.emplace_back());
+            lbs.push_back(blended(character_, pose));
             bind_points.push_back(pbs::posed_bind_points(character_.binding, pose));
         }
     pbs::PosesSolver solver(character_.mesh, character_.binding.distance, {}, of_lane);

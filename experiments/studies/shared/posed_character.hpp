@@ -1,7 +1,7 @@
-// One character in a few poses of a scene, and the shapes that deformers give it there: what an error is split from.
+// One character in a few poses of a scene, and the shapes that deformers give it there.
 //   const PosedCharacter limb(scene, {3, 6, 9});
-//   const Shapes truth = limb.shapes(spec_of(scene, "snh_p2"));
-//   limb.distance(truth[0], other[0]).joint_pct;
+//   const Shapes reference = limb.shapes(spec_of(scene, "snh_p2"));
+//   limb.distance(reference[0], other[0]).joint_pct;
 #pragma once
 
 #include "analysis/error_norms.hpp"
@@ -14,33 +14,36 @@
 
 namespace experiments {
 
+// The shape that linear blend skinning gives [m], #V x 3.
+pbs::Positions blended(const pbs::Character& character, const pbs::Pose& pose);
+
 struct Shape {
     pbs::Positions positions;  // vertices [m], #V x 3
-    bool finished = false;     // false: not finite or not converged; it is no shape to measure by
+    bool finished = false;     // false: not finite or not converged; nothing is measured against it
     bool self_intersects = false;
     double seconds = 0.0;
 };
-using Shapes = std::vector<Shape>;  // one a pose
+using Shapes = std::vector<Shape>;  // one per pose
 
 class PosedCharacter {
 public:
     // frames: of the scene's motion, increasing.
     PosedCharacter(const Scene& scene, const std::vector<int>& frames);
 
-    // A deformer goes from pose to pose in their order, without the frames between; through the first `poses` of them, or all.
+    // A deformer goes from pose to pose in their order, without the frames between. poses: only the first so many.
     Shapes shapes(const DeformerSpec& spec, std::optional<std::size_t> poses = {}) const;
 
-    // PBS with each of these options, the paper's LBS first, all of them and all poses side by side (pbs::PosesSolver).
+    // PBS with each of these options, from the paper's LBS. All options and all poses are solved together (pbs::PosesSolver).
     std::vector<Shapes> shapes(const std::vector<pbs::PbsOptions>& options) const;
 
-    // Between two shapes, on this character's vertices, which a refined one's begin with; by the ruler of every record. Not a number where
-    // one of them did not finish.
+    // Between two shapes, on this character's vertices, which are the first ones of a refined character; by the metrics of every record.
+    // Not a number where one of them did not finish.
     analysis::ErrorNorms distance(const Shape& one, const Shape& other) const;
 
     const pbs::Character& character() const { return character_; }
     const pbs::Pose& pose(std::size_t pose) const { return poses_[pose]; }
     const pbs::Triangles& boundary() const { return boundary_; }            // of its tets
-    double angle_deg(std::size_t pose) const { return angles_deg_[pose]; }  // of a sweep; of a clip not a number
+    double angle_deg(std::size_t pose) const { return angles_deg_[pose]; }  // of a sweep; not a number for a clip
 
 private:
     pbs::Character character_;
@@ -51,7 +54,7 @@ private:
     pbs::Triangles boundary_;
 };
 
-// The scene's deformer of that name; pbs::InputError where there is none.
+// The scene's deformer of that name. pbs::InputError where there is none.
 const DeformerSpec& spec_of(const Scene& scene, const std::string& name);
 
 }  // namespace experiments

@@ -1,6 +1,9 @@
-// Truth: Eq. 3-4 and the definition of the drift. A class that conserves has a drift of rounding; one force alone has 1.
+// Reference: Eq. 3-4 and the definition of the drift. A class that conserves has a drift of rounding; one force alone has 1.
 #include "experiments/studies/momentum/momentum_drift.hpp"
 
+#include "experiments/studies/shared/posed_character.hpp"
+#include "pbs/constraints/volume.hpp"
+#include "pbs/solver/constraint_set.hpp"
 #include "tests/support/limb_character.hpp"
 
 #include <gtest/gtest.h>
@@ -34,6 +37,35 @@ TEST(MomentumDrift, OfStretchAndVolumeIsRounding)
             EXPECT_LT(drift.angular, rounding);
             EXPECT_LT(drift_of_a_pass(test_support::character_of(bent), bent.pose, in_double(masses), projected, masses).linear, rounding);
         }
+}
+
+// The sums of the definition, over projections of positions that are in f32 before the first one begins: a correction is the difference of
+// two f32 numbers. This program is compiled without vectorisation, the study with it.
+TEST(MomentumDrift, OfAVolumeProjectionInF32StartsFromTheRoundedPosition)
+{
+    pbs::PbsOptions options = in_double(Masses::unit);
+    options.precision = pbs::Precision::f32;
+    const pbs::Character character = test_support::character_of(bent);
+    const auto set = pbs::make_constraint_set<float>(character.mesh, character.binding.distance, {}, options);
+    const pbs::Positions lbs = experiments::blended(character, bent.pose);
+    const pbs::Vec3 centre = lbs.colwise().mean();
+    const Eigen::MatrixX3f rounded = (lbs.rowwise() - centre.transpose()).cast<float>();
+    double linear = 0.0, sum = 0.0;
+    for (const auto& tet : set.volume) {
+        std::array<Eigen::Vector3f, 4> p;
+        for (int corner = 0; corner < 4; ++corner) p[corner] = rounded.row(tet.vertex[corner]);
+        project(tet, 1.0f, 1.0f, 1.0f, 1.0f, p[0], p[1], p[2], p[3]);
+        pbs::Vec3 own = pbs::Vec3::Zero();
+        for (int corner = 0; corner < 4; ++corner) {
+            const pbs::Vec3 correction = p[corner].cast<double>() - rounded.row(tet.vertex[corner]).transpose().cast<double>();
+            own += correction;
+            sum += correction.norm();
+        }
+        linear += own.norm();
+    }
+    ASSERT_GT(linear, 0.0);
+    const auto drift = drift_of_projections(character, bent.pose, options, ProjectedClass::volume, Masses::unit);
+    EXPECT_NEAR(drift.linear / (linear / sum), 1.0, 1e-6);  // the sums themselves are rounded in f64
 }
 
 // To first order in the corrections: with a stiffness ten times smaller the drift is, per correction, ten times smaller.
