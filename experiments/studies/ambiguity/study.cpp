@@ -18,7 +18,7 @@
 #include "experiments/studies/ambiguity/reading_figures.hpp"
 #include "experiments/studies/ambiguity/untouched.hpp"
 #include "experiments/studies/artefacts/artefact_figures.hpp"
-#include "experiments/studies/shared/path_figures.hpp"
+#include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "experiments/studies/study.hpp"

@@ -70,14 +70,14 @@ std::string group_of(const DeformerSpec& spec)
     return options_if<FemOptions>(spec) ? "reference" : spec.kind;
 }
 
-// Of finite elements; 0 of other deformers.
+// The order of finite elements; 0 for other deformers.
 int element_order_of(const DeformerSpec& spec)
 {
     const FemOptions* fem = options_if<FemOptions>(spec);
     return fem ? fem->element_order : 0;
 }
 
-// Deformers whose sections are part of a claim.
+// The deformers whose sections are part of a claim.
 bool is_on_other_meshes(const DeformerSpec& spec)
 {
     static const std::set<std::string> claimed = {"lbs", "dqs", "pbs"};
@@ -138,7 +138,7 @@ private:
     }
 
     const ArtefactCase& of_;
-    std::map<std::string, int> at_rest_;  // pairs of the body's own surfaces
+    std::map<std::string, int> at_rest_;  // pairs of triangles on each surface of the body
     ArtefactRecords records_;
 };
 

@@ -1,8 +1,8 @@
-// One body, turned at a joint or in poses of a clip, by all deformers: what is looked at for the artefacts of blending.
-//   const ArtefactRecords records = find_artefacts(of);
+// One body, turned at a joint or in poses of a clip, under all deformers, as it is examined for the artefacts of blending.
+//   const ArtefactRecords records = find_artefacts(of, body);
 //   table_of(profile_columns, records.profiles).write("profiles.csv");
-// Every deformer of the scene is run on the body's own mesh. PBS is run in the other orders and precisions too; PBS, the blends and the
-// reference on the body's other meshes: their spread is the uncertainty of a value.
+// Every deformer of the scene runs on the body's own mesh. PBS also runs in the other orders and precisions; PBS, the blends and the
+// reference also run on the body's other meshes. Their spread is the uncertainty of a value.
 #pragma once
 
 #include "analysis/case_key.hpp"
@@ -26,12 +26,12 @@ struct ArtefactPose {
 struct ArtefactCase {
     enum class Claim { candy_wrapper, bulge };  // C04, C05
 
-    Scene scene;  // lbs, dqs, pbs, snh_p1, others; snh_p2 where asked for
+    Scene scene;  // with lbs, dqs, pbs, snh_p1 and others; with snh_p2 if second_order_poses > 0
     std::vector<ArtefactPose> poses;
     std::string joint;           // LimbJoint::name; empty: all of them
-    Claim claim = Claim::bulge;  // that the sections are measured for
-    std::vector<int> vertices;   // wanted sizes of other meshes
-    int second_order_poses = 0;  // the first so many with the reference's quadratic elements, snh_p2
+    Claim claim = Claim::bulge;  // for which the sections are measured
+    std::vector<int> vertices;   // wanted sizes of the other meshes
+    int second_order_poses = 0;  // so many poses also have a reference with quadratic elements, snh_p2
 };
 
 template <>
@@ -40,9 +40,9 @@ struct OptionNames<ArtefactCase::Claim> {
         {{ArtefactCase::Claim::candy_wrapper, "C04"}, {ArtefactCase::Claim::bulge, "C05"}}};
 };
 
-// The body on one mesh: what is measured there.
+// The body on one mesh.
 struct ArtefactBody {
-    explicit ArtefactBody(const ArtefactCase& of, int vertices = 0);  // 0: as the scene has it
+    explicit ArtefactBody(const ArtefactCase& of, int vertices = 0);  // 0: those of the scene
 
     PosedCharacter posed;
     std::vector<LimbJoint> joints;
@@ -51,20 +51,20 @@ struct ArtefactBody {
 
 // The extremes of one deformer's sections in one pose at one joint.
 struct ArtefactSample {
-    std::string group;  // pbs: in any order and precision; reference: snh_p1 and snh_p2; else the deformer
+    std::string group;  // pbs, in any order and precision; reference, for snh_p1 and snh_p2; otherwise the deformer
     std::size_t pose = 0, joint = 0;
     SectionExtremesOverRest extremes;
     int element_order = 0;  // of the reference
 };
 
-// What a row of a record is measured on.
+// The place and the deformer of a row.
 struct ArtefactPlace {
     std::string body;
     int vertices = 0;
     std::string pose;
 };
 struct ArtefactDeformer {
-    std::string deformer, order, precision;  // the last two of PBS alone
+    std::string deformer, order, precision;  // order and precision: for PBS only
 };
 inline const analysis::Columns<ArtefactPlace> artefact_place_columns = {{"body", &ArtefactPlace::body, "", "name of the body"},
                                                                         {"vertices", &ArtefactPlace::vertices, "", "vertices of its mesh"},
@@ -92,13 +92,13 @@ extern const analysis::Columns<ProfileRow> profile_columns;            // profil
 extern const analysis::Columns<IntersectionRow> intersection_columns;  // intersections.csv
 
 struct ArtefactRecords {
-    std::vector<ArtefactSample> samples;  // of a group in a pose at a joint, the body's own mesh and the default order first
+    std::vector<ArtefactSample> samples;  // in each group, pose and joint the own mesh and the default order come first
     std::vector<ProfileRow> profiles;
     std::vector<IntersectionRow> intersections;
     std::string breakdown;  // deformers that did not finish
 };
 
-// PBS as it is there in every other order and precision.
+// PBS with the same options in every other order and precision.
 std::vector<DeformerSpec> other_orders(const DeformerSpec& pbs);
 
 ArtefactRecords find_artefacts(const ArtefactCase& of, const ArtefactBody& body);

@@ -13,7 +13,7 @@ namespace {
 
 using Extreme = double SectionExtremesOverRest::*;
 
-// The samples of one group in one pose at one joint: its own first; of the reference, that of the highest element order.
+// The samples of one group in one pose at one joint. The first one is of the own mesh and, for the reference, of the highest element order.
 std::vector<ArtefactSample> chosen(const std::vector<ArtefactSample>& samples, const std::string& group, std::size_t pose,
                                    std::size_t joint)
 {

@@ -1,7 +1,8 @@
-// The figures of C04 and C05 from the sections of all deformers: the narrowest and the widest near a joint, with the spread over meshes,
-// orders and the reference's element orders. The reference is snh_p2 where it was run and reached, else snh_p1; `of` says which.
+// The values of C04 and C05 from the sections of all deformers: the narrowest and the widest section near a joint, with the spread over
+// meshes, orders and the reference's element orders. The reference is snh_p2 where it was run and reached, and snh_p1 otherwise; the key
+// states which.
 //   const auto figures = bulge_figures(of, body, records.samples);
-//   section_outcomes(of, body, records.samples)   // of which pose and joint there is a figure, and why not
+//   section_outcomes(of, body, records.samples)   // which poses and joints have a value, and why the others have none
 #pragma once
 
 #include "analysis/measurement.hpp"
@@ -9,37 +10,39 @@
 
 namespace experiments {
 
-// All that a run of the study depends on.
+// Everything that a run of the study depends on.
 nlohmann::json to_json(const ArtefactPose& pose);
 nlohmann::json to_json(const ArtefactCase& of);
 
-// of a figure: "limb, twist 90 deg, upper|forearm". Nothing is said of a group without samples.
+// With keys such as "limb, twist 90 deg, upper|forearm". A group without samples has no value.
 std::vector<analysis::Measurement> candy_wrapper_figures(const ArtefactCase& of, const ArtefactBody& body,
                                                          const std::vector<ArtefactSample>& samples);
-// of a figure: "limb, bend 60 deg, upper|forearm, over snh_p2". Only where the outcome is `measured`.
+// With keys such as "limb, bend 60 deg, upper|forearm, reference snh_p2". A value requires that flesh has a section there.
 std::vector<analysis::Measurement> bulge_figures(const ArtefactCase& of, const ArtefactBody& body,
                                                  const std::vector<ArtefactSample>& samples);
 
-inline constexpr double deepest_bend_deg = 110.0;  // that of rest included
+inline constexpr double deepest_bend_deg = 110.0;  // including the bend at rest
 
-inline constexpr double widest_over_rest = 3.0;  // largest radius of a section of the reference: none of a limb's own comes near
+inline constexpr double widest_over_rest = 3.0;  // largest radius of a reference's section; no section of a limb alone comes near it
 
-// bent_too_far: of C05, beyond it the skin is folded so deeply into the joint that a section's outline may go round both halves of the
-// limb, the reference's as well. inside_another_part: of C05, an outline of the reference is that of a part that the pose itself puts the
-// limb into (Frankie's forearm in his trunk). Where pbs or a blend alone is as wide, it is judged, with a remark. The profiles have all.
+// bent_too_far, for C05: the skin is folded so deeply into the joint that a section's outline may enclose both halves of the limb, for the
+// reference as well. inside_another_part, for C05: the reference's outline is that of a part into which the pose itself puts the limb
+// (Frankie's forearm in his trunk). Where only pbs or a blend is as wide, the section is judged, with a remark. The profiles have all
+// sections.
 enum class SectionOutcome { measured, pbs_did_not_finish, reference_not_reached, bent_too_far, inside_another_part };
 const char* name_of(SectionOutcome outcome);
 
 struct JudgedSection {
     std::size_t pose = 0, joint = 0;
-    std::string reference;  // "snh_p2"; empty: none reached
+    std::string reference;  // "snh_p2"; empty: none was reached
     SectionOutcome outcome = SectionOutcome::measured;
-    std::string remark = {};  // of C05, unless bent too far: who is wider than widest_over_rest, and whose skin the outline is
+    std::string remark =
+        {};  // for C05, unless bent too far: which deformers are wider than widest_over_rest, and whose skin their outline is
 };
 
-// One a pose and joint, of the case's claim. C04 does without the reference, which stands beside.
+// One per pose and joint, for the case's claim. C04 needs no reference; its reference is reported for comparison.
 std::vector<JudgedSection> section_outcomes(const ArtefactCase& of, const ArtefactBody& body, const std::vector<ArtefactSample>& samples);
-// A line each, and one a pose for a joint by hand without section, whose outcome is the reason (why_left_out).
+// One row for each of them, and one per pose for a joint by hand without section, whose outcome is the reason (why_left_out).
 struct SectionRow {
     std::string claim, body, pose, joint, reference, outcome, remark;
 };

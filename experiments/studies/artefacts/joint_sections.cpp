@@ -1,6 +1,6 @@
 #include "experiments/studies/artefacts/joint_sections.hpp"
 
-#include "experiments/studies/artefacts/outline_skin.hpp"
+#include "analysis/outline_skin.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace experiments {
 namespace {
 
 constexpr double reach_radii = 2.0, fan_radii = 3.0;
-constexpr int stations_a_radius = 5;
+constexpr int stations_per_radius = 5;
 
 pbs::Vec3 direction(const pbs::Skeleton& skeleton, int bone, const pbs::Pose& pose)
 {
@@ -22,7 +22,7 @@ pbs::Vec3 direction(const pbs::Skeleton& skeleton, int bone, const pbs::Pose& po
 
 std::vector<double> offsets_of(const LimbJoint& joint)
 {
-    const double spacing_m = joint.radius_m / stations_a_radius;
+    const double spacing_m = joint.radius_m / stations_per_radius;
     const int before = static_cast<int>(std::min(reach_radii * joint.radius_m, joint.reach_parent_m) / spacing_m);
     const int after = static_cast<int>(std::min(reach_radii * joint.radius_m, joint.reach_child_m) / spacing_m);
     std::vector<double> offsets_m;
@@ -107,9 +107,10 @@ std::vector<JointSections::Cut> JointSections::cuts(const pbs::Positions& positi
     std::vector<Cut> cuts;
     for (std::size_t i = 0; i < planes.size(); ++i) {
         Cut cut{.outlines = static_cast<int>(sections[i].size())};
-        if (const pbs::Positions* own = analysis::enclosing_outline(sections[i], {planes[i].point, planes[i].normal})) {
+        const analysis::Plane plane = {planes[i].point, planes[i].normal};
+        if (const pbs::Positions* own = analysis::enclosing_outline(sections[i], plane)) {
             cut.size = analysis::outline_size(*own);
-            cut.limb_share = share_of_outline(*own, planes[i], positions, skin_, on_limb_);
+            cut.limb_share = analysis::share_of_outline(*own, plane, positions, skin_, on_limb_);
         }
         cuts.push_back(cut);
     }

@@ -1,12 +1,11 @@
-// Cross-sections of a limb from one side of a joint to the other, in any pose, in shares of rest.
+// Cross-sections of a limb from one side of a joint to the other, in any pose, relative to rest.
 //   const JointSections sections(character, joint);
-//   sections.measure(positions, pose);            // a profile, one section a station
-//   extremes_of(profile).smallest_area;           // of the narrowest section, over its own at rest
-// Stations stand on the bones, up to 2 limb radii or the joint's reach from it. Their planes fan out evenly, over 3 radii on each side,
-// from the direction of one bone to that of the other: on the inside of a joint bent by an angle they meet 6 radii / angle from it, so that
-// they do not cut the limb's other half. Bones carry them, so that all deformers are cut by the same planes. Only the limb's own outline
-// counts, the one round the bone; but where the skin is folded into a joint so deeply that the outline goes round both halves, it measures
-// both.
+//   sections.measure(positions, pose);            // a profile, one section per station
+//   extremes_of(profile).smallest_area;           // of the narrowest section, over the same at rest
+// Stations lie on the bones, up to 2 limb radii or the joint's reach away from it. Over 3 radii on each side, their planes turn evenly from
+// the direction of one bone to that of the other. On the inside of a joint that is bent by an angle they meet 6 radii / angle away from it,
+// so that they do not cut the limb's other half. The planes move with the bones and are the same for all deformers. Only the limb's own
+// outline is measured, the one that encloses the bone. Where the skin is folded deeply into a joint, this outline may enclose both halves.
 #pragma once
 
 #include "analysis/section_outline.hpp"
@@ -16,10 +15,10 @@
 namespace experiments {
 
 struct JointSection {
-    double offset_m = 0.0;                                           // from the joint, negative on the parent; of the rest pose
+    double offset_m = 0.0;                                           // from the joint in the rest pose, negative on the parent
     double area = 1.0, smallest_radius = 1.0, largest_radius = 1.0;  // over the same station's at rest
     int outlines = 0;                                                // that the plane cuts out of the whole body
-    double limb_share = 1.0;  // of the outline's length: skin that hangs on the parent or a bone below it; the rest is another part's
+    double limb_share = 1.0;  // share of the outline's length whose skin is bound to the parent or a bone below it
 };
 using JointProfile = std::vector<JointSection>;
 
@@ -35,7 +34,7 @@ public:
 
     double bend_deg(const pbs::Pose& pose) const;  // between the directions of the two bones; 0: straight
 
-    // A station that the skin does not meet any more has size 0.
+    // A station whose plane no longer meets the skin has size 0.
     JointProfile measure(const pbs::Positions& positions, const pbs::Pose& pose) const;
 
 private:

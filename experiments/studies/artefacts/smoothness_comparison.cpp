@@ -3,9 +3,8 @@
 #include "analysis/frame_metrics.hpp"
 #include "analysis/smoothness.hpp"
 #include "analysis/statistics.hpp"
-#include "experiments/studies/shared/path_figures.hpp"
+#include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "pbs/skinning/blend.hpp"
 
 #include <fmt/format.h>
 
@@ -37,18 +36,22 @@ const Columns<SmoothnessRow> smoothness_columns =
     within(&SmoothnessRow::deformer, artefact_deformer_columns) + within(&SmoothnessRow::smoothness, at_joint_columns) +
     Columns<SmoothnessRow>{{"volume_abs_change_pct", &SmoothnessRow::volume_abs_change_pct, "%", "sum of the tets' absolute changes"}};
 
-const Columns<WeightIterations> weight_iteration_columns =
-    within(&WeightIterations::place, artefact_place_columns) +
-    Columns<WeightIterations>{
-        {"iterations_paper", [](auto& row) -> decltype(auto) { return (row.paper.iterations); }, "", "iterations to tolerance with Eq. 2"},
-        {"reached_paper", [](auto& row) -> decltype(auto) { return (row.paper.within); }, "", "they reached it"},
-        {"iterations_rigid", [](auto& row) -> decltype(auto) { return (row.rigid.iterations); }, "",
-         "iterations to tolerance with rigid weights"},
-        {"reached_rigid", [](auto& row) -> decltype(auto) { return (row.rigid.within); }, "", "they reached it"}};
+namespace {
+
+const Columns<Reached> paper_columns = {{"iterations_paper", &Reached::iterations, "", "iterations to tolerance with Eq. 2"},
+                                        {"reached_paper", &Reached::within, "", "they reached it"}};
+const Columns<Reached> rigid_columns = {{"iterations_rigid", &Reached::iterations, "", "iterations to tolerance with rigid weights"},
+                                        {"reached_rigid", &Reached::within, "", "they reached it"}};
+
+}  // namespace
+
+const Columns<WeightIterations> weight_iteration_columns = within(&WeightIterations::place, artefact_place_columns) +
+                                                           within(&WeightIterations::paper, paper_columns) +
+                                                           within(&WeightIterations::rigid, rigid_columns);
 
 namespace {
 
-constexpr double rounding = 1e-12;  // a figure below is none: of rest
+constexpr double rounding = 1e-12;  // a smaller value is that of the rest pose
 
 struct Twin {
     ArtefactBody paper, rigid;
@@ -63,7 +66,7 @@ Twin twin_of(ArtefactCase of, int vertices)
     return {std::move(paper), ArtefactBody(of, vertices)};
 }
 
-// A figure by mesh and order, its own first; not a number where there is none.
+// The ratios of one quantity over meshes and orders, the own mesh and order first. Not a number where there is none.
 struct Ratios {
     std::vector<double> values = {};
     analysis::Limit limit = analysis::Limit::none;  // of the first value
@@ -93,7 +96,7 @@ public:
         }
     }
 
-    // The weights are where the solver starts from, and nothing else of it: two starts towards one limit.
+    // The weights affect only the initial guess of the solver: two guesses lead to one limit.
     void compare_convergence(const Twin& twin, const pbs::PbsOptions& options)
     {
         const pbs::Character &paper = twin.paper.posed.character(), &rigid = twin.rigid.posed.character();
@@ -110,10 +113,10 @@ public:
     WeightsComparison result() &&
     {
         for (const auto& [text, ratios] : ratios_) {
-            analysis::Measurement figure{
-                "C06", ratios.quantity, ratios.of, ratios.values.front(), ratios.values.front(), ratios.values.front(), "1"};
+            const double own = ratios.values.front();
+            if (!std::isfinite(own)) continue;
+            analysis::Measurement figure{"C06", ratios.quantity, ratios.of, own, own, own, "1"};
             figure.limit = ratios.limit;
-            if (!std::isfinite(figure.value)) continue;
             for (const double ratio : ratios.values) {
                 figure.low = std::fmin(figure.low, ratio);
                 figure.high = std::fmax(figure.high, ratio);
@@ -147,14 +150,7 @@ private:
         ratios_of(quantity, at).values.push_back(rigid > rounding ? paper / rigid : analysis::not_known);
     }
 
-    static pbs::Positions blended(const pbs::Character& character, const pbs::Pose& pose)
-    {
-        pbs::Positions positions;
-        pbs::linear_blend_skinning(character.mesh.rest, character.weights, pose, positions);
-        return positions;
-    }
-
-    // A start that is there already counts as one iteration; where neither arrives there is no ratio.
+    // An initial guess within the tolerance counts as one iteration. Where neither path reaches it there is no ratio.
     void add_iterations(const Twin& twin, std::size_t pose, const Reached& paper, const Reached& rigid)
     {
         result_.iterations.push_back({place_of(of_, twin.paper, pose), paper, rigid});

@@ -1,16 +1,16 @@
-// C06: the same poses with the weights of Eq. 2, or of the scene's weights file in their place, and with every vertex on its nearest bone
-// alone.
+// C06: the same poses with the weights of Eq. 2, or of the scene's weights file in their place, and with rigid weights, which bind every
+// vertex to its nearest bone alone.
 //   for (const analysis::Measurement& figure : compare_weights(of).figures) ...
-// At each joint: the jump of strain between neighbouring tets and the bending of the skin (analysis/smoothness.hpp); of the whole body the
-// absolute volume change; and the iterations after which PBS stays within the tolerance of its residual, by the residual and the rule of
-// the study of convergence (shared/path_figures.hpp), with the blends by both weights as its two starts. Each is given as Eq. 2 over
-// rigid, with the spread over orders, precisions and meshes; of iterations over meshes alone.
+// Measured are, at each joint, the jump of strain between neighbouring tets and the bending of the skin (analysis/smoothness.hpp); for the
+// whole body, the absolute volume change; and the number of iterations after which PBS stays within the tolerance of its residual, by the
+// rule of shared/iteration_path.hpp with the two blends as initial guesses. Each value is a ratio of Eq. 2 to rigid weights, with its
+// spread over orders, precisions and meshes; for iterations over meshes only.
 #pragma once
 
 #include "analysis/measurement.hpp"
 #include "analysis/smoothness.hpp"
 #include "experiments/studies/artefacts/artefact_case.hpp"
-#include "experiments/studies/shared/path_figures.hpp"
+#include "experiments/studies/shared/iteration_path.hpp"
 
 namespace experiments {
 
@@ -33,7 +33,7 @@ extern const analysis::Columns<WeightIterations> weight_iteration_columns;  // i
 
 struct WeightsComparison {
     std::vector<analysis::Measurement> figures;
-    std::vector<SmoothnessRow> smoothness;  // what the ratios are of
+    std::vector<SmoothnessRow> smoothness;  // the terms of the ratios
     std::vector<WeightIterations> iterations;
 };
 

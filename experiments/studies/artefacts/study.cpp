@@ -1,23 +1,25 @@
-// Do the artefacts of blending occur, and how smooth is the skin? Cross-sections of a limb along a joint that is twisted (C04, the candy
-// wrapper of LBS) or bent (C05, the bulge of DQS), the weights of Eq. 2 beside rigid ones (C06), and how often the skin intersects itself.
+// Do the artefacts of blending occur, and how smooth is the skin? Measured are cross-sections of a limb along a joint that is twisted (C04,
+// the candy wrapper of LBS) or bent (C05, the bulge of DQS), the weights of Eq. 2 against rigid ones (C06), and the number of
+// self-intersections of the skin.
 //
-//   limb_twist     30 ... 180 deg    o=======o~~~~~~~o      every deformer beside stable neo-Hookean finite elements,
-//   limb_bend      30 ... 150 deg    o=======o              linear elements; the first poses quadratic ones too
-//   BODY_twist_*   45, 90 deg about the bone: elbow, mid-forearm, knee; of frankie, whose knee lies in the belly, the tail
-//   BODY_bend_*    45, 90 deg on the way that the joint bends
+//   limb_twist     30 ... 180 deg    o=======o~~~~~~~o      every deformer, and stable neo-Hookean finite elements:
+//   limb_bend      30 ... 150 deg    o=======o              linear elements, in the first poses quadratic ones too
+//   BODY_twist_*   45, 90 deg about the bone: elbow, mid-forearm, knee; the tail of frankie, whose knee lies in the belly
+//   BODY_bend_*    45, 90 deg in the direction in which the joint bends
 //   BODY_crouch    frame 164 of CMU's clip 01_01, all joints of the left side
 //
-// The quick form has limb, human, and the elbow of the others.
+// The quick form has the limb, the human, and the elbow of the others.
 //
-// Writes DIR/artefacts/CASE/{profiles,sections,intersections,smoothness,iterations,measurements}.csv, and intersections.md, sections.md.
-// The paper says that it does not handle self-intersections: they are counted. sections: where C04 and C05 have a figure, and why not.
-#include "analysis/records/atomic_file.hpp"
+// Writes DIR/artefacts/CASE/{profiles,sections,intersections,smoothness,iterations,measurements}.csv, intersections.md and sections.md.
+// The paper states that it does not handle self-intersections; they are counted. sections.md states where C04 and C05 have a value, and why
+// they have none elsewhere.
+#include "analysis/records/folder_files.hpp"
+#include "analysis/records/report_table.hpp"
 #include "experiments/studies/artefacts/artefact_figures.hpp"
 #include "experiments/studies/artefacts/smoothness_comparison.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
-#include "experiments/studies/shared/path_figures.hpp"
+#include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/studies/study.hpp"
-#include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -39,7 +41,7 @@ std::string look_and_record(const ArtefactCase& of, const std::string& folder)
                                                      ? candy_wrapper_figures(of, body, records.samples)
                                                      : bulge_figures(of, body, records.samples);
     figures.insert(figures.end(), weights.figures.begin(), weights.figures.end());
-    const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
+    const auto path = [&](const char* name) { return analysis::path_in(folder, name); };
     table_of(section_columns, section_rows(of, body, section_outcomes(of, body, records.samples))).write(path("sections.csv"));
     table_of(profile_columns, records.profiles).write(path("profiles.csv"));
     table_of(intersection_columns, records.intersections).write(path("intersections.csv"));
@@ -52,7 +54,7 @@ std::string look_and_record(const ArtefactCase& of, const std::string& folder)
 const char* const all_deformers = R"(deformers.use=["lbs","dqs","pbs","delta_mush","xpbd","snh_p1"])";
 const char* const with_second_order = R"(deformers.use=["lbs","dqs","pbs","delta_mush","xpbd","snh_p1","snh_p2"])";
 
-// A sweep in equal steps, from the first one on.
+// A sweep in equal steps, without the rest pose.
 ArtefactCase sweep(const std::string& scene, std::vector<std::string> overrides, const std::string& what, int step_deg, int poses)
 {
     ArtefactCase of;
@@ -70,7 +72,7 @@ ArtefactCase limb_sweep(const std::string& what, int poses, bool full)
 {
     ArtefactCase of = sweep("limb_" + what, {with_second_order}, what, 30, poses);
     of.vertices = full ? std::vector<int>{1200, 2600} : std::vector<int>{1200};
-    of.second_order_poses = what == "twist" && full ? poses : 2;  // from some 70 degrees of bend on, a frame takes minutes
+    of.second_order_poses = what == "twist" && full ? poses : 2;  // beyond a bend of about 70 degrees a frame takes minutes
     return of;
 }
 
@@ -93,7 +95,7 @@ ArtefactCase crouch(const std::string& body)
     return of;
 }
 
-// What is done to the joints of the bodies, which share the human's names; a body with other names has all of its joints turned.
+// How the joints of the bodies are turned, by the human's names of bones. A body with other names has all of its joints turned.
 struct TurnedJoint {
     enum class QuickFor { no_body, human, every_body };
 
@@ -141,29 +143,39 @@ void plan_body(const std::string& body, bool full, StudyPlan& plan)
     if (full || body == "human") add(body + "_crouch", crouch(body), body == "frankie" ? 8.0 : 4.0);
 }
 
-// How many pairs of triangles of each body's skin meet, a line a deformer, with the pose that has most of them.
-std::string intersections_text(const std::vector<std::string>& finished)
+struct RunIntersection {
+    std::string run;
+    IntersectionRow row;
+};
+
+// The surfaces on which a pose changes the number of pairs of triangles that intersect.
+std::string intersections_text(const FinishedRuns& finished)
 {
-    std::string text = "| case | pose | surface | deformer | pairs | at rest |\n|---|---|---|---|---|---|\n";
-    for (const std::string& run : finished)
-        for (const auto& row : rows_of(intersection_columns, analysis::read_csv((fs::path(run) / "intersections.csv").string())))
-            if (row.pairs != row.pairs_at_rest)
-                text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", fs::path(run).filename().string(), row.place.pose, row.surface,
-                                    row.deformer.deformer, row.pairs, row.pairs_at_rest);
-    return text;
+    static const analysis::Columns<RunIntersection> columns =
+        analysis::Columns<RunIntersection>{{"run", &RunIntersection::run, "", "name of the run"}} +
+        analysis::within(&RunIntersection::row, intersection_columns);
+    std::vector<RunIntersection> changed;
+    for (const std::string& file : finished.files("intersections.csv"))
+        for (const auto& row : rows_of(intersection_columns, analysis::read_csv(file)))
+            if (row.pairs != row.pairs_at_rest) changed.push_back({fs::path(file).parent_path().filename().string(), row});
+    return markdown_table(table_of(columns, changed), {{"case", "run"},
+                                                       {"pose", "pose"},
+                                                       {"surface", "surface"},
+                                                       {"deformer", "deformer"},
+                                                       {"pairs", "pairs"},
+                                                       {"at rest", "pairs_at_rest"}});
 }
 
-// How many sections each claim is judged by, which of them with a remark, and which are left out, and why.
-std::string sections_text(const std::vector<std::string>& finished)
+// The number of sections by which each claim is judged, those that are left out with the reason, and the remarks.
+std::string sections_text(const FinishedRuns& finished)
 {
     std::map<std::string, std::map<std::string, std::vector<std::string>>> sections;  // by claim and outcome
     std::string remarks;
-    for (const std::string& run : finished)
-        for (const auto& row : rows_of(section_columns, analysis::read_csv((fs::path(run) / "sections.csv").string()))) {
-            const std::string of = fmt::format("{} {} {}", row.body, row.pose, row.joint);
-            sections[row.claim][row.outcome].push_back(of);
-            if (!row.remark.empty()) remarks += fmt::format("{}: {}, {}: {}\n", row.claim, of, row.outcome, row.remark);
-        }
+    for (const SectionRow& row : finished.rows(section_columns, "sections.csv")) {
+        const std::string of = fmt::format("{} {} {}", row.body, row.pose, row.joint);
+        sections[row.claim][row.outcome].push_back(of);
+        if (!row.remark.empty()) remarks += fmt::format("{}: {}, {}: {}\n", row.claim, of, row.outcome, row.remark);
+    }
     std::string text;
     for (const auto& [claim, outcomes] : sections)
         for (const auto& [outcome, names] : outcomes) {
@@ -178,19 +190,13 @@ StudyPlan plan(bool full)
     StudyPlan plan;
     plan.runs.push_back(work_run("limb_twist", limb_sweep("twist", 6, full), full ? 26.0 : 11.0, look_and_record));
     plan.runs.push_back(work_run("limb_bend", limb_sweep("bend", 5, full), full ? 60.0 : 40.0, look_and_record));
-    for (const std::string& body : installed_bodies(plan.left_out)) {
-        try {
-            plan_body(body, full, plan);
-        } catch (const pbs::InputError& error) {
-            plan.left_out.push_back({body, error.what()});
-        }
-    }
+    for_each_installed_body(plan.left_out, [&](const std::string& body) { plan_body(body, full, plan); });
     return plan;
 }
 
 StudyConclusion conclude(const FinishedRuns& finished)
 {
-    const std::string intersections = intersections_text(finished.folders), sections = sections_text(finished.folders);
+    const std::string intersections = intersections_text(finished), sections = sections_text(finished);
     finished.write("intersections.md", intersections);
     finished.write("sections.md", sections);
     return {intersections + "\n" + sections, !finished.none()};

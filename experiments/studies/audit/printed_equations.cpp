@@ -20,7 +20,7 @@ double value_at(const Tet& tet, const Corners& p)
     return value(tet, p[0], p[1], p[2], p[3]);
 }
 
-// Central differences; C is cubic and linear in each coordinate, so that only rounding is left.
+// Central differences. C is cubic, and linear in each coordinate, so that their only error is rounding.
 Point difference_quotient(const Tet& tet, Corners p, int corner)
 {
     constexpr double step = 1e-2;
@@ -34,7 +34,7 @@ Point difference_quotient(const Tet& tet, Corners p, int corner)
     return gradient;
 }
 
-// Edges of some 1 m, one metre or so from the origin, 30 % off their rest volume.
+// Tets with edges of about 1 m, at about 1 m from the origin, with 1.3 times their rest volume.
 struct RandomTets {
     explicit RandomTets(unsigned seed) : random(seed) {}
 
@@ -53,7 +53,7 @@ struct RandomTets {
     std::mt19937 random;
 };
 
-// Eq. 11-16 in double: some ten roundings of products of some 10 m^3, over a step of 1e-2 m and a gradient of some 0.1 m^2.
+// Eq. 11-16 in double: about ten roundings of products of about 10 m^3, over a step of 1e-2 m and a gradient of about 0.1 m^2.
 constexpr double rounding = 1e-10;
 
 template <typename Gradient>

@@ -1,5 +1,5 @@
-// C15: are Eq. 12-20 the gradients and corrections of Eq. 11? Each as printed, on seeded random tets away from the origin, beside central
-// differences of Eq. 11 and beside what a correction is for.
+// C15: are Eq. 12-20 the gradients and corrections of Eq. 11? On seeded random tets away from the origin, each printed gradient is compared
+// with central differences of Eq. 11, and each printed correction with its purpose, which is to reduce C.
 #pragma once
 
 #include "analysis/case_record.hpp"
@@ -8,8 +8,8 @@
 
 namespace experiments {
 
-// Gradients: largest of |printed - difference quotient| / |difference quotient| over the tets; it holds up to the rounding of the quotient.
-// Corrections: largest of |C after| / |C before| when Eq. 17-21 are applied with k = 1; a correction does not make C larger.
+// Gradients: the largest |printed - difference quotient| / |difference quotient| over the tets. It may be as large as the rounding of the
+// quotient. Corrections: the largest |C after| / |C before| when Eq. 17-21 are applied with k = 1. A correction does not make C larger.
 std::vector<analysis::PrintedFigure> equation_figures(int tets = 200, unsigned seed = 1);
 
 }  // namespace experiments

@@ -1,7 +1,6 @@
-// The paper against itself: its mesh sizes, its Table 1, its equations for the volume constraint. Writes DIR/audit/print/printed.csv, from
-// which C13 to C15 are judged, and audit.md.
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/csv_table.hpp"
+// The paper against itself: its mesh sizes, its Table 1 and its equations for the volume constraint. Writes DIR/audit/print/printed.csv,
+// by which C13 to C15 are judged, and audit.md.
+#include "analysis/records/folder_files.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/audit/printed_equations.hpp"
 #include "experiments/studies/shared/table_1.hpp"
@@ -10,14 +9,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 
 namespace experiments {
 namespace {
 
-namespace fs = std::filesystem;
-
-// The random tets that the printed equations are tried on.
+// The random tets on which the printed equations are evaluated.
 struct AuditCase {
     int tets = 200;
     unsigned seed = 1;
@@ -35,7 +31,7 @@ std::string audit_print(const AuditCase& of, const std::string& folder)
     std::vector<analysis::PrintedFigure> all;
     for (const auto& figures : {mesh_size_figures(), table_1_figures(), equation_figures(of.tets, of.seed)})
         all.insert(all.end(), figures.begin(), figures.end());
-    analysis::printed_table(all).write((fs::path(folder) / "printed.csv").string());
+    analysis::printed_table(all).write(analysis::path_in(folder, "printed.csv"));
     return {};
 }
 

@@ -104,10 +104,10 @@ private:
 
     const ConvergenceCase& of_;
     bool own_;
-    std::size_t settings_;  // so many of the case's
+    std::size_t settings_;  // the number of the case's settings that are run
     PosedCharacter posed_;
     pbs::Motion motion_;
-    Shapes truth_;           // one a frame; none
+    Shapes truth_;           // one per frame; empty: no reference
     std::string reference_;  // its name, or why there is none
 };
 

@@ -12,7 +12,7 @@
 namespace experiments {
 namespace {
 
-// A figure of one setting; what it bounds, where a tolerance was not reached.
+// A value of one setting, and what it bounds where a tolerance was not reached.
 struct Figure {
     double value = 0.0;
     analysis::Limit limit = analysis::Limit::none;
@@ -48,7 +48,7 @@ analysis::CaseKey key_of(const ConvergencePaths& of)
     return key;
 }
 
-// What the value is of, apart from what a group has in common.
+// The part of a value's key in which the values of a group differ.
 struct What {
     std::string claim, quantity;
     std::string tolerance = {}, initial_guess = {};
@@ -80,7 +80,7 @@ void add(std::vector<analysis::Measurement>& to, const What& what, const Group& 
 }
 
 struct Tolerance {
-    const char* name;  // as a key has it
+    const char* name;  // in a key
     Reached (*reached)(const ConvergencePaths&, std::size_t start);
 };
 const Tolerance tolerances[] = {
@@ -95,7 +95,7 @@ FigureOf iterations_to(const Tolerance& tolerance)
     };
 }
 
-// A start that is there already counts as one iteration.
+// An initial guess that fulfils the tolerance counts as one iteration.
 FigureOf over_lbs(const Tolerance& tolerance, std::size_t start)
 {
     return [&tolerance, start](const ConvergencePaths& of) -> std::optional<Figure> {
@@ -107,7 +107,7 @@ FigureOf over_lbs(const Tolerance& tolerance, std::size_t start)
     };
 }
 
-void add_beside(std::vector<analysis::Measurement>& to, const Group& group)
+void add_further(std::vector<analysis::Measurement>& to, const Group& group)
 {
     const auto figure = [&](const char* quantity, double (*of_lbs)(const IterationPath&)) {
         add(to, {"C12", quantity}, group, [of_lbs](const ConvergencePaths& of) { return Figure{of_lbs(of.paths[0])}; });
@@ -133,7 +133,7 @@ void add_starts(std::vector<analysis::Measurement>& to, const Group& group)
     }
 }
 
-// Of all poses, orders and meshes: comparisons with LBS that there is no figure of.
+// The share of the comparisons with LBS, over all poses, orders and meshes, that have no value.
 void add_neither(std::vector<analysis::Measurement>& to, const ConvergenceResult& result)
 {
     for (const Tolerance& tolerance : tolerances) {
@@ -142,13 +142,8 @@ void add_neither(std::vector<analysis::Measurement>& to, const ConvergenceResult
             for (std::size_t start = 1; start < paths.paths.size(); ++start, ++all) neither += !over_lbs(tolerance, start)(paths);
         if (all == 0) continue;
         const double share = neither / double(all);
-        to.push_back({"C03",
-                      "share_of_ratios_not_reached",
-                      {.body = result.all.front().body, .tolerance = tolerance.name},
-                      share,
-                      share,
-                      share,
-                      "1"});
+        const analysis::CaseKey key = {.body = result.all.front().body, .tolerance = tolerance.name};
+        to.push_back({"C03", "share_of_ratios_not_reached", key, share, share, share, "1"});
         to.back().n = all;
     }
 }
@@ -194,7 +189,7 @@ std::vector<analysis::Measurement> convergence_figures(const ConvergenceResult& 
         for (const Tolerance& tolerance : tolerances)
             add(figures, {"C12", group.front()->character ? "iterations_to_tolerance" : "iterations_to_tolerance_of_limbs", tolerance.name},
                 group, iterations_to(tolerance));
-        add_beside(figures, group);
+        add_further(figures, group);
         add_starts(figures, group);
     }
     add_neither(figures, result);

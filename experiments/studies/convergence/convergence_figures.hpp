@@ -1,8 +1,9 @@
-// The figures that C03 and C12 are judged by, from the paths of a case; the default setting on the scene's own mesh gives the value, the
-// other orders, precisions and meshes of about that size its interval. Where a tolerance is never reached, the number of iterations that
-// were tried stands for it and `of` says so: a ratio is then a bound. Where neither start reaches it there is no figure, and where that is
-// so in another order or mesh the interval is open; how often it is so is a figure of its own. Characters are judged; the limb is beside
-// them, and so are twists, in which the rest pose has nothing to do.
+// The values by which C03 and C12 are judged, from the paths of a case. The default setting on the scene's own mesh gives the value, and
+// the other orders, precisions and meshes of about that size give its interval. Where a tolerance is never reached, the number of
+// iterations that were tried takes its place and `limit` marks it, so that a ratio is a bound. Where neither initial guess reaches the
+// tolerance there is no value; where this happens in another order or on another mesh, the interval is open. The share of such cases is a
+// value of its own. Only characters are judged. The limb is measured for comparison, as are twists, in which the rest pose already
+// satisfies all constraints.
 #pragma once
 
 #include "analysis/case_record.hpp"

@@ -36,7 +36,7 @@ PathCase case_of(const ConvergencePaths& of, std::size_t start)
             name_of(all_starts[start])};
 }
 
-// Enough of a number that is drawn; all digits would double the record.
+// Enough digits for drawing. All digits would double the size of the record.
 double six_digits(double value)
 {
     return std::stod(fmt::format("{:.6g}", value));
@@ -50,7 +50,7 @@ Look rounded(Look look)
     return look;
 }
 
-// Those that are looked at in a record: the first one past each fifth of a decade, and the last.
+// The looks that are recorded: the first one past each fifth of a decade, and the last.
 std::vector<Look> thinned(const IterationPath& path)
 {
     std::vector<Look> kept;
@@ -61,22 +61,6 @@ std::vector<Look> thinned(const IterationPath& path)
         next = std::max(look.iteration + 1.0, std::floor(look.iteration * std::pow(10.0, 0.2)));
     }
     return kept;
-}
-
-struct LookRow {
-    PathCase of;
-    Look look;
-};
-
-std::vector<LookRow> look_rows(const ConvergenceResult& result)
-{
-    std::vector<LookRow> rows;
-    for (const ConvergencePaths& paths : result.all) {
-        if (!paths.own_mesh && !result.ladder) continue;  // other tessellations of one size are recorded by their rates alone
-        for (std::size_t start = 0; start < paths.paths.size(); ++start)
-            for (const Look& look : thinned(paths.paths[start])) rows.push_back({case_of(paths, start), look});
-    }
-    return rows;
 }
 
 RateRow rate_row(const ConvergencePaths& of, std::size_t start, double floor)
@@ -104,7 +88,7 @@ RateRow rate_row(const ConvergencePaths& of, std::size_t start, double floor)
     return row;
 }
 
-const Columns<Look> residual_columns = {
+const Columns<Look> residual_look_columns = {
     {"iteration", &Look::iteration, "", "number of the iteration; 0: the initial guess"},
     {"stretch_rms", &Look::stretch_rms, "", "root mean square of l / l0 - 1 over the edges"},
     {"volume_rms", &Look::volume_rms, "", "root mean square of V / V0 - 1 over the tets"},
@@ -114,62 +98,73 @@ const Columns<Look> residual_columns = {
     {"volume_abs_change_pct", &Look::volume_abs_change_pct, "%", "sum of the absolute changes of each tet"},
     {"inverted_tets", &Look::inverted_tets, "", "number of inverted tets"}};
 
-const Columns<Look> towards_columns = {
+const Columns<Look> error_look_columns = {
     {"iteration", &Look::iteration, "", "number of the iteration; 0: the initial guess"},
     {"error_joint_pct", &Look::error_joint_pct, "%", "distance to the reference over the blended vertices"}};
 
+const Columns<Look> start_residual = {{"start_residual", &Look::combined, "", "combined residual of the initial guess"}};
+const Columns<Look> paper_residual = {{"residual_24", &Look::combined, "", "combined residual after 24 iterations"}};
+const Columns<Look> last_residual = {{"last_residual", &Look::combined, "", "combined residual after the last iteration"}};
+
+const Columns<analysis::Interval> rate_interval = {
+    {"rate_per_iteration", &analysis::Interval::estimate, "", "factor per iteration of residual - floor"},
+    {"rate_low", &analysis::Interval::low, "", "lower end of its interval"},
+    {"rate_high", &analysis::Interval::high, "", "upper end of its interval"}};
+const Columns<Rate> fitted_rate = Columns<Rate>{{"stalls_at_iteration", &Rate::stalls_at, "", "where it stalls; empty: nowhere"}} +
+                                  within(&Rate::rate, rate_interval) +
+                                  Columns<Rate>{{"rate_log_rms_off", &Rate::log_rms_off, "", "root mean square logarithm over the fit"}};
+
+const Columns<Reached> to_residual = {{"iterations_to_residual", &Reached::iterations, "", "iterations to the residual's tolerance"},
+                                      {"residual_reached", &Reached::within, "", "they reached it"}};
+const Columns<Reached> to_volume = {{"iterations_to_volume", &Reached::iterations, "", "iterations to the paper's 0.5 % of volume"},
+                                    {"volume_reached", &Reached::within, "", "they reached it"}};
+
+const Columns<Look> paper_volume = {
+    {"volume_change_24_pct", &Look::volume_change_pct, "%", "volume change after 24 iterations"},
+    {"volume_abs_change_24_pct", &Look::volume_abs_change_pct, "%", "sum of the tets' absolute changes after 24 iterations"}};
+const Columns<Look> last_volume = {
+    {"last_volume_change_pct", &Look::volume_change_pct, "%", "volume change at the end"},
+    {"last_volume_abs_change_pct", &Look::volume_abs_change_pct, "%", "sum of the tets' absolute changes at the end"},
+    {"last_inverted_tets", &Look::inverted_tets, "", "inverted tets at the end"}};
+
+const Columns<Look> start_error = {{"start_error_pct", &Look::error_joint_pct, "%", "error of the initial guess at the joints"}};
+const Columns<Look> paper_error = {{"error_24_pct", &Look::error_joint_pct, "%", "error after 24 iterations"}};
+const Columns<Look> least_error = {{"least_error_pct", &Look::error_joint_pct, "%", "least error on the way"},
+                                   {"least_error_iteration", &Look::iteration, "", "iteration of the least error"}};
+const Columns<Look> last_error = {{"last_error_pct", &Look::error_joint_pct, "%", "error at the end"}};
+
 }  // namespace
 
+const Columns<LookRow> residual_columns = within(&LookRow::of, case_columns) + within(&LookRow::look, residual_look_columns);
+const Columns<LookRow> towards_columns = within(&LookRow::of, case_columns) + within(&LookRow::look, error_look_columns);
+
+using Rates = Columns<RateRow>;
 const Columns<RateRow> rate_columns =
     within(&RateRow::of, case_columns) +
-    Columns<RateRow>{
-        {"iterations", &RateRow::iterations, "", "iterations that were done"},
-        {"outcome", &RateRow::outcome, "", "finished or not_finite"},
-        {"floor", &RateRow::floor, "", "lowest combined residual that any initial guess leads to"},
-        {"start_residual", [](auto& row) -> decltype(auto) { return (row.first.combined); }, "", "combined residual of the initial guess"},
-        {"residual_24", [](auto& row) -> decltype(auto) { return (row.paper.combined); }, "", "combined residual after 24 iterations"},
-        {"last_residual", [](auto& row) -> decltype(auto) { return (row.last.combined); }, "",
-         "combined residual after the last iteration"},
-        {"last_half_change_pct", &RateRow::last_half_change_pct, "%", "change of the residual over the second half of the iterations"},
-        {"stalls_at_iteration", [](auto& row) -> decltype(auto) { return (row.rate.stalls_at); }, "",
-         "where the residual stalls; empty: nowhere"},
-        {"rate_per_iteration", [](auto& row) -> decltype(auto) { return (row.rate.rate.estimate); }, "",
-         "factor per iteration of residual - floor"},
-        {"rate_low", [](auto& row) -> decltype(auto) { return (row.rate.rate.low); }, "", "lower end of its interval"},
-        {"rate_high", [](auto& row) -> decltype(auto) { return (row.rate.rate.high); }, "", "upper end of its interval"},
-        {"rate_log_rms_off", [](auto& row) -> decltype(auto) { return (row.rate.log_rms_off); }, "",
-         "root mean square logarithm over the fit"},
-        {"iterations_to_residual", [](auto& row) -> decltype(auto) { return (row.residual.iterations); }, "",
-         "iterations to the residual's tolerance"},
-        {"residual_reached", [](auto& row) -> decltype(auto) { return (row.residual.within); }, "", "they reached it"},
-        {"iterations_to_volume", [](auto& row) -> decltype(auto) { return (row.volume.iterations); }, "",
-         "iterations to the paper's 0.5 % of volume"},
-        {"volume_reached", [](auto& row) -> decltype(auto) { return (row.volume.within); }, "", "they reached it"},
-        {"iteration_cpu_ms", &RateRow::iteration_cpu_ms, "ms", "mean processor time per iteration"},
-        {"cpu_ms_to_residual", &RateRow::cpu_ms_to_residual, "ms", "processor time to the residual's tolerance; empty: not reached"},
-        {"cpu_ms_to_volume", &RateRow::cpu_ms_to_volume, "ms", "processor time to the volume's tolerance; empty: not reached"},
-        {"volume_change_24_pct", [](auto& row) -> decltype(auto) { return (row.paper.volume_change_pct); }, "%",
-         "volume change after 24 iterations"},
-        {"volume_abs_change_24_pct", [](auto& row) -> decltype(auto) { return (row.paper.volume_abs_change_pct); }, "%",
-         "sum of the tets' absolute changes after 24 iterations"},
-        {"last_volume_change_pct", [](auto& row) -> decltype(auto) { return (row.last.volume_change_pct); }, "%",
-         "volume change at the end"},
-        {"last_volume_abs_change_pct", [](auto& row) -> decltype(auto) { return (row.last.volume_abs_change_pct); }, "%",
-         "sum of the tets' absolute changes at the end"},
-        {"last_inverted_tets", [](auto& row) -> decltype(auto) { return (row.last.inverted_tets); }, "", "inverted tets at the end"},
-        {"reference", &RateRow::reference, "", "name of the reference, or why there is none"},
-        {"start_error_pct", [](auto& row) -> decltype(auto) { return (row.first.error_joint_pct); }, "%",
-         "error of the initial guess at the joints"},
-        {"error_24_pct", [](auto& row) -> decltype(auto) { return (row.paper.error_joint_pct); }, "%", "error after 24 iterations"},
-        {"least_error_pct", [](auto& row) -> decltype(auto) { return (row.nearest.error_joint_pct); }, "%", "least error on the way"},
-        {"least_error_iteration", [](auto& row) -> decltype(auto) { return (row.nearest.iteration); }, "", "iteration of the least error"},
-        {"last_error_pct", [](auto& row) -> decltype(auto) { return (row.last.error_joint_pct); }, "%", "error at the end"},
-        {"reference_self_intersects", &RateRow::reference_self_intersects, "", "boundary triangles of the reference intersect"},
-        {"limit_from_lbs_pct", &RateRow::limit_from_lbs_pct, "%", "distance of the last shape from the one that LBS leads to"}};
+    Rates{{"iterations", &RateRow::iterations, "", "iterations that were done"},
+          {"outcome", &RateRow::outcome, "", "finished or not_finite"},
+          {"floor", &RateRow::floor, "", "lowest combined residual that any initial guess leads to"}} +
+    within(&RateRow::first, start_residual) + within(&RateRow::paper, paper_residual) + within(&RateRow::last, last_residual) +
+    Rates{{"last_half_change_pct", &RateRow::last_half_change_pct, "%", "change of the residual over the second half of the iterations"}} +
+    within(&RateRow::rate, fitted_rate) + within(&RateRow::residual, to_residual) + within(&RateRow::volume, to_volume) +
+    Rates{{"iteration_cpu_ms", &RateRow::iteration_cpu_ms, "ms", "mean processor time per iteration"},
+          {"cpu_ms_to_residual", &RateRow::cpu_ms_to_residual, "ms", "processor time to the residual's tolerance; empty: not reached"},
+          {"cpu_ms_to_volume", &RateRow::cpu_ms_to_volume, "ms", "processor time to the volume's tolerance; empty: not reached"}} +
+    within(&RateRow::paper, paper_volume) + within(&RateRow::last, last_volume) +
+    Rates{{"reference", &RateRow::reference, "", "name of the reference, or why there is none"}} + within(&RateRow::first, start_error) +
+    within(&RateRow::paper, paper_error) + within(&RateRow::nearest, least_error) + within(&RateRow::last, last_error) +
+    Rates{{"reference_self_intersects", &RateRow::reference_self_intersects, "", "boundary triangles of the reference intersect"},
+          {"limit_from_lbs_pct", &RateRow::limit_from_lbs_pct, "%", "distance of the last shape from the one that LBS leads to"}};
 
-analysis::CsvTable residual_table(const ConvergenceResult& result)
+std::vector<LookRow> look_rows(const ConvergenceResult& result)
 {
-    return table_of(within(&LookRow::of, case_columns) + within(&LookRow::look, residual_columns), look_rows(result));
+    std::vector<LookRow> rows;
+    for (const ConvergencePaths& paths : result.all) {
+        if (!paths.own_mesh && !result.ladder) continue;  // of other tessellations only the rates are recorded
+        for (std::size_t start = 0; start < paths.paths.size(); ++start)
+            for (const Look& look : thinned(paths.paths[start])) rows.push_back({case_of(paths, start), look});
+    }
+    return rows;
 }
 
 std::vector<RateRow> rate_rows(const ConvergenceResult& result)
@@ -182,11 +177,10 @@ std::vector<RateRow> rate_rows(const ConvergenceResult& result)
     return rows;
 }
 
-analysis::CsvTable towards_table(const ConvergenceResult& result)
+std::vector<LookRow> towards_rows(std::vector<LookRow> looks)
 {
-    std::vector<LookRow> rows = look_rows(result);
-    std::erase_if(rows, [](const LookRow& row) { return std::isnan(row.look.error_joint_pct); });
-    return table_of(within(&LookRow::of, case_columns) + within(&LookRow::look, towards_columns), rows);
+    std::erase_if(looks, [](const LookRow& row) { return std::isnan(row.look.error_joint_pct); });
+    return looks;
 }
 
 }  // namespace experiments

@@ -1,4 +1,4 @@
-// The records of convergence: residuals by iteration, one row of numbers per path, the error to the reference by iteration.
+// The records of convergence: residuals by iteration, one row per path, and the error to the reference by iteration.
 #pragma once
 
 #include "analysis/records/typed_table.hpp"
@@ -6,7 +6,7 @@
 
 namespace experiments {
 
-// What a row is of.
+// The path that a row belongs to.
 struct PathCase {
     std::string body, pose;
     int vertices = 0, tets = 0;
@@ -20,20 +20,27 @@ struct RateRow {
     PathCase of;
     int iterations = 0;
     std::string outcome;
-    double floor = 0.0, start_residual = 0.0, residual_24 = 0.0, last_residual = 0.0, last_half_change_pct = 0.0;
+    double floor = 0.0, last_half_change_pct = 0.0;
     Rate rate;
     Reached residual, volume;
     double iteration_cpu_ms = 0.0;
     std::optional<double> cpu_ms_to_residual, cpu_ms_to_volume;
-    Look first, paper, nearest, last;  // at the initial state, after 24 iterations, of the least error, and the last one
+    Look first, paper, nearest, last;  // the initial guess, after 24 iterations, with the least error, and the last one
     std::string reference;
     bool reference_self_intersects = false;
     double limit_from_lbs_pct = 0.0;
 };
 extern const analysis::Columns<RateRow> rate_columns;
 
-analysis::CsvTable residual_table(const ConvergenceResult& result);  // residuals.csv, thinned to five looks per decade
-std::vector<RateRow> rate_rows(const ConvergenceResult& result);     // one per path
-analysis::CsvTable towards_table(const ConvergenceResult& result);   // towards.csv, thinned likewise
+// residuals.csv and towards.csv: a look of a path.
+struct LookRow {
+    PathCase of;
+    Look look;
+};
+extern const analysis::Columns<LookRow> residual_columns, towards_columns;
+
+std::vector<LookRow> look_rows(const ConvergenceResult& result);  // thinned to five looks per decade
+std::vector<LookRow> towards_rows(std::vector<LookRow> looks);    // those with an error
+std::vector<RateRow> rate_rows(const ConvergenceResult& result);  // one per path
 
 }  // namespace experiments

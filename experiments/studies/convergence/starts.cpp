@@ -14,7 +14,7 @@ pbs::Positions blended(const pbs::Character& character, const pbs::Weights& weig
     return positions;
 }
 
-// The solver going from step to step, each from where the last one ended.
+// The solver advanced from step to step, each step from the result of the last one.
 class WarmStarted {
 public:
     WarmStarted(const pbs::Character& character, const pbs::Motion& motion, const pbs::PbsOptions& options)

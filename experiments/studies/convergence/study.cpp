@@ -1,31 +1,29 @@
-// C03, C12: how fast the solver converges, from where, and towards what. Every run iterates the paper's constraints far past its 24 from
-// four starts (convergence/starts.hpp) and looks at residuals, volume and the error against the reference on the same tets.
+// C03, C12: how fast the solver converges, from which initial guess, and towards what. Every run iterates the paper's constraints far past
+// its 24 iterations from four initial guesses (convergence/starts.hpp) and measures residuals, volume and the error to the reference on the
+// same tets.
 //
 //   limb_twist, limb_bend   90 and 170 deg, 90 deg; three orders, two precisions, other tessellations of the same size
-//   human, ...              poses of the clip 01_01, every real body that is installed, at Table 1's sizes
-//   ladder_twist, _bend     the limb from 500 vertices to 8,000 in three orders (--full: to 100,000 in one); the reference on the same tets
-//                           to 5,000 vertices (--full: 10,000; the bend 2,500), left out above: rates.csv says so of each mesh
+//   human, ...              poses of the clip 01_01, every real body that is installed, at the sizes of Table 1
+//   ladder_twist, _bend     the limb from 500 vertices to 8,000 in three orders (--full: to 100,000 in one), with the reference on the same
+//                           tets up to 5,000 vertices (--full: 10,000; the bend 2,500). rates.csv states which meshes have no reference
 //
-// Writes DIR/convergence/RUN/residuals.csv, rates.csv, towards.csv, measurements.csv, and convergence.md of all runs.
-#include "analysis/records/atomic_file.hpp"
+// Writes DIR/convergence/RUN/residuals.csv, rates.csv, towards.csv, measurements.csv, and convergence.md over all runs.
 #include "analysis/measurement.hpp"
+#include "analysis/records/folder_files.hpp"
+#include "analysis/records/report_table.hpp"
 #include "experiments/studies/shared/table_1.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/convergence/convergence_figures.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/studies/study.hpp"
-#include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 
 namespace experiments {
 namespace {
-
-namespace fs = std::filesystem;
 
 const std::vector<ProjectionSetting> every_setting = {
     {pbs::Order::ordered, pbs::Precision::f32}, {pbs::Order::grouped, pbs::Precision::f32}, {pbs::Order::plain, pbs::Precision::f32},
@@ -37,17 +35,18 @@ const std::vector<ProjectionSetting> few_settings = {every_setting[0], every_set
 std::string measure_and_record(const ConvergenceCase& of, const std::string& folder)
 {
     const ConvergenceResult result = measure_convergence(of);
-    const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
-    residual_table(result).write(path("residuals.csv"));
+    const auto path = [&](const char* name) { return analysis::path_in(folder, name); };
+    const std::vector<LookRow> looks = look_rows(result);
+    table_of(residual_columns, looks).write(path("residuals.csv"));
     table_of(rate_columns, rate_rows(result)).write(path("rates.csv"));
-    towards_table(result).write(path("towards.csv"));
+    table_of(towards_columns, towards_rows(looks)).write(path("towards.csv"));
     analysis::measurement_table(convergence_figures(result)).write(path("measurements.csv"));
     return result.breakdown;
 }
 
 const std::vector<NamedFrame> twists = {{18, "twist 90", {.motion = "twist", .angle_deg = 90.0}, true},
                                         {34, "twist 170", {.motion = "twist", .angle_deg = 170.0}, true}},
-                              bends = {{18, "bend 90", {.motion = "bend", .angle_deg = 90.0}}};  // 5 degrees a frame
+                              bends = {{18, "bend 90", {.motion = "bend", .angle_deg = 90.0}}};  // 5 degrees per frame
 
 StudyRun limb_run(const std::string& scene, const std::vector<NamedFrame>& frames, bool full, double cost_s)
 {
@@ -73,11 +72,13 @@ StudyRun ladder_run(const std::string& name, const std::string& scene, const std
     if (full) of.other_vertices.insert(of.other_vertices.end(), {16000, 32000, 64000, 100000});
     of.ladder = true;
     of.truth = "snh_p1";
-    of.truth_to = scene == "limb_bend" ? 2500 : full ? 10000 : 5000;  // beyond, the folded crease takes Newton minutes
+    of.truth_to = scene == "limb_bend" ? 2500
+                  : full               ? 10000
+                                       : 5000;  // on larger meshes Newton's method takes minutes for the folded crease
     return work_run(name, of, cost_s, measure_and_record);
 }
 
-// vertices 0: the body's own default, in the neighbourhood of Table 1's.
+// vertices 0: the body's own default, which is close to the sizes of Table 1.
 StudyRun body_run(const std::string& body, int vertices, bool full, double cost_s)
 {
     ConvergenceCase of;
@@ -98,7 +99,7 @@ StudyRun body_run(const std::string& body, int vertices, bool full, double cost_
     return work_run(vertices > 0 ? fmt::format("{}_{}", body, vertices) : body, of, cost_s, measure_and_record);
 }
 
-// --full: Man and the bunny's stand-in at the sizes of ManHQ and bunnyHQ, too.
+// With --full, Man and the body in place of the bunny also have the sizes of ManHQ and bunnyHQ.
 void add_body(StudyPlan& plan, const std::string& body, bool full)
 {
     plan.runs.push_back(body_run(body, 0, full, full ? 13.5 : 5.0));
@@ -114,34 +115,34 @@ StudyPlan plan(bool full)
     plan.runs.push_back(limb_run("limb_bend", bends, full, full ? 10.0 : 6.0));
     plan.runs.push_back(ladder_run("ladder_twist", "limb_twist", {twists.front()}, full, full ? 65.0 : 15.0));
     plan.runs.push_back(ladder_run("ladder_bend", "limb_bend", bends, full, full ? 60.0 : 16.0));
-    for (const std::string& body : installed_bodies(plan.left_out)) try {
-            add_body(plan, body, full);
-        } catch (const pbs::InputError& error) {  // the clip is not there
-            plan.left_out.push_back({body, error.what()});
-        }
+    for_each_installed_body(plan.left_out, [&](const std::string& body) { add_body(plan, body, full); });
     return plan;
 }
 
-// From each start, in the default order: residual, iterations and error, a line a pose; -: no rate could be fitted, no reference.
+// One row per pose and initial guess, in the default order; of a ladder the LBS guess on each mesh.
 StudyConclusion conclude(const FinishedRuns& finished)
 {
-    std::string text = fmt::format("{:8} {:16} {:>8} {:>9} {:15} {:>9} {:>12} {:>12} {:>9} {:>9} {:>9}\n", "body", "pose", "vertices",
-                                   "k_stretch", "start", "rate", "to residual", "to volume", "error 24", "least at", "error end");
-    const auto count = [](const Reached& reached) { return fmt::format("{}{}", reached.within ? "" : "> ", reached.iterations); };
-    const auto known = [](double value, const char* form) { return std::isfinite(value) ? fmt::format(fmt::runtime(form), value) : "-"; };
-    for (const std::string& run : finished.folders) {
-        const bool is_ladder = fs::path(run).filename().string().starts_with("ladder");
-        for (const RateRow& row : rows_of(rate_columns, analysis::read_csv((fs::path(run) / "rates.csv").string()))) {
-            const PathCase& of = row.of;
-            if (of.order != "ordered" || of.precision != "f32") continue;
-            if (is_ladder ? of.start != name_of(SolverStart::lbs) : !of.own_mesh) continue;
-            text += fmt::format("{:8} {:16} {:8} {:9} {:15} {:>9} {:>12} {:>12} {:>9} {:>9} {:>9}\n", of.body, of.pose, of.vertices,
-                                of.k_stretch, of.start, known(row.rate.rate.estimate, "{:.4f}"), count(row.residual), count(row.volume),
-                                known(row.paper.error_joint_pct, "{:.1f}"),
-                                std::isfinite(row.paper.error_joint_pct) ? std::to_string(row.nearest.iteration) : "-",
-                                known(row.last.error_joint_pct, "{:.1f}"));
+    std::vector<RateRow> shown;
+    for (const std::string& file : finished.files("rates.csv")) {
+        const bool is_ladder = std::filesystem::path(file).parent_path().filename().string().starts_with("ladder");
+        for (const RateRow& row : rows_of(rate_columns, analysis::read_csv(file))) {
+            const bool is_shown = is_ladder ? row.of.start == name_of(SolverStart::lbs) : row.of.own_mesh;
+            if (is_shown && row.of.order == "ordered" && row.of.precision == "f32") shown.push_back(row);
         }
     }
+    const std::string text = text_table(table_of(rate_columns, shown), {{"body", "body"},
+                                                                        {"pose", "pose"},
+                                                                        {"vertices", "vertices", "{:.0f}"},
+                                                                        {"k_stretch", "k_stretch"},
+                                                                        {"initial guess", "start"},
+                                                                        {"rate", "rate_per_iteration", "{:.4f}", 1.0, "-"},
+                                                                        {"to residual", "iterations_to_residual", "{:.0f}"},
+                                                                        {"reached", "residual_reached"},
+                                                                        {"to volume", "iterations_to_volume", "{:.0f}"},
+                                                                        {"reached", "volume_reached"},
+                                                                        {"error 24 [%]", "error_24_pct", "{:.1f}", 1.0, "-"},
+                                                                        {"least at", "least_error_iteration", "{:.0f}"},
+                                                                        {"error end [%]", "last_error_pct", "{:.1f}", 1.0, "-"}});
     finished.write("convergence.md", "```\n" + text + "```\n");
     return {text, !finished.none()};
 }

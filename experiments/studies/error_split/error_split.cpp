@@ -67,8 +67,8 @@ struct NamedReference {
 
 // The references of a case, each in every pose.
 struct References {
-    Shapes truth, twin, twin_refined, truth_refined;  // the last of the first poses only
-    std::vector<NamedReference> variants;             // of the twin: other attachments
+    Shapes truth, twin, twin_refined, truth_refined;  // truth_refined: in the first poses only
+    std::vector<NamedReference> variants;             // the twin with other attachments
 };
 
 References solve_references(const ErrorSplitCase& of, const PosedCharacter& base, const PosedCharacter& fine)
@@ -88,8 +88,9 @@ References solve_references(const ErrorSplitCase& of, const PosedCharacter& base
     return references;
 }
 
-// A bound of the truth's distance from its limit, in error_joint_pct: of two grids, with the order that reference_error_bar.hpp presumes.
-// Where the truth itself is not refined, the bound is that of its twin on the refined mesh, which has the truth's own nodes.
+// A bound of the reference's distance from its limit, as error_joint_pct, from two grids and the order that reference_error_bar.hpp
+// assumes. Where the reference itself is not refined, the bound is that of its twin on the refined mesh, which has the same nodes as the
+// reference.
 double discretisation_pct(const PosedCharacter& base, const References& references, std::size_t pose)
 {
     constexpr double halved = 2.0, order = 1.0;
@@ -98,7 +99,7 @@ double discretisation_pct(const PosedCharacter& base, const References& referenc
     return analysis::two_fields(base.distance(references.truth_refined[pose], references.truth[pose]).joint_pct, halved, order).bounds[1];
 }
 
-// PBS with its constraints converged: by twice the iterations after which the rest of the way is told.
+// PBS with its constraints converged, and after half of the iterations, which shows how far it still moves.
 struct Converged {
     Shapes shapes, half_way, refined;
 };

@@ -2,9 +2,9 @@
 // x_h the reference on this mesh and x_0 its limit on ever finer ones,
 //   x_n - x_0 = (x_n - x_inf) + (x_inf - x_h) + (x_h - x_0)
 //               solver          model           discretisation
-// exactly, vertex by vertex; in norm the parts bound the whole. The first two are measured; the third is the grid convergence index of the
-// reference over element order and refinement. Beside them: what refinement does to PBS itself, the share of the attachment (the flesh held
-// by the paper's bind constraint instead of by embedded bones) and of the bones' thickness (core_radius).
+// exactly, vertex by vertex; in the norm the parts bound the whole. The first two are measured. The third is the grid convergence index of
+// the reference over element order and refinement. Measured as well are the effect of refinement on PBS itself, that of the attachment
+// (flesh held by the paper's bind constraint instead of by embedded bones), and that of the bones' thickness (core_radius).
 #pragma once
 
 #include "analysis/records/typed_table.hpp"
@@ -15,12 +15,12 @@ namespace experiments {
 struct ErrorSplitCase {
     Scene scene;                    // its character and motion
     std::vector<int> frames;        // of its motion
-    DeformerSpec pbs, truth, twin;  // twin: the truth's law with linear elements
+    DeformerSpec pbs, truth, twin;  // truth: the reference; twin: its law with linear elements
     std::vector<double> k_stretch;
     std::vector<int> iterations;
-    int converged_iterations = 8000;  // x_inf; half of it says how far from converged
-    std::vector<double> core_radii;   // beside the scene's own
-    int refined_poses = 0;            // the first so many with the truth on the refined mesh too, the others with its twin alone
+    int converged_iterations = 8000;  // of x_inf; compared with the shape after half of them
+    std::vector<double> core_radii;   // in addition to the scene's own
+    int refined_poses = 0;            // so many poses have the reference on the refined mesh too, the others only its twin
 };
 
 nlohmann::json to_json(const ErrorSplitCase& of);

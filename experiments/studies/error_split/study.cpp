@@ -5,7 +5,8 @@
 //   human_01_01  a crouch, in the air (--full)        MakeHuman's body
 //
 // Writes DIR/error_split/CASE/parts.csv and attachments.csv, and error_split.md.
-#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/folder_files.hpp"
+#include "analysis/records/report_table.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
 #include "experiments/studies/study.hpp"
@@ -13,24 +14,21 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <filesystem>
-#include <limits>
+#include <algorithm>
+#include <optional>
 
 namespace experiments {
 namespace {
 
-namespace fs = std::filesystem;
-
 std::string split_and_record(const ErrorSplitCase& of, const std::string& folder)
 {
     const ErrorSplit split = split_error(of);
-    table_of(part_columns, split.parts).write((fs::path(folder) / "parts.csv").string());
-    table_of(attachment_columns, split.attachments).write((fs::path(folder) / "attachments.csv").string());
+    table_of(part_columns, split.parts).write(analysis::path_in(folder, "parts.csv"));
+    table_of(attachment_columns, split.attachments).write(analysis::path_in(folder, "attachments.csv"));
     return split.breakdown;
 }
 
-// Stable neo-Hookean, held by embedded bones, of the scene's own Young's modulus, Poisson's ratio and bones.
+// Stable neo-Hookean flesh held by embedded bones, with the Young's modulus, Poisson's ratio and bones of the scene.
 DeformerSpec truth_of(const Scene& scene, int element_order)
 {
     DeformerSpec spec = spec_of(scene, "fem_p2");
@@ -54,15 +52,9 @@ StudyRun split_run(const std::string& name, const std::string& scene, const std:
     of.k_stretch = {0.05, 0.2, 0.9};
     of.iterations = {1, 4, 24, 96, 384};
     of.core_radii = {0.2, 0.5};
-    of.refined_poses = name == "human_01_01" ? 0 : full ? static_cast<int>(frames.size()) : 1;  // some 20 s and 7 GB a Newton step
+    of.refined_poses = name == "human_01_01" ? 0 : full ? static_cast<int>(frames.size()) : 1;  // about 20 s and 7 GB per Newton step
     if (full) of.converged_iterations = 32000;
     return work_run(name, of, cost_s, split_and_record);
-}
-
-// Not a number: a pose that was not reached.
-std::string told(double value, int digits)
-{
-    return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "\u2013";
 }
 
 StudyPlan plan(bool full)
@@ -70,7 +62,7 @@ StudyPlan plan(bool full)
     StudyPlan plan;
     const std::vector<std::string> twist = {"motion.angle_deg=180", "motion.frames=19"},
                                    bend = {"motion.angle_deg=120", "motion.frames=13"};
-    const std::vector<int> gentle = {3, 6, 9};  // 10 degrees a frame
+    const std::vector<int> gentle = {3, 6, 9};  // 10 degrees per frame
     plan.runs.push_back(
         split_run("limb_twist", "limb_twist", twist, full ? std::vector<int>{3, 6, 9, 12, 15} : gentle, full, full ? 1800.0 : 300.0));
     plan.runs.push_back(
@@ -84,26 +76,37 @@ StudyPlan plan(bool full)
     return plan;
 }
 
-// The parts at the scenes' own 24 iterations, a line a pose.
+// The parts at the paper's 24 iterations, and how far PBS is from flesh that is held by the bind constraint.
+struct PartsAndBind {
+    ErrorParts parts;
+    std::optional<double> bind_pct;
+};
+
 StudyConclusion conclude(const FinishedRuns& finished)
 {
-    std::string table =
-        "| scene | angle | k_stretch | error of PBS 24 [% of the bone distance] | solver | model | discretisation (bound) | bones bind |\n"
-        "|---|---|---|---|---|---|---|---|\n";
-    for (const std::string& run : finished.folders) {
-        const auto parts = rows_of(part_columns, analysis::read_csv((fs::path(run) / "parts.csv").string()));
-        const auto attachments = rows_of(attachment_columns, analysis::read_csv((fs::path(run) / "attachments.csv").string()));
-        for (const ErrorParts& part : parts) {
-            if (part.iterations != 24) continue;
-            double bind_pct = std::numeric_limits<double>::quiet_NaN();
-            for (const AttachmentShare& other : attachments)
-                if (other.attachment == "bind" && other.frame == part.frame && other.k_stretch == part.k_stretch)
-                    bind_pct = other.model_pct;
-            table += fmt::format("| {} | {:.0f} | {} | {} | {} | {} | {} | {} |\n", part.scene, part.angle_deg, part.k_stretch,
-                                 told(part.error_joint_pct, 1), told(part.solver_pct, 1), told(part.model_pct, 1),
-                                 told(part.discretisation_pct, 2), told(bind_pct, 1));
-        }
+    static const analysis::Columns<PartsAndBind> report_columns =
+        analysis::within(&PartsAndBind::parts, part_columns) +
+        analysis::Columns<PartsAndBind>{{"bind_pct", &PartsAndBind::bind_pct, "%", "distance of PBS's converged shape from that flesh"}};
+    std::vector<PartsAndBind> rows;
+    const auto attachments = finished.rows(attachment_columns, "attachments.csv");
+    for (const ErrorParts& part : finished.rows(part_columns, "parts.csv")) {
+        if (part.iterations != 24) continue;
+        const auto is_bind = [&](const AttachmentShare& other) {
+            return other.attachment == "bind" && other.scene == part.scene && other.frame == part.frame &&
+                   other.k_stretch == part.k_stretch;
+        };
+        const auto bind = std::ranges::find_if(attachments, is_bind);
+        rows.push_back({part, bind == attachments.end() ? std::nullopt : std::optional(bind->model_pct)});
     }
+    const std::string table = markdown_table(table_of(report_columns, rows),
+                                             {{"scene", "scene"},
+                                              {"angle", "angle_deg", "{:.0f}"},
+                                              {"k_stretch", "k_stretch"},
+                                              {"error of PBS 24 [% of the bone distance]", "error_joint_pct", "{:.1f}", 1.0, "\u2013"},
+                                              {"solver", "solver_pct", "{:.1f}", 1.0, "\u2013"},
+                                              {"model", "model_pct", "{:.1f}", 1.0, "\u2013"},
+                                              {"discretisation (bound)", "discretisation_pct", "{:.2f}", 1.0, "\u2013"},
+                                              {"flesh held by bind constraints", "bind_pct", "{:.1f}", 1.0, "\u2013"}});
     finished.write("error_split.md", table);
     return {table, !finished.none()};
 }

@@ -1,12 +1,13 @@
-// The frames that figures and the report's viewer show; no claim is judged by them.
+// The frames that figures and the report's viewer show. No claim is judged by them.
 //
 //   limb_twist   0 - 180 deg by 10    o=======o~~~~~~~o)   LBS, DQS, PBS and stable neo-Hookean finite elements on the same tets
 //   limb_bend    0 - 110 deg by 10    o=======o            (--full: to 150, where the finite elements take longest)
 //   limb_bend_rigid                                        LBS and PBS with rigid weights in place of Eq. 2
-//   human_jump   1.6 s of 01_01 from 6.0 s on, 25 frames a second: the four; PBS without the start from LBS, and with the jiggling zone
-//   human_walk   the first 2.4 s of 01_03: the four; PBS with the jiggling zone, and with the stiffness that its flesh has outside of it
+//   human_jump   1.6 s of 01_01 from 6.0 s on, 25 frames per second: the four; PBS with increments of LBS, and with the jiggling zone
+//   human_walk   the first 2.4 s of 01_03: the four; PBS with the jiggling zone, and with the same stiffness without a zone
 //
-// Writes DIR/frames/RUN/frames/*.vtu, .vtp and metrics.csv, bones.csv, bones_rest.csv, binding.csv, surface_rest.vtp, embedding.csv beside.
+// Writes DIR/frames/RUN/frames/*.vtu and .vtp, and in DIR/frames/RUN metrics.csv, bones.csv, bones_rest.csv, binding.csv,
+// surface_rest.vtp and embedding.csv.
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/options.hpp"
@@ -23,7 +24,7 @@ StudyRun shown(const std::string& name, const std::string& scene, std::vector<st
     overrides.insert(overrides.end(), {"output.frames=[]", "output.frame_names=[]", "output.frames_every=1"});
     StudyRun run{.name = name, .scene = read_scene(scene, overrides), .cost_s = cost_s};
     run.scene.name = name;
-    run.bad_frames_are_results = !run.scene.reference.empty();  // the sweeps and jumps go to where flesh inverts tets
+    run.bad_frames_are_results = !run.scene.reference.empty();  // the sweeps and jumps go beyond the pose in which flesh inverts tets
     return run;
 }
 
@@ -37,7 +38,7 @@ StudyRun with_pbs(StudyRun run, const std::string& label, const std::string& var
     return run;
 }
 
-// Table 1's "jiggling" is k_stretch in the zone; outside it is 1.
+// The column "jiggling" of Table 1 is k_stretch in the zone. Outside the zone k_stretch is 1.
 const double k_stretch_with_jiggle = 1.0;
 
 StudyRun with_jiggle(StudyRun run, double k_jiggle)
@@ -48,7 +49,7 @@ StudyRun with_jiggle(StudyRun run, double k_jiggle)
     });
 }
 
-// What jiggling adds is told from this one: the same stiffness, no zone.
+// The baseline for jiggling: the same stiffness without a zone.
 StudyRun without_jiggle(StudyRun run)
 {
     return with_pbs(std::move(run), "pbs_no_zone", "no_zone", [](pbs::PbsOptions& options) { options.k_stretch = k_stretch_with_jiggle; });

@@ -1,4 +1,4 @@
-// The figures of C09, from the responses of one body at all settings.
+// The values that C09 is judged by, from the responses of one body at all settings.
 //   for (const analysis::Measurement& figure : jiggle_figures("limb", measured)) ...
 #pragma once
 
@@ -16,13 +16,15 @@ struct MeasuredJiggle {
     JoltResponse response;
 };
 
-// Of the paper's own settings, time steps among them: the share of them at which the zone swings (DampedOscillation::found). Of those that
-// swing: frequency; damping ratio, that of other readings (unbound, lumped masses) apart; how the frequency goes with k_stretch, as a rank
-// correlation, with the least and the most that is left when one setting is left out, and as the ratio of its ends; the frequency at twice
-// the iterations over that at the once. Of all that finish: amplitude, the overshoot over the jolt.
-// The frequency at half the time step over that at the whole is one figure a body, of the first setting, with the least and the most over
-// all halvings. Without gravity it is 2 by Algorithm 1, no finding of a body: by lines 7, 8 and 16 a particle goes on by what it went
-// before, x_n + (x_n - x_n-1), however long a step is, so that the frequency is one per step.
+// The values of one body:
+// - the share of the paper's own settings, all time steps included, at which the zone swings (DampedOscillation::found);
+// - for those that swing: the frequency; the damping ratio, with that of other readings (unbound, lumped masses) as a quantity of its own;
+//   the rank correlation of frequency and k_stretch, with its range when one setting is left out, and the ratio of frequencies at the ends;
+//   the ratio of frequencies with twice the iterations and with the default;
+// - for those that finish: the amplitude, which is the overshoot over the jolt;
+// - the ratio of frequencies with half the time step and with the whole, for the first setting, with its range over all halvings. Without
+//   gravity Algorithm 1 makes it 2 on any body: by lines 7, 8 and 16 a particle moves on by its last movement, x_n + (x_n - x_n-1), however
+//   long a step is, so that the frequency is one per step.
 std::vector<analysis::Measurement> jiggle_figures(const std::string& body, const std::vector<MeasuredJiggle>& measured);
 
 }  // namespace experiments

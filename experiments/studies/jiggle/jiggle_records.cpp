@@ -7,47 +7,58 @@
 #include "experiments/studies/shared/posed_character.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "experiments/studies/jiggle/jiggle_figures.hpp"
-#include "experiments/studies/jiggle/jiggle_reference.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
+// Records name masses as settings do.
+template <>
+struct analysis::EnumNames<pbs::Masses> : experiments::OptionNames<pbs::Masses> {
+};
+
 namespace experiments {
 
 using analysis::Columns;
+using analysis::DampedOscillation;
+using analysis::Interval;
+using analysis::within;
 
-const Columns<ResponseRow> response_columns = {
-    {"deformer", &ResponseRow::deformer, "", "pbs, or snh_p1: finite elements in time that swing as fast"},
-    {"k_stretch", [](auto& row) -> decltype(auto) { return (row.setting.k_stretch); }, "",
-     "stiffness of the stretch constraints in the zone"},
-    {"time_step_ms", &ResponseRow::time_step_ms, "ms", "time step"},
-    {"iterations", [](auto& row) -> decltype(auto) { return (row.setting.iterations); }, "", "iterations per step"},
-    {"masses", &ResponseRow::masses, "", "unit or lumped"},
-    {"k_bind", [](auto& row) -> decltype(auto) { return (row.setting.k_bind); }, "", "stiffness of the bind constraints"},
-    {"young_pa", &ResponseRow::young_pa, "Pa", "Young's modulus of the reference; nan for pbs"},
-    {"outcome", &ResponseRow::outcome, "", "what the fit of a damped oscillation found"},
-    {"frequency_hz", [](auto& row) -> decltype(auto) { return (row.response.swing.frequency_hz.estimate); }, "Hz",
-     "frequency of the swing"},
-    {"frequency_low_hz", [](auto& row) -> decltype(auto) { return (row.response.swing.frequency_hz.low); }, "Hz",
-     "lower end of its interval"},
-    {"frequency_high_hz", [](auto& row) -> decltype(auto) { return (row.response.swing.frequency_hz.high); }, "Hz",
-     "upper end of its interval"},
-    {"damping_ratio", [](auto& row) -> decltype(auto) { return (row.response.swing.damping_ratio.estimate); }, "",
-     "damping over critical damping"},
-    {"damping_low", [](auto& row) -> decltype(auto) { return (row.response.swing.damping_ratio.low); }, "", "lower end of its interval"},
-    {"damping_high", [](auto& row) -> decltype(auto) { return (row.response.swing.damping_ratio.high); }, "", "upper end of its interval"},
-    {"explained", [](auto& row) -> decltype(auto) { return (row.response.swing.explained); }, "",
-     "share of the variance that the fit explains"},
-    {"peak_over_jolt", [](auto& row) -> decltype(auto) { return (row.response.peak_over_jolt); }, "",
-     "largest excursion, either way, over the jolt's length"},
-    {"overshoot_over_jolt", [](auto& row) -> decltype(auto) { return (row.response.overshoot_over_jolt); }, "",
-     "overshoot over the jolt's length"},
-    {"left_over_peak", [](auto& row) -> decltype(auto) { return (row.response.left_over_peak); }, "",
-     "largest excursion of the last tenth over the peak"},
-    {"speed_growth", [](auto& row) -> decltype(auto) { return (row.response.speed_growth); }, "",
-     "largest speed after the first tenth over that within it"},
-    {"finished", [](auto& row) -> decltype(auto) { return (row.response.finished); }, "", "all positions are finite"}};
+namespace {
+
+const Columns<JiggleSetting> stiffness_columns = {
+    {"k_stretch", &JiggleSetting::k_stretch, "", "stiffness of the stretch constraints in the zone"}};
+const Columns<JiggleSetting> solver_columns = {{"iterations", &JiggleSetting::iterations, "", "iterations per step"},
+                                               {"masses", &JiggleSetting::masses, "", "unit or lumped"},
+                                               {"k_bind", &JiggleSetting::k_bind, "", "stiffness of the bind constraints"}};
+
+const Columns<Interval> frequency_columns = {{"frequency_hz", &Interval::estimate, "Hz", "frequency of the swing"},
+                                             {"frequency_low_hz", &Interval::low, "Hz", "lower end of its interval"},
+                                             {"frequency_high_hz", &Interval::high, "Hz", "upper end of its interval"}};
+const Columns<Interval> damping_columns = {{"damping_ratio", &Interval::estimate, "", "damping over critical damping"},
+                                           {"damping_low", &Interval::low, "", "lower end of its interval"},
+                                           {"damping_high", &Interval::high, "", "upper end of its interval"}};
+const Columns<DampedOscillation> swing_columns =
+    within(&DampedOscillation::frequency_hz, frequency_columns) + within(&DampedOscillation::damping_ratio, damping_columns) +
+    Columns<DampedOscillation>{{"explained", &DampedOscillation::explained, "", "share of the variance that the fit explains"}};
+
+const Columns<JoltResponse> jolt_columns =
+    within(&JoltResponse::swing, swing_columns) +
+    Columns<JoltResponse>{{"peak_over_jolt", &JoltResponse::peak_over_jolt, "", "largest excursion, either way, over the jolt's length"},
+                          {"overshoot_over_jolt", &JoltResponse::overshoot_over_jolt, "", "overshoot over the jolt's length"},
+                          {"left_over_peak", &JoltResponse::left_over_peak, "", "largest excursion of the last tenth over the peak"},
+                          {"speed_growth", &JoltResponse::speed_growth, "", "largest speed after the first tenth over that within it"},
+                          {"finished", &JoltResponse::finished, "", "all positions are finite"}};
+
+}  // namespace
+
+const Columns<ResponseRow> response_columns =
+    Columns<ResponseRow>{{"deformer", &ResponseRow::deformer, "", "pbs, or snh_p1: finite elements in time that swing as fast"}} +
+    within(&ResponseRow::setting, stiffness_columns) +
+    Columns<ResponseRow>{{"time_step_ms", &ResponseRow::time_step_ms, "ms", "time step"}} + within(&ResponseRow::setting, solver_columns) +
+    Columns<ResponseRow>{{"young_pa", &ResponseRow::young_pa, "Pa", "Young's modulus of the reference; nan for pbs"},
+                         {"outcome", &ResponseRow::outcome, "", "what the fit of a damped oscillation found"}} +
+    within(&ResponseRow::response, jolt_columns);
 
 const Columns<SeriesRow> jolt_series_columns = {
     {"of", &SeriesRow::of, "", "the setting in words"},
@@ -62,34 +73,38 @@ const Columns<SeriesRow> walk_series_columns = {
     {"lag_rms_m", &SeriesRow::excursion_m, "m", "root mean square distance of the zone from the shape without jiggle"},
     {"speed_rms_m_s", &SeriesRow::speed_rms_m_s, "m/s", "root mean square speed of the zone's vertices"}};
 
-const Columns<ZoneRow> zone_columns = {
-    {"share_of_vertices", &ZoneRow::share_of_vertices, "", "share of the body's vertices in the jiggling zone"},
-    {"share_on_skin", &ZoneRow::share_on_skin, "", "share of the zone's vertices on the skin"},
-    {"pieces", &ZoneRow::pieces, "", "number of connected pieces of the zone"},
-    {"largest_piece", &ZoneRow::largest_piece, "", "vertices of the largest piece"},
-    {"bone", [](auto& row) -> decltype(auto) { return (row.bone.name); }, "", "name of a bone"},
-    {"share_of_zone", [](auto& row) -> decltype(auto) { return (row.bone.share_of_zone); }, "", "share of the zone that is bound to it"},
-    {"share_of_bone", [](auto& row) -> decltype(auto) { return (row.bone.share_of_bone); }, "",
-     "share of the bone's vertices in the zone"}};
+namespace {
 
-const Columns<WalkRow> walk_columns = {
-    {"k_stretch", &WalkRow::k_stretch, "", "stiffness of the stretch constraints in the zone"},
-    {"moving_lag_rms_mm", [](auto& row) -> decltype(auto) { return (row.response.moving_lag_mm); }, "mm",
-     "root mean square lag over the motion"},
-    {"most_lag_rms_mm", [](auto& row) -> decltype(auto) { return (row.response.most_lag_mm); }, "mm",
-     "largest lag of a step of the motion"},
-    {"last_speed_share", [](auto& row) -> decltype(auto) { return (row.response.last_speed_share); }, "",
-     "speed of the last tenth of the still steps over the motion's mean"},
-    {"finished", [](auto& row) -> decltype(auto) { return (row.response.finished); }, "", "all positions are finite"}};
+const Columns<BoneInZone> bone_columns = {{"bone", &BoneInZone::name, "", "name of a bone"},
+                                          {"share_of_zone", &BoneInZone::share_of_zone, "", "share of the zone that is bound to it"},
+                                          {"share_of_bone", &BoneInZone::share_of_bone, "", "share of the bone's vertices in the zone"}};
+
+const Columns<WalkResponse> lag_columns = {
+    {"moving_lag_rms_mm", &WalkResponse::moving_lag_mm, "mm", "root mean square lag over the motion"},
+    {"most_lag_rms_mm", &WalkResponse::most_lag_mm, "mm", "largest lag of a step of the motion"},
+    {"last_speed_share", &WalkResponse::last_speed_share, "", "speed of the last tenth of the still steps over the motion's mean"},
+    {"finished", &WalkResponse::finished, "", "all positions are finite"}};
+
+}  // namespace
+
+const Columns<ZoneRow> zone_columns =
+    Columns<ZoneRow>{{"share_of_vertices", &ZoneRow::share_of_vertices, "", "share of the body's vertices in the jiggling zone"},
+                     {"share_on_skin", &ZoneRow::share_on_skin, "", "share of the zone's vertices on the skin"},
+                     {"pieces", &ZoneRow::pieces, "", "number of connected pieces of the zone"},
+                     {"largest_piece", &ZoneRow::largest_piece, "", "vertices of the largest piece"}} +
+    within(&ZoneRow::bone, bone_columns);
+
+const Columns<WalkRow> walk_columns =
+    Columns<WalkRow>{{"k_stretch", &WalkRow::k_stretch, "", "stiffness of the stretch constraints in the zone"}} +
+    within(&WalkRow::response, lag_columns);
 
 namespace {
 
-constexpr double first_young_pa = 1e5;  // of the reference, before it is matched
+constexpr double first_young_pa = 1e5;  // of the reference, before its frequency is matched
 
 ResponseRow response_row(const JiggleSetting& setting, double young_pa, double time_step_s, const JoltResponse& response)
 {
-    return {std::isnan(young_pa) ? "pbs" : "snh_p1", setting, 1e3 * time_step_s, young_pa, name_of(setting.masses),
-            name_of(response.swing.outcome),         response};
+    return {std::isnan(young_pa) ? "pbs" : "snh_p1", setting, 1e3 * time_step_s, young_pa, name_of(response.swing.outcome), response};
 }
 
 void add_series(std::vector<SeriesRow>& series, const std::string& name, double time_step_s, const std::vector<double>& excursion_m,

@@ -1,4 +1,4 @@
-// The settings that C09's figures are measured at.
+// The settings at which the values of C09 are measured.
 //   for (const JiggleSetting& setting : jiggle_settings()) responses.push_back(jolt_response(character, jiggling(pbs, setting), ...));
 #pragma once
 
@@ -20,16 +20,16 @@ struct JiggleSetting {
     bool operator==(const JiggleSetting&) const = default;
 };
 
-// One at a time from the first: k_stretch 0.05 to 1, steps of 2.5 to 40 ms, 6 to 96 iterations, both masses, the zone not bound.
+// The default, then one change at a time: k_stretch 0.05 to 1, steps of 2.5 to 40 ms, 6 to 96 iterations, lumped masses, an unbound zone.
 std::vector<JiggleSetting> jiggle_settings();
 
-// The zone is bound and all masses are 1, as in the paper; others are readings of it.
+// The zone is bound and all masses are 1, as in the paper. Other settings are other readings of the paper.
 bool is_of_the_paper(const JiggleSetting& setting);
 
 nlohmann::json to_json(const JiggleSetting& setting);
 
-DeformerSpec jiggling(DeformerSpec pbs, const JiggleSetting& setting);  // gravity as it has it
+DeformerSpec jiggling(DeformerSpec pbs, const JiggleSetting& setting);  // with the gravity of `pbs`
 analysis::CaseKey key_of(const std::string& body, const JiggleSetting& setting);
-std::string text_of(const JiggleSetting& setting);  // "k_stretch 0.1, 10 ms, 24 iterations, unit masses"; a k_bind below 1 behind it
+std::string text_of(const JiggleSetting& setting);  // "k_stretch 0.1, 10 ms, 24 iterations, unit masses"; a k_bind below 1 is appended
 
 }  // namespace experiments

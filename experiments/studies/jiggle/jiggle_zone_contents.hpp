@@ -1,5 +1,5 @@
-// What the paper's jiggling zone (Sec. 4: farther from the nearest bone than the mean over all vertices) is on a body: how much of it, in
-// how many pieces, on which bones.
+// The paper's jiggling zone (Sec. 4: vertices farther from the nearest bone than the mean over all vertices) on a body: its share of the
+// body, its pieces and its bones.
 //   const ZoneContents zone = zone_contents(character);
 //   zone.share, zone.pieces.size(), zone.bones.front().name
 #pragma once
@@ -14,14 +14,14 @@ namespace experiments {
 struct BoneInZone {
     std::string name;
     double share_of_zone = 0.0;  // of the zone's vertices
-    double share_of_bone = 0.0;  // of the vertices that hang on the bone
+    double share_of_bone = 0.0;  // of the vertices that are bound to the bone
 };
 
 struct ZoneContents {
     double share = 0.0;                    // of all vertices
     double skin_share = 0.0;               // of the zone's vertices that lie on the skin
     std::vector<std::vector<int>> pieces;  // vertices connected by edges inside the zone, the largest piece first
-    std::vector<BoneInZone> bones;         // those with any of it, the largest share of the zone first
+    std::vector<BoneInZone> bones;         // those with vertices in the zone, the largest share of the zone first
 };
 
 ZoneContents zone_contents(const pbs::Character& character);

@@ -1,19 +1,20 @@
-// Jiggle (C09): does flesh in the paper's jiggling zone swing and come to rest by itself, at a pace that k_stretch alone sets?
+// Jiggle (C09): does flesh in the paper's jiggling zone swing and come to rest by itself, at a rate that k_stretch alone sets?
 //
 //   BODY_jolt        the skeleton is moved by 2 cm in one step and held: frequency, damping and amplitude of the zone's largest piece
 //                    against k_stretch, time step, iterations and masses; what the zone is on this body
-//   limb_reference   a small limb's jolt beside finite elements in time (generalised alpha) that swing as fast
+//   limb_reference   the jolt of a small limb, compared with finite elements in time (generalised alpha) that swing as fast
 //   BODY_walk        two and a half seconds of CMU's clip 01_03, then held still for one: how far the flesh lags, and whether it rests
 //
-// The limb is moved along its bones, which is the one way in which the bind constraints leave all of its skin free; bodies are moved up.
-// Jolted flesh has no weight, that it may lie still before; what walks has.
+// The limb is moved along its bones, the only direction in which the bind constraints leave all of its skin free; bodies are moved up.
+// Flesh has no gravity in a jolt, so that it lies still before it, and has gravity in a walk.
 // Writes DIR/jiggle/RUN/{responses,series,zone,measurements}.csv or walk.csv, and jiggle.md.
-#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/folder_files.hpp"
+#include "analysis/records/report_table.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
-#include "experiments/studies/jiggle/jiggle_report.hpp"
 #include "experiments/studies/study.hpp"
-#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
 
 #include <filesystem>
 
@@ -26,9 +27,9 @@ void plan_limb(bool full, StudyPlan& plan)
     const Scene limb = read_scene("limb_twist", {});
     plan.runs.push_back(work_run<JoltCase>("limb_jolt", {limb, along_the_bones, jiggle_settings()}, 2.5, record_jolts));
     const Scene small = read_scene("limb_twist", {"character.vertices=400"});
-    std::vector<JiggleSetting> beside = {JiggleSetting{}};
-    if (full) beside = {{.k_stretch = 0.05}, {}, {.k_stretch = 0.2}, {.iterations = 6}};
-    plan.runs.push_back(work_run<JoltCase>("limb_reference", {small, along_the_bones, beside, true}, full ? 10.0 : 4.0, record_jolts));
+    std::vector<JiggleSetting> compared = {JiggleSetting{}};
+    if (full) compared = {{.k_stretch = 0.05}, {}, {.k_stretch = 0.2}, {.iterations = 6}};
+    plan.runs.push_back(work_run<JoltCase>("limb_reference", {small, along_the_bones, compared, true}, full ? 10.0 : 4.0, record_jolts));
 }
 
 void plan_body(const std::string& body, bool full, StudyPlan& plan)
@@ -47,20 +48,50 @@ StudyPlan plan(bool full)
 {
     StudyPlan plan;
     plan_limb(full, plan);
-    for (const std::string& body : installed_bodies(plan.left_out)) {
-        try {
-            plan_body(body, full, plan);
-        } catch (const pbs::InputError& error) {
-            plan.left_out.push_back({body, error.what()});
-        }
-    }
+    for_each_installed_body(plan.left_out, [&](const std::string& body) { plan_body(body, full, plan); });
     return plan;
+}
+
+// What the zone is on the body, and the response at each setting.
+std::string jolt_text(const std::string& folder)
+{
+    const auto zone = rows_of(zone_columns, analysis::read_csv(analysis::path_in(folder, "zone.csv")));
+    const ZoneRow& all = zone.at(0);
+    std::string text = fmt::format("the zone is {:.0f} % of the vertices, {:.0f} % of it skin, in {} pieces;",
+                                   100.0 * all.share_of_vertices, 100.0 * all.share_on_skin, all.pieces);
+    for (std::size_t i = 0; i < std::min(zone.size(), std::size_t{5}); ++i)
+        text += fmt::format(" {} {:.0f} %", zone[i].bone.name, 100.0 * zone[i].bone.share_of_zone);
+    return text + "\n\n" +
+           markdown_table(analysis::read_csv(analysis::path_in(folder, "responses.csv")),
+                          {{"deformer", "deformer"},
+                           {"k_stretch", "k_stretch"},
+                           {"step [ms]", "time_step_ms", "{:.3g}"},
+                           {"iterations", "iterations"},
+                           {"masses", "masses"},
+                           {"k_bind", "k_bind"},
+                           {"outcome", "outcome"},
+                           {"frequency [Hz]", "frequency_hz", "{:.2f}"},
+                           {"damping ratio", "damping_ratio", "{:.3f}"},
+                           {"overshoot / jolt", "overshoot_over_jolt", "{:.2f}"},
+                           {"left / peak", "left_over_peak", "{:.3f}"}});
+}
+
+std::string walk_text(const std::string& walk)
+{
+    return "walk\n\n" + markdown_table(analysis::read_csv(walk), {{"k_stretch", "k_stretch"},
+                                                                  {"lag, rms [mm]", "moving_lag_rms_mm", "{:.2f}"},
+                                                                  {"most [mm]", "most_lag_rms_mm", "{:.2f}"},
+                                                                  {"share of speed left after 1 s", "last_speed_share", "{:.4f}"}});
 }
 
 StudyConclusion conclude(const FinishedRuns& finished)
 {
     std::string text;
-    for (const std::string& run : finished.folders) text += jiggle_report(run);
+    for (const std::string& run : finished.folders) {
+        const std::string walk = analysis::path_in(run, "walk.csv");
+        text += std::filesystem::path(run).filename().string() + ": " + (std::filesystem::exists(walk) ? walk_text(walk) : jolt_text(run)) +
+                "\n";
+    }
     finished.write("jiggle.md", text);
     return {text, !finished.none()};
 }

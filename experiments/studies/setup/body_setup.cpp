@@ -42,7 +42,7 @@ void add_differences(const nlohmann::json& a, const nlohmann::json& b, const std
         add_differences(a.value(name, nlohmann::json()), b.value(name, nlohmann::json()), key.empty() ? name : key + "." + name, changed);
 }
 
-// An empty cache of meshes; what was fetched stays in sight.
+// Sets an empty cache of meshes. Fetched packages remain visible in it.
 void use_own_cache(const fs::path& cache)
 {
     const fs::path packages = fs::path(pbs::cache_folder()) / "packages";
@@ -51,7 +51,7 @@ void use_own_cache(const fs::path& cache)
     setenv("PBSKIN_CACHE", cache.c_str(), 1);
 }
 
-// Every trial meshes anew.
+// So that every trial meshes anew.
 void forget_meshes(const fs::path& cache)
 {
     for (const fs::path& file : analysis::files_in(cache))
@@ -77,17 +77,6 @@ std::vector<analysis::Measurement> measured_in(const fs::path& run_folder, const
                                  [&](const nlohmann::json& run) { return setup_measurements(key_of(setup, run), metrics, run, changed); });
 }
 
-struct TrialRow {
-    int trial = 0;
-    std::string further_keys, failure;
-};
-const analysis::Columns<TrialRow> trial_columns = {
-    {"trial", &TrialRow::trial, "", "number of the trial, from 0"},
-    {"further_keys", &TrialRow::further_keys, "", "key=value: what else was changed in the scene"},
-    {"failure", &TrialRow::failure, "", "why it did not run; empty where it did"}};
-
-const analysis::Columns<std::string> key_columns = {{"key", std::identity{}, "", "a key that differs from the shared scene's"}};
-
 void write_trials(const std::vector<TriedSetup>& tried, const std::string& path)
 {
     std::vector<TrialRow> trials;
@@ -97,6 +86,13 @@ void write_trials(const std::vector<TriedSetup>& tried, const std::string& path)
 }
 
 }  // namespace
+
+const analysis::Columns<TrialRow> trial_columns = {
+    {"trial", &TrialRow::trial, "", "number of the trial, from 0"},
+    {"further_keys", &TrialRow::further_keys, "", "key=value: what else was changed in the scene"},
+    {"failure", &TrialRow::failure, "", "why it did not run; empty where it did"}};
+
+const analysis::Columns<std::string> key_columns = {{"key", std::identity{}, "", "a key that differs from the shared scene's"}};
 
 Scene shared_scene(double rate_hz)
 {

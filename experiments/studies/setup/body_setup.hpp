@@ -1,9 +1,9 @@
-// C17: what setting a body up takes. One scene text stands for all; each body is that text with another character.body and
-// character.vertices, meshed anew, and run. A body that does not run so is tried again with more keys changed, which are counted.
+// C17: what it takes to set a body up. One scene text is shared by all. Each body is that text with another character.body and
+// character.vertices, meshed anew and run. A body that fails is tried again with further keys changed, and these keys are counted.
 #pragma once
 
-#include "analysis/records/csv_table.hpp"
 #include "analysis/measurement.hpp"
+#include "analysis/records/typed_table.hpp"
 #include "experiments/scene/scene.hpp"
 
 #include <functional>
@@ -15,7 +15,7 @@ namespace experiments {
 struct BodySetup {
     std::string body;                       // character.body
     int vertices = 0;                       // character.vertices; 0: the body's own default
-    std::vector<std::string> further = {};  // key=value: what else had to be changed for it to run
+    std::vector<std::string> further = {};  // key=value: what else was changed
 };
 
 // A run of the study: the body, and frames per second of the clip.
@@ -26,34 +26,42 @@ struct SetupCase {
 nlohmann::json to_json(const BodySetup& setup);
 nlohmann::json to_json(const SetupCase& of);
 
-// The text that all share: the human through the clip, PBS alone, at rate_hz frames a second.
+// The shared text: the human through the clip, PBS alone, at rate_hz frames per second.
 Scene shared_scene(double rate_hz);
 Scene scene_of(const BodySetup& setup, double rate_hz);
 
-// What is tried on a body, one after the other, until it runs: nothing; the nearest bone's weights, where Eq. 2 finds none; double
-// precision, where float overflows; and softer volume with it.
+// The keys that are tried on a body, one set after the other, until it runs: none; the nearest bone's weights, where Eq. 2 gives none;
+// double precision, where float overflows; double precision with softer volume constraints.
 const std::vector<std::vector<std::string>>& further_keys();
 
-// What came of a trial: why it did not run (refused input, positions that are not finite, a pose not reached); empty: it ran.
+// Returns why the body did not run (refused input, positions that are not finite, a pose that was not reached). Empty: it ran.
 using Trial = std::function<std::string(const BodySetup&)>;
 struct TriedSetup {
     BodySetup setup;
     std::string failure;
 };
-// In the order of further_keys(); the last one has no failure unless none ran.
+// The trials in the order of further_keys(). The last one has no failure, unless none ran.
 std::vector<TriedSetup> tried_setups(const BodySetup& setup, const Trial& trial);
 
-// Keys whose values differ, as "pbs.k_volume", of two resolved scenes: all but character.body and character.vertices.
+// trials.csv, and changed_keys.csv, whose rows are keys.
+struct TrialRow {
+    int trial = 0;
+    std::string further_keys, failure;
+};
+extern const analysis::Columns<TrialRow> trial_columns;
+extern const analysis::Columns<std::string> key_columns;
+
+// The keys whose values differ between two resolved scenes, such as "pbs.k_volume", except character.body and character.vertices.
 std::vector<std::string> keys_changed(const nlohmann::json& shared, const nlohmann::json& own);
 
-// The figures of C17, of a run's metrics.csv and run.json and the keys that were changed for it.
+// The values of C17, from a run's metrics.csv and run.json and from the keys that were changed for it.
 std::vector<analysis::Measurement> setup_measurements(const analysis::CaseKey& of, const analysis::CsvTable& metrics,
                                                       const nlohmann::json& run, const std::vector<std::string>& changed);
-// Of a body that did not run with any of further_keys(): no number of keys does, and no frame is good.
+// The values of a body that did not run with any of further_keys(): the number of keys is unknown, and no frame is sound.
 std::vector<analysis::Measurement> not_set_up(const analysis::CaseKey& of);
 
-// Runs it in `folder`/run, with a cache of meshes of its own that is removed afterwards, and writes measurements.csv, changed_keys.csv and
-// trials.csv. Returns what broke down. It sets this process's PBSKIN_CACHE.
+// Runs the body in `folder`/run and writes measurements.csv, changed_keys.csv and trials.csv. The run has its own cache of meshes, which
+// is removed afterwards; PBSKIN_CACHE of this process is set to it. Returns the failure of the last trial, if any.
 std::string set_up_and_record(const SetupCase& of, const std::string& folder);
 
 }  // namespace experiments

@@ -1,10 +1,11 @@
-// C17: are characters of other resolutions and topologies accommodated without set-up? The text of one scene over every body and a ladder
-// of sizes, character.body and character.vertices alone changed; each meshed anew. What does not run so is tried with further keys.
+// C17: are characters of other resolutions and topologies accommodated without set-up? The text of one scene is run on every body and on a
+// ladder of sizes, each meshed anew. Only character.body and character.vertices change. A body that fails is tried with further keys.
 //
 //   human at 1,200, 2,400 and 4,800 vertices; man, lady, frankie where installed; ring, a body with a handle
 //
-// Writes DIR/setup/BODY/measurements.csv, changed_keys.csv, trials.csv and run/ (a run's directory), and setup.csv.
+// Writes DIR/setup/BODY/measurements.csv, changed_keys.csv, trials.csv and run/ (the folder of a run), and setup.csv.
 #include "analysis/measurement.hpp"
+#include "analysis/records/report_table.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
 #include "experiments/studies/study.hpp"
@@ -12,13 +13,10 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <map>
+#include <algorithm>
 
 namespace experiments {
 namespace {
-
-namespace fs = std::filesystem;
 
 StudyRun setup_run(const BodySetup& setup, double rate_hz, double cost_s)
 {
@@ -26,26 +24,18 @@ StudyRun setup_run(const BodySetup& setup, double rate_hz, double cost_s)
     return work_run<SetupCase>(name, {setup, rate_hz}, cost_s, set_up_and_record);
 }
 
-// Of one run, by quantity.
-std::map<std::string, analysis::Measurement> figures_of(const std::string& run)
-{
-    std::map<std::string, analysis::Measurement> figures;
-    for (const auto& measured : analysis::measurements((fs::path(run) / "measurements.csv").string()))
-        figures[measured.quantity] = measured;
-    return figures;
-}
-
-std::string line_of(const std::map<std::string, analysis::Measurement>& figures)
-{
-    const auto& keys = figures.at("keys_changed");
-    const auto& share = figures.at("share_of_sound_frames");
-    if (!figures.contains("mean_volume_change_pct"))
-        return fmt::format("{:<36} did not run with any of the further keys\n", text_of(keys.of));
-    const auto& mean = figures.at("mean_volume_change_pct");
-    return fmt::format("{:<36} {:>5.0f} {:>9.1f} [{:>5.1f}, {:>5.1f}] {:>8.2f} [{:>5.2f}, {:>5.2f}] {:>10.2f} {:>9.1f}\n", text_of(keys.of),
-                       keys.value, 100.0 * share.value, 100.0 * share.low, 100.0 * share.high, mean.value, mean.low, mean.high,
-                       figures.at("largest_volume_change_pct").value, figures.at("set_up_s").value);
-}
+// A measured value with its interval, for the terminal.
+struct ValueRow {
+    std::string of, quantity;
+    double value = 0.0, low = 0.0, high = 0.0;
+    std::string unit;
+};
+const analysis::Columns<ValueRow> value_columns = {{"of", &ValueRow::of, "", "body, motion and size"},
+                                                   {"quantity", &ValueRow::quantity, "", "what was measured"},
+                                                   {"value", &ValueRow::value, "", "its value"},
+                                                   {"low", &ValueRow::low, "", "lower end of its interval"},
+                                                   {"high", &ValueRow::high, "", "upper end of its interval"},
+                                                   {"unit", &ValueRow::unit, "", "1: none"}};
 
 StudyPlan plan(bool full)
 {
@@ -57,25 +47,33 @@ StudyPlan plan(bool full)
         else
             setups.push_back({body});
     setups.push_back({"ring"});
-    for (const BodySetup& setup : setups) try {
+    for (const BodySetup& setup : setups) {
+        try {
             plan.runs.push_back(setup_run(setup, full ? 100.0 : 5.0, full ? 9.0 : 5.5));
-        } catch (const pbs::InputError& error) {  // the clip is not there
+        } catch (const pbs::InputError& error) {  // the clip is missing
             plan.left_out.push_back({setup.body, error.what()});
         }
+    }
     return plan;
 }
 
 StudyConclusion conclude(const FinishedRuns& finished)
 {
-    std::string text = fmt::format("{:<36} {:>5} {:>26} {:>24} {:>10} {:>9}\n", "body", "keys", "good frames [%]", "mean volume [%]",
-                                   "worst [%]", "set-up [s]");
+    std::vector<ValueRow> rows;
     std::vector<analysis::Measurement> all;
-    for (const std::string& run : finished.folders) {
-        const auto figures = figures_of(run);
-        text += line_of(figures);
-        for (const auto& [quantity, measured] : figures) all.push_back(measured);
+    for (const std::string& file : finished.files("measurements.csv")) {
+        std::vector<analysis::Measurement> own = analysis::measurements(file);
+        std::ranges::sort(own, {}, &analysis::Measurement::quantity);
+        for (const auto& one : own) rows.push_back({text_of(one.of), one.quantity, one.value, one.low, one.high, one.unit});
+        all.insert(all.end(), own.begin(), own.end());
     }
     finished.write("setup.csv", analysis::measurement_table(all));
+    const std::string text = text_table(table_of(value_columns, rows), {{"body", "of"},
+                                                                        {"quantity", "quantity"},
+                                                                        {"value", "value", "{:.4g}", 1.0, "none"},
+                                                                        {"low", "low", "{:.4g}"},
+                                                                        {"high", "high", "{:.4g}"},
+                                                                        {"unit", "unit"}});
     return {text, !finished.none()};
 }
 

@@ -1,34 +1,43 @@
-// Lines 10-14 of Algorithm 1 iterated far past the paper's 24, from any start, and what is seen on the way. Every figure is measured on
-// positions by the ruler of all records, none is taken from the solver.
+// Lines 10-14 of Algorithm 1 iterated far past the paper's 24 iterations, from any initial guess. Each look at the positions on the way is
+// measured by the metrics of all records; no value is taken from the solver.
 //   const IterationRuler ruler(character, bind_points);
 //   const std::vector<IterationPath> paths = iterate(character, options, bind_points, starts, 1000, ruler);
+//   const Reached reached = reached_residual(paths[0], floor_of(paths));   // reached.iterations, or more than those where !reached.within
+// The constraints contradict each other, so a residual does not go to zero. A path has arrived by one of two tolerances:
+// - residual: the combined residual (Look::combined) is within 5 % of its floor, which is the lowest residual that any of the initial
+//   guesses has after the last iteration; or it is below 1e-4, where the constraints can be satisfied and the floor is rounding (no
+//   constraint feels a twist);
+// - volume: the absolute volume change is within the paper's 0.5 %.
+// The number of iterations is the first one after which the path never leaves the tolerance again.
 #pragma once
 
+#include "analysis/bootstrap.hpp"
 #include "analysis/frame_metrics.hpp"
 #include "pbs/character/character.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace experiments {
 
 struct Look {
-    int iteration = 0;         // 0: the start itself
+    int iteration = 0;         // 0: the initial guess
     double stretch_rms = 0.0;  // rms of l / l0 - 1 over the edges
     double volume_rms = 0.0;   // rms of V / V0 - 1 over the tets
     double bind_rms_m = 0.0;   // rms of |x_i - q_i| - d_i over the vertices [m]
-    double combined = 0.0;     // sqrt((stretch_rms^2 + volume_rms^2 + (bind_rms_m / mean d)^2) / 3): one figure for all three classes
+    double combined = 0.0;     // sqrt((stretch_rms^2 + volume_rms^2 + (bind_rms_m / mean d)^2) / 3): one number for all three classes
     double volume_change_pct = 0.0, volume_abs_change_pct = 0.0;
     int inverted_tets = 0;
-    double error_joint_pct = 0.0;  // to the reference, at the joints; not a number where there is none
+    double error_joint_pct = 0.0;  // to the reference, at the joints; not a number where there is no reference
 };
 
 struct IterationPath {
     std::vector<Look> looks;  // by iteration; the last one is at the last iteration, or where positions ceased to be finite
     pbs::Positions last;      // [m], #V x 3
     bool finite = true;
-    double iteration_ms = 0.0;  // mean processor time of an iteration, looks left out
+    double iteration_ms = 0.0;  // mean processor time per iteration, without the looks
 };
 
 class IterationRuler {
@@ -45,11 +54,37 @@ private:
     ErrorPct error_;
 };
 
-// Every iteration up to the 64th, then steps of two per cent; 0 and `most` among them.
+// Every iteration up to the 64th, then steps of two per cent. 0 and `most` are among them.
 std::vector<int> looked_at(int most);
 
-// One path a start; options.iterations and options.jiggle do not count.
+// One path per initial guess. options.iterations and options.jiggle are ignored.
 std::vector<IterationPath> iterate(const pbs::Character& character, const pbs::PbsOptions& options, const pbs::Positions& bind_points,
                                    const std::vector<pbs::Positions>& starts, int most, const IterationRuler& ruler);
+
+inline constexpr double residual_tolerance = 0.05;  // of the floor
+inline constexpr double satisfied_residual = 1e-4;
+inline constexpr double volume_tolerance_pct = 0.5;  // Sec. 4
+
+struct Reached {
+    int iterations = 0;
+    bool within = false;  // false: the tolerance was not reached after so many iterations
+};
+
+double floor_of(const std::vector<IterationPath>& paths);  // over the paths that stayed finite; not a number where none did
+Reached reached_residual(const IterationPath& path, double floor);
+Reached reached_volume(const IterationPath& path);
+
+// residual_n = floor + c rate^n, up to the iteration from which on the residual stays within 5 % of its last value (it stalls). A residual
+// that the second half of the iterations changes by more than 1 % has not stalled: then the floor is that of all initial guesses, and the
+// fit goes to the end. There is no rate where the last residual is rounding.
+struct Rate {
+    std::optional<int> stalls_at;
+    analysis::Interval rate;   // least squares of log(residual_n - floor); too narrow, since its points are no independent sample
+    double log_rms_off = 0.0;  // root mean square distance of the logarithm from the fit
+};
+Rate rate_of(const IterationPath& path, double floor);
+
+const Look& look_at(const IterationPath& path, int iteration);  // the last look that is not after the iteration
+const Look& nearest_to_reference(const IterationPath& path);    // the look with the least error_joint_pct
 
 }  // namespace experiments

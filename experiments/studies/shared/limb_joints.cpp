@@ -13,14 +13,14 @@ namespace experiments {
 namespace {
 
 constexpr double cosine_of_60_deg = 0.5;
-constexpr double straight_rad = 0.02;  // bones nearer to one line have no plane of their own
+constexpr double straight_rad = 0.02;  // two bones at a smaller angle define no plane
 
 pbs::Vec3 along(const pbs::Bone& bone)
 {
     return bone.tail - bone.head;
 }
 
-// A foot does not: planes across the ankle cut it lengthwise.
+// A foot does not continue the shin: planes across the ankle cut it lengthwise.
 bool passes_through(const pbs::Bone& parent, const pbs::Bone& child)
 {
     return along(parent).normalized().dot(along(child).normalized()) > cosine_of_60_deg;
@@ -39,7 +39,7 @@ double limb_radius(const pbs::Character& character, int parent, int child)
     return sum_m / count;
 }
 
-// Of the circle that has the area of the limb's section across the joint; zero where the skin is not met.
+// The radius of the circle that has the area of the limb's section across the joint; zero where the plane misses the skin.
 double section_radius(const pbs::Character& character, const pbs::Bone& parent, const pbs::Bone& child)
 {
     const pbs::Vec3 normal = along(parent).normalized() + along(child).normalized();
@@ -79,10 +79,10 @@ std::string why_left_out(const pbs::Character& character, const JointByHand& joi
     return section_radius(character, bones[parent], bones[child]) > 0.0 ? "" : "no flesh round the joint";
 }
 
-// Frankie's bones are short for his flesh: a limb of the rule is longer than 3 times the mean distance of its vertices, his upper arm 1.2,
-// his forearm's upper half 2.5, his tail's first bones 2.3 and 2.8 times. But all planes across forearm, wrist and tail cut one outline of
-// the limb alone. So do those at the elbow and at the tail's root; farther up they cut the skin that hangs from the arm to the flank, and,
-// once the tail is bent, the trunk.
+// Frankie's bones are short for his flesh. The rule asks for a limb longer than 3 times the mean distance of its vertices; his upper arm
+// reaches 1.2 times, the upper half of his forearm 2.5, and the first bones of his tail 2.3 and 2.8. But all planes across forearm, wrist
+// and tail cut one outline of the limb alone, and so do those at the elbow and at the tail's root. Farther up they cut the skin that hangs
+// from the arm to the flank and, once the tail is bent, the trunk.
 std::vector<JointByHand> joints_by_hand(const std::string& body)
 {
     if (body != "frankie") return {};

@@ -1,4 +1,4 @@
-// The joints of a body that a limb passes through, and how each is turned to show what blending does to it.
+// The joints of a body that lie inside a limb, and the axes about which each is turned to show what blending does to it.
 //   for (const LimbJoint& joint : limb_joints(character)) ...   // elbow, mid-forearm, wrist, knee
 #pragma once
 
@@ -13,32 +13,32 @@ struct LimbJoint {
     std::string name;                      // "thigh.L|shin.L"
     int parent, child;                     // bones
     pbs::Vec3 point;                       // rest [m]
-    double radius_m;                       // of the limb there: mean rest distance of the skin's vertices that hang on the two bones
-    double reach_parent_m, reach_child_m;  // along each bone, how far the limb's sections are looked at
+    double radius_m;                       // of the limb there: mean rest distance of the skin's vertices that are bound to the two bones
+    double reach_parent_m, reach_child_m;  // how far along each bone sections are taken
 };
 
-// Between two limbs that meet at less than 60 degrees at rest and have their flesh for themselves (limb_stations.hpp), up to half of each
-// bone; of a body with two sides, those of its left (x >= 0). Bodies whose bones the rule misjudges have theirs by hand (joints_by_hand),
-// with the radius of the circle that has the area of the section across the joint.
+// A joint lies between two bones that meet at less than 60 degrees at rest and share their flesh with no other bone (limb_stations.hpp).
+// Its reach is half of each bone. Bodies with two sides have the joints of their left side (x >= 0). Where the rule misjudges the bones,
+// the joints are given by hand (joints_by_hand); their radius is that of the circle with the area of the section across the joint.
 std::vector<LimbJoint> limb_joints(const pbs::Character& character);
 
-// A joint by its bones, and on which share of each the sections go round the limb alone.
+// A joint given by its bones, and the share of each bone on which a section's outline encloses the limb alone.
 struct JointByHand {
     std::string parent, child;
     double reach_parent, reach_child;
-    std::string no_section;  // why it has none; empty: it has
+    std::string no_section;  // why it has no section; empty: it has
 };
 std::string name_of(const JointByHand& joint);
-// Why the character has no sections there: no_section, or a bone or flesh that it has not got. Empty: it has.
+// Why the character has no sections there: no_section, or a bone or flesh that it lacks. Empty: it has sections.
 std::string why_left_out(const pbs::Character& character, const JointByHand& joint);
 std::vector<JointByHand> joints_by_hand(const std::string& body);  // none: the body follows the rule
 
 pbs::Vec3 twist_axis(const pbs::Skeleton& skeleton, const LimbJoint& joint);  // the child's direction
 
-// Across both bones, so that turning about it bends the limb on the way that it is bent at rest; of a straight one, z.
+// Across both bones, so that a turn about it bends the limb further in the direction in which it is bent at rest; z for a straight limb.
 pbs::Vec3 hinge_axis(const pbs::Skeleton& skeleton, const LimbJoint& joint);
 
-// Vertices of the two bones not farther from the joint, along them, than a third of their lengths, #V.
+// The vertices of the two bones that are no farther from the joint, along the bone, than a third of its length, #V.
 std::vector<bool> near_joint(const pbs::Character& character, const LimbJoint& joint);
 
 }  // namespace experiments

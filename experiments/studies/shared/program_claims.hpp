@@ -1,4 +1,4 @@
-// The claims of claims.toml, which the program carries.
+// The claims of claims.toml, which is compiled into the program.
 #pragma once
 
 #include "analysis/claims.hpp"
@@ -10,6 +10,6 @@ namespace experiments {
 
 const std::vector<analysis::Claim>& claims();
 
-const analysis::Claim& claim_named(const std::string& id);  // std::logic_error for an id that claims.toml does not have
+const analysis::Claim& claim_named(const std::string& id);  // std::logic_error for an id that claims.toml does not contain
 
 }  // namespace experiments

@@ -19,4 +19,15 @@ std::vector<std::string> installed_bodies(std::vector<analysis::LeftOut>& left_o
     return installed;
 }
 
+void for_each_installed_body(std::vector<analysis::LeftOut>& left_out, const std::function<void(const std::string& body)>& plan)
+{
+    for (const std::string& body : installed_bodies(left_out)) {
+        try {
+            plan(body);
+        } catch (const pbs::InputError& error) {
+            left_out.push_back({body, error.what()});
+        }
+    }
+}
+
 }  // namespace experiments

@@ -13,8 +13,8 @@
 namespace experiments {
 namespace {
 
-constexpr int settled_for_good = 50;  // still steps after which a run ends early
-constexpr int given_up_after = 2;     // steps in a row that were not reached
+constexpr int settled_for_good = 50;  // steps at rest after which a run ends early
+constexpr int given_up_after = 2;     // consecutive steps that were not reached, after which a run ends early
 
 struct Course {
     std::vector<analysis::StabilityStep> steps;
@@ -59,7 +59,7 @@ Course follow(const StabilityCell& cell, const pbs::Positions* undisturbed)
     return course;
 }
 
-// Where the body rests that set out on the last pose; inverted tets are no reason against it.
+// The shape in which a body comes to rest that begins in the last pose, whether or not it has inverted tets.
 std::optional<pbs::Positions> undisturbed_state(StabilityCell cell)
 {
     cell.disturbance.stays = true;
@@ -70,7 +70,7 @@ std::optional<pbs::Positions> undisturbed_state(StabilityCell cell)
     return course.last;
 }
 
-// Cells that differ in their disturbance alone share it.
+// Cells that differ only in their disturbance share the undisturbed state.
 const std::optional<pbs::Positions>& undisturbed_of(const StabilityCell& cell)
 {
     static std::map<std::string, std::optional<pbs::Positions>> kept;
@@ -84,8 +84,9 @@ const std::optional<pbs::Positions>& undisturbed_of(const StabilityCell& cell)
 std::string endings_text()
 {
     return fmt::format(
-        "\nA run ends early where it is not finite, where the last {} still steps are all as `converged` asks, or where {} steps in a row "
-        "were\nnot reached (each would be tried again at length).\n",
+        "\nA run ends early when it is not finite, when the last {} steps all fulfil the bounds of `converged`, or when {} consecutive "
+        "steps "
+        "were\nnot reached (each further attempt would be expensive).\n",
         settled_for_good, given_up_after);
 }
 

@@ -1,4 +1,4 @@
-// Runs a cell twice, disturbed and undisturbed, and says what became of it.
+// Runs a cell twice, disturbed and undisturbed, and determines its outcome.
 //   const CellResult result = run_cell(cell);
 #pragma once
 
@@ -12,14 +12,14 @@ namespace experiments {
 struct CellResult {
     analysis::StabilityResult stability;
     std::vector<analysis::StabilityStep> steps;
-    bool has_undisturbed = false;  // the same body, set out on the last pose, comes to rest
+    bool has_undisturbed = false;  // the same body comes to rest when it begins in the last pose
     int steps_not_reached = 0;
-    // From a broken start: of the method, in the steps up to and with the first that was reached. Of Newton's method, until its residual
-    // was within tolerance, a first solve that failed counted in; PBS and XPBD take all of theirs in any case, which says nothing of them.
+    // From a broken initial state: the method's iterations up to and including the first step that was reached. For Newton's method this is
+    // the number until the residual was within tolerance, including a first solve that failed. PBS and XPBD always do all of theirs.
     std::optional<int> iterations_until_reached;
     double cpu_s = 0.0;
 };
 CellResult run_cell(const StabilityCell& cell);
-std::string endings_text();  // when a run ends, Markdown
+std::string endings_text();  // when a run ends early, as Markdown
 
 }  // namespace experiments

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace experiments {
 namespace {
 
-constexpr double degrees_a_step = 15.0, turning_s = 0.1;
+constexpr double degrees_per_step = 15.0, turning_s = 0.1;
 
-// The turn takes a tenth of a second or a single step, whatever the time step.
+// The turn takes a tenth of a second, but at least one step, for every time step.
 void set_time_step(StabilityCell& cell, double time_step_s)
 {
     cell.time_step_s = time_step_s;
@@ -20,7 +21,7 @@ void twist(StabilityCell& cell, double angle_deg)
 {
     cell.disturbance.axis = pbs::Vec3::UnitX();
     cell.disturbance.angle_deg = angle_deg;
-    cell.disturbance.turning_steps = std::max(1, static_cast<int>(std::ceil(angle_deg / degrees_a_step)));
+    cell.disturbance.turning_steps = std::max(1, static_cast<int>(std::ceil(angle_deg / degrees_per_step)));
 }
 
 void jump(StabilityCell& cell, double angle_deg)
@@ -81,13 +82,10 @@ std::vector<StabilityCell> cells_of_map(const Sweep& rows, const Sweep& columns,
 {
     std::vector<StabilityCell> cells;
     for (const StabilityCell& row : cells_of(rows, base, full))
-        for (const double value : values_of(columns, full)) {
-            StabilityCell cell = row;
-            cell.second_factor = columns.factor;
-            cell.second_value = value;
-            cell.second_unit = columns.unit;
-            cell.as_published = row.as_published && columns.as_published;
-            columns.set(cell, value);
+        for (StabilityCell& cell : cells_of(columns, row, full)) {
+            cell.second_factor = std::exchange(cell.factor, row.factor);
+            cell.second_value = std::exchange(cell.value, row.value);
+            cell.second_unit = std::exchange(cell.unit, row.unit);
             cells.push_back(std::move(cell));
         }
     return cells;

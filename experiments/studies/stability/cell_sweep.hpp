@@ -1,4 +1,4 @@
-// One factor through its values, all else at its base: cells by the row.
+// Cells in which one factor takes its values while everything else keeps its base value.
 //   const Sweep time_step{"time step", "s", {1e-4, 0.01, 1.0}, {0.001, 0.1}, [](StabilityCell& cell, double s) { cell.time_step_s = s; }};
 //   append(cells, cells_of(time_step, base, full));
 #pragma once
@@ -11,7 +11,7 @@ struct Sweep {
     using Set = void (*)(StabilityCell& cell, double value);
 
     std::string factor, unit;
-    std::vector<double> values, more;  // more: of the full study
+    std::vector<double> values, more;  // more: in the full study only
     Set set;
     bool as_published = true;  // the paper's method with settings that it allows
 };
@@ -19,7 +19,7 @@ struct Sweep {
 std::vector<StabilityCell> cells_of(const Sweep& sweep, const StabilityCell& base, bool full);
 std::vector<StabilityCell> cells_of_map(const Sweep& rows, const Sweep& columns, const StabilityCell& base, bool full);
 
-// Factors that every method knows.
+// The factors that apply to every method.
 extern const Sweep time_steps, twists, jumps, teleports, starts, slivers, needles;
 
 void append(std::vector<StabilityCell>& cells, std::vector<StabilityCell> more);

@@ -1,7 +1,7 @@
 #include "experiments/studies/stability/cell_table.hpp"
 
 #include "analysis/measurement.hpp"
-#include "experiments/studies/stability/share_interval.hpp"
+#include "analysis/share_interval.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ bool jiggles(const StabilityCell& cell)
     return pbs && pbs->jiggle;
 }
 
-// Sweeps in order of first appearance.
+// The sweeps in the order of their first cells.
 Keyed by_sweep(const std::vector<MeasuredCell>& cells)
 {
     Keyed sweeps;
@@ -57,7 +57,7 @@ bool is(const CellResult& result, StabilityOutcome outcome)
     return result.stability.outcome == outcome;
 }
 
-// Nothing worse than bounded or inverted, and it moves in one of the last steps that `converged` looks at.
+// The outcome is bounded or inverted, and the body moves in one of the last steps that are examined for `converged`.
 bool never_rests(const CellResult& result)
 {
     if (!is(result, StabilityOutcome::bounded) && !is(result, StabilityOutcome::inverted)) return false;
@@ -68,10 +68,10 @@ bool never_rests(const CellResult& result)
 }
 
 template <typename Predicate>
-ShareInterval share(const std::vector<const MeasuredCell*>& cells, Predicate of)
+analysis::Interval share(const std::vector<const MeasuredCell*>& cells, Predicate of)
 {
-    const auto counted = std::count_if(cells.begin(), cells.end(), [&](const MeasuredCell* measured) { return of(measured->result); });
-    return share_interval(static_cast<int>(counted), static_cast<int>(cells.size()));
+    const auto counted = std::ranges::count_if(cells, [&](const MeasuredCell* measured) { return of(measured->result); });
+    return analysis::share_interval(static_cast<int>(counted), static_cast<int>(cells.size()));
 }
 
 std::string yes_or_no(bool value)
@@ -100,12 +100,12 @@ const analysis::Columns<CellRow> cell_columns = {
     {"iterations_until_reached", &CellRow::iterations_until_reached, "",
      "from a broken initial state: iterations until the pose was reached"},
     {"undisturbed_at_rest", &CellRow::undisturbed_at_rest, "", "yes: the same body comes to rest if nothing disturbs it"},
-    {"largest_reach_diagonals", &CellRow::largest_reach_diagonals, "diagonals", "farthest that a vertex was from its bones' place"},
+    {"largest_reach_diagonals", &CellRow::largest_reach_diagonals, "diagonals", "largest distance of a vertex from its place on the bones"},
     {"last_reach_diagonals", &CellRow::last_reach_diagonals, "diagonals", "the same in the last step; empty where it is not finite"},
     {"last_motion_diagonals", &CellRow::last_motion_diagonals, "diagonals", "how far a vertex moved in the last step"},
     {"last_from_undisturbed_diagonals", &CellRow::last_from_undisturbed_diagonals, "diagonals",
      "distance from the undisturbed body in the last step"},
-    {"most_inverted_tets", &CellRow::most_inverted_tets, "", "most inverted tets of a step"},
+    {"most_inverted_tets", &CellRow::most_inverted_tets, "", "largest number of inverted tets in a step"},
     {"last_inverted_tets", &CellRow::last_inverted_tets, "", "inverted tets in the last step"},
     {"steps_not_reached", &CellRow::steps_not_reached, "", "steps whose solver did not converge"},
     {"as_published", &CellRow::as_published, "", "yes: the method of the paper with settings that it allows, which C08 is judged by"},
@@ -153,11 +153,11 @@ CsvTable stability_measurements(const std::vector<MeasuredCell>& cells)
 {
     std::vector<analysis::Measurement> rows;
     for (const auto& [sweep, of] : by_sweep(cells)) {
-        const auto add = [&, key = sweep, n = static_cast<int>(of.size())](const std::string& quantity, const ShareInterval& share) {
-            rows.push_back({"C08", quantity, key, share.value, share.low, share.high, "1"});
-            rows.back().n = n;
+        const auto add = [&, key = sweep](const std::string& quantity, const analysis::Interval& share) {
+            rows.push_back({"C08", quantity, key, share.estimate, share.low, share.high, "1"});
+            rows.back().n = static_cast<int>(of.size());
         };
-        const double away = share(of, ran_away).value;
+        const double away = share(of, ran_away).estimate;
         add("share_of_cells_diverged", {away, away, away});
         add("share_of_cells_inverted", share(of, [](const CellResult& result) { return is(result, StabilityOutcome::inverted); }));
         add("share_of_cells_in_motion", share(of, never_rests));

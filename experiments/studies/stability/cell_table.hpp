@@ -1,4 +1,4 @@
-// What the cells of a run came to, as records: cells.csv, the shares that C08 is judged by, and tables for people.
+// The outcomes of a run's cells as records: cells.csv, the shares by which C08 is judged, and tables for reading.
 #pragma once
 
 #include "analysis/records/typed_table.hpp"
@@ -14,7 +14,7 @@ struct MeasuredCell {
     CellResult result;
 };
 
-// cells.csv: a cell and what became of it.
+// A row of cells.csv: a cell and its outcome.
 struct CellRow {
     std::string body, model, factor;
     double value = 0.0;
@@ -39,19 +39,20 @@ struct CellRow {
 extern const analysis::Columns<CellRow> cell_columns;
 CellRow cell_row(const MeasuredCell& measured);
 
-// Of the cells as published: shares by body, jiggle, factor and precision, each with the number of its cells. One row a quantity. The
-// share that ran away is the cells' own, without an interval: "unconditionally" is refuted by one cell, and what was found in all of them
-// is no sample. Inverted, not at rest (bounded or inverted, and moving to the end) and converged have 95 % of Clopper and Pearson, as if
-// the cells were drawn at random from the settings between them.
+// The shares of the cells as published by body, jiggle, factor and precision, each with the number of its cells; one row per quantity. The
+// share of diverged cells has no interval: one cell refutes "unconditionally", and all cells are no sample. The shares of inverted cells,
+// of cells in motion (bounded or inverted, and moving until the end) and of cells at rest have the 95 % interval of Clopper and Pearson,
+// as if the cells were drawn at random from the settings between them.
 analysis::CsvTable stability_measurements(const std::vector<MeasuredCell>& cells);
 
-// Counts of each outcome by body and model, or by factor too, aligned.
+// The number of cells with each outcome, by body and model and on request by factor, as aligned columns.
 std::string outcome_table(const std::vector<CellRow>& cells, bool by_factor);
 
-// What makes the map worth reading: each outcome occurs in it, and the sign as printed runs away in every cell. Empty, or what is missing.
+// What prevents the map from telling stable from unstable: an outcome that occurs in no cell, or a cell in which the printed sign does not
+// diverge. Empty where there is no such defect.
 std::string blind_spots(const std::vector<CellRow>& cells);
 
-// The cells of a map, a row each: both values and the outcome.
+// The cells of a map, one row each, with both values and the outcome.
 analysis::CsvTable map_csv(const std::vector<CellRow>& cells, const std::string& factor, const std::string& second_factor);
 
 }  // namespace experiments

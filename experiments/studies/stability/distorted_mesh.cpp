@@ -20,7 +20,7 @@ std::vector<std::vector<int>> tets_around(const pbs::TetMesh& mesh)
     return around;
 }
 
-// Where the vertex goes: towards the plane of the tet's other three corners, or towards one of them.
+// The new place of the vertex: closer to the plane of the tet's other three corners, or closer to one of them.
 pbs::Vec3 moved(const pbs::TetMesh& mesh, int vertex, int tet, Defect defect, double thinness)
 {
     std::vector<pbs::Vec3> others;

@@ -1,4 +1,4 @@
-// A good mesh made bad on purpose: some vertices are moved so that a tet at each is thin, and no tet is turned inside out.
+// A good mesh made bad on purpose: some vertices are moved so that a tet at each becomes thin, without inverting any tet.
 //   const pbs::TetMesh spoilt = distorted(mesh, Defect::slivers, 1e-4);
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace experiments {
 
-// slivers: a vertex keeps the share `thinness` of its height over the opposite face of one tet; needles: of the length of one edge. A
-// twentieth of the vertices, no two of a tet; those that would turn a tet inside out are passed over. Seeded.
+// slivers: a vertex keeps the share `thinness` of its height over the opposite face of one tet. needles: it keeps that share of the length
+// of one edge. A seeded twentieth of the vertices is moved, no two of the same tet. Vertices that would invert a tet are skipped.
 pbs::TetMesh distorted(const pbs::TetMesh& mesh, Defect defect, double thinness);
 
 }  // namespace experiments

@@ -1,4 +1,4 @@
-// A body under one of the methods, led step by step: what every cell runs, whatever the method.
+// A body under one of the methods, driven step by step. All cells use this interface, whatever their method.
 //   const auto driven = make_driven_body(cell, character);
 //   const pbs::StepSummary step = driven->advance(drive, dt);
 #pragma once

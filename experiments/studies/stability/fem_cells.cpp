@@ -21,10 +21,10 @@ const Sweep poissons{"Poisson's ratio", "1", {0.3, 0.4999}, {0.0, 0.45, 0.49, 0.
 const Sweep gravities{
     "gravity", "g", {10.0}, {100.0, 1e3, 1e4}, [](StabilityCell& cell, double count) { fem_of(cell).gravity_m_s2.y() = -g_m_s2 * count; }};
 
-// The smallest are a thousand steps and more.
+// The smallest time steps take a thousand steps and more.
 const Sweep timed{"time step", "s", {0.01, 0.1, 1.0}, {1e-4, 1e-3}, [](StabilityCell& cell, double s) { time_steps.set(cell, s); }};
 
-// Linear elements on the same tets. In time: generalised-alpha with damping by stiffness, so that it may come to rest.
+// Linear elements on the same tets. In time: generalised-alpha with stiffness-proportional damping, so that the body can come to rest.
 StabilityCell base(Model model, Dynamics dynamics)
 {
     const bool in_time = dynamics != Dynamics::quasi_static;

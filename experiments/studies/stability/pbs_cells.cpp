@@ -45,11 +45,6 @@ const Sweep orders{"order", "", {1.0, 2.0}, {}, [](StabilityCell& cell, double v
                        cell.named = value == 1.0 ? "plain" : "grouped";
                    }};
 
-void teleport(StabilityCell& cell, double metres)
-{
-    cell.disturbance.teleport_m = metres;
-}
-
 void set_form(StabilityCell& cell, double value)
 {
     pbs_of(cell).volume_form = static_cast<pbs::VolumeForm>(std::lround(value));
@@ -58,8 +53,9 @@ void set_form(StabilityCell& cell, double value)
 
 const Sweep printed_forms{"printed form", "", {1.0, 2.0, 3.0, 4.0}, {}, set_form, false};
 const Sweep without_bind{"sign, k_bind", "1", {0.0}, {}, [](StabilityCell& cell, double k) { pbs_of(cell).k_bind = k; }, false};
-// Where the square of a distance has no number in f32, and in f64: a limit of the numbers, not of the method.
-const Sweep beyond_numbers{"teleport beyond numbers", "m", {1e25, 1e160}, {}, teleport, false};
+// The square of the distance overflows in f32, and in f64. This is a limit of the numbers, not of the method.
+const Sweep beyond_numbers{
+    "teleport beyond numbers", "m", {1e25, 1e160}, {}, [](StabilityCell& cell, double m) { cell.disturbance.teleport_m = m; }, false};
 
 StabilityCell base(const std::string& body, bool jiggle, pbs::Precision precision, bool full)
 {
@@ -76,15 +72,15 @@ StabilityCell base(const std::string& body, bool jiggle, pbs::Precision precisio
     return cell;
 }
 
-// Without jiggle no particle remembers: neither the time step nor gravity enters, and a few still steps tell all.
+// Without jiggle particles have no memory. Neither the time step nor gravity has an effect, and a few steps at rest suffice.
 StabilityCell without_memory(StabilityCell cell)
 {
     cell.still_steps = 12;
     return cell;
 }
 
-// Stable whatever the method is worth: a control, and no figure of the claim.
-std::vector<StabilityCell> time_steps_that_do_not_enter(StabilityCell from, bool full)
+// These cells are stable by construction. They are a control and no part of the claim.
+std::vector<StabilityCell> time_steps_without_effect(StabilityCell from, bool full)
 {
     from.model = "pbs_no_memory";
     from.as_published = false;
@@ -98,7 +94,7 @@ std::vector<StabilityCell> pbs_cells(bool jiggle, bool full)
     std::vector<StabilityCell> cells;
     for (const pbs::Precision precision : both_precisions) {
         const StabilityCell start = base("limb", jiggle, precision, full), from = jiggle ? start : without_memory(start);
-        append(cells, jiggle ? cells_of(time_steps, from, full) : time_steps_that_do_not_enter(from, full));
+        append(cells, jiggle ? cells_of(time_steps, from, full) : time_steps_without_effect(from, full));
         for (const Sweep* sweep : {&teleports, &starts}) append(cells, cells_of(*sweep, from, full));
         if (precision == pbs::Precision::f64 && !full) continue;
         for (const Sweep* sweep :

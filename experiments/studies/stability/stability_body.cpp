@@ -52,7 +52,7 @@ pbs::Positions random_shape(const pbs::Positions& blended)
     return shape;
 }
 
-// About the middle of the blended shape; flattened and mirrored across z.
+// Scaled about the centre of the blended shape; flattened and mirrored in z.
 pbs::Positions started(Start start, const pbs::Positions& blended)
 {
     const Eigen::RowVector3d middle = blended.colwise().mean();

@@ -1,4 +1,4 @@
-// The body of a cell and the way it is led: poses, blended shapes and bind points of each step.
+// The body of a cell and its motion: the pose, the blended shape and the bind points of each step.
 //   StabilityBody body(cell);
 //   for (int step = 0; step < body.steps(); ++step) driven->advance(body.drive(step), cell.time_step_s);
 #pragma once
@@ -9,17 +9,17 @@
 
 namespace experiments {
 
-// What every method is told in a step.
+// The input of every method in a step.
 struct Drive {
     const pbs::Pose& pose;
-    const pbs::Positions& blended;      // LBS, or the start's shape [m], #V x 3
+    const pbs::Positions& blended;      // LBS, or the broken initial shape [m], #V x 3
     const pbs::Positions& bind_points;  // posed q_i [m], #V x 3
 };
 
-// A limb, or a character landing from a jump: what cells of `body` begin with.
+// The scene of the cells of `body`: a limb, or a character that lands from a jump.
 Scene stability_scene(const std::string& body);
 
-// Bodies are kept from one cell to the next: the same tets for all.
+// Characters are cached, so that all cells have the same tets.
 const pbs::Character& stability_character(const StabilityCell& cell);
 
 class StabilityBody {
@@ -29,7 +29,7 @@ public:
     const pbs::Character& character() const { return character_; }
     int disturbed_steps() const { return static_cast<int>(way_.size()); }
     int steps() const { return disturbed_steps() + still_steps_; }
-    Drive drive(int step);  // until the next call
+    Drive drive(int step);  // valid until the next call
     double diagonal_m() const { return diagonal_m_; }
 
 private:

@@ -1,4 +1,4 @@
-// One cell of the map of stability: a body, a method with its settings, what disturbs it, and which factor the cell stands for.
+// One cell of the map of stability: a body, a method with its settings, a disturbance, and the factor that the cell varies.
 #pragma once
 
 #include "experiments/deformers/deformer_spec.hpp"
@@ -12,21 +12,21 @@
 
 namespace experiments {
 
-// What the first step finds instead of the blended shape; `none`: that.
+// The shape that the first step receives instead of the blended one. none: the blended one.
 enum class Start { none, flattened, mirrored, random, point };
 
-// The body begins at rest on the first pose of the way and stays on the last. A limb's forearm turns about `axis` (rest world axes) to
-// angle_deg in even steps; a character lands from a jump, 36 steps of its clip. Or the whole body is moved in one step, or starts broken.
+// The body begins at rest in the first pose of its motion and stays in the last. A limb's forearm turns about `axis` (rest world axes) to
+// angle_deg in even steps; a character lands from a jump, 36 steps of its clip. Or the whole body is moved in one step, or begins broken.
 struct Disturbance {
     pbs::Vec3 axis = pbs::Vec3::UnitZ();
     double angle_deg = 90.0;
     int turning_steps = 10;
     double teleport_m = 0.0;  // along (1, 1, 1)
     Start start = Start::none;
-    bool stays = false;  // on the last pose from the beginning
+    bool stays = false;  // in the last pose from the beginning
 };
 
-// Tets spoilt before anything is bound: a seeded share of the vertices is moved until a tet at each is so thin.
+// Tets that are distorted before anything is bound: a seeded share of the vertices is moved until a tet at each is thin.
 enum class Defect { none, slivers, needles };
 
 template <>
@@ -45,7 +45,7 @@ struct OptionNames<Defect> {
 
 inline constexpr double g_m_s2 = 9.81;  // one g
 
-// Of masses, spoilt tets and random starts.
+// The seed of masses, distorted tets and random initial shapes.
 inline constexpr unsigned stability_seed = 20140528;
 
 struct StabilityCell {
@@ -56,23 +56,23 @@ struct StabilityCell {
     std::string second_factor = {};  // of a map
     double second_value = 0.0;
     std::string second_unit = {};
-    std::string named = {};  // of a factor without numbers: flattened
+    std::string named = {};  // value of a factor without numbers: flattened
 
     DeformerSpec spec;
     Disturbance disturbance;
     double time_step_s = 0.01;
     int still_steps = 100;
     Defect defect = Defect::none;
-    double thinness = 1.0;    // what the moved vertices keep of their height or edge
+    double thinness = 1.0;    // share of the height or edge that the moved vertices keep
     double mass_ratio = 1.0;  // heaviest over lightest particle of a PBS body, seeded
     bool held_end = false;    // a tenth of the limb has infinite mass
 
-    bool as_published = false;  // the method of the paper with settings it allows: what C08 is judged by
+    bool as_published = false;  // the paper's method with settings that it allows; C08 is judged by these cells
 };
 
 std::string precision_of(const StabilityCell& cell);  // f32, f64
 nlohmann::json to_json(const Disturbance& disturbance);
-nlohmann::json to_json(const StabilityCell& cell);  // all of it
-std::string setting_of(const StabilityCell& cell);  // body, method, place and pose to stay in: all but the way there
+nlohmann::json to_json(const StabilityCell& cell);  // all members
+std::string setting_of(const StabilityCell& cell);  // body, method, place and last pose: all members except those of the way to it
 
 }  // namespace experiments

@@ -2,39 +2,34 @@
 // one of five outcomes by the same bounds for every method (analysis/stability_outcome.hpp).
 //
 //   pbs, pbs_jiggle   a limb of 400 vertices, bent by 90 degrees in ten steps; one factor at a time to its extremes, in f32 and f64.
-//                     Without jiggle the time step does not enter: those cells are a row of their own, pbs_no_memory, and no figures.
-//                     What is broken or moved at the start is gone there after one step: all that can fail is that step
+//                     Without jiggle the time step has no effect; those cells have the model pbs_no_memory and are not judged. What is
+//                     broken or moved at the beginning is gone after one step, so that only this step can fail
 //   pbs_maps          time step x k_stretch; iterations x twist
 //   pbs_human, ...    characters landing from a jump
-//   controls          Eq. 12-20 as printed, and teleports beyond the numbers' range: what instability looks like
+//   controls          Eq. 12-20 as printed, and teleports beyond the range of the numbers: here instability must be seen
 //   xpbd              the same limb with a material, also in small steps
 //   fem_static        linear, corotational and stable neo-Hookean in equilibrium
 //   fem_in_time       the last two by generalised-alpha
-// A broken start of the finite elements in equilibrium is where Newton's method sets out, in the last pose and without a load path; in time
-// they are not asked. The linear ones have no start: a control.
+// A broken initial state of the finite elements in equilibrium is the initial guess of Newton's method in the last pose, without a load
+// path. It is not tried in time. The linear elements need no initial guess and are a control.
 //
-// The judged share is that of the cells run but the controls, all of them, without an interval: one that runs away is enough against
-// "unconditionally". The bind constraint holds what no longer has a right shape, so the shares inverted and still moving stand beside it.
-// Writes DIR/stability/RUN/cells.csv and measurements.csv, and cells.csv, the maps, outcomes.md, criteria.md. It fails where an outcome
-// occurs in no cell, or where the sign as printed does not run away: then the map could not tell stable from unstable.
-#include "analysis/records/atomic_file.hpp"
+// Judged is the share of diverged cells among all cells but the controls, without an interval: one diverged cell refutes "unconditionally".
+// The bind constraint bounds a body that has lost its shape, so the shares of inverted and of moving bodies are reported as well.
+// Writes DIR/stability/RUN/cells.csv and measurements.csv, and cells.csv, the maps, outcomes.md and criteria.md. The study fails where an
+// outcome occurs in no cell, or where the printed sign does not diverge: then the map could not tell stable from unstable.
+#include "analysis/records/folder_files.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_body.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "experiments/studies/study.hpp"
-#include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <filesystem>
-
 namespace experiments {
 namespace {
-
-namespace fs = std::filesystem;
 
 using Cells = std::vector<StabilityCell>;
 
@@ -69,9 +64,9 @@ std::string run_and_record(const StabilityCase& of, const std::string& folder)
         measured.push_back({cell, run_cell(cell)});
         rows.push_back(cell_row(measured.back()));
     }
-    table_of(cell_columns, rows).write((fs::path(folder) / "cells.csv").string());
+    table_of(cell_columns, rows).write(analysis::path_in(folder, "cells.csv"));
     const analysis::CsvTable shares = stability_measurements(measured);
-    if (shares.rows() > 0) shares.write((fs::path(folder) / "measurements.csv").string());
+    if (shares.rows() > 0) shares.write(analysis::path_in(folder, "measurements.csv"));
     return {};
 }
 
@@ -80,23 +75,16 @@ StudyRun stability_run(const std::string& name, const Cells& cells, double cost_
     return work_run<StabilityCase>(name, {cells}, cost_s, run_and_record);
 }
 
-void add_character(StudyPlan& plan, const std::string& body, bool full)
-{
-    try {
-        plan.runs.push_back(stability_run("pbs_" + body, pbs_character_cells(body, full), full ? 20.0 : 9.0));
-    } catch (const pbs::InputError& error) {
-        plan.left_out.push_back({body, error.what()});
-    }
-}
-
-// --quick: the default character alone.
+// Without --full only the default character is run.
 void add_characters(StudyPlan& plan, bool full)
 {
+    const auto is_run = [full](const std::string& body) { return full || body == "human"; };
     std::vector<analysis::LeftOut> left_out;
-    for (const std::string& body : installed_bodies(left_out))
-        if (full || body == "human") add_character(plan, body, full);
+    for_each_installed_body(left_out, [&](const std::string& body) {
+        if (is_run(body)) plan.runs.push_back(stability_run("pbs_" + body, pbs_character_cells(body, full), full ? 20.0 : 9.0));
+    });
     for (const analysis::LeftOut& body : left_out)
-        if (full || body.scene == "human") plan.left_out.push_back(body);
+        if (is_run(body.scene)) plan.left_out.push_back(body);
 }
 
 StudyPlan plan(bool full)

@@ -21,7 +21,7 @@ const Sweep iterations{"iterations", "1", {1.0, 96.0}, {4.0, 384.0}, [](Stabilit
                            xpbd_of(cell).iterations = static_cast<int>(count);
                        }};
 
-// As PBS with jiggle: the same zone, cost and gravity.
+// The zone, the cost and gravity are those of PBS with jiggle.
 StabilityCell base(bool small_steps, bool full)
 {
     StabilityCell cell;

@@ -1,5 +1,7 @@
 #include "experiments/studies/volume/region_table.hpp"
 
+#include "analysis/records/report_table.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +14,7 @@ struct RegionOfRun {
     RegionChange region;
 };
 
-// Regions of one deformer and kind, the greatest loss first.
+// The regions of one deformer and kind, the greatest loss first.
 std::vector<RegionChange> by_loss(std::vector<RegionChange> regions, const std::string& deformer, const std::string& kind)
 {
     std::erase_if(regions, [&](const RegionChange& region) { return region.deformer != deformer || region.kind != kind; });
@@ -20,30 +22,44 @@ std::vector<RegionChange> by_loss(std::vector<RegionChange> regions, const std::
     return regions;
 }
 
-std::string line_of(const RunRegions& run, const std::string& deformer, const std::string& kind, int most)
+struct LossRow {
+    std::string run, deformer, kind;
+    double change_pct = 0.0;
+    std::string greatest;
+};
+const analysis::Columns<LossRow> loss_columns = {
+    {"run", &LossRow::run, "", "name of the run"},
+    {"deformer", &LossRow::deformer, "", "name of the deformer"},
+    {"kind", &LossRow::kind, "", "bone or joint"},
+    {"change_pct", &LossRow::change_pct, "%", "sum over the regions, mean over the frames"},
+    {"greatest", &LossRow::greatest, "", "the regions that lose most, and what they lose of the body and of themselves"}};
+
+LossRow loss_row(const RunRegions& run, const std::string& deformer, const std::string& kind, int most)
 {
-    const std::vector<RegionChange> regions = by_loss(run.regions, deformer, kind);
-    if (regions.empty()) return {};
-    double sum = 0.0;
-    std::string text;
-    for (std::size_t i = 0; i < regions.size(); ++i) {
-        sum += regions[i].change_pct;
-        if (static_cast<int>(i) < most)
-            text += fmt::format("{}{} {:.2f} ({:.1f})", i ? ", " : "", regions[i].region, regions[i].change_pct, regions[i].own_change_pct);
+    LossRow row{run.run, deformer, kind};
+    for (const RegionChange& region : by_loss(run.regions, deformer, kind)) {
+        row.change_pct += region.change_pct;
+        if (most-- <= 0) continue;
+        row.greatest += row.greatest.empty() ? "" : ", ";
+        row.greatest += fmt::format("{} {:.2f} ({:.1f})", region.region, region.change_pct, region.own_change_pct);
     }
-    return fmt::format("{:<16} {:<4} {:<6} {:>7.2f}  {}\n", run.run, deformer, kind, sum, text);
+    return row;
 }
 
 }  // namespace
 
 std::string region_text(const std::vector<RunRegions>& runs, int most)
 {
-    std::string text = fmt::format("{:<16} {:<4} {:<6} {:>7}  {}\n", "mean over frames", "", "by", "all [%]",
-                                   "greatest losses [% of the body] (of the region itself)");
+    std::vector<LossRow> rows;
     for (const RunRegions& run : runs)
         for (const char* deformer : {"lbs", "pbs"})
-            for (const char* kind : {"bone", "joint"}) text += line_of(run, deformer, kind, most);
-    return text;
+            for (const char* kind : {"bone", "joint"})
+                if (const LossRow row = loss_row(run, deformer, kind, most); !row.greatest.empty()) rows.push_back(row);
+    return text_table(table_of(loss_columns, rows), {{"mean over frames", "run"},
+                                                     {"", "deformer"},
+                                                     {"by", "kind"},
+                                                     {"all [%]", "change_pct", "{:.2f}"},
+                                                     {"greatest losses [% of the body] (of the region itself)", "greatest"}});
 }
 
 analysis::CsvTable region_csv(const std::vector<RunRegions>& runs)

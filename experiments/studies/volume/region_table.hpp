@@ -1,4 +1,4 @@
-// Which bones and joints a body loses its volume at: the regions.csv of runs, the greatest losses first.
+// The bones and joints at which a body loses its volume, from the regions.csv of runs.
 #pragma once
 
 #include "experiments/run/region_record.hpp"
@@ -9,15 +9,15 @@
 namespace experiments {
 
 struct RunRegions {
-    std::string run;  // as to be named
+    std::string run;  // its name in reports
     std::vector<RegionChange> regions;
 };
 
-// For each run, LBS and PBS, and each kind of region: the `most` that lose most, in shares of the body's volume, and how much of it they
-// hold.
+// A row for each run, for LBS and PBS, and for each kind of region: the sum over all regions, and the `most` regions with the greatest
+// losses, in shares of the body's volume and of their own.
 std::string region_text(const std::vector<RunRegions>& runs, int most = 3);
 
-// All rows of all runs, with a column `run` before them.
+// All rows of all runs, with a column `run` in front.
 analysis::CsvTable region_csv(const std::vector<RunRegions>& runs);
 
 }  // namespace experiments

@@ -3,20 +3,18 @@
 //   limb_twist   0 - 180 deg    o=======o~~~~~~~o)  the forearm turns about its own axis
 //   limb_bend    0 - 150 deg    o=======o           the forearm turns about z, also with Eq. 12-20 as printed
 //   human_01_01  the whole clip                     MakeHuman's body, repeated jumps; LBS and PBS also at half and twice its vertices
-//   man_01_01, lady_01_01, frankie_01_01            the same clip, bodies as large as Table 1's; where installed
+//   man_01_01, lady_01_01, frankie_01_01            the same clip, bodies as large as those of Table 1, where installed
 //   lady_01_03                                      walking, climbing, hanging from a bar, swinging
 //
-// Clips at five frames a second, with --full at twenty-five. On the limb and the human PBS at 1 to 384 iterations and linear FEM of order 1
-// and 2 on the same tets; on all bodies also the jiggling zone; stable neo-Hookean flesh on the limb (twisted and --full: of order 2, too)
-// and, of order 1 at five frames a second, on the human and with --full on the others. Beside the scene's own order of projection, PBS in
-// each other order and precision, so that the report can say whether the verdict hangs on it. Each run writes regions.csv; the study sums
-// them up in regions.csv and regions.txt.
-#include "analysis/records/atomic_file.hpp"
+// Clips run at five frames per second, with --full at twenty-five. On the limb and the human, PBS runs with 1 to 384 iterations and linear
+// FEM with elements of order 1 and 2 on the same tets; on all bodies PBS also has the jiggling zone. Stable neo-Hookean flesh is run on the
+// limb (with elements of order 2 when it is twisted and --full is given) and, with order 1 at five frames per second, on the human and with
+// --full on the others. In addition to the scene's own order of projection PBS has each other order and precision, so that the report can
+// say whether the verdict depends on it. Each run writes regions.csv; the study sums them up in regions.csv and regions.txt.
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/volume/region_table.hpp"
-#include "pbs/geometry/input_error.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -24,7 +22,7 @@
 namespace experiments {
 namespace {
 
-constexpr int iteration_ladder[] = {1, 2, 4, 8, 12, 48, 96, 192, 384};  // beside the scene's own 24
+constexpr int iteration_ladder[] = {1, 2, 4, 8, 12, 48, 96, 192, 384};  // in addition to the scene's own 24
 
 DeformerSpec with_iterations(DeformerSpec spec, int iterations)
 {
@@ -60,7 +58,7 @@ DeformerSpec jiggling(DeformerSpec spec)
     spec.label += "_jiggle";
     spec.variant = "jiggle";
     auto& options = options_of<pbs::PbsOptions>(spec);
-    options.k_stretch = 1.0;            // where Table 1's "jiggling" stands for k_stretch in the zone, outside it is 1
+    options.k_stretch = 1.0;            // outside the zone, where Table 1's "jiggling" is k_stretch inside it
     options.jiggle = pbs::Jiggle{0.9};  // Table 1, Man
     return spec;
 }
@@ -75,7 +73,7 @@ DeformerSpec in_print(DeformerSpec spec, pbs::VolumeForm form)
     return spec;
 }
 
-// As far as flesh on the body's own tets breaks: the sweeps end beyond it, and some tets of the real bodies are inverted from the start.
+// The sweeps end beyond the pose in which flesh on the body's own tets breaks, and some tets of the real bodies are inverted at rest.
 StudyRun to_where_flesh_breaks(StudyRun run)
 {
     run.bad_frames_are_results = true;
@@ -101,7 +99,7 @@ StudyRun with_printed_forms(StudyRun run)
     return run;
 }
 
-// A scene of a clip under another name and with other settings; no frames on disk.
+// A scene of a clip under another name and with other settings. It writes no frames.
 StudyRun clip_run(const std::string& name, const std::string& scene, std::vector<std::string> overrides, double cost_s)
 {
     overrides.insert(overrides.end(), {"output.frames=[]", "output.frame_names=[]"});
@@ -110,7 +108,7 @@ StudyRun clip_run(const std::string& name, const std::string& scene, std::vector
     return run;
 }
 
-// Of a body and clip that another run is judged by: another reference, another mesh.
+// A run of a body and clip that another run is judged by, with another reference or another mesh.
 StudyRun beside(StudyRun run)
 {
     run.beside = true;
@@ -119,18 +117,18 @@ StudyRun beside(StudyRun run)
 
 const std::string blends_and_pbs = R"(deformers.use=["lbs", "dqs", "pbs"])", no_reference = R"(reference.name="")";
 
-// The twisted limb without its costliest truth, that of quadratic elements.
-const std::vector<std::string> beside_linear_truth = {R"(deformers.use=["lbs", "dqs", "pbs", "fem_p1", "fem_p2", "snh_p1"])",
-                                                      R"(reference.name="snh_p1")"};
+// The twisted limb without its most expensive reference, that of quadratic elements.
+const std::vector<std::string> with_linear_reference = {R"(deformers.use=["lbs", "dqs", "pbs", "fem_p1", "fem_p2", "snh_p1"])",
+                                                        R"(reference.name="snh_p1")"};
 
-// Beside flesh that large rotations do not deceive.
-StudyRun human_beside_truth(double cost_s)
+// With a reference that is valid for large rotations.
+StudyRun human_with_reference(double cost_s)
 {
     return clip_run("human_01_01_truth", "human_01_01",
                     {"motion.rate_hz=5.0", R"(deformers.use=["lbs", "dqs", "pbs", "snh_p1"])", R"(reference.name="snh_p1")"}, cost_s);
 }
 
-// What the size of the mesh does to the same figures: the blend and the paper's method alone, five frames a second.
+// The effect of the mesh's size on the same values: LBS and PBS only, at five frames per second.
 StudyRun human_at(int vertices, double cost_s)
 {
     const std::string size = std::to_string(vertices);
@@ -140,11 +138,11 @@ StudyRun human_at(int vertices, double cost_s)
 
 void add_human(StudyPlan& plan, bool full)
 {
-    std::vector<std::string> overrides = {"motion.rate_hz=25.0", "output.frames=[0,41,168,177]"};  // four steps a frame
+    std::vector<std::string> overrides = {"motion.rate_hz=25.0", "output.frames=[0,41,168,177]"};  // four steps per frame
     if (!full) overrides = {"motion.rate_hz=5.0", "output.frames=[0,8,34,35]"};
     const StudyRun human = volume_run("human_01_01", overrides, full ? 65.0 : 15.0);
     plan.runs.push_back(full ? with_orders(human) : human);
-    plan.runs.push_back(to_where_flesh_breaks(beside(with_orders(human_beside_truth(45.0)))));
+    plan.runs.push_back(to_where_flesh_breaks(beside(with_orders(human_with_reference(45.0)))));
     plan.runs.push_back(beside(human_at(1200, 0.5)));
     plan.runs.push_back(beside(human_at(4800, 1.0)));
 }
@@ -165,27 +163,23 @@ void add_fetched(StudyPlan& plan, const std::string& body, bool full)
 StudyPlan plan(bool full)
 {
     StudyPlan plan;
-    const std::vector<std::string> twist = full ? std::vector<std::string>{} : beside_linear_truth;
+    const std::vector<std::string> twist = full ? std::vector<std::string>{} : with_linear_reference;
     plan.runs.push_back(to_where_flesh_breaks(with_orders(volume_run("limb_twist", twist, full ? 72.0 : 9.0))));
     plan.runs.push_back(to_where_flesh_breaks(with_orders(with_printed_forms(volume_run("limb_bend", {}, 32.0)))));
-    for (const std::string& body : installed_bodies(plan.left_out)) try {
-            if (body == "human")
-                add_human(plan, full);
-            else
-                add_fetched(plan, body, full);
-        } catch (const pbs::InputError& error) {  // the clip is not there
-            plan.left_out.push_back({body, error.what()});
-        }
+    for_each_installed_body(plan.left_out, [&](const std::string& body) {
+        if (body == "human")
+            add_human(plan, full);
+        else
+            add_fetched(plan, body, full);
+    });
     return plan;
 }
 
 StudyConclusion conclude(const FinishedRuns& finished)
 {
-    namespace fs = std::filesystem;
     std::vector<RunRegions> runs;
-    for (const std::string& run : finished.folders)
-        runs.push_back(
-            {fs::path(run).filename().string(), rows_of(region_columns, analysis::read_csv((fs::path(run) / "regions.csv").string()))});
+    for (const std::string& file : finished.files("regions.csv"))
+        runs.push_back({std::filesystem::path(file).parent_path().filename().string(), rows_of(region_columns, analysis::read_csv(file))});
     const std::string text = region_text(runs);
     finished.write("regions.csv", region_csv(runs));
     finished.write("regions.txt", text);

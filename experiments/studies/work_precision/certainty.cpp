@@ -36,11 +36,11 @@ std::string words_of(Certainty certainty, const Diagram& diagram)
     switch (certainty) {
         case Certainty::not_known:
             return diagram.reference_error_pct ? " [undecided: one of the two is the second solution itself; " + differ + "]"
-                                               : " [undecided: there is no second solution to see the reference's error by]";
+                                               : " [undecided: there is no second solution that shows the reference's error]";
         case Certainty::one_solution:
-            return fmt::format(" [undecided: not so against the second solution; {}]", differ);
+            return fmt::format(" [undecided: the order is reversed against the second solution; {}]", differ);
         case Certainty::both_solutions:
-            return fmt::format(" [within the reference's own bar of up to {:.1f} %, though so against both solutions; {}]",
+            return fmt::format(" [within the reference's own error of up to {:.1f} %, but the same against both solutions; {}]",
                                *diagram.reference_error_pct, differ);
         case Certainty::told_apart:
             return "";

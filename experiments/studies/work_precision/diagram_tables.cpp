@@ -10,6 +10,16 @@ namespace experiments {
 namespace {
 
 using analysis::Columns;
+using analysis::within;
+
+const Columns<DiagramPoint> setting_columns = {{"deformer", &DiagramPoint::deformer, "", "name of the deformer"},
+                                               {"setting", &DiagramPoint::setting, "", "its setting in words"},
+                                               {"ms_median", &DiagramPoint::ms, "ms", "median of the processor time per frame"}};
+const Columns<DiagramPoint> quartile_columns = {{"ms_q1", &DiagramPoint::ms_q1, "ms", "its lower quartile"},
+                                                {"ms_q3", &DiagramPoint::ms_q3, "ms", "its upper quartile"}};
+const Columns<DiagramPoint> point_error_columns = {{"error_joint_pct", &DiagramPoint::error_pct, "%", "error over the blended vertices"}};
+const Columns<DiagramPoint> below_columns = {
+    {"below_reference_error", &DiagramPoint::below_reference_error, "", "the error is not above the reference's own bound"}};
 
 struct FrontRow {
     std::string diagram, measure, front;
@@ -17,20 +27,15 @@ struct FrontRow {
     double value = 0.0;
     std::optional<double> reference_error_pct;
 };
-const Columns<FrontRow> front_columns = {
-    {"case", &FrontRow::diagram, "", "body and pose"},
-    {"measure", &FrontRow::measure, "", "what the front is the best of: a column of points.csv"},
-    {"front", &FrontRow::front, "", "whose front it is: a deformer's, or all"},
-    {"deformer", [](auto& row) -> decltype(auto) { return (row.point.deformer); }, "", "name of the deformer"},
-    {"setting", [](auto& row) -> decltype(auto) { return (row.point.setting); }, "", "its setting in words"},
-    {"ms_median", [](auto& row) -> decltype(auto) { return (row.point.ms); }, "ms", "median of the processor time per frame"},
-    {"ms_q1", [](auto& row) -> decltype(auto) { return (row.point.ms_q1); }, "ms", "its lower quartile"},
-    {"ms_q3", [](auto& row) -> decltype(auto) { return (row.point.ms_q3); }, "ms", "its upper quartile"},
-    {"value", &FrontRow::value, "", "the point's value of the measure, in the measure's unit"},
-    {"error_joint_pct", [](auto& row) -> decltype(auto) { return (row.point.error_pct); }, "%", "error over the blended vertices"},
-    {"below_reference_error", [](auto& row) -> decltype(auto) { return (row.point.below_reference_error); }, "",
-     "the error is not above the reference's own bound"},
-    {"reference_error_joint_pct", &FrontRow::reference_error_pct, "%", "bound of the reference's own error at the joints"}};
+const Columns<FrontRow> front_columns =
+    Columns<FrontRow>{{"case", &FrontRow::diagram, "", "body and pose"},
+                      {"measure", &FrontRow::measure, "", "what the front is the best of: a column of points.csv"},
+                      {"front", &FrontRow::front, "", "whose front it is: a deformer's, or all"}} +
+    within(&FrontRow::point, setting_columns + quartile_columns) +
+    Columns<FrontRow>{{"value", &FrontRow::value, "", "the point's value of the measure, in the measure's unit"}} +
+    within(&FrontRow::point, point_error_columns + below_columns) +
+    Columns<FrontRow>{
+        {"reference_error_joint_pct", &FrontRow::reference_error_pct, "%", "bound of the reference's own error at the joints"}};
 
 struct CrossingRow {
     std::string diagram, deformer, other, outcome = "never";
@@ -54,21 +59,16 @@ const Columns<CrossingRow> crossing_columns = {
     {"told_apart", &CrossingRow::told_apart, "", "the two errors differ by more than twice that bound, from that time on"},
     {"holds_beside", &CrossingRow::holds_beside, "", "the point is nearer to the second solution too, from that time on"}};
 
-struct BudgetRow {
-    std::string diagram, budget_of;
-    double budget_ms = 0.0;
-    std::string group;
-    DiagramPoint point;
-};
-const Columns<BudgetRow> budget_columns = {
-    {"case", &BudgetRow::diagram, "", "body and pose"},
-    {"budget_of", &BudgetRow::budget_of, "", "the setting of PBS whose time is the budget"},
-    {"budget_ms", &BudgetRow::budget_ms, "ms", "that time per frame"},
-    {"group", &BudgetRow::group, "", "a group of deformers"},
-    {"deformer", [](auto& row) -> decltype(auto) { return (row.point.deformer); }, "", "the group's best deformer within the budget"},
-    {"setting", [](auto& row) -> decltype(auto) { return (row.point.setting); }, "", "its setting in words"},
-    {"ms_median", [](auto& row) -> decltype(auto) { return (row.point.ms); }, "ms", "median of its processor time per frame"},
-    {"error_joint_pct", [](auto& row) -> decltype(auto) { return (row.point.error_pct); }, "%", "its error over the blended vertices"}};
+}  // namespace
+
+const Columns<BudgetRow> budget_columns =
+    Columns<BudgetRow>{{"case", &BudgetRow::diagram, "", "body and pose"},
+                       {"budget_of", &BudgetRow::budget_of, "", "the setting of PBS whose time is the budget"},
+                       {"budget_ms", &BudgetRow::budget_ms, "ms", "that time per frame"},
+                       {"group", &BudgetRow::group, "", "a group of deformers"}} +
+    within(&BudgetRow::point, setting_columns + point_error_columns);
+
+namespace {
 
 std::optional<double> known(double value)
 {
@@ -138,7 +138,7 @@ analysis::CsvTable crossings_table(const std::vector<Diagram>& diagrams)
     return table_of(crossing_columns, rows);
 }
 
-analysis::CsvTable equal_cost_table(const std::vector<Diagram>& diagrams)
+std::vector<BudgetRow> equal_cost(const std::vector<Diagram>& diagrams)
 {
     std::vector<BudgetRow> rows;
     for (const Diagram& diagram : diagrams)
@@ -146,7 +146,7 @@ analysis::CsvTable equal_cost_table(const std::vector<Diagram>& diagrams)
             for (const DeformerGroup& group : deformer_groups())
                 if (const DiagramPoint* point = best_of(diagram, group, budget.ms))
                     rows.push_back({diagram.name, budget.words(), budget.ms, group.words, *point});
-    return table_of(budget_columns, rows);
+    return rows;
 }
 
 }  // namespace experiments

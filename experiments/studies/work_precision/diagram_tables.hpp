@@ -1,20 +1,29 @@
-// What follows from work-precision diagrams, as tables: fronts, who is nearer than whom from which time on, who is how near at equal cost.
+// What follows from work-precision diagrams, as tables: the fronts, which group of deformers is nearer from which time on, and how near
+// each group is at equal cost.
 #pragma once
 
 #include "experiments/studies/work_precision/diagram.hpp"
 
 namespace experiments {
 
-// The Pareto front of all points of each diagram (front "all") and of each deformer's own, by each measure: `value` is the measure's.
-// The reference is no candidate.
+// fronts.csv: the Pareto front of all points of each diagram (front "all") and of each deformer's own points, by each measure. `value` is
+// that of the measure. The reference is not a candidate.
 analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams);
 
-// Each group of deformers against each other one: the time a frame [ms] from which on its best is nearer to the reference, with the
-// quartiles of the point that does it; outcome always, from, never. From there on, at every time at which both are there: told_apart, the
-// two errors differ by more than twice the reference's own; holds_beside, it is nearer to the second solution too (certainty.hpp).
+// crossings.csv: for each group of deformers and each other one, the time per frame [ms] from which on its best point is nearer to the
+// reference, with the quartiles of the point at which this happens. The outcome is always, from or never. The last two columns hold for all
+// times from there on at which both have points: told_apart, the two errors differ by more than twice the reference's own error;
+// holds_beside, the group is also nearer to the second solution (certainty.hpp).
 analysis::CsvTable crossings_table(const std::vector<Diagram>& diagrams);
 
-// The best of each group within the time of PBS with 1, 4, 24 and 96 iterations at the scene's k_stretch.
-analysis::CsvTable equal_cost_table(const std::vector<Diagram>& diagrams);
+// equal_cost.csv: the best point of each group within the time of PBS with 1, 4, 24 and 96 iterations at the scene's k_stretch.
+struct BudgetRow {
+    std::string diagram, budget_of;
+    double budget_ms = 0.0;
+    std::string group;
+    DiagramPoint point;
+};
+extern const analysis::Columns<BudgetRow> budget_columns;
+std::vector<BudgetRow> equal_cost(const std::vector<Diagram>& diagrams);
 
 }  // namespace experiments

@@ -25,7 +25,7 @@ std::vector<const DiagramPoint*> front_of(const Diagram& diagram)
     return front;
 }
 
-// Who alone is so quick: the groups that are there before any third one.
+// The two fastest groups, and the time from which on there is a third one.
 std::string who_is_quickest(const Diagram& diagram)
 {
     std::vector<std::pair<double, std::string>> first;  // the least time of each group
@@ -37,11 +37,11 @@ std::string who_is_quickest(const Diagram& diagram)
     }
     std::sort(first.begin(), first.end());
     if (first.size() < 3) return "";
-    return fmt::format("below {} a frame only {} and {} are there; {} is the next", ms_text(first[2].first), first[0].second,
-                       first[1].second, first[2].second);
+    return fmt::format("below {} per frame there are only {} and {}; {} is next", ms_text(first[2].first), first[0].second, first[1].second,
+                       first[2].second);
 }
 
-// Stretches of the front that belong to one group, each against the nearest that is quicker.
+// Each stretch of the front that belongs to one group, compared with the nearest faster point.
 std::vector<std::string> who_is_nearest(const Diagram& diagram)
 {
     const std::vector<const DiagramPoint*> front = front_of(diagram);
@@ -54,18 +54,19 @@ std::vector<std::string> who_is_nearest(const Diagram& diagram)
         std::string error = fmt::format("{:.1f} %", from.error_pct);
         if (end > begin + 1) error += fmt::format(" to {:.1f} % at {}", to.error_pct, ms_text(to.ms));
         const std::string mark = begin > 0 ? words_of(certainty_of(diagram, from, *front[begin - 1]), diagram) : "";
-        lines.push_back(fmt::format("from {} {} is nearest: {} off ({}){}", ms_text(from.ms), group, error, to.words(), mark));
+        lines.push_back(
+            fmt::format("from {} on {} is nearest, with an error of {} ({}){}", ms_text(from.ms), group, error, to.words(), mark));
         begin = end;
     }
     return lines;
 }
 
-// At their best, whatever it takes.
+// The best points of both, at any time.
 std::string who_stays_behind(const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other)
 {
     const double any_ms = std::numeric_limits<double>::infinity();
     const DiagramPoint *behind = best_of(diagram, one, any_ms), *nearer = best_of(diagram, other, any_ms);
-    return fmt::format("{} does not stay nearer than {} however long it takes ({:.1f} and {:.1f} % at best){}", one.words, other.words,
+    return fmt::format("{} does not remain nearer than {} at any time ({:.1f} and {:.1f} % at best){}", one.words, other.words,
                        behind->error_pct, nearer->error_pct, words_of(certainty_of(diagram, *nearer, *behind), diagram));
 }
 
@@ -77,7 +78,7 @@ std::string who_passes(const Diagram& diagram, const DeformerGroup& one, const D
     const auto crossing = analysis::nearer_from(ones, others);
     if (!crossing) return who_stays_behind(diagram, one, other);
     const DiagramPoint& point = diagram.points[of_one[crossing->one]];
-    const std::string when = crossing->from_the_start ? "from the first" : fmt::format("from {} on", ms_text(crossing->from));
+    const std::string when = crossing->from_the_start ? "at all times" : fmt::format("from {} on", ms_text(crossing->from));
     const std::optional<Certainty> certainty = certainty_from(diagram, one, other, crossing->from);
     return fmt::format("{} is nearer than {} {} ({}: {:.1f} %){}", one.words, other.words, when, point.setting, point.error_pct,
                        certainty ? words_of(*certainty, diagram) : "");
@@ -88,21 +89,21 @@ const DeformerGroup& group_named(const std::string& words)
     return *std::find_if(deformer_groups().begin(), deformer_groups().end(), [&](const auto& group) { return group.words == words; });
 }
 
-// Delta mush, which is geometry alone, against PBS and XPBD within the time of `whose`.
+// Delta mush, which is pure geometry, against PBS and XPBD within the time of `whose`.
 std::string is_physics_worth_it(const Diagram& diagram, double budget_ms, const std::string& whose)
 {
     const DiagramPoint *mush = best_of(diagram, group_named("delta mush"), budget_ms),
                        *pbs = best_of(diagram, group_named("PBS"), budget_ms), *xpbd = best_of(diagram, group_named("XPBD"), budget_ms);
-    const auto told = [](const DiagramPoint* point) { return point ? fmt::format("{:.1f} % off", point->error_pct) : "not so quick"; };
-    std::string text =
-        fmt::format("within the {} of {}: delta mush {}, PBS {}, XPBD {}", ms_text(budget_ms), whose, told(mush), told(pbs), told(xpbd));
+    const auto error = [](const DiagramPoint* point) { return point ? fmt::format("{:.1f} %", point->error_pct) : "none as fast"; };
+    std::string text = fmt::format("within the {} of {} the errors are: delta mush {}, PBS {}, XPBD {}", ms_text(budget_ms), whose,
+                                   error(mush), error(pbs), error(xpbd));
     if (!mush || (!pbs && !xpbd)) return text;
     const DiagramPoint& physics = pbs && (!xpbd || pbs->error_pct <= xpbd->error_pct) ? *pbs : *xpbd;
     const double gain_pct = 100.0 * (1.0 - physics.error_pct / mush->error_pct);
-    text += fmt::format("; the physics {} {:.0f} % {} the error of geometry alone", gain_pct > 0.0 ? "takes" : "adds", std::abs(gain_pct),
-                        gain_pct > 0.0 ? "off" : "to");
+    text += fmt::format("; the physics {} the error of geometry alone by {:.0f} %", gain_pct > 0.0 ? "reduces" : "increases",
+                        std::abs(gain_pct));
     if (mush->beside_pct && pbs && pbs->beside_pct)
-        text += fmt::format(" (from the second solution: delta mush {:.1f}, PBS {:.1f} %)", *mush->beside_pct, *pbs->beside_pct);
+        text += fmt::format(" (against the second solution: delta mush {:.1f}, PBS {:.1f} %)", *mush->beside_pct, *pbs->beside_pct);
     const auto certainty = gain_pct > 0.0 ? certainty_of(diagram, physics, *mush) : certainty_of(diagram, *mush, physics);
     return text + words_of(certainty, diagram);
 }
@@ -111,18 +112,19 @@ std::string what_is_undecided(const Diagram& diagram)
 {
     const std::string ms = diagram.reference_ms ? fmt::format(", which takes {},", ms_text(*diagram.reference_ms)) : "";
     if (!diagram.reference_error_pct || !diagram.reference_difference_pct)
-        return fmt::format("the reference {}{} has no second solution beside it, and no error bar", diagram.reference, ms);
+        return fmt::format("the reference {}{} has no second solution and therefore no error bar", diagram.reference, ms);
     const auto below = [&](double bar_pct) {
         return std::count_if(diagram.points.begin(), diagram.points.end(), [&](const auto& point) { return point.error_pct <= bar_pct; });
     };
     return fmt::format(
-        "the reference {}{} and the second solution differ by {:.1f} %: {} of {} points lie below that; were it to converge with "
-        "order 1, which is presumed and not observed, it would be up to {:.1f} % off: {} lie below that",
+        "the reference {}{} and the second solution differ by {:.1f} %, and {} of {} points lie within that; with an order of convergence "
+        "of "
+        "1, which is assumed and not observed, its error is up to {:.1f} %, and {} points lie within that",
         diagram.reference, ms, *diagram.reference_difference_pct, below(*diagram.reference_difference_pct), diagram.points.size(),
         *diagram.reference_error_pct, below(*diagram.reference_error_pct));
 }
 
-// The same law with order 1, on the case's own tets and on those cut into eight.
+// The law of the reference with order 1, on the case's own tets and on tets cut into eight.
 std::string what_refinement_does(const Diagram& diagram)
 {
     const auto with = [&](const std::string& setting) {
@@ -132,8 +134,9 @@ std::string what_refinement_does(const Diagram& diagram)
     const auto own = with("P1"), refined = with("P1, tets cut into eight");
     if (own == diagram.points.end() || refined == diagram.points.end()) return "";
     return fmt::format(
-        "one refinement: stable neo-Hookean flesh of order 1 is {:.1f} % off on the case's own tets, {:.1f} % on those cut "
-        "into eight",
+        "one refinement: stable neo-Hookean flesh of order 1 has an error of {:.1f} % on the case's own tets and of {:.1f} % on tets cut "
+        "into "
+        "eight",
         own->error_pct, refined->error_pct);
 }
 
@@ -143,7 +146,7 @@ std::string whose_reference_intersects(const Diagram& diagram)
     const std::string whose = diagram.poses == 1 ? fmt::format("the reference {} intersects itself", diagram.reference)
                                                  : fmt::format("the references of {} of the {} poses intersect themselves",
                                                                diagram.self_intersecting, diagram.poses);
-    return whose + ": no contact is modelled, and where the flesh overlaps nobody's distance from it says who is right";
+    return whose + ": contact is not modelled, so where the flesh overlaps, the distance to it does not show which deformer is right";
 }
 
 }  // namespace
@@ -169,9 +172,9 @@ std::string front_text(const Diagram& diagram)
 {
     const auto known = [](const std::optional<double>& ms) { return ms ? fmt::format("{:.4g}", *ms) : ""; };
     std::string text =
-        fmt::format("     {}\n     {:>10} {:>21} {:>9}  {}\n", diagram.name, "ms a frame", "quartiles", "off [%]", "deformer");
+        fmt::format("     {}\n     {:>12} {:>21} {:>9}  {}\n", diagram.name, "ms per frame", "quartiles", "error [%]", "deformer");
     for (const DiagramPoint* point : front_of(diagram))
-        text += fmt::format("     {:>10.4g} {:>10} {:>10} {:>8.2f}{} {}\n", point->ms, known(point->ms_q1), known(point->ms_q3),
+        text += fmt::format("     {:>12.4g} {:>10} {:>10} {:>8.2f}{} {}\n", point->ms, known(point->ms_q1), known(point->ms_q3),
                             point->error_pct, point->below_reference_error ? "*" : " ", point->words());
     return text;
 }
@@ -180,9 +183,9 @@ std::string best_text(const std::vector<Diagram>& diagrams)
 {
     std::size_t width = 25;
     for (const Diagram& diagram : diagrams) width = std::max(width, diagram.name.size());
-    std::string text = fmt::format("     {:<{}}", "off [%] at best, after ms", width);
+    std::string text = fmt::format("     {:<{}}", "least error [%], after ms", width);
     for (const DeformerGroup& group : deformer_groups()) text += fmt::format(" {:>17}", group.words);
-    text += fmt::format(" {:>17} {:>14}\n", "solutions differ", "reference off");
+    text += fmt::format(" {:>17} {:>14}\n", "solutions differ", "reference bar");
     for (const Diagram& diagram : diagrams) {
         text += fmt::format("     {:<{}}", diagram.name, width);
         for (const DeformerGroup& group : deformer_groups()) {

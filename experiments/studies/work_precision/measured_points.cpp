@@ -17,7 +17,7 @@
 namespace experiments {
 namespace {
 
-// The two poses a frame goes between, on the case's skeleton.
+// The two poses of a timed frame, on the case's skeleton.
 PosePair poses_of(const WorkPrecisionCase& of, const pbs::Skeleton& skeleton)
 {
     const pbs::Motion motion = make_motion(of.scene.motion, skeleton, of.scene.file);
@@ -63,7 +63,7 @@ private:
         points_.push_back(std::move(point));
     }
 
-    // Of those that reached the pose; the nonlinear laws by turns among themselves, the others among themselves.
+    // The times of those that reached the pose. The nonlinear laws take turns among themselves, and so do the others.
     std::vector<FrameTime> time_all()
     {
         std::vector<FrameTime> times(points_.size());
@@ -103,7 +103,7 @@ private:
         return {joint_pct(point.on_base, whole), joint_pct(whole, reference_.point->on_base), joint_pct(whole, half)};
     }
 
-    // By all of the iterations and by half of them.
+    // After all of the iterations and after half of them.
     const std::pair<pbs::Positions, pbs::Positions>& converged(PointSetting setting)
     {
         auto& options = options_of<pbs::PbsOptions>(setting.spec);

@@ -8,7 +8,7 @@
 
 namespace experiments {
 
-// PBS's error at the joints in three parts [%]; the third is the reference's own.
+// The parts of PBS's error at the joints [%]. The third part is the error of the reference.
 struct PbsParts {
     double solver_pct = 0.0, model_pct = 0.0;
     double not_converged_pct = 0.0;  // between the converged shape and that after half of its iterations
@@ -16,9 +16,9 @@ struct PbsParts {
 
 struct FrameTime {
     std::optional<Spread> ms;  // nothing where no round arrived
-    int failed_rounds = 0;     // that did not arrive, or set out from where the one before did not
+    int failed_rounds = 0;     // rounds that did not reach the pose, or began in one that was not reached
 };
-// Of samples [ms], not a number where a round failed.
+// samples: [ms], not a number where a round failed.
 FrameTime frame_time(std::vector<double> samples);
 
 constexpr int fewest_for_quartiles = 3;  // rounds
@@ -26,7 +26,7 @@ constexpr int fewest_for_quartiles = 3;  // rounds
 struct PointFigures {
     std::string body, pose;
     FrameTime time;
-    std::optional<analysis::ErrorNorms> error;  // nothing for the reference, and where there is none
+    std::optional<analysis::ErrorNorms> error;  // nothing for the reference, and where there is no reference
     std::optional<double> beside_pct;           // error at the joints against the second solution
     std::optional<PbsParts> parts;
     bool reference_self_intersects = false;

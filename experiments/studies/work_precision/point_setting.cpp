@@ -17,7 +17,7 @@
 namespace experiments {
 namespace {
 
-constexpr int most_newton_steps = 120;  // of 45 degrees of a joint's turn; a folded crease may ask for any number, minutes each
+constexpr int most_newton_steps = 120;  // per 45 degrees of a joint's turn; a folded crease may need any number, of minutes each
 
 const DeformerSpec& first_fem(const Scene& scene)
 {

@@ -1,9 +1,9 @@
-// What the points of a work-precision diagram are: each deformer at many settings.
+// The points of a work-precision diagram: each deformer at many settings.
 //   for (const PointSetting& setting : point_settings(scene, {.coarser_vertices = {600}})) ...
-// LBS and DQS have nothing to set. Delta mush: iterations of smoothing. PBS: iterations, k_stretch, order and precision, Mueller's
-// exponent, substeps (outside a jiggling zone each begins at LBS anew, so that only the last one counts). XPBD with the reference's
-// material: iterations, and small steps at equal cost. Finite elements: laws, element orders and sizes of mesh. LBS and PBS on coarser and
-// finer meshes of the body as well.
+// LBS and DQS have no settings. Delta mush has iterations of smoothing. PBS has iterations, k_stretch, order and precision, Mueller's
+// exponent and substeps (outside a jiggling zone each substep begins at LBS anew, so that only the last one counts). XPBD with the
+// reference's material has iterations, and small steps at equal cost. Finite elements have laws, element orders and sizes of mesh. LBS and
+// PBS also run on coarser and finer meshes of the body.
 #pragma once
 
 #include "experiments/deformers/fem/fem_options.hpp"
@@ -16,10 +16,10 @@
 namespace experiments {
 
 struct PointSetting {
-    std::string deformer;  // whose front it counts for: lbs, dqs, delta_mush, pbs, pbs_exponent, xpbd, xpbd_small_steps, fem_linear, ...
-    std::string words;     // what tells it apart from the others of its deformer: "24 iterations, k_stretch 0.2"
+    std::string deformer;  // its front: lbs, dqs, delta_mush, pbs, pbs_exponent, xpbd, xpbd_small_steps, fem_linear, ...
+    std::string words;     // what distinguishes it from the others of its deformer: "24 iterations, k_stretch 0.2"
     DeformerSpec spec;
-    int substeps = 1;      // how often the pose is advanced to in a frame
+    int substeps = 1;      // steps per frame
     int vertices = 0;      // wanted size of another mesh of the body; 0: the case's own
     bool refined = false;  // on the case's own tets, each cut into eight
 
@@ -45,14 +45,14 @@ nlohmann::json to_json(const SettingRange& range);
 // The scene gives the options that are not varied: its pbs, and the material and attachment of its first [[fem]].
 std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange& range);
 
-// All that the points hang on, in 32 hexadecimal digits: their words, options, substeps and meshes.
+// A digest in 32 hexadecimal digits of everything that the points depend on: their words, options, substeps and meshes.
 std::string digest_of(const std::vector<PointSetting>& settings);
 
 // "24 iterations, k_stretch 0.2, ordered f32"
 std::string words_of(const pbs::PbsOptions& options);
 
-// Finite elements of the scene's own material, by law and element order, without mean dilatation: quadratic ones do without at the scenes'
-// Poisson's ratio of 0.45, and with it a body's creases are not reached.
+// Finite elements of the scene's own material, by law and element order, without mean dilatation. Quadratic elements do not need it at the
+// scenes' Poisson's ratio of 0.45, and with it Newton's method does not converge in a body's creases.
 DeformerSpec fem_spec(const Scene& scene, reference_fem::Model model, int element_order);
 
 }  // namespace experiments

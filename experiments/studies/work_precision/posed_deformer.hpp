@@ -1,9 +1,9 @@
-// One setting of one deformer, going back and forth between a pose and the one of the frame before: its shape in the pose, and the time of
-// a frame. So a solver that starts from where it was (finite elements) is timed on a frame's worth of motion, as in a clip.
+// One setting of one deformer, moving back and forth between a pose and that of the frame before: its shape in the pose, and the time per
+// frame. A solver that begins in its last state (finite elements) is thus timed on the motion of one frame, as in a clip.
 //   PosedDeformer deformer(setting, character, motion);
-//   const Shape shape = deformer.reach();      // from rest, whatever the way takes
+//   const Shape shape = deformer.reach();      // from rest, however long it takes
 //   take_turns({[&] { return deformer.turn(); }}, rounds);
-// Time: of the processor, all threads of the process, so that other work on the machine stretches it less.
+// The time is processor time over all threads of the process, so that other work on the machine affects it less.
 #pragma once
 
 #include "experiments/studies/shared/posed_character.hpp"
@@ -24,7 +24,7 @@ public:
     PosedDeformer(const PointSetting& setting, const pbs::Character& character, const PosePair& poses);
 
     Shape reach();
-    // One number: processor time of the next frame [ms]; not a number where it did not arrive, or set out from where the last did not.
+    // One number, the processor time of the next frame [ms]. Not a number where the frame did not arrive, or the one before it did not.
     std::vector<double> turn();
 
 private:

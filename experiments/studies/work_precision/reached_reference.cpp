@@ -2,6 +2,7 @@
 
 #include "analysis/grid_convergence.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
+#include "pbs/character/refined_character.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ bool lies(const ReachedPoint& point, On where, Eigen::Index base_vertices)
     return point.setting->vertices > 0 && vertices_of(point) < base_vertices;
 }
 
-// The finished stable neo-Hookean solution of that element order there, of several the one on the finest mesh.
+// The finished stable neo-Hookean solution of that element order there; on the finest mesh if there are several.
 const ReachedPoint* solution(const std::vector<ReachedPoint>& points, int element_order, On where, Eigen::Index base_vertices)
 {
     const ReachedPoint* found = nullptr;
@@ -45,7 +46,7 @@ const ReachedPoint* solution(const std::vector<ReachedPoint>& points, int elemen
     return found;
 }
 
-// Of the same element order, or else the other.
+// The second solution: of the same element order, or else of the other.
 const ReachedPoint* solution_beside(const std::vector<ReachedPoint>& points, int element_order, Eigen::Index base_vertices)
 {
     const std::pair<int, On> quadratic[] = {{2, On::coarser_mesh}, {1, On::own_tets}},
@@ -57,6 +58,26 @@ const ReachedPoint* solution_beside(const std::vector<ReachedPoint>& points, int
 
 }  // namespace
 
+BodyMesh::BodyMesh(pbs::CharacterSource source, int vertices, const pbs::Character& base) : base_vertices_(base.mesh.rest.rows())
+{
+    source.vertices = vertices;
+    character_ = std::make_shared<pbs::Character>(pbs::make_character(source));
+    points_ = pbs::embed(base.mesh.rest, pbs::Triangles(0, 3), character_->mesh);
+}
+
+BodyMesh BodyMesh::refined(const pbs::Character& base)
+{
+    BodyMesh fine(std::make_shared<pbs::Character>(pbs::refined(base)));
+    fine.base_vertices_ = base.mesh.rest.rows();
+    return fine;
+}
+
+pbs::Positions BodyMesh::on_base(const pbs::Positions& positions) const
+{
+    return points_ ? pbs::embedded_positions(*points_, positions, character_->mesh.tets)
+                   : pbs::Positions(positions.topRows(base_vertices_));
+}
+
 ReachedReference choose_reference(const std::vector<ReachedPoint>& points, Eigen::Index base_vertices, const analysis::ErrorRuler& ruler)
 {
     ReachedReference reference;
@@ -66,12 +87,12 @@ ReachedReference choose_reference(const std::vector<ReachedPoint>& points, Eigen
         reference.beside = solution_beside(points, options_of<FemOptions>(reference.point->setting->spec).element_order, base_vertices);
     if (!reference.beside) return reference;
 
-    constexpr double presumed_order = 1.0;
+    constexpr double assumed_order = 1.0;
     const double nodes = nodes_along(*reference.point), nodes_beside = nodes_along(*reference.beside);
     const double ratio = std::max(nodes, nodes_beside) / std::min(nodes, nodes_beside);
     const int place = nodes > nodes_beside ? 0 : 1;  // the finer one comes first
     const analysis::ErrorNorms difference = ruler.measure(reference.point->on_base, reference.beside->on_base);
-    const auto bound = [&](double distance) { return analysis::two_fields(distance, ratio, presumed_order).bounds[place]; };
+    const auto bound = [&](double distance) { return analysis::two_fields(distance, ratio, assumed_order).bounds[place]; };
     reference.bar = {bound(difference.l2_pct), bound(difference.joint_pct), bound(difference.linf_m)};
     return reference;
 }

@@ -1,12 +1,42 @@
-// Which of a case's shapes is the truth, and how far it may be from the limit on ever finer tets.
+// The shapes that the settings reach on the meshes of a case's body, which of them is the reference, and the bound of its error.
 #pragma once
 
 #include "analysis/error_norms.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
-#include "experiments/studies/work_precision/body_mesh.hpp"
 #include "experiments/studies/work_precision/point_setting.hpp"
+#include "pbs/character/bodies.hpp"
+
+#include <memory>
+#include <optional>
 
 namespace experiments {
+
+// A mesh of the body: the case's own, or a coarser or finer one. Shapes on it are mapped to the vertices of the case's own mesh, so that
+// errors on all meshes are measured at the same points of the flesh and by the same metrics.
+//   const BodyMesh coarse(source, 600, base);
+//   ruler.measure(coarse.on_base(positions), reference);
+class BodyMesh {
+public:
+    explicit BodyMesh(std::shared_ptr<const pbs::Character> base)
+        : character_(std::move(base)), base_vertices_(character_->mesh.rest.rows())
+    {
+    }
+    // Another mesh of about so many vertices. Where it ends slightly inside the base's surface, its tets are extended.
+    BodyMesh(pbs::CharacterSource source, int vertices, const pbs::Character& base);
+    // Every tet of the base cut into eight. The first vertices are those of the base.
+    static BodyMesh refined(const pbs::Character& base);
+
+    const pbs::Character& character() const { return *character_; }
+    // The positions of the base's vertices [m], #V_base x 3, from those of its own vertices, #V x 3.
+    pbs::Positions on_base(const pbs::Positions& positions) const;
+    // The largest distance of a vertex of the base from its tets [m].
+    double largest_distance_outside_m() const { return points_ ? points_->largest_distance_outside_m : 0.0; }
+
+private:
+    std::shared_ptr<const pbs::Character> character_;
+    std::optional<pbs::EmbeddedSurface> points_;  // the base's vertices; nothing: they are the first ones
+    Eigen::Index base_vertices_ = 0;
+};
 
 // A setting's shape in the case's pose.
 struct ReachedPoint {
@@ -18,13 +48,13 @@ struct ReachedPoint {
 
 struct ReachedReference {
     const ReachedPoint* point = nullptr;      // null: none was reached
-    const ReachedPoint* beside = nullptr;     // the second solution; null: none, and no bar
-    std::optional<analysis::ErrorNorms> bar;  // bound of its distance from the limit
+    const ReachedPoint* beside = nullptr;     // the second solution; null: none, and no error bound
+    std::optional<analysis::ErrorNorms> bar;  // bound of the reference's distance from its limit on ever finer tets
 };
 
-// Stable neo-Hookean: quadratic on the case's own tets, or else linear there. Beside it, for the bar: of a quadratic one the quadratic one
-// on the finest coarser mesh, or else the linear one; of a linear one that on tets cut into eight, or else on the finest coarser mesh.
-// Order 1 is presumed, whatever the elements (reference_error_bar.hpp says why).
+// The reference is stable neo-Hookean flesh on the case's own tets: quadratic, or linear if that was not reached. The second solution of a
+// quadratic one is the quadratic one on the finest coarser mesh, or else the linear one; of a linear one it is that on tets cut into eight,
+// or else on the finest coarser mesh. Order 1 is assumed for all elements (reference_error_bar.hpp states why).
 ReachedReference choose_reference(const std::vector<ReachedPoint>& points, Eigen::Index base_vertices, const analysis::ErrorRuler& ruler);
 
 }  // namespace experiments

@@ -1,38 +1,34 @@
-// Error against run time: which deformer is nearest to the stable neo-Hookean reference for the time a frame may take.
+// Error against run time: which deformer is nearest to the stable neo-Hookean reference for the time that a frame may take.
 //
 //   limb twist  90 deg (--full: and 150)     o=======o~~~~~~~o)
 //   limb bend   60 deg (--full: and 90)      o=======o
-//   human       crouch (--full: crouch and in the air, these also on the tets cut into eight; and standing, landing and the poses at 1/5 to
-//               4/5 of 01_01; and the crouch of every other installed body)
+//   human       crouch (--full: crouch and in the air, both also on tets cut into eight; standing, landing and the poses at 1/5 to 4/5 of
+//               01_01; and the crouch of every other installed body)
 //
 // Writes DIR/work_precision/CASE/points.csv and, over all cases, points.csv, fronts.csv, crossings.csv, equal_cost.csv, work_precision.md.
-#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/folder_files.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
 #include "experiments/studies/work_precision/findings.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
-#include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 namespace experiments {
 namespace {
 
-namespace fs = std::filesystem;
-
 std::string measure_and_record(const WorkPrecisionCase& of, const std::string& folder)
 {
     const MeasuredPoints points = measure_points(of);
-    table_of(point_columns, points.rows).write((fs::path(folder) / "points.csv").string());
+    table_of(point_columns, points.rows).write(analysis::path_in(folder, "points.csv"));
     return points.breakdown;
 }
 
-// 5 degrees a frame: the step that a frame is timed on.
+// 5 degrees per frame, which is the step that is timed.
 StudyRun limb_run(const std::string& motion, int angle_deg, bool full, double cost_s)
 {
     const std::string scene = "limb_" + motion;
@@ -43,7 +39,8 @@ StudyRun limb_run(const std::string& motion, int angle_deg, bool full, double co
     of.frame = angle_deg / 5;
     of.range.quadratic_corotational = full;
     of.range.coarser_vertices = {300, 400, 500, 600};
-    if (full && motion == "twist") of.range.finer_vertices = {5000};  // fine creases of a bend take Newton minutes a frame
+    if (full && motion == "twist")
+        of.range.finer_vertices = {5000};  // in the fine creases of a bend Newton's method takes minutes per frame
     of.rounds = {.seconds = full ? 10.0 : 3.0, .fewest = 5, .most = 31};
     of.newton_rounds = {.seconds = full ? 10.0 : 0.0, .fewest = full ? 3 : 1, .most = 9};
     return work_run(fmt::format("{}_{}", scene, angle_deg), of, cost_s, measure_and_record);
@@ -52,9 +49,9 @@ StudyRun limb_run(const std::string& motion, int angle_deg, bool full, double co
 struct BodyPose {
     std::string name;
     int frame = 0;         // of 01_01 at 100 Hz
-    bool refined = false;  // solved on the tets cut into eight as well
+    bool refined = false;  // also solved on the tets cut into eight
 };
-// Four by name, and four that nobody chose: at 1/5, 2/5, 3/5 and 4/5 of the clip.
+// Four poses by name, and four that are not chosen: at 1/5, 2/5, 3/5 and 4/5 of the clip.
 std::vector<BodyPose> human_poses(bool full)
 {
     if (!full) return {{"crouch", 164}};
@@ -95,20 +92,15 @@ StudyPlan plan(bool full)
         plan.runs.push_back(limb_run("twist", 150, full, 80.0));
         plan.runs.push_back(limb_run("bend", 90, full, 440.0));
     }
-    try {
-        for (const BodyPose& pose : human_poses(full)) plan.runs.push_back(body_run("human", pose, full, full ? 145.0 : 50.0));
-    } catch (const pbs::InputError& error) {
-        plan.left_out.push_back({"human", error.what()});
-    }
-    if (!full) return plan;
     std::vector<analysis::LeftOut> left_out;
-    for (const std::string& body : installed_bodies(left_out)) try {
-            if (body != "human") plan.runs.push_back(body_run(body, {"crouch", 164}, full, 350.0));
-        } catch (const pbs::InputError& error) {  // the clip is not there
-            left_out.push_back({body, error.what()});
-        }
-    for (const auto& other : left_out)
-        if (other.scene != "human") plan.left_out.push_back(other);
+    for_each_installed_body(left_out, [&](const std::string& body) {
+        if (body == "human")
+            for (const BodyPose& pose : human_poses(full)) plan.runs.push_back(body_run(body, pose, full, full ? 145.0 : 50.0));
+        else if (full)
+            plan.runs.push_back(body_run(body, {"crouch", 164}, full, 350.0));
+    });
+    for (const analysis::LeftOut& body : left_out)
+        if (full || body.scene == "human") plan.left_out.push_back(body);
     return plan;
 }
 
@@ -121,10 +113,10 @@ StudyConclusion conclude(const FinishedRuns& finished)
     const std::vector<Diagram> diagrams = diagrams_of(points);
     finished.write("fronts.csv", fronts_table(diagrams));
     finished.write("crossings.csv", crossings_table(diagrams));
-    finished.write("equal_cost.csv", equal_cost_table(diagrams));
+    finished.write("equal_cost.csv", budget_columns, equal_cost(diagrams));
     std::string text = best_text(diagrams) +
-                       "     off: from the reference at the joints, % of the mean bone distance; *: below the reference's own error "
-                       "(bound); #: it intersects itself\n";
+                       "     error: distance to the reference at the joints, % of the mean bone distance; *: not above the reference's own "
+                       "error (bound); #: the reference intersects itself\n";
     std::string page;
     for (const Diagram& diagram : diagrams) {
         text += fmt::format("     {}: {}\n", diagram.name, physics_text(diagram));

@@ -7,8 +7,10 @@
 #include "experiments/studies/error_split/error_split.hpp"
 #include "experiments/studies/features/feature_cost.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
+#include "experiments/studies/setup/body_setup.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/timing/timing_records.hpp"
+#include "experiments/studies/work_precision/diagram_tables.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
 #include "reference_fem/verification/verification_record.hpp"
 
@@ -104,10 +106,53 @@ TEST(KeptTables, OfTimedStudies)
 TEST(KeptTables, OfTheOtherStudies)
 {
     expect_same_records(experiments::rate_columns, "convergence", "rates.csv");
+    expect_same_records(experiments::towards_columns, "convergence", "towards.csv");
     expect_same_records(experiments::cell_columns, "stability", "cells.csv");
     expect_same_records(experiments::part_columns, "error_split", "parts.csv");
     expect_same_records(experiments::attachment_columns, "error_split", "attachments.csv");
     expect_same_records(experiments::point_columns, "work_precision", "points.csv");
+}
+
+// A file that sums up a study.
+template <typename Row>
+void expect_same_sum(const analysis::Columns<Row>& all, const std::string& file)
+{
+    const analysis::CsvTable table = analysis::read_csv((fs::path(PBS_KEPT_RECORDS) / file).string());
+    ASSERT_GT(table.rows(), 0) << file;
+    const analysis::Columns<Row> columns = columns_in(table, all);
+    expect_same_cells(table_of(columns, rows_of(columns, table)), table, file);
+}
+
+TEST(KeptTables, ThatSumUpAStudy)
+{
+    expect_same_sum(experiments::cell_columns, "stability/map_time_step_k_stretch.csv");
+    expect_same_sum(experiments::cell_columns, "stability/map_iterations_twist.csv");
+    expect_same_sum(experiments::budget_columns, "work_precision/equal_cost.csv");
+}
+
+TEST(KeptTables, OfSetups)
+{
+    expect_same_records(experiments::trial_columns, "setup", "trials.csv");
+    expect_same_records(experiments::key_columns, "setup", "changed_keys.csv");
+}
+
+// Their columns are the fields of a key that any row has, and those of every row.
+TEST(KeptTables, OfMeasuredAndPrintedValues)
+{
+    int measured = 0, printed = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(PBS_KEPT_RECORDS)) {
+        const std::string file = entry.path().string(), name = entry.path().filename().string();
+        if (name == "measurements.csv" || name == "setup.csv") {
+            expect_same_cells(analysis::measurement_table(analysis::measurements(file)), analysis::read_csv(file), file);
+            ++measured;
+        }
+        if (name == "printed.csv") {
+            expect_same_cells(analysis::printed_table(analysis::printed_figures(file)), analysis::read_csv(file), file);
+            ++printed;
+        }
+    }
+    EXPECT_GT(measured, 50);
+    EXPECT_EQ(printed, 1);
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ TEST(ConvergenceCase, AboveTruthToThereIsNoReferenceAndTheRecordSaysSo)
     EXPECT_TRUE(std::isnan(result.all.back().paths.front().looks.back().error_joint_pct));
     EXPECT_EQ(result.all.back().reference, "left out above 500 vertices");
 
-    const analysis::CsvTable towards = towards_table(result);
+    const analysis::CsvTable towards = table_of(experiments::towards_columns, towards_rows(look_rows(result)));
     EXPECT_EQ(rate_rows(result).back().reference, "left out above 500 vertices");
     ASSERT_GT(towards.rows(), 0);
     for (int row = 0; row < towards.rows(); ++row) EXPECT_EQ(towards.integer(row, "vertices"), result.all.front().vertices);

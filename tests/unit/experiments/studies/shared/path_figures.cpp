@@ -1,5 +1,5 @@
 // Truth: paths made up from formulas, whose rates and floors are known.
-#include "experiments/studies/shared/path_figures.hpp"
+#include "experiments/studies/shared/iteration_path.hpp"
 
 #include "tests/support/iteration_paths.hpp"
 

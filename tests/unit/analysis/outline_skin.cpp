@@ -1,11 +1,11 @@
 // Reference: prisms over a triangle with sides 3, 4 and 5, cut across; a corner of the outline stands for half of each side that it ends.
-#include "experiments/studies/artefacts/outline_skin.hpp"
+#include "analysis/outline_skin.hpp"
 
 #include <gtest/gtest.h>
 
 namespace {
 
-using experiments::share_of_outline;
+using analysis::share_of_outline;
 
 // Sides alone, from z = -0.9 to 1; vertices 2 i below and 2 i + 1 above corner i.
 struct Prisms {

@@ -1,5 +1,5 @@
 // Reference: theory where none or all are counted; else the definition, by sums of the binomial distribution.
-#include "experiments/studies/stability/share_interval.hpp"
+#include "analysis/share_interval.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 namespace {
 
-using experiments::share_interval;
+using analysis::share_interval;
 
 // Of `counted` or fewer out of `all` with probability p each.
 double at_most(int counted, int all, double p)
@@ -24,7 +24,7 @@ TEST(ShareInterval, EndsWhereTheTailsAreAFortieth)
     for (const int all : {4, 18, 161})
         for (int counted = 1; counted < all; ++counted) {
             const auto share = share_interval(counted, all);
-            EXPECT_EQ(share.value, double(counted) / all);
+            EXPECT_EQ(share.estimate, double(counted) / all);
             EXPECT_NEAR(at_most(counted, all, share.high), 0.025, 1e-9);
             EXPECT_NEAR(1.0 - at_most(counted - 1, all, share.low), 0.025, 1e-9);
         }

@@ -1,18 +1,18 @@
-#include "experiments/studies/artefacts/outline_skin.hpp"
+#include "analysis/outline_skin.hpp"
 
 #include <algorithm>
 
-namespace experiments {
+namespace analysis {
 namespace {
 
 using pbs::Vec3;
 
 struct Crossing {
     Vec3 point;
-    bool is_chosen;  // its edge's nearer vertex
+    bool is_chosen;  // the nearer vertex of its edge
 };
 
-std::vector<Crossing> crossings_of(const pbs::CuttingPlane& plane, const pbs::Positions& positions, const pbs::Triangles& skin,
+std::vector<Crossing> crossings_of(const Plane& plane, const pbs::Positions& positions, const pbs::Triangles& skin,
                                    const std::vector<bool>& chosen)
 {
     const Eigen::VectorXd height = (positions.rowwise() - plane.point.transpose()) * plane.normal;
@@ -20,7 +20,7 @@ std::vector<Crossing> crossings_of(const pbs::CuttingPlane& plane, const pbs::Po
     for (Eigen::Index t = 0; t < skin.rows(); ++t)
         for (int corner = 0; corner < 3; ++corner) {
             const int a = skin(t, corner), b = skin(t, (corner + 1) % 3);
-            if (a > b || (height(a) >= 0.0) == (height(b) >= 0.0)) continue;  // the neighbour has it from b to a
+            if (a > b || (height(a) >= 0.0) == (height(b) >= 0.0)) continue;  // the neighbouring triangle has the edge from b to a
             const double share = height(a) / (height(a) - height(b));
             crossings.push_back({positions.row(a) + share * (positions.row(b) - positions.row(a)), chosen[share < 0.5 ? a : b]});
         }
@@ -37,8 +37,8 @@ bool is_on_chosen(const std::vector<Crossing>& crossings, const Vec3& point)
 
 }  // namespace
 
-double share_of_outline(const pbs::Positions& outline, const pbs::CuttingPlane& plane, const pbs::Positions& positions,
-                        const pbs::Triangles& skin, const std::vector<bool>& chosen)
+double share_of_outline(const pbs::Positions& outline, const Plane& plane, const pbs::Positions& positions, const pbs::Triangles& skin,
+                        const std::vector<bool>& chosen)
 {
     const std::vector<Crossing> crossings = crossings_of(plane, positions, skin, chosen);
     double own = 0.0, all = 0.0;
@@ -52,4 +52,4 @@ double share_of_outline(const pbs::Positions& outline, const pbs::CuttingPlane& 
     return all > 0.0 ? own / all : 1.0;
 }
 
-}  // namespace experiments
+}  // namespace analysis
