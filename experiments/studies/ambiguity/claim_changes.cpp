@@ -1,25 +1,40 @@
 #include "experiments/studies/ambiguity/claim_changes.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
-#include <cmath>
+#include <map>
 
 namespace experiments {
-namespace {
 
-using Cells = std::vector<analysis::CsvTable::Cell>;
+const analysis::Columns<ClaimChange> claim_change_columns = {
+    {"body", &ClaimChange::body, "", "name of the body"},
+    {"place", &ClaimChange::place, "", "place of the paper that can be read in two ways"},
+    {"reading_a", &ClaimChange::reading_a, "", "the baseline"},
+    {"reading_b", &ClaimChange::reading_b, "", "the other reading"},
+    {"claim", &ClaimChange::claim, "", "id of the claim"},
+    {"quantity", &ClaimChange::quantity, "", "quantity that the claim is judged by"},
+    {"of", &ClaimChange::of, "", "its case, in words"},
+    {"unit", &ClaimChange::unit, "", "unit of a, b and change"},
+    {"bound", &ClaimChange::bound, "", "the claim's bound"},
+    {"a", &ClaimChange::a, "", "value by reading A"},
+    {"b", &ClaimChange::b, "", "value by reading B"},
+    {"change", &ClaimChange::change, "", "b less a"},
+    {"b_over_a", &ClaimChange::b_over_a, "", "b over a"},
+    {"holds_a", &ClaimChange::holds_a, "", "extent to which a lies within the bound"},
+    {"holds_b", &ClaimChange::holds_b, "", "extent to which b lies within the bound"},
+    {"verdict_flips", &ClaimChange::verdict_flips, "", "yes, no, not touched or no figure"},
+    {"reason", &ClaimChange::reason, "", "why there is no value, or why it is only a limit"}};
+
+namespace {
 
 const JudgedFigure* find(const ReadingFigures& of, const JudgedFigure& wanted)
 {
-    const auto found = std::find_if(of.figures.begin(), of.figures.end(), [&](const JudgedFigure& one) {
+    const auto found = std::ranges::find_if(of.figures, [&](const JudgedFigure& one) {
         return one.claim == wanted.claim && one.quantity == wanted.quantity && one.of == wanted.of;
     });
     return found == of.figures.end() ? nullptr : &*found;
-}
-
-analysis::CsvTable::Cell cell(bool known, double value)
-{
-    if (!known) return std::nullopt;
-    return value;
 }
 
 std::string why(const JudgedFigure* a, const JudgedFigure* b, bool b_broke_down)
@@ -40,67 +55,86 @@ std::string flips(const JudgedFigure* a, const JudgedFigure* b, bool b_broke_dow
     return a->extent == b->extent ? "no" : "yes";
 }
 
-Cells compared(const JudgedFigure* a, const JudgedFigure* b, bool b_broke_down)
+ClaimChange compared(ClaimChange row, const JudgedFigure* a, const JudgedFigure* b, bool b_broke_down)
 {
     const JudgedFigure& one = a ? *a : *b;
-    const double nothing = std::nan(""), value_a = a ? a->value : nothing, value_b = b ? b->value : nothing;
-    return {one.quantity,
-            text_of(one.of),
-            one.unit,
-            one.bound,
-            cell(a, value_a),
-            cell(b, value_b),
-            cell(a && b, value_b - value_a),
-            cell(a && b && value_a != 0.0, value_b / value_a),
-            a ? word_for(a->extent) : "",
-            b ? word_for(b->extent) : "",
-            flips(a, b, b_broke_down),
-            why(a, b, b_broke_down)};
+    row.quantity = one.quantity, row.of = text_of(one.of), row.unit = one.unit, row.bound = one.bound;
+    if (a) row.a = a->value, row.holds_a = word_for(a->extent);
+    if (b) row.b = b->value, row.holds_b = word_for(b->extent);
+    if (a && b) row.change = b->value - a->value;
+    if (a && b && a->value != 0.0) row.b_over_a = b->value / a->value;
+    row.verdict_flips = flips(a, b, b_broke_down);
+    row.reason = why(a, b, b_broke_down);
+    return row;
 }
 
-Cells without_figure(const std::string& flips, const std::string& reason, const std::string& quantity = "")
+ClaimChange without_figure(ClaimChange row, const std::string& verdict_flips, const std::string& reason, const std::string& quantity = "")
 {
-    Cells cells = {quantity, "", "", ""};
-    for (int i = 0; i < 4; ++i) cells.push_back(std::nullopt);
-    cells.insert(cells.end(), {"", "", flips, reason});
-    return cells;
+    row.quantity = quantity, row.verdict_flips = verdict_flips, row.reason = reason;
+    return row;
+}
+
+ClaimChange row_of(const std::string& body, const std::string& claim, const Reading& reading)
+{
+    return {body, reading.place, reading.baseline, reading.name, claim};
 }
 
 }  // namespace
 
-void ClaimChanges::add(const std::string& body, const std::string& claim, const Reading& reading, const ReadingFigures& a,
-                       const ReadingFigures& b)
+std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const ReadingFigures& a,
+                                       const ReadingFigures& b)
 {
-    const auto add_row = [&](const Cells& cells) {
-        Cells row = {body, reading.place, reading.baseline, reading.name, claim};
-        row.insert(row.end(), cells.begin(), cells.end());
-        table_.add_row(row);
-    };
-    bool any = false;
+    const ClaimChange row = row_of(body, claim, reading);
+    std::vector<ClaimChange> changes;
     for (const JudgedFigure& of_a : a.figures)
-        if (of_a.claim == claim) {
-            add_row(compared(&of_a, find(b, of_a), b.broke_down));
-            any = true;
-        }
+        if (of_a.claim == claim) changes.push_back(compared(row, &of_a, find(b, of_a), b.broke_down));
     for (const JudgedFigure& of_b : b.figures)
-        if (of_b.claim == claim && !find(a, of_b)) {
-            add_row(compared(nullptr, &of_b, b.broke_down));
-            any = true;
-        }
+        if (of_b.claim == claim && !find(a, of_b)) changes.push_back(compared(row, nullptr, &of_b, b.broke_down));
     for (const LeftOutQuantity& one : b.left_out)
-        if (one.claim == claim) {
-            add_row(without_figure("no figure", one.reason, one.quantity));
-            any = true;
-        }
-    if (!any) add_row(without_figure("no figure", b.broke_down ? "B breaks down" : "neither reading has a figure"));
+        if (one.claim == claim) changes.push_back(without_figure(row, "no figure", one.reason, one.quantity));
+    if (changes.empty())
+        changes.push_back(without_figure(row, "no figure", b.broke_down ? "B breaks down" : "neither reading has a figure"));
+    return changes;
 }
 
-void ClaimChanges::add_untouched(const std::string& body, const std::string& claim, const Reading& reading, const std::string& reason)
+ClaimChange untouched_claim(const std::string& body, const std::string& claim, const Reading& reading, const std::string& reason)
 {
-    Cells row = {body, reading.place, reading.baseline, reading.name, claim};
-    const Cells cells = without_figure("not touched", reason);
-    row.insert(row.end(), cells.begin(), cells.end());
-    table_.add_row(row);
+    return without_figure(row_of(body, claim, reading), "not touched", reason);
+}
+
+const Reading& ReadingComparison::baseline_of(const Reading& reading) const
+{
+    return *std::ranges::find_if(readings_, [&](const Reading& other) { return other.place.empty() && other.name == reading.baseline; });
+}
+
+void ReadingComparison::measure(const std::vector<std::string>& claims, const Measure& measure)
+{
+    std::vector<Reading> measured;
+    const auto add = [&](const Reading& reading) {
+        if (std::ranges::find(measured, reading.name, &Reading::name) == measured.end()) measured.push_back(reading);
+    };
+    for (const Reading& reading : readings_)
+        for (const std::string& claim : claims) {
+            if (reading.place.empty() || !untouched_because(claim, reading, baseline_of(reading)).empty()) continue;
+            add(baseline_of(reading));
+            add(reading);
+        }
+    const std::vector<ReadingFigures> figures = measure(measured);
+    std::map<std::string, const ReadingFigures*> by_name;
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+        by_name[measured[i].name] = &figures.at(i);
+        if (figures[i].broke_down) breakdown_ += fmt::format("{} ({}). ", measured[i].name, fmt::join(claims, ", "));
+    }
+    for (const Reading& reading : readings_)
+        for (const std::string& claim : claims) {
+            if (reading.place.empty()) continue;
+            const std::string reason = untouched_because(claim, reading, baseline_of(reading));
+            if (reason.empty())
+                std::ranges::copy(claim_changes(body_, claim, reading, *by_name.at(reading.baseline), *by_name.at(reading.name)),
+                                  std::back_inserter(changes_));
+            else
+                changes_.push_back(untouched_claim(body_, claim, reading, reason));
+        }
 }
 
 }  // namespace experiments

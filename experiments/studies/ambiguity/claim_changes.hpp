@@ -1,30 +1,52 @@
-// What each reading does to the judged figure of each claim: A's and B's value, and whether the claim's bound judges them otherwise.
-//   ClaimChanges changes;
-//   changes.add("human", "C09", reading, figures_of_a, figures_of_b);
-//   changes.add_untouched("human", "C10", reading, "another factor is no more work");
-//   changes.table().write("ambiguity.csv");
-// verdict_flips: yes, no, not touched, no figure. A figure that B has none of because the reading broke down does not hold: the verdict
-// flips where A's held. Where A or B has no figure for another reason, nothing is said of a verdict; a quantity that is left out of
-// readings has a row with the reason.
+// What each reading changes in the judged values of each claim: the values of A and B, and whether the claim's bound judges them otherwise.
+//   ReadingComparison comparison("limb", readings);
+//   comparison.measure({"C03", "C12"}, [&](const auto& touching) { return figures_of_starts(of, touching); });
+//   table_of(claim_change_columns, comparison.changes()).write("ambiguity.csv");
 #pragma once
 
-#include "analysis/records/csv_table.hpp"
+#include "analysis/records/typed_table.hpp"
 #include "experiments/studies/ambiguity/judged_figure.hpp"
+
+#include <functional>
+#include <optional>
 
 namespace experiments {
 
-class ClaimChanges {
-public:
-    void add(const std::string& body, const std::string& claim, const Reading& reading, const ReadingFigures& a, const ReadingFigures& b);
-    void add_untouched(const std::string& body, const std::string& claim, const Reading& reading, const std::string& reason);
+// verdict_flips: yes, no, not touched, no figure. A value that B lacks because the reading broke down does not hold, so the verdict flips
+// where A's held. Where A or B has no value for another reason, there is no statement about the verdict. A quantity that is left out of
+// readings has a row with the reason.
+struct ClaimChange {
+    std::string body, place, reading_a, reading_b, claim;
+    std::string quantity = {}, of = {}, unit = {}, bound = {};  // unit: of a, b and change
+    std::optional<double> a = {}, b = {}, change = {}, b_over_a = {};
+    std::string holds_a = {}, holds_b = {};  // whole, in part, nowhere
+    std::string verdict_flips = {}, reason = {};
+};
+extern const analysis::Columns<ClaimChange> claim_change_columns;
 
-    // Columns: body, place, reading_a, reading_b, claim, quantity, of, unit (of a, b and change), bound, a, b, change, b_over_a (1),
-    // holds_a, holds_b (whole, in part, nowhere), verdict_flips, reason. Empty where there is none.
-    const analysis::CsvTable& table() const { return table_; }
+std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const ReadingFigures& a,
+                                       const ReadingFigures& b);
+ClaimChange untouched_claim(const std::string& body, const std::string& claim, const Reading& reading, const std::string& reason);
+
+// Readings and their baselines, claim by claim. Only readings that can touch one of the claims are measured, and their baselines before
+// them.
+class ReadingComparison {
+public:
+    using Measure = std::function<std::vector<ReadingFigures>(const std::vector<Reading>&)>;  // one per reading
+
+    ReadingComparison(const std::string& body, const std::vector<Reading>& readings) : body_(body), readings_(readings) {}
+
+    void measure(const std::vector<std::string>& claims, const Measure& measure);
+
+    const std::vector<ClaimChange>& changes() const { return changes_; }
+    const std::string& breakdown() const { return breakdown_; }  // of readings, if any
 
 private:
-    analysis::CsvTable table_{{"body", "place", "reading_a", "reading_b", "claim", "quantity", "of", "unit", "bound", "a", "b", "change",
-                               "b_over_a", "holds_a", "holds_b", "verdict_flips", "reason"}};
+    const Reading& baseline_of(const Reading& reading) const;
+
+    std::string body_, breakdown_;
+    std::vector<Reading> readings_;
+    std::vector<ClaimChange> changes_;
 };
 
 }  // namespace experiments

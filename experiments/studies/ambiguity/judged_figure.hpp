@@ -1,5 +1,5 @@
-// A figure that a claim is judged by, of a character moved by one reading, and whether it lies in the claim's bound.
-//   const std::vector<JudgedFigure> figures = judged(measurements);   // those of quantities that a claim is judged by
+// A value that a claim is judged by, for a character that is moved by one reading, and whether it lies in the claim's bound.
+//   const std::vector<JudgedFigure> figures = judged(measurements);   // only of quantities that a claim is judged by
 //   const std::vector<JudgedFigure> of_sweep = judged(read_motion);   // C01, C02
 #pragma once
 
@@ -26,17 +26,17 @@ struct LeftOutQuantity {
     std::string claim, quantity, reason;
 };
 
-// What one reading makes of the claims that were looked at.
+// The values of the measured claims by one reading.
 struct ReadingFigures {
     std::vector<JudgedFigure> figures;
-    bool broke_down = false;  // positions ceased to be finite
+    bool broke_down = false;  // some positions are not finite
     std::vector<LeftOutQuantity> left_out = {};
 };
 
 // "nowhere", "in part", "whole".
 const char* word_for(analysis::Extent extent);
 
-// Of the quantities that the claim is judged by.
+// The quantities that the claim is judged by and that are not among those measured.
 std::vector<LeftOutQuantity> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason);
 
 std::vector<JudgedFigure> judged(const std::vector<analysis::Measurement>& measured);
@@ -44,7 +44,7 @@ std::vector<JudgedFigure> judged(const std::vector<analysis::Measurement>& measu
 // C01: the mean of its metrics over the frames; C02: the share of frames within; both judged as analysis::judge_case does.
 std::vector<JudgedFigure> judged(const ReadMotion& moved);
 
-// Of all that decides whether a figure holds: another bound is another digest.
+// A hash of everything that decides whether a value holds: another bound gives another digest.
 std::string digest_of(const std::vector<analysis::Claim>& claims);
 
 }  // namespace experiments

@@ -3,6 +3,7 @@
 #include "experiments/deformers/deformer_spec.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "experiments/settings/option_fields.hpp"
 
 #include <fmt/format.h>
 
@@ -65,19 +66,75 @@ void add_class_orders(Readings& readings)
             readings.add("Algorithm 1, lines 11-13: order of the classes", name, [&](Reading& r) { r.options.class_order = order; });
 }
 
+// Apart from what `take_over` takes from the baseline.
+template <typename TakeOver>
+bool same_apart_from(Reading reading, const Reading& baseline, const TakeOver& take_over)
+{
+    take_over(reading);
+    reading.place = baseline.place;
+    reading.name = baseline.name;
+    reading.baseline = baseline.baseline;
+    return to_json(reading) == to_json(baseline);
+}
+
+std::string of_projections(const Reading& reading, const Reading& baseline)
+{
+    if (has_memory(reading)) return "each projection is taken by itself, from the LBS shape";
+    const bool of_bones = same_apart_from(reading, baseline, [&](Reading& r) {
+        r.bind_point = baseline.bind_point;
+        r.options.bind_on_bone = baseline.options.bind_on_bone;
+        r.options.k_bind = baseline.options.k_bind;
+    });
+    if (of_bones) return "bind is to a bone, which takes momentum: no part of the figure";
+    const bool of_order = same_apart_from(reading, baseline, [&](Reading& r) { r.options.class_order = baseline.options.class_order; });
+    return of_order ? "each class is taken by itself" : "";
+}
+
+std::string of_jolts(const Reading& reading, const Reading& baseline)
+{
+    if (same_apart_from(reading, baseline, [&](Reading& r) { r.options.gravity_m_s2 = baseline.options.gravity_m_s2; }))
+        return "jolted flesh has no weight";
+    const bool of_bones = same_apart_from(reading, baseline, [&](Reading& r) {
+        r.bind_point = baseline.bind_point;
+        r.blended_bones = baseline.blended_bones;
+    });
+    return of_bones ? "a jolt moves all bones alike" : "";
+}
+
+std::string of_frames(const Reading& reading, const Reading& baseline)
+{
+    const bool of_factors = same_apart_from(reading, baseline, [&](Reading& r) {
+        r.options.k_stretch = baseline.options.k_stretch;
+        r.options.k_volume = baseline.options.k_volume;
+        r.options.k_bind = baseline.options.k_bind;
+        r.options.stiffness_form = baseline.options.stiffness_form;
+        r.options.gravity_m_s2 = baseline.options.gravity_m_s2;
+        if (r.options.jiggle && r.options.jiggle->k_bind.value_or(1.0) > 0.0) r.options.jiggle = baseline.options.jiggle;
+    });
+    return of_factors ? "another factor is no more work" : "";
+}
+
 }  // namespace
 
 nlohmann::json to_json(const Reading& reading)
 {
-    const DeformerSpec spec{.name = "", .kind = "pbs", .label = "", .options = reading.options};
-    return {{"place", reading.place},
-            {"name", reading.name},
-            {"baseline", reading.baseline},
-            {"pbs", to_json(spec)},
-            {"bind_point", reading.bind_point == BindPoint::carried ? "carried" : "reprojected"},
-            {"blended_bones", reading.blended_bones == BlendedBones::nearest_end ? "nearest_end" : "either_end"},
-            {"zone_mean", reading.zone_mean == ZoneMean::of_all ? "of_all" : "of_bone"},
-            {"substeps", reading.substeps}};
+    static const auto fields =
+        OptionFields<Reading>("reading")
+            .record("place", &Reading::place)
+            .record("name", &Reading::name)
+            .record("baseline", &Reading::baseline)
+            .derived("pbs",
+                     [](const Reading& of) { return to_json(DeformerSpec{.name = "", .kind = "pbs", .label = "", .options = of.options}); })
+            .record("bind_point", &Reading::bind_point)
+            .record("blended_bones", &Reading::blended_bones)
+            .record("zone_mean", &Reading::zone_mean)
+            .record("substeps", &Reading::substeps);
+    return fields.json(reading);
+}
+
+bool has_memory(const Reading& reading)
+{
+    return reading.options.jiggle || reading.options.lbs_entry == pbs::LbsEntry::increment;
 }
 
 std::vector<Reading> readings_of_a_step(const pbs::PbsOptions& own)
@@ -120,6 +177,20 @@ std::vector<Reading> readings_of_motion(const pbs::PbsOptions& own)
         readings.add("Sec. 4: step and frame", fmt::format("{} substeps", substeps), [&](Reading& r) { r.substeps = substeps; });
     readings.add("unstated: gravity", "none", [](Reading& r) { r.options.gravity_m_s2.setZero(); });
     return readings.all;
+}
+
+std::string untouched_because(const std::string& claim, const Reading& reading, const Reading& baseline)
+{
+    if (same_apart_from(reading, baseline, [](Reading&) {})) return "the scene is so by itself";
+    const bool is_posed = claim == "C03" || claim == "C12" || claim == "C04" || claim == "C05";
+    if (is_posed && reading.options.jiggle) return "measured where nothing jiggles";
+    if (is_posed && reading.substeps > 1) return "nothing remembers the last step";
+    if ((claim == "C03" || claim == "C12") && has_memory(reading)) return "the start is what is compared";
+    if (claim == "C01" && reading.blended_bones == baseline.blended_bones) return "LBS alone is measured";
+    if (claim == "C07") return of_projections(reading, baseline);
+    if (claim == "C09") return of_jolts(reading, baseline);
+    if (claim == "C10") return of_frames(reading, baseline);
+    return "";
 }
 
 }  // namespace experiments

@@ -1,9 +1,10 @@
-// The places where the paper can be read in more than one way, and what it leaves unstated: each reading as options of the same solver and
-// as what surrounds it. Reading A of a place is the baseline that a reading names, B is the reading itself.
+// The places where the paper can be read in more than one way, and what it leaves unstated. Each reading is a set of options of the same
+// solver and of what surrounds it. Reading A of a place is the baseline that a reading names, and B is the reading itself.
 //   for (const Reading& reading : readings_of_a_step(scene_options)) ...
-// Substeps are no reading where nothing jiggles: every step then starts from LBS, and what was before does not count.
+// Substeps are no reading where nothing jiggles: every step then begins with LBS, and the step before has no influence.
 #pragma once
 
+#include "experiments/settings/option_names.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <nlohmann/json.hpp>
@@ -14,8 +15,22 @@
 namespace experiments {
 
 enum class BindPoint { carried, reprojected };  // a material point of the bone; or the LBS position projected on the posed bone, each step
+template <>
+struct OptionNames<BindPoint> {
+    static constexpr std::array<std::pair<BindPoint, const char*>, 2> table{
+        {{BindPoint::carried, "carried"}, {BindPoint::reprojected, "reprojected"}}};
+};
 enum class BlendedBones { nearest_end, either_end };  // Eq. 2's n_joints
-enum class ZoneMean { of_all, of_bone };              // whose mean distance a jiggling vertex exceeds
+template <>
+struct OptionNames<BlendedBones> {
+    static constexpr std::array<std::pair<BlendedBones, const char*>, 2> table{
+        {{BlendedBones::nearest_end, "nearest_end"}, {BlendedBones::either_end, "either_end"}}};
+};
+enum class ZoneMean { of_all, of_bone };  // whose mean distance a jiggling vertex exceeds
+template <>
+struct OptionNames<ZoneMean> {
+    static constexpr std::array<std::pair<ZoneMean, const char*>, 2> table{{{ZoneMean::of_all, "of_all"}, {ZoneMean::of_bone, "of_bone"}}};
+};
 
 struct Reading {
     std::string place;  // of the paper; empty: a baseline
@@ -29,13 +44,17 @@ struct Reading {
 };
 
 nlohmann::json to_json(const Reading& reading);  // whatever its motion depends on
+bool has_memory(const Reading& reading);         // its steps depend on the last one
+
+// Why a reading cannot change a claim, from how the claim's values are measured and not from the results; empty where it can.
+std::string untouched_because(const std::string& claim, const Reading& reading, const Reading& baseline);
 
 inline constexpr const char* own_reading = "as the scene";  // baselines
 inline constexpr const char* jiggling_reading = "jiggling 0.9";
 
-// Of a step by itself, nothing jiggles; the baseline first.
+// Readings of a single step, in which nothing jiggles; the baseline comes first.
 std::vector<Reading> readings_of_a_step(const pbs::PbsOptions& own);
-// Of steps that remember the last one: particles that are integrated; both baselines first.
+// Readings of steps that depend on the last one, since particles are integrated; both baselines come first.
 std::vector<Reading> readings_of_motion(const pbs::PbsOptions& own);
 
 }  // namespace experiments

@@ -1,7 +1,6 @@
 #include "experiments/studies/ambiguity/reading_figures.hpp"
 
 #include "experiments/settings/option_fields.hpp"
-#include "experiments/studies/ambiguity/read_deformer.hpp"
 #include "experiments/process/cpu_clock.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/scene/motion_case.hpp"
@@ -19,7 +18,15 @@
 namespace experiments {
 namespace {
 
-// The body of a case and where it goes.
+template <typename Measure>
+std::vector<ReadingFigures> of_each(const std::vector<Reading>& readings, const Measure& measure)
+{
+    std::vector<ReadingFigures> all;
+    for (const Reading& reading : readings) all.push_back(measure(reading));
+    return all;
+}
+
+// The body of a case and its motion.
 struct MovedBody {
     explicit MovedBody(const ReadingsCase& of)
         : character(pbs::make_character(of.scene.character)), motion(make_motion(of.scene.motion, character.skeleton, of.scene.file))
@@ -59,7 +66,7 @@ ConvergencePaths paths_of(const ReadingsCase& of, const MovedBody& body, const R
 
 bool are_finite(const std::vector<IterationPath>& paths)
 {
-    return std::all_of(paths.begin(), paths.end(), [](const IterationPath& path) { return path.finite; });
+    return std::ranges::all_of(paths, &IterationPath::finite);
 }
 
 Reading jolted(Reading reading, double k_stretch, int iterations)
@@ -73,7 +80,7 @@ Reading jolted(Reading reading, double k_stretch, int iterations)
     return reading;
 }
 
-// The setting as the figures name it: that of the paper, whatever the reading makes of it.
+// named: the setting under which the values are recorded, which is the paper's, whatever the reading makes of it.
 MeasuredJiggle jolt(const MovedBody& body, const std::vector<int>& probe, const ReadingsCase& of, const Reading& reading,
                     const JiggleSetting& named, double k_stretch)
 {
@@ -96,7 +103,7 @@ std::vector<MeasuredJiggle> jolts_of(const ReadingsCase& of, const MovedBody& bo
             jolt(body, probe, of, reading, {table_1_k_stretch, dt_s, 2 * iterations}, k)};
 }
 
-// Of one setting or of two, which few settings give as many do.
+// Quantities that are computed from one setting or two, so that few settings give them as well as many.
 const std::vector<std::string> quantities_of_few_settings = {"damping_ratio", "frequency_ratio_at_half_time_step",
                                                              "frequency_ratio_at_twice_iterations"};
 
@@ -104,16 +111,16 @@ ReadingFigures of_jolts(const std::string& body, const std::vector<MeasuredJiggl
 {
     const std::vector<JiggleSetting> all = jiggle_settings();
     const std::string reason = fmt::format("the bound is for the study's {} settings, a reading is jolted at {}",
-                                           std::count_if(all.begin(), all.end(), is_of_the_paper), measured.size());
+                                           std::ranges::count_if(all, is_of_the_paper), measured.size());
     ReadingFigures read = {judged(jiggle_figures(body, measured)), false, all_but("C09", quantities_of_few_settings, reason)};
     std::erase_if(read.figures, [&](const JudgedFigure& figure) {
-        return std::any_of(read.left_out.begin(), read.left_out.end(), [&](const auto& one) { return one.quantity == figure.quantity; });
+        return std::ranges::find(read.left_out, figure.quantity, &LeftOutQuantity::quantity) != read.left_out.end();
     });
-    read.broke_down = std::any_of(measured.begin(), measured.end(), [](const MeasuredJiggle& one) { return !one.response.finished; });
+    read.broke_down = !std::ranges::all_of(measured, [](const MeasuredJiggle& one) { return one.response.finished; });
     return read;
 }
 
-// One reading's way through the motion, a frame a turn.
+// One reading's way through the motion, one frame per turn.
 class TimedReading {
 public:
     TimedReading(const MovedBody& body, Reading reading, double dt_s)
@@ -171,24 +178,22 @@ JudgedFigure of_frame(const std::string& body, int vertices, double ms)
 std::vector<ReadingFigures> figures_of_starts(const ReadingsCase& of, const std::vector<Reading>& readings)
 {
     const MovedBody body(of);
-    std::vector<ReadingFigures> all;
-    for (const Reading& reading : readings) {
+    return of_each(readings, [&](const Reading& reading) {
         ConvergenceResult result;
         result.all.push_back(paths_of(of, body, reading));
-        result.all.front().k_stretch = readings.front().options.k_stretch;  // a name for the case, the same for all readings
-        all.push_back({judged(convergence_figures(result)), !are_finite(result.all.front().paths)});
-        if (!result.all.front().character) all.back().left_out = all_but("C12", {}, "judged on characters alone");
-    }
-    return all;
+        result.all.front().k_stretch = readings.front().options.k_stretch;  // names the case, alike for all readings
+        ReadingFigures read = {judged(convergence_figures(result)), !are_finite(result.all.front().paths)};
+        if (!result.all.front().character) read.left_out = all_but("C12", {}, "judged on characters alone");
+        return read;
+    });
 }
 
 std::vector<ReadingFigures> figures_of_projections(const ReadingsCase& of, const std::vector<Reading>& readings)
 {
     const MovedBody body(of);
-    std::vector<ReadingFigures> all;
-    for (const Reading& reading : readings) {
+    return of_each(readings, [&](const Reading& reading) {
         const pbs::Character character = body.read(reading);
-        const pbs::PbsOptions& options = reading.options;
+        const pbs::Pose& pose = body.pose_at(of.frame);
         std::vector<analysis::Measurement> figures;
         const auto add = [&](const char* which, const std::string& name, double drift) {
             analysis::CaseKey key = of.key;
@@ -198,25 +203,22 @@ std::vector<ReadingFigures> figures_of_projections(const ReadingsCase& of, const
         };
         for (const auto& [projected, which] :
              {std::pair{ProjectedClass::stretch, "stretch"}, std::pair{ProjectedClass::volume, "volume"}}) {
-            const MomentumDrift single = drift_of_projections(character, body.pose_at(of.frame), options, projected, options.masses);
-            const MomentumDrift pass = drift_of_a_pass(character, body.pose_at(of.frame), options, projected, options.masses);
+            const MomentumDrift single = drift_of_projections(character, pose, reading.options, projected, reading.options.masses);
+            const MomentumDrift pass = drift_of_a_pass(character, pose, reading.options, projected, reading.options.masses);
             add(which, "linear_drift", single.linear);
             add(which, "angular_drift", single.angular);
             add(which, "linear_drift_of_a_pass", pass.linear);
             add(which, "angular_drift_of_a_pass", pass.angular);
         }
-        all.push_back({judged(figures), false});
-    }
-    return all;
+        return ReadingFigures{judged(figures), false};
+    });
 }
 
 std::vector<ReadingFigures> figures_of_jolts(const ReadingsCase& of, const std::vector<Reading>& readings)
 {
     const MovedBody body(of);
     const std::vector<int> probe = zone_contents(body.character).pieces.at(0);
-    std::vector<ReadingFigures> all;
-    for (const Reading& reading : readings) all.push_back(of_jolts(of.scene.character.body, jolts_of(of, body, probe, reading)));
-    return all;
+    return of_each(readings, [&](const Reading& reading) { return of_jolts(of.scene.character.body, jolts_of(of, body, probe, reading)); });
 }
 
 std::vector<ReadingFigures> figures_of_frames(const ReadingsCase& of, const std::vector<Reading>& readings)

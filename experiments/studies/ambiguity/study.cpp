@@ -1,92 +1,31 @@
-// The readings of the paper (ambiguity/reading.hpp): how much each changes the figures that claims are judged by, and whether it turns a
-// verdict round. A reading is as the scene has it but for one place; every figure is measured by its claim's own study's functions, but
-// for C10, a frame's processor time, where the study takes wall time, and C09, without what the study makes of all its settings at once.
+// The readings of the paper (ambiguity/reading.hpp): how much each changes the values that claims are judged by, and whether it turns a
+// verdict round. A reading differs from the scene in one place. Every value is measured by the functions of its claim's own study, with two
+// exceptions: C10 takes a frame's processor time, where its study takes wall time, and C09 lacks what its study computes from all settings.
 //
 //   limb_twist, limb_bend       C01, C02: the scenes' sweeps, each step by itself
-//   human                       C01, C02: the clip 01_01, five frames a second, each step by itself
+//   human                       C01, C02: the clip 01_01, five frames per second, each step by itself
 //   human_moving                C01, C02: what remembers the last step, every step of six seconds of the clip (--full: of all of it)
 //   BODY_joint_twist, _bend     C04, C05: sections of the limb's joint, of the human's elbow
-//   BODY_starts                 C03: iterations from four starts, of the limb bent by 90 degrees, of the human's crouch; there C12, too
-//   BODY_step                   C07, C09, C10: momentum of projections there, a jolt, the time of a frame by turns (the human's: --full)
+//   BODY_starts                 C03, C12: iterations from four initial guesses, on the limb bent by 90 degrees and in the human's crouch
+//   BODY_step                   C07, C09, C10: momentum of projections there, a jolt, and the time per frame in turns (the human's: --full)
 //
-// Writes DIR/ambiguity/RUN/ambiguity.csv, of the first four also figures.csv (volume, jiggling, distance), and of all of them
-// ambiguity.csv, ambiguity.txt (the table that is printed), figures.csv and figures.md.
-#include "analysis/records/atomic_file.hpp"
-#include "experiments/studies/ambiguity/ambiguity_table.hpp"
-#include "experiments/studies/ambiguity/claim_changes_text.hpp"
-#include "experiments/studies/ambiguity/reading_comparison.hpp"
+// Writes DIR/ambiguity/RUN/ambiguity.csv and, for the first four, figures.csv (volume, jiggling, distance); and ambiguity.csv,
+// ambiguity.txt (the table that is printed), figures.csv and figures.md for all of them.
+#include "analysis/records/folder_files.hpp"
+#include "experiments/settings/option_fields.hpp"
+#include "experiments/studies/ambiguity/ambiguity_report.hpp"
 #include "experiments/studies/ambiguity/reading_figures.hpp"
-#include "experiments/studies/ambiguity/untouched.hpp"
 #include "experiments/studies/artefacts/artefact_figures.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "analysis/records/folder_files.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <map>
 
 namespace experiments {
 namespace {
-
-namespace fs = std::filesystem;
-
-struct Baseline {
-    Reading reading;
-    ReadMotion moved;
-};
-
-// C01, C02.
-void compare_volume(ClaimChanges& changes, const std::string& body, const Reading& reading, const Baseline& a, const ReadMotion& b)
-{
-    for (const char* claim : {"C01", "C02"})
-        if (const std::string reason = untouched_because(claim, reading, a.reading); !reason.empty())
-            changes.add_untouched(body, claim, reading, reason);
-        else
-            changes.add(body, claim, reading, {judged(a.moved), !a.moved.finite}, {judged(b), !b.finite});
-}
-
-std::string read_and_record(const std::string& body, const Scene& scene, const std::vector<Reading>& readings, const std::string& folder)
-{
-    const pbs::Character character = pbs::make_character(scene.character);
-    const std::vector<bool> zone = pbs::jiggle_zone(character.binding);
-    std::map<std::string, Baseline> baselines;
-    AmbiguityTable table;
-    ClaimChanges changes;
-    std::string breakdown;
-    for (const Reading& reading : readings) {
-        if (reading.options.jiggle && scene.motion.clip.empty()) {
-            if (reading.place.empty()) continue;
-            for (const char* claim : {"C01", "C02"}) changes.add_untouched(body, claim, reading, "a sweep has no speed of its own");
-            continue;
-        }
-        ReadMotion moved = move(character, scene, reading);
-        if (!moved.finite) breakdown += reading.name + " is not finite. ";
-        if (reading.place.empty()) {
-            baselines.emplace(reading.name, Baseline{reading, std::move(moved)});
-            continue;
-        }
-        const Baseline& baseline = baselines.at(reading.baseline);
-        table.add(scene, reading, baseline.moved, moved, baselines.at(own_reading).moved, zone);
-        compare_volume(changes, body, reading, baseline, moved);
-    }
-    table.table().write(analysis::path_in(folder, "figures.csv"));
-    changes.table().write(analysis::path_in(folder, "ambiguity.csv"));
-    return breakdown;
-}
-
-nlohmann::json settings_of(const Scene& scene, const std::vector<Reading>& readings, const std::vector<std::string>& claims)
-{
-    nlohmann::json settings;
-    for (const Reading& reading : readings) settings.push_back(to_json(reading));
-    std::vector<analysis::Claim> judging;
-    for (const std::string& claim : claims) judging.push_back(claim_named(claim));
-    return {{"scene", resolved_with_deformers(scene)}, {"readings", settings}, {"claims", claims}, {"bounds", digest_of(judging)}};
-}
 
 std::vector<Reading> all_readings(const Scene& scene)
 {
@@ -97,65 +36,62 @@ std::vector<Reading> all_readings(const Scene& scene)
     return readings;
 }
 
+// What a run depends on besides its case: it repeats when a reading or a bound of its claims changes.
+nlohmann::json judging(const std::vector<Reading>& readings, const std::vector<std::string>& claims)
+{
+    std::vector<analysis::Claim> judging;
+    for (const std::string& claim : claims) judging.push_back(claim_named(claim));
+    return {{"readings", option_json(readings)}, {"claims", claims}, {"bounds", digest_of(judging)}};
+}
+
 StudyRun volume_run(const std::string& name, const std::string& body, Scene scene, const std::vector<Reading>& readings, double cost_s)
 {
     scene.name = name;
-    return {.name = name,
-            .cost_s = cost_s,
-            .work = [=](const std::string& folder) { return read_and_record(body, scene, readings, folder); },
-            .settings = settings_of(scene, readings, {"C01", "C02"})};
+    StudyRun run = work_run<VolumeReadings>(name, {body, scene, readings}, cost_s, record_volume);
+    run.settings.update(judging(readings, {"C01", "C02"}));
+    return run;
 }
 
-// A run of claims measured otherwise than by volume.
-StudyRun claims_run(const std::string& name, const Scene& scene, const std::vector<std::string>& claims, const nlohmann::json& settings,
-                    double cost_s, const std::function<void(ReadingComparison&)>& measure)
+// Claims that are measured together, and the function that measures them.
+template <typename Case>
+struct MeasuredClaims {
+    std::vector<std::string> claims;
+    std::vector<ReadingFigures> (*figures)(const Case& of, const std::vector<Reading>& readings);
+};
+
+// A run of claims that are not measured by volume.
+template <typename Case>
+StudyRun claims_run(const std::string& name, const Case& of, double cost_s, const std::vector<MeasuredClaims<Case>>& parts)
 {
-    const std::vector<Reading> readings = all_readings(scene);
-    nlohmann::json all = settings_of(scene, readings, claims);
-    all.update(settings);
-    const auto work = [=, body = scene.character.body](const std::string& folder) {
-        ReadingComparison comparison(body, readings);
-        measure(comparison);
-        comparison.changes().write(analysis::path_in(folder, "ambiguity.csv"));
+    std::vector<std::string> claims;
+    for (const auto& part : parts) claims.insert(claims.end(), part.claims.begin(), part.claims.end());
+    StudyRun run{.name = name, .cost_s = cost_s};
+    run.settings = to_json(of);
+    run.settings.update(judging(all_readings(of.scene), claims));
+    run.work = [of, parts](const std::string& folder) {
+        ReadingComparison comparison(of.scene.character.body, all_readings(of.scene));
+        for (const auto& [together, figures] : parts)
+            comparison.measure(together, [&](const std::vector<Reading>& readings) { return figures(of, readings); });
+        table_of(claim_change_columns, comparison.changes()).write(analysis::path_in(folder, "ambiguity.csv"));
         return comparison.breakdown();
     };
-    return {.name = name, .cost_s = cost_s, .work = work, .settings = all};
+    return run;
 }
 
-StudyRun sections_run(const std::string& name, const ArtefactCase& of, double cost_s)
-{
-    const std::string claim = of.claim == ArtefactCase::Claim::bulge ? "C05" : "C04";
-    return claims_run(name, of.scene, {claim}, to_json(of), cost_s, [=](ReadingComparison& comparison) {
-        comparison.measure({claim}, [&](const auto& readings) { return figures_of_sections(of, readings); });
-    });
-}
-
-StudyRun starts_run(const std::string& body, const ReadingsCase& of, double cost_s)
-{
-    const std::vector<std::string> claims = {"C03", "C12"};
-    return claims_run(body + "_starts", of.scene, claims, to_json(of), cost_s, [=](ReadingComparison& comparison) {
-        comparison.measure(claims, [&](const auto& readings) { return figures_of_starts(of, readings); });
-    });
-}
-
-StudyRun step_run(const std::string& body, const ReadingsCase& of, double cost_s)
-{
-    return claims_run(body + "_step", of.scene, {"C07", "C09", "C10"}, to_json(of), cost_s, [=](ReadingComparison& comparison) {
-        comparison.measure({"C07"}, [&](const auto& readings) { return figures_of_projections(of, readings); });
-        comparison.measure({"C09"}, [&](const auto& readings) { return figures_of_jolts(of, readings); });
-        comparison.measure({"C10"}, [&](const auto& readings) { return figures_of_frames(of, readings); });
-    });
-}
+const std::vector<MeasuredClaims<ArtefactCase>> twisted = {{{"C04"}, figures_of_sections}}, bent = {{{"C05"}, figures_of_sections}};
+const std::vector<MeasuredClaims<ReadingsCase>> starts = {{{"C03", "C12"}, figures_of_starts}}, step = {{{"C07"}, figures_of_projections},
+                                                                                                        {{"C09"}, figures_of_jolts},
+                                                                                                        {{"C10"}, figures_of_frames}};
 
 LimbJoint joint_of(const pbs::Character& character, const std::string& name)
 {
     const std::vector<LimbJoint> joints = limb_joints(character);
-    const auto found = std::find_if(joints.begin(), joints.end(), [&](const LimbJoint& joint) { return joint.name == name; });
+    const auto found = std::ranges::find(joints, name, &LimbJoint::name);
     if (found == joints.end()) throw pbs::InputError(character.name, 0, "joint", name, "expected it among the body's joints");
     return *found;
 }
 
-// A joint turned by 5 degrees a frame, looked at every `look_deg`.
+// A joint that turns by 5 degrees per frame, with a pose every `look_deg`.
 ArtefactCase turned(const std::string& body, const std::string& joint, const std::string& what, int look_deg, int looks)
 {
     constexpr int frame_deg = 5;
@@ -176,47 +112,47 @@ ArtefactCase turned(const std::string& body, const std::string& joint, const std
     return of;
 }
 
+void set_effort(ReadingsCase& of, bool full)
+{
+    of.most_iterations = full ? 1000 : 400;
+    of.jolt_steps = full ? 150 : 60;
+    of.timing_s = full ? 6.0 : 1.0;
+}
+
 void plan_limb(bool full, StudyPlan& plan)
 {
     const Scene twist = read_scene("limb_twist", {}), bend = read_scene("limb_bend", {});
     plan.runs.push_back(volume_run("limb_twist", "limb", twist, all_readings(twist), 1.0));
     plan.runs.push_back(volume_run("limb_bend", "limb", bend, all_readings(bend), 0.9));
     const std::string joint = "upper|forearm";
-    plan.runs.push_back(sections_run("limb_joint_twist", turned("limb", joint, "twist", 30, 6), 1.4));
-    plan.runs.push_back(sections_run("limb_joint_bend", turned("limb", joint, "bend", 30, 3), 3.5));
-    const ReadingsCase of = {.scene = bend,
-                             .frame = 18,
-                             .pose = "bend 90",
-                             .key = {.motion = "bend", .angle_deg = 90.0},
-                             .jolt_direction = pbs::Vec3::UnitX(),
-                             .most_iterations = full ? 1000 : 400,
-                             .jolt_steps = full ? 150 : 60,
-                             .timing_s = full ? 6.0 : 1.0};
-    plan.runs.push_back(starts_run("limb", of, full ? 5.0 : 2.7));
-    plan.runs.push_back(step_run("limb", of, full ? 24.0 : 10.0));
+    plan.runs.push_back(claims_run("limb_joint_twist", turned("limb", joint, "twist", 30, 6), 1.4, twisted));
+    plan.runs.push_back(claims_run("limb_joint_bend", turned("limb", joint, "bend", 30, 3), 3.5, bent));
+    ReadingsCase of = {
+        .scene = bend, .frame = 18, .pose = "bend 90", .key = {.motion = "bend", .angle_deg = 90.0}, .jolt_direction = pbs::Vec3::UnitX()};
+    set_effort(of, full);
+    plan.runs.push_back(claims_run("limb_starts", of, full ? 5.0 : 2.7, starts));
+    plan.runs.push_back(claims_run("limb_step", of, full ? 24.0 : 10.0, step));
 }
 
 void plan_human(bool full, StudyPlan& plan)
 {
-    const std::vector<std::string> five_a_second = {"motion.rate_hz=5.0", "output.frames=[]", "output.frame_names=[]"};
-    std::vector<std::string> moving = five_a_second;
+    const std::vector<std::string> five_per_second = {"motion.rate_hz=5.0", "output.frames=[]", "output.frame_names=[]"};
+    std::vector<std::string> moving = five_per_second;
     if (!full) moving.insert(moving.end(), {"motion.start_s=1.0", "motion.duration_s=6.0"});
-    const Scene each = read_scene("human_01_01", five_a_second), every = read_scene("human_01_01", moving);
+    const Scene each = read_scene("human_01_01", five_per_second), every = read_scene("human_01_01", moving);
     plan.runs.push_back(volume_run("human", "human", each, readings_of_a_step(options_of<pbs::PbsOptions>(spec_of(each, "pbs"))), 4.5));
     plan.runs.push_back(volume_run("human_moving", "human", every, readings_of_motion(options_of<pbs::PbsOptions>(spec_of(every, "pbs"))),
                                    full ? 31.0 : 10.0));
     const std::string elbow = "upper_arm.L|forearm_upper.L";
-    plan.runs.push_back(sections_run("human_joint_twist", turned("human", elbow, "twist", 45, 2), 1.1));
-    plan.runs.push_back(sections_run("human_joint_bend", turned("human", elbow, "bend", 45, 2), 2.0));
-    const ReadingsCase of = {.scene = read_scene("human_01_01", {"output.frames=[]", "output.frame_names=[]"}),
-                             .frame = 164,
-                             .pose = "01_01 crouch",
-                             .key = {.motion = "01_01", .pose = "crouch"},
-                             .most_iterations = full ? 1000 : 400,
-                             .jolt_steps = full ? 150 : 60,
-                             .timing_s = full ? 6.0 : 1.0};
-    plan.runs.push_back(starts_run("human", of, full ? 8.0 : 5.0));
-    if (full) plan.runs.push_back(step_run("human", of, 26.0));
+    plan.runs.push_back(claims_run("human_joint_twist", turned("human", elbow, "twist", 45, 2), 1.1, twisted));
+    plan.runs.push_back(claims_run("human_joint_bend", turned("human", elbow, "bend", 45, 2), 2.0, bent));
+    ReadingsCase of = {.scene = read_scene("human_01_01", {"output.frames=[]", "output.frame_names=[]"}),
+                       .frame = 164,
+                       .pose = "01_01 crouch",
+                       .key = {.motion = "01_01", .pose = "crouch"}};
+    set_effort(of, full);
+    plan.runs.push_back(claims_run("human_starts", of, full ? 8.0 : 5.0, starts));
+    if (full) plan.runs.push_back(claims_run("human_step", of, 26.0, step));
 }
 
 StudyPlan plan(bool full)
@@ -233,12 +169,13 @@ StudyPlan plan(bool full)
 
 StudyConclusion conclude(const FinishedRuns& finished)
 {
-    const analysis::CsvTable changes = finished.gathered("ambiguity.csv"), figures = finished.gathered("figures.csv");
-    finished.write("ambiguity.csv", changes);
-    finished.write("figures.csv", figures);
-    const std::string text = changes.rows() == 0 ? "" : claim_changes_text(changes);
+    const auto changes = finished.rows(claim_change_columns, "ambiguity.csv");
+    const auto volumes = finished.rows(volume_change_columns, "figures.csv");
+    finished.write("ambiguity.csv", claim_change_columns, changes);
+    finished.write("figures.csv", volume_change_columns, volumes);
+    const std::string text = changes.empty() ? "" : claim_changes_text(changes);
     finished.write("ambiguity.txt", text);
-    finished.write("figures.md", figures.rows() == 0 ? "" : ambiguity_markdown({figures}));
+    finished.write("figures.md", volumes.empty() ? "" : volume_markdown(volumes));
     return {text, !finished.none()};
 }
 

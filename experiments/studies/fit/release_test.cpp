@@ -57,19 +57,6 @@ std::vector<double> extremes(const std::vector<double>& signal, const std::vecto
 
 }  // namespace
 
-const char* name_of(SwingOutcome outcome)
-{
-    switch (outcome) {
-        case SwingOutcome::finished:
-            return "finished";
-        case SwingOutcome::no_crossing:
-            return "no_crossing";
-        case SwingOutcome::not_finite:
-            return "not_finite";
-    }
-    return "";
-}
-
 ReleaseTest measure_swing(const std::vector<double>& signal, double dt_s)
 {
     ReleaseTest test;
@@ -86,7 +73,7 @@ ReleaseTest measure_swing(const std::vector<double>& signal, double dt_s)
     test.half_periods = static_cast<int>(crossings.size()) - 1;
     test.frequency_hz = test.half_periods / (2.0 * (crossings.back() - crossings.front()) * dt_s);
     const std::vector<double> peaks = extremes(signal, crossings);
-    const double decrement = std::log(peaks.front() / peaks.back()) / static_cast<double>(peaks.size() - 1);  // a half period
+    const double decrement = std::log(peaks.front() / peaks.back()) / static_cast<double>(peaks.size() - 1);  // per half period
     test.damping_ratio = decrement / std::hypot(std::numbers::pi, decrement);
     test.undamped_hz = test.frequency_hz / std::sqrt(1.0 - test.damping_ratio * test.damping_ratio);
     return test;

@@ -1,8 +1,9 @@
-// A body let go from a displaced shape: the first frequency and its damping, from what the solver does in time (Algorithm 1 as it is).
+// A body that is let go from a displaced shape: its first frequency and damping, from the solver in time (Algorithm 1 as it is).
 //   const ReleaseTest test = release({mesh, held, options, shape, tip}, 0.01);
 //   test.frequency_hz, test.damping_ratio
 #pragma once
 
+#include "analysis/records/typed_table.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/options.hpp"
 
@@ -14,13 +15,12 @@ struct ReleasedBody {
     pbs::TetMesh mesh;
     std::vector<bool> held;  // #V
     pbs::PbsOptions options;
-    pbs::Positions displacement;  // at the start [m], #V x 3; held vertices stay at rest
-    pbs::Vec3 direction;          // unit; what swings is the mean displacement along it
+    pbs::Positions displacement;  // initial [m], #V x 3; held vertices stay at rest
+    pbs::Vec3 direction;          // unit; the mean displacement along it is what swings
     std::vector<int> tip;         // of these vertices
 };
 
-enum class SwingOutcome { finished, no_crossing, not_finite };  // no_crossing: damped away, or slower than was watched
-const char* name_of(SwingOutcome outcome);
+enum class SwingOutcome { finished, no_crossing, not_finite };  // no_crossing: damped away, or slower than the time that was watched
 
 struct ReleaseTest {
     SwingOutcome outcome = SwingOutcome::finished;
@@ -38,3 +38,11 @@ ReleaseTest measure_swing(const std::vector<double>& signal, double dt_s);
 ReleaseTest release(const ReleasedBody& body, double dt_s, int half_periods = 4, int most_steps = 4000);
 
 }  // namespace experiments
+
+template <>
+struct analysis::EnumNames<experiments::SwingOutcome> {
+    static constexpr std::array<std::pair<experiments::SwingOutcome, const char*>, 3> table{
+        {{experiments::SwingOutcome::finished, "finished"},
+         {experiments::SwingOutcome::no_crossing, "no_crossing"},
+         {experiments::SwingOutcome::not_finite, "not_finite"}}};
+};

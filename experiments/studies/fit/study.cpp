@@ -1,272 +1,219 @@
-// The fit (claim C11): which elastic body the paper's constraints are, so that k has a unit and comparisons are fair.
+// The fit: which elastic body the paper's constraints are, so that k has a unit and comparisons are fair.
 //
-//   sag_N      ###=========      a bar of N vertices held at one end, settled under gravity: Young's modulus against k_stretch,
-//              ###      \  g     k_volume and iterations. It goes with density / (time step)^2, exactly
-//   swing_N    ###=========~~    the same bar let go: Young's modulus again, by the first frequency, in time
-//   poisson_*  o====o~~~~o       the limb twisted and bent by 30, 60, 90 deg: Poisson's ratio (Young's modulus cancels there) of the
-//                                finite elements nearest to the constraints, after 24 iterations and converged
-#include "analysis/records/atomic_file.hpp"
-#include "experiments/studies/fit/converged_pbs.hpp"
-#include "experiments/studies/fit/fit_records.hpp"
-#include "experiments/studies/fit/fit_report.hpp"
-#include "experiments/deformers/fem/fem_option_names.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+//   sag_N      ###=========      A bar of N vertices that is held at one end settles under gravity: Young's modulus against k_stretch,
+//              ###      \  g     k_volume and iterations. The modulus scales with density / (time step)^2, exactly.
+//   swing_N    ###=========~~    The same bar is let go: Young's modulus again, by the first frequency, in time.
+//   poisson_*  o====o~~~~o       The limb is twisted and bent by 30, 60, 90 deg: Poisson's ratio of the finite elements nearest to the
+//                                constraints, after 24 iterations and converged. Young's modulus cancels.
+//
+// Writes DIR/fit/{sag,swing,poisson,poisson_poses,valley}.csv, fit.json and fit.md.
+#include "analysis/line_fit.hpp"
+#include "analysis/records/report_table.hpp"
+#include "experiments/studies/fit/poisson_run.hpp"
 #include "experiments/studies/study.hpp"
-#include "pbs/character/bodies.hpp"
-#include "pbs/skinning/pose.hpp"
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <numbers>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
 
 namespace experiments {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr double time_step_s = 0.01, density_kg_m3 = 1000.0, elastic_poisson = 0.45;
-
-FemOptions elastic_options()
-{
-    FemOptions options;
-    options.young_pa = 1.0;
-    options.poisson = elastic_poisson;
-    options.density_kg_m3 = density_kg_m3;
-    return options;  // linear, P2
-}
-
-struct Rig {
-    Cantilever cantilever;
-    ElasticSag elastic;  // of 1 Pa under 1 m/s^2
-};
-
-Rig make_rig(int vertices)
-{
-    Cantilever cantilever = make_cantilever(pbs::make_character({.body = "bar", .vertices = vertices}).mesh);
-    ElasticSag elastic = elastic_sag(cantilever, elastic_options());
-    return {std::move(cantilever), std::move(elastic)};
-}
-
-FitSetting setting_of(const Rig& rig, double k_stretch, double k_volume, int iterations, double dt_s)
-{
-    FitSetting setting{
-        static_cast<int>(rig.cantilever.body.mesh.rest.rows()), rig.cantilever.mean_edge_m, {}, dt_s, density_kg_m3, elastic_poisson};
-    setting.pbs.k_stretch = k_stretch;
-    setting.pbs.k_volume = k_volume;
-    setting.pbs.k_bind = 0.0;
-    setting.pbs.iterations = iterations;
-    setting.pbs.masses = pbs::Masses::lumped;
-    return setting;
-}
-
-struct Settled {
-    RestingState state;
-    YoungFit fit;
-    pbs::Positions displacement;  // [m] under 1 m/s^2
-};
-
-Settled settle_and_fit(const Rig& rig, const FitSetting& setting)
-{
-    Settled settled{settle(rig.cantilever.body.mesh, rig.cantilever.body.held, setting.pbs, -pbs::Vec3::UnitZ()), {}, {}};
-    settled.displacement = setting.time_step_s * setting.time_step_s * settled.state.displacement;
-    settled.fit = fit_young(rig.cantilever, rig.elastic, settled.displacement, 1.0);
-    return settled;
-}
-
-std::string record_sags(const std::string& folder, int vertices, const std::vector<int>& iterations)
-{
-    const Rig rig = make_rig(vertices);
-    analysis::CsvTable table = sag_table();
-    for (const double k_stretch : {0.02, 0.05, 0.1, 0.2, 0.5, 0.9, 1.0})
-        for (const double k_volume : {0.0, 1.0})
-            for (const int n : iterations) {
-                const FitSetting setting = setting_of(rig, k_stretch, k_volume, n, time_step_s);
-                const Settled settled = settle_and_fit(rig, setting);
-                add_sag(table, setting, settled.state, mean_sag_m(rig.cantilever, settled.state.displacement), settled.fit);
-            }
-    table.write((fs::path(folder) / "sag.csv").string());
-    return "";
-}
-
-// By Rayleigh's quotient of its own sag, which for a slender cantilever is (12.462 / 12.362)^(1/2) times the first frequency.
-double first_frequency_hz(const Rig& rig)
-{
-    constexpr double quotient = (576.0 / 20.0) * (45.0 / 104.0), first = 12.362363368;  // EI / (density A L^4), both squared
-    const pbs::Positions& sag = rig.elastic.displacement;
-    const double omega_2 = -rig.cantilever.body.mass_kg.dot(sag.col(2)) / rig.cantilever.body.mass_kg.dot(sag.rowwise().squaredNorm());
-    return std::sqrt(omega_2 * first / quotient) / (2.0 * std::numbers::pi);
-}
-
-std::string record_swings(const std::string& folder, int vertices)
-{
-    const Rig rig = make_rig(vertices);
-    const double elastic_hz = first_frequency_hz(rig);
-    analysis::CsvTable table = swing_table();
-    for (const double k_stretch : {0.05, 0.2, 0.9})
-        for (const int n : {24, 96})
-            for (const double dt_s : {time_step_s, time_step_s / 2.0}) {
-                const FitSetting setting = setting_of(rig, k_stretch, 1.0, n, dt_s);
-                const Settled settled = settle_and_fit(rig, setting);
-                const double one_per_mille = 2e-3 / mean_sag_m(rig.cantilever, settled.displacement);  // of the bar's 2 m, at the tip
-                SwingYoung swing;
-                swing.test = release({rig.cantilever.body.mesh, rig.cantilever.body.held, setting.pbs, one_per_mille * settled.displacement,
-                                      -pbs::Vec3::UnitZ(), rig.cantilever.tip},
-                                     dt_s);
-                swing.elastic_hz = elastic_hz;
-                swing.young_pa = std::pow(swing.test.undamped_hz / elastic_hz, 2);
-                swing.young_sag_pa = settled.fit.young_pa.estimate;
-                swing.expected_ratio = frequency_over_sag(2.0 * std::numbers::pi * elastic_hz * std::sqrt(swing.young_sag_pa) * dt_s);
-                add_swing(table, setting, swing);
-            }
-    table.write((fs::path(folder) / "swing.csv").string());
-    return "";
-}
-
-std::vector<NamedPose> sweep_poses(const pbs::Skeleton& skeleton, const std::string& name, const pbs::Vec3& axis,
-                                   const std::vector<double>& angles_deg)
-{
-    std::vector<NamedPose> poses;
-    for (const double angle_deg : angles_deg)
-        poses.push_back({fmt::format("{} {:g}", name, angle_deg),
-                         pbs::joint_sweep(skeleton, pbs::find_bone(skeleton, "forearm"), axis, angle_deg, 2, time_step_s).steps.back()});
-    return poses;
-}
-
-// Several elastic bodies in the same poses, beside the same PBS.
-struct PoissonRun {
-    std::string name;
-    std::vector<FemOptions> elastic;
-    int vertices = 0, ratios = 0, most_iterations = 0;
-    std::vector<double> angles_deg;
-};
-
-struct PosedPbs {
-    double k_stretch = 0.0;
-    bool until_converged = false;
-    int iterations = 0, converged_poses = 0;
-    std::vector<pbs::Positions> positions;  // one a pose
-};
-
-PosedPbs posed_pbs(const pbs::Character& character, const std::vector<std::vector<NamedPose>>& paths, double k_stretch,
-                   bool until_converged, int most_iterations)
-{
-    pbs::PbsOptions options;
-    options.k_stretch = k_stretch;
-    options.precision = pbs::Precision::f64;
-    PosedPbs posed{k_stretch, until_converged, options.iterations, 0, {}};
-    for (const auto& path : paths)
-        for (const NamedPose& pose : path) {
-            if (!until_converged) {
-                posed.positions.push_back(after_iterations(character, pose.pose, options));
-                continue;
-            }
-            ConvergedPbs limit = converge(character, pose.pose, options, most_iterations);
-            posed.iterations = std::max(posed.iterations, limit.iterations);
-            posed.converged_poses += limit.converged;
-            posed.positions.push_back(std::move(limit.positions));
-        }
-    return posed;
-}
-
-std::string record_poisson(const std::string& folder, const PoissonRun& run)
-{
-    const pbs::Character limb = pbs::make_character({.body = "limb", .vertices = run.vertices});
-    const std::vector<std::vector<NamedPose>> paths = {sweep_poses(limb.skeleton, "twist", pbs::Vec3::UnitX(), run.angles_deg),
-                                                       sweep_poses(limb.skeleton, "bend", pbs::Vec3::UnitZ(), run.angles_deg)};
-    std::vector<PosedPbs> bodies;
-    for (const double k_stretch : {0.05, 0.2, 0.9})
-        for (const bool until_converged : {false, true})
-            bodies.push_back(posed_pbs(limb, paths, k_stretch, until_converged, run.most_iterations));
-
-    analysis::CsvTable fits = poisson_table(), poses = poisson_poses_table(), valleys = valley_table();
-    nlohmann::json elastic_json;
-    for (const FemOptions& options : run.elastic) {
-        const ElasticPoses elastic(limb, paths, options, run.ratios);
-        const std::string name = fmt::format("{} P{} {}", name_of(options.model), options.element_order, name_of(options.attachment));
-        elastic_json[name] = to_json(elastic);
-        for (const PosedPbs& body : bodies)
-            if (const auto fit = fit_poisson(limb, elastic, body.positions))
-                add_poisson(fits, poses, valleys,
-                            {name_of(options.model), name_of(options.formulation), name_of(options.attachment), options.element_order,
-                             body.k_stretch, body.until_converged ? "pbs_converged" : "pbs", body.iterations, body.converged_poses},
-                            *fit);
-    }
-    fits.write((fs::path(folder) / "poisson.csv").string());
-    poses.write((fs::path(folder) / "poisson_poses.csv").string());
-    valleys.write((fs::path(folder) / "valley.csv").string());
-    analysis::write_text_atomically((fs::path(folder) / "elastic.json").string(), elastic_json.dump(2) + "\n");
-    return "";
-}
-
-StudyRun work_run(const std::string& name, double cost_s, StudyWork work, nlohmann::json settings)
-{
-    StudyRun run;
-    run.name = name;
-    run.cost_s = cost_s;
-    run.work = std::move(work);
-    run.settings = std::move(settings);
-    return run;
-}
-
-StudyRun poisson_run(const PoissonRun& run, double cost_s)
-{
-    nlohmann::json elastic;
-    for (const FemOptions& fem : run.elastic)
-        elastic.push_back({{"model", name_of(fem.model)},
-                           {"element_order", fem.element_order},
-                           {"formulation", name_of(fem.formulation)},
-                           {"attachment", name_of(fem.attachment)}});
-    const nlohmann::json settings = {{"elastic", elastic},
-                                     {"vertices", run.vertices},
-                                     {"ratios", run.ratios},
-                                     {"most_iterations", run.most_iterations},
-                                     {"angles_deg", run.angles_deg}};
-    return work_run(
-        run.name, cost_s, [run](const std::string& folder) { return record_poisson(folder, run); }, settings);
-}
-
-// Held by embedded bones. The paper's bind constraint as attachment is left out: Newton's method did not converge with it on this limb,
-// bent by 30 deg. Quadratic tets by mean dilatation, which does not lock near nu = 1/2.
-FemOptions limb_options(reference_fem::Model model, int element_order)
-{
-    FemOptions options;
-    options.model = model;
-    options.element_order = element_order;
-    if (element_order == 2) options.formulation = reference_fem::Formulation::mean_dilatation;
-    return options;
-}
+using analysis::CsvTable;
 
 StudyPlan plan(bool full)
 {
     StudyPlan plan;
-    const std::vector<int> iterations = {6, 24, 96};
     for (const int vertices : full ? std::vector<int>{300, 1000, 3000} : std::vector<int>{300, 1000})
-        plan.runs.push_back(work_run(fmt::format("sag_{}", vertices), vertices / 20.0,
-                                     [=](const std::string& folder) { return record_sags(folder, vertices, iterations); },
-                                     {{"vertices", vertices}, {"iterations", iterations}}));
+        plan.runs.push_back(work_run<SagCase>(fmt::format("sag_{}", vertices), {vertices}, vertices / 20.0, record_sags));
     for (const int vertices : full ? std::vector<int>{300, 1000} : std::vector<int>{300})
-        plan.runs.push_back(work_run(fmt::format("swing_{}", vertices), vertices / 5.0,
-                                     [=](const std::string& folder) { return record_swings(folder, vertices); }, {{"vertices", vertices}}));
+        plan.runs.push_back(work_run<SwingCase>(fmt::format("swing_{}", vertices), {vertices}, vertices / 5.0, record_swings));
 
     using reference_fem::Model;
-    const int limb_vertices = full ? 1775 : 600, ratios = full ? 9 : 7, most_iterations = full ? 40000 : 10000;
-    const double cost = full ? 10.0 : 1.0;
-    plan.runs.push_back(poisson_run({"poisson_large",
-                                     {limb_options(Model::stable_neo_hookean, 1), limb_options(Model::stable_neo_hookean, 2)},
-                                     limb_vertices,
-                                     ratios,
-                                     most_iterations,
-                                     {30.0, 60.0, 90.0}},
-                                    120.0 * cost));
-    plan.runs.push_back(
-        poisson_run({"poisson_small", {limb_options(Model::linear, 2)}, limb_vertices, ratios, most_iterations, {5.0}}, 15.0 * cost));
+    PoissonCase large{.elastic = {{Model::stable_neo_hookean, 1}, {Model::stable_neo_hookean, 2}}, .angles_deg = {30.0, 60.0, 90.0}};
+    if (full) large.vertices = 1775, large.ratios = 9, large.most_iterations = 40000;
+    PoissonCase small = large;
+    small.elastic = {{Model::linear, 2}};
+    small.angles_deg = {5.0};
+    plan.runs.push_back(work_run("poisson_large", large, full ? 1200.0 : 120.0, record_poisson));
+    plan.runs.push_back(work_run("poisson_small", small, full ? 150.0 : 15.0, record_poisson));
     return plan;
+}
+
+int finest(const std::vector<SagRow>& rows)
+{
+    int vertices = 0;
+    for (const SagRow& row : rows) vertices = std::max(vertices, row.setting.vertices);
+    return vertices;
+}
+
+// The exponent with which Young's modulus grows over x, from rows that are alike in all else; null for fewer than two settled ones.
+nlohmann::json exponent(const std::vector<SagRow>& rows, const std::function<double(const BarSetting&)>& x)
+{
+    std::vector<double> xs, young;
+    for (const SagRow& row : rows)
+        if (row.settled) xs.push_back(x(row.setting)), young.push_back(row.young_pa);
+    if (xs.size() < 2) return nullptr;
+    return analysis::observed_order(xs, young).slope.estimate;
+}
+
+// What Young's modulus depends on, for each k_stretch: the iterations on the finest mesh, the mean edge at 24 iterations.
+nlohmann::json exponents(const std::vector<SagRow>& rows)
+{
+    nlohmann::json json = nlohmann::json::array();
+    std::set<std::pair<double, double>> stiffnesses;
+    for (const SagRow& row : rows) stiffnesses.insert({row.setting.k_volume, row.setting.k_stretch});
+    for (const auto& [k_volume, k_stretch] : stiffnesses) {
+        std::vector<SagRow> over_iterations, over_edge;
+        for (const SagRow& row : rows) {
+            if (row.setting.k_volume != k_volume || row.setting.k_stretch != k_stretch) continue;
+            if (row.setting.vertices == finest(rows)) over_iterations.push_back(row);
+            if (row.setting.iterations == 24) over_edge.push_back(row);
+        }
+        json.push_back({{"k_volume", k_volume},
+                        {"k_stretch", k_stretch},
+                        {"of_iterations", exponent(over_iterations, &BarSetting::iterations)},
+                        {"of_mean_edge", exponent(over_edge, &BarSetting::mean_edge_m)},
+                        {"of_time_step", -2.0}});
+    }
+    return json;
+}
+
+// Sag with volume constraints over sag without: 5/6 where they do what incompressibility does to a body of the same shear modulus whose
+// central forces make nu = 1/4 (E = 2.5 mu against 3 mu); less is locking.
+nlohmann::json volume_locking(const std::vector<SagRow>& rows)
+{
+    const auto is_pair = [](const SagRow& with, const SagRow& without) {
+        const BarSetting &a = with.setting, &b = without.setting;
+        return a.k_volume == 1.0 && b.k_volume == 0.0 && with.settled && without.settled && a.vertices == b.vertices &&
+               a.k_stretch == b.k_stretch && a.iterations == b.iterations;
+    };
+    nlohmann::json json = nlohmann::json::array();
+    for (const SagRow& with : rows)
+        for (const SagRow& without : rows)
+            if (is_pair(with, without))
+                json.push_back({{"vertices", double(with.setting.vertices)},
+                                {"k_stretch", with.setting.k_stretch},
+                                {"iterations", double(with.setting.iterations)},
+                                {"sag_over_sag_without_volume", without.young_pa / with.young_pa},
+                                {"unlocked", 5.0 / 6.0}});
+    return json;
+}
+
+std::string young_markdown(std::vector<SagRow> rows)
+{
+    std::erase_if(rows, [](const SagRow& row) { return row.setting.k_volume != 1.0; });
+    return "## What k_stretch is worth\n\nYoung's modulus of the linear elastic bar (P2, nu 0.45, the same tets, the same vertices held) "
+           "that sags as PBS does: k_volume 1, masses lumped, density 1000 kg/m^3, time step 10 ms. Every value scales with density / "
+           "(time step)^2 exactly. The interval leaves out one fifth of the bar at a time; the misfit is what no modulus removes. Where a "
+           "row is not settled (0), no state of rest was found, and its values have no meaning.\n\n" +
+           markdown_table(table_of(sag_columns, rows),
+                          {{"vertices", "vertices"},
+                           {"mean edge [mm]", "mean_edge_m", "{:.1f}", 1e3},
+                           {"k_stretch", "k_stretch"},
+                           {"iterations", "iterations"},
+                           {"E [kPa]", "young_pa", "{:.4g}", 1e-3},
+                           {"E, low [kPa]", "young_low_pa", "{:.4g}", 1e-3},
+                           {"E, high [kPa]", "young_high_pa", "{:.4g}", 1e-3},
+                           {"misfit [%]", "misfit_pct", "{:.2g}"},
+                           {"E dt^2 / (density edge^2 iterations)", "young_dt2_over_density_edge2_iterations", "{:.3g}"},
+                           {"settled", "settled"},
+                           {"identifiable", "identifiable"}});
+}
+
+std::string swing_markdown(const std::vector<SwingRow>& rows)
+{
+    return "\n## The same by the first frequency\n\nThe bar is let go from its sag at 0.1 % of its length, and zero crossings of the tip "
+           "are measured. *expected* is what the recurrence of Algorithm 1 makes of the sag's modulus at that time step. Where the "
+           "outcome is another than finished, there is no frequency.\n\n" +
+           markdown_table(table_of(swing_columns, rows), {{"vertices", "vertices"},
+                                                          {"k_stretch", "k_stretch"},
+                                                          {"iterations", "iterations"},
+                                                          {"time step [ms]", "time_step_s", "{:g}", 1e3},
+                                                          {"outcome", "outcome"},
+                                                          {"frequency [Hz]", "frequency_hz", "{:.4g}"},
+                                                          {"damping ratio", "damping_ratio", "{:.3g}"},
+                                                          {"E [kPa]", "young_pa", "{:.4g}", 1e-3},
+                                                          {"E by sag [kPa]", "young_sag_pa", "{:.4g}", 1e-3},
+                                                          {"ratio", "young_over_sag", "{:.4f}"},
+                                                          {"expected", "expected_over_sag", "{:.4f}"}});
+}
+
+std::string poisson_markdown(const CsvTable& fits)
+{
+    return "\n## Poisson's ratio\n\nThe nu of the finite elements nearest to PBS over all poses (error_joint, root mean square). The "
+           "interval leaves out one pose at a time. Young's modulus cancels. The misfit is what no nu removes; *rise* is the share by "
+           "which it rises when nu changes by 10 %. Where a fit is not identifiable (0), its nu has no meaning.\n\n" +
+           markdown_table(fits, {{"elements", "model"},
+                                 {"order", "element_order"},
+                                 {"formulation", "formulation"},
+                                 {"attachment", "attachment"},
+                                 {"body", "body"},
+                                 {"iterations", "iterations"},
+                                 {"k_stretch", "k_stretch"},
+                                 {"nu", "poisson", "{:.3f}"},
+                                 {"nu, low", "poisson_low", "{:.3f}"},
+                                 {"nu, high", "poisson_high", "{:.3f}"},
+                                 {"misfit [%]", "misfit_pct", "{:.3g}"},
+                                 {"misfit at nu 0", "misfit_at_0_pct", "{:.3g}"},
+                                 {"misfit at the highest nu", "misfit_at_highest_pct", "{:.3g}"},
+                                 {"highest nu that converged", "highest_poisson", "{:.4g}"},
+                                 {"outcome", "outcome"},
+                                 {"rise", "rise", "{:.2g}"},
+                                 {"identifiable", "identifiable"}});
+}
+
+// All numbers as doubles; what is no finite number stays text.
+nlohmann::json rows_json(const CsvTable& table)
+{
+    nlohmann::json json = nlohmann::json::array();
+    for (int r = 0; r < table.rows(); ++r) {
+        nlohmann::json row;
+        for (const std::string& column : table.columns()) {
+            const std::string& text = table.text_at(r, column);
+            char* end = nullptr;
+            const double value = std::strtod(text.c_str(), &end);
+            const bool is_number = !text.empty() && *end == '\0' && std::isfinite(value);
+            row[column] = is_number ? nlohmann::json(value) : nlohmann::json(text);
+        }
+        json.push_back(row);
+    }
+    return json;
+}
+
+std::string summary(std::vector<SagRow> sags, const std::vector<PoissonRow>& fits)
+{
+    std::erase_if(sags, [](const SagRow& row) { return row.setting.k_volume != 1.0 || row.setting.iterations != 24 || !row.settled; });
+    const auto identifiable = std::ranges::count_if(fits, [](const PoissonRow& row) { return row.quality.identifiable; });
+    return "fit: Young's modulus of a bar, k_volume 1, 24 iterations, time step 10 ms, density 1000 kg/m^3\n" +
+           text_table(table_of(sag_columns, sags),
+                      {{"vertices", "vertices"}, {"k_stretch", "k_stretch"}, {"E [kPa]", "young_pa", "{:.4g}", 1e-3}}) +
+           fmt::format("fit: Poisson's ratio is identifiable in {} of {} fits; see fit.md\n", identifiable, fits.size());
 }
 
 StudyConclusion conclude(const FinishedRuns& finished)
 {
-    return {write_fit_report(finished), true};
+    const auto sags = finished.rows(sag_columns, "sag.csv");
+    const auto swings = finished.rows(swing_columns, "swing.csv");
+    const auto fits = finished.rows(poisson_columns, "poisson.csv");
+    finished.write("sag.csv", sag_columns, sags);
+    finished.write("swing.csv", swing_columns, swings);
+    finished.write("poisson.csv", poisson_columns, fits);
+    finished.write("poisson_poses.csv", poisson_pose_columns, finished.rows(poisson_pose_columns, "poisson_poses.csv"));
+    finished.write("valley.csv", valley_columns, finished.rows(valley_columns, "valley.csv"));
+    const CsvTable fit_table = table_of(poisson_columns, fits);
+    const nlohmann::json json = {{"schema", 1},
+                                 {"young_by_sag", rows_json(table_of(sag_columns, sags))},
+                                 {"young_exponents", exponents(sags)},
+                                 {"volume_locking", volume_locking(sags)},
+                                 {"young_by_frequency", rows_json(table_of(swing_columns, swings))},
+                                 {"poisson", rows_json(fit_table)}};
+    finished.write("fit.json", json.dump(2) + "\n");
+    finished.write("fit.md", "# The fit\n\n" + young_markdown(sags) + swing_markdown(swings) + poisson_markdown(fit_table));
+    return {summary(sags, fits), true};
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ LoadedBody loaded(const std::string& name, const std::string& load, const pbs::T
     return body;
 }
 
-// Vertices of the tets that lie in the held end whole.
+// Vertices of the tets that lie entirely in the held end.
 std::vector<bool> held_end(const pbs::TetMesh& bar)
 {
     const double first = bar.rest.col(0).minCoeff(), last = first + held_share * (bar.rest.col(0).maxCoeff() - first);

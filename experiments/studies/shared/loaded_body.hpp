@@ -1,4 +1,4 @@
-// A body that hangs under gravity on a part of it: what a stiffness is measured on, and what k is given a unit on.
+// A body that hangs under gravity from a part of it. Stiffnesses are measured on it, and give k a unit.
 //   const LoadedBody body = jiggling_flesh(character, RestOfBody::held);
 //   effective_stiffness_n_m(body, displacement, 9.81);
 //
@@ -17,7 +17,7 @@ namespace experiments {
 inline constexpr double flesh_density_kg_m3 = 1000.0;
 inline constexpr double held_share = 0.1;  // of a bar's length
 
-// Outside the zone particles start each step where LBS puts them, and projections move them (the paper's solver), or they stay there.
+// Outside the zone particles begin each step where LBS puts them. Projections move them (the paper's solver), or they are held there.
 enum class RestOfBody { projected, held };
 
 struct LoadedBody {
@@ -34,17 +34,17 @@ struct LoadedBody {
 };
 
 LoadedBody jiggling_flesh(const pbs::Character& character, RestOfBody rest);
-LoadedBody hanging_bar(const pbs::TetMesh& bar);  // the tets that lie in the first tenth whole are held
+LoadedBody hanging_bar(const pbs::TetMesh& bar);  // tets that lie entirely in the first tenth are held
 LoadedBody hanging_bar(int vertices);
 
-// Of the zone, weighted by mass, along gravity [m].
+// Mean over the zone, weighted by mass, along gravity [m].
 double mean_displacement_m(const LoadedBody& body, const pbs::Positions& displacement);
 
 // Weight of the zone [N].
 double weight_n(const LoadedBody& body, double gravity_m_s2);
 
 // That weight over the zone's mean displacement [N/m]. With m_i = 1 gravity moves every particle alike, so the weight is that of the same
-// flesh at `flesh_density_kg_m3`; in ratios of stiffnesses it cancels.
+// flesh at `flesh_density_kg_m3`. It cancels in ratios of stiffnesses.
 double effective_stiffness_n_m(const LoadedBody& body, const pbs::Positions& displacement, double gravity_m_s2);
 
 }  // namespace experiments

@@ -1,6 +1,8 @@
 #include "experiments/studies/stiffness/resting_body.hpp"
 
+#include "experiments/deformers/xpbd/xpbd_solver.hpp"
 #include "experiments/process/interruption.hpp"
+#include "experiments/settings/option_fields.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
 #include <algorithm>
@@ -12,6 +14,39 @@ namespace {
 
 constexpr double still = 1e-6;
 constexpr int still_steps = 25;
+
+// One distance per vertex, as the solver expects; zero where nothing is bound.
+Eigen::VectorXd bind_distance_of(const LoadedBody& body)
+{
+    return body.bind_distance.size() ? body.bind_distance : Eigen::VectorXd::Zero(body.mesh.rest.rows());
+}
+
+// In double, without gravity.
+pbs::PbsOptions pbs_options(const LoadedBody& body, const StiffnessSetting& setting)
+{
+    pbs::PbsOptions options;
+    options.iterations = setting.iterations;
+    options.k_stretch = setting.k_stretch;
+    options.k_bind = body.bind_distance.size() ? 1.0 : 0.0;
+    options.precision = pbs::Precision::f64;
+    options.order = pbs::Order::plain;
+    options.jiggle = pbs::Jiggle{setting.k_stretch};
+    if (setting.method == Method::exponent) options.stiffness_form = pbs::StiffnessForm::exponent;
+    return options;
+}
+
+XpbdOptions xpbd_options(const StiffnessSetting& setting)
+{
+    const bool small_steps = setting.method == Method::xpbd_small_steps;
+    XpbdOptions options;
+    options.young_pa = setting.young_pa;
+    options.density_kg_m3 = flesh_density_kg_m3;
+    options.iterations = small_steps ? 1 : setting.iterations;
+    options.substeps = small_steps ? setting.iterations : 1;
+    options.jiggle = true;
+    options.keep_multipliers = setting.method != Method::xpbd_forgetting;
+    return options;
+}
 
 template <typename Solver>
 SteppedBody step(Solver& solver, const LoadedBody& body, double time_step_s, int most_steps)
@@ -33,9 +68,9 @@ SteppedBody step(Solver& solver, const LoadedBody& body, double time_step_s, int
 }
 
 template <typename Constraint>
-void shuffle_if(unsigned long seed, std::vector<Constraint>& constraints)
+void shuffle_if(int seed, std::vector<Constraint>& constraints)
 {
-    std::mt19937_64 random(seed);
+    std::mt19937_64 random(static_cast<unsigned long>(seed));
     if (seed != 0) std::shuffle(constraints.begin(), constraints.end(), random);
 }
 
@@ -62,10 +97,23 @@ void add_xpbd(const LoadedBody& body, const StiffnessSetting& setting, StepNearR
 
 }  // namespace
 
+nlohmann::json to_json(const StiffnessSetting& setting)
+{
+    static const auto fields = OptionFields<StiffnessSetting>("stiffness")
+                                   .record("method", &StiffnessSetting::method)
+                                   .record("k_stretch", &StiffnessSetting::k_stretch)
+                                   .record("young_pa", &StiffnessSetting::young_pa)
+                                   .record("iterations", &StiffnessSetting::iterations)
+                                   .record("time_step_ms", &StiffnessSetting::time_step_ms)
+                                   .record("order_seed", &StiffnessSetting::order_seed)
+                                   .complete();
+    return fields.json(setting);
+}
+
 RestingState rest_near_rest(const LoadedBody& body, const StiffnessSetting& setting)
 {
     const bool small_steps = setting.method == Method::xpbd_small_steps;
-    const double step_s = small_steps ? setting.time_step_s / setting.iterations : setting.time_step_s;
+    const double step_s = small_steps ? setting.time_step_s() / setting.iterations : setting.time_step_s();
     StepNearRest step(body.mesh.rest, body.bind_point, small_steps ? 1 : setting.iterations, step_s,
                       setting.method == Method::xpbd_forgetting);
     if (is_xpbd(setting.method))
@@ -87,12 +135,12 @@ SteppedBody step_until_still(const LoadedBody& body, const StiffnessSetting& set
         XpbdOptions options = xpbd_options(setting);
         options.gravity_m_s2 = gravity;
         XpbdSolver solver(body.mesh, body.bind_distance, body.zone, options, body.held);
-        return step(solver, body, setting.time_step_s, most_steps);
+        return step(solver, body, setting.time_step_s(), most_steps);
     }
     pbs::PbsOptions options = pbs_options(body, setting);
     options.gravity_m_s2 = gravity;
     pbs::PbsSolver solver(body.mesh, bind_distance_of(body), body.zone, options, body.held);
-    return step(solver, body, setting.time_step_s, most_steps);
+    return step(solver, body, setting.time_step_s(), most_steps);
 }
 
 }  // namespace experiments

@@ -1,23 +1,58 @@
-// Where a loaded body comes to rest, in two ways: by the linear map of a step near rest, and by the solvers as they are.
-//   const RestingState rest = rest_near_rest(body, {.method = Method::pbs, .k_stretch = 0.2, .iterations = 24, .time_step_s = 0.01});
-//   effective_stiffness_n_m(body, rest.displacement, 1.0);
+// A solver with its settings, and where a loaded body comes to rest with it: by the linear map of a step near rest, and by the solver
+// itself.
+//   const StiffnessSetting setting{.method = Method::pbs, .k_stretch = 0.2, .iterations = 24, .time_step_ms = 10.0};
+//   effective_stiffness_n_m(body, rest_near_rest(body, setting).displacement, 1.0);
 #pragma once
 
+#include "analysis/records/typed_table.hpp"
+#include "experiments/settings/option_names.hpp"
+#include "experiments/studies/shared/loaded_body.hpp"
 #include "experiments/studies/shared/near_rest/step_near_rest.hpp"
-#include "experiments/studies/stiffness/stiffness_setting.hpp"
 
 namespace experiments {
 
-// Under 1 m/s^2; the displacement is that after the step, with what the zone carries along outside of it.
+// exponent: k' = 1 - (1 - k)^(1 / iterations). xpbd keeps its multipliers over the iterations of a step. xpbd_small_steps takes as many
+// substeps of one iteration as there are iterations. xpbd_forgetting resets its multipliers in every iteration: a control that has to fail.
+enum class Method { pbs, exponent, xpbd, xpbd_small_steps, xpbd_forgetting };
+template <>
+struct OptionNames<Method> {
+    static constexpr std::array<std::pair<Method, const char*>, 5> table{{{Method::pbs, "pbs"},
+                                                                          {Method::exponent, "exponent"},
+                                                                          {Method::xpbd, "xpbd"},
+                                                                          {Method::xpbd_small_steps, "xpbd_small_steps"},
+                                                                          {Method::xpbd_forgetting, "xpbd_forgetting"}}};
+};
+inline bool is_xpbd(Method method)
+{
+    return method != Method::pbs && method != Method::exponent;
+}
+
+struct StiffnessSetting {
+    Method method = Method::pbs;
+    double k_stretch = 0.2;   // of PBS, in the zone and outside of it; its k_volume and k_bind are 1
+    double young_pa = 3.0e4;  // of XPBD
+    int iterations = 24;
+    double time_step_ms = 10.0;
+    int order_seed = 0;  // of a random order within each class; 0: file order
+
+    double time_step_s() const { return 1e-3 * time_step_ms; }
+};
+nlohmann::json to_json(const StiffnessSetting& setting);
+
+// Under 1 m/s^2. The displacement is that after the step, including what the zone carries along outside of it.
 RestingState rest_near_rest(const LoadedBody& body, const StiffnessSetting& setting);
 
-// Step by step until the body hangs still, under the gravity asked for: the linear map's second opinion, and what large displacements
-// change.
+// Takes time steps under the given gravity until the body hangs still. This checks the linear map, and shows the effect of large
+// displacements.
 struct SteppedBody {
     pbs::Positions displacement;  // [m], #V x 3
-    bool converged = false;       // the mean displacement moved by less than 1e-6 of itself for 25 steps
+    bool converged = false;       // the mean displacement changed by less than 1e-6 of itself for 25 steps
     int steps = 0;
 };
 SteppedBody step_until_still(const LoadedBody& body, const StiffnessSetting& setting, double gravity_m_s2, int most_steps = 4000);
 
 }  // namespace experiments
+
+template <>
+struct analysis::EnumNames<experiments::Method> : experiments::OptionNames<experiments::Method> {
+};

@@ -1,5 +1,7 @@
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 
+#include "analysis/line_fit.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,48 +10,52 @@
 #include <optional>
 
 namespace experiments {
+
+const analysis::Columns<StiffnessExponent> exponent_columns = {
+    {"varied", &StiffnessExponent::varied, "", "iterations, 1 / time step or vertices"},
+    {"case", &StiffnessExponent::what, "", "everything that is not varied, in words"},
+    {"first", &StiffnessExponent::first, "", "first value of what is varied; time steps in ms"},
+    {"last", &StiffnessExponent::last, "", "its last value"},
+    {"points", &StiffnessExponent::points, "", "settings that the line is fitted to"},
+    {"left_out", &StiffnessExponent::left_out, "", "settings that did not converge, or hang upwards"},
+    {"exponent", &StiffnessExponent::exponent, "", "slope of log stiffness over the log of what is varied"},
+    {"exponent_low", &StiffnessExponent::low, "", "lower end of its 95 % interval"},
+    {"exponent_high", &StiffnessExponent::high, "", "upper end of its 95 % interval"}};
+
+const VariedText& text_of(Varied varied)
+{
+    static constexpr VariedText texts[] = {
+        {"iterations", "twice the iterations", "stiffness_ratio_at_twice_iterations", 12.0, 48.0},
+        {"1 / time step", "half the time step", "stiffness_ratio_at_half_time_step", 1.0 / 0.02, 1.0 / 0.005},
+        {"vertices", "twice the vertices", "stiffness_ratio_at_twice_resolution", 0.0, 1e9}};
+    return texts[static_cast<int>(varied)];
+}
+
 namespace {
 
-struct Window {
-    double first, last;  // of x
+struct Point {
+    double x = 0.0, stiffness = 0.0;
+};
+
+struct Case {
+    analysis::CaseKey key;
+    std::map<std::string, std::vector<Point>> series;  // by order and mesh; file order on the wanted meshes comes first
+    int left_out = 0;
 };
 
 double x_of(const StiffnessRow& row, Varied varied)
 {
-    switch (varied) {
-        case Varied::iterations:
-            return row.setting.iterations;
-        case Varied::time_step:
-            return 1.0 / row.setting.time_step_s;
-        case Varied::resolution:
-            return row.vertices;
-    }
-    return 0.0;
-}
-
-Window beside_the_paper(Varied varied)
-{
-    if (varied == Varied::iterations) return {12.0, 48.0};
-    if (varied == Varied::time_step) return {1.0 / 0.02, 1.0 / 0.005};
-    return {0.0, 1e9};
+    if (varied == Varied::resolution) return row.vertices;
+    return varied == Varied::iterations ? row.setting.iterations : 1.0 / row.setting.time_step_s();
 }
 
 const char* deformer_of(Method method)
 {
-    if (method == Method::exponent) return "pbs_exponent";
-    if (method == Method::xpbd_forgetting) return "xpbd_forgetting_multipliers";
-    if (method == Method::xpbd_small_steps) return "xpbd_small_steps";
-    return is_xpbd(method) ? "xpbd" : "pbs";
+    static constexpr const char* names[] = {"pbs", "pbs_exponent", "xpbd", "xpbd_small_steps", "xpbd_forgetting_multipliers"};
+    return names[static_cast<int>(method)];
 }
 
-std::string quantity_of(Varied varied)
-{
-    return varied == Varied::iterations  ? "stiffness_ratio_at_twice_iterations"
-           : varied == Varied::time_step ? "stiffness_ratio_at_half_time_step"
-                                         : "stiffness_ratio_at_twice_resolution";
-}
-
-// Everything that is not varied, except for a repetition in another order or on the second ladder.
+// Everything that is not varied, except for a repetition in another order or on the second series of meshes.
 analysis::CaseKey key_of(const StiffnessRow& row, Varied varied)
 {
     const StiffnessSetting& setting = row.setting;
@@ -59,22 +65,11 @@ analysis::CaseKey key_of(const StiffnessRow& row, Varied varied)
     else
         key.k_stretch = setting.k_stretch;
     if (varied != Varied::iterations) key.iterations = setting.iterations;
-    if (varied != Varied::time_step) key.time_step_s = setting.time_step_s;
+    if (varied != Varied::time_step) key.time_step_s = setting.time_step_s();
     if (varied != Varied::resolution) key.vertices = row.vertices;
     if (row.by == "stepped") key.ladder = row.by;
     return key;
 }
-
-struct Point {
-    double x = 0.0, stiffness = 0.0;
-};
-using Series = std::map<std::string, std::vector<Point>>;  // of a case, by order and ladder
-
-struct Case {
-    analysis::CaseKey key;
-    Series series;
-    int left_out = 0;
-};
 
 std::map<std::string, Case> cases_of(const std::vector<StiffnessRow>& rows, Varied varied)
 {
@@ -88,18 +83,8 @@ std::map<std::string, Case> cases_of(const std::vector<StiffnessRow>& rows, Vari
         if (usable) found.series[fmt::format("{} {}", row.setting.order_seed, row.mesh)].push_back({x_of(row, varied), row.stiffness_n_m});
     }
     for (auto& [name, found] : cases)
-        for (auto& [key, points] : found.series)
-            std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
+        for (auto& [key, points] : found.series) std::ranges::sort(points, {}, &Point::x);
     return cases;
-}
-
-std::vector<Point> within(const std::vector<Point>& points, const Window& window)
-{
-    constexpr double rounding = 1e-9;
-    std::vector<Point> kept;
-    for (const Point& point : points)
-        if (point.x >= window.first * (1.0 - rounding) && point.x <= window.last * (1.0 + rounding)) kept.push_back(point);
-    return kept;
 }
 
 double for_one_doubling(const Point& once, const Point& more)
@@ -110,30 +95,30 @@ double for_one_doubling(const Point& once, const Point& more)
 // The settings between which the ratio is taken.
 analysis::CaseKey over_range(analysis::CaseKey key, Varied varied, double first, double last)
 {
-    if (varied == Varied::iterations) {
-        key.iterations = first;
-        key.iterations_to = last;
-    } else if (varied == Varied::time_step) {
-        key.time_step_s = 1.0 / first;
-        key.time_step_to_s = 1.0 / last;
-    } else {
-        key.vertices = first;
-        key.vertices_to = last;
-    }
+    if (varied == Varied::iterations)
+        key.iterations = first, key.iterations_to = last;
+    else if (varied == Varied::time_step)
+        key.time_step_s = 1.0 / first, key.time_step_to_s = 1.0 / last;
+    else
+        key.vertices = first, key.vertices_to = last;
     return key;
 }
 
 std::optional<analysis::Measurement> ratio_of(const Case& measured, Varied varied)
 {
+    constexpr double rounding = 1e-9;
+    const VariedText& text = text_of(varied);
     std::optional<analysis::Measurement> result;
-    for (const auto& [key, all] : measured.series) {  // file order on the wanted meshes comes first
-        const std::vector<Point> points = within(all, beside_the_paper(varied));
+    for (const auto& [key, all] : measured.series) {
+        std::vector<Point> points;
+        std::ranges::copy_if(all, std::back_inserter(points), [&](const Point& point) {
+            return point.x >= text.first * (1.0 - rounding) && point.x <= text.last * (1.0 + rounding);
+        });
         if (points.size() < 2) continue;
         const double overall = for_one_doubling(points.front(), points.back());
         if (!result)
-            result = {
-                "C11", quantity_of(varied), over_range(measured.key, varied, points.front().x, points.back().x), overall, overall, overall,
-                "1"};
+            result = {"C11", text.quantity, over_range(measured.key, varied, points.front().x, points.back().x), overall, overall, overall,
+                      "1"};
         for (std::size_t i = 1; i < points.size(); ++i) {
             const double single = for_one_doubling(points[i - 1], points[i]);
             result->low = std::min(result->low, single);
@@ -155,12 +140,15 @@ std::vector<analysis::Measurement> stiffness_ratios(const std::vector<StiffnessR
 
 std::vector<StiffnessExponent> stiffness_exponents(const std::vector<StiffnessRow>& rows, Varied varied)
 {
+    const auto shown = [varied](double x) { return varied == Varied::time_step ? 1e3 / x : x; };  // a time step [ms]
     std::vector<StiffnessExponent> exponents;
     for (const auto& [of, found] : cases_of(rows, varied)) {
         if (found.series.empty() || found.series.begin()->second.size() < 2) continue;
         std::vector<double> x, stiffness;
         for (const Point& point : found.series.begin()->second) x.push_back(point.x), stiffness.push_back(point.stiffness);
-        exponents.push_back({of, x.front(), x.back(), found.left_out, analysis::observed_order(x, stiffness)});
+        const analysis::Interval slope = analysis::observed_order(x, stiffness).slope;
+        exponents.push_back({text_of(varied).factor, of, shown(x.front()), shown(x.back()), slope.n, found.left_out, slope.estimate,
+                             slope.low, slope.high});
     }
     return exponents;
 }

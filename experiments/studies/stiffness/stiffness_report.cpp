@@ -1,157 +1,127 @@
 #include "experiments/studies/stiffness/stiffness_report.hpp"
 
 #include "analysis/measurement.hpp"
+#include "analysis/records/report_table.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace experiments {
 namespace {
 
-const char* name_of(Varied varied)
+using Ratio = analysis::Measurement;
+
+struct RatioLine {
+    std::string at, of;
+    double ratio = 0.0, least = 0.0, largest = 0.0;
+};
+const analysis::Columns<RatioLine> ratio_columns = {{"at", &RatioLine::at, "", "what is doubled"},
+                                                    {"case", &RatioLine::of, "", "everything else, in words"},
+                                                    {"ratio", &RatioLine::ratio, "", "of the stiffnesses, for one doubling"},
+                                                    {"least", &RatioLine::least, "", "the least of every single doubling"},
+                                                    {"largest", &RatioLine::largest, "", "the largest of every single doubling"}};
+
+std::vector<RatioLine> lines_of(Varied varied, const std::vector<Ratio>& ratios)
 {
-    return varied == Varied::iterations ? "iterations" : varied == Varied::time_step ? "1 / time step" : "vertices";
+    std::vector<RatioLine> lines;
+    for (const Ratio& ratio : ratios) lines.push_back({text_of(varied).doubled, text_of(ratio.of), ratio.value, ratio.low, ratio.high});
+    return lines;
 }
 
-const char* doubled(Varied varied)
-{
-    return varied == Varied::iterations  ? "twice the iterations"
-           : varied == Varied::time_step ? "half the time step"
-                                         : "twice the vertices";
-}
+const std::vector<analysis::ReportColumn> shown_columns = {
+    {"at", "at"}, {"case", "case"}, {"ratio", "ratio", "{:.4g}"}, {"least", "least", "{:.4g}"}, {"largest", "largest", "{:.4g}"}};
 
-double shown(Varied varied, double x)
+template <typename Wanted>
+std::vector<Ratio> ratios_where(const SweptRows& sweep, const Wanted& wanted)
 {
-    return varied == Varied::time_step ? 1e3 / x : x;  // a time step [ms]
-}
-
-bool is_shown(const StiffnessRow& row)
-{
-    const StiffnessSetting& setting = row.setting;
-    if (row.by != "linear" || setting.method == Method::xpbd_small_steps) return false;
-    return is_xpbd(setting.method) ? setting.young_pa == 3.0e4 : setting.k_stretch == 0.2;
-}
-
-std::string ratio_text(const analysis::Measurement& measured)
-{
-    return fmt::format("{:.3g} [{:.3g}, {:.3g}]", measured.value, measured.low, measured.high);
-}
-
-// body, load -> PBS, exponent, XPBD.
-using Columns = std::map<Method, std::string>;
-std::map<std::string, Columns> shown_ratios(const SweptRows& sweep)
-{
-    std::map<std::string, std::vector<StiffnessRow>> of_body;
-    for (const StiffnessRow& row : sweep.second)
-        if (is_shown(row)) of_body[row.body + ", " + row.load].push_back(row);
-    std::map<std::string, Columns> columns;
-    for (const auto& [body, rows] : of_body)
-        for (const Method method : {Method::pbs, Method::exponent, Method::xpbd}) {
-            std::vector<StiffnessRow> of_method;
-            for (const StiffnessRow& row : rows)
-                if (row.setting.method == method) of_method.push_back(row);
-            const auto measured = stiffness_ratios(of_method, sweep.first);
-            columns[body][method] = measured.empty() ? "-" : ratio_text(measured.front());
-        }
-    return columns;
-}
-
-enum class Multipliers { kept, forgotten };
-
-std::vector<analysis::Measurement> control_ratios(const SweptRows& sweep, Multipliers multipliers)
-{
-    const bool forgets = multipliers == Multipliers::forgotten;
     std::vector<StiffnessRow> rows;
-    for (const StiffnessRow& row : sweep.second)
-        if (is_xpbd(row.setting.method) && (row.setting.method == Method::xpbd_forgetting) == forgets) rows.push_back(row);
+    std::ranges::copy_if(sweep.second, std::back_inserter(rows), wanted);
     return stiffness_ratios(rows, sweep.first);
 }
 
-bool stays(const analysis::Claim& claim, const analysis::Measurement& measured)
+// By the linear map: PBS at k_stretch 0.2, the same with the exponent, and the softer XPBD.
+bool is_in_short(const StiffnessRow& row)
+{
+    if (row.by != "linear" || row.setting.method > Method::xpbd) return false;
+    return is_xpbd(row.setting.method) ? row.setting.young_pa == 3.0e4 : row.setting.k_stretch == 0.2;
+}
+
+std::vector<Ratio> control_ratios(const SweptRows& sweep, bool forgets_multipliers)
+{
+    return ratios_where(sweep, [&](const StiffnessRow& row) {
+        return is_xpbd(row.setting.method) && (row.setting.method == Method::xpbd_forgetting) == forgets_multipliers;
+    });
+}
+
+bool stays(const analysis::Claim& claim, const Ratio& measured)
 {
     return analysis::extent_of(claim, measured) == analysis::Extent::whole;
 }
 
 // The end of the interval that is farther from one.
-double farther_end(const analysis::Measurement& measured)
+double farther_end(const Ratio& measured)
 {
     return std::abs(std::log(measured.low)) > std::abs(std::log(measured.high)) ? measured.low : measured.high;
 }
 
 }  // namespace
 
-analysis::CsvTable exponents_table(const std::vector<SweptRows>& sweeps)
-{
-    analysis::CsvTable table({"varied", "case", "first", "last", "points", "left_out", "exponent", "exponent_low", "exponent_high"});
-    for (const auto& [varied, rows] : sweeps)
-        for (const StiffnessExponent& found : stiffness_exponents(rows, varied))
-            table.add_row({std::string(name_of(varied)), found.what, shown(varied, found.first), shown(varied, found.last),
-                           found.fit.slope.n, found.left_out, found.fit.slope.estimate, found.fit.slope.low, found.fit.slope.high});
-    return table;
-}
-
 std::string stiffness_markdown(const std::vector<SweptRows>& sweeps)
 {
     std::string text = "# Effective stiffness\n\nWeight of the jiggling zone, or of a bar's free length, over its mean displacement.\n";
     for (const auto& [varied, rows] : sweeps) {
-        text += fmt::format("\n## Ratio at {}\n\n| case | ratio | least to most |\n|---|---|---|\n", doubled(varied));
-        for (const auto& measured : stiffness_ratios(rows, varied))
-            text += fmt::format("| {} | {:.4g} | {:.4g} to {:.4g} |\n", text_of(measured.of), measured.value, measured.low, measured.high);
-        text += fmt::format("\n## Stiffness ~ ({})^p\n\n| case | from | to | p | 95 % | left out |\n|---|---|---|---|---|---|\n",
-                            name_of(varied));
-        for (const StiffnessExponent& found : stiffness_exponents(rows, varied))
-            text +=
-                fmt::format("| {} | {:.4g} | {:.4g} | {:.3f} | {:.3f} to {:.3f} | {} |\n", found.what, shown(varied, found.first),
-                            shown(varied, found.last), found.fit.slope.estimate, found.fit.slope.low, found.fit.slope.high, found.left_out);
+        text += fmt::format("\n## Ratio at {}\n\n", text_of(varied).doubled);
+        text += markdown_table(table_of(ratio_columns, lines_of(varied, stiffness_ratios(rows, varied))), shown_columns);
+        text += fmt::format("\n## Stiffness ~ ({})^p\n\n", text_of(varied).factor);
+        text += markdown_table(table_of(exponent_columns, stiffness_exponents(rows, varied)), {{"case", "case"},
+                                                                                               {"from", "first", "{:.4g}"},
+                                                                                               {"to", "last", "{:.4g}"},
+                                                                                               {"p", "exponent", "{:.3f}"},
+                                                                                               {"p, low", "exponent_low", "{:.3f}"},
+                                                                                               {"p, high", "exponent_high", "{:.3f}"},
+                                                                                               {"left out", "left_out"}});
     }
     return text;
 }
 
 std::string stiffness_text(const std::vector<SweptRows>& sweeps)
 {
-    std::string text;
-    for (const SweptRows& sweep : sweeps) {
-        text += fmt::format("stiffness at {:<30} {:<26} {:<26} {}\n", doubled(sweep.first), "PBS, k_stretch 0.2", "k' = 1-(1-k)^(1/n)",
-                            "XPBD, 30 kPa");
-        for (const auto& [body, columns] : shown_ratios(sweep))
-            text += fmt::format("  {:<41} {:<26} {:<26} {}\n", body, columns.at(Method::pbs), columns.at(Method::exponent),
-                                columns.at(Method::xpbd));
-    }
-    return text;
+    std::vector<RatioLine> lines;
+    for (const SweptRows& sweep : sweeps)
+        std::ranges::copy(lines_of(sweep.first, ratios_where(sweep, is_in_short)), std::back_inserter(lines));
+    return "ratio of stiffnesses for one doubling\n" + text_table(table_of(ratio_columns, lines), shown_columns);
 }
 
 std::string control_text(const std::vector<SweptRows>& sweeps, const analysis::Claim& claim)
 {
+    const auto distance = [](const Ratio& measured) { return std::abs(std::log(farther_end(measured))); };
     std::string text;
-    for (const auto& [multipliers, name] : {std::pair{Multipliers::kept, "XPBD"}, {Multipliers::forgotten, "XPBD without its multipliers"}})
+    for (const bool forgets : {false, true})
         for (const SweptRows& sweep : sweeps) {
-            const auto measured = control_ratios(sweep, multipliers);
+            const auto measured = control_ratios(sweep, forgets);
             if (measured.empty()) continue;
-            const auto within = std::count_if(measured.begin(), measured.end(), [&](const auto& one) { return stays(claim, one); });
-            const auto& farthest = *std::max_element(measured.begin(), measured.end(), [](const auto& a, const auto& b) {
-                return std::abs(std::log(farther_end(a))) < std::abs(std::log(farther_end(b)));
-            });
-            text +=
-                fmt::format("the control, {}, at {}: {} of {} values stay within {}; farthest {:.3g}, of {}\n", name, doubled(sweep.first),
-                            within, measured.size(), analysis::bound_text(analysis::bound_of(claim, farthest.quantity)),
-                            farther_end(farthest), text_of(farthest.of));
+            const auto within = std::ranges::count_if(measured, [&](const Ratio& one) { return stays(claim, one); });
+            const Ratio& farthest = *std::ranges::max_element(measured, {}, distance);
+            text += fmt::format("the control, XPBD{}, at {}: {} of {} values stay within {}; farthest {:.3g}, of {}\n",
+                                forgets ? " without its multipliers" : "", text_of(sweep.first).doubled, within, measured.size(),
+                                analysis::bound_text(analysis::bound_of(claim, farthest.quantity)), farther_end(farthest),
+                                text_of(farthest.of));
         }
     return text;
 }
 
 std::string control_markdown(const std::vector<SweptRows>& sweeps, const analysis::Claim& claim)
 {
-    std::string text;
-    for (const SweptRows& sweep : sweeps)
-        for (const auto& measured : control_ratios(sweep, Multipliers::kept))
-            if (!stays(claim, measured))
-                text += fmt::format("| {} | {} | {:.4g} | {:.4g} to {:.4g} |\n", doubled(sweep.first), text_of(measured.of), measured.value,
-                                    measured.low, measured.high);
-    if (text.empty()) text = "| none | | | |\n";
-    return "\n## Where XPBD, the control, leaves the claim's bounds\n\n| at | case | ratio | least to most |\n|---|---|---|---|\n" + text;
+    std::vector<RatioLine> lines;
+    for (const SweptRows& sweep : sweeps) {
+        std::vector<Ratio> outside = control_ratios(sweep, false);
+        std::erase_if(outside, [&](const Ratio& ratio) { return stays(claim, ratio); });
+        std::ranges::copy(lines_of(sweep.first, outside), std::back_inserter(lines));
+    }
+    const std::string table = lines.empty() ? "Nowhere.\n" : markdown_table(table_of(ratio_columns, lines), shown_columns);
+    return "\n## Where XPBD, the control, leaves the claim's bounds\n\n" + table;
 }
 
 }  // namespace experiments

@@ -1,4 +1,4 @@
-// What the stiffness study tells: a page with every exponent and every figure of the claim, and a short table for the terminal.
+// The report of the stiffness study: a page with every exponent and every value of the claim, and a short table for the terminal.
 #pragma once
 
 #include "analysis/claims.hpp"
@@ -12,16 +12,14 @@ namespace experiments {
 
 using SweptRows = std::pair<Varied, std::vector<StiffnessRow>>;
 
-// Columns: varied, case, first, last, points, left_out, exponent, exponent_low, exponent_high.
-analysis::CsvTable exponents_table(const std::vector<SweptRows>& sweeps);
 std::string stiffness_markdown(const std::vector<SweptRows>& sweeps);
 
-// A line a body and load; for one doubling of each thing, PBS at k_stretch 0.2, with the exponent, XPBD at 30 kPa.
+// The ratios of PBS at k_stretch 0.2, of the same with the exponent, and of XPBD at 30 kPa.
 std::string stiffness_text(const std::vector<SweptRows>& sweeps);
 
-// Whether the control is one: XPBD's stiffness is a material's, so its figures should stay within the bounds that the claim sets PBS. For
-// each thing doubled how many do, from least to most, and where the farthest is; the same of XPBD whose multipliers are forgotten, which
-// should not, so that the study is seen to see it. A list of all of XPBD's that do not, for the page.
+// XPBD is a control. Its stiffness is a material's, so its values should stay within the bounds that the claim sets for PBS; those of XPBD
+// that forgets its multipliers should not, which shows that the study can tell the difference. The text has, for each thing doubled, how
+// many values stay and which one is farthest from 1; the page lists XPBD's values that do not stay.
 std::string control_text(const std::vector<SweptRows>& sweeps, const analysis::Claim& claim);
 std::string control_markdown(const std::vector<SweptRows>& sweeps, const analysis::Claim& claim);
 

@@ -37,7 +37,7 @@ std::vector<Measurement> ratios(const LoadedBody& flesh, Method method, Varied v
     for (const double factor : {0.5, 1.0, 2.0}) {
         StiffnessSetting setting{.method = method};
         if (varied == Varied::iterations) setting.iterations = static_cast<int>(setting.iterations * factor);
-        if (varied == Varied::time_step) setting.time_step_s /= factor;
+        if (varied == Varied::time_step) setting.time_step_ms /= factor;
         rows.push_back(linear_stiffness(flesh, setting));
         EXPECT_TRUE(rows.back().converged);
     }

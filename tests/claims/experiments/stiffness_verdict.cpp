@@ -32,7 +32,7 @@ std::vector<analysis::Measurement> measured(Method method, double p, double q, d
         other.stiffness_n_m = std::pow(factor, p);
         iterations.push_back(other);
         other = row;
-        other.setting.time_step_s = 0.01 / factor;
+        other.setting.time_step_ms = 10.0 / factor;
         other.stiffness_n_m = std::pow(factor, q);
         time_steps.push_back(other);
         other = row;

@@ -1,14 +1,17 @@
 // The kept records, read as rows and written again, have the same columns and cells. Reference: the files, which earlier versions wrote.
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/run/region_record.hpp"
+#include "experiments/studies/ambiguity/volume_readings.hpp"
 #include "experiments/studies/artefacts/artefact_figures.hpp"
 #include "experiments/studies/artefacts/smoothness_comparison.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
 #include "experiments/studies/features/feature_cost.hpp"
+#include "experiments/studies/fit/poisson_run.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
+#include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "experiments/studies/timing/timing_records.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
@@ -51,6 +54,13 @@ void expect_same_cells(const analysis::CsvTable& written, const analysis::CsvTab
                 << file << ", row " << row << ", " << column;
 }
 
+template <typename Row>
+void expect_same_file(const analysis::Columns<Row>& columns, const std::string& file)
+{
+    const analysis::CsvTable table = analysis::read_csv((fs::path(PBS_KEPT_RECORDS) / file).string());
+    expect_same_cells(table_of(columns, rows_of(columns, table)), table, file);
+}
+
 // All files STUDY/RUN/NAME of the kept records.
 template <typename Row>
 void expect_same_records(const analysis::Columns<Row>& all, const std::string& study, const std::string& name, bool is_complete = true)
@@ -89,12 +99,21 @@ TEST(KeptTables, OfJiggle)
     expect_same_records(experiments::walk_columns, "jiggle", "walk.csv");
 }
 
-TEST(KeptTables, OfTheVerification)
+TEST(KeptTables, OfBodiesUnderLoad)
 {
-    const fs::path file = fs::path(PBS_KEPT_RECORDS) / "verification" / "verification.csv";
-    const analysis::CsvTable table = analysis::read_csv(file.string());
-    const analysis::Columns<reference_fem::RecordedRow>& columns = reference_fem::verification_columns();
-    expect_same_cells(table_of(columns, rows_of(columns, table)), table, file.string());
+    expect_same_records(experiments::stiffness_columns, "stiffness", "stiffness.csv");
+    expect_same_file(experiments::exponent_columns, "stiffness/exponents.csv");
+    expect_same_records(experiments::sag_columns, "fit", "sag.csv");
+    expect_same_records(experiments::swing_columns, "fit", "swing.csv");
+    expect_same_records(experiments::poisson_columns, "fit", "poisson.csv");
+    expect_same_records(experiments::poisson_pose_columns, "fit", "poisson_poses.csv");
+    expect_same_records(experiments::valley_columns, "fit", "valley.csv");
+}
+
+TEST(KeptTables, OfAmbiguity)
+{
+    expect_same_records(experiments::claim_change_columns, "ambiguity", "ambiguity.csv");
+    expect_same_records(experiments::volume_change_columns, "ambiguity", "figures.csv");
 }
 
 TEST(KeptTables, OfTimedStudies)

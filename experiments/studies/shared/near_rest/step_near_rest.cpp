@@ -8,94 +8,35 @@
 
 namespace experiments {
 namespace {
-class MatrixFree;
-}
-}  // namespace experiments
-
-template <>
-struct Eigen::internal::traits<experiments::MatrixFree> : Eigen::internal::traits<Eigen::SparseMatrix<double>> {
-};
-
-namespace experiments {
-namespace {
-
-// A linear map as Eigen's iterative solvers take it: a product instead of a matrix.
-class MatrixFree : public Eigen::EigenBase<MatrixFree> {
-public:
-    using Scalar = double;
-    using RealScalar = double;
-    using StorageIndex = int;
-    enum { ColsAtCompileTime = Eigen::Dynamic, MaxColsAtCompileTime = Eigen::Dynamic, IsRowMajor = false };
-    using Map = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
-
-    MatrixFree(Eigen::Index size, Map map) : size_(size), map_(std::move(map)) {}
-
-    Eigen::Index rows() const { return size_; }
-    Eigen::Index cols() const { return size_; }
-    Eigen::VectorXd apply(const Eigen::VectorXd& vector) const { return map_(vector); }
-
-    template <typename Vector>
-    Eigen::Product<MatrixFree, Vector, Eigen::AliasFreeProduct> operator*(const Eigen::MatrixBase<Vector>& vector) const
-    {
-        return {*this, vector.derived()};
-    }
-
-private:
-    Eigen::Index size_;
-    Map map_;
-};
-
-}  // namespace
-}  // namespace experiments
-
-template <typename Vector>
-struct Eigen::internal::generic_product_impl<experiments::MatrixFree, Vector, Eigen::SparseShape, Eigen::DenseShape, Eigen::GemvProduct>
-    : generic_product_impl_base<experiments::MatrixFree, Vector, generic_product_impl<experiments::MatrixFree, Vector>> {
-    template <typename Target>
-    static void scaleAndAddTo(Target& target, const experiments::MatrixFree& matrix, const Vector& vector, const double& scale)
-    {
-        target.noalias() += scale * matrix.apply(vector);
-    }
-};
-
-namespace experiments {
-namespace {
 
 using pbs::Positions;
 using pbs::Vec3;
 
 constexpr double tolerance = 1e-8;
-constexpr double softest = 1e-9;  // nothing draws back what is moved by less than this share of it in a step
+constexpr double softest = 1e-9;  // where a step draws back less than this share of a displacement, nothing holds the body
 
-// The rows of the vertices that move, stacked, and back: the unknowns.
-struct StackedRows {
-    explicit StackedRows(const std::vector<bool>& moves) : vertices(static_cast<Eigen::Index>(moves.size()))
-    {
-        for (std::size_t v = 0; v < moves.size(); ++v)
-            if (moves[v]) moving.push_back(static_cast<int>(v));
-    }
+// A linear map in place of a matrix, with the two operations that GMRES uses.
+struct LinearMap {
+    Eigen::Index size;
+    std::function<Eigen::VectorXd(const Eigen::VectorXd&)> map;
 
-    Eigen::Index size() const { return 3 * static_cast<Eigen::Index>(moving.size()); }
-
-    Eigen::VectorXd stacked(const Positions& displacement) const
-    {
-        Eigen::VectorXd stack(size());
-        for (std::size_t i = 0; i < moving.size(); ++i)
-            stack.segment<3>(3 * static_cast<Eigen::Index>(i)) = displacement.row(moving[i]).transpose();
-        return stack;
-    }
-
-    Positions at_vertices(const Eigen::VectorXd& stack) const
-    {
-        Positions displacement = Positions::Zero(vertices, 3);
-        for (std::size_t i = 0; i < moving.size(); ++i)
-            displacement.row(moving[i]) = stack.segment<3>(3 * static_cast<Eigen::Index>(i)).transpose();
-        return displacement;
-    }
-
-    Eigen::Index vertices;
-    std::vector<int> moving;
+    Eigen::Index rows() const { return size; }
+    Eigen::VectorXd operator*(const Eigen::VectorXd& x) const { return map(x); }
 };
+
+// The rows of the vertices that move, one below the other, and back: the unknowns.
+Eigen::VectorXd stacked(const Positions& displacement, const std::vector<int>& moving)
+{
+    const Positions rows = displacement(moving, Eigen::all);
+    return rows.reshaped<Eigen::RowMajor>();
+}
+
+Positions at_vertices(const Eigen::VectorXd& stack, const std::vector<int>& moving, Eigen::Index vertices)
+{
+    Positions displacement = Positions::Zero(vertices, 3);
+    displacement(moving, Eigen::all) = stack.reshaped<Eigen::RowMajor>(static_cast<Eigen::Index>(moving.size()), 3);
+    return displacement;
+}
 
 std::array<Vec3, 1> gradients_at(const Positions& rest, const Positions& bind_point, const pbs::BindConstraint<double>& bind)
 {
@@ -189,23 +130,26 @@ void StepNearRest::apply(Positions& displacement)
 
 RestingState rest_of(StepNearRest& step, const std::vector<bool>& moves, const Vec3& acceleration_m_s2, const KrylovSpace& space)
 {
-    const StackedRows moving(moves);
+    const auto vertices = static_cast<Eigen::Index>(moves.size());
+    std::vector<int> moving;
+    for (std::size_t v = 0; v < moves.size(); ++v)
+        if (moves[v]) moving.push_back(static_cast<int>(v));
     RestingState state;
     const auto S = [&](const Eigen::VectorXd& x) {
         ++state.steps;
-        Positions displacement = moving.at_vertices(x);
+        Positions displacement = at_vertices(x, moving, vertices);
         step.apply(displacement);
-        return moving.stacked(displacement);
+        return stacked(displacement, moving);
     };
-    const MatrixFree identity_minus_S(moving.size(), [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return x - S(x); });
-    Eigen::GMRES<MatrixFree, Eigen::IdentityPreconditioner> gmres;
-    gmres.set_restart(space.vectors);
-    gmres.setMaxIterations(space.most_iterations);
-    gmres.setTolerance(tolerance);
-    gmres.compute(identity_minus_S);
-    const Eigen::VectorXd right_hand_side = S(step.step_s() * step.step_s() * acceleration_m_s2.replicate(moving.size() / 3, 1));
-    const Eigen::VectorXd x = gmres.solve(right_hand_side);
-    state.displacement = moving.at_vertices(x);
+    const auto count = static_cast<Eigen::Index>(moving.size());
+    const LinearMap identity_minus_S{3 * count, [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return x - S(x); }};
+    const Eigen::VectorXd right_hand_side = S(step.step_s() * step.step_s() * acceleration_m_s2.replicate(count, 1));
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(3 * count);
+    Eigen::Index iterations = space.most_iterations;
+    double error = tolerance;
+    Eigen::internal::gmres(identity_minus_S, right_hand_side, x, Eigen::IdentityPreconditioner(), iterations, Eigen::Index{space.vectors},
+                           error);
+    state.displacement = at_vertices(x, moving, vertices);
     state.residual = (x - S(x) - right_hand_side).norm() / right_hand_side.norm();
     state.converged = state.residual <= 10.0 * tolerance && softest * x.norm() <= right_hand_side.norm();
     return state;

@@ -2,8 +2,8 @@
 //   const RestingState state = settle(mesh, held, options, {0.0, 0.0, -9.81});   // the paper's solver
 //   positions = mesh.rest + dt_s * dt_s * state.displacement;
 // Near rest the iterations of a step, lines (10)-(14) of Algorithm 1, are a linear map S of displacements. With lines (7)-(8) and (16) a
-// step is x <- S (2 x - x_before + a dt^2), which rests at x = (I - S)^-1 S a dt^2 whatever the damping. GMRES finds that state; stepping
-// would swing for thousands of steps.
+// step is x <- S (2 x - x_before + a dt^2), which rests at x = (I - S)^-1 S a dt^2 whatever the damping. GMRES finds that state, whereas
+// time stepping would swing for thousands of steps.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -14,7 +14,7 @@
 
 namespace experiments {
 
-// S, for the position based solver and for XPBD alike. One projection takes  C = sum g_i . u_i  and does
+// S, for the position based solver and for XPBD. One projection takes  C = sum g_i . u_i  and computes
 //   dlambda = -share (C + alpha / dt^2 lambda) / (sum w |g|^2 + alpha / dt^2),   u_i += w_i g_i dlambda
 // The position based solver has share = k and alpha = 0; XPBD has share = 1 and its compliance alpha. lambda belongs to one step.
 class StepNearRest {
@@ -24,11 +24,11 @@ public:
     StepNearRest(const pbs::Positions& rest, const pbs::Positions& bind_point, int iterations, double step_s,
                  bool forgets_multipliers = false);
 
-    // Adds the projection of a bind, stretch or volume constraint behind those that are there. inverse_mass: #V.
+    // Appends the projection of a bind, stretch or volume constraint. inverse_mass: #V.
     template <typename Constraint>
     void add(const Constraint& constraint, double share, double compliance, const std::vector<double>& inverse_mass);
 
-    void apply(pbs::Positions& displacement);  // #V x 3, in place; what the iterations of a step do to it
+    void apply(pbs::Positions& displacement);  // #V x 3, in place: the iterations of one step
     double step_s() const { return step_s_; }
 
 private:
@@ -65,8 +65,8 @@ struct KrylovSpace {
 // moves: #V, which vertices keep their displacement from one step to the next and are accelerated.
 RestingState rest_of(StepNearRest& step, const std::vector<bool>& moves, const pbs::Vec3& acceleration_m_s2, const KrylovSpace& space = {});
 
-// The paper's solver with a time step of 1 s; a displacement goes with dt^2. Bind constraints are left out, as they would hold the axis. Of
-// the options, iterations, stiffnesses and masses count. held: #V, vertices that do not move.
+// The paper's solver with a time step of 1 s; a displacement scales with dt^2. Bind constraints are left out, as they would hold the axis.
+// The result depends on the iterations, stiffnesses and masses in the options. held: #V, vertices that do not move.
 RestingState settle(const pbs::TetMesh& mesh, const std::vector<bool>& held, const pbs::PbsOptions& options,
                     const pbs::Vec3& acceleration_m_s2);
 

@@ -4,15 +4,18 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/deformers/xpbd/xpbd_options.hpp"
 #include "experiments/studies/ambiguity/reading_figures.hpp"
+#include "experiments/studies/ambiguity/volume_readings.hpp"
 #include "experiments/studies/artefacts/artefact_figures.hpp"
 #include "experiments/studies/bench/bench.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
 #include "experiments/studies/features/feature_cost.hpp"
+#include "experiments/studies/fit/poisson_run.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/scale/scale_records.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
 #include "experiments/studies/stability/stability_cell.hpp"
+#include "experiments/studies/stiffness/stiffness_sweep.hpp"
 #include "experiments/studies/study_run.hpp"
 #include "experiments/studies/timing/timing_records.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
@@ -96,6 +99,35 @@ TEST(RecordedSettings, OfStability)
 TEST(RecordedSettings, OfAmbiguity)
 {
     EXPECT_GE(expect_each_change_repeats(ReadingsCase{.scene = limb(), .frame = 18, .pose = "bend 90"}), 8);
+    EXPECT_GE(expect_each_change_repeats(VolumeReadings{"limb", limb(), {}}), 4);
+}
+
+TEST(RecordedSettings, OfReadings)
+{
+    const Reading of{.place = "Eq. 5: masses", .name = "lumped", .baseline = "own", .options = {}};
+    const nlohmann::json recorded = to_json(of);
+    int changes = 0;
+    test_support::for_each_change(of, [&](const Reading& changed, const std::string& what) {
+        if (changed.options.threads != of.options.threads) return;  // results do not depend on it
+        EXPECT_NE(to_json(changed), recorded) << what;
+        ++changes;
+    });
+    EXPECT_GE(changes, 24);
+}
+
+TEST(RecordedSettings, OfStiffness)
+{
+    EXPECT_GE(expect_each_change_repeats(StiffnessSweep{.body = "limb"}), 6);
+    const StiffnessSetting of;
+    test_support::for_each_change(
+        of, [&](const StiffnessSetting& changed, const std::string& what) { EXPECT_NE(to_json(changed), to_json(of)) << what; });
+}
+
+TEST(RecordedSettings, OfFit)
+{
+    EXPECT_GE(expect_each_change_repeats(SagCase{}), 7);
+    EXPECT_GE(expect_each_change_repeats(SwingCase{}), 7);
+    EXPECT_GE(expect_each_change_repeats(PoissonCase{.elastic = {{}}, .angles_deg = {30.0}}), 12);
 }
 
 TEST(RecordedSettings, OfBodySetup)

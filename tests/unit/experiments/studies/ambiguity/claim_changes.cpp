@@ -8,7 +8,7 @@
 namespace {
 
 using analysis::Extent;
-using experiments::ClaimChanges;
+using experiments::ClaimChange;
 using experiments::JudgedFigure;
 using experiments::Reading;
 using experiments::ReadingFigures;
@@ -20,91 +20,88 @@ JudgedFigure figure(double value, Extent extent, analysis::Limit limit = analysi
     return {"C09", "damping_ratio", {.body = "limb"}, "1", "0.0001 to 1", value, extent, limit};
 }
 
-analysis::CsvTable compared(const ReadingFigures& a, const ReadingFigures& b)
+std::vector<ClaimChange> compared(const ReadingFigures& a, const ReadingFigures& b)
 {
-    ClaimChanges changes;
-    changes.add("limb", "C09", reading, a, b);
-    return changes.table();
+    return experiments::claim_changes("limb", "C09", reading, a, b);
 }
 
 TEST(ClaimChanges, HoldBothValuesAndFlipWhereTheBoundJudgesThemOtherwise)
 {
     const auto table = compared({{figure(0.5, Extent::whole)}}, {{figure(1.25, Extent::none, analysis::Limit::at_least)}});
-    ASSERT_EQ(table.rows(), 1);
-    EXPECT_EQ(table.text_at(0, "place"), "Eq. 2");
-    EXPECT_EQ(table.number(0, "change"), 0.75);
-    EXPECT_EQ(table.number(0, "b_over_a"), 2.5);
-    EXPECT_EQ(table.text_at(0, "holds_a"), "whole");
-    EXPECT_EQ(table.text_at(0, "holds_b"), "nowhere");
-    EXPECT_EQ(table.text_at(0, "verdict_flips"), "yes");
-    EXPECT_EQ(table.text_at(0, "reason"), "B: at_least");
+    ASSERT_EQ(table.size(), 1u);
+    EXPECT_EQ(table.at(0).place, "Eq. 2");
+    EXPECT_EQ(table.at(0).change, 0.75);
+    EXPECT_EQ(table.at(0).b_over_a, 2.5);
+    EXPECT_EQ(table.at(0).holds_a, "whole");
+    EXPECT_EQ(table.at(0).holds_b, "nowhere");
+    EXPECT_EQ(table.at(0).verdict_flips, "yes");
+    EXPECT_EQ(table.at(0).reason, "B: at_least");
 }
 
 TEST(ClaimChanges, DoNotFlipWithinTheBound)
 {
-    EXPECT_EQ(compared({{figure(0.5, Extent::whole)}}, {{figure(0.6, Extent::whole)}}).text_at(0, "verdict_flips"), "no");
+    EXPECT_EQ(compared({{figure(0.5, Extent::whole)}}, {{figure(0.6, Extent::whole)}}).at(0).verdict_flips, "no");
 }
 
 TEST(ClaimChanges, WithoutAFigureOfEitherSayWhoseIsMissing)
 {
     const auto of_a_alone = compared({{figure(0.5, Extent::whole)}}, {});
-    EXPECT_EQ(of_a_alone.text_at(0, "verdict_flips"), "no figure");
-    EXPECT_EQ(of_a_alone.text_at(0, "reason"), "B has no such figure");
-    EXPECT_FALSE(of_a_alone.number_or_nothing(0, "b").has_value());
-    EXPECT_FALSE(of_a_alone.number_or_nothing(0, "change").has_value());
+    EXPECT_EQ(of_a_alone.at(0).verdict_flips, "no figure");
+    EXPECT_EQ(of_a_alone.at(0).reason, "B has no such figure");
+    EXPECT_FALSE(of_a_alone.at(0).b.has_value());
+    EXPECT_FALSE(of_a_alone.at(0).change.has_value());
     const auto of_b_alone = compared({}, {{figure(0.5, Extent::whole)}});
-    EXPECT_EQ(of_b_alone.text_at(0, "reason"), "A has no such figure");
-    EXPECT_EQ(of_b_alone.number(0, "b"), 0.5);
+    EXPECT_EQ(of_b_alone.at(0).reason, "A has no such figure");
+    EXPECT_EQ(of_b_alone.at(0).b, 0.5);
 }
 
 TEST(ClaimChanges, OfAClaimWithoutAFigureHaveARowThatSaysSo)
 {
     const auto table = compared({}, {});
-    ASSERT_EQ(table.rows(), 1);
-    EXPECT_EQ(table.text_at(0, "verdict_flips"), "no figure");
-    EXPECT_EQ(table.text_at(0, "reason"), "neither reading has a figure");
+    ASSERT_EQ(table.size(), 1u);
+    EXPECT_EQ(table.at(0).verdict_flips, "no figure");
+    EXPECT_EQ(table.at(0).reason, "neither reading has a figure");
 }
 
 TEST(ClaimChanges, OfAQuantityThatIsLeftOutHaveARowWithTheReason)
 {
     const ReadingFigures measured = {{figure(0.5, Extent::whole)}, false, {{"C09", "share", "four settings"}, {"C12", "other", "why"}}};
     const auto table = compared(measured, measured);
-    ASSERT_EQ(table.rows(), 2);
-    EXPECT_EQ(table.text_at(0, "verdict_flips"), "no");
-    EXPECT_EQ(table.text_at(1, "quantity"), "share");
-    EXPECT_EQ(table.text_at(1, "verdict_flips"), "no figure");
-    EXPECT_EQ(table.text_at(1, "reason"), "four settings");
-    EXPECT_FALSE(table.number_or_nothing(1, "b").has_value());
+    ASSERT_EQ(table.size(), 2u);
+    EXPECT_EQ(table.at(0).verdict_flips, "no");
+    EXPECT_EQ(table.at(1).quantity, "share");
+    EXPECT_EQ(table.at(1).verdict_flips, "no figure");
+    EXPECT_EQ(table.at(1).reason, "four settings");
+    EXPECT_FALSE(table.at(1).b.has_value());
 }
 
 TEST(ClaimChanges, OfAReadingThatBreaksDownFlipWhatHeld)
 {
     const ReadingFigures broken = {{}, true};
     const auto held = compared({{figure(0.5, Extent::whole)}}, broken), failed = compared({{figure(2.0, Extent::none)}}, broken);
-    EXPECT_EQ(held.text_at(0, "verdict_flips"), "yes");
-    EXPECT_EQ(failed.text_at(0, "verdict_flips"), "no");
-    EXPECT_EQ(held.text_at(0, "reason"), "B breaks down");
-    EXPECT_FALSE(held.number_or_nothing(0, "b").has_value());
+    EXPECT_EQ(held.at(0).verdict_flips, "yes");
+    EXPECT_EQ(failed.at(0).verdict_flips, "no");
+    EXPECT_EQ(held.at(0).reason, "B breaks down");
+    EXPECT_FALSE(held.at(0).b.has_value());
     const auto with_a_figure =
         compared({{figure(0.5, Extent::whole)}}, {{figure(std::numeric_limits<double>::quiet_NaN(), Extent::none)}, true});
-    EXPECT_EQ(with_a_figure.text_at(0, "verdict_flips"), "yes");
-    EXPECT_EQ(with_a_figure.text_at(0, "reason"), "B breaks down");
-    EXPECT_EQ(compared({}, broken).text_at(0, "reason"), "B breaks down");
+    EXPECT_EQ(with_a_figure.at(0).verdict_flips, "yes");
+    EXPECT_EQ(with_a_figure.at(0).reason, "B breaks down");
+    EXPECT_EQ(compared({}, broken).at(0).reason, "B breaks down");
 }
 
 TEST(ClaimChanges, OfAFigureThatWasZeroHaveNoRatio)
 {
     const auto table = compared({{figure(0.0, Extent::none)}}, {{figure(0.5, Extent::whole)}});
-    EXPECT_FALSE(table.number_or_nothing(0, "b_over_a").has_value());
-    EXPECT_EQ(table.number(0, "change"), 0.5);
+    EXPECT_FALSE(table.at(0).b_over_a.has_value());
+    EXPECT_EQ(table.at(0).change, 0.5);
 }
 
 TEST(ClaimChanges, OfAReadingThatCannotTouchTheClaimSayWhy)
 {
-    ClaimChanges changes;
-    changes.add_untouched("limb", "C10", reading, "another factor is no more work");
-    EXPECT_EQ(changes.table().text_at(0, "verdict_flips"), "not touched");
-    EXPECT_EQ(changes.table().text_at(0, "reason"), "another factor is no more work");
+    const ClaimChange row = experiments::untouched_claim("limb", "C10", reading, "another factor is no more work");
+    EXPECT_EQ(row.verdict_flips, "not touched");
+    EXPECT_EQ(row.reason, "another factor is no more work");
 }
 
 TEST(ClaimChanges, KeepCasesOfOneQuantityApart)
@@ -112,9 +109,9 @@ TEST(ClaimChanges, KeepCasesOfOneQuantityApart)
     JudgedFigure a = figure(0.5, Extent::whole), other = figure(0.7, Extent::whole);
     other.of = {.body = "human"};
     const auto table = compared({{a, other}}, {{other, a}});
-    ASSERT_EQ(table.rows(), 2);
-    EXPECT_EQ(table.number(0, "change"), 0.0);
-    EXPECT_EQ(table.number(1, "change"), 0.0);
+    ASSERT_EQ(table.size(), 2u);
+    EXPECT_EQ(table.at(0).change, 0.0);
+    EXPECT_EQ(table.at(1).change, 0.0);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Truth: the registered deformer, which is the paper's own reading, and the functions that a reading names.
-#include "experiments/studies/ambiguity/read_deformer.hpp"
+#include "experiments/studies/ambiguity/read_motion.hpp"
 
 #include "experiments/deformers/registry.hpp"
 #include "tests/support/limb_character.hpp"

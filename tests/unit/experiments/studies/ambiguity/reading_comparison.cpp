@@ -1,5 +1,5 @@
 // Truth: a measure that is made up and counts.
-#include "experiments/studies/ambiguity/reading_comparison.hpp"
+#include "experiments/studies/ambiguity/claim_changes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -33,9 +33,9 @@ TEST(ReadingComparison, MeasuresWhatTouchesTheClaimAndItsBaselineOnce)
         return figures;
     });
     EXPECT_EQ(measured, (std::vector<std::string>{"own", "lumped"}));
-    ASSERT_EQ(comparison.changes().rows(), 2);
-    EXPECT_EQ(comparison.changes().number(0, "b_over_a"), 1.5);
-    EXPECT_EQ(comparison.changes().text_at(1, "verdict_flips"), "not touched");
+    ASSERT_EQ(comparison.changes().size(), 2u);
+    EXPECT_EQ(comparison.changes()[0].b_over_a, 1.5);
+    EXPECT_EQ(comparison.changes()[1].verdict_flips, "not touched");
     EXPECT_TRUE(comparison.breakdown().empty());
 }
 
@@ -46,7 +46,7 @@ TEST(ReadingComparison, SaysWhichReadingBreaksDown)
         return std::vector<ReadingFigures>(touching.size(), ReadingFigures{{}, true});
     });
     EXPECT_NE(comparison.breakdown().find("lumped (C10)"), std::string::npos);
-    EXPECT_EQ(comparison.changes().text_at(0, "reason"), "B breaks down");
+    EXPECT_EQ(comparison.changes().at(0).reason, "B breaks down");
 }
 
 }  // namespace

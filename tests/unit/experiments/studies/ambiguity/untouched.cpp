@@ -1,5 +1,5 @@
 // Truth: how each claim's figure is measured (reading_figures.hpp); a reading is not touched only where it cannot be.
-#include "experiments/studies/ambiguity/untouched.hpp"
+#include "experiments/studies/ambiguity/reading.hpp"
 
 #include <gtest/gtest.h>
 

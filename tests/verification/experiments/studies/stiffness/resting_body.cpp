@@ -57,7 +57,7 @@ TEST(RestingBody, HalfTheStepIsFourTimesTheStiffness)
     const LoadedBody body = limb(RestOfBody::projected);
     StiffnessSetting setting{.k_stretch = 0.3, .iterations = 6};
     const double whole = stiffness(body, setting);
-    setting.time_step_s /= 2.0;
+    setting.time_step_ms /= 2.0;
     EXPECT_NEAR(stiffness(body, setting) / whole, 4.0, 4e-5);
 }
 
@@ -69,7 +69,7 @@ TEST(RestingBody, XpbdIteratedToTheEndKnowsNeitherIterationsNorStep)
     const double once = stiffness(body, setting);
     setting.iterations = 800;
     EXPECT_NEAR(stiffness(body, setting) / once, 1.0, 1e-4);
-    setting.time_step_s /= 4.0;
+    setting.time_step_ms /= 4.0;
     EXPECT_NEAR(stiffness(body, setting) / once, 1.0, 1e-4);
     setting.young_pa *= 2.0;  // of springs and bulk alike; rigid bind constraints take no part of it
     EXPECT_NEAR(stiffness(body, setting) / once, 2.0, 2e-3);

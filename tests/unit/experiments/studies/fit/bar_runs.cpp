@@ -1,5 +1,5 @@
-// Reference: the recurrence's closed form, worked for one eigenvalue, and its limits.
-#include "experiments/studies/fit/fit_records.hpp"
+// Truth: the recurrence's closed form, worked for one eigenvalue, and its limits.
+#include "experiments/studies/fit/bar_runs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Reference: an interpolant is exact at its nodes and for polynomials of its degree in the variable it is a polynomial of.
-#include "experiments/studies/fit/poisson_family.hpp"
+// Truth: an interpolant is exact at its nodes and for polynomials of its degree in the variable it is a polynomial of.
+#include "experiments/studies/fit/poisson_fit.hpp"
 
 #include <gtest/gtest.h>
 
