@@ -145,8 +145,8 @@ std::string volume_markdown(const std::vector<VolumeChange>& changes)
         };
         text += fmt::format("| {} | {} | {} | {:.2f} -> {:.2f} | {:.2f} -> {:.2f} | {:.2f} -> {:.2f} | {:.3f} | {:.2f} -> {:.2f} | {} |\n",
                             first.scene, first.place, first.reading_b, first.a, first.b, of(mean_abs_change).a, of(mean_abs_change).b,
-                            of(share_within_printed).a, of(share_within_printed).b, 1e3 * of(distance_from_a).b, 1e3 * of(jiggle).a,
-                            1e3 * of(jiggle).b, first.verdict_changed);
+                            of(share_within_printed).a, of(share_within_printed).b, 1e3 * of(distance_from_a).b,
+                            1e3 * of(distance_by_jiggle).a, 1e3 * of(distance_by_jiggle).b, first.verdict_changed);
     }
     return text;
 }

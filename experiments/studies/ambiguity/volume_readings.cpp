@@ -117,7 +117,7 @@ std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading
             b.pbs.volume_abs_change_pct[frame]);
     }
     add(distance_from_a, 0.0, distance_m(a, b, {}));
-    add(jiggle, distance_m(a, resting, zone), distance_m(b, resting, zone));
+    add(distance_by_jiggle, distance_m(a, resting, zone), distance_m(b, resting, zone));
     return rows;
 }
 

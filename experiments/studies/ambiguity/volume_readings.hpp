@@ -27,7 +27,7 @@ inline constexpr const char* mean_change = "mean volume change [%]";
 inline constexpr const char* mean_abs_change = "mean absolute volume change [%]";
 inline constexpr const char* share_within_printed = "share of frames within 0.5 %";
 inline constexpr const char* distance_from_a = "distance of B from A, rms [m]";
-inline constexpr const char* jiggle = "jiggle: zone off the shape that does not jiggle, rms [m]";
+inline constexpr const char* distance_by_jiggle = "jiggle: zone off the shape that does not jiggle, rms [m]";
 
 // a: moved by the reading's baseline; resting: by the scene's own reading, from which jiggling is measured; zone: #V
 std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading& reading, const ReadMotion& a, const ReadMotion& b,

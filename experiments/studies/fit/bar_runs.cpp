@@ -26,15 +26,15 @@ const Columns<FitQuality>& quality_columns()
 
 namespace {
 
-const Columns<BarSetting> setting_columns = {{"vertices", &BarSetting::vertices, "", "number of vertices"},
-                                             {"mean_edge_m", &BarSetting::mean_edge_m, "m", "mean length of the edges"},
-                                             {"k_stretch", &BarSetting::k_stretch, "", "stiffness of the stretch constraints"},
-                                             {"k_volume", &BarSetting::k_volume, "", "stiffness of the volume constraints"},
-                                             {"iterations", &BarSetting::iterations, "", "iterations per step"},
-                                             {"time_step_s", &BarSetting::time_step_s, "s", "time step"},
-                                             {"masses", &BarSetting::masses, "", "masses of PBS"},
-                                             {"density_kg_m3", &BarSetting::density_kg_m3, "kg/m^3", "density of the elastic body"},
-                                             {"poisson", &BarSetting::poisson, "", "Poisson's ratio of the elastic body"}};
+const Columns<BarSetting> bar_columns = {{"vertices", &BarSetting::vertices, "", "number of vertices"},
+                                         {"mean_edge_m", &BarSetting::mean_edge_m, "m", "mean length of the edges"},
+                                         {"k_stretch", &BarSetting::k_stretch, "", "stiffness of the stretch constraints"},
+                                         {"k_volume", &BarSetting::k_volume, "", "stiffness of the volume constraints"},
+                                         {"iterations", &BarSetting::iterations, "", "iterations per step"},
+                                         {"time_step_s", &BarSetting::time_step_s, "s", "time step"},
+                                         {"masses", &BarSetting::masses, "", "masses of PBS"},
+                                         {"density_kg_m3", &BarSetting::density_kg_m3, "kg/m^3", "density of the elastic body"},
+                                         {"poisson", &BarSetting::poisson, "", "Poisson's ratio of the elastic body"}};
 
 const Columns<ReleaseTest> test_columns = {{"frequency_hz", &ReleaseTest::frequency_hz, "Hz", "first frequency, damped"},
                                            {"damping_ratio", &ReleaseTest::damping_ratio, "", "damping over critical damping"},
@@ -46,7 +46,7 @@ const Columns<ReleaseTest> test_columns = {{"frequency_hz", &ReleaseTest::freque
 }  // namespace
 
 const Columns<SagRow> sag_columns =
-    within(&SagRow::setting, setting_columns) +
+    within(&SagRow::setting, bar_columns) +
     Columns<SagRow>{{"young_pa", &SagRow::young_pa, "Pa", "Young's modulus of the elastic bar that sags as PBS does"},
                     {"young_low_pa", &SagRow::young_low_pa, "Pa", "lower end of its interval"},
                     {"young_high_pa", &SagRow::young_high_pa, "Pa", "upper end of its interval"}} +
@@ -59,7 +59,7 @@ const Columns<SagRow> sag_columns =
         {"solver_steps", &SagRow::solver_steps, "", "applications of the linear map"}};
 
 const Columns<SwingRow> swing_columns =
-    within(&SwingRow::setting, setting_columns) + within(&SwingRow::test, test_columns) +
+    within(&SwingRow::setting, bar_columns) + within(&SwingRow::test, test_columns) +
     Columns<SwingRow>{{"young_pa", &SwingRow::young_pa, "Pa", "Young's modulus by the first frequency"},
                       {"young_sag_pa", &SwingRow::young_sag_pa, "Pa", "Young's modulus by the sag"},
                       {"young_over_sag", &SwingRow::young_over_sag, "", "the former over the latter"},

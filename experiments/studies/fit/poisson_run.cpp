@@ -21,7 +21,7 @@ using analysis::Columns;
 
 namespace {
 
-const Columns<PoissonSetting> setting_columns = {{"model", &PoissonSetting::model, "", "constitutive model of the elastic body"},
+const Columns<PoissonSetting> elastic_columns = {{"model", &PoissonSetting::model, "", "constitutive model of the elastic body"},
                                                  {"element_order", &PoissonSetting::element_order, "", "polynomial order of its elements"},
                                                  {"formulation", &PoissonSetting::formulation, "", "how volume enters them"},
                                                  {"attachment", &PoissonSetting::attachment, "", "how the bones hold it"},
@@ -32,7 +32,7 @@ const Columns<PoissonSetting> setting_columns = {{"model", &PoissonSetting::mode
 }  // namespace
 
 const Columns<PoissonRow> poisson_columns =
-    within(&PoissonRow::setting, setting_columns) +
+    within(&PoissonRow::setting, elastic_columns) +
     Columns<PoissonRow>{{"converged_poses", &PoissonRow::converged_poses, "", "poses in which pbs_converged did converge"},
                         {"poses", &PoissonRow::poses, "", "poses that the ratio is fitted to"},
                         {"poisson", &PoissonRow::poisson, "", "Poisson's ratio"},
@@ -44,13 +44,13 @@ const Columns<PoissonRow> poisson_columns =
                         {"highest_poisson", &PoissonRow::highest_poisson, "", "highest ratio at which all poses converged"}};
 
 const Columns<PoissonPoseRow> poisson_pose_columns =
-    within(&PoissonPoseRow::setting, setting_columns) +
+    within(&PoissonPoseRow::setting, elastic_columns) +
     Columns<PoissonPoseRow>{{"pose", &PoissonPoseRow::pose, "", "name of the pose"},
                             {"poisson", &PoissonPoseRow::poisson, "", "Poisson's ratio by this pose alone"}} +
     within(&PoissonPoseRow::quality, quality_columns());
 
 const Columns<ValleyRow> valley_columns =
-    within(&ValleyRow::setting, setting_columns) +
+    within(&ValleyRow::setting, elastic_columns) +
     Columns<ValleyRow>{{"poisson", &ValleyRow::poisson, "", "Poisson's ratio of the finite elements"},
                        {"misfit_pct", &ValleyRow::misfit_pct, "%", "misfit of all poses at this ratio"}};
 

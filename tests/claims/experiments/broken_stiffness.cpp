@@ -1,10 +1,10 @@
-// C11 from a small limb's held flesh, with XPBD's multipliers kept and forgotten. Truth: with multipliers kept the stiffness is the
-// material's, whatever iterations and time step. Forgotten, a lone constraint of inverse masses w is pulled back to 1 / (1 + a) of its
-// error, a = w dt^2 / alpha, in every iteration, so that n of them hang with K = ((1 + a)^n - 1) / dt^2:
+// C11 from a small limb's held flesh, with XPBD's multipliers kept and forgotten. Reference: with its multipliers the stiffness is the
+// material's, whatever the iterations and the time step. Without them a single constraint of inverse masses w is reduced to 1 / (1 + a) of
+// its error, a = w dt^2 / alpha, in every iteration, so n iterations hang with K = ((1 + a)^n - 1) / dt^2:
 //   twice the iterations   (1 + a)^n + 1 times as stiff: two and more
 //   half the time step     4 ((1 + a / 4)^n - 1) / ((1 + a)^n - 1) times: one and less
-// and so has every mode of a body with one rate an iteration. Rigid constraints, a without bound, know no time step and are four times as
-// stiff at half of it: one and less is for flesh without bind constraints.
+// The same holds for every mode of a body with one rate per iteration. Rigid constraints, with infinite a, do not depend on the time step
+// and are four times as stiff at half of it, so "one and less" is for flesh without bind constraints.
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "tests/support/study_claims.hpp"
 
@@ -44,7 +44,7 @@ std::vector<Measurement> ratios(const LoadedBody& flesh, Method method, Varied v
     return stiffness_ratios(rows, varied);
 }
 
-// XPBD's figures in the place of the paper's solver: the verdict that the control has to bring about.
+// XPBD's values in place of those of the paper's solver: the control has to give this verdict.
 std::vector<Measurement> control(Method method)
 {
     std::vector<Measurement> measured;
@@ -83,7 +83,7 @@ TEST(BrokenStiffness, ForgottenMultipliersAreStiffenedByIterations)
 
 TEST(BrokenStiffness, ForgottenMultipliersAreSoftenedByShortSteps)
 {
-    // Below the claim's bound, too: a is not small.
+    // This is below the claim's bound as well, since a is not small.
     EXPECT_LT(ratios(without_bind(held_flesh()), Method::xpbd_forgetting, Varied::time_step).at(0).high, test_support::claim("C11").low);
 }
 

@@ -1,5 +1,5 @@
-// C11 is judged from what the study of stiffness measures: alter its figures and the verdict turns round. Truth: the project's own
-// claims.toml; the stiffnesses are made up, the figures are the study's own of them.
+// C11 is judged by the values of the stiffness study, and other values give another verdict. Reference: the project's own claims.toml. The
+// stiffnesses are invented; the values are those that the study computes from them.
 #include "analysis/verdict.hpp"
 
 #include "analysis/records/atomic_file.hpp"
@@ -15,7 +15,7 @@ namespace {
 using analysis::VerdictKind;
 using namespace experiments;
 
-// K = iterations^p, dt^-q, vertices^r, once a method.
+// K = iterations^p, dt^-q, vertices^r, once per method.
 std::vector<analysis::Measurement> measured(Method method, double p, double q, double r, const std::string& body = "limb",
                                             const std::string& load = "zone")
 {
@@ -59,13 +59,13 @@ TEST(StiffnessVerdict, TurnsWithTheFigures)
 {
     EXPECT_EQ(verdict(measured(Method::pbs, 0.0, 0.0, 0.0)).kind, VerdictKind::reproduced);
     EXPECT_EQ(verdict(measured(Method::pbs, 1.0, 2.0, -0.7)).kind, VerdictKind::not_reproduced);
-    EXPECT_EQ(verdict(measured(Method::pbs, 0.0, 2.0, 0.0)).kind, VerdictKind::not_reproduced);  // of each quantity some figure has to hold
+    EXPECT_EQ(verdict(measured(Method::pbs, 0.0, 2.0, 0.0)).kind, VerdictKind::not_reproduced);  // each quantity needs a value that holds
     auto two_bodies = measured(Method::pbs, 0.0, 0.0, 0.0);
     for (const auto& other : measured(Method::pbs, 1.0, 2.0, -0.7, "human")) two_bodies.push_back(other);
     EXPECT_EQ(verdict(two_bodies).kind, VerdictKind::reproduced_only_for);
 }
 
-// Not as the paper runs it.
+// Held flesh is not what the paper runs.
 TEST(StiffnessVerdict, FleshHeldIsAControl)
 {
     for (const char* load : {"zone on held", "cantilever"}) {

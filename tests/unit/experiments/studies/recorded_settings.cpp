@@ -1,4 +1,4 @@
-// --resume repeats a run when anything changed that its work depends on. Truth: the members of the cases themselves, each changed in turn.
+// --resume repeats a run when anything changed that its work depends on. Reference: the members of the cases, each changed in turn.
 #include "experiments/deformers/delta_mush/delta_mush.hpp"
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/deformers/registry.hpp"

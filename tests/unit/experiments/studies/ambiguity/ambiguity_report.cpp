@@ -1,4 +1,4 @@
-// Truth: the words of ambiguity_report.hpp; the values are made up.
+// Reference: the description in ambiguity_report.hpp; the values are invented.
 #include "experiments/studies/ambiguity/ambiguity_report.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ ReadingFigures with(const std::string& claim, double value, Extent extent)
     return {{{claim, "quantity", {.body = "limb"}, "1", "1 or more", value, extent}}, false};
 }
 
-// The changes of one reading after those that are there.
+// Appends the changes of one reading.
 void add(std::vector<ClaimChange>& changes, const std::string& claim, const Reading& reading, const ReadingFigures& a,
          const ReadingFigures& b)
 {
@@ -47,7 +47,7 @@ TEST(ClaimChangesText, ShowsTheRatioAndMarksAFlip)
     EXPECT_TRUE(has(text, "C07: 0 of 1 values flip")) << text;
 }
 
-// A small figure that flips comes before a large one that does not.
+// A small value that flips comes before a large one that does not.
 TEST(ClaimChangesText, ShowsTheFigureThatFlips)
 {
     std::vector<ClaimChange> changes;
@@ -74,7 +74,7 @@ TEST(ClaimChangesText, OfAClaimWithoutAValueHasADash)
     EXPECT_TRUE(has(experiments::claim_changes_text(changes), " -\n"));
 }
 
-// In one line for all of one reason; the cell shows what there is a figure of.
+// All quantities with the same reason share a line; the cell shows the quantity that has a value.
 TEST(ClaimChangesText, SaysWhichQuantitiesAreLeftOutAndWhy)
 {
     std::vector<ClaimChange> changes;

@@ -1,4 +1,4 @@
-// Truth: the words of claim_changes.hpp; figures made up.
+// Reference: the description in claim_changes.hpp; the values are invented.
 #include "experiments/studies/ambiguity/claim_changes.hpp"
 
 #include <gtest/gtest.h>

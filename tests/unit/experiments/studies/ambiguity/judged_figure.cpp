@@ -1,4 +1,4 @@
-// Truth: claims.toml and the rules of analysis::judge_case.
+// Reference: claims.toml and the rules of analysis::judge_case.
 #include "experiments/studies/ambiguity/judged_figure.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ TEST(JudgedFigure, IsOfWhatAClaimIsJudgedByAlone)
     EXPECT_EQ(judged({{"C09", "damping_ratio", {.body = "limb"}, 2.0, 2.0, 2.0, "1"}})[0].extent, Extent::none);
 }
 
-// Whether a tolerance was reached must not make a figure of A and one of B two different ones.
+// A value of A and one of B belong together whether or not a tolerance was reached.
 TEST(JudgedFigure, KeepsABoundApartFromWhatItIsOf)
 {
     const analysis::CaseKey of = {.body = "limb", .initial_guess = "rest_pose"};

@@ -1,4 +1,4 @@
-// Truth: the registered deformer, which is the paper's own reading, and the functions that a reading names.
+// Reference: the registered deformer, which is the paper's own reading, and the functions that a reading names.
 #include "experiments/studies/ambiguity/read_motion.hpp"
 
 #include "experiments/deformers/registry.hpp"

@@ -1,4 +1,4 @@
-// Truth: the solver, LBS and the ruler called by hand.
+// Reference: the solver, LBS and the metrics, called directly.
 #include "experiments/studies/ambiguity/read_motion.hpp"
 
 #include "analysis/frame_metrics.hpp"
@@ -61,7 +61,7 @@ TEST(ReadMotion, ByIncrementDependsOnThePathAndByStartDoesNot)
               experiments::move(character, coarse, increment).shapes.back());
 }
 
-// Both bones touch at the middle alone, so that near the outer ends, too, either end blends where the nearest end does not.
+// The bones touch only in the middle, so near the outer ends either_end blends where nearest_end does not.
 TEST(ReadMotion, EitherEndMovesWhatEqTwoLeavesToOneBone)
 {
     Reading either = plainly();

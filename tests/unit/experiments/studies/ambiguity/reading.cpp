@@ -1,4 +1,4 @@
-// Truth: a reading is of a place and differs from its baseline, which stands before it.
+// Reference: a reading belongs to a place and differs from its baseline, which comes before it.
 #include "experiments/studies/ambiguity/reading.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@ namespace {
 
 using experiments::Reading;
 
-// What its motion depends on, by name no more.
+// What its motion depends on, without its names.
 nlohmann::json all_of(const Reading& reading)
 {
     nlohmann::json settings = experiments::to_json(reading);

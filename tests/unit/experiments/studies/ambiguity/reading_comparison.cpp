@@ -1,4 +1,4 @@
-// Truth: a measure that is made up and counts.
+// Reference: an invented measurement that counts its calls.
 #include "experiments/studies/ambiguity/claim_changes.hpp"
 
 #include <gtest/gtest.h>

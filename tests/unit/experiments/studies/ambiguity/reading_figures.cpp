@@ -1,4 +1,4 @@
-// Truth: the studies' own functions called by hand, and what a reading cannot change.
+// Reference: the studies' own functions, called directly, and what a reading cannot change.
 #include "experiments/studies/ambiguity/reading_figures.hpp"
 
 #include "experiments/scene/motion_case.hpp"
@@ -80,28 +80,28 @@ TEST(ReadingFigures, OfProjectionsAreTheMomentumStudysDrifts)
     EXPECT_EQ(figure(all[0], "linear_drift").value, drift.linear);
     EXPECT_EQ(figure(all[0], "angular_drift").value, drift.angular);
     EXPECT_NE(figure(all[1], "linear_drift_of_a_pass").value, figure(all[0], "linear_drift_of_a_pass").value);
-    EXPECT_EQ(figure(all[1], "linear_drift_of_a_pass").extent, Extent::whole);  // masses that the projection knows
+    EXPECT_EQ(figure(all[1], "linear_drift_of_a_pass").extent, Extent::whole);  // the projection takes these masses into account
 }
 
-// Algorithm 1 has the next position from the last two alone, whatever the step: half the step swings twice as fast.
+// In Algorithm 1 the next position depends on the last two alone, whatever the step, so half the step swings twice as fast.
 TEST(ReadingFigures, OfJoltsHaveTheSameDampingInSubstepsThatAreTheSameSteps)
 {
     const auto all = figures_of_jolts(small_limb(), own_and([](Reading& r) { r.substeps = 2; }));
     EXPECT_NEAR(figure(all[0], "frequency_ratio_at_half_time_step").value, 2.0, 1e-6);
-    // twice the samples of a series that has died away by then
+    // The series has twice the samples, and has died away by then.
     EXPECT_NEAR(figure(all[1], "damping_ratio").value, figure(all[0], "damping_ratio").value, 1e-3);
 }
 
-// LBS moves it by the jolt beforehand, and a body that is moved as a whole violates no constraint.
+// LBS moves the flesh by the jolt beforehand, and a body that moves as a whole violates no constraint.
 TEST(ReadingFigures, OfAJoltThatCarriesTheFleshAlongHaveNoSwing)
 {
     const auto all = figures_of_jolts(small_limb(), own_and([](Reading& r) { r.options.lbs_entry = pbs::LbsEntry::increment; }));
-    EXPECT_EQ(number_of(all[0], "damping_ratio"), 4);  // one a setting
+    EXPECT_EQ(number_of(all[0], "damping_ratio"), 4);  // one per setting
     EXPECT_TRUE(all[1].figures.empty());
     EXPECT_FALSE(all[1].broke_down);
 }
 
-// C09's bounds on these are meant for the study's 16 settings.
+// C09's bounds on these quantities are for the study's 16 settings.
 TEST(ReadingFigures, OfJoltsLeaveOutWhatIsOfAllSettingsOfTheStudy)
 {
     const auto all = figures_of_jolts(small_limb(), {own()});
@@ -131,7 +131,7 @@ TEST(ReadingFigures, OfFramesAreOneTimeAReading)
     }
 }
 
-// Weight acts on what is integrated alone: where all is, an infinite one leaves nothing finite; where nothing is, it is not felt.
+// Gravity acts only on integrated particles. If all are integrated, an infinite weight leaves nothing finite; if none is, it has no effect.
 TEST(ReadingFigures, OfFramesTellABreakdown)
 {
     const auto all = figures_of_frames(small_limb(), own_and([](Reading& r) {

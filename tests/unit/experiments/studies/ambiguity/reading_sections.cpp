@@ -1,4 +1,4 @@
-// Truth: C04 has two figures a pose and joint, the smallest radius and the smallest area, and a shape that is not finite has none.
+// Reference: C04 has two values per pose and joint, the smallest radius and the smallest area, and a shape that is not finite has none.
 #include "experiments/studies/ambiguity/reading_figures.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 

@@ -1,4 +1,4 @@
-// Truth: how each claim's figure is measured (reading_figures.hpp); a reading is not touched only where it cannot be.
+// Reference: how each claim's values are measured (reading_figures.hpp).
 #include "experiments/studies/ambiguity/reading.hpp"
 
 #include <gtest/gtest.h>
@@ -67,7 +67,7 @@ TEST(Untouched, IsTheJoltByGravityAndByWhatTurningBonesAloneMake)
     EXPECT_TRUE(touches("C09", jiggling(), [](Reading& r) { r.substeps = 2; }));
 }
 
-// Zero leaves a class out, which is less work.
+// A stiffness of zero leaves a class out, which is less work.
 TEST(Untouched, IsTheTimeOfAFrameByFactorsOtherThanZero)
 {
     EXPECT_FALSE(touches("C10", own(), [](Reading& r) { r.options.k_stretch = 0.9; }));

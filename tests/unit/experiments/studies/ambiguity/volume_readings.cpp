@@ -1,4 +1,4 @@
-// Truth: the definitions of the values, and the claims' own rules for whether a verdict changes.
+// Reference: the definitions of the values, and the claims' own rules for whether a verdict changes.
 #include "experiments/studies/ambiguity/volume_readings.hpp"
 
 #include <gtest/gtest.h>

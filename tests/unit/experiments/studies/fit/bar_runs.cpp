@@ -1,4 +1,4 @@
-// Truth: the recurrence's closed form, worked for one eigenvalue, and its limits.
+// Reference: the closed form of the recurrence, evaluated for one eigenvalue, and its limits.
 #include "experiments/studies/fit/bar_runs.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ TEST(FrequencyOverSag, IsOneForSmallSteps)
     EXPECT_LT(frequency_over_sag(0.5), frequency_over_sag(0.1));
 }
 
-// s = 0.9: at rest x = a dt^2 s / (1 - s), so (omega dt)^2 = 1 / 9; in time the roots of z^2 - 2 s z + s, |log z| a step.
+// s = 0.9: at rest x = a dt^2 s / (1 - s), so (omega dt)^2 = 1 / 9; in time the roots of z^2 - 2 s z + s give |log z| per step.
 TEST(FrequencyOverSag, OfOneEigenvalue)
 {
     const double s = 0.9;

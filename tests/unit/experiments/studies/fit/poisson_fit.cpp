@@ -1,4 +1,4 @@
-// Truth: an interpolant is exact at its nodes and for polynomials of its degree in the variable it is a polynomial of.
+// Reference: an interpolant is exact at its nodes, and for polynomials of its degree in its variable.
 #include "experiments/studies/fit/poisson_fit.hpp"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST(PoissonFamily, IsExactAtNodesAndForPolynomials)
         EXPECT_LT((family.at(poisson) - polynomial(poisson)).cwiseAbs().maxCoeff(), 1e-12) << poisson;
 }
 
-// The lowest ratios alone, where the others did not converge.
+// Only the lowest ratios are left where the others did not converge.
 TEST(PoissonFamily, OfTheFirstNodesIsExactForPolynomials)
 {
     std::vector<double> nodes = poisson_nodes(7);

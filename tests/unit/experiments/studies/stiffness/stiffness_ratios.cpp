@@ -1,4 +1,4 @@
-// Truth: stiffnesses made up as powers of what is varied, so that ratios and exponents are known to rounding (1e-12).
+// Reference: stiffnesses that are powers of what is varied, so that ratios and exponents are known to rounding (1e-12).
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 
 #include "experiments/studies/stiffness/stiffness_report.hpp"
@@ -94,7 +94,7 @@ TEST(StiffnessRatios, OfMeshesThatAreNotQuiteTwiceEachOther)
     EXPECT_NEAR(ratio.high, 0.5, rounding);
 }
 
-// All four at the same settings: none is taken for another.
+// All four run at the same settings, and none is mistaken for another.
 TEST(StiffnessRatios, TellTheMethodsApart)
 {
     std::vector<StiffnessRow> rows;
@@ -118,7 +118,7 @@ TEST(StiffnessRatios, TellTheMethodsApart)
     EXPECT_EQ(text.find("xpbd_small_steps"), std::string::npos) << text;
 }
 
-// 4 for a doubling against bounds of 0.9 to 1.1, beside one that does not change.
+// One stiffness grows by 4 per doubling, against bounds of 0.9 to 1.1; another one does not change.
 TEST(StiffnessReport, SaysWhetherTheControlIsOne)
 {
     std::vector<StiffnessRow> rows = squares();
@@ -129,7 +129,7 @@ TEST(StiffnessReport, SaysWhetherTheControlIsOne)
         steady.stiffness_n_m = 7.0;
         rows.push_back(steady);
         steady.setting.method = Method::pbs;
-        rows.push_back(steady);  // no control
+        rows.push_back(steady);  // is not a control
     }
     analysis::Claim claim;
     claim.low = 0.9;
@@ -146,7 +146,7 @@ TEST(StiffnessReport, SaysWhetherTheControlIsOne)
     EXPECT_NE(control_markdown({{Varied::iterations, rows}}, claim).find("Nowhere."), std::string::npos);
 }
 
-// Beside the control, in a line and under a quantity of its own: no figure of the control, nor of any claim.
+// It has a line and a deformer of its own: its values count neither for the control nor for any claim.
 TEST(StiffnessReport, TellsForgottenMultipliersApart)
 {
     std::vector<StiffnessRow> rows = squares();

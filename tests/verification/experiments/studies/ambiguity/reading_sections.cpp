@@ -1,6 +1,6 @@
-// The narrowest section of a twisted limb, recomputed without CGAL and without the classes of the study. Truth: the limb lies along x and
-// its twist leaves that axis alone, so that a station's plane is x = const; the area that a closed skin cuts out of it is half the sum of
-// (p x q)_x over the segments p q in which its outward triangles meet the plane.
+// The narrowest section of a twisted limb, recomputed without CGAL and without the classes of the study. Reference: the limb lies along x
+// and its twist does not move that axis, so that a station's plane is x = const; the area that a closed skin cuts out of it is half the sum
+// of (p x q)_x over the segments p q in which its outward triangles meet the plane.
 #include "experiments/studies/ambiguity/reading_figures.hpp"
 
 #include "experiments/scene/motion_case.hpp"
@@ -85,10 +85,10 @@ TEST(ReadingSections, HaveTheNarrowestSectionThatPlainSlicingFinds)
         const auto figure =
             std::find_if(figures.begin(), figures.end(), [](const auto& one) { return one.quantity == "smallest_section_area_over_rest"; });
         ASSERT_NE(figure, figures.end());
-        // The shape: rounding of LBS, blended in another order, in f32 projections. An area of it: 1e-6 of its size.
+        // The shapes differ by the rounding of LBS, blended in another order, in f32 projections; their areas by 1e-6 of their size.
         EXPECT_NEAR(figure->value, narrowest[reading], 1e-5) << text_of(figure->of);
     }
-    EXPECT_GT(std::abs(narrowest[1] - narrowest[0]), 1e-3);  // so that the two readings are told apart
+    EXPECT_GT(std::abs(narrowest[1] - narrowest[0]), 1e-3);  // the two readings differ
 }
 
 }  // namespace

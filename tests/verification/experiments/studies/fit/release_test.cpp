@@ -1,6 +1,6 @@
-// Truth: the closed form of the recurrence. Along an eigenvector of the step matrix S with the real eigenvalue s, Algorithm 1 is
+// Reference: the closed form of the recurrence. Along an eigenvector of the step matrix S with the real eigenvalue s, Algorithm 1 is
 //   x(t+1) = s (2 x(t) - x(t-1)),  z^2 - 2 s z + s = 0,  z = s +- i sqrt(s (1 - s)):
-// it swings by acos(sqrt s) a step and keeps sqrt(s) of its amplitude. And damped cosines with a known frequency.
+// it swings by acos(sqrt s) per step and keeps sqrt(s) of its amplitude. Damped cosines with a known frequency are the other reference.
 #include "experiments/studies/fit/release_test.hpp"
 
 #include "tests/support/hanging_tet.hpp"
@@ -23,7 +23,7 @@ std::vector<double> damped_cosine(double frequency_hz, double damping_ratio, dou
     return signal;
 }
 
-// Linear interpolation at a crossing of slope omega is off by a third-order term: (omega dt)^3 / 16 of a radian at most; peaks between
+// Linear interpolation at a crossing of slope omega has a third-order error, at most (omega dt)^3 / 16 of a radian; peaks between
 // samples are low by (omega dt)^2 / 8.
 TEST(ReleaseTest, MeasuresADampedCosine)
 {

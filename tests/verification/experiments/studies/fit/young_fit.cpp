@@ -1,5 +1,5 @@
-// Truth: the finite elements themselves. A body that is the elastic bar of another modulus must be found to be that; one that is not
-// elastic must leave a misfit. Timoshenko's beam stands for the sag.
+// Reference: the finite elements themselves. The fit must find the modulus of a body that is an elastic bar, and leave a misfit for one
+// that is not. The sag is compared with Timoshenko's beam.
 #include "experiments/studies/fit/young_fit.hpp"
 
 #include "tests/support/structured_bar.hpp"
@@ -63,7 +63,7 @@ TEST(YoungFit, FindsTheModulusOfAnElasticBar)
     EXPECT_LT(fit.young_pa.high - fit.young_pa.low, 1e-3 * 3.7e4);
 }
 
-// u = z^2 bends otherwise: no modulus removes it, and the fifths of the bar disagree.
+// This shape bends in another way: no modulus removes the misfit, and the fifths of the bar disagree.
 TEST(YoungFit, AnotherShapeLeavesAMisfit)
 {
     const Cantilever cantilever = make_cantilever(bar);

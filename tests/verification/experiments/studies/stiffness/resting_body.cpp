@@ -1,7 +1,7 @@
-// Truth: the solvers themselves, stepped until the flesh hangs still under a load so small that a displacement is 1e-5 of an edge, which
-// leaves 1e-5 to the second order; stopped at 1e-6 a step, over one minus the slowest rate, above 1/40 here: stiffnesses within 1e-4. The
-// limb has vertices on its bones, d = 0. And theory: of the position based solver a step does not know dt, so stiffness goes with 1 / dt^2;
-// of XPBD, iterated to the end, it is the material's.
+// Reference: the solvers themselves, stepped until the flesh hangs still. The load is so small that displacements are 1e-5 of an edge, so
+// the second order is 1e-5. Stepping stops at a change of 1e-6 per step, which is divided by one minus the slowest rate, above 1/40 here.
+// The stiffnesses therefore agree within 1e-4. The limb has vertices on its bones, d = 0. The other reference is theory: a step of the
+// position based solver does not depend on dt, so its stiffness scales with 1 / dt^2; that of converged XPBD is the material's.
 #include "experiments/studies/stiffness/resting_body.hpp"
 
 #include "tests/support/limb_character.hpp"
@@ -51,7 +51,7 @@ TEST(RestingBody, HangsWhereXpbdHangs)
     expect_as_stepped(limb(RestOfBody::held), {.method = Method::xpbd_small_steps, .iterations = 4});
 }
 
-// To the tolerance of the linear solves, 1e-7 of the right-hand side, times a condition below 100 here.
+// The tolerance is that of the linear solves, 1e-7 of the right-hand side, times a condition number below 100 here.
 TEST(RestingBody, HalfTheStepIsFourTimesTheStiffness)
 {
     const LoadedBody body = limb(RestOfBody::projected);
@@ -61,7 +61,7 @@ TEST(RestingBody, HalfTheStepIsFourTimesTheStiffness)
     EXPECT_NEAR(stiffness(body, setting) / whole, 4.0, 4e-5);
 }
 
-// What is held does not move with the step, so all that is left is K x = M g.
+// What is held does not move with the step, so the state of rest solves K x = M g.
 TEST(RestingBody, XpbdIteratedToTheEndKnowsNeitherIterationsNorStep)
 {
     const LoadedBody body = limb(RestOfBody::held);
@@ -71,7 +71,7 @@ TEST(RestingBody, XpbdIteratedToTheEndKnowsNeitherIterationsNorStep)
     EXPECT_NEAR(stiffness(body, setting) / once, 1.0, 1e-4);
     setting.time_step_ms /= 4.0;
     EXPECT_NEAR(stiffness(body, setting) / once, 1.0, 1e-4);
-    setting.young_pa *= 2.0;  // of springs and bulk alike; rigid bind constraints take no part of it
+    setting.young_pa *= 2.0;  // of edges and tets; rigid bind constraints do not depend on it
     EXPECT_NEAR(stiffness(body, setting) / once, 2.0, 2e-3);
 }
 

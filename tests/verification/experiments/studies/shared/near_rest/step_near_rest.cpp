@@ -1,4 +1,4 @@
-// Truth: linear algebra for one hanging particle; for a bar, the time stepper itself, which stays where it is said to rest.
+// Reference: linear algebra for one hanging particle; for a bar, the time stepper itself, which stays in the state of rest.
 #include "experiments/studies/shared/near_rest/step_near_rest.hpp"
 
 #include "pbs/solver/pbs_solver.hpp"
@@ -23,14 +23,14 @@ TEST(SettledState, OfAHangingParticleIsTheFixedPoint)
         const Eigen::Matrix3d S = test_support::step_matrix(tet, iterations, 0.2);
         const Vec3 expected = (Eigen::Matrix3d::Identity() - S).inverse() * S * acceleration;
         EXPECT_TRUE(state.converged);
-        // GMRES to 1e-7 of the right-hand side, times |(I - S)^-1|, below 30 here.
+        // GMRES converges to 1e-7 of the right-hand side, times |(I - S)^-1|, which is below 30 here.
         EXPECT_LT((state.displacement.row(3).transpose() - expected).norm(), 3e-6 * expected.norm()) << iterations;
         EXPECT_EQ(state.displacement.topRows(3), Positions::Zero(3, 3));
     }
 }
 
-// A bar held at one end, with stretch and volume: the very step with gravity, started there, goes nowhere. The start is at rest, so the
-// first step is S (x + a dt^2) = x, and so on; what may move it is the second order in displacement over edge, 1e-4 of the deflection here.
+// A bar held at one end, with stretch and volume constraints. A time step with gravity does not move it away from its state of rest: the
+// first step is S (x + a dt^2) = x. Only the second order in displacement over edge may move it, 1e-4 of the deflection here.
 TEST(SettledState, OfABarIsWhereTheTimeStepperStays)
 {
     const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {1.0, 0.2, 0.2}, {10, 2, 2});
@@ -60,7 +60,7 @@ TEST(SettledState, OfABarIsWhereTheTimeStepperStays)
 
 TEST(SettledState, SaysThatItDidNotConverge)
 {
-    // Nothing draws the particle back: it never rests.
+    // Nothing draws the particle back, so it never rests.
     const auto tet = test_support::hanging_tet();
     EXPECT_FALSE(settle(tet.mesh, tet.held, test_support::stretch_alone(0, 0.2), -Vec3::UnitZ()).converged);
 }
