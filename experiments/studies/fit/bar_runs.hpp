@@ -59,7 +59,7 @@ extern const analysis::Columns<SagRow> sag_columns;
 
 struct SwingRow {
     BarSetting setting;
-    ReleaseTest test;
+    ReleaseTest test = {};
     double young_pa = 0.0, young_sag_pa = 0.0, young_over_sag = 0.0, expected_over_sag = 0.0;
 };
 extern const analysis::Columns<SwingRow> swing_columns;

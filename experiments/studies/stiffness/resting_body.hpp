@@ -2,12 +2,15 @@
 // itself.
 //   const StiffnessSetting setting{.method = Method::pbs, .k_stretch = 0.2, .iterations = 24, .time_step_ms = 10.0};
 //   effective_stiffness_n_m(body, rest_near_rest(body, setting).displacement, 1.0);
+//   table_of(stiffness_columns, {linear_stiffness(body, setting)}).write("stiffness.csv");
 #pragma once
 
 #include "analysis/records/typed_table.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "experiments/studies/shared/loaded_body.hpp"
 #include "experiments/studies/shared/near_rest/step_near_rest.hpp"
+
+#include <string>
 
 namespace experiments {
 
@@ -50,6 +53,24 @@ struct SteppedBody {
     int steps = 0;
 };
 SteppedBody step_until_still(const LoadedBody& body, const StiffnessSetting& setting, double gravity_m_s2, int most_steps = 4000);
+
+inline constexpr double still_gravity_m_s2 = 9.81;  // under which the solver itself is stepped
+
+// One effective stiffness as stiffness.csv records it.
+struct StiffnessRow {
+    std::string body, load;
+    int vertices = 0, edges = 0, tets = 0;
+    std::string mesh = "wanted";  // or "wanted, a tenth finer": of a second series of sizes
+    StiffnessSetting setting;
+    std::string by = "linear";  // or "stepped": the solver itself, under still_gravity_m_s2
+    double force_n = 0.0, stiffness_n_m = 0.0;
+    bool converged = false;
+    int steps = 0;  // applications of the linear map, or time steps
+};
+extern const analysis::Columns<StiffnessRow> stiffness_columns;
+
+StiffnessRow linear_stiffness(const LoadedBody& body, const StiffnessSetting& setting);
+StiffnessRow stepped_stiffness(const LoadedBody& body, const StiffnessSetting& setting);
 
 }  // namespace experiments
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "analysis/case_record.hpp"
-#include "experiments/studies/stiffness/stiffness_row.hpp"
+#include "experiments/studies/stiffness/resting_body.hpp"
 
 namespace experiments {
 
