@@ -122,6 +122,11 @@ TEST(KeptTables, OfTimedStudies)
     expect_same_records(experiments::feature_columns, "features", "features.csv");
 }
 
+TEST(KeptTables, OfTheVerification)
+{
+    expect_same_file(reference_fem::verification_columns(), "verification/verification.csv");
+}
+
 TEST(KeptTables, OfTheOtherStudies)
 {
     expect_same_records(experiments::rate_columns, "convergence", "rates.csv");
