@@ -55,10 +55,15 @@ std::string flips(const JudgedFigure* a, const JudgedFigure* b, bool b_broke_dow
     return a->extent == b->extent ? "no" : "yes";
 }
 
+ClaimChange named(ClaimChange row, const JudgedFigure& one)
+{
+    row.quantity = one.quantity, row.of = text_of(one.of), row.unit = one.unit, row.bound = one.bound;
+    return row;
+}
+
+// row: named by one of them. Either may be null.
 ClaimChange compared(ClaimChange row, const JudgedFigure* a, const JudgedFigure* b, bool b_broke_down)
 {
-    const JudgedFigure& one = a ? *a : *b;
-    row.quantity = one.quantity, row.of = text_of(one.of), row.unit = one.unit, row.bound = one.bound;
     if (a) row.a = a->value, row.holds_a = word_for(a->extent);
     if (b) row.b = b->value, row.holds_b = word_for(b->extent);
     if (a && b) row.change = b->value - a->value;
@@ -87,9 +92,9 @@ std::vector<ClaimChange> claim_changes(const std::string& body, const std::strin
     const ClaimChange row = row_of(body, claim, reading);
     std::vector<ClaimChange> changes;
     for (const JudgedFigure& of_a : a.figures)
-        if (of_a.claim == claim) changes.push_back(compared(row, &of_a, find(b, of_a), b.broke_down));
+        if (of_a.claim == claim) changes.push_back(compared(named(row, of_a), &of_a, find(b, of_a), b.broke_down));
     for (const JudgedFigure& of_b : b.figures)
-        if (of_b.claim == claim && !find(a, of_b)) changes.push_back(compared(row, nullptr, &of_b, b.broke_down));
+        if (of_b.claim == claim && !find(a, of_b)) changes.push_back(compared(named(row, of_b), nullptr, &of_b, b.broke_down));
     for (const LeftOutQuantity& one : b.left_out)
         if (one.claim == claim) changes.push_back(without_figure(row, "no figure", one.reason, one.quantity));
     if (changes.empty())
