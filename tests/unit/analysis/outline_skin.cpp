@@ -7,7 +7,7 @@ namespace {
 
 using analysis::share_of_outline;
 
-// Sides alone, from z = -0.9 to 1; vertices 2 i below and 2 i + 1 above corner i.
+// Only the sides, from z = -0.9 to 1; vertices 2 i below and 2 i + 1 above corner i.
 struct Prisms {
     pbs::Positions positions, outline{3, 3};  // of the first
     pbs::Triangles skin;

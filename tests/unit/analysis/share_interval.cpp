@@ -9,7 +9,7 @@ namespace {
 
 using analysis::share_interval;
 
-// Of `counted` or fewer out of `all` with probability p each.
+// The probability of `counted` or fewer out of `all` with probability p each.
 double at_most(int counted, int all, double p)
 {
     double sum = 0.0;

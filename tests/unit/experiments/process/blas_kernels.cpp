@@ -1,5 +1,5 @@
-// Truth: which instructions each processor has, by its data sheet, and which kernels OpenBLAS 0.3.21 selects for its family and model; the
-// library's own report of the kernels it uses.
+// Reference: which instructions each processor has, by its data sheet, and which kernels OpenBLAS 0.3.21 selects for its family and model;
+// the library's own report of the kernels it uses.
 #include "experiments/process/blas_kernels.hpp"
 
 #ifdef __x86_64__

@@ -34,7 +34,7 @@ std::string no_work(const Case&, const std::string&)
     return "";
 }
 
-// How many changes there were.
+// The number of changes.
 template <typename Case>
 int expect_each_change_repeats(const Case& of)
 {
@@ -176,7 +176,7 @@ TEST(RecordedSettings, OfDeformers)
     expect_each_option_is_recorded("fem", FemOptions{});
     expect_each_option_is_recorded("xpbd", XpbdOptions{});
     expect_each_option_is_recorded("delta_mush", DeltaMushOptions{});
-    const int threads = 6;  // the member that results do not depend on
+    const int threads = 6;  // the member on which results do not depend
     expect_each_option_is_recorded("pbs", pbs::PbsOptions{}, threads);
 }
 

@@ -1,4 +1,4 @@
-// Truth: what was put into run.json.
+// Reference: the contents written to run.json.
 #include "experiments/verdicts/marked_frames.hpp"
 
 #include "pbs/geometry/input_error.hpp"

@@ -1,4 +1,4 @@
-// Truth: LBS' own distance to the reference, measured here; which meshes of a ladder have one.
+// Reference: the distance of LBS from the reference, measured here, and the list of the meshes that have one.
 #include "experiments/studies/convergence/convergence_case.hpp"
 
 #include "experiments/studies/convergence/convergence_records.hpp"

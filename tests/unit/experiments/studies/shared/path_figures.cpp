@@ -1,4 +1,4 @@
-// Truth: paths made up from formulas, whose rates and floors are known.
+// Reference: paths defined by formulas, whose rates and floors are known.
 #include "experiments/studies/shared/iteration_path.hpp"
 
 #include "tests/support/iteration_paths.hpp"
@@ -58,7 +58,7 @@ TEST(ReachedVolume, IsThePapersHalfPerCent)
     EXPECT_FALSE(reached_volume(path_by(50, [](int) { return 0.51; })).within);
 }
 
-// Of the end of the path instead of the limit, the floor is off by 0.9^400 < 1e-18: rounding of 1 + x, 1e-16 over the smallest x, 0.05.
+// The end of the path replaces the limit, so the floor differs by 0.9^400 < 1e-18: rounding of 1 + x, 1e-16 over the smallest x, 0.05.
 TEST(RateOf, IsThatOfTheFormula)
 {
     const Rate rate = rate_of(path_to_floor(400, 1.0, 1.0, 0.9), 0.3);

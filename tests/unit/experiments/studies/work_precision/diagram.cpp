@@ -1,5 +1,5 @@
-// Diagrams, their tables and their words. Truth: a few points whose fronts and crossings are seen by eye; altered points must change what
-// is said.
+// Diagrams, their tables and their texts. Reference: a few points whose fronts and crossings are obvious; altered points must change the
+// text.
 #include "experiments/studies/work_precision/diagram.hpp"
 
 #include "experiments/studies/work_precision/certainty.hpp"
@@ -133,14 +133,14 @@ TEST(DiagramTables, FrontsOfAllAndOfEachDeformer)
         if (fronts.text_at(row, "front") == "all" && fronts.text_at(row, "measure") == "error_joint_pct")
             all.push_back(fronts.text_at(row, "deformer"));
     EXPECT_EQ(all, (std::vector<std::string>{"lbs", "dqs", "delta_mush", "xpbd", "pbs", "fem_corotational"}));
-    // Joints and L2 are the same here; nothing is known of the maximum; of volume, which falls with time, all points are on the front.
+    // Joints and L2 are the same here; the maximum is unknown. The volume falls with time, so all points are on its front.
     EXPECT_EQ(fronts.rows(), 2 * (6 + 7) + (7 + 7));
     EXPECT_EQ(fronts.text_at(0, "ms_q3"), "");
     EXPECT_EQ(fronts.text_at(fronts.rows() - 1, "measure"), "volume_abs_change_pct");
     EXPECT_EQ(fronts.number(fronts.rows() - 1, "value"), 0.1);
 }
 
-// One against another: outcome, from, told apart, holds beside.
+// One against another: outcome, from, distinguished, holds by the second solution.
 std::vector<std::string> crossing(const Diagram& of, const std::string& one, const std::string& other)
 {
     const CsvTable table = analysis::parse_csv(crossings_table({of}).text(), "crossings.csv");

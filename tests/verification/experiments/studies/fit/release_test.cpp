@@ -52,7 +52,7 @@ TEST(ReleaseTest, HangingParticleSwingsByTheEigenvalueOfItsStep)
     const auto tet = test_support::hanging_tet();
     const double k_stretch = 0.01, dt_s = 0.01;
     const Eigen::Matrix3d S = test_support::step_matrix(tet, 1, k_stretch);
-    pbs::Vec3 direction(1.0, 2.0, 3.0);  // by the power method, of the slowest mode
+    pbs::Vec3 direction(1.0, 2.0, 3.0);  // the slowest mode, by the power method
     for (int i = 0; i < 20000; ++i) direction = (S * direction).normalized();
     const double s = direction.dot(S * direction);
     ASSERT_LT((S * direction - s * direction).norm(), 1e-14);

@@ -47,7 +47,7 @@ TEST(SettledState, OfABarIsWhereTheTimeStepperStays)
     for (const double dt_s : {0.01, 0.002}) {
         pbs::PbsOptions stepping = options;
         stepping.precision = pbs::Precision::f64;
-        stepping.order = pbs::Order::plain;  // that of the settled state
+        stepping.order = pbs::Order::plain;  // the order of the settled state
         stepping.k_bind = 0.0;
         stepping.jiggle = pbs::Jiggle{options.k_stretch};
         stepping.gravity_m_s2 = -deflection_m / (tip * dt_s * dt_s) * Vec3::UnitZ();  // the same deflection at any time step
