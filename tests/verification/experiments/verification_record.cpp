@@ -1,6 +1,6 @@
 // The quick verification record of the finite elements. Reference: what each row cites (closed forms, published benchmarks, other codes);
-// the row states its tolerance and where that comes from. The record can fail: with an error of 5 % in the solver's lambda, which the compared
-// values do not have, named rows do not hold.
+// the row states its tolerance and where that comes from. The record can fail: with an error of 5 % in the solver's lambda, which the
+// compared values do not have, named rows do not hold.
 #include "experiments/studies/verification/problem.hpp"
 
 #include <gtest/gtest.h>
