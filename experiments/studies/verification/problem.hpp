@@ -27,10 +27,13 @@ VerificationRows pbs_locking_rows(const Effort& effort);
 VerificationRows calculix_rows(const Effort& effort);
 
 struct VerificationProblem {
-    std::string name, meaning;
+    std::string name;        // README.md states its truth
     double quick_s, full_s;  // expected time on one core
     std::function<VerificationRows(const Effort& effort)> rows;
 };
 const std::vector<VerificationProblem>& verification_problems();
 
 }  // namespace experiments
+
+// The verification's entry into the module lib/libpbskin_fem.so, which carries deal.II.
+extern "C" const std::vector<experiments::VerificationProblem>* pbskin_verification_problems();

@@ -5,7 +5,7 @@
 #include "experiments/process/blas_kernels.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/study.hpp"
-#include "experiments/studies/verification/verification_module.hpp"
+#include "experiments/studies/verification/problem.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "reference_fem/verification/verification_record.hpp"

@@ -1,4 +1,4 @@
-#include "experiments/studies/verification/verification_module.hpp"
+#include "experiments/studies/verification/problem.hpp"
 
 const std::vector<experiments::VerificationProblem>* pbskin_verification_problems()
 {

@@ -15,7 +15,6 @@ namespace {
 
 using namespace experiments;
 using namespace reference_fem;
-using reference_fem::DeckOptions;
 
 constexpr ElasticMaterial flesh{.young_pa = 1e5, .poisson = 0.3};
 constexpr double tolerance = 1e-7;
