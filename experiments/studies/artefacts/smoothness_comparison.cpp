@@ -3,7 +3,6 @@
 #include "analysis/frame_metrics.hpp"
 #include "analysis/smoothness.hpp"
 #include "analysis/statistics.hpp"
-#include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 
 #include <fmt/format.h>

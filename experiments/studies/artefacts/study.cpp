@@ -18,7 +18,6 @@
 #include "experiments/studies/artefacts/artefact_figures.hpp"
 #include "experiments/studies/artefacts/smoothness_comparison.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
-#include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <fmt/format.h>

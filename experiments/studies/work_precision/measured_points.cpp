@@ -5,7 +5,6 @@
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/process/interruption.hpp"
 #include "experiments/settings/option_fields.hpp"
-#include "experiments/studies/work_precision/point_row.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
