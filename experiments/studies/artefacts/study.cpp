@@ -14,7 +14,7 @@
 // The paper states that it does not handle self-intersections; they are counted. sections.md states where C04 and C05 have a value, and why
 // they have none elsewhere.
 #include "analysis/records/folder_files.hpp"
-#include "analysis/records/report_table.hpp"
+#include "analysis/report_table.hpp"
 #include "experiments/studies/artefacts/artefact_figures.hpp"
 #include "experiments/studies/artefacts/smoothness_comparison.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"

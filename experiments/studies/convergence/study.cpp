@@ -10,7 +10,7 @@
 // Writes DIR/convergence/RUN/residuals.csv, rates.csv, towards.csv, measurements.csv, and convergence.md over all runs.
 #include "analysis/measurement.hpp"
 #include "analysis/records/folder_files.hpp"
-#include "analysis/records/report_table.hpp"
+#include "analysis/report_table.hpp"
 #include "experiments/studies/shared/table_1.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/convergence/convergence_figures.hpp"

@@ -6,7 +6,7 @@
 //
 // Writes DIR/error_split/CASE/parts.csv and attachments.csv, and error_split.md.
 #include "analysis/records/folder_files.hpp"
-#include "analysis/records/report_table.hpp"
+#include "analysis/report_table.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
 #include "experiments/studies/study.hpp"

@@ -6,7 +6,7 @@
 //
 // Writes DIR/features/SCENE/features.csv, DIR/features/features.csv and features.md.
 #include "analysis/records/folder_files.hpp"
-#include "analysis/records/report_table.hpp"
+#include "analysis/report_table.hpp"
 #include "experiments/process/own_process.hpp"
 #include "experiments/process/progress.hpp"
 #include "experiments/studies/features/feature_cost.hpp"

@@ -8,7 +8,7 @@
 //
 // Writes DIR/fit/{sag,swing,poisson,poisson_poses,valley}.csv, fit.json and fit.md.
 #include "analysis/line_fit.hpp"
-#include "analysis/records/report_table.hpp"
+#include "analysis/report_table.hpp"
 #include "experiments/studies/fit/poisson_run.hpp"
 #include "experiments/studies/study.hpp"
 

@@ -7,7 +7,7 @@
 // run's folder), DIR/scale/scale.csv and scale.md.
 #include "analysis/line_fit.hpp"
 #include "analysis/records/folder_files.hpp"
-#include "analysis/records/report_table.hpp"
+#include "analysis/report_table.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/scale/scale_records.hpp"
 #include "experiments/studies/shared/scene_alone.hpp"

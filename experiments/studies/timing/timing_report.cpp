@@ -1,5 +1,5 @@
 #include "analysis/line_fit.hpp"
-#include "analysis/records/report_table.hpp"
+#include "analysis/report_table.hpp"
 #include "experiments/studies/timing/timing_records.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "analysis/records/report_table.hpp"
+#include "analysis/report_table.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 
