@@ -36,7 +36,7 @@ struct OptionalColumn {
     bool is_used(const std::vector<Measurement>& measurements) const
     {
         return std::any_of(measurements.begin(), measurements.end(),
-                           [&](const Measurement& measured) { return !std::holds_alternative<std::nullopt_t>(cell(measured)); });
+                           [&](const Measurement& measured) { return cell(measured).kind != CsvTable::Cell::Kind::nothing; });
     }
 };
 

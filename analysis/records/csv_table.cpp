@@ -29,15 +29,6 @@ std::string line_of(const std::vector<std::string>& fields)
     return fmt::format("{}\n", fmt::join(quoted, ","));
 }
 
-std::string cell_text(const CsvTable::Cell& cell)
-{
-    if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-    if (const auto* number = std::get_if<double>(&cell)) return number_text(*number);
-    if (const auto* number = std::get_if<int>(&cell)) return std::to_string(*number);
-    if (const auto* number = std::get_if<long long>(&cell)) return std::to_string(*number);
-    return "";
-}
-
 template <typename Number>
 bool reads_whole(const std::string& text, Number& value)
 {
@@ -53,6 +44,10 @@ std::string number_text(double value)
     return std::isnan(value) ? "nan" : fmt::format("{}", value);
 }
 
+CsvTable::Cell::Cell(double value) : kind(Kind::real), text(number_text(value)), real(value)
+{
+}
+
 CsvTable::CsvTable(std::vector<std::string> columns) : columns_(std::move(columns))
 {
 }
@@ -62,7 +57,7 @@ void CsvTable::add_row(const std::vector<Cell>& cells)
     if (cells.size() != columns_.size())
         throw std::logic_error{fmt::format("a row of {} cells in a table of {} columns", cells.size(), columns_.size())};
     std::vector<std::string> fields;
-    for (const Cell& cell : cells) fields.push_back(cell_text(cell));
+    for (const Cell& cell : cells) fields.push_back(cell.text);
     rows_.push_back(std::move(fields));
     lines_.push_back(rows() + 1);
 }

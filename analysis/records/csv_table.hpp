@@ -4,9 +4,10 @@
 //   const CsvTable table = read_csv("metrics.csv");  double change = table.number(0, "volume_change_pct");
 #pragma once
 
+#include <concepts>
 #include <optional>
 #include <string>
-#include <variant>
+#include <utility>
 #include <vector>
 
 namespace analysis {
@@ -16,7 +17,24 @@ std::string number_text(double value);  // shortest that round-trips; nan, inf, 
 // Cells are kept as text; rows count from 0. std::out_of_range for a row that does not exist.
 class CsvTable {
 public:
-    using Cell = std::variant<std::string, double, int, long long, std::nullopt_t>;  // nullopt: an empty cell
+    // A text, a number, or no value (nullopt), which is an empty cell.
+    struct Cell {
+        enum class Kind { nothing, text, whole, real };
+
+        Cell(std::nullopt_t) {}
+        Cell(const char* text) : Cell(std::string(text)) {}
+        Cell(std::string text) : kind(Kind::text), text(std::move(text)) {}
+        Cell(double value);
+        template <std::integral Whole>
+        Cell(Whole value) : kind(Kind::whole), text(std::to_string(value)), whole(value)
+        {
+        }
+
+        Kind kind = Kind::nothing;
+        std::string text;  // as the file has it
+        long long whole = 0;
+        double real = 0.0;
+    };
 
     explicit CsvTable(std::vector<std::string> columns);  // a table without rows
 

@@ -49,14 +49,14 @@ nlohmann::json cells_json(const std::vector<std::string>& names, const std::vect
 {
     nlohmann::json json = nlohmann::json::object();
     for (std::size_t i = 0; i < names.size(); ++i) {
-        if (const auto* text = std::get_if<std::string>(&cells[i]))
-            json[names[i]] = *text;
-        else if (const auto* number = std::get_if<double>(&cells[i]))
-            json[names[i]] = *number;
-        else if (const auto* whole = std::get_if<int>(&cells[i]))
-            json[names[i]] = *whole;
-        else if (const auto* large = std::get_if<long long>(&cells[i]))
-            json[names[i]] = *large;
+        const CsvTable::Cell& cell = cells[i];
+        using enum CsvTable::Cell::Kind;
+        if (cell.kind == text)
+            json[names[i]] = cell.text;
+        else if (cell.kind == whole)
+            json[names[i]] = cell.whole;
+        else if (cell.kind == real)
+            json[names[i]] = cell.real;
         else
             json[names[i]] = nullptr;
     }
