@@ -16,8 +16,7 @@ CheckCase judge_bound(const CheckBound& bound, const std::string& unit, const Cs
 CsvTable baseline_columns(const CheckRules& rules);
 // Adds the frames of a scene's metrics.csv in their order. Metrics that the scene does not measure get empty cells. InputError as for
 // CsvTable.
-void add_baseline_rows(CsvTable& baseline, const CheckRules& rules, const std::string& scene, const CsvTable& metrics, int vertices,
-                       int tets);
+void add_baseline_rows(CsvTable& baseline, const std::string& scene, const CsvTable& metrics, int vertices, int tets);
 
 // InputError if the baseline lacks a column, or contains a frame of a scene's deformer twice.
 void require_baseline(const CheckRules& rules, const CsvTable& baseline, const std::string& baseline_file);

@@ -1,4 +1,4 @@
-// A folder of this process's own for what another program reads and writes, removed with it.
+// A temporary folder for files that another program reads and writes. It is removed with this object.
 //   const ScratchFolder folder;  write(folder / "deck.inp");
 #pragma once
 
@@ -20,7 +20,7 @@ public:
         const std::filesystem::path parent = std::filesystem::temp_directory_path();
         std::string name = (parent / "pbskin_XXXXXX").string();
         if (!mkdtemp(name.data()))
-            throw pbs::InputError(parent.string(), 0, "", "", "no folder can be made there: " + std::generic_category().message(errno));
+            throw pbs::InputError(parent.string(), 0, "", "", "no folder can be made here: " + std::generic_category().message(errno));
         path_ = name;
     }
     ~ScratchFolder()

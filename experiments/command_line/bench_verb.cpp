@@ -1,7 +1,8 @@
-// pbskin bench [--mesh TETS] [--threads N] [--json]: how long a step takes, beside `plain` in the same run and beside the machine's limits.
+// pbskin bench [--mesh TETS] [--threads N] [--json]: times a step, and compares it with `plain` in the same run and with the limits of the
+// machine.
 #include "analysis/records/atomic_file.hpp"
-#include "experiments/studies/bench/bench.hpp"
 #include "experiments/command_line/verbs.hpp"
+#include "experiments/studies/bench/bench.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ struct BenchArguments {
     bool json = false;
 };
 
-// Before anything is measured. "": no record is asked for.
+// The path of the record, checked before anything is measured. "": no record is asked for.
 std::string writable_record(const std::string& folder)
 {
     if (folder.empty()) return "";
@@ -36,7 +37,7 @@ std::string writable_record(const std::string& folder)
 int bench(BenchArguments arguments)
 {
     for (const std::string& size : arguments.sizes) arguments.options.sizes.push_back(parse_size(size));
-    std::sort(arguments.options.sizes.begin(), arguments.options.sizes.end());  // the peak of memory is then each one's own
+    std::sort(arguments.options.sizes.begin(), arguments.options.sizes.end());  // so that the peak of memory belongs to the latest
     const std::string file = writable_record(arguments.folder);
     const BenchRecord record = run_bench(arguments.options);
     const std::string json = bench_json(record).dump(2) + "\n";
@@ -50,18 +51,18 @@ int bench(BenchArguments arguments)
 void add_bench_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
 {
     CLI::App* verb =
-        add_verb(app, common, "bench", "projection, step, LBS/DQS and FEM timings, each with its ratio to `plain` in the same run");
+        add_verb(app, common, "bench", "times projections, steps, LBS, DQS and FEM, each as a ratio to `plain` in the same run");
     auto arguments = std::make_shared<BenchArguments>();
     auto* mesh = verb->add_option("--mesh", arguments->options.mesh, "a tet mesh; by default bars of about 2,200 and 19,500 vertices");
-    verb->add_option("--sizes", arguments->sizes, "bars of so many tets, e.g. 1K,10K,100K,1M, and how the cost grows")
+    verb->add_option("--sizes", arguments->sizes, "bars with these numbers of tets, e.g. 1K,10K,100K,1M, and the growth of the cost")
         ->delimiter(',')
         ->excludes(mesh);
     verb->add_flag("--json", arguments->json, "the record, for programs");
     verb->add_option("-o,--output", arguments->folder, "folder that bench.json is written to");
-    verb->add_option("--seconds", arguments->options.seconds, "of rounds on each mesh, about")
+    verb->add_option("--seconds", arguments->options.seconds, "approximate time of the rounds on each mesh")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
-    verb->add_flag("--quick", arguments->options.quick, "a few milliseconds: to see that it runs, its figures are worth nothing");
+    verb->add_flag("--quick", arguments->options.quick, "a few milliseconds, to test that it runs; the times are useless");
     verb->callback([&action, &common, verb, arguments] {
         const bool asked = verb->count("--threads") > 0;
         arguments->options.threads = asked ? common.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));

@@ -1,5 +1,4 @@
-#include "experiments/command_line/description.hpp"
-
+#include "experiments/command_line/verbs.hpp"
 #include "experiments/scene/scene_keys.hpp"
 
 #include <nlohmann/json.hpp>
@@ -19,7 +18,7 @@ std::vector<std::string> names_of(const CLI::Option& option)
     return names;
 }
 
-// CLI11 writes a set of choices as TEXT:{one,other}.
+// The choices in the name of an option's type, where CLI11 writes TEXT:{one,other}.
 std::vector<std::string> choices_in(const std::string& type)
 {
     const std::size_t open = type.find('{'), close = type.rfind('}');

@@ -1,15 +1,15 @@
-// pbskin explain NAME: what a metric, claim, scene key or study means.
+// pbskin explain NAME: prints what a metric, claim, scene key, study, deformer or scene means.
 #include "analysis/text_columns.hpp"
-#include "experiments/studies/shared/program_claims.hpp"
-#include "experiments/command_line/embedded_pages.hpp"
 #include "experiments/command_line/plain_markdown.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "experiments/process/terminal.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/scene/scene_keys.hpp"
+#include "experiments/studies/shared/program_claims.hpp"
 #include "experiments/studies/study_costs.hpp"
-#include "experiments/process/terminal.hpp"
+#include "generated/pages_texts.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/nearest_name.hpp"
 
@@ -21,17 +21,18 @@
 namespace experiments {
 namespace {
 
-// Label and text, the text wrapped beside the label.
+// The README.md of a study or the page of a claim.
+std::string page_of(const std::string& name)
+{
+    return plain_text(*pages::by_name.at(name), terminal_width());
+}
+
+// A label and its text, which is wrapped in a column of its own.
 void line(const std::string& label, const std::string& text)
 {
     constexpr std::size_t label_width = 8, least = 30;
     const std::size_t width = std::max(terminal_width(), label_width + 4 + least) - label_width - 4;
     if (!text.empty()) fmt::print("{}", analysis::side_by_side({{"", 0}, {label, label_width}, {text, width}}));
-}
-
-std::string lines_of(std::vector<std::string> texts)
-{
-    return fmt::format("{}", fmt::join(texts, "\n"));
 }
 
 bool explain_key(const std::string& name)
@@ -44,7 +45,7 @@ bool explain_key(const std::string& name)
         line("meaning", key.meaning);
         line("unit", key.unit);
         line("rule", key.rule());
-        line("default", key.default_json.empty() ? "none: every scene states it" : key.default_json);
+        line("default", key.default_json.empty() ? "none: every scene must state it" : key.default_json);
     }
     return found;
 }
@@ -56,7 +57,7 @@ bool explain_metric(const std::string& name)
         fmt::print("{} (metric)\n", text.name);
         line("meaning", text.meaning);
         line("formula", text.formula);
-        line("", lines_of(text.symbols));
+        line("", fmt::format("{}", fmt::join(text.symbols, "\n")));
         line("unit", text.unit);
         line("source", text.source);
         line("cost", text.cost);
@@ -70,14 +71,14 @@ bool is_metric(const std::string& name)
     return std::any_of(metric_texts().begin(), metric_texts().end(), [&](const MetricText& text) { return text.name == name; });
 }
 
-// By its id, or by a quantity that it is judged by.
+// A claim is found by its id, and by a quantity that decides it unless a metric has that name.
 bool explain_claim(const std::string& name)
 {
     bool found = false;
     for (const auto& claim : claims()) {
-        const bool is_judged_by_it = std::count(claim.metrics.begin(), claim.metrics.end(), name) && !is_metric(name);
-        if (claim.id != name && !is_judged_by_it) continue;
-        fmt::print("{}", plain_text(page_of(claim.id), terminal_width()));
+        const bool is_decided_by_it = std::count(claim.metrics.begin(), claim.metrics.end(), name) && !is_metric(name);
+        if (claim.id != name && !is_decided_by_it) continue;
+        fmt::print("{}", page_of(claim.id));
         found = true;
     }
     return found;
@@ -86,7 +87,7 @@ bool explain_claim(const std::string& name)
 std::string extent_text(const Study& study, bool full)
 {
     const ExpectedCost cost = expected_cost(study, study.plan(full).runs, 1);
-    return fmt::format("{} runs, {:.1f} minutes of one core", cost.runs, cost.cpu_s / 60.0);
+    return fmt::format("{} runs, {:.1f} minutes on one core", cost.runs, cost.cpu_s / 60.0);
 }
 
 std::string part_text(Extent extent)
@@ -94,12 +95,12 @@ std::string part_text(Extent extent)
     return extent == Extent::none ? "no" : extent == Extent::quick ? "in its quick form" : "in its full form";
 }
 
-// Its README, and what the program knows of it: what it costs here, with the bodies that are installed.
+// The README of the study, and what it costs on this machine with the bodies that are installed.
 bool explain_study(const std::string& name)
 {
     for (const auto& study : studies()) {
         if (study.name != name) continue;
-        fmt::print("{}\nCost on this machine\n\n", plain_text(page_of(name), terminal_width()));
+        fmt::print("{}\nCost on this machine\n\n", page_of(name));
         line("--quick", extent_text(study, false));
         line("--full", extent_text(study, true));
         line("part of", fmt::format("reproduce: {}\nreproduce --full: {}", part_text(study.sets.quick), part_text(study.sets.full)));
@@ -150,7 +151,7 @@ int explain(const std::string& name)
 
 void add_explain_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
 {
-    CLI::App* verb = add_verb(app, common, "explain", "what a metric, claim, scene key, study, deformer or scene means");
+    CLI::App* verb = add_verb(app, common, "explain", "prints what a metric, claim, scene key, study, deformer or scene means");
     auto name = std::make_shared<std::string>();
     verb->add_option("name", *name, "its name, e.g. volume_change_pct, C02, pbs.k_volume")->required();
     verb->callback([&action, name] { action = [name] { return explain(*name); }; });

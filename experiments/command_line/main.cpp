@@ -1,13 +1,13 @@
-// pbskin: position based skinning, judged.
+// pbskin: a verification suite for position based skinning.
 //   pbskin run limb_twist -o results/limb_twist        one scene: frames and records
 //   pbskin reproduce volume --quick                    studies -> records -> verdicts
 //   pbskin measure rest.msh frame_*.vtu --max-volume-change 0.5
-#include "experiments/command_line/description.hpp"
+#include "analysis/records/provenance.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/failure.hpp"
 #include "experiments/process/interruption.hpp"
-#include "experiments/process/version_text.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -20,16 +20,23 @@ CLI::App* add_verb(CLI::App& app, CommonOptions& common, const std::string& name
 {
     CLI::App* verb = app.add_subcommand(name, meaning);
     verb->add_flag("--quiet", common.quiet, "errors only");
-    verb->add_flag("--verbose", common.verbose, "say more: what each run of a study found");
+    verb->add_flag("--verbose", common.verbose, "print more: the results of each run of a study");
     verb->add_option(
             "--threads", common.threads,
-            "threads of a deformer in run and check (pbs, in the orders ordered and grouped, on meshes that are worth it; by default 1), "
-            "or those that bench times beside one (by default all cores); the other verbs leave it at one")
+            "number of threads; run and check: of a deformer (pbs in the orders ordered and grouped, on meshes that are large enough; by "
+            "default 1); bench: what is timed in addition to one thread (by default all cores); the other verbs use one thread")
         ->check(CLI::Range(1, 1024));
     return verb;
 }
 
 namespace {
+
+std::string version_text()
+{
+    const analysis::Provenance build = analysis::collect_provenance(1);
+    return fmt::format("pbskin {} (git {}{}; {}, {})", build.version, build.git_revision.substr(0, 12), build.git_dirty ? ", dirty" : "",
+                       build.compiler, build.build_type);
+}
 
 void start_log(const CommonOptions& common)
 {
@@ -51,7 +58,7 @@ int parse_and_act(int argc, char** argv)
                            add_mesh_verb, add_bench_verb, add_fetch_verb, add_report_verb})
         add(app, common, action);
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
-        return std::string("pbskin: ") + error.what() + "; `pbskin --help` tells the verbs, `pbskin VERB --help` their options\n";
+        return std::string("pbskin: ") + error.what() + "; `pbskin --help` lists the verbs, `pbskin VERB --help` their options\n";
     });
     try {
         app.parse(argc, argv);
@@ -63,13 +70,13 @@ int parse_and_act(int argc, char** argv)
     return action();
 }
 
-int told(const Failure& failure)
+int reported(const Failure& failure)
 {
     std::fprintf(stderr, "pbskin: %s\n", failure.message().c_str());
     return failure.status;
 }
 
-// What is printed may lie in a buffer to the end: a full disk says so no earlier.
+// Output may stay in a buffer until the end, so that a full disk shows only here.
 bool output_is_lost()
 {
     return std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
@@ -84,7 +91,7 @@ int main(int argc, char** argv)
         const int status = experiments::parse_and_act(argc, argv);
         if (!experiments::output_is_lost()) return status;
     } catch (...) {
-        if (!experiments::output_is_lost()) return experiments::told(experiments::caught_failure());
+        if (!experiments::output_is_lost()) return experiments::reported(experiments::caught_failure());
     }
-    return experiments::told({"standard output: cannot be written", experiments::exit_input});
+    return experiments::reported({"standard output: cannot be written", experiments::exit_input});
 }

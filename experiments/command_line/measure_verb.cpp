@@ -1,16 +1,17 @@
-// pbskin measure REST FRAME... [--csv FILE] [--junit FILE] [--max-volume-change PCT]...: the ruler on anybody's result.
+// pbskin measure REST FRAME... [--csv FILE] [--junit FILE] [--max-volume-change PCT]...: applies the metrics to frames of any program.
 //   pbskin measure rest.msh 'out/frame_%04d.vtu' --max-volume-change 0.5 --max-inverted 0 --junit volume.xml
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/typed_table.hpp"
 #include "analysis/edge_strain.hpp"
 #include "analysis/frame_metrics.hpp"
-#include "experiments/run/broken_frame.hpp"
-#include "experiments/verdicts/check/check_reports.hpp"
-#include "experiments/command_line/verbs.hpp"
+#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/typed_table.hpp"
 #include "experiments/command_line/measure/foreign_frame.hpp"
 #include "experiments/command_line/measure/frame_bounds.hpp"
 #include "experiments/command_line/measure/frame_files.hpp"
+#include "experiments/command_line/verbs.hpp"
 #include "experiments/process/warnings.hpp"
+#include "experiments/run/broken_frame.hpp"
+#include "experiments/run/metrics_table.hpp"
+#include "experiments/verdicts/check/check_reports.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/mesh_remarks.hpp"
@@ -32,35 +33,27 @@ struct MeasureArguments {
     bool quiet = false;
 };
 
-// What is said of a frame with inverted tets beside its figures; one that is not finite is refused by the reader.
+// The worst tet of a frame with inverted tets. The reader refuses frames that are not finite.
 std::string worst_of(const analysis::Ruler& ruler, const pbs::Positions& positions)
 {
     return worst_element(broken_frame(0, pbs::Outcome::finished, positions, ruler.volume_ratios(positions)));
 }
 
-FrameFigures figures_of(const RestMesh& rest, const analysis::Ruler& ruler, const pbs::Positions& positions)
+FrameValues values_of(const RestMesh& rest, const analysis::Ruler& ruler, const pbs::Positions& positions)
 {
     return {ruler.measure(positions), ruler.volume_ratios(positions).maxCoeff<Eigen::PropagateNaN>(),
             analysis::largest_edge_strain(rest.mesh().rest, rest.edges(), positions)};
 }
 
 using analysis::Columns;
-using analysis::FrameMetrics;
 
-const Columns<FrameFigures> figure_columns =
-    analysis::within(&FrameFigures::metrics,
-                     Columns<FrameMetrics>{
-                         {"volume_change_pct", &FrameMetrics::volume_change_pct, "%", "signed change of the whole volume"},
-                         {"volume_abs_change_pct", &FrameMetrics::volume_abs_change_pct, "%", "sum of the absolute changes of each tet"},
-                         {"inverted_tets", &FrameMetrics::inverted_tets, "", "number of inverted tets"},
-                         {"mean_abs_j_minus_1", &FrameMetrics::mean_abs_j_minus_1, "", "mean relative change of volume"},
-                         {"j_min", &FrameMetrics::j_min, "", "smallest volume of a tet over its volume at rest"},
-                         {"stretch_rms", &FrameMetrics::stretch_rms, "", "root mean square of l / l0 - 1 over the edges"}}) +
-    Columns<FrameFigures>{{"j_max", &FrameFigures::j_max, "", "largest volume of a tet over its volume at rest"},
-                          {"edge_strain_max", &FrameFigures::edge_strain_max, "", "largest |l / l0 - 1| of an edge"}};
+const Columns<FrameValues> value_columns =
+    analysis::within(&FrameValues::metrics, frame_metric_columns()) +
+    Columns<FrameValues>{{"j_max", &FrameValues::j_max, "", "largest volume of a tet over its volume at rest"},
+                         {"edge_strain_max", &FrameValues::edge_strain_max, "", "largest |l / l0 - 1| of an edge"}};
 
 const Columns<MeasuredFrame> columns = Columns<MeasuredFrame>{{"frame", &MeasuredFrame::name, "", "name of the frame's file"}} +
-                                       analysis::within(&MeasuredFrame::figures, figure_columns);
+                                       analysis::within(&MeasuredFrame::values, value_columns);
 
 void print_head()
 {
@@ -70,17 +63,17 @@ void print_head()
 
 void print_row(const MeasuredFrame& frame)
 {
-    const analysis::FrameMetrics& m = frame.figures.metrics;
+    const analysis::FrameMetrics& m = frame.values.metrics;
     fmt::print("{:<32} {:>14.6f} {:>14.6f} {:>9} {:>10.4f} {:>10.4f} {:>12.6f} {:>12.6f}\n", frame.name, m.volume_change_pct,
-               m.volume_abs_change_pct, m.inverted_tets, m.j_min, frame.figures.j_max, m.stretch_rms, frame.figures.edge_strain_max);
+               m.volume_abs_change_pct, m.inverted_tets, m.j_min, frame.values.j_max, m.stretch_rms, frame.values.edge_strain_max);
 }
 
-// What does not hold in a frame, on stderr; whether all holds.
-bool tell_broken(const std::vector<FrameBound>& bounds, const std::string& path, const MeasuredFrame& frame)
+// Prints the bounds that do not hold in a frame on stderr. Returns whether all hold.
+bool report_broken(const std::vector<FrameBound>& bounds, const std::string& path, const MeasuredFrame& frame)
 {
     bool all_hold = true;
     for (const FrameBound& bound : bounds) {
-        const std::string broken = broken_text(bound, frame.figures);
+        const std::string broken = broken_text(bound, frame.values);
         if (!broken.empty()) fmt::print(stderr, "pbskin: {}: {}\n", path, broken);
         all_hold = all_hold && broken.empty();
     }
@@ -94,7 +87,7 @@ void require_usable(const MeasureArguments& arguments)
     require_writable(arguments.reports);
 }
 
-// A frame that cannot be read or does not fit is told and reported; the others are measured.
+// A frame that cannot be read or does not fit is reported, and the others are measured.
 int measure(const MeasureArguments& arguments)
 {
     const pbs::Stopwatch stopwatch;
@@ -111,11 +104,11 @@ int measure(const MeasureArguments& arguments)
     for (std::size_t i = 0; i < paths.size(); ++i) {
         try {
             const pbs::Positions positions = rest.read_frame(paths[i]);
-            frames.push_back({names[i], figures_of(rest, ruler, positions)});
+            frames.push_back({names[i], values_of(rest, ruler, positions)});
             if (!arguments.quiet) print_row(frames.back());
-            if (frames.back().figures.metrics.inverted_tets > 0)
+            if (frames.back().values.metrics.inverted_tets > 0)
                 fmt::print(stderr, "pbskin: {}: {}\n", paths[i], worst_of(ruler, positions));
-            all_hold = tell_broken(arguments.bounds, paths[i], frames.back()) && all_hold;
+            all_hold = report_broken(arguments.bounds, paths[i], frames.back()) && all_hold;
         } catch (const pbs::InputError& error) {
             fmt::print(stderr, "pbskin: {}\n", error.what());
             refused.push_back({names[i], error.what()});
@@ -132,8 +125,9 @@ int measure(const MeasureArguments& arguments)
 
 void add_measure_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
 {
-    CLI::App* verb = add_verb(app, common, "measure",
-                              "the ruler on anybody's result: a rest tet mesh and deformed frames; exit 1 where a bound does not hold");
+    CLI::App* verb =
+        add_verb(app, common, "measure",
+                 "applies the metrics to frames of any program: a rest tet mesh and deformed frames; exit 1 if a bound does not hold");
     auto arguments = std::make_shared<MeasureArguments>();
     verb->add_option("rest", arguments->rest, "rest tet mesh: .msh .vtu .vtk .mesh .ele")->required();
     verb->add_option(
@@ -141,10 +135,10 @@ void add_measure_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
             "deformed frames with the same vertices in the same order: files, 'frame_%04d.vtu', 'frame_*.vtu' or a folder with one "
             "sequence, in which no number may be missing")
         ->required();
-    verb->add_option("--csv", arguments->csv, "write the figures as CSV");
+    verb->add_option("--csv", arguments->csv, "write the values as CSV");
     for (FrameBound& bound : arguments->bounds) verb->add_option(bound.option, bound.value, bound.meaning);
-    verb->add_option("--junit", arguments->reports.junit, "write a JUnit report, one test case a bound");
-    verb->add_flag("--github", arguments->reports.github, "annotations for GitHub on stdout (by itself where GITHUB_ACTIONS is true)");
+    verb->add_option("--junit", arguments->reports.junit, "write a JUnit report with one test case per bound");
+    verb->add_flag("--github", arguments->reports.github, "annotations for GitHub on stdout (the default where GITHUB_ACTIONS is true)");
     verb->callback([&action, &common, arguments] {
         action = [&common, arguments] {
             arguments->quiet = common.quiet;

@@ -1,4 +1,4 @@
-// pbskin mesh SURFACE -o TETS [--vertices N]: closed or nearly closed surface -> tets of about the wanted size.
+// pbskin mesh SURFACE -o TETS [--vertices N]: turns a closed or nearly closed surface into a tet mesh of about the wanted size.
 #include "analysis/records/atomic_file.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/warnings.hpp"
@@ -17,7 +17,7 @@ struct MeshArguments {
     pbs::SurfaceMeshing meshing;
 };
 
-// The mesher knows no file.
+// The mesher does not know the name of the file.
 pbs::TetMesh meshed(const MeshArguments& arguments, const pbs::SurfaceMesh& surface)
 {
     try {
@@ -44,16 +44,17 @@ int mesh(const MeshArguments& arguments)
 
 void add_mesh_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
 {
-    CLI::App* verb = add_verb(app, common, "mesh", "a closed or nearly closed surface into tets; prints their quality");
+    CLI::App* verb = add_verb(app, common, "mesh", "turns a closed or nearly closed surface into tets and prints their quality");
     auto arguments = std::make_shared<MeshArguments>();
     verb->add_option("surface", arguments->surface, ".obj .ply .off .stl .gltf .glb .dae .zae, in metres")->required();
     verb->add_option("-o,--output", arguments->tets, ".msh .vtu .mesh")->required();
     verb->add_option("--vertices", arguments->meshing.vertices, "wanted number of vertices")
         ->check(CLI::Range(150, 10'000'000))
         ->capture_default_str();
-    verb->add_option("--wrap-alpha", arguments->meshing.wrap_alpha_m, "alpha of the wrap [m]; 0: from the size of the body")
+    verb->add_option("--wrap-alpha", arguments->meshing.wrap_alpha_m, "alpha of the wrap [m]; 0: computed from the size of the body")
         ->check(CLI::NonNegativeNumber);
-    verb->add_option("--euler", arguments->meshing.boundary_euler, "Euler number of the boundary: 2 a ball, 0 a body with one handle")
+    verb->add_option("--euler", arguments->meshing.boundary_euler,
+                     "Euler number of the boundary: 2 for a ball, 0 for a body with one handle")
         ->capture_default_str();
     verb->add_option("--wrap-offset", arguments->meshing.wrap_offset_m, "offset of the wrap [m]; 0: a third of alpha")
         ->check(CLI::NonNegativeNumber);

@@ -27,7 +27,7 @@ Row cells_of(const std::string& line)
     return cells;
 }
 
-// As wide as the widest cells, the widest columns narrowed until all fit side by side.
+// Each column is as wide as its widest cell, but the widest columns are narrowed until all fit next to each other.
 std::vector<std::size_t> column_widths(const std::vector<Row>& rows, std::size_t width)
 {
     constexpr std::size_t gap = 2, least = 6;

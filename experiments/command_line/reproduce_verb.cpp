@@ -1,4 +1,4 @@
-// pbskin reproduce [CLAIM or STUDY]... [-o DIR] [--quick, --full] [-j N] [--resume]: studies -> records -> verdicts.
+// pbskin reproduce [CLAIM or STUDY]... [-o DIR] [--quick, --full] [-j N] [--resume]: runs studies and computes verdicts.
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/progress.hpp"
 #include "experiments/verdicts/reproduce.hpp"
@@ -7,21 +7,24 @@ namespace experiments {
 
 void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
 {
-    CLI::App* verb = add_verb(app, common, "reproduce", "studies -> records -> verdicts; by default the studies of the quick set");
+    CLI::App* verb = add_verb(app, common, "reproduce",
+                              "runs studies, writes their records and computes verdicts; by default the studies of the quick set");
     auto arguments = std::make_shared<ReproduceArguments>();
     verb->add_option("names", arguments->names, "claims (C02) or studies (volume)");
     verb->add_option("-o,--output", arguments->folder, "folder of the records")->capture_default_str();
     auto* full =
         verb->add_flag("--full", arguments->full,
-                       "the whole study; of verification, fit, work_precision, error_split, bench and features a part, of scale nothing: "
-                       "name these");
+                       "the whole studies; without names, only a part of verification, fit, work_precision, error_split, bench and "
+                       "features, and nothing of scale");
     auto quick = std::make_shared<bool>(false);
-    verb->add_flag("--quick", *quick, "a part of it that decides the same claims in minutes (default)")->excludes(full);
-    verb->add_option("-j,--jobs", arguments->jobs, "runs side by side")->check(CLI::Range(1, 256))->capture_default_str();
+    verb->add_flag("--quick", *quick, "a part of each study that decides the same claims in minutes (default)")->excludes(full);
+    verb->add_option("-j,--jobs", arguments->jobs, "number of runs in parallel")->check(CLI::Range(1, 256))->capture_default_str();
     auto* resume = verb->add_flag("--resume", arguments->resume, "keep the runs that are finished already");
-    verb->add_flag("--cost", arguments->cost_only, "run nothing, say what it would take");
+    verb->add_flag("--cost", arguments->cost_only, "run nothing and print the expected time");
     auto judge = std::make_shared<bool>(false);
-    verb->add_flag("--judge", *judge, "run nothing, judge the records that lie in the folder")->excludes(full)->excludes(resume);
+    verb->add_flag("--judge", *judge, "run nothing and compute the verdicts from the records in the folder")
+        ->excludes(full)
+        ->excludes(resume);
     verb->callback([&action, &common, arguments, judge] {
         action = [&common, arguments, judge] {
             if (common.quiet) hide_progress();

@@ -1,4 +1,4 @@
-// pbskin run SCENE.toml [-o DIR] [--set key=value]...: one scene, frames and records.
+// pbskin run SCENE.toml [-o DIR] [--set key=value]...: runs one scene and writes frames and records.
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/progress.hpp"
 #include "experiments/run/run.hpp"
@@ -31,10 +31,10 @@ int run(const RunArguments& arguments, const CommonOptions& common)
 
 void add_run_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
 {
-    CLI::App* verb = add_verb(app, common, "run", "one scene: frames and records");
+    CLI::App* verb = add_verb(app, common, "run", "runs one scene and writes frames and records");
     auto arguments = std::make_shared<RunArguments>();
     verb->add_option("scene", arguments->scene, "a scene file, or the name of a built-in scene")->required();
-    verb->add_option("-o,--output", arguments->folder, "folder of the records; results/NAME by default");
+    verb->add_option("-o,--output", arguments->folder, "folder of the records; by default results/NAME");
     verb->add_option("--set", arguments->overrides, "key=value, e.g. pbs.iterations=96")->allow_extra_args(false);
     verb->callback([&action, &common, arguments] { action = [&common, arguments] { return run(*arguments, common); }; });
 }

@@ -1,7 +1,7 @@
-// The verbs of `pbskin`, one file each. A verb adds its options and what it does; what it returns is the exit status.
+// The verbs of `pbskin`, one file each. A verb adds its options and its action, which returns the exit status.
 #pragma once
 
-#include "experiments/process/exit_status.hpp"
+#include "experiments/process/failure.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -10,7 +10,7 @@
 
 namespace experiments {
 
-// What all verbs share.
+// The options of all verbs.
 struct CommonOptions {
     bool quiet = false, verbose = false;
     int threads = 1;
@@ -18,7 +18,7 @@ struct CommonOptions {
 
 using VerbAction = std::function<int()>;
 
-// Each returns the subcommand's action through `action` when the subcommand was given.
+// Each sets `action` when the command line names its verb.
 void add_list_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 void add_explain_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 void add_run_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
@@ -30,7 +30,13 @@ void add_bench_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 void add_fetch_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 void add_report_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 
-// A subcommand with the options every verb has: --quiet, --verbose, --threads.
+// Adds a subcommand with the options of all verbs: --quiet, --verbose, --threads.
 CLI::App* add_verb(CLI::App& app, CommonOptions& common, const std::string& name, const std::string& meaning);
+
+// The command line and the scene keys as JSON (`pbskin --describe`), from which the manual pages, the manual of scenes and the shells'
+// completions are written. It has name, meaning, options, verbs with their options, and scene_keys. Hidden options are left out.
+// An option has names (none: it is positional), name, meaning, value (empty: it is a flag), choices (empty: anything), repeated, required.
+// A scene key has table, name, meaning, unit, rule, in_list and default (JSON text; empty: every scene must state it).
+std::string describe(const CLI::App& app);
 
 }  // namespace experiments

@@ -1,7 +1,7 @@
-// Which deformer, with which options, under which name in the records.
-//   DeformerSpec spec = default_spec("fem");               registry.hpp; with the default options of the kind
-//   options_of<FemOptions>(spec).element_order = 1;        the options of a kind that the caller knows
-//   if (const auto* pbs = options_if<pbs::PbsOptions>(spec)) ...   a deformer of any kind
+// A deformer to be made: its kind, its options, and its name in the records.
+//   DeformerSpec spec = default_spec("fem");                       of registry.hpp: with the default options of the kind
+//   options_of<FemOptions>(spec).element_order = 1;                if the caller knows the kind
+//   if (const auto* pbs = options_if<pbs::PbsOptions>(spec)) ...   for a deformer of any kind
 #pragma once
 
 #include <any>
@@ -13,13 +13,13 @@ namespace experiments {
 struct DeformerSpec {
     std::string name;                 // a kind, or the name of a [[fem]] table
     std::string kind;                 // registered kind
-    std::string label;                // one for one deformer of a run: keys of run.json, names of frame files; e.g. pbs, pbs_96
+    std::string label;                // unique in a run, e.g. pbs, pbs_96: in keys of run.json and names of frame files
     std::string variant = "default";  // e.g. jiggle, labels_relative
-    std::any options = {};            // the struct of options of the kind; empty where it has none
-    int threads = 1;                  // at most, of a step; results do not depend on them
+    std::any options = {};            // the struct of options of the kind; empty: the kind has none
+    int threads = 1;                  // that a step may use; results do not depend on their number
 };
 
-// The options, where they are of this type; null otherwise.
+// The options if they are of this type; null otherwise.
 template <typename Options>
 const Options* options_if(const DeformerSpec& spec)
 {

@@ -1,11 +1,5 @@
 #include "experiments/deformers/registry.hpp"
 
-#include "experiments/deformers/blend/blend_deformer.hpp"
-#include "experiments/deformers/delta_mush/delta_mush_deformer.hpp"
-#include "experiments/deformers/fem/fem_kind.hpp"
-#include "experiments/deformers/pbs/pbs_deformer.hpp"
-#include "experiments/deformers/xpbd/xpbd_deformer.hpp"
-
 #include <algorithm>
 #include <stdexcept>
 

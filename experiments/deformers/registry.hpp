@@ -1,8 +1,8 @@
-// The deformers that there are. To add one:
+// The list of all deformers. To add one:
 //   1. Write a folder with a Deformer, a struct of its options if it has any, and a function that returns its DeformerKind. The options'
 //      keys, defaults, ranges and meanings are declared once, with OptionFields (experiments/settings/option_fields.hpp).
-//   2. Add that function to the list in registry.cpp, and the folder to CMakeLists.txt.
-// Scenes, `pbskin list`, `explain`, records, metrics and studies take it from there: no other code depends on its name.
+//   2. Declare that function below, add it to the list in registry.cpp, and name the folder in CMakeLists.txt.
+// Scenes, `pbskin list`, `explain`, records, metrics and studies take it from there. No other code depends on its name.
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"
@@ -19,16 +19,16 @@ namespace experiments {
 
 class SceneValues;
 
-// What code that knows no kinds asks about a deformer.
+// What other code may ask about a deformer without knowing its kind.
 struct DeformerTraits {
-    std::string order = {};              // order of projection, in the records; empty: projects nothing
+    std::string order = {};              // order of projection; empty: it projects nothing
     std::string precision = "f64";       // of its arithmetic
     std::optional<int> iterations = {};  // per frame
-    int threads = 1;                     // that a step uses at most
+    int threads = 1;                     // the largest number of threads that a step uses
     bool sleeps = false;                 // its records have a share of sleeping constraints
-    bool has_small_strain = false;       // takes rotations for strain, by 1 - cos
-    bool is_negative_control = false;    // breaks down as expected: a result, not a failure
-    bool solves_equations = false;       // a frame with inverted tets, or one that did not converge, is no solution
+    bool has_small_strain = false;       // it takes a rotation for a strain of 1 - cos(rotation)
+    bool is_negative_control = false;    // its breakdown is an expected result and no failure
+    bool solves_equations = false;       // a frame that has inverted tets or did not converge is no solution
 };
 
 struct DeformerKind {
@@ -37,19 +37,28 @@ struct DeformerKind {
     std::unique_ptr<Deformer> (*make)(const DeformerSpec& spec) = nullptr;
 
     // For a kind with options:
-    std::any options = {};            // by default
+    std::any options = {};            // the defaults
     std::vector<SceneKey> keys = {};  // of its tables in a scene
     bool has_list = false;            // each [[kind]] table of a scene is a deformer, named by the table's key `name`
-    // Sets options and variant from a table of a scene (pbs, fem.0). Contradicting keys are an InputError.
+    // Sets options and variant from a table of a scene (pbs, fem.0). InputError for keys that contradict each other.
     void (*read)(const SceneValues& values, const std::string& table, DeformerSpec& spec) = nullptr;
     nlohmann::json (*options_json)(const DeformerSpec& spec) = nullptr;
     DeformerTraits (*traits)(const DeformerSpec& spec) = nullptr;  // null: the default ones
 };
 
 const std::vector<DeformerKind>& deformer_kinds();
-void add_deformer_kind(DeformerKind kind);  // for programs that bring their own
+void add_deformer_kind(DeformerKind kind);  // for programs with deformers of their own
 
-const DeformerKind* find_deformer_kind(const std::string& name);  // null where there is none
+// Each is defined in the folder of its deformer.
+DeformerKind lbs_kind();
+DeformerKind dqs_kind();
+DeformerKind pbs_kind();
+DeformerKind xpbd_kind();
+DeformerKind xpbd_small_steps_kind();
+DeformerKind delta_mush_kind();
+DeformerKind fem_kind();
+
+const DeformerKind* find_deformer_kind(const std::string& name);  // null: there is no such kind
 
 DeformerSpec default_spec(const std::string& kind);  // named and labelled by its kind
 std::unique_ptr<Deformer> make_deformer(const DeformerSpec& spec);

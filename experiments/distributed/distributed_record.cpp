@@ -2,6 +2,7 @@
 
 #include "analysis/records/provenance.hpp"
 #include "experiments/process/blas_kernels.hpp"
+#include "experiments/settings/option_fields.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -31,7 +32,7 @@ pbs::Vec3 tip_displacement(const pbs::TetMesh& mesh, const reference_fem::Elasti
     return sum / vertices;
 }
 
-// On one thread each rank, with the kernels of the BLAS under the direct solvers.
+// One thread per rank, and the BLAS of the direct solvers.
 analysis::Provenance provenance()
 {
     analysis::Provenance provenance = analysis::collect_provenance(1);
@@ -45,17 +46,14 @@ nlohmann::json to_json(const LoadedBody& body, const reference_fem::ElasticSolut
 {
     const reference_fem::ElasticSummary& summary = solution.summary;
     const reference_fem::LinearOptions& options = body.problem.options;
-    const pbs::Vec3 tip = tip_displacement(body.mesh, solution);
-    const pbs::Vec3& gravity = options.gravity_m_s2;
-    const pbs::Vec3& traction = body.problem.traction_pa;
     return {{"schema", 1},
             {"body", body.name},
             {"element_order", options.element_order},
             {"young_pa", options.young_pa},
             {"poisson", options.poisson},
             {"density_kg_m3", options.density_kg_m3},
-            {"gravity_m_s2", {gravity.x(), gravity.y(), gravity.z()}},
-            {"traction_pa", {traction.x(), traction.y(), traction.z()}},
+            {"gravity_m_s2", option_json(options.gravity_m_s2)},
+            {"traction_pa", option_json(body.problem.traction_pa)},
             {"springs", body.problem.attachment.spring_points.rows()},
             {"solver", summary.solver},
             {"ranks", summary.ranks},
@@ -77,7 +75,7 @@ nlohmann::json to_json(const LoadedBody& body, const reference_fem::ElasticSolut
             {"relative_residual", summary.relative_residual},
             {"converged", summary.converged},
             {"compliance_j", summary.compliance_j},
-            {"tip_displacement_m", {tip.x(), tip.y(), tip.z()}},
+            {"tip_displacement_m", option_json(tip_displacement(body.mesh, solution))},
             {"largest_displacement_m", solution.displacement.rowwise().norm().maxCoeff()},
             {"provenance", provenance()}};
 }

@@ -1,4 +1,4 @@
-// What pbskin_distributed writes: record.json and, where asked, nodes.csv.
+// The records of pbskin_distributed: record.json and, if asked for, nodes.csv.
 #pragma once
 
 #include "analysis/records/typed_table.hpp"

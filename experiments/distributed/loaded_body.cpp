@@ -14,7 +14,7 @@
 namespace experiments {
 namespace {
 
-// Cubes of 6 tets, n a side of the section, as many along the bar as give the wanted number.
+// Cubes of 6 tets each: n along each side of the section, and as many along the bar as give the wanted number of tets.
 pbs::TetMesh bar(int tets)
 {
     const int n = std::max(1, static_cast<int>(std::lround(std::cbrt(tets / 60.0))));

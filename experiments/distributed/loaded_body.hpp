@@ -1,4 +1,4 @@
-// The bodies of pbskin_distributed: tets with what holds and loads them.
+// The bodies of pbskin_distributed: tets with their supports and loads.
 #pragma once
 
 #include "reference_fem/distributed/elastic_problem.hpp"
@@ -10,14 +10,17 @@
 namespace experiments {
 
 struct BodyArguments {
-    int bar_tets = 0;       // cantilever [0, 10] x [0, 1]^2 m, of about so many tets
-    int limb_vertices = 0;  // the built-in limb, held by the skeleton's springs as LinearElasticity is
-    std::string mesh_file;  // a tet mesh, held and pulled as the bar is
-    double held_below_m = std::numeric_limits<double>::quiet_NaN();    // bar and file: boundary triangles with x <= this are held; not a
-                                                                       // number: those at the lowest x
-    double pulled_above_m = std::numeric_limits<double>::quiet_NaN();  // and those with x >= this pulled; or at the highest x
+    // One of these. A file is held and pulled like the bar.
+    int bar_tets = 0;       // a cantilever [0, 10] x [0, 1]^2 m of about this number of tets
+    int limb_vertices = 0;  // the built-in limb, held by the springs of its skeleton as in LinearElasticity
+    std::string mesh_file;  // a tet mesh
+
+    // Bar and file: vertices with x <= held_below_m are held, and those with x >= pulled_above_m are pulled. NaN: the lowest, the highest
+    // x.
+    double held_below_m = std::numeric_limits<double>::quiet_NaN();
+    double pulled_above_m = std::numeric_limits<double>::quiet_NaN();
     pbs::Vec3 traction_pa = pbs::Vec3::Zero();
-    double twist_deg = 0.0, bend_deg = 0.0;  // of the limb's forearm, about x and z
+    double twist_deg = 0.0, bend_deg = 0.0;  // of the forearm of the limb, about x and z
 };
 
 struct LoadedBody {
@@ -26,10 +29,10 @@ struct LoadedBody {
     reference_fem::ElasticProblem problem;
 };
 
-// pbs::InputError where the file cannot be read or no body, or more than one, is asked for.
+// pbs::InputError if the file cannot be read, or if not exactly one body is asked for.
 LoadedBody load_body(const BodyArguments& arguments, const reference_fem::LinearOptions& options);
 
-// From rank 0 to all; options are not sent.
+// Sends the body from rank 0 to all ranks, without its options.
 void broadcast(const reference_fem::MpiSession& session, LoadedBody& body);
 
 }  // namespace experiments

@@ -1,20 +1,19 @@
-// pbskin_distributed: the linear reference on a mesh spread over MPI ranks.
+// pbskin_distributed: the linear reference on a mesh that is spread over MPI ranks.
 //   pbskin_distributed --bar 10000 --gravity 0 0 -9.81 -o results/bar                    one process
 //   mpirun -n 2 pbskin_distributed --bar 1000000 --gravity 0 0 -9.81 -o results/bar_1m   two
-//   pbskin_distributed --bar 10000 --gravity 0 0 -9.81 --solver cholmod                  the serial judge, for comparison
+//   pbskin_distributed --bar 10000 --gravity 0 0 -9.81 --solver cholmod                  the serial reference, for comparison
 //   mpirun -n 2 pbskin_distributed --limb 1775 --bend 10                                 held by the skeleton's springs
 //
-//   |/|==================+   x = 0 held, gravity on all of it, traction on the far end: x = 10 m
+//   |/|==================+   held at x = 0, gravity everywhere, traction on the far end at x = 10 m
 //   |/|==================+
 //
-// Prints the record and writes it to DIR/record.json (and DIR/nodes.csv, every node's displacement). Seconds for 10,000 tets, about a
-// minute for 1,000,000 on 2 ranks.
+// Prints the record and writes it to DIR/record.json, and with --nodes the displacement of every node to DIR/nodes.csv. It takes seconds
+// for 10,000 tets and about a minute for 1,000,000 on 2 ranks.
+#include "analysis/records/atomic_file.hpp"
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/distributed/distributed_record.hpp"
 #include "experiments/process/blas_kernels.hpp"
-#include "experiments/process/exit_status.hpp"
 #include "experiments/process/failure.hpp"
-#include "analysis/records/atomic_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "reference_fem/distributed/distributed_elasticity.hpp"
 #include "reference_fem/distributed/serial_elasticity.hpp"
@@ -39,32 +38,32 @@ struct Arguments {
 
 void add_options(CLI::App& app, Arguments& arguments)
 {
-    app.add_option("--bar", arguments.body.bar_tets, "a cantilever of about so many tets")->check(CLI::Range(6, 1'000'000'000));
-    app.add_option("--limb", arguments.body.limb_vertices, "the built-in limb of about so many vertices, held by its skeleton");
+    app.add_option("--bar", arguments.body.bar_tets, "a cantilever of about this number of tets")->check(CLI::Range(6, 1'000'000'000));
+    app.add_option("--limb", arguments.body.limb_vertices, "the built-in limb of about this number of vertices, held by its skeleton");
     app.add_option("--mesh", arguments.body.mesh_file, "a tet mesh [m]: .msh .vtu .vtk .mesh .node .ele");
-    app.add_option("--held-below", arguments.body.held_below_m, "boundary with x up to this is held [m]; default: the lowest x");
+    app.add_option("--held-below", arguments.body.held_below_m, "the boundary with x up to this is held [m]; default: the lowest x");
     app.add_option("--pulled-above", arguments.body.pulled_above_m,
-                   "boundary with x from this bears the traction [m]; default: the highest x");
+                   "the boundary with x from this bears the traction [m]; default: the highest x");
     app.add_option("--traction", arguments.traction_pa, "x y z [Pa]")->expected(3);
     app.add_option("--gravity", arguments.gravity_m_s2, "x y z [m/s^2]")->expected(3);
-    app.add_option("--twist", arguments.body.twist_deg, "of the limb's forearm about x [deg]");
-    app.add_option("--bend", arguments.body.bend_deg, "of the limb's forearm about z [deg]");
-    app.add_option("--order", arguments.elastic.element_order, "of the elements")->check(CLI::Range(1, 2))->capture_default_str();
-    app.add_option("--young", arguments.elastic.young_pa, "[Pa]")->capture_default_str();
-    app.add_option("--poisson", arguments.elastic.poisson)->capture_default_str();
-    app.add_option("--density", arguments.elastic.density_kg_m3, "[kg/m^3]")->capture_default_str();
-    app.add_flag("--serial", arguments.serial, "the serial judge, on one process: what the distributed solution is held against");
+    app.add_option("--twist", arguments.body.twist_deg, "twist of the limb's forearm about x [deg]");
+    app.add_option("--bend", arguments.body.bend_deg, "bend of the limb's forearm about z [deg]");
+    app.add_option("--order", arguments.elastic.element_order, "order of the elements")->check(CLI::Range(1, 2))->capture_default_str();
+    app.add_option("--young", arguments.elastic.young_pa, "Young's modulus [Pa]")->capture_default_str();
+    app.add_option("--poisson", arguments.elastic.poisson, "Poisson's ratio")->capture_default_str();
+    app.add_option("--density", arguments.elastic.density_kg_m3, "density [kg/m^3]")->capture_default_str();
+    app.add_flag("--serial", arguments.serial, "the serial reference on one process, which the distributed solution is compared with");
     app.add_option("--solver", arguments.solver, "cholmod and umfpack are serial")
         ->check(CLI::IsMember({"cg_ml", "cholmod", "umfpack"}))
         ->capture_default_str();
     app.add_option("--tolerance", arguments.iterative.tolerance, "relative residual of cg_ml")
         ->check(CLI::Range(1e-15, 0.1))
         ->capture_default_str();
-    app.add_option("--most-iterations", arguments.iterative.most_iterations, "of cg_ml")
+    app.add_option("--most-iterations", arguments.iterative.most_iterations, "largest number of iterations of cg_ml")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
     app.add_option("-o,--output", arguments.folder, "folder for record.json; default: none");
-    app.add_flag("--nodes", arguments.nodes, "write nodes.csv into the folder, too");
+    app.add_flag("--nodes", arguments.nodes, "also write nodes.csv into the folder");
 }
 
 pbs::Vec3 vector(const std::vector<double>& components)
@@ -72,7 +71,7 @@ pbs::Vec3 vector(const std::vector<double>& components)
     return {components[0], components[1], components[2]};
 }
 
-// Built by rank 0; what is wrong with the input is an error on every rank.
+// Rank 0 builds the body. An error in the input is thrown on every rank.
 LoadedBody same_body_everywhere(const reference_fem::MpiSession& session, const Arguments& arguments)
 {
     LoadedBody body;
@@ -120,7 +119,7 @@ int solve_and_record(const reference_fem::MpiSession& session, Arguments& argume
 
 int parse_and_act(const reference_fem::MpiSession& session, int argc, char** argv)
 {
-    CLI::App app("pbskin_distributed: the linear reference on a mesh spread over MPI ranks", "pbskin_distributed");
+    CLI::App app("pbskin_distributed: the linear reference on a mesh that is spread over MPI ranks", "pbskin_distributed");
     Arguments arguments;
     add_options(app, arguments);
     app.failure_message([](const CLI::App*, const CLI::Error& error) { return std::string("pbskin_distributed: ") + error.what() + "\n"; });
@@ -144,7 +143,7 @@ int main(int argc, char** argv)
     const reference_fem::MpiSession session(argc, argv);
     try {
         return experiments::parse_and_act(session, argc, argv);
-    } catch (const pbs::InputError& error) {  // every rank meets it
+    } catch (const pbs::InputError& error) {  // on every rank
         if (session.rank() == 0) std::fprintf(stderr, "pbskin_distributed: %s\n", error.what());
         return experiments::exit_input;
     } catch (...) {

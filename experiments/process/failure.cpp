@@ -11,12 +11,7 @@
 namespace experiments {
 namespace {
 
-Failure refused_by_the_disk(const std::filesystem::filesystem_error& error)
-{
-    return {pbs::InputError(error.path1().string(), 0, "", "", error.code().message()).what(), exit_input};
-}
-
-// Libraries speak in paragraphs.
+// Messages of libraries may have several paragraphs.
 std::string on_one_line(const std::string& text)
 {
     std::istringstream words(text);
@@ -41,13 +36,13 @@ Failure caught_failure()
     } catch (const Interrupted&) {
         return {"interrupted; what was finished is kept", exit_interrupted};
     } catch (const std::filesystem::filesystem_error& error) {
-        return refused_by_the_disk(error);
+        return {pbs::InputError(error.path1().string(), 0, "", "", error.code().message()).what(), exit_input};
     } catch (const std::bad_alloc&) {
-        return {"not enough memory for what was asked", exit_input};
+        return {"not enough memory for this task", exit_input};
     } catch (const std::exception& error) {
         return {error.what(), exit_internal};
     } catch (...) {
-        return {"an exception without words", exit_internal};
+        return {"an exception without a message", exit_internal};
     }
 }
 

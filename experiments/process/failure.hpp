@@ -1,22 +1,29 @@
-// What an exception means to whoever started the work: its words for stderr and the exit status.
+// The program's exit status, and what an exception means: a text for stderr and an exit status.
 //   try { ... } catch (...) { const Failure failure = caught_failure(); }
 #pragma once
-
-#include "experiments/process/exit_status.hpp"
 
 #include <string>
 
 namespace experiments {
 
+enum ExitStatus {
+    exit_finished = 0,
+    exit_bound = 1,         // a bound does not hold, or a verdict could not be computed
+    exit_internal = 1,      // an error of the program itself
+    exit_input = 2,         // bad input or usage
+    exit_breakdown = 3,     // numerical breakdown in a run that was expected to finish
+    exit_interrupted = 130  // finished work is kept
+};
+
 struct Failure {
     std::string words;
     ExitStatus status = exit_internal;
 
-    std::string message() const;  // a line for stderr, without the program's name
+    std::string message() const;  // one line for stderr, without the program's name
 };
 
-// Of the exception that is being handled: inside a catch. Bad input, a place on disk that refuses and too little memory are the user's to
-// mend, exit_input; what nobody has foreseen is an internal error, and its message says so.
+// To be called in a catch, for the exception that is being handled. The user can mend bad input, a failing disk and too little memory
+// (exit_input). Any other exception is an internal error, and its message says so.
 Failure caught_failure();
 
 }  // namespace experiments

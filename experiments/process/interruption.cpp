@@ -24,7 +24,7 @@ void watch_interrupts()
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
     pbs::ask_while_reading(stop_if_interrupted);
-    std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit (ulimit -f) is an error of its writer, as on a full disk
+    std::signal(SIGXFSZ, SIG_IGN);  // then a file over the limit (ulimit -f) is a write error, as on a full disk
 }
 
 bool interrupted()

@@ -1,4 +1,4 @@
-// The first SIGINT or SIGTERM ends the work between two frames, so that what was finished is kept; the second ends the program.
+// The first SIGINT or SIGTERM ends the work between two frames, so that finished work is kept. The second ends the program at once.
 #pragma once
 
 namespace experiments {

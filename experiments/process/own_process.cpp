@@ -1,83 +1,58 @@
 #include "experiments/process/own_process.hpp"
 
-#include "experiments/process/failure.hpp"
-#include "experiments/process/interruption.hpp"
-#include "experiments/process/process_pipe.hpp"
 #include "analysis/records/record_text.hpp"
-#include "pbs/geometry/process.hpp"
+#include "experiments/process/failure.hpp"
+#include "experiments/process/forked_process.hpp"
+#include "experiments/process/interruption.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace experiments {
 namespace {
 
-[[noreturn]] void act_and_tell(const std::function<nlohmann::json()>& work, int pipe_end)
+ProcessEnd result_or_failure(const std::function<nlohmann::json()>& work)
 {
-    nlohmann::json told;
+    nlohmann::json end;
     try {
-        told["result"] = work();
+        end["result"] = work();
     } catch (...) {
         const Failure failure = caught_failure();
-        told = {{"failure", failure.words}, {"status", failure.status}};
+        end = {{"failure", failure.words}, {"status", failure.status}};
     }
-    write_whole(pipe_end, analysis::record_text(told));
-    std::fflush(nullptr);
-    _exit(0);
-}
-
-// Until the other end is closed; an interruption is passed on to the process, once: a second signal would end it in the middle of its work.
-std::string read_all(int pipe_end, pid_t process)
-{
-    std::string text;
-    bool told_to_stop = false;
-    while (read_available(pipe_end, text)) {
-        if (interrupted() && !std::exchange(told_to_stop, true)) kill(process, SIGTERM);
-        wait_for_words({pipe_end});
-    }
-    close(pipe_end);
-    return text;
+    return {analysis::record_text(end), exit_finished};
 }
 
 nlohmann::json result_in(const std::string& text)
 {
-    const nlohmann::json told = nlohmann::json::parse(text, nullptr, false);
-    if (told.is_object() && told.contains("result")) return told.at("result");
-    if (!told.is_object()) throw std::runtime_error("a process without a result");
-    if (told.value("status", exit_internal) == exit_input) throw pbs::InputError("", 0, "", "", told.value("failure", ""));
-    throw std::runtime_error(told.value("failure", ""));
+    const nlohmann::json end = nlohmann::json::parse(text, nullptr, false);
+    if (end.is_object() && end.contains("result")) return end.at("result");
+    if (!end.is_object()) throw std::runtime_error("a process ended without a result");
+    if (end.value("status", exit_internal) == exit_input) throw pbs::InputError("", 0, "", "", end.value("failure", ""));
+    throw std::runtime_error(end.value("failure", ""));
 }
 
 }  // namespace
 
 nlohmann::json in_own_process(const std::function<nlohmann::json()>& work)
 {
-    const ProcessPipe pipe = open_process_pipe();
-    std::fflush(nullptr);
-    const pid_t parent = getpid(), process = fork();
-    if (process < 0) throw std::runtime_error("no process for a measurement");
-    if (process == 0) {
-        pbs::end_with_parent(parent);
-        close(pipe.from);
-        act_and_tell(work, pipe.to);
+    ForkedProcess process = start_process([&] { return result_or_failure(work); });
+    for (listen(process); process.from >= 0; listen(process)) {
+        pass_on_interruption(process);
+        wait_for_text({process.from});
     }
-    close(pipe.to);
-    const std::string text = read_all(pipe.from, process);
     int status = 0;
-    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    while (waitpid(process.id, &status, 0) < 0 && errno == EINTR) {
     }
     stop_if_interrupted();
     if (WIFSIGNALED(status))
         throw pbs::InputError("", 0, "process", "signal " + std::to_string(WTERMSIG(status)), "expected to end by itself");
-    return result_in(text);
+    return result_in(process.text);
 }
 
 }  // namespace experiments

@@ -1,4 +1,4 @@
-// Work in a process of its own, so that its peak memory, its loaded libraries and its breakdowns are its own.
+// Work in a process of its own, which has its own peak memory, loaded libraries and breakdowns.
 //   const nlohmann::json cost = in_own_process([&] { return cost_of(scene); });
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace experiments {
 
-// What the work returns. An InputError there is one here, with the same words, another exception a std::runtime_error; a signal there is an
-// InputError; Interrupted where this process is.
+// Returns what the work returns. An InputError of the work is thrown here with the same text, any other exception as a
+// std::runtime_error. InputError if the process ended by a signal; Interrupted if this process is interrupted.
 nlohmann::json in_own_process(const std::function<nlohmann::json()>& work);
 
 }  // namespace experiments

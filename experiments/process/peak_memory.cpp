@@ -21,8 +21,8 @@ double status_bytes(const std::string& field)
 
 PeakMemory peak_memory_of(const std::function<void()>& work)
 {
-    malloc_trim(0);                               // what earlier work gave back is not this work's
-    std::ofstream("/proc/self/clear_refs") << 5;  // the peak begins anew (proc(5))
+    malloc_trim(0);                               // memory that earlier work has freed does not count
+    std::ofstream("/proc/self/clear_refs") << 5;  // resets the peak (proc(5))
     PeakMemory memory{status_bytes("VmRSS"), 0.0};
     work();
     memory.peak_bytes = peak_memory_bytes();

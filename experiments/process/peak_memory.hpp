@@ -8,13 +8,13 @@ namespace experiments {
 
 struct PeakMemory {
     double before_bytes = 0.0;
-    double peak_bytes = 0.0;  // the most while the work ran; zero where the system does not tell
+    double peak_bytes = 0.0;  // the maximum while the work ran; zero if the system does not report it
 
     double growth_bytes() const { return peak_bytes - before_bytes; }
 };
 
 PeakMemory peak_memory_of(const std::function<void()>& work);
 
-double peak_memory_bytes();  // of the process so far
+double peak_memory_bytes();  // of this process since it started, or since peak_memory_of began
 
 }  // namespace experiments

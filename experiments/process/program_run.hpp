@@ -1,4 +1,4 @@
-// Another program, run without a shell, looked for on the PATH.
+// Runs another program, found on the PATH, without a shell.
 //   const ProgramRun packed = run_program({"npm", "pack", "name@1.0.0"}, folder);
 #pragma once
 
@@ -9,13 +9,13 @@ namespace experiments {
 
 struct ProgramRun {
     bool started = false;
-    int status = -1;         // its exit status; -1: it ended by a signal, or never started
-    std::string last_words;  // the end of what it wrote
+    int status = -1;         // its exit status; -1: it ended by a signal or did not start
+    std::string last_words;  // the end of its output
 
     bool succeeded() const { return started && status == 0; }
 };
 
-// In `folder`, which is there; what it writes goes into a file there for as long as it runs.
+// The program runs in `folder`, which must exist. Its output is in a file there while it runs.
 ProgramRun run_program(const std::vector<std::string>& program_and_arguments, const std::string& folder);
 
 }  // namespace experiments

@@ -1,4 +1,4 @@
-// A progress bar with the time left, on stderr when it is a terminal; nothing in a pipe.
+// A progress bar with the time left, on stderr if that is a terminal.
 #pragma once
 
 #include "pbs/geometry/stopwatch.hpp"
@@ -21,7 +21,7 @@ private:
     pbs::Stopwatch stopwatch_;
 };
 
-void hide_progress();  // --quiet, or a worker process
-void show_progress();  // again, where stderr is a terminal
+void hide_progress();  // for --quiet and in worker processes
+void show_progress();  // undoes hide_progress
 
 }  // namespace experiments

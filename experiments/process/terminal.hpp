@@ -5,11 +5,11 @@
 
 namespace experiments {
 
-// Characters in a line: COLUMNS, else what the terminal says, else 100.
+// The number of characters in a line: COLUMNS, else the width of the terminal, else 100.
 std::size_t terminal_width();
 
-// NO_COLOR is not set, and CLICOLOR_FORCE says so (any value but 0: yes, where the caller shows on a terminal what it reads here), or,
-// where that is not set either, it is a terminal.
+// False if NO_COLOR is set. Otherwise CLICOLOR_FORCE decides (any value except 0: true), and if that is not set, whether standard output is
+// a terminal.
 bool terminal_has_colours();
 
 }  // namespace experiments

@@ -1,4 +1,5 @@
-// What was accepted with a treatment, on stderr: `pbskin: warning: FILE: FIELD = VALUE: treatment`, but for --quiet.
+// Warnings on stderr about input that was accepted after a treatment: `pbskin: warning: FILE: FIELD = VALUE: treatment`. --quiet hides
+// them.
 #pragma once
 
 #include <string>

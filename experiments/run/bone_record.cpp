@@ -20,7 +20,7 @@ const analysis::Columns<PosedBone> posed_bone_columns =
 const analysis::Columns<BoundVertex> bound_vertex_columns = {
     {"vertex", &BoundVertex::vertex, "", "number of the vertex, from 0"},
     {"bone", &BoundVertex::bone, "", "the vertex's nearest bone (Sec. 2.1)"},
-    {"parameter", &BoundVertex::parameter, "", "where the vertex projects on that bone: 0 at its head, 1 at its tail"},
+    {"parameter", &BoundVertex::parameter, "", "position of the vertex's projection on that bone: 0 at its head, 1 at its tail"},
     {"rest_distance_m", &BoundVertex::rest_distance_m, "m", "distance to the bone at rest"},
     {"blended", &BoundVertex::blended, "", "Eq. 2 blends the vertex between bones"},
     {"jiggles", &BoundVertex::jiggles, "", "the vertex is farther from its bone than the mean"}};

@@ -1,4 +1,5 @@
-// What a run's frames depend on, for programs that draw them: bones.csv, bones_rest.csv and binding.csv. The columns say what is in them.
+// The bones of a run's frames and what binds the vertices to them, for programs that draw the frames: bones.csv, bones_rest.csv and
+// binding.csv. The columns explain their contents.
 #pragma once
 
 #include "analysis/records/typed_table.hpp"

@@ -1,4 +1,4 @@
-// A frame that broke down and its worst element, as run.json lists them under outcome.broken_frames, by the deformer's label.
+// A frame that broke down, with its worst element. run.json lists such frames under outcome.broken_frames, by the deformer's label.
 //   broken[label].push_back(broken_frame(frame, step.outcome, positions, measurer.volume_ratios(positions)));
 //   text_of(broken[label].back())   "inverted in frame 7: worst tet 812 of volume ratio -0.04, 3 inverted"
 #pragma once
@@ -15,16 +15,16 @@ namespace experiments {
 struct BrokenFrame {
     int frame = 0;
     std::string what;  // not_finite, not_converged, inverted
-    int step = -1;     // of the motion, where it was one before the frame's own; the elements are the frame's all the same
-    // Where positions are not finite: the first such vertex and how many there are. Else -1, 0.
+    int step = -1;     // of the motion, if it broke down in a step before that of the frame; the elements are always those of the frame
+    // If positions are not finite: the first such vertex and the number of them. Otherwise -1, 0.
     int vertex = -1, vertices = 0;
-    // Where they are finite: the tet of the lowest volume ratio J_t = V_t / V0_t, and how many have J_t <= 0. Else -1, 0, 0.
+    // If they are finite: the tet of the lowest volume ratio J_t = V_t / V0_t, and the number of tets with J_t <= 0. Otherwise -1, 0, 0.
     int tet = -1;
     double volume_ratio = 0.0;
     int inverted_tets = 0;
 };
 
-// positions [m], #V x 3; volume_ratios: J_t, #T. A step that finished is here because it inverted tets.
+// positions [m], #V x 3; volume_ratios: J_t, #T. A frame whose outcome is finished broke down because it inverted tets.
 BrokenFrame broken_frame(int frame, pbs::Outcome outcome, const pbs::Positions& positions, const Eigen::VectorXd& volume_ratios);
 
 std::string worst_element(const BrokenFrame& broken);  // "first at vertex 17, 120 not finite"

@@ -1,4 +1,4 @@
-// What a run cost: seconds of each of its parts, peak memory, loaded shared objects. In every run.json, under `cost`.
+// The cost of a run: seconds of each of its parts, peak memory, loaded shared objects. Every run.json has it under `cost`.
 //   CostRecord cost;
 //   const pbs::Character character = cost.time("character", [&] { return pbs::make_character(source); });
 //   run["cost"] = cost.json();
@@ -16,14 +16,14 @@ namespace experiments {
 
 class CostRecord {
 public:
-    // Carries the work out; its wall time is added to the part's.
+    // Does the work and adds its time to that of the part.
     template <typename Work>
     auto time(const std::string& part, const Work& work)
     {
         const Part timed(seconds_[part], cpu_seconds_[part]);
         return work();
     }
-    // The same, told for one deformer as well, by its label.
+    // The same, and adds the time to that of one deformer too, by its label.
     template <typename Work>
     auto time(const std::string& part, const std::string& label, const Work& work)
     {
@@ -31,10 +31,10 @@ public:
         return time(part, work);
     }
 
-    double seconds(const std::string& part) const;  // 0 for a part that did not happen
+    double seconds(const std::string& part) const;  // 0 for a part that was not timed
 
-    // seconds: by part, `total` since construction, `deformers`: label -> part; cpu_seconds: the same parts in processor time of all
-    // threads, which other work on the machine stretches less; peak_memory_mb (10^6 bytes), shared_objects: of the process.
+    // seconds: by part, `total` since construction, `deformers` by label and part. cpu_seconds: the same in processor time of all threads,
+    // which other work on the machine stretches less. peak_memory_mb (10^6 bytes) and shared_objects are those of the process.
     nlohmann::json json() const;
 
 private:

@@ -1,4 +1,4 @@
-// distances.csv: how far apart two deformers put the same points; one row per frame that is written and pair of deformers.
+// distances.csv: the distances between the points that two deformers give. One row per written frame and pair of deformers.
 //   DistanceRecord record;   record.add(frame, time_s, "pbs", "mesh", positions);   record.table().write("distances.csv");
 #pragma once
 
@@ -22,7 +22,7 @@ extern const analysis::Columns<DeformerDistance> distance_columns;
 
 class DistanceRecord {
 public:
-    // points: #P x 3 [m], the same for all deformers of a frame.
+    // points [m]: #P x 3, with the same #P for all deformers of a frame. of: what the points belong to.
     void add(int frame, double time_s, const std::string& label, const std::string& of, const pbs::Positions& points);
 
     analysis::CsvTable table() const { return table_of(distance_columns, distances_); }

@@ -35,10 +35,10 @@ bool FrameMeasurement::error_below_reference_error() const
 }
 
 FrameMeasurer::FrameMeasurer(const pbs::Character& character, const OutputSpec& output, const std::vector<bool>& prescribed)
-    : character_(character), ruler_(character.mesh.rest, character.mesh.tets)
+    : character_(character), metrics_(character.mesh.rest, character.mesh.tets)
 {
     if (output.errors) {
-        error_ruler_.emplace(error_domain(character, prescribed));
+        error_metrics_.emplace(error_domain(character, prescribed));
         boundary_ = pbs::boundary_of(character.mesh.tets);
     }
     if (output.sections) stations_ = limb_stations(character);
@@ -55,13 +55,13 @@ FrameMeasurer::FrameMeasurer(const pbs::Character& character, const OutputSpec& 
 FrameMeasurement FrameMeasurer::measure(const pbs::Positions& positions, const FrameContext& context)
 {
     FrameMeasurement measured;
-    measured.metrics = ruler_.measure(positions);
+    measured.metrics = metrics_.measure(positions);
     measured.bind_rms_m =
         analysis::bind_rms(positions, pbs::posed_bind_points(character_.binding, *context.pose), character_.binding.distance);
     measured.angle_deg = context.angle_deg;
     measured.rotation_deg = largest_rotation_deg(*context.pose);
-    if (error_ruler_ && context.reference) {
-        measured.errors = error_ruler_->measure(positions, *context.reference);
+    if (error_metrics_ && context.reference) {
+        measured.errors = error_metrics_->measure(positions, *context.reference);
         measured.reference_self_intersects = context.reference_self_intersects;
         measured.reference_error = context.reference_error;
     }

@@ -1,5 +1,5 @@
-// Everything that is measured on one frame of one deformer: the ruler's figures, the errors against the reference, the smallest
-// cross-section, the rendered surface's volume.
+// Everything that is measured on one frame of one deformer: the metrics of the tets, the errors against the reference, the smallest
+// cross-section, and the volume of the rendered surface.
 #pragma once
 
 #include "analysis/cross_section.hpp"
@@ -18,47 +18,47 @@ struct FrameMeasurement {
     double bind_rms_m = 0.0;
     std::optional<analysis::ErrorNorms> errors;
     bool reference_self_intersects = false;
-    std::optional<analysis::ErrorNorms> reference_error;  // how far the reference may be from the limit of ever finer tets
+    std::optional<analysis::ErrorNorms> reference_error;  // bound of the reference's distance from the limit of ever finer tets
     std::optional<double> min_section_pct;
     std::optional<double> surface_volume_change_pct;
     std::optional<double> angle_deg;
-    double rotation_deg = 0.0;  // the largest of a bone relative to the root's
+    double rotation_deg = 0.0;  // the largest of all bones, relative to the root
 
-    // The error at the joints (over the whole body where nothing is blended) is not above the reference's own: it may be the reference's.
+    // True if the error at the joints (over the whole body if nothing is blended) is not above that of the reference, and may come from it.
     bool error_below_reference_error() const;
 };
 
-// The pose of a frame and what the reference made of it.
+// The pose of a frame, and the reference's positions in it.
 struct FrameContext {
     const pbs::Pose* pose = nullptr;
     std::optional<double> angle_deg;
-    const pbs::Positions* reference = nullptr;  // null: none, or not finite
+    const pbs::Positions* reference = nullptr;  // null: there is no reference, or it is not finite
     bool reference_self_intersects = false;
     std::optional<analysis::ErrorNorms> reference_error;
 };
 
-// What errors of a character are measured on. prescribed: vertices a deformer is told where to be, #V or empty; they are left out.
+// The vertices that errors are measured on. prescribed: vertices whose positions a deformer is given, #V or empty; they are left out.
 analysis::ErrorDomain error_domain(const pbs::Character& character, const std::vector<bool>& prescribed);
 
 class FrameMeasurer {
 public:
-    // prescribed: vertices the reference is told where to be, #V or empty; the errors leave them out.
+    // prescribed: as in error_domain.
     FrameMeasurer(const pbs::Character& character, const OutputSpec& output, const std::vector<bool>& prescribed);
     FrameMeasurement measure(const pbs::Positions& positions, const FrameContext& context);
-    // In the norms of the errors, which the scene must have asked for.
-    analysis::ErrorNorms difference(const pbs::Positions& a, const pbs::Positions& b) const { return error_ruler_.value().measure(a, b); }
-    Eigen::VectorXd volume_ratios(const pbs::Positions& positions) const { return ruler_.volume_ratios(positions); }
-    bool self_intersects(const pbs::Positions& positions) const;  // asked of the reference of errors alone
+    // The difference in the norms of the errors. The scene must have asked for errors.
+    analysis::ErrorNorms difference(const pbs::Positions& a, const pbs::Positions& b) const { return error_metrics_.value().measure(a, b); }
+    Eigen::VectorXd volume_ratios(const pbs::Positions& positions) const { return metrics_.volume_ratios(positions); }
+    bool self_intersects(const pbs::Positions& positions) const;  // of the reference; the scene must have asked for errors
 
 private:
     double min_section_pct(const pbs::Positions& positions, const pbs::Pose& pose);
 
     const pbs::Character& character_;
-    analysis::Ruler ruler_;
-    std::optional<analysis::ErrorRuler> error_ruler_;
-    pbs::Triangles boundary_;  // of the errors
+    analysis::Ruler metrics_;
+    std::optional<analysis::ErrorRuler> error_metrics_;
+    pbs::Triangles boundary_;  // of the tets, if errors are measured
     std::vector<LimbStation> stations_;
-    std::vector<analysis::SectionStation> sections_;  // one a station; of the pose being measured
+    std::vector<analysis::SectionStation> sections_;  // one per station, in the pose that is being measured
     std::optional<analysis::SurfaceVolume> surface_volume_;
 };
 

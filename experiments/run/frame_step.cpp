@@ -7,15 +7,7 @@ namespace {
 
 int severity(pbs::Outcome outcome)
 {
-    switch (outcome) {
-        case pbs::Outcome::finished:
-            return 0;
-        case pbs::Outcome::not_converged:
-            return 1;
-        case pbs::Outcome::not_finite:
-            break;
-    }
-    return 2;
+    return outcome == pbs::Outcome::finished ? 0 : outcome == pbs::Outcome::not_converged ? 1 : 2;
 }
 
 }  // namespace

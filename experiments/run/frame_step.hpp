@@ -1,5 +1,5 @@
-// A deformer's steps up to a frame, as one: the last of them, with the worst outcome of all. A step between two frames that was not
-// reached, or not finite and found back from, is on record with the frame that follows it.
+// All steps of a deformer up to a frame, as one: the last step with the worst outcome of all. A step between two frames that did not
+// converge or was not finite is thus recorded with the frame that follows it, even if the deformer has recovered.
 //   FrameStep frame;  for (...) frame.add(deformer.advance(poses[step], dt_s), step);  record(frame.summary(), frame.worst_step());
 #pragma once
 
@@ -11,11 +11,11 @@ namespace experiments {
 
 class FrameStep {
 public:
-    // step: counted from the motion's first, 0.
+    // step: number of the step in the motion, from 0.
     void add(pbs::StepSummary summary, std::size_t step);
 
     const pbs::StepSummary& summary() const { return summary_; }
-    std::size_t worst_step() const { return worst_step_; }  // the first with that outcome; where all finished, the last
+    std::size_t worst_step() const { return worst_step_; }  // the first with the worst outcome; the last step if all finished
 
 private:
     pbs::StepSummary summary_;

@@ -20,7 +20,7 @@ pbs::Vec3 direction(const pbs::Bone& bone)
     return (bone.tail - bone.head).normalized();
 }
 
-// Mean rest distance of the vertices that hang on each bone [m], #bones; zero where none does.
+// Mean distance at rest of the vertices that are bound to each bone [m], #bones; zero for a bone without vertices.
 std::vector<double> mean_distances(const pbs::Character& character)
 {
     std::vector<double> distance(character.skeleton.bones.size(), 0.0);
@@ -45,7 +45,7 @@ bool in_one_line(const pbs::Skeleton& skeleton, int parent, int child)
            direction(skeleton.bones[parent]).dot(direction(skeleton.bones[child])) > 0.0;
 }
 
-// The bones themselves and the limbs next in line.
+// The bones themselves and the next limbs in line.
 std::set<int> along_limb(const pbs::Skeleton& skeleton, const std::vector<int>& carriers)
 {
     std::set<int> bones(carriers.begin(), carriers.end());
@@ -60,7 +60,7 @@ std::set<int> along_limb(const pbs::Skeleton& skeleton, const std::vector<int>& 
     return bones;
 }
 
-// Tets all of whose vertices are chosen.
+// The tets with all vertices chosen.
 std::vector<int> tets_within(const pbs::Tets& tets, const std::vector<char>& chosen)
 {
     std::vector<int> within;

@@ -17,15 +17,23 @@ using analysis::within;
 
 const char *const with_reference = "reference", *const with_error_bar = "error_bar", *const with_sleep = "sleep";
 
-const Columns<FrameMetrics> frame_columns = {
-    {"volume_change_pct", &FrameMetrics::volume_change_pct, "%",
-     "signed change of the whole volume; the paper's E = V0 - V' is minus this"},
-    {"volume_abs_change_pct", &FrameMetrics::volume_abs_change_pct, "%",
-     "sum of the absolute changes of each tet: gains do not hide losses"},
-    {"inverted_tets", &FrameMetrics::inverted_tets, "", "folded or flattened flesh"},
-    {"mean_abs_j_minus_1", &FrameMetrics::mean_abs_j_minus_1, "", "mean relative change of volume, weighted by rest volume"},
-    {"j_min", &FrameMetrics::j_min, "", "worst tet; negative when inverted"},
-    {"stretch_rms", &FrameMetrics::stretch_rms, "", "residual of the stretch constraints"}};
+}  // namespace
+
+const Columns<FrameMetrics>& frame_metric_columns()
+{
+    static const Columns<FrameMetrics> columns = {
+        {"volume_change_pct", &FrameMetrics::volume_change_pct, "%",
+         "signed change of the whole volume; the paper's E = V0 - V' has the opposite sign"},
+        {"volume_abs_change_pct", &FrameMetrics::volume_abs_change_pct, "%",
+         "sum of the absolute changes of all tets, so that gains do not hide losses"},
+        {"inverted_tets", &FrameMetrics::inverted_tets, "", "number of inverted or flattened tets"},
+        {"mean_abs_j_minus_1", &FrameMetrics::mean_abs_j_minus_1, "", "mean relative change of volume, weighted by rest volume"},
+        {"j_min", &FrameMetrics::j_min, "", "smallest volume of a tet over its volume at rest; negative if the tet is inverted"},
+        {"stretch_rms", &FrameMetrics::stretch_rms, "", "residual of the stretch constraints"}};
+    return columns;
+}
+
+namespace {
 
 const Columns<ErrorNorms> error_columns = {
     {"error_l2_pct", &ErrorNorms::l2_pct, "%", "distance to the reference over free vertices"},
@@ -35,51 +43,52 @@ const Columns<ErrorNorms> error_columns = {
 
 const Columns<ErrorNorms> error_bar_columns = {
     {"reference_error_l2_pct", &ErrorNorms::l2_pct, "%",
-     "how far the reference itself may be from the limit of ever finer tets, estimated as error_bar asks: orders, refined or both"},
+     "bound of the reference's distance from the limit of ever finer tets over free vertices, by the method of reference.error_bar"},
     {"reference_error_joint_pct", &ErrorNorms::joint_pct, "%",
-     "how far the reference itself may be from that limit over the vertices that Eq. 2 blends"},
-    {"reference_error_linf_m", &ErrorNorms::linf_m, "m", "how far the reference itself may be from that limit at the farthest vertex"}};
+     "bound of the reference's distance from that limit over the vertices that Eq. 2 blends"},
+    {"reference_error_linf_m", &ErrorNorms::linf_m, "m", "bound of the reference's largest distance from that limit"}};
 
 const Columns<FrameMeasurement> measured_columns =
-    within(&FrameMeasurement::metrics, frame_columns) +
+    within(&FrameMeasurement::metrics, frame_metric_columns()) +
     Columns<FrameMeasurement>{{"bind_rms_m", &FrameMeasurement::bind_rms_m, "m", "residual of the bind constraints"}};
 
-const Columns<FrameMeasurement> pose_columns = {
-    {"angle_deg", &FrameMeasurement::angle_deg, "deg", "angle of a sweep; empty for clips"},
-    {"rotation_deg", &FrameMeasurement::rotation_deg, "deg", "how far the pose is from where linear strain is right"}};
+const Columns<FrameMeasurement> pose_columns = {{"angle_deg", &FrameMeasurement::angle_deg, "deg", "angle of a sweep; empty for clips"},
+                                                {"rotation_deg", &FrameMeasurement::rotation_deg, "deg",
+                                                 "largest rotation of a bone relative to the root; linear strain is right only near zero"}};
 
-const Columns<FrameMeasurement> shape_columns = {{"min_section_pct", &FrameMeasurement::min_section_pct, "%",
-                                                  "smallest cross-section of a limb over its rest area: the candy wrapper in one number"},
-                                                 {"surface_volume_change_pct", &FrameMeasurement::surface_volume_change_pct, "%",
-                                                  "volume inside the rendered surface that the tets carry"}};
+const Columns<FrameMeasurement> shape_columns = {
+    {"min_section_pct", &FrameMeasurement::min_section_pct, "%",
+     "smallest cross-section of a limb over its area at rest; it measures the candy wrapper artefact"},
+    {"surface_volume_change_pct", &FrameMeasurement::surface_volume_change_pct, "%",
+     "change of the volume inside the rendered surface, which the tets carry"}};
 
 using Rows = Columns<MetricRow>;
 const Rows all_columns =
     Rows{{"scene", &MetricRow::scene, "", "name of the scene"},
          {"deformer", &MetricRow::deformer, "", "name of the deformer"},
          {"variant", &MetricRow::variant, "", "reading or printed form of the method, or default"},
-         {"order", &MetricRow::order, "", "order of projection; empty where the deformer has none"},
+         {"order", &MetricRow::order, "", "order of projection; empty if the deformer has none"},
          {"precision", &MetricRow::precision, "", "f32 or f64"},
-         {"iterations", &MetricRow::iterations, "", "iterations per step, those of all substeps; empty where the deformer has none"},
+         {"iterations", &MetricRow::iterations, "", "iterations per step, those of all substeps; empty if the deformer has none"},
          {"threads", &MetricRow::threads, "", "number of threads"},
          {"frame", &MetricRow::frame, "", "number of the frame, from 0"},
          {"time_s", &MetricRow::time_s, "s", "time since the motion began"}} +
     within(&MetricRow::measured, measured_columns) +
-    Rows{{"step_ms", &MetricRow::step_ms, "ms", "what the deformer cost on this frame, without measuring and writing"}} +
+    Rows{{"step_ms", &MetricRow::step_ms, "ms", "wall time of the deformer for this frame, without measuring and writing"}} +
     (within(&MetricRow::measured, within(&FrameMeasurement::errors, error_columns)) +
      Rows{{"reference_self_intersects", &MetricRow::reference_self_intersects, "",
-           "such frames are marked, because no deformer has contact"}})
+           "the reference intersects itself in this frame; such frames are marked, because no deformer has contact"}})
         .in_group(with_reference) +
     within(&MetricRow::measured, pose_columns) +
     Rows{{"fictitious_strain", &MetricRow::fictitious_strain, "",
-          "what linear elasticity takes that rotation for; in the rows of linear FEM"}} +
+          "the strain that linear elasticity computes for that rotation; in the rows of linear FEM"}} +
     within(&MetricRow::measured, shape_columns) +
     Rows{{"outcome", &MetricRow::outcome, "",
           "how the step ended; not_converged: PBS above its stop_residual, or a reference that did not reach its pose and has no error "
           "there"}} +
     (within(&MetricRow::measured, within(&FrameMeasurement::reference_error, error_bar_columns)) +
      Rows{{"error_below_reference_error", &MetricRow::error_below_reference_error, "",
-           "such an error may be the reference's own: it does not distinguish deformers; empty in the reference's rows"}})
+           "the error may be the reference's own, so that it does not distinguish deformers; empty in the reference's rows"}})
         .in_group(with_error_bar) +
     Rows{{"sleeping_share", &MetricRow::sleeping_share, "", "share of the stretch and volume constraints that were left out"},
          {"wakings", &MetricRow::wakings, "", "how often the step was repeated because some of them were needed"}}

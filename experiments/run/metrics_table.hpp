@@ -1,4 +1,5 @@
-// metrics.csv: one row per frame of a deformer. `pbskin list metrics` and `pbskin explain COLUMN` print what the columns say of themselves.
+// metrics.csv: one row per frame and deformer. `pbskin list metrics` and `pbskin explain COLUMN` print the meanings and units that are
+// declared with the columns.
 #pragma once
 
 #include "analysis/records/typed_table.hpp"
@@ -27,13 +28,14 @@ struct MetricRow {
 MetricRow metric_row(const Scene& scene, const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured,
                      const pbs::StepSummary& step);
 
-const analysis::Columns<MetricRow>& metric_columns();                // all of them
-analysis::Columns<MetricRow> metric_columns_of(const Scene& scene);  // without the groups that the scene does not ask for
+const analysis::Columns<analysis::FrameMetrics>& frame_metric_columns();  // what needs only the positions of a frame
+const analysis::Columns<MetricRow>& metric_columns();                     // all columns
+analysis::Columns<MetricRow> metric_columns_of(const Scene& scene);       // without the groups that the scene does not ask for
 
-// What is said of a metric besides its columns' unit and meaning.
+// The text of `pbskin explain` about a metric.
 struct MetricText {
     std::string name, unit, formula, meaning, source, cost;
-    std::vector<std::string> symbols;  // of the formula, each "name: what it is"
+    std::vector<std::string> symbols;  // of the formula, each as "name: meaning"
 };
 const std::vector<MetricText>& metric_texts();
 

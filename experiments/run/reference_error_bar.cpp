@@ -13,7 +13,7 @@ namespace experiments {
 namespace {
 
 constexpr double presumed_order = 1.0, factor_elsewhere = 3.0;
-constexpr double smallest_difference_pct = 1e-9;  // below it, as in the rest pose, differences are rounding and show no order
+constexpr double smallest_difference_pct = 1e-9;  // smaller differences, as in the rest pose, are rounding errors and show no order
 constexpr std::array<double analysis::ErrorNorms::*, 3> norms = {&analysis::ErrorNorms::l2_pct, &analysis::ErrorNorms::joint_pct,
                                                                  &analysis::ErrorNorms::linf_m};
 constexpr std::array<const char*, 3> norm_names = {"l2", "joint", "linf"};
@@ -22,7 +22,7 @@ constexpr const char* why_order_1 =
     "the capsules' surface is followed by no face of a tet and the displacement's gradient jumps across it: the displacement lies in "
     "H^(3/2 - eps), its energy error falls with h^(1/2) and, by duality, its own with h, whatever the element order";
 
-// Relative to other meshes of the same body.
+// The inverse mesh size, up to a factor that is the same for all meshes of a body.
 double nodes_along(const pbs::Tets& tets, Eigen::Index vertices, int element_order, int refinements)
 {
     const Eigen::Index nodes = element_order == 1 ? vertices : vertices + pbs::edges_of(tets).rows();
@@ -111,7 +111,7 @@ std::vector<double> ReferenceErrorBar::ratios() const
     return ratios;
 }
 
-// Distances of solutions 12 or 12, 23, 13.
+// distances: between the solutions 1 and 2; with three solutions also between 2 and 3, and between 1 and 3.
 double ReferenceErrorBar::norm_bound(std::size_t norm, const std::vector<double>& distances)
 {
     const std::vector<double> ratio = ratios();

@@ -1,13 +1,30 @@
-// regions.csv: how much volume each bone's and each joint's tets gain or lose, over the frames of a run; one row per deformer and region.
+// regions.csv: the volume that the tets of each bone and of each joint gain or lose over the frames of a run. One row per deformer and
+// region.
 #pragma once
 
 #include "analysis/records/typed_table.hpp"
 #include "analysis/region_volume.hpp"
-#include "experiments/run/body_regions.hpp"
+#include "pbs/character/character.hpp"
 
 #include <map>
+#include <string>
+#include <vector>
 
 namespace experiments {
+
+// A character's tets cut into regions, by the weights of Eq. 2 whatever weights the character is skinned with.
+struct BodyRegions {
+    std::string kind;  // bone, joint
+    std::vector<std::string> names;
+    std::vector<int> of_tet;  // index into `names`; -1: none, #T
+};
+
+// Each tet belongs to the bone that has most weight over its four corners; among equals, to the one that most corners are nearest to.
+BodyRegions regions_by_bone(const pbs::Character& character);
+
+// Each tet with a blended corner belongs to the joint of the two bones with most weight, "thigh.L - shin.L". Joints without tets are left
+// out.
+BodyRegions regions_by_joint(const pbs::Character& character);
 
 struct RegionChange {
     std::string deformer, kind, region;
@@ -20,7 +37,7 @@ class RegionRecord {
 public:
     explicit RegionRecord(const pbs::Character& character);
 
-    // One frame of a deformer; frames that are not finite are left out.
+    // Adds one frame of a deformer. Frames that are not finite are left out.
     void add(const std::string& label, const pbs::Positions& positions);
 
     std::vector<RegionChange> changes() const;

@@ -1,15 +1,15 @@
 #include "experiments/run/run.hpp"
 
 #include "experiments/deformers/registry.hpp"
-#include "experiments/run/broken_frame.hpp"
-#include "experiments/scene/motion_case.hpp"
-#include "experiments/run/frame_step.hpp"
 #include "experiments/process/interruption.hpp"
 #include "experiments/process/progress.hpp"
-#include "experiments/run/reference_error_bar.hpp"
-#include "experiments/run/run_end.hpp"
-#include "experiments/run/run_folder.hpp"
 #include "experiments/process/warnings.hpp"
+#include "experiments/run/broken_frame.hpp"
+#include "experiments/run/frame_step.hpp"
+#include "experiments/run/reference_error_bar.hpp"
+#include "experiments/run/run_folder.hpp"
+#include "experiments/run/run_provenance.hpp"
+#include "experiments/scene/motion_case.hpp"
 #include "pbs/character/body_remarks.hpp"
 #include "pbs/character/input_file.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -24,7 +24,7 @@
 namespace experiments {
 namespace {
 
-// One deformer of the run and what its steps since the last frame were.
+// One deformer of the run, and its steps since the last frame.
 struct Runner {
     DeformerSpec spec;
     DeformerTraits traits;
@@ -49,7 +49,7 @@ std::vector<Runner> make_runners(const Scene& scene, const pbs::Character& chara
     return runners;
 }
 
-// Vertices that any of the deformers is told where to be, #V; empty: none. Errors leave them out.
+// Vertices whose positions any of the deformers is given, #V; empty: none. Errors leave them out.
 std::vector<bool> prescribed_by_any(const std::vector<Runner>& runners)
 {
     std::vector<bool> any;
@@ -69,7 +69,7 @@ void refuse_frames_beyond(const pbs::Motion& motion, const Scene& scene)
                                   fmt::format("expected less than the motion's {} frames", motion.frames()));
 }
 
-// Without a reference there are no errors to be measured.
+// Without a reference no errors can be measured.
 OutputSpec measured_output(const Scene& scene)
 {
     OutputSpec output = scene.output;
@@ -77,7 +77,7 @@ OutputSpec measured_output(const Scene& scene)
     return output;
 }
 
-// The rendered surface is carried along where it is measured or written.
+// The rendered surface is needed if it is measured or written.
 pbs::CharacterSource needed_character(const Scene& scene)
 {
     pbs::CharacterSource source = scene.character;
@@ -85,7 +85,7 @@ pbs::CharacterSource needed_character(const Scene& scene)
     return source;
 }
 
-pbs::Character told_character(const Scene& scene)
+pbs::Character character_with_warnings(const Scene& scene)
 {
     std::vector<std::string> remarks;
     pbs::Character character = pbs::make_character(needed_character(scene), remarks);
@@ -93,7 +93,7 @@ pbs::Character told_character(const Scene& scene)
     return character;
 }
 
-// The motion, and the hashes of its clip into the character's inputs; a sweep has none.
+// Reads the motion, and adds the hashes of its clip to the character's inputs; a sweep has no clip.
 pbs::Motion read_motion(const Scene& scene, pbs::Character& character)
 {
     const pbs::InputFile clip(scene.motion.clip);
@@ -107,7 +107,7 @@ class SceneRun {
 public:
     SceneRun(const Scene& scene, const std::string& folder)
         : scene_(scene),
-          character_(cost_.time("character", [&] { return told_character(scene); })),
+          character_(cost_.time("character", [&] { return character_with_warnings(scene); })),
           motion_(cost_.time("motion", [&] { return read_motion(scene, character_); })),
           runners_(make_runners(scene, character_, cost_)),
           measurer_(
@@ -132,7 +132,7 @@ public:
 private:
     void play()
     {
-        tell_what_comes();
+        announce_poses();
         Progress progress(scene_.name, static_cast<int>(motion_.steps.size()));
         for (std::size_t step = 0; step < motion_.steps.size(); ++step) {
             stop_if_interrupted();
@@ -149,7 +149,7 @@ private:
         }
     }
 
-    void tell_what_comes()
+    void announce_poses()
     {
         std::vector<pbs::Pose> frames;
         for (std::size_t step = 0; step < motion_.steps.size(); step += motion_.steps_per_frame) frames.push_back(motion_.steps[step]);
@@ -217,7 +217,7 @@ private:
         }
     }
 
-    // A reference that has not reached its pose stands in another one: it has no error.
+    // A reference that did not reach its pose is in another one, so that it has no error.
     static FrameContext context_for(const Runner& runner, FrameContext context)
     {
         if (runner.traits.solves_equations && runner.steps.summary().outcome == pbs::Outcome::not_converged) context.reference = nullptr;
@@ -256,7 +256,7 @@ private:
     std::vector<Runner> runners_;
     FrameMeasurer measurer_;
     std::optional<ReferenceErrorBar> error_bar_;
-    RunFolder folder_;  // made when all else stands: it clears an earlier run's records
+    RunFolder folder_;  // made last, for it removes the records of an earlier run
     int frames_ = 0, self_intersecting_frames_ = 0;
     std::string breakdown_, bad_frame_;
     std::map<std::string, std::vector<int>> breakdowns_, not_converged_;  // label -> frames

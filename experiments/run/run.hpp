@@ -1,4 +1,4 @@
-// One scene: character, motion and deformers in; a run's directory out (metrics.csv, iterations.csv, run.json, frames/).
+// Runs one scene: from its character, motion and deformers to the folder of a run (metrics.csv, iterations.csv, run.json, frames/).
 #pragma once
 
 #include "experiments/scene/scene.hpp"
@@ -8,22 +8,23 @@
 
 namespace experiments {
 
-// A bad frame was not reached (the step did not converge; as a reference it is compared with nothing) or is a converged reference's with
-// inverted tets (it is compared, and marked by its count). Both are on record. `run`, `check` and `reproduce` end with exit status 3 for
-// either and for a breakdown, but for runs of a study whose results bad frames are (StudyRun::bad_frames_are_results).
+// A bad frame is one that was not reached (its step did not converge; such a frame of a reference is compared with nothing), or a frame of
+// a converged reference with inverted tets (it is compared, and marked by their number). Both are recorded. `run`, `check` and `reproduce`
+// end with exit status 3 for bad frames and for breakdowns, except in runs of a study that expects bad frames
+// (StudyRun::bad_frames_are_results).
 struct RunResult {
     int frames = 0;
     double seconds = 0.0;
     std::string breakdown;           // the first deformer and frame that were not finite, with the first such vertex; empty: none
-    std::string bad_frame;           // the first finite frame that is not to be trusted, what is wrong and the worst tet; empty: none
-    std::vector<std::string> lines;  // a summary for the terminal, one line a deformer
+    std::string bad_frame;           // the first bad frame, with the reason and the worst tet; empty: none
+    std::vector<std::string> lines;  // a summary for the terminal, one line per deformer
 
-    // Of a run that was expected to finish with each frame sound: the breakdown, else the bad frame; empty: it did.
+    // Why a run failed that was expected to finish without bad frames: the breakdown, else the bad frame. Empty: it did not fail.
     const std::string& failure() const { return breakdown.empty() ? bad_frame : breakdown; }
 };
 
-// Negative controls (the printed forms, linear elasticity) may break down: it is on record, under outcome.broken_frames, and nothing else.
-// Overwrites the records in `folder`. Whole files only: each is written beside and renamed, run.json last.
+// Overwrites the records in `folder`. Each file is written whole or not at all, run.json last. A breakdown of a negative control (the
+// printed forms, linear elasticity) is only recorded, under outcome.broken_frames.
 RunResult run_scene(const Scene& scene, const std::string& folder);
 
 }  // namespace experiments

@@ -1,13 +1,11 @@
 #include "experiments/run/run_folder.hpp"
 
 #include "analysis/records/atomic_file.hpp"
-#include "analysis/records/provenance.hpp"
-#include "experiments/process/blas_kernels.hpp"
-#include "experiments/run/frame_statistics.hpp"
-#include "experiments/run/library_versions.hpp"
-#include "experiments/run/metrics_table.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "analysis/records/record_text.hpp"
+#include "experiments/run/frame_statistics.hpp"
+#include "experiments/run/metrics_table.hpp"
+#include "experiments/run/run_provenance.hpp"
 #include "experiments/run/surface_record.hpp"
 #include "pbs/character/input_file.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -76,7 +74,7 @@ nlohmann::json character_record(const pbs::Character& character)
     return record;
 }
 
-// What RunFolder writes into frames/: LABEL_000123.vtu, LABEL_surface_000123.vtp, LABEL.pvd.
+// The files that RunFolder writes into frames/: LABEL_000123.vtu, LABEL_surface_000123.vtp, LABEL.pvd.
 bool is_own_frame(const fs::path& file)
 {
     static const std::regex own("[A-Za-z0-9_]+_[0-9]{6}\\.vt[up]|[A-Za-z0-9_]+\\.pvd");
@@ -174,12 +172,10 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
         write_tables();
         if (!bones_.empty()) write_what_frames_depend_on(character);
     });
-    analysis::Provenance provenance = analysis::collect_provenance(most_threads(scene_));
-    for (const auto& [library, version] : library_versions()) provenance.libraries[library] = version;
-    provenance.blas = blas_in_use();
+    analysis::Provenance provenance = run_provenance(most_threads(scene_));
     provenance.input_hashes = pbs::hashes_by_name(character.inputs);
 
-    nlohmann::json run = {{"schema", 1}, {"scene", resolved_with_deformers(scene_)}, {"provenance", provenance}, {"outcome", outcome}};
+    nlohmann::json run = {{"schema", 1}, {"scene", to_json(scene_)}, {"provenance", provenance}, {"outcome", outcome}};
     for (const auto& [name, hash] : hashes_) run["state_hash"][name] = hash.hex();
     for (const auto& [name, record] : deformer_records) run["deformers"][name] = record;
     run["character"] = cost.time("records", [&] { return character_record(character); });

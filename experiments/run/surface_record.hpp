@@ -1,4 +1,4 @@
-// The rendered surface of a run's frames and what carries it, for programs that move it by the tets:
+// The rendered surface of a run's frames and the tets that carry it, for programs that move the surface with the tets:
 //   surface_rest.vtp   the surface at rest [m]
 //   embedding.csv      the tet that carries each of its points, with the point's barycentric coordinates
 #pragma once
@@ -10,13 +10,13 @@ namespace experiments {
 
 struct EmbeddedPoint {
     int point = 0, tet = 0;
-    std::array<double, 4> barycentric = {};  // they sum to one; for a point outside its tet some are negative
+    std::array<double, 4> barycentric = {};  // their sum is one; for a point outside its tet some are negative
 };
 extern const analysis::Columns<EmbeddedPoint> embedding_columns;
 
 analysis::CsvTable embedding_table(const pbs::EmbeddedSurface& surface);
 
-// Both files, into a run's folder.
+// Writes both files into the folder of a run.
 void write_surface(const pbs::EmbeddedSurface& surface, const pbs::TetMesh& mesh, const std::string& folder);
 
 }  // namespace experiments

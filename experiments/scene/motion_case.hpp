@@ -1,4 +1,4 @@
-// What moves: the scene's motion on a character's skeleton.
+// The motion of a scene on the skeleton of a character.
 #pragma once
 
 #include "experiments/scene/scene.hpp"

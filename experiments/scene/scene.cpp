@@ -1,8 +1,8 @@
 #include "experiments/scene/scene.hpp"
 
+#include "analysis/records/record_text.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "analysis/records/record_text.hpp"
 #include "experiments/scene/scene_keys.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "generated/scenes_texts.hpp"
@@ -24,7 +24,7 @@ pbs::Vec3 vec3(const std::vector<double>& values)
     return {values[0], values[1], values[2]};
 }
 
-std::string beside(const std::string& folder, const std::string& path)
+std::string in_folder(const std::string& folder, const std::string& path)
 {
     return path.empty() || fs::path(path).is_absolute() ? path : (fs::path(folder) / path).string();
 }
@@ -33,8 +33,8 @@ pbs::CharacterSource read_character(const SceneValues& values, const std::string
 {
     pbs::CharacterSource source;
     source.body = values.text("character.body");
-    source.mesh_file = beside(folder, values.text("character.mesh"));
-    source.skeleton_file = beside(folder, values.text("character.skeleton"));
+    source.mesh_file = in_folder(folder, values.text("character.mesh"));
+    source.skeleton_file = in_folder(folder, values.text("character.skeleton"));
     source.skeleton_scale = values.number("character.skeleton_scale");
     source.vertices = values.integer("character.vertices");
     source.refinements = values.integer("character.refine");
@@ -45,7 +45,7 @@ pbs::CharacterSource read_character(const SceneValues& values, const std::string
     if (weights == "rigid")
         source.weights = pbs::WeightKind::rigid;
     else if (weights != "paper")
-        source.weights_file = beside(folder, weights);
+        source.weights_file = in_folder(folder, weights);
     return source;
 }
 
@@ -54,7 +54,7 @@ std::string found_clip(const SceneValues& values, const std::string& folder)
     try {
         return pbs::find_clip(values.text("motion.clip"), folder);
     } catch (const pbs::InputError&) {
-        values.refuse("motion.clip", "expected a file beside the scene, or a clip of Debian's package assimp-testmodels");
+        values.refuse("motion.clip", "expected a file in the folder of the scene, or a clip of Debian's package assimp-testmodels");
     }
 }
 
@@ -76,12 +76,12 @@ MotionSpec read_motion(const SceneValues& values, const std::string& folder)
         motion.clip = found_clip(values, folder);
         const double steps = 1.0 / (motion.rate_hz * motion.time_step_s);
         if (steps < 1.0 - 1e-9 || std::abs(steps - std::round(steps)) > 1e-6 * steps)
-            values.refuse("motion.rate_hz", "expected rate_hz * pbs.time_step_s = 1/n with a whole n: n steps a frame");
+            values.refuse("motion.rate_hz", "expected rate_hz * pbs.time_step_s = 1/n with a whole number n of steps per frame");
     }
     return motion;
 }
 
-// A deformer of that kind with the options of a table.
+// A deformer of this kind with the options of a table.
 DeformerSpec read_spec(const SceneValues& values, const DeformerKind& kind, const std::string& table, const std::string& name)
 {
     DeformerSpec spec = default_spec(kind.name);
@@ -90,7 +90,7 @@ DeformerSpec read_spec(const SceneValues& values, const DeformerKind& kind, cons
     return spec;
 }
 
-// The deformers of all [[kind]] tables, used or not.
+// The deformers of all [[kind]] tables, including those that the scene does not use.
 std::vector<DeformerSpec> read_listed_deformers(const SceneValues& values)
 {
     std::vector<DeformerSpec> listed;
@@ -163,12 +163,11 @@ ErrorBar read_error_bar(const SceneValues& values, const std::string& reference,
         std::find_if(deformers.begin(), deformers.end(), [&](const DeformerSpec& spec) { return spec.name == reference; });
     const FemOptions* fem = reference_spec == deformers.end() ? nullptr : options_if<FemOptions>(*reference_spec);
     if (!fem)
-        values.refuse("reference.error_bar", "expected none where the reference is not a [[fem]] table: it has no elements to refine");
+        values.refuse("reference.error_bar", "expected none if the reference is not a [[fem]] table, for it has no elements to refine");
     const bool other_order = error_bar == ErrorBar::orders || error_bar == ErrorBar::both;
     if (other_order && fem->formulation == reference_fem::Formulation::taylor_hood)
-        values.refuse("reference.error_bar", "expected none or refined with formulation taylor_hood, which is of order 2 alone");
-    if (!output.errors)
-        values.refuse("reference.error_bar", "expected none where output.metrics leaves out the errors that it stands beside");
+        values.refuse("reference.error_bar", "expected none or refined with formulation taylor_hood, which has only order 2");
+    if (!output.errors) values.refuse("reference.error_bar", "expected none if output.metrics leaves out the errors, which it belongs to");
     return error_bar;
 }
 
@@ -196,7 +195,7 @@ bool OutputSpec::writes(int frame) const
     return (frames_every > 0 && frame % frames_every == 0) || std::count(frames.begin(), frames.end(), frame) > 0;
 }
 
-nlohmann::json resolved_with_deformers(const Scene& scene)
+nlohmann::json to_json(const Scene& scene)
 {
     nlohmann::json resolved = scene.resolved;
     resolved["name"] = scene.name;

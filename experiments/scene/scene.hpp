@@ -1,8 +1,9 @@
-// A scene: which character, what moves it, which deformers, what is written. Read from TOML (every key: manual.md, `pbskin explain`).
+// A scene: a character, its motion, the deformers and the output. It is read from TOML. `pbskin explain KEY` and manual.md explain the
+// keys.
 #pragma once
 
 #include "experiments/deformers/deformer_spec.hpp"
-#include "experiments/scene/error_bar.hpp"
+#include "experiments/settings/option_names.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/skinning/pose.hpp"
 
@@ -24,11 +25,22 @@ struct MotionSpec {
 };
 
 struct OutputSpec {
-    int frames_every = 1;                                 // 0: none but `frames`
-    std::vector<int> frames;                              // by number
+    int frames_every = 1;                                 // every n-th frame is written; 0: only `frames`
+    std::vector<int> frames;                              // further frames, by number
     bool errors = true, sections = true, surface = true;  // groups of metrics
 
     bool writes(int frame) const;
+};
+
+// The further solutions that bound the distance of the reference from the limit of ever finer tets. none; orders: the other element order
+// on the same tets; refined: the same order on tets that are refined once; both: three solutions whose mesh sizes differ by factors of
+// about 2.
+enum class ErrorBar { none, orders, refined, both };
+
+template <>
+struct OptionNames<ErrorBar> {
+    static constexpr std::array<std::pair<ErrorBar, const char*>, 4> table{
+        {{ErrorBar::none, "none"}, {ErrorBar::orders, "orders"}, {ErrorBar::refined, "refined"}, {ErrorBar::both, "both"}}};
 };
 
 struct Scene {
@@ -39,10 +51,10 @@ struct Scene {
     std::string reference;  // name of the deformer that errors are measured against; empty: none
     ErrorBar error_bar = ErrorBar::none;
     OutputSpec output;
-    nlohmann::json resolved;  // every key and value, for run.json; paths as the scene has them
+    nlohmann::json resolved;  // every key and value, for run.json; paths as in the scene
 };
 
-// The first deformer with options of this type; null where there is none.
+// The first deformer with options of this type; null: there is none.
 template <typename Options>
 const DeformerSpec* find_deformer_with(const Scene& scene)
 {
@@ -54,12 +66,8 @@ const DeformerSpec* find_deformer_with(const Scene& scene)
 // Reads a scene file, or a built-in scene by name (`pbskin list scenes`).
 Scene read_scene(const std::string& file_or_name, const std::vector<std::string>& overrides);
 
-// `resolved` and the options of every deformer, a study's own included: what a run is the result of.
-nlohmann::json resolved_with_deformers(const Scene& scene);
-inline nlohmann::json to_json(const Scene& scene)
-{
-    return resolved_with_deformers(scene);
-}
+// `resolved` and the options of every deformer, including those that only studies set: all that the result of a run depends on.
+nlohmann::json to_json(const Scene& scene);
 
 struct BuiltInScene {
     std::string name, text, meaning;

@@ -1,5 +1,7 @@
 #include "experiments/scene/scene_keys.hpp"
 
+#include "experiments/scene/scene.hpp"
+
 namespace experiments {
 namespace {
 
@@ -39,23 +41,27 @@ std::vector<SceneKey> character_and_motion_keys()
         key("character", "mesh", text, "\"\"", "", "tet mesh file, relative to the scene: .msh .vtu .vtk .mesh .ele"),
         key("character", "skeleton", text, "\"\"", "",
             "skeleton file, relative to the scene: .toml with [[joint]] tables, or a clip's zero pose (.bvh .gltf .glb .fbx)"),
-        within(key("character", "skeleton_scale", number, "1.0", "m", "metres a unit of the skeleton file; CMU's clips: 0.0254 / 0.45"),
-               above_zero, 1e6),
+        within(
+            key("character", "skeleton_scale", number, "1.0", "m", "metres per unit of the skeleton file; for CMU's clips 0.0254 / 0.45"),
+            above_zero, 1e6),
         within(key("character", "vertices", integer, "0", "", "wanted number of vertices of a named body; 0: its own default"), 0, 1e7),
         within(key("character", "refine", integer, "0", "",
-                   "how often every tet is cut into eight (8 and 64 times the tets); bones' sizes stay, the other metrics are of the finer "
-                   "mesh"),
+                   "number of times that every tet is cut into eight (8 or 64 times as many tets); the sizes of the bones stay, and the "
+                   "metrics "
+                   "are those of the finer mesh"),
                0, 2),
-        key("motion", "joint", text, "\"\"", "", "the joint a sweep turns"),
+        key("motion", "joint", text, "\"\"", "", "the joint that a sweep turns"),
         key("motion", "axis", vec3, "[1.0, 0.0, 0.0]", "", "axis of a sweep in rest world axes"),
         within(key("motion", "angle_deg", number, "0.0", "deg", "angle of a sweep's last frame; frame i has angle_deg * i / (frames - 1)"),
                -7200, 7200),
-        within(key("motion", "frames", integer, "18", "", "frames of a sweep, the rest pose included"), 2, 1e6),
+        within(key("motion", "frames", integer, "18", "", "number of frames of a sweep, including the rest pose"), 2, 1e6),
         key("motion", "clip", text, "\"\"", "",
             "motion capture clip: relative to the scene, or by name from Debian's assimp-testmodels (01_01.bvh)"),
-        within(key("motion", "start_s", number, "0.0", "s", "where in the clip the motion starts, its T-pose frame dropped"), 0, 1e6),
-        within(key("motion", "duration_s", number, "0.0", "s", "how much of the clip is played; 0: to its end"), 0, 1e6),
-        within(key("motion", "rate_hz", number, "100.0", "1/s", "frames a second; rate_hz * pbs.time_step_s must be 1/n: n steps a frame"),
+        within(key("motion", "start_s", number, "0.0", "s", "start of the motion in the clip, without the T-pose of its first frame"), 0,
+               1e6),
+        within(key("motion", "duration_s", number, "0.0", "s", "duration of the motion; 0: to the end of the clip"), 0, 1e6),
+        within(key("motion", "rate_hz", number, "100.0", "1/s",
+                   "frames per second; rate_hz * pbs.time_step_s must be 1/n with a whole number n of steps per frame"),
                1e-3, 1e5),
         within(key("pbs", "time_step_s", number, "0.01", "s", "time step of Algorithm 1"), 1e-9, 1e3),
         key("skinning", "weights", text, "\"paper\"", "", "paper (Eq. 2), rigid (nearest bone), or a CSV file vertex,joint,weight"),
@@ -66,17 +72,18 @@ std::vector<SceneKey> output_keys()
 {
     return {
         key("reference", "name", text, "\"\"", "", "the deformer that errors are measured against; empty: none"),
-        one_of(
-            key("reference", "error_bar", text, "\"none\"", "",
-                "the reference's own discretisation error beside the deformers' errors: orders (solved again with the other element order "
-                "on the same tets: cheap for order 2), refined (on tets cut into eight: some 30 times the time of order 2), both (three "
-                "solutions, the order of convergence observed); bounds by the grid convergence index, see run.json"),
-            {"none", "orders", "refined", "both"}),
+        one_of(key("reference", "error_bar", text, "\"none\"", "",
+                   "also estimates the discretisation error of the reference: orders (solves it again with the other element order on the "
+                   "same "
+                   "tets; cheap for order 2), refined (on tets cut into eight; about 30 times the time of order 2), both (three solutions, "
+                   "from "
+                   "which the order of convergence is observed); the bounds are grid convergence indices, see run.json"),
+               names_of_options<ErrorBar>()),
         key("deformers", "use", texts, "[\"lbs\", \"pbs\"]", "",
             "what moves the character: names of `pbskin list deformers` and of the [[fem]] tables"),
         within(key("output", "frames_every", integer, "1", "", "write every n-th frame as VTU; 0: none"), 0, 1e9),
         within(key("output", "frames", integers, "[]", "", "further frames to write, by number"), 0, 1e9),
-        key("output", "frame_names", texts, "[]", "", "what `frames` show, in the same order: titles of stills"),
+        key("output", "frame_names", texts, "[]", "", "titles of `frames`, in the same order"),
         key("output", "metrics", texts, "[\"all\"]", "",
             "groups of metrics beyond the volume columns: errors, sections, surface, all; [] leaves them out"),
     };

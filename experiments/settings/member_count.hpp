@@ -1,6 +1,6 @@
-// How many members a struct has, so that a declaration of its fields can be checked to be complete.
+// The number of members of a struct, to check that a declaration of its fields is complete.
 //   static_assert(member_count<Jolt>() == 5);
-// The struct is an aggregate without base classes and without arrays of C; members that are arrays are std::array.
+// The struct must be an aggregate without base classes and without C arrays (std::array is allowed).
 #pragma once
 
 #include <cstddef>

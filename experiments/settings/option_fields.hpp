@@ -1,11 +1,12 @@
-// The fields of an options struct, each declared once: its key in a scene, its default, range and meaning, and its name in a record.
+// The fields of a struct of options. Each is declared once, with its key in a scene, its default, range, unit and meaning, and its name in
+// a record.
 //   static const auto fields = OptionFields<XpbdOptions>("xpbd")
 //                                  .add("young_pa", &XpbdOptions::young_pa, {.unit = "Pa", .lowest = above_zero, .meaning = "..."})
 //                                  .record("substeps", &XpbdOptions::substeps);
 //   fields.keys()               the keys, for a schema; the defaults are those of XpbdOptions{}
 //   fields.read(values, "xpbd") the options as a scene states them
 //   fields.json(options)        all fields by name, for a record
-// A member is a number, a truth value, a text, a Vec3, or an enumeration with OptionNames.
+// A member is a number, a bool, a text, a Vec3, or an enumeration with OptionNames.
 #pragma once
 
 #include "experiments/settings/member_count.hpp"
@@ -23,7 +24,7 @@
 
 namespace experiments {
 
-// A member's value as JSON: an enumeration by its word, a struct by its own to_json or to_json_of.
+// A value as JSON: an enumeration by its name, a struct by its to_json or to_json_of.
 template <typename Value>
 nlohmann::json option_json(const Value& value)
 {
@@ -79,20 +80,10 @@ Value read_option(const SceneValues& values, const std::string& path)
         return values.text(path);
 }
 
-// The words that an enumeration may have in a scene; none for other types.
-template <typename Value>
-std::vector<std::string> choices_of()
-{
-    std::vector<std::string> choices;
-    if constexpr (std::is_enum_v<Value>)
-        for (const auto& [value, name] : OptionNames<Value>::table) choices.emplace_back(name);
-    return choices;
-}
-
 struct FieldText {
     std::string unit = {};
     double lowest = -infinite, highest = infinite;
-    bool is_stated = false;  // a scene has to state it: there is no default
+    bool is_stated = false;  // every scene must state it, for there is no default
     std::string meaning = {};
 };
 
@@ -104,7 +95,7 @@ public:
 
     explicit OptionFields(std::string table, bool in_list = false) : table_(table), root_(std::move(table)), in_list_(in_list) {}
 
-    // The fields that follow are in this table within the first one: they are read only where a scene has it.
+    // The fields that follow are in this table within the first one. They are read only if a scene has that table.
     OptionFields& in_table(const std::string& name)
     {
         table_ = root_ + "." + name;
@@ -115,7 +106,7 @@ public:
     OptionFields& add(const std::string& name, Member Options::*member, const FieldText& text)
     {
         SceneKey key = key_of(name, key_type<Member>(), text, option_json(Options{}.*member));
-        key.choices = choices_of<Member>();
+        if constexpr (std::is_enum_v<Member>) key.choices = names_of_options<Member>();
         return add(
             key,
             [member](Options& options, const SceneValues& values, const std::string& path) {
@@ -124,20 +115,20 @@ public:
             [name, member](const Options& options, nlohmann::json& record) { record[name] = option_json(options.*member); });
     }
 
-    // A key that is kept in another way than in one member.
+    // A key whose value is not stored in exactly one member.
     OptionFields& add(const std::string& name, KeyType type, const nlohmann::json& default_value, const FieldText& text, Reader read,
                       Writer write)
     {
         return add(key_of(name, type, text, default_value), std::move(read), std::move(write));
     }
 
-    // A key that somebody else reads.
+    // A key that other code reads.
     OptionFields& key(const std::string& name, KeyType type, const nlohmann::json& default_value, const FieldText& text)
     {
         return add(key_of(name, type, text, default_value), nullptr, nullptr);
     }
 
-    // A member that no scene sets: studies do.
+    // A member that only studies set, not scenes.
     template <typename Member>
     OptionFields& record(const std::string& name, Member Options::*member)
     {
@@ -145,7 +136,7 @@ public:
         return derived(name, [member](const Options& options) { return option_json(options.*member); });
     }
 
-    // What the options' user depends on and no member holds: a constant of the code, or what follows from the members.
+    // A value that results depend on and that is no member: a constant of the code, or a function of the members.
     OptionFields& derived(const std::string& name, std::function<nlohmann::json(const Options&)> value)
     {
         return add({}, nullptr, [name, value](const Options& options, nlohmann::json& json) { json[name] = value(options); });
@@ -155,7 +146,7 @@ public:
         return derived(name, [value](const Options&) { return value; });
     }
 
-    // std::logic_error unless each member is recorded: the settings of a study's run, from which --resume sees what has changed.
+    // std::logic_error unless each member is recorded. Settings of a study's run must be complete, for --resume compares them.
     const OptionFields& complete() const
     {
         if (members_ == member_count<Options>()) return *this;
@@ -192,7 +183,7 @@ public:
 
 private:
     struct Field {
-        SceneKey key;  // without a name: none
+        SceneKey key;  // an empty name: the field has no key
         Reader read;
         Writer write;
     };

@@ -1,4 +1,4 @@
-// The words that an option's values have in scenes and records. A folder with such an option specialises OptionNames for it:
+// The names of an option's values in scenes and records. A folder with such an option specialises OptionNames for it:
 //   template <>
 //   struct OptionNames<Colour> {
 //       static constexpr std::array<std::pair<Colour, const char*>, 2> table{{{Colour::red, "red"}, {Colour::blue, "blue"}}};
@@ -8,6 +8,7 @@
 #include <array>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace experiments {
 
@@ -23,11 +24,19 @@ std::string name_of(Enum value)
 }
 
 template <typename Enum>
-Enum option_of(const std::string& name)  // the schema has checked the name
+Enum option_of(const std::string& name)  // the schema must have checked the name
 {
     for (const auto& [entry, text] : OptionNames<Enum>::table)
         if (name == text) return entry;
     return OptionNames<Enum>::table.front().first;
+}
+
+template <typename Enum>
+std::vector<std::string> names_of_options()
+{
+    std::vector<std::string> names;
+    for (const auto& [entry, name] : OptionNames<Enum>::table) names.emplace_back(name);
+    return names;
 }
 
 }  // namespace experiments

@@ -12,7 +12,7 @@
 namespace experiments {
 namespace {
 
-// Keys and tables of a table; of the top level, its tables.
+// The keys and tables of a table; "" is the top level.
 std::vector<std::string> known_names(const std::vector<SceneKey>& keys, const std::string& table)
 {
     std::set<std::string> names;
@@ -70,7 +70,7 @@ bool SceneSchema::is_list(const std::string& table) const
     return std::any_of(keys.begin(), keys.end(), [&](const SceneKey& key) { return key.in_list && key.table == table; });
 }
 
-// In the path's own table, else in the nearest one around it that there is.
+// Searched in the table of the path, or in the nearest known table that contains it.
 std::string SceneSchema::nearest_key(const std::string& path) const
 {
     const auto dot = path.rfind('.');

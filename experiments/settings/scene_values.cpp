@@ -33,7 +33,7 @@ json to_json(const toml::node& node)
 std::string shown(const toml::node& node)
 {
     const json value = to_json(node);
-    if (node.is_floating_point() && !std::isfinite(value.get<double>())) return std::to_string(value.get<double>());  // JSON knows no nan
+    if (node.is_floating_point() && !std::isfinite(value.get<double>())) return std::to_string(value.get<double>());  // JSON has no nan
     return value.is_null() ? "(a table)" : value.is_string() ? value.get<std::string>() : value.dump();
 }
 
@@ -89,7 +89,7 @@ toml::table parse(const std::string& text, const std::string& file)
     }
 }
 
-// VALUE of --set as TOML, or as a bare text.
+// The VALUE of --set, as TOML or else as a bare text.
 toml::table parse_override(const std::string& value)
 {
     try {
@@ -104,7 +104,7 @@ toml::table parse_override(const std::string& value)
 
 }  // namespace
 
-// The index of LIST.INDEX.KEY as a scene writes it, without leading zeros; -1 for other paths.
+// The index in a path LIST.INDEX.KEY, written without leading zeros; -1 for other paths.
 int SceneValues::index_in_list(const std::string& path) const
 {
     const auto first = path.find('.'), second = first == std::string::npos ? first : path.find('.', first + 1);
@@ -115,7 +115,7 @@ int SceneValues::index_in_list(const std::string& path) const
     return error == std::errc() && index >= 0 && std::to_string(index) == written ? index : -1;
 }
 
-// fem.0.young_pa -> fem.young_pa: the schema knows one table of a list.
+// fem.0.young_pa -> fem.young_pa, for the schema has one table per list.
 std::string SceneValues::schema_path(const std::string& path) const
 {
     if (index_in_list(path) < 0) return path;
@@ -123,7 +123,7 @@ std::string SceneValues::schema_path(const std::string& path) const
     return path.substr(0, first) + path.substr(path.find('.', first + 1));
 }
 
-// Takes the values of a scene's text and overrides.
+// Fills SceneValues from the text of a scene and from overrides.
 class SceneReader {
 public:
     explicit SceneReader(SceneValues& scene) : scene_(scene) {}
@@ -152,7 +152,7 @@ public:
         }
     }
 
-    // KEY=VALUE; a key of a list without an index belongs to its first table.
+    // KEY=VALUE. A key of a list without an index means the first table.
     void take_override(const std::string& override)
     {
         const auto equals = override.find('=');

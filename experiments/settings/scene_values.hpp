@@ -1,4 +1,4 @@
-// A scene as checked values: every key of the schema with what the file, --set or the default says, and where it was said.
+// A scene as checked values: every key of the schema with its value from the file, from --set or by default, and its place in the text.
 #pragma once
 
 #include "experiments/settings/scene_schema.hpp"
@@ -13,8 +13,8 @@ namespace experiments {
 
 class SceneValues {
 public:
-    // Reads TOML text; `file` stands for it in errors; overrides are KEY=VALUE with VALUE in TOML (a bare word is a text). Unknown keys,
-    // wrong types and values out of range are InputErrors with the line.
+    // Reads TOML text. `file` is its name in errors. An override is KEY=VALUE with VALUE in TOML (a bare word is a text). InputError with
+    // the line for unknown keys, wrong types and values out of range.
     SceneValues(const std::string& text, const std::string& file, const std::vector<std::string>& overrides, SceneSchema schema);
 
     double number(const std::string& path) const { return value(path).get<double>(); }
@@ -27,11 +27,11 @@ public:
 
     bool given(const std::string& path) const { return values_.count(path) && !values_.at(path).is_default; }
     bool has_table(const std::string& table) const;
-    // How many [[list]] tables there are; the paths of their keys are fem.0.young_pa, fem.1.young_pa, ...
+    // The number of [[list]] tables. The paths of their keys are fem.0.young_pa, fem.1.young_pa, ...
     int tables(const std::string& list) const { return lists_.count(list) ? lists_.at(list) : 0; }
 
-    [[noreturn]] void refuse(const std::string& path, const std::string& rule) const;  // an InputError at the key's place
-    nlohmann::json resolved() const;                                                   // nested, for run.json
+    [[noreturn]] void refuse(const std::string& path, const std::string& rule) const;  // throws an InputError at the place of the key
+    nlohmann::json resolved() const;                                                   // all keys, nested, for run.json
     const std::string& file() const { return file_; }
 
 private:
@@ -44,13 +44,13 @@ private:
     const nlohmann::json& value(const std::string& path) const;
     int index_in_list(const std::string& path) const;
     std::string schema_path(const std::string& path) const;
-    friend class SceneReader;  // fills it
+    friend class SceneReader;  // fills this object
 
     SceneSchema schema_;
     std::string file_;
     std::map<std::string, Entry> values_;
     std::vector<std::string> tables_;
-    std::map<std::string, int> lists_;  // how many tables each has
+    std::map<std::string, int> lists_;  // list -> number of its tables
 };
 
 }  // namespace experiments

@@ -1,4 +1,4 @@
-// The runs of a study that ended. A study's conclusion reads their records and writes those that sum them up into the study's folder.
+// The finished runs of a study. The conclusion of a study reads their records and writes summaries into the folder of the study.
 #pragma once
 
 #include "analysis/records/typed_table.hpp"
@@ -11,15 +11,15 @@ namespace experiments {
 
 struct FinishedRuns {
     std::string folder = {};                // of the study
-    std::vector<std::string> folders = {};  // one per run that ended, in the plan's order
-    std::vector<std::string> missing = {};  // names of the planned runs that did not end
+    std::vector<std::string> folders = {};  // one per finished run, in the order of the plan
+    std::vector<std::string> missing = {};  // names of the planned runs that did not finish
 
     bool none() const { return folders.empty(); }
 
     std::vector<std::string> files(const std::string& file) const;  // its path in every run that wrote it
-    // The table `file` of every run that wrote it, one below the other. InputError where their columns differ.
+    // The tables `file` of all runs that wrote it, one below the other. InputError if their columns differ.
     analysis::CsvTable gathered(const std::string& file) const;
-    // The rows of `file` of every run that wrote it. InputError as rows_of.
+    // The rows of `file` of all runs that wrote it. InputError as rows_of.
     template <typename Row>
     std::vector<Row> rows(const analysis::Columns<Row>& columns, const std::string& file) const
     {
@@ -29,7 +29,7 @@ struct FinishedRuns {
         return all;
     }
 
-    // Writes a record of the study. InputError where it cannot be written.
+    // Writes a record of the study. InputError if it cannot be written.
     void write(const std::string& file, const std::string& text) const;
     void write(const std::string& file, const analysis::CsvTable& table) const;
     template <typename Row>

@@ -1,4 +1,4 @@
-// A study: runs and what is told of their records. A new one is one file and one line in studies.cpp.
+// A study: its runs, and a conclusion from their records. experiments/README.md describes how to add one.
 #pragma once
 
 #include "analysis/case_record.hpp"
@@ -11,24 +11,24 @@
 
 namespace experiments {
 
-// Writes its records into `folder`, which is there and holds no earlier run.json, and says what broke down numerically, if anything; an
-// exception is its failure. It runs in a process of its own.
+// The work of a run, in a process of its own. It writes its records into `folder`, which exists and has no earlier run.json, and returns
+// what broke down numerically, or "". An exception is a failure.
 using StudyWork = std::function<std::string(const std::string& folder)>;
 
-// Either a scene or, where `work` is given, a piece of work with its settings.
+// Either a scene or, if `work` is given, a piece of work with its settings.
 struct StudyRun {
-    std::string name;  // its folder inside the study's
+    std::string name;  // of its folder in the folder of the study
     Scene scene = {};
     double cost_s = 0.0;  // expected, on one core
     StudyWork work = {};
-    bool beside = false;  // of a body and motion that another run is judged by
-    // Of a scene that goes as far as its reference breaks: frames that it does not reach, or inverts, are on record, told below the claims
-    // and left out where they show another pose. Any other scene is expected to finish, each frame sound: one that is not is a breakdown.
+    bool beside = false;  // it decides nothing, for another run decides for its body and motion
+    // For a scene that goes on until its reference breaks down: bad frames are recorded, listed below the claims, and left out of claims
+    // that need their pose. In any other scene a bad frame is a breakdown.
     bool bad_frames_are_results = false;
-    nlohmann::json settings = {};  // what the work is the result of: on record, and what --resume compares
+    nlohmann::json settings = {};  // all that the result of the work depends on; recorded, and compared by --resume
 };
 
-// A run whose work depends on a case and on nothing else. All members of the case are recorded, by its to_json.
+// A run whose work depends only on a case. The to_json of the case records all its members.
 template <typename Case>
 StudyRun work_run(const std::string& name, const Case& of, double cost_s, std::string (*work)(const Case& of, const std::string& folder))
 {
@@ -42,36 +42,36 @@ enum class Extent { none, quick, full };
 
 struct StudyPlan {
     std::vector<StudyRun> runs;
-    std::vector<analysis::LeftOut> left_out = {};  // what is not installed here
-    Extent extent = Extent::quick;                 // as it was asked for
+    std::vector<analysis::LeftOut> left_out = {};  // scenes whose bodies are not installed
+    Extent extent = Extent::quick;                 // as asked for
 };
 
-// What a study says when its runs have ended, beside the claims that are judged from their records.
+// The result of a study in addition to the verdicts on its claims.
 struct StudyConclusion {
     std::string text;  // for the terminal
     bool holds = true;
 };
 
-// How much of a study is part of `pbskin reproduce` and of `pbskin reproduce --full`, both without names.
+// The extent in which `pbskin reproduce` and `pbskin reproduce --full`, both without names, run a study.
 struct Sets {
     Extent quick = Extent::quick, full = Extent::full;
 };
 constexpr Sets quick_and_full = {Extent::quick, Extent::full};
-// The whole study would take longer than --full may: it runs when it is named.
+// The whole study takes too long for --full, so that it runs only if it is named.
 constexpr Sets in_short = {Extent::quick, Extent::quick};
 constexpr Sets full_in_short = {Extent::none, Extent::quick};
 constexpr Sets when_named = {Extent::none, Extent::none};
 
 struct Study {
-    std::string name;  // of its folder, whose README.md is its page in `pbskin explain`, and of its records' folder
+    std::string name;  // of its folder, whose README.md is the page of `pbskin explain`, and of the folder of its records
     StudyPlan (*plan)(bool full) = nullptr;
     Sets sets = {};
-    StudyConclusion (*conclude)(const FinishedRuns& finished) = nullptr;  // writes the records that sum up the runs
-    bool alone = false;  // it times: one run at once, whatever -j says
+    StudyConclusion (*conclude)(const FinishedRuns& finished) = nullptr;  // writes the summaries; null: there are none
+    bool alone = false;                                                   // it measures time: one run at a time, whatever -j is
 };
 const std::vector<Study>& studies();
 
-// One per folder beside this file, each defined in its study.cpp.
+// One per folder next to this file, each defined in its study.cpp.
 Study volume_study();
 Study audit_study();
 Study momentum_study();

@@ -15,7 +15,7 @@ namespace experiments {
 namespace {
 
 struct RecordedCost {
-    std::optional<double> cpu_s;  // of its own process, all its threads; not told by records of every version
+    std::optional<double> cpu_s;  // of its process with all threads; records of some versions lack it
     std::optional<double> wall_s;
 };
 
@@ -27,11 +27,11 @@ std::optional<double> number_at(const nlohmann::json& run, const char* pointer)
 
 const analysis::Columns<RunCost> cost_columns =
     analysis::Columns<RunCost>{{"run", &RunCost::run, "", "name of the run"},
-                               {"expected_cpu_s", &RunCost::expected_s, "s", "processor time that the plan expects, on one core"},
+                               {"expected_cpu_s", &RunCost::expected_s, "s", "processor time that the plan expects"},
                                {"cpu_s", &RunCost::cpu_s, "s", "processor time that it took"}} +
     analysis::Columns<RunCost>{{"wall_s", &RunCost::wall_s, "s", "wall time that it took"}}.in_group("wall");
 
-// Nothing where the run did not end.
+// Nothing if the run did not finish.
 std::optional<RecordedCost> recorded_cost(const std::filesystem::path& folder)
 {
     if (!std::filesystem::exists(folder / "run.json")) return std::nullopt;
@@ -97,10 +97,10 @@ ExpectedCost expected_cost(const Study& study, const std::vector<StudyRun>& runs
 
 std::string expected_cost_table(const std::vector<ExpectedCost>& costs)
 {
-    std::string table = fmt::format("{:<16} {:>6} {:>14} {:>10}\n", "study", "runs", "s of one core", "wall [min]");
+    std::string table = fmt::format("{:<16} {:>6} {:>16} {:>10}\n", "study", "runs", "expected cpu [s]", "wall [min]");
     ExpectedCost sum{.study = "all"};
     const auto line = [](const ExpectedCost& cost) {
-        return fmt::format("{:<16} {:>6} {:>14.0f} {:>10.1f}\n", cost.study, cost.runs, cost.cpu_s, cost.wall_s / 60.0);
+        return fmt::format("{:<16} {:>6} {:>16.0f} {:>10.1f}\n", cost.study, cost.runs, cost.cpu_s, cost.wall_s / 60.0);
     };
     for (const ExpectedCost& cost : costs) {
         table += line(cost);
@@ -113,13 +113,13 @@ std::string expected_cost_table(const std::vector<ExpectedCost>& costs)
 
 std::string cost_table(const std::vector<std::pair<std::string, StudyCosts>>& studies)
 {
-    std::string table = fmt::format("{:<16} {:>18} {:>12} {:>7}\n", "study", "expected s of core", "s it took", "ratio");
+    std::string table = fmt::format("{:<16} {:>18} {:>12} {:>7}\n", "study", "expected cpu [s]", "cpu [s]", "ratio");
     for (const auto& [name, costs] : studies) {
-        constexpr double too_short_to_tell_s = 5.0;
+        constexpr double too_short_to_matter_s = 5.0;
         const double ratio = costs.cpu_s() / std::max(costs.expected_s(), 1e-9);
-        const bool off = std::abs(costs.cpu_s() - costs.expected_s()) > too_short_to_tell_s && (ratio > 2.0 || ratio < 0.5);
+        const bool is_outside = std::abs(costs.cpu_s() - costs.expected_s()) > too_short_to_matter_s && (ratio > 2.0 || ratio < 0.5);
         table += fmt::format("{:<16} {:>18.0f} {:>12.0f} {:>7.2f}{}\n", name, costs.expected_s(), costs.cpu_s(), ratio,
-                             off ? "  not within a factor of 2" : "");
+                             is_outside ? "  not within a factor of 2" : "");
     }
     return table;
 }

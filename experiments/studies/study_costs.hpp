@@ -1,4 +1,4 @@
-// What the runs of a study were expected to cost and what they did, kept over resumed runs in DIR/STUDY/costs.csv.
+// The expected and the actual cost of the runs of a study, in DIR/STUDY/costs.csv. The file is kept when a study is resumed.
 //   StudyCosts costs(folder);
 //   costs.add("limb_twist", 80.0, 71.4);
 //   costs.write();
@@ -14,17 +14,17 @@ namespace experiments {
 
 struct RunCost {
     std::string run;
-    double expected_s = 0.0, cpu_s = 0.0;  // of one core
-    std::optional<double> wall_s = {};     // by the clock on the wall; older records have none
+    double expected_s = 0.0, cpu_s = 0.0;  // processor time
+    std::optional<double> wall_s = {};     // wall time; older records have none
 };
 
 class StudyCosts {
 public:
-    explicit StudyCosts(const std::string& folder);  // with the rows of runs that are kept from before, if any
+    explicit StudyCosts(const std::string& folder);  // with the rows of an earlier file, if there is one
 
     void add(const std::string& run, double expected_s, double cpu_s);
-    // A run that ended without a row, because its reproduce was killed, gets what its run.json says; rows of the runs that
-    // ended, in the order of the plan.
+    // Keeps the rows of the finished runs, in the order of the plan. A finished run without a row, because its `reproduce` was killed, gets
+    // the cost that its run.json has.
     void complete(const std::string& folder, const StudyPlan& plan);
     void write() const;
 
@@ -36,16 +36,16 @@ private:
     std::vector<RunCost> runs_;
 };
 
-// A table of what the studies will cost, study by study, and how long that takes with so many runs side by side.
+// The expected cost of a study, and the wall time with this number of runs in parallel.
 struct ExpectedCost {
     std::string study;
     int runs = 0;
     double cpu_s = 0.0, wall_s = 0.0;
 };
 ExpectedCost expected_cost(const Study& study, const std::vector<StudyRun>& runs, int jobs);
-std::string expected_cost_table(const std::vector<ExpectedCost>& costs);
+std::string expected_cost_table(const std::vector<ExpectedCost>& costs);  // one line per study, and their sum
 
-// The same with what it did cost: a study outside a factor of two is pointed at.
+// Expected and actual processor time. A study outside a factor of two is marked.
 std::string cost_table(const std::vector<std::pair<std::string, StudyCosts>>& studies);
 
 }  // namespace experiments

@@ -1,15 +1,12 @@
 #include "experiments/studies/study_run.hpp"
 
 #include "analysis/records/atomic_file.hpp"
-#include "analysis/records/provenance.hpp"
-#include "experiments/process/blas_kernels.hpp"
-#include "experiments/process/cpu_clock.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "analysis/records/kept_record.hpp"
-#include "experiments/run/library_versions.hpp"
 #include "analysis/records/record_text.hpp"
+#include "experiments/process/cpu_clock.hpp"
 #include "experiments/run/run.hpp"
-#include "experiments/run/run_end.hpp"
+#include "experiments/run/run_provenance.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
@@ -22,11 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the run is the result of, under its key in run.json.
+// All that the result of the run depends on, with its key in run.json.
 std::pair<std::string, nlohmann::json> identity(const StudyRun& run)
 {
     if (run.work) return {"work", {{"name", run.name}, {"settings", run.settings}}};
-    return {"scene", resolved_with_deformers(run.scene)};
+    return {"scene", to_json(run.scene)};
 }
 
 std::string carry_out_scene(const StudyRun& run, const std::string& folder)
@@ -47,13 +44,10 @@ std::string carry_out_work(const StudyRun& run, const std::string& folder)
     const double cpu_start_s = process_cpu_s();
     const std::string breakdown = run.work(folder);
 
-    analysis::Provenance provenance = analysis::collect_provenance(1);
-    for (const auto& [library, version] : library_versions()) provenance.libraries[library] = version;
-    provenance.blas = blas_in_use();
     const auto [key, value] = identity(run);
     nlohmann::json outcome = {{"finished", true}, {"breakdown", breakdown}, {"cpu_seconds", process_cpu_s() - cpu_start_s}};
     outcome.update(run_end(stopwatch.seconds()));
-    const nlohmann::json json = {{"schema", 1}, {key, value}, {"provenance", provenance}, {"outcome", outcome}};
+    const nlohmann::json json = {{"schema", 1}, {key, value}, {"provenance", run_provenance(1)}, {"outcome", outcome}};
     analysis::write_text_atomically(record.string(), analysis::record_text(json));
     return breakdown;
 }

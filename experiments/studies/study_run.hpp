@@ -1,4 +1,4 @@
-// One run of a study in its folder: a scene or a piece of work, whole with run.json or not there.
+// One run of a study in its folder: a scene or a piece of work. With run.json it is finished.
 #pragma once
 
 #include "experiments/studies/study.hpp"
@@ -7,13 +7,13 @@
 
 namespace experiments {
 
-// The run in `folder` is of this scene or these settings and of this revision, and ended: nothing of it need be done again.
+// True if the run in `folder` finished with this scene or these settings and this revision, so that it need not be repeated.
 bool is_finished(const StudyRun& run, const std::string& folder);
 
-// Carries it out; what broke down numerically, if anything.
+// Does the run and returns what broke down numerically, or "".
 std::string carry_out(const StudyRun& run, const std::string& folder);
 
-// Of a finished run in `folder`: what carry_out returned then.
+// What carry_out returned for the finished run in `folder`.
 std::string breakdown_on_record(const StudyRun& run, const std::string& folder);
 
 }  // namespace experiments

@@ -1,7 +1,7 @@
 #include "experiments/verdicts/marked_frames.hpp"
 
-#include "experiments/run/broken_frame.hpp"
 #include "analysis/records/kept_record.hpp"
+#include "experiments/run/broken_frame.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,7 +28,7 @@ std::string kinds_of(const std::vector<BrokenFrame>& broken)
 std::string broken_line(const json& of_deformer, int frames)
 {
     const auto broken = of_deformer.get<std::vector<BrokenFrame>>();
-    return fmt::format("broke in {} of {} frames ({}), the first {}", broken.size(), frames, kinds_of(broken),
+    return fmt::format("broke down in {} of {} frames ({}), the first {}", broken.size(), frames, kinds_of(broken),
                        text_of(of_deformer.at(0).get<BrokenFrame>()));
 }
 

@@ -1,19 +1,19 @@
 #include "experiments/verdicts/reproduce.hpp"
 
-#include "analysis/records/atomic_file.hpp"
 #include "analysis/claims_report.hpp"
 #include "analysis/claims_table.hpp"
-#include "experiments/studies/shared/program_claims.hpp"
-#include "experiments/process/exit_status.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "analysis/records/provenance.hpp"
-#include "experiments/verdicts/marked_frames.hpp"
-#include "experiments/studies/study.hpp"
-#include "experiments/studies/study_run.hpp"
-#include "experiments/process/worker_pool.hpp"
-#include "experiments/studies/study_costs.hpp"
-#include "experiments/verdicts/study_records.hpp"
+#include "experiments/process/failure.hpp"
 #include "experiments/process/terminal.hpp"
+#include "experiments/process/worker_pool.hpp"
+#include "experiments/studies/shared/program_claims.hpp"
+#include "experiments/studies/study.hpp"
+#include "experiments/studies/study_costs.hpp"
+#include "experiments/studies/study_run.hpp"
+#include "experiments/verdicts/marked_frames.hpp"
+#include "experiments/verdicts/study_records.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ bool is_named(const Study& study, const std::vector<std::string>& names)
     });
 }
 
-// A study that is named is run in the size that is asked for; the others as the set has them.
+// A named study runs in the extent that is asked for; without names, each runs in the extent of the set.
 Extent asked_for(const Study& study, const std::vector<std::string>& names, bool full)
 {
     if (names.empty()) return full ? study.sets.full : study.sets.quick;
@@ -57,7 +57,7 @@ void refuse_unknown(const std::vector<std::string>& names)
 }
 
 struct StudyOutcome {
-    FinishedRuns finished = {};  // a failed run is reported and left out, so that its verdict cannot be computed
+    FinishedRuns finished = {};  // without failed runs, which are reported and whose verdicts cannot be computed
     bool broke_down = false, failed = false, refused = false;
     StudyCosts costs;
 };
@@ -80,7 +80,7 @@ std::vector<PlannedStudy> plan_studies(const ReproduceArguments& arguments)
     return planned;
 }
 
-// What is not there yet, or all of it.
+// The runs that are not finished yet, or all of them.
 std::vector<StudyRun> runs_to_do(const PlannedStudy& planned, bool resume)
 {
     std::vector<StudyRun> to_do = planned.plan.runs;
@@ -88,23 +88,23 @@ std::vector<StudyRun> runs_to_do(const PlannedStudy& planned, bool resume)
     return to_do;
 }
 
-void tell_of_breakdown(const std::string& name, const std::string& breakdown, StudyOutcome& outcome)
+void report_breakdown(const std::string& name, const std::string& breakdown, StudyOutcome& outcome)
 {
     if (breakdown.empty()) return;
     spdlog::error("pbskin: {}: numerical breakdown: {}", name, breakdown);
     outcome.broke_down = true;
 }
 
-// Runs kept from before count as those of now do.
-void tell_of_kept_breakdowns(const PlannedStudy& planned, const std::vector<StudyRun>& to_do, StudyOutcome& outcome)
+// The breakdowns of runs that are kept count like those of new runs.
+void report_kept_breakdowns(const PlannedStudy& planned, const std::vector<StudyRun>& to_do, StudyOutcome& outcome)
 {
     for (const StudyRun& run : planned.plan.runs) {
         const bool kept = std::none_of(to_do.begin(), to_do.end(), [&](const StudyRun& of) { return of.name == run.name; });
-        if (kept) tell_of_breakdown(run.name, breakdown_on_record(run, (fs::path(planned.folder) / run.name).string()), outcome);
+        if (kept) report_breakdown(run.name, breakdown_on_record(run, (fs::path(planned.folder) / run.name).string()), outcome);
     }
 }
 
-// then_s: expected of the studies after this one, wall time.
+// then_s: expected wall time of the studies after this one [s].
 StudyOutcome run_study(const PlannedStudy& planned, const std::vector<StudyRun>& runs, int jobs, double then_s)
 {
     std::error_code error;
@@ -117,12 +117,12 @@ StudyOutcome run_study(const PlannedStudy& planned, const std::vector<StudyRun>&
     for (const StudyRun& run : runs)
         work.push_back(
             {run.name, run.cost_s, [&run, folder = (fs::path(planned.folder) / run.name).string()] { return carry_out(run, folder); }});
-    spdlog::info("{} runs, {} kept from before", work.size(), planned.plan.runs.size() - work.size());
+    spdlog::info("{} runs to do, {} kept", work.size(), planned.plan.runs.size() - work.size());
     StudyOutcome outcome{.costs = StudyCosts(planned.folder)};
-    tell_of_kept_breakdowns(planned, runs, outcome);
+    report_kept_breakdowns(planned, runs, outcome);
     for (const PooledResult& result : run_in_pool(work, planned.study->alone ? 1 : jobs, then_s)) {
         if (!result.finished) spdlog::error("pbskin: {}: {}", result.name, result.failure);
-        tell_of_breakdown(result.name, result.breakdown, outcome);
+        report_breakdown(result.name, result.breakdown, outcome);
         outcome.failed |= !result.finished;
         outcome.refused |= result.refused;
         const auto run = std::find_if(runs.begin(), runs.end(), [&](const StudyRun& of) { return of.name == result.name; });
@@ -143,8 +143,8 @@ std::vector<analysis::Verdict> verdicts_of(const Study& study, const std::string
     return verdicts;
 }
 
-// The verdicts of all studies, into DIR/claims.json, DIR/claims.md and the terminal; whether each could be computed.
-bool tell_verdicts(std::vector<analysis::Verdict> verdicts, const std::string& folder)
+// Writes the verdicts of all studies to DIR/claims.json, DIR/claims.md and the terminal. Returns whether all could be computed.
+bool report_verdicts(std::vector<analysis::Verdict> verdicts, const std::string& folder)
 {
     std::stable_sort(verdicts.begin(), verdicts.end(), [](const auto& one, const auto& other) { return one.claim.id < other.claim.id; });
     analysis::write_text_atomically((fs::path(folder) / "claims.json").string(),
@@ -169,12 +169,12 @@ int reproduce(const ReproduceArguments& arguments)
         expected.push_back(expected_cost(*of.study, to_do.back(), arguments.jobs));
     }
     if (arguments.cost_only) return fmt::print("{}", expected_cost_table(expected)), exit_finished;
-    if (planned.size() > 1) spdlog::info("what this will take:\n{}", expected_cost_table(expected));
+    if (planned.size() > 1) spdlog::info("expected cost:\n{}", expected_cost_table(expected));
 
     analysis::remove_abandoned_files(arguments.folder, false);
     std::vector<analysis::Verdict> verdicts;
     std::vector<std::pair<std::string, StudyCosts>> costs;
-    std::string beside;  // what stands below the table of claims
+    std::string conclusions;  // of the studies, and on frames that need attention
     bool broke_down = false, refused = false, all_hold = true;
     for (std::size_t i = 0; i < planned.size(); ++i) {
         const auto& [study, plan, folder] = planned[i];
@@ -187,17 +187,17 @@ int reproduce(const ReproduceArguments& arguments)
         broke_down |= outcome.broke_down;
         refused |= outcome.refused;
         all_hold &= !outcome.failed;
-        beside += marked_frames(outcome.finished.folders);
+        conclusions += marked_frames(outcome.finished.folders);
         for (auto& verdict : verdicts_of(*study, folder, arguments.folder)) verdicts.push_back(std::move(verdict));
         if (!study->conclude) continue;
         const StudyConclusion conclusion = study->conclude(outcome.finished);
         outcome.finished.write("conclusion.txt", conclusion.text);
-        beside += conclusion.text;
+        conclusions += conclusion.text;
         all_hold &= conclusion.holds;
     }
-    spdlog::info("what it took:\n{}", cost_table(costs));
-    fmt::print("{}", beside);
-    const bool all_computed = verdicts.empty() || tell_verdicts(verdicts, arguments.folder);
+    spdlog::info("actual cost:\n{}", cost_table(costs));
+    fmt::print("{}", conclusions);
+    const bool all_computed = verdicts.empty() || report_verdicts(verdicts, arguments.folder);
     if (refused) return exit_input;
     if (broke_down) return exit_breakdown;
     return all_computed && all_hold ? exit_finished : exit_bound;
@@ -214,8 +214,8 @@ int judge_again(const ReproduceArguments& arguments)
     }
     if (verdicts.empty())
         throw pbs::InputError(arguments.folder, 0, "reproduce --judge", "",
-                              "no records of a study here: expected a folder that reproduce wrote");
-    return tell_verdicts(verdicts, arguments.folder) ? exit_finished : exit_bound;
+                              "no records of a study in this folder: expected one that reproduce wrote");
+    return report_verdicts(verdicts, arguments.folder) ? exit_finished : exit_bound;
 }
 
 }  // namespace experiments

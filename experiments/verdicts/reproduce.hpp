@@ -1,4 +1,4 @@
-// Studies -> records -> verdicts: runs what the asked claims rest on, then judges them from the records on disk.
+// From studies to records to verdicts: runs the studies that the named claims need, then computes the verdicts from the records on disk.
 #pragma once
 
 #include <string>
@@ -7,18 +7,18 @@
 namespace experiments {
 
 struct ReproduceArguments {
-    std::vector<std::string> names;  // claims or studies; empty: the studies that run by default
+    std::vector<std::string> names;  // of claims or studies; empty: the default set of studies
     std::string folder = "results/reproduce";
     bool full = false, resume = false;
-    bool cost_only = false;  // say what it would take, run nothing
+    bool cost_only = false;  // runs nothing and prints the expected cost
     int jobs = 2;
 };
 
-// Writes DIR/STUDY/RUN/... and, where claims were judged, DIR/claims.json and DIR/claims.md; prints the table of claims and what studies
-// conclude. The exit status: 1 where a verdict could not be computed or a study's own bounds do not hold.
+// Writes DIR/STUDY/RUN/... and, if there are verdicts, DIR/claims.json and DIR/claims.md. Prints the table of claims and the conclusions of
+// the studies. Returns the exit status: 1 if a verdict could not be computed or a study's own bounds do not hold.
 int reproduce(const ReproduceArguments& arguments);
 
-// Runs nothing: judges the records that lie in the folder already, and writes claims.json and claims.md anew.
+// Runs nothing: computes the verdicts from the records that are in the folder, and writes claims.json and claims.md again.
 int judge_again(const ReproduceArguments& arguments);
 
 }  // namespace experiments

@@ -1,7 +1,7 @@
 #include "experiments/verdicts/study_records.hpp"
 
-#include "analysis/records/atomic_file.hpp"
 #include "analysis/measurement.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "pbs/character/json_file.hpp"
 
 #include <filesystem>
@@ -16,7 +16,7 @@ std::string plan_file(const std::string& folder)
     return (fs::path(folder) / "plan.json").string();
 }
 
-// What lies in plan.json, of which somebody else may have made something else.
+// The content of plan.json, checked, for the file may have been changed.
 class KeptPlan {
 public:
     explicit KeptPlan(const std::string& folder) : file_(plan_file(folder)) {}
@@ -69,7 +69,7 @@ analysis::CaseKey key_of(const Scene& scene)
     return key;
 }
 
-// Body and motion of a run of a scene, as write_study_plan() writes them; empty where the plan has none.
+// Body and motion of a run, as write_study_plan() writes them for scenes; empty if the plan has none.
 analysis::CaseKey place_of(const nlohmann::json& run, const std::string& file)
 {
     if (!run.contains("of")) return {};

@@ -1,5 +1,5 @@
-// What a study leaves for the claims it is about, read back from disk alone: DIR/STUDY/plan.json says which runs there are and what was
-// left out, each run's folder holds metrics.csv, printed.csv or measurements.csv.
+// The records that decide the claims of a study, read from disk alone. DIR/STUDY/plan.json lists the planned runs and the scenes that were
+// left out; the folder of each run has metrics.csv, printed.csv or measurements.csv.
 //   write_study_plan(folder, plan);
 //   const analysis::Records records = read_study_records(folder, root);
 #pragma once
@@ -15,10 +15,10 @@ void write_study_plan(const std::string& folder, const StudyPlan& plan);
 
 bool has_study_plan(const std::string& folder);
 
-// The folders of the planned runs that finished, in the plan's order.
+// The folders of the finished runs, in the order of the plan.
 FinishedRuns finished_runs(const std::string& folder);
 
-// root: what the runs are named relative to.
+// root: the runs are named by their paths relative to this folder.
 analysis::Records read_study_records(const std::string& folder, const std::string& root);
 
 }  // namespace experiments

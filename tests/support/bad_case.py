@@ -22,7 +22,7 @@ NOBODY = {"user": 65534, "group": 65534, "extra_groups": []}
 WORDS = r"\b(?:missing\b|[A-Za-z]\w+ \S)"  # the least that a rule consists of
 RULE = rf"(?![^:=]+ = [^:]*:? ?$)(?=.*?{WORDS}).+"  # a field and a value alone are not a rule
 LINE = re.compile(rf"pbskin: (?:(?P<place>[^:=\n]+)(?::\d+){{0,2}}: )?(?:(?P<field>[^:=\n]+) = (?P<value>.*?): )?(?P<rule>{RULE})")
-USAGE = re.compile(r"pbskin: .+; `pbskin --help` tells the verbs, `pbskin VERB --help` their options")
+USAGE = re.compile(r"pbskin: .+; `pbskin --help` lists the verbs, `pbskin VERB --help` their options")
 NO_NUMBER = r" = (-?(?:nan|inf))\b"
 WORDS_OF_NO_USER = ("json.exception", "basic_string", "std::", "vector::", "filesystem error", "terminate called", "Traceback")
 

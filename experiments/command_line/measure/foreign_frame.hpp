@@ -1,4 +1,4 @@
-// Frames that another program has written, held against the rest mesh: the same vertices in the same order, in the same units.
+// Frames that another program has written. They must have the vertices of the rest mesh, in the same order and in the same unit.
 //   const RestMesh rest(pbs::read_tet_mesh("rest.msh").mesh);
 //   const pbs::Positions positions = rest.read_frame("frame_0001.vtu");
 #pragma once
@@ -13,8 +13,8 @@ class RestMesh {
 public:
     explicit RestMesh(pbs::TetMesh mesh);
 
-    // [m], #V x 3. InputError for another number of vertices, other tets (the order of tets and of their corners aside: readers and
-    // exporters change it, and the ruler takes the rest mesh's), and for the rest mesh's body in other units.
+    // [m], #V x 3. InputError for another number of vertices, for other tets, and for positions in another unit. The order of the tets and
+    // of their corners may differ, for readers and exporters change it; the metrics take that of the rest mesh.
     pbs::Positions read_frame(const std::string& path) const;
 
     const pbs::TetMesh& mesh() const { return mesh_; }
@@ -26,7 +26,7 @@ private:
 
     pbs::TetMesh mesh_;
     pbs::Edges edges_;
-    pbs::Tets corners_;  // of each tet in ascending order, the tets sorted
+    pbs::Tets corners_;  // each tet's in ascending order, and the tets sorted
 };
 
 }  // namespace experiments

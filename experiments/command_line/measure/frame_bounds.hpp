@@ -1,4 +1,4 @@
-// Bounds on foreign frames, given on the command line; what became of them, frame by frame and as test cases.
+// Bounds on the frames of other programs, as given on the command line, and their results frame by frame and as test cases.
 #pragma once
 
 #include "analysis/check/check_case.hpp"
@@ -10,7 +10,7 @@
 
 namespace experiments {
 
-struct FrameFigures {
+struct FrameValues {
     analysis::FrameMetrics metrics;
     double j_max = 0.0;            // largest V_t / V0_t
     double edge_strain_max = 0.0;  // largest |l / l0 - 1|
@@ -18,32 +18,33 @@ struct FrameFigures {
 
 struct FrameBound {
     std::string option;  // --max-volume-change
-    std::string figure;  // |volume_change_pct|
+    std::string metric;  // |volume_change_pct|
     std::string meaning;
     bool is_upper = true;
-    double lowest = 0.0;  // that makes sense as a value
-    double (*of)(const FrameFigures&) = nullptr;
-    std::optional<double> value = {};  // not given: not asked
+    double lowest = 0.0;  // the lowest bound that makes sense
+    double (*of)(const FrameValues&) = nullptr;
+    std::optional<double> value = {};  // nothing: the bound is not asked for
 };
 std::vector<FrameBound> known_frame_bounds();
 
-// InputError for a value that nothing or everything meets: not finite, or below the least that the figure can be.
+// InputError for a bound that no frame or every frame meets: not finite, or below the lowest possible value.
 void require_meaningful(const FrameBound& bound);
 
-// A bound that does not hold, e.g. "|volume_change_pct| = 0.62 > 0.5"; empty where it holds or was not asked. What is not a number breaks
-// every bound.
-std::string broken_text(const FrameBound& bound, const FrameFigures& figures);
+// A bound that does not hold, e.g. "|volume_change_pct| = 0.62 > 0.5". Empty if it holds or was not asked for. A value that is not a
+// number breaks every bound.
+std::string broken_text(const FrameBound& bound, const FrameValues& values);
 
 struct MeasuredFrame {
     std::string name;
-    FrameFigures figures;
+    FrameValues values;
 };
 
 struct RefusedFrame {
     std::string name, reason;
 };
 
-// One case a bound, which names the worst frame and counts the others; a case "measured" where no bound was asked; one a refused frame.
+// One case per bound, which names the worst frame and counts the others, or a case "measured" if no bound was asked for. One case per
+// refused frame.
 analysis::CheckSuite frame_suite(const std::string& name, const std::vector<FrameBound>& bounds, const std::vector<MeasuredFrame>& frames,
                                  const std::vector<RefusedFrame>& refused, double seconds);
 

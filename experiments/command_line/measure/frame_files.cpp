@@ -1,6 +1,5 @@
 #include "experiments/command_line/measure/frame_files.hpp"
 
-#include "experiments/command_line/measure/frame_numbers.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "pbs/geometry/input_error.hpp"
 
@@ -14,20 +13,105 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <regex>
 #include <set>
+#include <tuple>
 
 namespace experiments {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t longest_number = 15;  // digits; what is longer is taken for text
+
+bool is_digit(unsigned char c)
+{
+    return std::isdigit(c) != 0;
+}
+
+std::string name_of(const std::string& path)
+{
+    return fs::path(path).filename().string();
+}
+
+// Files that differ in one number: each is `before`, its number, `after`.
 struct Sequence {
     std::string before, after;
-    std::size_t width = 0;                   // of its shortest number
-    std::map<long long, std::string> files;  // by number
+    std::size_t width = longest_number;           // of its shortest number
+    std::map<long long, std::string> files = {};  // by number
+
+    void add(const std::string& digits, const std::string& path)
+    {
+        width = std::min(width, digits.size());
+        const auto [earlier, is_new] = files.emplace(std::stoll(digits), path);
+        if (!is_new) throw pbs::InputError(path, 0, "frame", digits, "the same number as " + earlier->second);
+    }
 };
+
+struct FoundFrames {
+    std::vector<std::string> without_number;
+    std::vector<Sequence> sequences;
+};
+
+// A name cut at its numbers: text, number, text, ..., text.
+std::vector<std::string> cut_at_numbers(const std::string& name)
+{
+    std::vector<std::string> pieces = {""};
+    for (auto at = name.begin(); at != name.end();) {
+        const auto number = std::find_if(at, name.end(), is_digit), end = std::find_if_not(number, name.end(), is_digit);
+        pieces.back().append(at, number);
+        if (static_cast<std::size_t>(end - number) > longest_number)
+            pieces.back().append(number, end);
+        else if (number != end)
+            pieces.insert(pieces.end(), {std::string(number, end), ""});
+        at = end;
+    }
+    return pieces;
+}
+
+// The sequence of files of one form, as frame_0007_v2.vtu and frame_0008_v2.vtu. The number that differs counts; in a single name, the
+// last.
+Sequence sequence_of(const std::string& argument, const std::vector<std::string>& paths)
+{
+    std::vector<std::vector<std::string>> names;
+    for (const std::string& path : paths) names.push_back(cut_at_numbers(name_of(path)));
+    const std::vector<std::string>& first = names.front();
+    std::set<std::size_t> differing;
+    for (const auto& name : names)
+        for (std::size_t i = 1; i < name.size(); i += 2)
+            if (name[i] != first[i]) differing.insert(i);
+    if (differing.size() > 1)
+        throw pbs::InputError(
+            argument, 0, "", "",
+            fmt::format("expected frames that differ in one number, found {} and {}; name one sequence, as in 'NAME_%04d.vtu'",
+                        paths.front(), paths.back()));
+    const std::size_t at = differing.empty() ? first.size() - 2 : *differing.begin();
+    const std::string before = std::accumulate(first.begin(), first.begin() + at, std::string());
+    Sequence sequence{(fs::path(paths.front()).parent_path() / before).string(),
+                      std::accumulate(first.begin() + at + 1, first.end(), std::string())};
+    for (std::size_t i = 0; i < paths.size(); ++i) sequence.add(names[i][at], paths[i]);
+    return sequence;
+}
+
+FoundFrames sequences_in(const std::string& argument, const std::vector<std::string>& paths)
+{
+    std::map<std::vector<std::string>, std::vector<std::string>> forms;  // folder and texts of a name -> paths
+    for (const std::string& path : paths) {
+        const std::vector<std::string> pieces = cut_at_numbers(name_of(path));
+        std::vector<std::string> form = {fs::path(path).parent_path().string()};
+        for (std::size_t i = 0; i < pieces.size(); i += 2) form.push_back(pieces[i]);
+        forms[form].push_back(path);
+    }
+    FoundFrames found;
+    for (const auto& [form, alike] : forms)
+        if (form.size() == 2)  // the folder and one text
+            found.without_number.insert(found.without_number.end(), alike.begin(), alike.end());
+        else
+            found.sequences.push_back(sequence_of(argument, alike));
+    return found;
+}
 
 void require_no_gap(const Sequence& sequence)
 {
@@ -43,36 +127,29 @@ void require_no_gap(const Sequence& sequence)
     }
 }
 
-// In the order of their numbers, one sequence after the other; those without a number first.
-std::vector<std::string> ordered(const std::string& argument, const std::vector<NumberedFile>& found, bool one_sequence)
+// Those without a number first, then one sequence after the other.
+std::vector<std::string> in_order(FoundFrames found)
 {
-    std::map<std::pair<std::string, std::string>, Sequence> sequences;
-    std::vector<std::string> files;
-    for (const NumberedFile& file : found) {
-        if (file.digits.empty()) {
-            files.push_back(file.path);
-            continue;
-        }
-        Sequence& sequence = sequences[{file.before, file.after}];
-        sequence.before = file.before;
-        sequence.after = file.after;
-        sequence.width = sequence.files.empty() ? file.digits.size() : std::min(sequence.width, file.digits.size());
-        const auto [at, is_new] = sequence.files.emplace(std::stoll(file.digits), file.path);
-        if (!is_new) throw pbs::InputError(file.path, 0, "frame", file.digits, "the same number as " + at->second);
-    }
-    if (one_sequence && sequences.size() + files.size() > 1 && !(sequences.empty())) {
-        std::vector<std::string> names;
-        for (const auto& [key, sequence] : sequences) names.push_back(sequence.files.begin()->second);
-        names.insert(names.end(), files.begin(), files.end());
-        throw pbs::InputError(
-            argument, 0, "", "",
-            fmt::format("expected one sequence of frames, found those of {}; name one, as in 'NAME_%04d.vtu'", fmt::join(names, ", ")));
-    }
-    for (const auto& [key, sequence] : sequences) {
+    const auto place = [](const Sequence& sequence) { return std::tie(sequence.before, sequence.after); };
+    std::sort(found.sequences.begin(), found.sequences.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
+    std::vector<std::string> files = std::move(found.without_number);
+    for (const Sequence& sequence : found.sequences) {
         require_no_gap(sequence);
         for (const auto& [number, path] : sequence.files) files.push_back(path);
     }
     return files;
+}
+
+void require_one_sequence(const std::string& folder, const FoundFrames& found)
+{
+    std::vector<std::string> names;
+    for (const Sequence& sequence : found.sequences) names.push_back(sequence.files.begin()->second);
+    if (names.empty()) return;
+    names.insert(names.end(), found.without_number.begin(), found.without_number.end());
+    if (names.size() > 1)
+        throw pbs::InputError(
+            folder, 0, "", "",
+            fmt::format("expected one sequence of frames, found those of {}; name one, as in 'NAME_%04d.vtu'", fmt::join(names, ", ")));
 }
 
 bool is_mesh(const fs::path& file)
@@ -101,47 +178,46 @@ std::vector<std::string> globbed(const std::string& pattern)
 }
 
 // frames_%04d.vtu as C's printf writes it: the files whose number is written just so.
-std::optional<std::vector<NumberedFile>> of_number_pattern(const std::string& pattern)
+std::optional<Sequence> of_number_pattern(const std::string& pattern)
 {
     static const std::regex form("(.*)%(0?)([0-9]{0,2})d(.*)");
-    const fs::path folder = fs::path(pattern).parent_path();
-    const std::string wanted = fs::path(pattern).filename().string();
+    const fs::path folder = fs::path(pattern).parent_path(), listed = folder.empty() ? "." : folder;
+    const std::string wanted = name_of(pattern);
     std::smatch match;
     if (!std::regex_match(wanted, match, form)) return std::nullopt;
     const std::string before = match[1], after = match[4];
     const std::size_t width = match[3].length() ? std::stoul(match[3]) : 1;
-    std::vector<NumberedFile> files;
-    const fs::path listed = folder.empty() ? "." : folder;
+    Sequence sequence{(folder / before).string(), after};
     std::error_code none;
     for (const fs::path& file : fs::is_directory(listed, none) ? analysis::files_in(listed) : std::vector<fs::path>()) {
         const std::string name = file.filename().string();
         if (name.size() < before.size() + after.size() + width || !name.starts_with(before) || !name.ends_with(after)) continue;
         const std::string digits = name.substr(before.size(), name.size() - before.size() - after.size());
-        const bool is_number =
-            digits.size() <= longest_number && std::all_of(digits.begin(), digits.end(), [](unsigned char c) { return std::isdigit(c); });
-        if (is_number && (digits.size() == width || digits[0] != '0'))
-            files.push_back({(folder / name).string(), (folder / before).string(), digits, after});
+        const bool is_number = digits.size() <= longest_number && std::all_of(digits.begin(), digits.end(), is_digit);
+        if (is_number && (digits.size() == width || digits[0] != '0')) sequence.add(digits, (folder / name).string());
     }
-    return files;
+    return sequence;
 }
 
 std::vector<std::string> files_of(const std::string& argument)
 {
     std::error_code error;
     if (fs::is_regular_file(argument, error)) return {argument};
-    std::vector<NumberedFile> files;
+    FoundFrames found;
     const bool is_folder = fs::is_directory(argument, error);
     if (is_folder)
-        files = numbered(argument, in_folder(argument));
-    else if (const auto numbers = of_number_pattern(argument))
-        files = *numbers;
-    else if (argument.find_first_of("*?[") != std::string::npos)
-        files = numbered(argument, globbed(argument));
+        found = sequences_in(argument, in_folder(argument));
+    else if (const auto sequence = of_number_pattern(argument)) {
+        if (!sequence->files.empty()) found.sequences.push_back(*sequence);
+    } else if (argument.find_first_of("*?[") != std::string::npos)
+        found = sequences_in(argument, globbed(argument));
     else
         return {argument};
+    if (is_folder) require_one_sequence(argument, found);
+    std::vector<std::string> files = in_order(std::move(found));
     if (files.empty())
         throw pbs::InputError(argument, 0, "", "", "no such frames" + std::string(is_folder ? ": expected .vtu .vtk .msh .mesh .ele" : ""));
-    return ordered(argument, files, is_folder);
+    return files;
 }
 
 }  // namespace
@@ -157,12 +233,9 @@ std::vector<std::string> frame_files(const std::vector<std::string>& arguments)
 std::vector<std::string> frame_names(const std::vector<std::string>& paths)
 {
     std::map<std::string, int> times;
-    for (const std::string& path : paths) ++times[fs::path(path).filename().string()];
+    for (const std::string& path : paths) ++times[name_of(path)];
     std::vector<std::string> names;
-    for (const std::string& path : paths) {
-        const std::string name = fs::path(path).filename().string();
-        names.push_back(times[name] > 1 ? path : name);
-    }
+    for (const std::string& path : paths) names.push_back(times[name_of(path)] > 1 ? path : name_of(path));
     return names;
 }
 

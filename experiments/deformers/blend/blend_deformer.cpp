@@ -1,24 +1,43 @@
-#include "experiments/deformers/blend/blend_deformer.hpp"
-
+// LBS and DQS as deformers: no state but the last pose's positions.
+#include "experiments/deformers/registry.hpp"
 #include "pbs/geometry/stopwatch.hpp"
+#include "pbs/skinning/blend_skinning.hpp"
+
+#include <optional>
 
 namespace experiments {
+namespace {
 
-void BlendDeformer::reset(const pbs::Character& character)
-{
-    skinning_.emplace(character.mesh.rest, character.weights);
-    positions_ = character.mesh.rest;
-}
+class BlendDeformer : public Deformer {
+public:
+    using Blend = void (pbs::BlendSkinning<double>::*)(const pbs::Pose& pose, pbs::Positions& posed);
+    explicit BlendDeformer(Blend blend) : blend_(blend) {}
 
-pbs::StepSummary BlendDeformer::advance(const pbs::Pose& pose, double /*dt_s*/)
-{
-    const pbs::Stopwatch stopwatch;
-    ((*skinning_).*blend_)(pose, positions_);
-    pbs::StepSummary summary;
-    summary.seconds = stopwatch.seconds();
-    if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
-    return summary;
-}
+    void reset(const pbs::Character& character) override
+    {
+        skinning_.emplace(character.mesh.rest, character.weights);
+        positions_ = character.mesh.rest;
+    }
+
+    pbs::StepSummary advance(const pbs::Pose& pose, double /*dt_s*/) override
+    {
+        const pbs::Stopwatch stopwatch;
+        ((*skinning_).*blend_)(pose, positions_);
+        pbs::StepSummary summary;
+        summary.seconds = stopwatch.seconds();
+        if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
+        return summary;
+    }
+
+    const pbs::Positions& positions() const override { return positions_; }
+
+private:
+    Blend blend_;
+    std::optional<pbs::BlendSkinning<double>> skinning_;
+    pbs::Positions positions_;
+};
+
+}  // namespace
 
 DeformerKind lbs_kind()
 {

@@ -1,9 +1,10 @@
-// Delta mush: the purely geometric answer to what blending breaks (J. Mancewicz, M. Derksen, H. Rijpkema, C. Wilson, DigiPro 2014). LBS is
-// smoothed, and what smoothing took from the rest shape is put back in frames that have turned with the smoothed body.
+// Delta mush corrects the artefacts of blending by geometry alone (J. Mancewicz, M. Derksen, H. Rijpkema, C. Wilson, DigiPro 2014). It
+// smooths LBS, and adds the detail that smoothing removes from the rest shape, in local frames that rotate with the smoothed body.
 //   const DeltaMush mush(mesh, {.iterations = 20});
 //   mush.apply(lbs_positions, posed);
-// The paper's frames are those of a surface's normals; every vertex of a tet mesh, inside ones too, has the rotation instead that
-// best carries its smoothed rest edges to its smoothed posed ones (polar decomposition). Smoothing is Laplacian with uniform weights.
+// The local frames of that paper are those of the normals of a surface. Here every vertex of the tet mesh, also in the interior, has the
+// rotation that best maps its smoothed rest edges to its smoothed posed edges (polar decomposition). Smoothing is Laplacian with uniform
+// weights.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -29,7 +30,7 @@ private:
     DeltaMushOptions options_;
     pbs::Adjacency neighbours_;
     pbs::Positions smoothed_rest_;
-    pbs::Positions delta_;  // what smoothing took [m], #V x 3
+    pbs::Positions delta_;  // the detail that smoothing removes [m], #V x 3
 };
 
 }  // namespace experiments

@@ -1,7 +1,11 @@
-#include "experiments/deformers/delta_mush/delta_mush_deformer.hpp"
-
+// LBS, then delta mush.
+#include "experiments/deformers/delta_mush/delta_mush.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/stopwatch.hpp"
+#include "pbs/skinning/blend_skinning.hpp"
+
+#include <optional>
 
 namespace experiments {
 namespace {
@@ -16,30 +20,43 @@ const OptionFields<DeltaMushOptions>& delta_mush_fields()
     return fields;
 }
 
+class DeltaMushDeformer : public Deformer {
+public:
+    explicit DeltaMushDeformer(const DeltaMushOptions& options) : options_(options) {}
+
+    void reset(const pbs::Character& character) override
+    {
+        skinning_.emplace(character.mesh.rest, character.weights);
+        mush_.emplace(character.mesh, options_);
+        positions_ = character.mesh.rest;
+    }
+
+    pbs::StepSummary advance(const pbs::Pose& pose, double /*dt_s*/) override
+    {
+        const pbs::Stopwatch stopwatch;
+        skinning_->linear(pose, lbs_);
+        mush_->apply(lbs_, positions_);
+        pbs::StepSummary summary;
+        summary.seconds = stopwatch.seconds();
+        if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
+        return summary;
+    }
+
+    const pbs::Positions& positions() const override { return positions_; }
+
+private:
+    DeltaMushOptions options_;
+    std::optional<pbs::BlendSkinning<double>> skinning_;
+    std::optional<DeltaMush> mush_;
+    pbs::Positions lbs_, positions_;
+};
+
 }  // namespace
-
-void DeltaMushDeformer::reset(const pbs::Character& character)
-{
-    skinning_.emplace(character.mesh.rest, character.weights);
-    mush_.emplace(character.mesh, options_);
-    positions_ = character.mesh.rest;
-}
-
-pbs::StepSummary DeltaMushDeformer::advance(const pbs::Pose& pose, double /*dt_s*/)
-{
-    const pbs::Stopwatch stopwatch;
-    skinning_->linear(pose, lbs_);
-    mush_->apply(lbs_, positions_);
-    pbs::StepSummary summary;
-    summary.seconds = stopwatch.seconds();
-    if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
-    return summary;
-}
 
 DeformerKind delta_mush_kind()
 {
     return {.name = "delta_mush",
-            .meaning = "LBS, smoothed, with the rest shape's detail put back (Mancewicz 2014): geometry alone",
+            .meaning = "LBS, smoothed, to which the detail of the rest shape is added again (Mancewicz 2014): geometry alone",
             .make = [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
                 return std::make_unique<DeltaMushDeformer>(options_of<DeltaMushOptions>(spec));
             },

@@ -1,7 +1,7 @@
-#include "experiments/deformers/fem/fem_kind.hpp"
-
+// The registration of the finite element reference.
 #include "experiments/deformers/fem/fem_module.hpp"
 #include "experiments/deformers/fem/fem_settings.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "experiments/process/blas_kernels.hpp"
 
 namespace experiments {

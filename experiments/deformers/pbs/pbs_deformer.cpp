@@ -1,11 +1,45 @@
-#include "experiments/deformers/pbs/pbs_deformer.hpp"
-
+// The paper's two-layered deformer: LBS, then position based dynamics (Algorithm 1).
 #include "experiments/deformers/pbs/pbs_settings.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "pbs/geometry/stopwatch.hpp"
+#include "pbs/skinning/blend_skinning.hpp"
+#include "pbs/solver/pbs_solver.hpp"
+#include "pbs/solver/poses_solver.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace experiments {
+namespace {
+
+class PbsDeformer : public Deformer {
+public:
+    explicit PbsDeformer(const pbs::PbsOptions& options) : options_(options) {}
+
+    void reset(const pbs::Character& character) override;
+    pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override;
+    // With several threads, on a mesh whose steps cannot be shared among them, frames are projected in parallel, sixteen per thread. The
+    // results are equal to the bit to those of single frames.
+    void foresee(const std::vector<pbs::Pose>& poses) override;
+    const pbs::Positions& positions() const override { return ahead_ ? ahead_->positions(done_ahead_ - 1) : solver_->positions(); }
+    bool has_memory() const override { return options_.jiggle || options_.lbs_entry == pbs::LbsEntry::increment; }
+
+private:
+    bool works_ahead() const;
+    pbs::StepSummary advance_ahead(double dt_s);
+
+    pbs::PbsOptions options_;
+    const pbs::Character* character_ = nullptr;
+    std::optional<pbs::BlendSkinning<double>> skinning_;
+    std::unique_ptr<pbs::PbsSolver> solver_;
+    pbs::Positions lbs_;
+
+    std::vector<pbs::Pose> foreseen_;            // coming poses; empty: they are not known, or working ahead does not pay
+    std::size_t next_ = 0;                       // the next one of them
+    std::unique_ptr<pbs::PosesSolver> ahead_;    // the frames of foreseen_ from next_ - done_ahead_
+    std::vector<pbs::StepSummary> steps_ahead_;  // of these frames
+    int done_ahead_ = 0;
+};
 
 void PbsDeformer::reset(const pbs::Character& character)
 {
@@ -32,7 +66,7 @@ void PbsDeformer::foresee(const std::vector<pbs::Pose>& poses)
     ahead_.reset();
 }
 
-// The next frame of those that are done, or of a new lot.
+// Returns the next of the frames that are done, or else of a new lot.
 pbs::StepSummary PbsDeformer::advance_ahead(double dt_s)
 {
     if (!ahead_ || done_ahead_ == static_cast<int>(steps_ahead_.size())) {
@@ -64,6 +98,8 @@ pbs::StepSummary PbsDeformer::advance(const pbs::Pose& pose, double dt_s)
     summary.seconds = stopwatch.seconds();
     return summary;
 }
+
+}  // namespace
 
 DeformerKind pbs_kind()
 {

@@ -1,4 +1,4 @@
-// The words that options of PBS have in scenes and records.
+// The names of the options of PBS in scenes and records.
 #pragma once
 
 #include "experiments/settings/option_names.hpp"

@@ -29,26 +29,27 @@ void add_keys(OptionFields<PbsOptions>& fields)
               .meaning = "external acceleration on the integrated (jiggling) particles; the paper leaves it unstated"})
         .add("order", &PbsOptions::order,
              {.meaning =
-                  "order of projection within a class: plain is file order, as the paper reads; ordered takes sixteen constraints that "
-                  "share "
-                  "no vertex side by side; grouped the same with neighbouring constraints in groups, the quickest; printed volume_forms "
-                  "know plain alone"})
+                  "order of projection within a class: plain is the order of the file, as in the paper; ordered projects sixteen "
+                  "constraints at once that share no vertex; grouped does the same with groups of neighbouring constraints and is the "
+                  "fastest; printed volume_forms need plain"})
         .add("precision", &PbsOptions::precision, {.meaning = "floating point of the projections"})
         .add("masses", &PbsOptions::masses,
-             {.meaning = "unit: m_i = 1 (the paper); lumped: a quarter of the rest volume of each tet around"})
-        .add("stop_residual", &PbsOptions::stop_residual, {.lowest = 0, .meaning = "stop when every residual is below; 0: all iterations"})
+             {.meaning = "unit: m_i = 1 (the paper); lumped: a quarter of the rest volume of each tet at the vertex"})
+        .add("stop_residual", &PbsOptions::stop_residual,
+             {.lowest = 0, .meaning = "the step ends when every residual is below this; 0: all iterations are done"})
         .add(
             "sleep", &PbsOptions::sleep,
-            {.meaning = "let constraints that LBS satisfies, and all around them, sleep for the frame; at its end they are looked at again "
-                        "and the frame is redone with those that are not satisfied any more; orders ordered and grouped"})
-        .add("sleep_tolerance", &PbsOptions::sleep_tolerance,
-             {.lowest = 0,
-              .highest = 1,
-              .meaning = "what a sleeping constraint may be off: |l / l0 - 1|, |V / V0 - 1|, bind in shares of the mean edge"})
-        .add("record_iterations", &PbsOptions::record_iterations, {.meaning = "write iterations.csv: residuals per frame and iteration"});
+            {.meaning = "constraints that LBS satisfies, and all around them, are left out for the frame; at its end they are checked, and "
+                        "the frame is repeated with those that are not satisfied any more; only with the orders ordered and grouped"})
+        .add(
+            "sleep_tolerance", &PbsOptions::sleep_tolerance,
+            {.lowest = 0,
+             .highest = 1,
+             .meaning = "the error that a sleeping constraint may have: |l / l0 - 1|, |V / V0 - 1|, and for bind a share of the mean edge"})
+        .add("record_iterations", &PbsOptions::record_iterations, {.meaning = "writes iterations.csv: residuals per frame and iteration"});
 }
 
-// Studies set the zone's k_bind too.
+// Only studies set the k_bind of the zone.
 void add_jiggle_keys(OptionFields<PbsOptions>& fields)
 {
     const auto read = [](PbsOptions& options, const SceneValues& values, const std::string& path) {
@@ -58,12 +59,11 @@ void add_jiggle_keys(OptionFields<PbsOptions>& fields)
         if (options.jiggle) record["jiggle"] = {{"k_stretch", options.jiggle->k_stretch}};
         if (options.jiggle && options.jiggle->k_bind) record["jiggle"]["k_bind"] = *options.jiggle->k_bind;
     };
-    fields.in_table("jiggle").add(
-        "k_stretch", KeyType::number, pbs::Jiggle{}.k_stretch,
-        {.lowest = 0,
-         .highest = 1,
-         .meaning = "stiffness of edges with both ends in the jiggling zone; jiggle is off unless this table is there"},
-        read, write);
+    fields.in_table("jiggle").add("k_stretch", KeyType::number, pbs::Jiggle{}.k_stretch,
+                                  {.lowest = 0,
+                                   .highest = 1,
+                                   .meaning = "stiffness of edges with both ends in the jiggling zone; without this table nothing jiggles"},
+                                  read, write);
 }
 
 void add_variant_keys(OptionFields<PbsOptions>& fields)
@@ -74,16 +74,15 @@ void add_variant_keys(OptionFields<PbsOptions>& fields)
                   "per_iteration: the factor k in every iteration, as printed; exponent: 1 - (1 - k)^(1 / iterations) instead (Mueller "
                   "2006), so that a lone constraint is left with 1 - k of its error whatever their number"})
         .add("class_order", &PbsOptions::class_order,
-             {.meaning = "in which order an iteration takes the classes; bind_stretch_volume is Algorithm 1's, lines 11-13"})
+             {.meaning = "the order of the classes in an iteration; bind_stretch_volume is that of Algorithm 1, lines 11-13"})
         .add("lbs_entry", &PbsOptions::lbs_entry,
-             {.meaning =
-                  "where LBS enters Algorithm 1: start: what does not jiggle starts every step at its LBS position; increment: all is "
-                  "integrated, and moved by what LBS has moved since the last step"})
+             {.meaning = "where LBS enters Algorithm 1: start: what does not jiggle begins every step at its LBS position; increment: all "
+                         "particles are integrated, and moved by the change of LBS since the last step"})
         .add("bind_on_bone", &PbsOptions::bind_on_bone,
-             {.meaning = "a vertex on its bone: pinned to it, or unbound: without a bind constraint"})
+             {.meaning = "a vertex on its bone is pinned to it, or unbound: it has no bind constraint"})
         .add("volume_form", &PbsOptions::volume_form,
-             {.meaning = "the volume correction: derived from Eq. 11, or with errors of print (labels_relative, labels_absolute: Eq. 12-14 "
-                         "under the printed particles; sign: Eq. 17-20; as_printed: all)"});
+             {.meaning = "the volume correction: derived from Eq. 11, or with errors of the print (labels_relative, labels_absolute: Eq. "
+                         "12-14 with the printed particles; sign: Eq. 17-20; as_printed: all)"});
 }
 
 // The last option that differs from the paper's Algorithm 1 names the variant.

@@ -1,4 +1,4 @@
-// The options of PBS in scenes and records: keys, and how they are read.
+// The options of PBS: their keys in scenes, and how they are read.
 #pragma once
 
 #include "experiments/deformers/deformer_spec.hpp"
@@ -9,7 +9,7 @@ namespace experiments {
 
 const OptionFields<pbs::PbsOptions>& pbs_fields();
 
-// Sets the options, and the variant that they make.
+// Sets the options and the variant.
 void read_pbs(const SceneValues& values, const std::string& table, DeformerSpec& spec);
 
 }  // namespace experiments

@@ -1,9 +1,13 @@
-#include "experiments/deformers/xpbd/xpbd_deformer.hpp"
-
+// LBS, then extended position based dynamics with a material. It costs what PBS costs: the iterations of PBS, or as many substeps of one
+// iteration. What jiggles in PBS jiggles here.
+#include "experiments/deformers/registry.hpp"
+#include "experiments/deformers/xpbd/xpbd_solver.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/stopwatch.hpp"
+#include "pbs/skinning/blend_skinning.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace experiments {
 namespace {
@@ -36,48 +40,63 @@ XpbdOptions read_xpbd(const SceneValues& values, DeformerSpec& spec)
     return options;
 }
 
+class XpbdDeformer : public Deformer {
+public:
+    explicit XpbdDeformer(const XpbdOptions& options) : options_(options) {}
+
+    void reset(const pbs::Character& character) override
+    {
+        character_ = &character;
+        skinning_.emplace(character.mesh.rest, character.weights);
+        const std::vector<bool> zone = options_.jiggle ? pbs::jiggle_zone(character.binding) : std::vector<bool>{};
+        solver_.emplace(character.mesh, character.binding.distance, zone, options_);
+    }
+
+    pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override
+    {
+        const pbs::Stopwatch stopwatch;
+        skinning_->linear(pose, lbs_);
+        pbs::StepSummary summary = solver_->advance(lbs_, pbs::posed_bind_points(character_->binding, pose), dt_s);
+        summary.seconds = stopwatch.seconds();
+        return summary;
+    }
+
+    const pbs::Positions& positions() const override { return solver_->positions(); }
+    bool has_memory() const override { return options_.jiggle; }
+
+private:
+    XpbdOptions options_;
+    const pbs::Character* character_ = nullptr;
+    std::optional<pbs::BlendSkinning<double>> skinning_;
+    std::optional<XpbdSolver> solver_;
+    pbs::Positions lbs_;
+};
+
 }  // namespace
-
-void XpbdDeformer::reset(const pbs::Character& character)
-{
-    character_ = &character;
-    skinning_.emplace(character.mesh.rest, character.weights);
-    const std::vector<bool> zone = options_.jiggle ? pbs::jiggle_zone(character.binding) : std::vector<bool>{};
-    solver_ = std::make_unique<XpbdSolver>(character.mesh, character.binding.distance, zone, options_);
-}
-
-pbs::StepSummary XpbdDeformer::advance(const pbs::Pose& pose, double dt_s)
-{
-    const pbs::Stopwatch stopwatch;
-    skinning_->linear(pose, lbs_);
-    pbs::StepSummary summary = solver_->advance(lbs_, pbs::posed_bind_points(character_->binding, pose), dt_s);
-    summary.seconds = stopwatch.seconds();
-    return summary;
-}
 
 DeformerKind xpbd_kind()
 {
-    return {
-        .name = "xpbd",
-        .meaning = "LBS, then extended position based dynamics (Macklin 2016) with an elastic material: multipliers kept through a step",
-        .make = [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
-            return std::make_unique<XpbdDeformer>(options_of<XpbdOptions>(spec));
-        },
-        .options = XpbdOptions{},
-        .keys = xpbd_fields().keys(),
-        .read = [](const SceneValues& values, const std::string&, DeformerSpec& spec) { spec.options = read_xpbd(values, spec); },
-        .options_json = [](const DeformerSpec& spec) { return xpbd_fields().json(options_of<XpbdOptions>(spec)); },
-        .traits = [](const DeformerSpec& spec) -> DeformerTraits {
-            const auto& options = options_of<XpbdOptions>(spec);
-            return {.iterations = options.iterations * options.substeps};
-        }};
+    return {.name = "xpbd",
+            .meaning =
+                "LBS, then extended position based dynamics (Macklin 2016) with an elastic material; multipliers are kept through a step",
+            .make = [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
+                return std::make_unique<XpbdDeformer>(options_of<XpbdOptions>(spec));
+            },
+            .options = XpbdOptions{},
+            .keys = xpbd_fields().keys(),
+            .read = [](const SceneValues& values, const std::string&, DeformerSpec& spec) { spec.options = read_xpbd(values, spec); },
+            .options_json = [](const DeformerSpec& spec) { return xpbd_fields().json(options_of<XpbdOptions>(spec)); },
+            .traits = [](const DeformerSpec& spec) -> DeformerTraits {
+                const auto& options = options_of<XpbdOptions>(spec);
+                return {.iterations = options.iterations * options.substeps};
+            }};
 }
 
 DeformerKind xpbd_small_steps_kind()
 {
     DeformerKind kind = xpbd_kind();
     kind.name = "xpbd_small_steps";
-    kind.meaning = "the same in as many substeps of one iteration (Macklin 2019): equal cost";
+    kind.meaning = "xpbd with as many substeps as xpbd has iterations, of one iteration each (Macklin 2019): equal cost";
     kind.keys.clear();  // those of xpbd
     kind.read = [](const SceneValues& values, const std::string&, DeformerSpec& spec) {
         XpbdOptions options = read_xpbd(values, spec);

@@ -7,13 +7,13 @@ namespace experiments {
 
 struct XpbdOptions {
     double young_pa = 1.0e5;
-    double poisson = 0.45;  // 1/4 or more: springs alone have 1/4, volume constraints raise it
+    double poisson = 0.45;  // at least 1/4, which springs alone have; volume constraints raise it
     double density_kg_m3 = 1000.0;
-    int iterations = 24;  // in a substep
-    int substeps = 1;     // in a time step
+    int iterations = 24;  // per substep
+    int substeps = 1;     // per time step
     pbs::Vec3 gravity_m_s2 = pbs::Vec3::Zero();
     bool jiggle = false;           // the jiggling zone is integrated in time
-    bool keep_multipliers = true;  // false: forgotten in every iteration, a common mistake; a negative control
+    bool keep_multipliers = true;  // false: set to zero in every iteration, a common mistake; a negative control
 };
 
 }  // namespace experiments

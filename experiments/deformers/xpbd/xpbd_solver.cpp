@@ -12,7 +12,7 @@
 namespace experiments {
 namespace {
 
-// A sixth of the rest volume of the tets around each edge [m^3]: all of them add up to the body's.
+// A sixth of the rest volume of the tets around each edge [m^3]. The sum is the volume of the body.
 std::map<std::pair<int, int>, double> edge_volumes(const pbs::Tets& tets, const Eigen::VectorXd& tet_volumes)
 {
     std::map<std::pair<int, int>, double> volumes;
@@ -22,7 +22,7 @@ std::map<std::pair<int, int>, double> edge_volumes(const pbs::Tets& tets, const 
     return volumes;
 }
 
-// The change of lambda that Eq. 18 of Macklin 2016 asks for; zero where nothing can move.
+// The change of lambda by Eq. 18 of Macklin 2016; zero if nothing can move.
 double multiplier_step(double C, double compliance_per_dt2, double lambda, double w_gradient2)
 {
     const double denominator = w_gradient2 + compliance_per_dt2;

@@ -1,14 +1,14 @@
-// Extended position based dynamics (M. Macklin, M. Mueller, N. Chentanez, MIG 2016) with the paper's constraints, as a solver with a
-// material: the multiplier of each constraint is kept through all iterations of a step, so that the stiffness does not depend on their
-// number.
+// Extended position based dynamics (M. Macklin, M. Mueller, N. Chentanez, MIG 2016) with the paper's constraints and an elastic material.
+// The multiplier of each constraint is kept through all iterations of a step, so that the stiffness does not depend on their number.
 //   XpbdSolver solver(mesh, bind_distance, jiggle_zone, options);
 //   solver.advance(lbs_positions, bind_points, dt);
 //
-// Compliances from the material, by the Cauchy solid: springs on edges of stiffness 15 mu V_e / l^2, V_e a sixth of the rest volume of
-// the tets around, are an isotropic solid of Lame's constants mu, mu (Poisson's ratio 1/4), as far as edges point everywhere alike; a
-// volume constraint of bulk modulus K - 5/3 mu a tet adds what is missing. Bind constraints are rigid. Particles outside the jiggling zone
-// start every step at their LBS position, as in PBS, without velocity: their mass holds them to where a substep began. With many substeps
-// of one iteration (M. Macklin et al., Small steps in physics simulation, SCA 2019) multipliers begin at zero in each.
+// The compliances follow from the material by the Cauchy solid. Springs on edges have the stiffness 15 mu V_e / l^2, where V_e is a sixth
+// of the rest volume of the tets around the edge. They form an isotropic solid with Lame's constants mu, mu (Poisson's ratio 1/4), as far
+// as edges point in all directions equally. A volume constraint per tet with the bulk modulus K - 5/3 mu adds what is missing. Bind
+// constraints are rigid. As in PBS, particles outside the jiggling zone begin every step at their LBS position without velocity; their mass
+// holds them to their position at the beginning of a substep. With many substeps of one iteration (M. Macklin et al., Small steps in
+// physics simulation, SCA 2019) the multipliers begin at zero in each substep.
 #pragma once
 
 #include "experiments/deformers/xpbd/xpbd_options.hpp"
@@ -37,7 +37,7 @@ public:
         double compliance = 0.0;  // alpha: of a length [m/N], of a volume [m^5/N]
         double multiplier = 0.0;  // lambda of this substep
     };
-    // In the order they are projected in.
+    // In the order of their projection.
     const std::vector<Compliant<pbs::BindConstraint<double>>>& bind() const { return bind_; }
     const std::vector<Compliant<pbs::StretchConstraint<double>>>& stretch() const { return stretch_; }
     const std::vector<Compliant<pbs::VolumeConstraint<double>>>& volume() const { return volume_; }

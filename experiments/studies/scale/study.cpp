@@ -99,7 +99,7 @@ nlohmann::json to_json(const ScaleCase& of)
     static const auto fields =
         OptionFields<ScaleCase>("scale")
             .record("vertices", &ScaleCase::vertices)
-            .derived("scene", [](const ScaleCase& of) { return resolved_with_deformers(human_of(of.vertices.front())); })
+            .derived("scene", [](const ScaleCase& of) { return to_json(human_of(of.vertices.front())); })
             .complete();
     return fields.json(of);
 }

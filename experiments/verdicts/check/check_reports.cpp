@@ -1,8 +1,8 @@
 #include "experiments/verdicts/check/check_reports.hpp"
 
-#include "analysis/records/atomic_file.hpp"
 #include "analysis/check/github_report.hpp"
 #include "analysis/check/junit_report.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ bool is_for_github(const CheckReports& reports)
     return reports.github || environment("GITHUB_ACTIONS") == "true";
 }
 
-// GitHub's own file, to which each step of a job adds.
+// GitHub's file, to which each step of a job adds its summary.
 void add_to_summary(const std::string& text)
 {
     const std::string summary(environment("GITHUB_STEP_SUMMARY"));
@@ -43,7 +43,7 @@ void add_to_summary(const std::string& text)
 
 }  // namespace
 
-void tell_failures(const std::vector<analysis::CheckSuite>& suites)
+void report_failures(const std::vector<analysis::CheckSuite>& suites)
 {
     for (const analysis::CheckSuite& suite : suites)
         for (const analysis::CheckCase& check : suite.cases) {

@@ -1,4 +1,4 @@
-// Where `pbskin check` and `pbskin measure` tell what became of their bounds: terminal, JUnit, GitHub.
+// The reports of `pbskin check` and `pbskin measure` on their bounds: on the terminal, for JUnit and for GitHub.
 #pragma once
 
 #include "analysis/check/check_case.hpp"
@@ -7,13 +7,13 @@ namespace experiments {
 
 struct CheckReports {
     std::string junit = {};  // a file; empty: none
-    bool github = false;     // annotations on stdout, also where GITHUB_ACTIONS is true; with GITHUB_STEP_SUMMARY a summary is added to it
+    bool github = false;     // annotations on stdout (also if GITHUB_ACTIONS is true), and a summary in the file GITHUB_STEP_SUMMARY
 };
 
-// On stderr, one line each, what does not hold or was left out.
-void tell_failures(const std::vector<analysis::CheckSuite>& suites);
+// Logs what does not hold or was left out, one line each.
+void report_failures(const std::vector<analysis::CheckSuite>& suites);
 
-// To be asked before the work: InputError with the system's reason where a report cannot be written.
+// To be called before the work: InputError with the system's reason if a report cannot be written.
 void require_writable(const CheckReports& reports);
 
 void write_reports(const CheckReports& reports, const std::vector<analysis::CheckSuite>& suites);

@@ -1,11 +1,11 @@
 #include "experiments/verdicts/check/check_run.hpp"
 
-#include "analysis/records/atomic_file.hpp"
 #include "analysis/check/check_judgement.hpp"
-#include "analysis/records/provenance.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/records/kept_record.hpp"
-#include "experiments/run/metrics_table.hpp"
+#include "analysis/records/provenance.hpp"
 #include "analysis/records/record_text.hpp"
+#include "experiments/run/metrics_table.hpp"
 #include "experiments/run/run.hpp"
 #include "generated/claims_texts.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -61,12 +61,12 @@ std::string unit_of(const std::string& metric)
     return "";
 }
 
-// A file beside the user's bounds, or a built-in scene.
+// A file in the folder of the user's bounds, or a built-in scene.
 std::string file_or_name(const CheckScene& check, const std::string& bounds)
 {
-    const fs::path beside = fs::path(bounds).parent_path() / check.scene;
+    const fs::path file = fs::path(bounds).parent_path() / check.scene;
     std::error_code error;
-    return !bounds.empty() && fs::is_regular_file(beside, error) ? beside.string() : check.scene;
+    return !bounds.empty() && fs::is_regular_file(file, error) ? file.string() : check.scene;
 }
 
 Scene scene_of(const CheckScene& check, const CheckRules& rules, const CheckArguments& arguments)
@@ -85,7 +85,7 @@ CheckSuite suite_left_out(const CheckScene& check, const CheckRules& rules)
     CheckSuite suite{check.name, 0.0, {}, {}};
     suite.cases.push_back(
         {check.name, "runs", CheckState::left_out,
-         fmt::format("left out with its bounds: {} is not installed; `pbskin run {}` tells what it needs", check.needs, check.scene),
+         fmt::format("left out with its bounds: {} is not installed; `pbskin run {}` states what it needs", check.needs, check.scene),
          std::nullopt, std::nullopt, rules.file, check.line});
     return suite;
 }
@@ -121,7 +121,7 @@ private:
             return std::pair(run.at("character").at("vertices").get<int>(), run.at("character").at("tets").get<int>());
         });
         CsvTable now = analysis::baseline_columns(rules_);
-        analysis::add_baseline_rows(now, rules_, suite.name, metrics, vertices, tets);
+        analysis::add_baseline_rows(now, suite.name, metrics, vertices, tets);
         measured_.append(now);
         if (baseline_)
             for (CheckCase& check : analysis::compare_with_baseline(rules_, suite.name, now, baseline_->table, baseline_->file))

@@ -1,5 +1,6 @@
 // Reference: the same frames one by one. A deformer that computes several frames at once on several threads changes no bit.
-#include "experiments/deformers/pbs/pbs_deformer.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "pbs/solver/options.hpp"
 #include "tests/support/limb_character.hpp"
 
 #include <gtest/gtest.h>
@@ -15,13 +16,16 @@ const std::vector<pbs::Pose> poses = pbs::joint_sweep(limb.skeleton, 1, pbs::Vec
 
 std::vector<pbs::Positions> played(const pbs::PbsOptions& options, bool foreseen)
 {
-    experiments::PbsDeformer deformer(options);
-    deformer.reset(character);
-    if (foreseen) deformer.foresee(poses);
+    experiments::DeformerSpec spec = experiments::default_spec("pbs");
+    spec.options = options;
+    spec.threads = options.threads;
+    const auto deformer = experiments::make_deformer(spec);
+    deformer->reset(character);
+    if (foreseen) deformer->foresee(poses);
     std::vector<pbs::Positions> frames;
     for (const pbs::Pose& pose : poses) {
-        EXPECT_EQ(deformer.advance(pose, 0.01).outcome, pbs::Outcome::finished);
-        frames.push_back(deformer.positions());
+        EXPECT_EQ(deformer->advance(pose, 0.01).outcome, pbs::Outcome::finished);
+        frames.push_back(deformer->positions());
     }
     return frames;
 }

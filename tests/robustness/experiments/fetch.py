@@ -31,7 +31,7 @@ class Fetch(program.ProgramTest):
         return process
 
     def test_without_npm(self):
-        self.assertIn("npm: not on this machine: apt-get install --no-install-recommends npm", self.refused("man").stderr)
+        self.assertIn("npm: not installed: apt-get install --no-install-recommends npm", self.refused("man").stderr)
 
     def test_npm_that_fails_is_quoted(self):
         self.stand_in("npm", "#!/bin/sh\necho no such package; exit 7\n")

@@ -36,7 +36,7 @@ CheckRules rules()
 analysis::CsvTable baseline_of(const analysis::CsvTable& table, int tets = 20)
 {
     analysis::CsvTable baseline = analysis::baseline_columns(rules());
-    add_baseline_rows(baseline, rules(), "s", table, 10, tets);
+    add_baseline_rows(baseline, "s", table, 10, tets);
     return analysis::parse_csv(baseline.text(), "baseline.csv");
 }
 
