@@ -25,7 +25,7 @@ std::vector<RegionChange> by_loss(std::vector<RegionChange> regions, const std::
 struct LossRow {
     std::string run, deformer, kind;
     double change_pct = 0.0;
-    std::string greatest;
+    std::string greatest = {};
 };
 const analysis::Columns<LossRow> loss_columns = {
     {"run", &LossRow::run, "", "name of the run"},
