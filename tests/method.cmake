@@ -17,6 +17,6 @@ set_source_files_properties(unit/analysis/claims.cpp unit/analysis/verdict.cpp P
 pbs_tests(properties method FOLDERS pbs analysis
     EXCEPT pbs/geometry/meshing_repeats pbs/solver/orders
     LIBRARIES analysis ${threads})
-pbs_tests(verification method FOLDERS pbs/solver analysis LIBRARIES analysis GSL::gsl)
+pbs_tests(verification method FOLDERS pbs/solver pbs/near_rest analysis LIBRARIES analysis pbs_near_rest GSL::gsl)
 pbs_tests(robustness method FOLDERS pbs/solver LIBRARIES pbs_method)
 pbs_tests(claims method FOLDERS pbs LIBRARIES pbs_method)

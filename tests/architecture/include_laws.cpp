@@ -19,6 +19,7 @@ const std::vector<Law> laws = {
     {"pbs/skinning/", {"pbs/geometry/", "pbs/skinning/"}},
     {"pbs/constraints/", {"pbs/geometry/", "pbs/constraints/"}},
     {"pbs/solver/", {"pbs/geometry/", "pbs/constraints/", "pbs/solver/"}},
+    {"pbs/near_rest/", {"pbs/geometry/", "pbs/constraints/", "pbs/solver/", "pbs/near_rest/"}},
     {"pbs/character/", {"pbs/"}},
     {"reference_fem/verification/", {"pbs/geometry/", "reference_fem/", "analysis/records/"}},
     {"reference_fem/", {"pbs/geometry/", "reference_fem/"}, {"reference_fem/verification/"}},

@@ -1,6 +1,6 @@
 #include "experiments/deformers/fem/elastic_fem_deformer.hpp"
 
-#include "experiments/deformers/fem/harmonic_weights.hpp"
+#include "pbs/skinning/harmonic_weights.hpp"
 #include "pbs/geometry/refinement.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/geometry/tet_volume.hpp"
@@ -66,8 +66,8 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
     body_ = std::make_unique<reference_fem::ElasticBody>(character.mesh, solver_options(options_), bones_.attachment);
     guide_weights_ = {};
     if (options_.attachment != FemAttachment::bind)
-        guide_weights_ = harmonic_weights(character.mesh, gripping_bones(bones_, character.mesh.tets, body_->setup().spring_tet),
-                                          static_cast<int>(character.skeleton.bones.size()));
+        guide_weights_ = pbs::harmonic_weights(character.mesh, gripping_bones(bones_, character.mesh.tets, body_->setup().spring_tet),
+                                               static_cast<int>(character.skeleton.bones.size()));
     reached_pose_ = rest_pose(character.skeleton);
     fewer_nodes_.reset();
     if (options_.nested_start && (options_.element_order == 2 || character.unrefined)) {
@@ -86,7 +86,7 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
 pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
 {
     const pbs::Stopwatch stopwatch;
-    const RootFrame frame(character_->skeleton, pose);
+    const pbs::RootFrame frame(character_->skeleton, pose);
     FrameSolve solve;
     if (!has_memory()) {
         if (start_.rows() > 0)
@@ -110,7 +110,7 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
 }
 
 // Solves for equilibria along a path of poses, each placed in the world.
-void ElasticFemDeformer::follow(const PosePath& way, const Eigen::Isometry3d& place, const pbs::Vec3& gravity_m_s2, FrameSolve& solve)
+void ElasticFemDeformer::follow(const pbs::PosePath& way, const Eigen::Isometry3d& place, const pbs::Vec3& gravity_m_s2, FrameSolve& solve)
 {
     const pbs::Positions& rest = character_->mesh.rest;
     const int stages = std::max(1, static_cast<int>(std::ceil(way.largest_turn_deg() / largest_turn_deg)));
@@ -132,14 +132,14 @@ void ElasticFemDeformer::follow(const PosePath& way, const Eigen::Isometry3d& pl
 }
 
 // Where this fails, the body returns to where it was, with mid-edge nodes halfway between their ends.
-bool ElasticFemDeformer::settle_from_fewer_nodes(const pbs::Pose& pose, const RootFrame& frame, FrameSolve& solve)
+bool ElasticFemDeformer::settle_from_fewer_nodes(const pbs::Pose& pose, const pbs::RootFrame& frame, FrameSolve& solve)
 {
-    const bool far = PosePath(character_->skeleton, reached_pose_, frame.pose()).largest_turn_deg() > far_turn_deg;
+    const bool far = pbs::PosePath(character_->skeleton, reached_pose_, frame.pose()).largest_turn_deg() > far_turn_deg;
     if (!fewer_nodes_ || !far || fewer_nodes_->advance(pose, 0.0).outcome != pbs::Outcome::finished) return false;
     const pbs::Positions before = body_->positions();
     const pbs::Pose pose_before = reached_pose_;
     body_->start_from(from_fewer_nodes());
-    const PosePath no_way(character_->skeleton, frame.pose(), frame.pose());
+    const pbs::PosePath no_way(character_->skeleton, frame.pose(), frame.pose());
     follow(no_way, Eigen::Isometry3d::Identity(), frame.from_world(options_.gravity_m_s2), solve);
     if (solve.converged()) {
         failures_in_a_row_ = 0;
@@ -165,24 +165,24 @@ pbs::Positions ElasticFemDeformer::from_fewer_nodes() const
     return start;
 }
 
-FrameSolve ElasticFemDeformer::settle(const RootFrame& frame)
+FrameSolve ElasticFemDeformer::settle(const pbs::RootFrame& frame)
 {
     const pbs::Skeleton& skeleton = character_->skeleton;
     const Eigen::Isometry3d here = Eigen::Isometry3d::Identity();
     const pbs::Vec3 gravity_m_s2 = frame.from_world(options_.gravity_m_s2);
     FrameSolve solve;
-    follow(PosePath(skeleton, reached_pose_, frame.pose()), here, gravity_m_s2, solve);
+    follow(pbs::PosePath(skeleton, reached_pose_, frame.pose()), here, gravity_m_s2, solve);
     failures_in_a_row_ = solve.converged() ? 0 : failures_in_a_row_ + 1;
     if (failures_in_a_row_ != 2) return solve;
 
     solve.restarted = true;
     body_->start_from(character_->mesh.rest);
-    follow(PosePath(skeleton, rest_pose(skeleton), frame.pose()), here, gravity_m_s2, solve);
+    follow(pbs::PosePath(skeleton, rest_pose(skeleton), frame.pose()), here, gravity_m_s2, solve);
     if (solve.converged()) failures_in_a_row_ = 0;
     return solve;
 }
 
-FrameSolve ElasticFemDeformer::settle_from_start(const RootFrame& frame)
+FrameSolve ElasticFemDeformer::settle_from_start(const pbs::RootFrame& frame)
 {
     body_->start_from(frame.to_root(start_));
     start_ = {};
@@ -193,18 +193,18 @@ FrameSolve ElasticFemDeformer::settle_from_start(const RootFrame& frame)
     return {{{reached, {{1.0, newton}}, newton.seconds}}, reached};
 }
 
-FrameSolve ElasticFemDeformer::start_at(const RootFrame& frame)
+FrameSolve ElasticFemDeformer::start_at(const pbs::RootFrame& frame)
 {
     FrameSolve solve;
     body_->start_from(frame.to_world(character_->mesh.rest));
-    follow(PosePath(character_->skeleton, rest_pose(character_->skeleton), frame.pose()), frame.root(), options_.gravity_m_s2, solve);
+    follow(pbs::PosePath(character_->skeleton, rest_pose(character_->skeleton), frame.pose()), frame.root(), options_.gravity_m_s2, solve);
     is_started_ = true;
     return solve;
 }
 
 FrameSolve ElasticFemDeformer::move(const pbs::Pose& pose, double dt_s)
 {
-    const PosePath way(character_->skeleton, reached_pose_, pose);
+    const pbs::PosePath way(character_->skeleton, reached_pose_, pose);
     unspent_s_ += dt_s;
     FrameSolve solve;
     solve.stages.push_back(

@@ -16,8 +16,8 @@
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/deformers/fem/fem_record.hpp"
 #include "experiments/deformers/fem/newton_record.hpp"
-#include "experiments/deformers/fem/pose_path.hpp"
-#include "experiments/deformers/fem/root_frame.hpp"
+#include "pbs/skinning/pose_path.hpp"
+#include "pbs/skinning/root_frame.hpp"
 
 #include <memory>
 
@@ -40,13 +40,13 @@ public:
 
 private:
     reference_fem::Targets targets_of(const pbs::Pose& pose) const { return targets(bones_, character_->mesh.rest, pose); }
-    FrameSolve settle(const RootFrame& frame);  // in the root's frame
-    FrameSolve settle_from_start(const RootFrame& frame);
-    bool settle_from_fewer_nodes(const pbs::Pose& pose, const RootFrame& frame, FrameSolve& solve);
+    FrameSolve settle(const pbs::RootFrame& frame);  // in the root's frame
+    FrameSolve settle_from_start(const pbs::RootFrame& frame);
+    bool settle_from_fewer_nodes(const pbs::Pose& pose, const pbs::RootFrame& frame, FrameSolve& solve);
     pbs::Positions from_fewer_nodes() const;              // [m], #V x 3
-    FrameSolve start_at(const RootFrame& frame);          // in the world, at rest
+    FrameSolve start_at(const pbs::RootFrame& frame);     // in the world, at rest
     FrameSolve move(const pbs::Pose& pose, double dt_s);  // in the world
-    void follow(const PosePath& way, const Eigen::Isometry3d& place, const pbs::Vec3& gravity_m_s2, FrameSolve& solve);
+    void follow(const pbs::PosePath& way, const Eigen::Isometry3d& place, const pbs::Vec3& gravity_m_s2, FrameSolve& solve);
     void record_grip();
 
     FemOptions options_;

@@ -1,6 +1,6 @@
 #include "experiments/deformers/fem/linear_fem_deformer.hpp"
 
-#include "experiments/deformers/fem/root_frame.hpp"
+#include "pbs/skinning/root_frame.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ void LinearFemDeformer::reset(const pbs::Character& character)
 pbs::StepSummary LinearFemDeformer::advance(const pbs::Pose& pose, double)
 {
     const pbs::Stopwatch stopwatch;
-    const RootFrame frame(character_->skeleton, pose);
+    const pbs::RootFrame frame(character_->skeleton, pose);
     const reference_fem::Targets held = targets(bones_, character_->mesh.rest, frame.pose());
     const reference_fem::SolveSummary solve = elasticity_->solve(held.springs, held.vertices, frame.from_world(options_.gravity_m_s2));
     positions_ = frame.to_world(elasticity_->positions());

@@ -57,31 +57,32 @@ std::vector<double> time_step(const ProjectionVariant& variant)
     return seconds;
 }
 
-ProjectionTiming summed_up(const ProjectionVariant& variant, const Samples& own, const BodySize& size, const MachineLimits& limits)
+ProjectionTiming summed_up(const ProjectionVariant& variant, const Samples& own, const pbs::BodySize& size, const MachineLimits& limits)
 {
-    const Layout layout{variant.scalar_bytes(), variant.poses};
+    const pbs::ProjectionLayout layout{variant.scalar_bytes(), variant.poses};
     ProjectionTiming timing;
     static_cast<ProjectionKind&>(timing) = variant;
     timing.poses = variant.poses;
-    timing.working_set_bytes = working_set_bytes(layout, size);
+    timing.working_set_bytes = pbs::working_set_bytes(layout, size);
     const double gb_s = bandwidth_at(limits, timing.working_set_bytes);
-    const auto class_timing = [&](ConstraintClass of, Sample sample) {
+    const auto class_timing = [&](pbs::ConstraintClass of, Sample sample) {
         ClassTiming result;
         result.ns = scaled(spread_of(own[sample]), 1e9 / (iterations_per_step * variant.poses * size.constraints(of)));
         if (variant.threads > 1) return result;
-        RooflinePoint point{.flops_per_byte = flops_of(of) / bytes_of(of, layout, size), .gflops = flops_of(of) / result.ns.median};
+        RooflinePoint point{.flops_per_byte = pbs::flops_of(of) / pbs::bytes_of(of, layout, size),
+                            .gflops = pbs::flops_of(of) / result.ns.median};
         point.attainable_gflops =
             attainable_gflops(variant.precision == "f32" ? limits.gflops_f32 : limits.gflops_f64, gb_s, point.flops_per_byte);
         point.share_of_limit = point.gflops / point.attainable_gflops;
         result.roofline = point;
         return result;
     };
-    timing.stretch = class_timing(ConstraintClass::stretch, stretch_s);
-    timing.volume = class_timing(ConstraintClass::volume, volume_s);
-    timing.bind = class_timing(ConstraintClass::bind, bind_s);
+    timing.stretch = class_timing(pbs::ConstraintClass::stretch, stretch_s);
+    timing.volume = class_timing(pbs::ConstraintClass::volume, volume_s);
+    timing.bind = class_timing(pbs::ConstraintClass::bind, bind_s);
     timing.ms_step = scaled(spread_of(own[step_s]), 1e3 / variant.poses);
     timing.ms_transfer = scaled(spread_of(own[transfer_s]), 1e3 / variant.poses).median;
-    const double step_bytes = iterations_per_step * bytes_per_iteration(layout, size) / variant.poses;
+    const double step_bytes = iterations_per_step * pbs::bytes_per_iteration(layout, size) / variant.poses;
     if (variant.threads == 1) timing.ms_floor = 1e3 * step_bytes / (1e9 * gb_s);
     timing.stretch_fill = variant.stretch_fill;
     timing.volume_fill = variant.volume_fill;
@@ -103,7 +104,7 @@ std::vector<ProjectionTiming> time_projections(const BenchBody& body, const std:
         return std::find_if(variants.begin(), variants.end(), [&](const ProjectionKind& one) { return one == kind; }) - variants.begin();
     };
 
-    const BodySize size{double(body.mesh().rest.rows()), double(body.edges), double(body.mesh().tets.rows())};
+    const pbs::BodySize size{double(body.mesh().rest.rows()), double(body.edges), double(body.mesh().tets.rows())};
     std::vector<ProjectionTiming> timings;
     for (std::size_t i = 0; i < variants.size(); ++i) {
         const ProjectionVariant& variant = variants[i];

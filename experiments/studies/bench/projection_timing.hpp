@@ -5,7 +5,7 @@
 #pragma once
 
 #include "experiments/studies/bench/machine_limits.hpp"
-#include "experiments/studies/bench/projection_work.hpp"
+#include "pbs/solver/batched/projection_work.hpp"
 #include "experiments/studies/bench/step_loops.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 

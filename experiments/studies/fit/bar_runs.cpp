@@ -4,7 +4,7 @@
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/fit/young_fit.hpp"
-#include "experiments/studies/shared/near_rest/step_near_rest.hpp"
+#include "pbs/near_rest/step_near_rest.hpp"
 #include "pbs/character/bodies.hpp"
 
 #include <cmath>
@@ -109,14 +109,14 @@ pbs::PbsOptions pbs_options(const BarSetting& setting)
 }
 
 struct Settled {
-    RestingState state;
+    pbs::RestingState state;
     pbs::Positions displacement;  // [m] under 1 m/s^2
     YoungFit fit;
 };
 
 Settled settle_and_fit(const Rig& rig, const BarSetting& setting)
 {
-    Settled settled{settle(rig.cantilever.body.mesh, rig.cantilever.body.held, pbs_options(setting), -pbs::Vec3::UnitZ()), {}, {}};
+    Settled settled{pbs::settle(rig.cantilever.body.mesh, rig.cantilever.body.held, pbs_options(setting), -pbs::Vec3::UnitZ()), {}, {}};
     settled.displacement = setting.time_step_s * setting.time_step_s * settled.state.displacement;
     settled.fit = fit_young(rig.cantilever, rig.elastic, settled.displacement, 1.0);
     return settled;

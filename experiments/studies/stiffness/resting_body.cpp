@@ -98,7 +98,7 @@ void shuffle_if(int seed, std::vector<Constraint>& constraints)
     if (seed != 0) std::shuffle(constraints.begin(), constraints.end(), random);
 }
 
-void add_pbs(const LoadedBody& body, const StiffnessSetting& setting, StepNearRest& step)
+void add_pbs(const LoadedBody& body, const StiffnessSetting& setting, pbs::StepNearRest& step)
 {
     auto set = pbs::make_constraint_set<double>(body.mesh, bind_distance_of(body), body.zone, pbs_options(body, setting), body.held);
     const auto add_class = [&](auto& constraints) {
@@ -108,7 +108,7 @@ void add_pbs(const LoadedBody& body, const StiffnessSetting& setting, StepNearRe
     add_class(set.bind), add_class(set.stretch), add_class(set.volume);
 }
 
-void add_xpbd(const LoadedBody& body, const StiffnessSetting& setting, StepNearRest& step)
+void add_xpbd(const LoadedBody& body, const StiffnessSetting& setting, pbs::StepNearRest& step)
 {
     const XpbdSolver solver(body.mesh, body.bind_distance, body.zone, xpbd_options(setting), body.held);
     const auto add_class = [&](auto constraints) {
@@ -119,7 +119,7 @@ void add_xpbd(const LoadedBody& body, const StiffnessSetting& setting, StepNearR
     add_class(solver.bind()), add_class(solver.stretch()), add_class(solver.volume());
 }
 
-// still: RestingState or SteppedBody.
+// still: pbs::RestingState or SteppedBody.
 template <typename Still>
 StiffnessRow row_of(const LoadedBody& body, const StiffnessSetting& setting, const std::string& by, const Still& still, double gravity_m_s2)
 {
@@ -151,17 +151,17 @@ nlohmann::json to_json(const StiffnessSetting& setting)
     return fields.json(setting);
 }
 
-RestingState rest_near_rest(const LoadedBody& body, const StiffnessSetting& setting)
+pbs::RestingState rest_near_rest(const LoadedBody& body, const StiffnessSetting& setting)
 {
     const bool small_steps = setting.method == Method::xpbd_small_steps;
     const double step_s = small_steps ? setting.time_step_s() / setting.iterations : setting.time_step_s();
-    StepNearRest step(body.mesh.rest, body.bind_point, small_steps ? 1 : setting.iterations, step_s,
-                      setting.method == Method::xpbd_forgetting);
+    pbs::StepNearRest step(body.mesh.rest, body.bind_point, small_steps ? 1 : setting.iterations, step_s,
+                           setting.method == Method::xpbd_forgetting);
     if (is_xpbd(setting.method))
         add_xpbd(body, setting, step);
     else
         add_pbs(body, setting, step);
-    RestingState rest = rest_of(step, body.zone, body.direction);
+    pbs::RestingState rest = pbs::rest_of(step, body.zone, body.direction);
     for (std::size_t v = 0; v < body.zone.size(); ++v)
         if (body.zone[v]) rest.displacement.row(static_cast<Eigen::Index>(v)) += step_s * step_s * body.direction.transpose();
     step.apply(rest.displacement);

@@ -8,7 +8,7 @@
 #include "analysis/records/typed_table.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "experiments/studies/shared/loaded_body.hpp"
-#include "experiments/studies/shared/near_rest/step_near_rest.hpp"
+#include "pbs/near_rest/step_near_rest.hpp"
 
 #include <string>
 
@@ -43,7 +43,7 @@ struct StiffnessSetting {
 nlohmann::json to_json(const StiffnessSetting& setting);
 
 // Under 1 m/s^2. The displacement is that after the step, including what the zone carries along outside of it.
-RestingState rest_near_rest(const LoadedBody& body, const StiffnessSetting& setting);
+pbs::RestingState rest_near_rest(const LoadedBody& body, const StiffnessSetting& setting);
 
 // Takes time steps under the given gravity until the body hangs still. This checks the linear map, and shows the effect of large
 // displacements.

@@ -5,8 +5,8 @@
 // The sag is 5/6 where the constraints do no more than incompressibility does: edges alone are a body of central forces, with nu = 1/4 and
 // E = 2.5 mu, and where no volume changes E = 3 mu.
 #include "experiments/studies/verification/problem.hpp"
-#include "experiments/studies/shared/near_rest/step_near_rest.hpp"
-#include "experiments/studies/verification/volume_constraints.hpp"
+#include "pbs/near_rest/step_near_rest.hpp"
+#include "pbs/near_rest/volume_constraints.hpp"
 #include "reference_fem/verification/beam_problems.hpp"
 #include "pbs/geometry/topology.hpp"
 
@@ -71,7 +71,7 @@ VerificationRow row_on(const Clamped& clamped, const std::string& quantity)
 VerificationRows deflection_rows(const Effort& effort, const Clamped& clamped)
 {
     const Positions load = end_load(clamped.bar);
-    const VolumeConstraints volumes(clamped.bar, clamped.held);
+    const pbs::VolumeConstraints volumes(clamped.bar, clamped.held);
     const double deflection_m = volumes.equilibrium(load, young_pa / 3.0).cwiseProduct(load).sum();
     const auto p1 = [&](double nu) { return cantilever_row(effort, nu, 1, Formulation::displacement, clamped.divisions); };
     const VerificationRow near = p1(0.4999), nearer = p1(0.49999);
@@ -98,7 +98,7 @@ VerificationRows deflection_rows(const Effort& effort, const Clamped& clamped)
 
 VerificationRow count_row(const Clamped& clamped)
 {
-    const VolumeConstraints volumes(clamped.bar, clamped.held);
+    const pbs::VolumeConstraints volumes(clamped.bar, clamped.held);
     VerificationRow row = row_on(clamped, "motions left, share of all");
     const int rank = volumes.rank();
     row.value = 1.0 - static_cast<double>(rank) / volumes.dofs();
@@ -115,7 +115,7 @@ double sag_over_dt2(const Clamped& clamped, double k_stretch, double k_volume)
     options.k_stretch = k_stretch;
     options.k_volume = k_volume;
     options.masses = pbs::Masses::lumped;
-    const RestingState state = settle(clamped.bar, clamped.held, options, -Vec3::UnitZ());
+    const pbs::RestingState state = pbs::settle(clamped.bar, clamped.held, options, -Vec3::UnitZ());
     return state.converged ? state.displacement.cwiseAbs().maxCoeff() : std::nan("");
 }
 

@@ -20,14 +20,14 @@ LoadedBody limb(RestOfBody rest)
 
 double stiffness(const LoadedBody& body, const StiffnessSetting& setting)
 {
-    const RestingState rest = rest_near_rest(body, setting);
+    const pbs::RestingState rest = rest_near_rest(body, setting);
     EXPECT_TRUE(rest.converged);
     return effective_stiffness_n_m(body, rest.displacement, 1.0);
 }
 
 void expect_as_stepped(const LoadedBody& body, const StiffnessSetting& setting)
 {
-    const RestingState rest = rest_near_rest(body, setting);
+    const pbs::RestingState rest = rest_near_rest(body, setting);
     ASSERT_TRUE(rest.converged);
     const double edge_m = 0.05, gravity_m_s2 = 1e-5 * edge_m / rest.displacement.cwiseAbs().maxCoeff();
     const SteppedBody still = step_until_still(body, setting, gravity_m_s2);

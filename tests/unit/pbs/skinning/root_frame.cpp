@@ -1,11 +1,11 @@
 // Reference: a rigid motion and its inverse.
-#include "experiments/deformers/fem/root_frame.hpp"
+#include "pbs/skinning/root_frame.hpp"
 
 #include <gtest/gtest.h>
 
 namespace {
 
-using experiments::RootFrame;
+using pbs::RootFrame;
 using pbs::Vec3;
 
 const pbs::Skeleton two_bones{{{"root", -1, {0, 0, 0}, {1, 0, 0}}, {"child", 0, {1, 0, 0}, {2, 0, 0}}}};

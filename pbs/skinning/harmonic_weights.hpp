@@ -5,9 +5,9 @@
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/weights.hpp"
 
-namespace experiments {
+namespace pbs {
 
 // gripping_bone: #V, -1 where no bone grips. Linear elements. A connected part that nothing grips belongs to the first bone.
-pbs::Weights harmonic_weights(const pbs::TetMesh& mesh, const std::vector<int>& gripping_bone, int bones);
+Weights harmonic_weights(const TetMesh& mesh, const std::vector<int>& gripping_bone, int bones);
 
-}  // namespace experiments
+}  // namespace pbs

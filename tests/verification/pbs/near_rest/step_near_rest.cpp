@@ -1,5 +1,5 @@
 // Reference: linear algebra for one hanging particle; for a bar, the time stepper itself, which stays in the state of rest.
-#include "experiments/studies/shared/near_rest/step_near_rest.hpp"
+#include "pbs/near_rest/step_near_rest.hpp"
 
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/hanging_tet.hpp"
@@ -10,8 +10,8 @@
 
 namespace {
 
-using experiments::settle;
 using pbs::Positions;
+using pbs::settle;
 using pbs::Vec3;
 
 TEST(SettledState, OfAHangingParticleIsTheFixedPoint)

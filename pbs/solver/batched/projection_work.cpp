@@ -1,6 +1,6 @@
-#include "experiments/studies/bench/projection_work.hpp"
+#include "pbs/solver/batched/projection_work.hpp"
 
-namespace experiments {
+namespace pbs {
 namespace {
 
 constexpr double difference = 3, dot = 5, cross = 9, scaled_and_added = 6;  // operations on vectors in space
@@ -25,13 +25,13 @@ const Work& work_of(ConstraintClass of)
     return of == ConstraintClass::stretch ? stretch_work : of == ConstraintClass::volume ? volume_work : bind_work;
 }
 
-double position_bytes(const Layout& layout)
+double position_bytes(const ProjectionLayout& layout)
 {
     return (layout.poses == 1 ? 4.0 : 3.0) * layout.scalar_bytes;
 }
 
 // A constraint's own data, shared by all poses.
-double data_bytes_of(ConstraintClass of, const Layout& layout)
+double data_bytes_of(ConstraintClass of, const ProjectionLayout& layout)
 {
     constexpr double index_bytes = 4.0;
     const Work& work = work_of(of);
@@ -51,24 +51,24 @@ double BodySize::constraints(ConstraintClass of) const
     return of == ConstraintClass::stretch ? edges : of == ConstraintClass::volume ? tets : vertices;
 }
 
-double bytes_of(ConstraintClass of, const Layout& layout, const BodySize& size)
+double bytes_of(ConstraintClass of, const ProjectionLayout& layout, const BodySize& size)
 {
     const double bind_point = of == ConstraintClass::bind ? 3.0 * layout.scalar_bytes : 0.0;
     return data_bytes_of(of, layout) / layout.poses + bind_point + 2.0 * position_bytes(layout) * size.vertices / size.constraints(of);
 }
 
-double bytes_per_iteration(const Layout& layout, const BodySize& size)
+double bytes_per_iteration(const ProjectionLayout& layout, const BodySize& size)
 {
     double bytes = 0.0;
     for (const ConstraintClass of : all_classes) bytes += layout.poses * size.constraints(of) * bytes_of(of, layout, size);
     return bytes;
 }
 
-double working_set_bytes(const Layout& layout, const BodySize& size)
+double working_set_bytes(const ProjectionLayout& layout, const BodySize& size)
 {
     double bytes = layout.poses * size.vertices * (position_bytes(layout) + 3.0 * layout.scalar_bytes);
     for (const ConstraintClass of : all_classes) bytes += size.constraints(of) * data_bytes_of(of, layout);
     return bytes;
 }
 
-}  // namespace experiments
+}  // namespace pbs

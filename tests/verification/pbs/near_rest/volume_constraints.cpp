@@ -1,7 +1,7 @@
 // Reference: for one tet and two, counting by hand; for a bar, the paper's solver itself, whose projections converge to the nearest point
 // of the set (S. Kaczmarz 1937, for consistent linear equations). The locking table compares the equilibrium with the linear tets of the
 // reference.
-#include "experiments/studies/verification/volume_constraints.hpp"
+#include "pbs/near_rest/volume_constraints.hpp"
 
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/structured_bar.hpp"
@@ -11,9 +11,9 @@
 
 namespace {
 
-using experiments::VolumeConstraints;
 using pbs::Positions;
 using pbs::Vec3;
+using pbs::VolumeConstraints;
 
 std::vector<bool> none_of(const pbs::TetMesh& mesh)
 {

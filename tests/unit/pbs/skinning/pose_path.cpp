@@ -1,11 +1,11 @@
 // Reference: rigid kinematics. A joint is connected if parent and child move it to the same place; slerp rotates at a constant rate.
-#include "experiments/deformers/fem/pose_path.hpp"
+#include "pbs/skinning/pose_path.hpp"
 
 #include <gtest/gtest.h>
 
 namespace {
 
-using experiments::PosePath;
+using pbs::PosePath;
 using pbs::Vec3;
 
 const pbs::Skeleton arm{{{"upper", -1, {0, 0, 0}, {1, 0, 0}}, {"fore", 0, {1, 0, 0}, {2, 0, 0}}, {"hand", 1, {2, 0, 0}, {2.5, 0, 0}}}};

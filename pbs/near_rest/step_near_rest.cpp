@@ -1,4 +1,4 @@
-#include "experiments/studies/shared/near_rest/step_near_rest.hpp"
+#include "pbs/near_rest/step_near_rest.hpp"
 
 #include <unsupported/Eigen/IterativeSolvers>
 
@@ -6,11 +6,8 @@
 #include <functional>
 #include <utility>
 
-namespace experiments {
+namespace pbs {
 namespace {
-
-using pbs::Positions;
-using pbs::Vec3;
 
 constexpr double tolerance = 1e-8;
 constexpr double softest = 1e-9;  // where a step draws back less than this share of a displacement, nothing holds the body
@@ -38,23 +35,23 @@ Positions at_vertices(const Eigen::VectorXd& stack, const std::vector<int>& movi
     return displacement;
 }
 
-std::array<Vec3, 1> gradients_at(const Positions& rest, const Positions& bind_point, const pbs::BindConstraint<double>& bind)
+std::array<Vec3, 1> gradients_at(const Positions& rest, const Positions& bind_point, const BindConstraint<double>& bind)
 {
     return {gradient<double>(bind, rest.row(bind.vertex), bind_point.row(bind.vertex))};
 }
 
-std::array<Vec3, 2> gradients_at(const Positions& rest, const Positions&, const pbs::StretchConstraint<double>& edge)
+std::array<Vec3, 2> gradients_at(const Positions& rest, const Positions&, const StretchConstraint<double>& edge)
 {
     return gradient<double>(edge, rest.row(edge.vertex[0]), rest.row(edge.vertex[1]));
 }
 
-std::array<Vec3, 4> gradients_at(const Positions& rest, const Positions&, const pbs::VolumeConstraint<double>& tet)
+std::array<Vec3, 4> gradients_at(const Positions& rest, const Positions&, const VolumeConstraint<double>& tet)
 {
     const auto corner = [&](int c) -> Vec3 { return rest.row(tet.vertex[c]); };
     return gradient<double>(tet, corner(0), corner(1), corner(2), corner(3));
 }
 
-int vertex_of(const pbs::BindConstraint<double>& bind, std::size_t)
+int vertex_of(const BindConstraint<double>& bind, std::size_t)
 {
     return bind.vertex;
 }
@@ -82,9 +79,9 @@ void StepNearRest::add(const Constraint& constraint, double share, double compli
     for (int axis = 0; axis < 3; ++axis) add_gradients(constraint, std::array<Vec3, 1>{Vec3::Unit(axis)}, share, compliance, inverse_mass);
 }
 
-template void StepNearRest::add(const pbs::BindConstraint<double>&, double, double, const std::vector<double>&);
-template void StepNearRest::add(const pbs::StretchConstraint<double>&, double, double, const std::vector<double>&);
-template void StepNearRest::add(const pbs::VolumeConstraint<double>&, double, double, const std::vector<double>&);
+template void StepNearRest::add(const BindConstraint<double>&, double, double, const std::vector<double>&);
+template void StepNearRest::add(const StretchConstraint<double>&, double, double, const std::vector<double>&);
+template void StepNearRest::add(const VolumeConstraint<double>&, double, double, const std::vector<double>&);
 
 template <typename Constraint, std::size_t count>
 void StepNearRest::add_gradients(const Constraint& constraint, const std::array<Vec3, count>& gradients, double share, double compliance,
@@ -155,12 +152,12 @@ RestingState rest_of(StepNearRest& step, const std::vector<bool>& moves, const V
     return state;
 }
 
-RestingState settle(const pbs::TetMesh& mesh, const std::vector<bool>& held, const pbs::PbsOptions& options, const Vec3& acceleration_m_s2)
+RestingState settle(const TetMesh& mesh, const std::vector<bool>& held, const PbsOptions& options, const Vec3& acceleration_m_s2)
 {
-    pbs::PbsOptions unbound = options;
+    PbsOptions unbound = options;
     unbound.k_bind = 0.0;
     unbound.jiggle.reset();
-    const auto constraints = pbs::make_constraint_set<double>(mesh, Eigen::VectorXd::Zero(mesh.rest.rows()), {}, unbound, held);
+    const auto constraints = make_constraint_set<double>(mesh, Eigen::VectorXd::Zero(mesh.rest.rows()), {}, unbound, held);
     StepNearRest step(mesh.rest, {}, options.iterations, 1.0);
     for (const auto& edge : constraints.stretch) step.add(edge, edge.stiffness, 0.0, constraints.inverse_mass);
     for (const auto& tet : constraints.volume) step.add(tet, tet.stiffness, 0.0, constraints.inverse_mass);
@@ -169,4 +166,4 @@ RestingState settle(const pbs::TetMesh& mesh, const std::vector<bool>& held, con
     return rest_of(step, moves, acceleration_m_s2, {.vectors = 800, .most_iterations = 1600});
 }
 
-}  // namespace experiments
+}  // namespace pbs

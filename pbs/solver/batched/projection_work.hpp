@@ -6,7 +6,7 @@
 // once, and its share of the positions (x, y, z, w) once in and once out. Loads that a nearer cache answers are not counted.
 #pragma once
 
-namespace experiments {
+namespace pbs {
 
 enum class ConstraintClass { stretch, volume, bind };
 
@@ -15,7 +15,7 @@ double flops_of(ConstraintClass of);
 // How constraints and positions lie in memory. One pose: a constraint has a vertex index of 4 bytes for each vertex, its rest value and its
 // stiffness, a bind constraint d and k; a vertex is x, y, z, w. Many poses side by side share the constraints, which then carry inverse
 // masses and a class of stiffness; a vertex is x, y, z for each pose. Bind points, x, y, z, belong to each pose.
-struct Layout {
+struct ProjectionLayout {
     double scalar_bytes = 4.0;
     int poses = 1;
 };
@@ -27,12 +27,12 @@ struct BodySize {
 };
 
 // One pass over a class [bytes per constraint and pose].
-double bytes_of(ConstraintClass of, const Layout& layout, const BodySize& size);
+double bytes_of(ConstraintClass of, const ProjectionLayout& layout, const BodySize& size);
 
 // One iteration over all three classes, all poses together [bytes]: no step is faster than these bytes over the bandwidth.
-double bytes_per_iteration(const Layout& layout, const BodySize& size);
+double bytes_per_iteration(const ProjectionLayout& layout, const BodySize& size);
 
 // The memory that one iteration over all three classes touches [bytes].
-double working_set_bytes(const Layout& layout, const BodySize& size);
+double working_set_bytes(const ProjectionLayout& layout, const BodySize& size);
 
-}  // namespace experiments
+}  // namespace pbs

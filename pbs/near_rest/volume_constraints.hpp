@@ -11,11 +11,11 @@
 
 #include <vector>
 
-namespace experiments {
+namespace pbs {
 
 class VolumeConstraints {
 public:
-    VolumeConstraints(const pbs::TetMesh& mesh, const std::vector<bool>& held);  // held: #V, the vertices that do not move
+    VolumeConstraints(const TetMesh& mesh, const std::vector<bool>& held);  // held: #V, the vertices that do not move
 
     int constraints() const { return static_cast<int>(gradients_.rows()); }
     int dofs() const { return static_cast<int>(gradients_.cols()); }  // of the vertices that are not held
@@ -26,20 +26,20 @@ public:
 
     // The motion that keeps every volume and is nearest to the given one, with equal weights for all vertices: the limit of projections
     // with unit masses. #V x 3.
-    pbs::Positions nearest(const pbs::Positions& motion) const;
+    Positions nearest(const Positions& motion) const;
 
     // Displacement [m], #V x 3, of linear tets of this shear modulus [Pa] that keep every volume, under a load [N], #V x 3; at least three
     // vertices are held. By the method of multipliers.
-    pbs::Positions equilibrium(const pbs::Positions& load_n, double shear_pa) const;
+    Positions equilibrium(const Positions& load_n, double shear_pa) const;
 
 private:
-    Eigen::VectorXd free_of(const pbs::Positions& at_vertices) const;
-    pbs::Positions at_vertices(const Eigen::VectorXd& free) const;
+    Eigen::VectorXd free_of(const Positions& at_vertices) const;
+    Positions at_vertices(const Eigen::VectorXd& free) const;
     Eigen::SparseMatrix<double> shear_stiffness() const;  // of 1 Pa: the integral of 2 eps : eps
 
-    pbs::TetMesh mesh_;
+    TetMesh mesh_;
     std::vector<int> place_;  // of a vertex among the free ones, -1: held
     Eigen::SparseMatrix<double> gradients_;
 };
 
-}  // namespace experiments
+}  // namespace pbs

@@ -1,4 +1,4 @@
-#include "experiments/studies/verification/volume_constraints.hpp"
+#include "pbs/near_rest/volume_constraints.hpp"
 
 #include "pbs/constraints/volume.hpp"
 #include "pbs/geometry/tet_volume.hpp"
@@ -8,27 +8,25 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseQR>
 
-namespace experiments {
+namespace pbs {
 namespace {
 
-using pbs::Positions;
-using pbs::Vec3;
 using Sparse = Eigen::SparseMatrix<double>;
 
-std::array<Vec3, 4> gradients_of(const pbs::TetMesh& mesh, Eigen::Index tet)
+std::array<Vec3, 4> gradients_of(const TetMesh& mesh, Eigen::Index tet)
 {
     const auto corner = [&](int c) -> Vec3 { return mesh.rest.row(mesh.tets(tet, c)); };
-    return gradient(pbs::VolumeConstraint<double>{}, corner(0), corner(1), corner(2), corner(3));
+    return gradient(VolumeConstraint<double>{}, corner(0), corner(1), corner(2), corner(3));
 }
 
 }  // namespace
 
-VolumeConstraints::VolumeConstraints(const pbs::TetMesh& mesh, const std::vector<bool>& held) : mesh_(mesh), place_(held.size(), -1)
+VolumeConstraints::VolumeConstraints(const TetMesh& mesh, const std::vector<bool>& held) : mesh_(mesh), place_(held.size(), -1)
 {
     int free = 0;
     for (std::size_t v = 0; v < held.size(); ++v)
         if (!held[v]) place_[v] = free++;
-    const Eigen::VectorXd volumes = pbs::tet_volumes(mesh.rest, mesh.tets);
+    const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets);
     std::vector<Eigen::Triplet<double>> entries;
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
         const std::array<Vec3, 4> gradients = gradients_of(mesh, t);
@@ -80,7 +78,7 @@ Positions VolumeConstraints::equilibrium(const Positions& load_n, double shear_p
 
 Sparse VolumeConstraints::shear_stiffness() const
 {
-    const Eigen::VectorXd volumes = pbs::tet_volumes(mesh_.rest, mesh_.tets);
+    const Eigen::VectorXd volumes = tet_volumes(mesh_.rest, mesh_.tets);
     std::vector<Eigen::Triplet<double>> entries;
     for (Eigen::Index t = 0; t < mesh_.tets.rows(); ++t) {
         const std::array<Vec3, 4> g = gradients_of(mesh_, t);  // of a shape function, times the volume
@@ -114,4 +112,4 @@ Positions VolumeConstraints::at_vertices(const Eigen::VectorXd& free) const
     return positions;
 }
 
-}  // namespace experiments
+}  // namespace pbs

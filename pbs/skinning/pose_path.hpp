@@ -6,25 +6,25 @@
 
 #include "pbs/skinning/pose.hpp"
 
-namespace experiments {
+namespace pbs {
 
 class PosePath {
 public:
-    PosePath(const pbs::Skeleton& skeleton, const pbs::Pose& from, const pbs::Pose& to);
+    PosePath(const Skeleton& skeleton, const Pose& from, const Pose& to);
 
-    pbs::Pose at(double fraction) const;  // 0: from, 1: to
-    double largest_turn_deg() const;      // between the ends, of any bone
+    Pose at(double fraction) const;   // 0: from, 1: to
+    double largest_turn_deg() const;  // between the ends, of any bone
 
 private:
     struct Joint {
         Eigen::Quaterniond rotation;  // relative to the parent
-        pbs::Vec3 head;               // its place in the parent's rest coordinates [m]
+        Vec3 head;                    // its place in the parent's rest coordinates [m]
     };
-    std::vector<Joint> joints_of(const pbs::Pose& pose) const;
+    std::vector<Joint> joints_of(const Pose& pose) const;
 
-    pbs::Skeleton skeleton_;
-    pbs::Pose from_, to_;
+    Skeleton skeleton_;
+    Pose from_, to_;
     std::vector<Joint> start_, end_;
 };
 
-}  // namespace experiments
+}  // namespace pbs

@@ -12,7 +12,7 @@
 #include <array>
 #include <vector>
 
-namespace experiments {
+namespace pbs {
 
 // S, for the position based solver and for XPBD. One projection takes  C = sum g_i . u_i  and computes
 //   dlambda = -share (C + alpha / dt^2 lambda) / (sum w |g|^2 + alpha / dt^2),   u_i += w_i g_i dlambda
@@ -21,14 +21,13 @@ class StepNearRest {
 public:
     // rest, bind_point: vertices and their material points [m], #V x 3; no bind_point where nothing is bound. forgets_multipliers: lambda
     // is zero in every iteration.
-    StepNearRest(const pbs::Positions& rest, const pbs::Positions& bind_point, int iterations, double step_s,
-                 bool forgets_multipliers = false);
+    StepNearRest(const Positions& rest, const Positions& bind_point, int iterations, double step_s, bool forgets_multipliers = false);
 
     // Appends the projection of a bind, stretch or volume constraint. inverse_mass: #V.
     template <typename Constraint>
     void add(const Constraint& constraint, double share, double compliance, const std::vector<double>& inverse_mass);
 
-    void apply(pbs::Positions& displacement);  // #V x 3, in place: the iterations of one step
+    void apply(Positions& displacement);  // #V x 3, in place: the iterations of one step
     double step_s() const { return step_s_; }
 
 private:
@@ -36,15 +35,15 @@ private:
         int vertices = 0;
         int vertex[4];
         double compliance_per_dt2 = 0.0, share = 1.0, denominator = 0.0;
-        pbs::Vec3 gradient[4], moved[4];  // of the constraint at rest; w times it
+        Vec3 gradient[4], moved[4];  // of the constraint at rest; w times it
         double multiplier = 0.0;
     };
     template <typename Constraint, std::size_t count>
-    void add_gradients(const Constraint& constraint, const std::array<pbs::Vec3, count>& gradients, double share, double compliance,
+    void add_gradients(const Constraint& constraint, const std::array<Vec3, count>& gradients, double share, double compliance,
                        const std::vector<double>& inverse_mass);
     void forget_multipliers();
 
-    pbs::Positions rest_, bind_point_;
+    Positions rest_, bind_point_;
     int iterations_;
     double step_s_;
     bool forgets_;
@@ -52,7 +51,7 @@ private:
 };
 
 struct RestingState {
-    pbs::Positions displacement;  // [m], #V x 3; zero where nothing moves
+    Positions displacement;  // [m], #V x 3; zero where nothing moves
     bool converged = false;
     double residual = 0.0;  // |x - S (x + a dt^2)| / |S a dt^2|
     int steps = 0;          // applications of S
@@ -63,11 +62,10 @@ struct KrylovSpace {
 };
 
 // moves: #V, which vertices keep their displacement from one step to the next and are accelerated.
-RestingState rest_of(StepNearRest& step, const std::vector<bool>& moves, const pbs::Vec3& acceleration_m_s2, const KrylovSpace& space = {});
+RestingState rest_of(StepNearRest& step, const std::vector<bool>& moves, const Vec3& acceleration_m_s2, const KrylovSpace& space = {});
 
 // The paper's solver with a time step of 1 s; a displacement scales with dt^2. Bind constraints are left out, as they would hold the axis.
 // The result depends on the iterations, stiffnesses and masses in the options. held: #V, vertices that do not move.
-RestingState settle(const pbs::TetMesh& mesh, const std::vector<bool>& held, const pbs::PbsOptions& options,
-                    const pbs::Vec3& acceleration_m_s2);
+RestingState settle(const TetMesh& mesh, const std::vector<bool>& held, const PbsOptions& options, const Vec3& acceleration_m_s2);
 
-}  // namespace experiments
+}  // namespace pbs

@@ -1,5 +1,5 @@
 // Reference: harmonic functions of one coordinate are linear in it, and linear elements represent those exactly.
-#include "experiments/deformers/fem/harmonic_weights.hpp"
+#include "pbs/skinning/harmonic_weights.hpp"
 
 #include "tests/support/structured_bar.hpp"
 
@@ -7,7 +7,7 @@
 
 namespace {
 
-using experiments::harmonic_weights;
+using pbs::harmonic_weights;
 
 const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {1, 0.2, 0.2}, {10, 2, 2});
 

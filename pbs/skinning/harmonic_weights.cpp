@@ -1,8 +1,8 @@
-#include "experiments/deformers/fem/harmonic_weights.hpp"
+#include "pbs/skinning/harmonic_weights.hpp"
 
 #include <Eigen/SparseCholesky>
 
-namespace experiments {
+namespace pbs {
 namespace {
 
 constexpr double negligible = 1e-6;
@@ -12,7 +12,7 @@ using Laplacian = Eigen::SparseMatrix<double>;
 using Gradients = Eigen::Matrix<double, 3, 4>;
 
 // Gradients of the four barycentric coordinates [1/m], one per column, and the tet's volume [m^3].
-Gradients barycentric_gradients(const pbs::TetMesh& mesh, Eigen::Index tet, double& volume_m3)
+Gradients barycentric_gradients(const TetMesh& mesh, Eigen::Index tet, double& volume_m3)
 {
     Eigen::Matrix3d edges;
     for (int k = 0; k < 3; ++k) edges.row(k) = mesh.rest.row(mesh.tets(tet, k + 1)) - mesh.rest.row(mesh.tets(tet, 0));
@@ -24,7 +24,7 @@ Gradients barycentric_gradients(const pbs::TetMesh& mesh, Eigen::Index tet, doub
 }
 
 // The rows of gripped vertices are those of the identity; their couplings go to the right-hand side.
-Laplacian held_laplacian(const pbs::TetMesh& mesh, const std::vector<int>& gripping_bone, Eigen::MatrixXd& right_hand_sides)
+Laplacian held_laplacian(const TetMesh& mesh, const std::vector<int>& gripping_bone, Eigen::MatrixXd& right_hand_sides)
 {
     std::vector<Eigen::Triplet<double>> entries;
     for (std::size_t v = 0; v < gripping_bone.size(); ++v)
@@ -48,9 +48,9 @@ Laplacian held_laplacian(const pbs::TetMesh& mesh, const std::vector<int>& gripp
     return laplacian;
 }
 
-pbs::Weights sparse(const Eigen::MatrixXd& weights)
+Weights sparse(const Eigen::MatrixXd& weights)
 {
-    pbs::Weights result;
+    Weights result;
     result.first.push_back(0);
     for (Eigen::Index v = 0; v < weights.rows(); ++v) {
         const double sum = (weights.row(v).array() > negligible).select(weights.row(v), 0.0).sum();
@@ -70,7 +70,7 @@ pbs::Weights sparse(const Eigen::MatrixXd& weights)
 
 }  // namespace
 
-pbs::Weights harmonic_weights(const pbs::TetMesh& mesh, const std::vector<int>& gripping_bone, int bones)
+Weights harmonic_weights(const TetMesh& mesh, const std::vector<int>& gripping_bone, int bones)
 {
     Eigen::MatrixXd right_hand_sides = Eigen::MatrixXd::Zero(mesh.rest.rows(), bones);
     for (std::size_t v = 0; v < gripping_bone.size(); ++v)
@@ -80,4 +80,4 @@ pbs::Weights harmonic_weights(const pbs::TetMesh& mesh, const std::vector<int>& 
     return sparse(factor.solve(right_hand_sides));
 }
 
-}  // namespace experiments
+}  // namespace pbs
