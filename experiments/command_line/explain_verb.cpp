@@ -1,6 +1,6 @@
 // pbskin explain NAME: prints what a metric, claim, scene key, study, deformer or scene means.
 #include "analysis/text_columns.hpp"
-#include "experiments/command_line/plain_markdown.hpp"
+#include "analysis/plain_markdown.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/terminal.hpp"
@@ -24,7 +24,7 @@ namespace {
 // The README.md of a study or the page of a claim.
 std::string page_of(const std::string& name)
 {
-    return plain_text(*pages::by_name.at(name), terminal_width());
+    return analysis::plain_text(*pages::by_name.at(name), terminal_width());
 }
 
 // A label and its text, which is wrapped in a column of its own.

@@ -1,5 +1,5 @@
 // pbskin list [cases, scenes, deformers, studies, claims, metrics]: lists what the program knows.
-#include "experiments/command_line/plain_markdown.hpp"
+#include "analysis/plain_markdown.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/run/metrics_table.hpp"
@@ -30,7 +30,7 @@ Lines lines_of(const std::vector<Entry>& entries, Name name, Meaning meaning)
 
 std::string question_of(const Study& study)
 {
-    return first_paragraph(*pages::by_name.at(study.name));
+    return analysis::first_paragraph(*pages::by_name.at(study.name));
 }
 
 const std::map<std::string, std::function<Lines()>> kinds = {

@@ -5,7 +5,7 @@
 #include "analysis/records/atomic_file.hpp"
 #include "analysis/records/typed_table.hpp"
 #include "experiments/command_line/measure/foreign_frame.hpp"
-#include "experiments/command_line/measure/frame_bounds.hpp"
+#include "analysis/check/frame_bounds.hpp"
 #include "experiments/command_line/measure/frame_files.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/warnings.hpp"
@@ -28,7 +28,7 @@ namespace {
 struct MeasureArguments {
     std::string rest, csv;
     std::vector<std::string> frames;
-    std::vector<FrameBound> bounds = known_frame_bounds();
+    std::vector<analysis::FrameBound> bounds = analysis::known_frame_bounds();
     CheckReports reports;
     bool quiet = false;
 };
@@ -39,7 +39,7 @@ std::string worst_of(const analysis::Ruler& ruler, const pbs::Positions& positio
     return worst_element(broken_frame(0, pbs::Outcome::finished, positions, ruler.volume_ratios(positions)));
 }
 
-FrameValues values_of(const RestMesh& rest, const analysis::Ruler& ruler, const pbs::Positions& positions)
+analysis::FrameValues values_of(const RestMesh& rest, const analysis::Ruler& ruler, const pbs::Positions& positions)
 {
     return {ruler.measure(positions), ruler.volume_ratios(positions).maxCoeff<Eigen::PropagateNaN>(),
             analysis::largest_edge_strain(rest.mesh().rest, rest.edges(), positions)};
@@ -47,13 +47,14 @@ FrameValues values_of(const RestMesh& rest, const analysis::Ruler& ruler, const 
 
 using analysis::Columns;
 
-const Columns<FrameValues> value_columns =
-    analysis::within(&FrameValues::metrics, frame_metric_columns()) +
-    Columns<FrameValues>{{"j_max", &FrameValues::j_max, "", "largest volume of a tet over its volume at rest"},
-                         {"edge_strain_max", &FrameValues::edge_strain_max, "", "largest |l / l0 - 1| of an edge"}};
+const Columns<analysis::FrameValues> value_columns =
+    analysis::within(&analysis::FrameValues::metrics, frame_metric_columns()) +
+    Columns<analysis::FrameValues>{{"j_max", &analysis::FrameValues::j_max, "", "largest volume of a tet over its volume at rest"},
+                                   {"edge_strain_max", &analysis::FrameValues::edge_strain_max, "", "largest |l / l0 - 1| of an edge"}};
 
-const Columns<MeasuredFrame> columns = Columns<MeasuredFrame>{{"frame", &MeasuredFrame::name, "", "name of the frame's file"}} +
-                                       analysis::within(&MeasuredFrame::values, value_columns);
+const Columns<analysis::MeasuredFrame> columns =
+    Columns<analysis::MeasuredFrame>{{"frame", &analysis::MeasuredFrame::name, "", "name of the frame's file"}} +
+    analysis::within(&analysis::MeasuredFrame::values, value_columns);
 
 void print_head()
 {
@@ -61,7 +62,7 @@ void print_head()
                "j_max", "stretch rms", "edge strain");
 }
 
-void print_row(const MeasuredFrame& frame)
+void print_row(const analysis::MeasuredFrame& frame)
 {
     const analysis::FrameMetrics& m = frame.values.metrics;
     fmt::print("{:<32} {:>14.6f} {:>14.6f} {:>9} {:>10.4f} {:>10.4f} {:>12.6f} {:>12.6f}\n", frame.name, m.volume_change_pct,
@@ -69,10 +70,10 @@ void print_row(const MeasuredFrame& frame)
 }
 
 // Prints the bounds that do not hold in a frame on stderr. Returns whether all hold.
-bool report_broken(const std::vector<FrameBound>& bounds, const std::string& path, const MeasuredFrame& frame)
+bool report_broken(const std::vector<analysis::FrameBound>& bounds, const std::string& path, const analysis::MeasuredFrame& frame)
 {
     bool all_hold = true;
-    for (const FrameBound& bound : bounds) {
+    for (const analysis::FrameBound& bound : bounds) {
         const std::string broken = broken_text(bound, frame.values);
         if (!broken.empty()) fmt::print(stderr, "pbskin: {}: {}\n", path, broken);
         all_hold = all_hold && broken.empty();
@@ -82,7 +83,7 @@ bool report_broken(const std::vector<FrameBound>& bounds, const std::string& pat
 
 void require_usable(const MeasureArguments& arguments)
 {
-    std::for_each(arguments.bounds.begin(), arguments.bounds.end(), require_meaningful);
+    std::for_each(arguments.bounds.begin(), arguments.bounds.end(), analysis::require_meaningful);
     if (!arguments.csv.empty()) analysis::require_writable(arguments.csv);
     require_writable(arguments.reports);
 }
@@ -97,8 +98,8 @@ int measure(const MeasureArguments& arguments)
     warn(pbs::remarks_on(arguments.rest, reading));
     const RestMesh rest(reading.mesh);
     const analysis::Ruler ruler(rest.mesh().rest, rest.mesh().tets);
-    std::vector<MeasuredFrame> frames;
-    std::vector<RefusedFrame> refused;
+    std::vector<analysis::MeasuredFrame> frames;
+    std::vector<analysis::RefusedFrame> refused;
     bool all_hold = true;
     if (!arguments.quiet) print_head();
     for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -136,7 +137,7 @@ void add_measure_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
             "sequence, in which no number may be missing")
         ->required();
     verb->add_option("--csv", arguments->csv, "write the values as CSV");
-    for (FrameBound& bound : arguments->bounds) verb->add_option(bound.option, bound.value, bound.meaning);
+    for (analysis::FrameBound& bound : arguments->bounds) verb->add_option(bound.option, bound.value, bound.meaning);
     verb->add_option("--junit", arguments->reports.junit, "write a JUnit report with one test case per bound");
     verb->add_flag("--github", arguments->reports.github, "annotations for GitHub on stdout (the default where GITHUB_ACTIONS is true)");
     verb->callback([&action, &common, arguments] {

@@ -1,5 +1,5 @@
 // LBS, then delta mush.
-#include "experiments/deformers/delta_mush/delta_mush.hpp"
+#include "pbs/skinning/delta_mush.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/stopwatch.hpp"
@@ -10,19 +10,20 @@
 namespace experiments {
 namespace {
 
-const OptionFields<DeltaMushOptions>& delta_mush_fields()
+const OptionFields<pbs::DeltaMushOptions>& delta_mush_fields()
 {
-    static const OptionFields<DeltaMushOptions> fields =
-        OptionFields<DeltaMushOptions>("delta_mush")
-            .add("iterations", &DeltaMushOptions::iterations, {.lowest = 0, .highest = 1e6, .meaning = "iterations of Laplacian smoothing"})
-            .add("step", &DeltaMushOptions::step,
+    static const OptionFields<pbs::DeltaMushOptions> fields =
+        OptionFields<pbs::DeltaMushOptions>("delta_mush")
+            .add("iterations", &pbs::DeltaMushOptions::iterations,
+                 {.lowest = 0, .highest = 1e6, .meaning = "iterations of Laplacian smoothing"})
+            .add("step", &pbs::DeltaMushOptions::step,
                  {.lowest = 0, .highest = 1, .meaning = "share of the way to the neighbours' mean in each"});
     return fields;
 }
 
 class DeltaMushDeformer : public Deformer {
 public:
-    explicit DeltaMushDeformer(const DeltaMushOptions& options) : options_(options) {}
+    explicit DeltaMushDeformer(const pbs::DeltaMushOptions& options) : options_(options) {}
 
     void reset(const pbs::Character& character) override
     {
@@ -45,9 +46,9 @@ public:
     const pbs::Positions& positions() const override { return positions_; }
 
 private:
-    DeltaMushOptions options_;
+    pbs::DeltaMushOptions options_;
     std::optional<pbs::BlendSkinning<double>> skinning_;
-    std::optional<DeltaMush> mush_;
+    std::optional<pbs::DeltaMush> mush_;
     pbs::Positions lbs_, positions_;
 };
 
@@ -58,13 +59,13 @@ DeformerKind delta_mush_kind()
     return {.name = "delta_mush",
             .meaning = "LBS, smoothed, to which the detail of the rest shape is added again (Mancewicz 2014): geometry alone",
             .make = [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
-                return std::make_unique<DeltaMushDeformer>(options_of<DeltaMushOptions>(spec));
+                return std::make_unique<DeltaMushDeformer>(options_of<pbs::DeltaMushOptions>(spec));
             },
-            .options = DeltaMushOptions{},
+            .options = pbs::DeltaMushOptions{},
             .keys = delta_mush_fields().keys(),
             .read = [](const SceneValues& values, const std::string& table,
                        DeformerSpec& spec) { spec.options = delta_mush_fields().read(values, table); },
-            .options_json = [](const DeformerSpec& spec) { return delta_mush_fields().json(options_of<DeltaMushOptions>(spec)); }};
+            .options_json = [](const DeformerSpec& spec) { return delta_mush_fields().json(options_of<pbs::DeltaMushOptions>(spec)); }};
 }
 
 }  // namespace experiments

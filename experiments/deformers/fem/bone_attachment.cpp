@@ -9,7 +9,7 @@ namespace experiments {
 namespace {
 
 // Indices of tets with all four corners inside the capsule: it is convex, so all of the tet is.
-std::vector<int> tets_inside(const pbs::TetMesh& mesh, const BoneCapsule& capsule)
+std::vector<int> tets_inside(const pbs::TetMesh& mesh, const pbs::BoneCapsule& capsule)
 {
     std::vector<int> inside;
     for (int t = 0; t < mesh.tets.rows(); ++t) {
@@ -59,7 +59,7 @@ BoneAttachment embedded_attachment(const pbs::Character& character, const FemOpt
     bones.attachment.spring_points.resize(springs, 3);
     bones.attachment.spring_stiffness.resize(springs);
     for (std::size_t j = 0; j < bones.capsules.size(); ++j) {
-        const BoneCapsule& capsule = bones.capsules[j];
+        const pbs::BoneCapsule& capsule = bones.capsules[j];
         const double density = options.spring_factor * options.young_pa / (capsule.radius_m * capsule.radius_m);
         bones.attachment.spring_points.middleRows(j * per_bone, per_bone) = sample_points(capsule);
         bones.attachment.spring_stiffness.segment(j * per_bone, per_bone)

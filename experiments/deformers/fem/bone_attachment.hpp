@@ -2,19 +2,19 @@
 // bound vertices, each with the bone that moves it.
 #pragma once
 
-#include "experiments/deformers/fem/bone_capsules.hpp"
+#include "pbs/character/bone_capsules.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "reference_fem/elastic_body.hpp"
 
 namespace experiments {
 
 struct BoneAttachment {
-    std::vector<BoneCapsule> capsules;     // #bones
-    reference_fem::Attachment attachment;  // springs, prescribed tets or bound vertices
-    std::vector<int> spring_bone;          // #springs
-    std::vector<int> vertex_bone;          // #V, -1: not prescribed
-    std::vector<int> tet_bone;             // of each prescribed tet
-    pbs::BoneBinding binding;              // of bound vertices; otherwise empty
+    std::vector<pbs::BoneCapsule> capsules;  // #bones
+    reference_fem::Attachment attachment;    // springs, prescribed tets or bound vertices
+    std::vector<int> spring_bone;            // #springs
+    std::vector<int> vertex_bone;            // #V, -1: not prescribed
+    std::vector<int> tet_bone;               // of each prescribed tet
+    pbs::BoneBinding binding;                // of bound vertices; otherwise empty
 };
 
 BoneAttachment bone_attachment(const pbs::Character& character, const FemOptions& options);  // by options.attachment

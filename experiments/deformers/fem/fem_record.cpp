@@ -28,7 +28,7 @@ double skin_share(const pbs::Character& character, const std::set<int>& vertices
     return static_cast<double>(on_skin) / static_cast<double>(vertices.size());
 }
 
-nlohmann::json to_json(const BoneGrip& grip, const BoneCapsule& capsule, FemAttachment attachment)
+nlohmann::json to_json(const BoneGrip& grip, const pbs::BoneCapsule& capsule, FemAttachment attachment)
 {
     nlohmann::json json = {
         {"bone", grip.name}, {"radius_m", capsule.radius_m}, {"radius_from", capsule.radius_from}, {"skin_share", grip.skin_share}};

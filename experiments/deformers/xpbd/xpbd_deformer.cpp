@@ -1,7 +1,7 @@
 // LBS, then extended position based dynamics with a material. It costs what PBS costs: the iterations of PBS, or as many substeps of one
 // iteration. What jiggles in PBS jiggles here.
 #include "experiments/deformers/registry.hpp"
-#include "experiments/deformers/xpbd/xpbd_solver.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
@@ -12,27 +12,27 @@
 namespace experiments {
 namespace {
 
-const OptionFields<XpbdOptions>& xpbd_fields()
+const OptionFields<pbs::XpbdOptions>& xpbd_fields()
 {
-    static const OptionFields<XpbdOptions> fields =
-        OptionFields<XpbdOptions>("xpbd")
-            .add("young_pa", &XpbdOptions::young_pa,
+    static const OptionFields<pbs::XpbdOptions> fields =
+        OptionFields<pbs::XpbdOptions>("xpbd")
+            .add("young_pa", &pbs::XpbdOptions::young_pa,
                  {.unit = "Pa", .lowest = above_zero, .meaning = "Young's modulus of xpbd and xpbd_small_steps"})
-            .add("poisson", &XpbdOptions::poisson,
+            .add("poisson", &pbs::XpbdOptions::poisson,
                  {.lowest = 0.25, .highest = 0.499999, .meaning = "Poisson's ratio; springs alone have 1/4, volume constraints raise it"})
-            .add("density_kg_m3", &XpbdOptions::density_kg_m3, {.unit = "kg/m^3", .lowest = above_zero, .meaning = "density, lumped"})
-            .record("iterations", &XpbdOptions::iterations)
-            .record("substeps", &XpbdOptions::substeps)
-            .record("gravity_m_s2", &XpbdOptions::gravity_m_s2)
-            .record("jiggle", &XpbdOptions::jiggle)
-            .record("keep_multipliers", &XpbdOptions::keep_multipliers);
+            .add("density_kg_m3", &pbs::XpbdOptions::density_kg_m3, {.unit = "kg/m^3", .lowest = above_zero, .meaning = "density, lumped"})
+            .record("iterations", &pbs::XpbdOptions::iterations)
+            .record("substeps", &pbs::XpbdOptions::substeps)
+            .record("gravity_m_s2", &pbs::XpbdOptions::gravity_m_s2)
+            .record("jiggle", &pbs::XpbdOptions::jiggle)
+            .record("keep_multipliers", &pbs::XpbdOptions::keep_multipliers);
     return fields;
 }
 
 // Both kinds share one table of a scene; iterations, gravity and jiggle are those of PBS.
-XpbdOptions read_xpbd(const SceneValues& values, DeformerSpec& spec)
+pbs::XpbdOptions read_xpbd(const SceneValues& values, DeformerSpec& spec)
 {
-    XpbdOptions options = xpbd_fields().read(values, "xpbd");
+    pbs::XpbdOptions options = xpbd_fields().read(values, "xpbd");
     options.iterations = values.integer("pbs.iterations");
     options.gravity_m_s2 = read_option<pbs::Vec3>(values, "pbs.gravity_m_s2");
     options.jiggle = values.has_table("pbs.jiggle");
@@ -42,7 +42,7 @@ XpbdOptions read_xpbd(const SceneValues& values, DeformerSpec& spec)
 
 class XpbdDeformer : public Deformer {
 public:
-    explicit XpbdDeformer(const XpbdOptions& options) : options_(options) {}
+    explicit XpbdDeformer(const pbs::XpbdOptions& options) : options_(options) {}
 
     void reset(const pbs::Character& character) override
     {
@@ -65,10 +65,10 @@ public:
     bool has_memory() const override { return options_.jiggle; }
 
 private:
-    XpbdOptions options_;
+    pbs::XpbdOptions options_;
     const pbs::Character* character_ = nullptr;
     std::optional<pbs::BlendSkinning<double>> skinning_;
-    std::optional<XpbdSolver> solver_;
+    std::optional<pbs::XpbdSolver> solver_;
     pbs::Positions lbs_;
 };
 
@@ -80,14 +80,14 @@ DeformerKind xpbd_kind()
             .meaning =
                 "LBS, then extended position based dynamics (Macklin 2016) with an elastic material; multipliers are kept through a step",
             .make = [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
-                return std::make_unique<XpbdDeformer>(options_of<XpbdOptions>(spec));
+                return std::make_unique<XpbdDeformer>(options_of<pbs::XpbdOptions>(spec));
             },
-            .options = XpbdOptions{},
+            .options = pbs::XpbdOptions{},
             .keys = xpbd_fields().keys(),
             .read = [](const SceneValues& values, const std::string&, DeformerSpec& spec) { spec.options = read_xpbd(values, spec); },
-            .options_json = [](const DeformerSpec& spec) { return xpbd_fields().json(options_of<XpbdOptions>(spec)); },
+            .options_json = [](const DeformerSpec& spec) { return xpbd_fields().json(options_of<pbs::XpbdOptions>(spec)); },
             .traits = [](const DeformerSpec& spec) -> DeformerTraits {
-                const auto& options = options_of<XpbdOptions>(spec);
+                const auto& options = options_of<pbs::XpbdOptions>(spec);
                 return {.iterations = options.iterations * options.substeps};
             }};
 }
@@ -99,7 +99,7 @@ DeformerKind xpbd_small_steps_kind()
     kind.meaning = "xpbd with as many substeps as xpbd has iterations, of one iteration each (Macklin 2019): equal cost";
     kind.keys.clear();  // those of xpbd
     kind.read = [](const SceneValues& values, const std::string&, DeformerSpec& spec) {
-        XpbdOptions options = read_xpbd(values, spec);
+        pbs::XpbdOptions options = read_xpbd(values, spec);
         options.substeps = std::max(options.iterations, 1);
         options.iterations = 1;
         spec.options = options;

@@ -7,7 +7,7 @@
 #include "experiments/studies/convergence/convergence_figures.hpp"
 #include "experiments/process/interruption.hpp"
 #include "experiments/studies/jiggle/jiggle_figures.hpp"
-#include "experiments/studies/jiggle/jiggle_zone_contents.hpp"
+#include "pbs/character/jiggle_zone_contents.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
 
 #include <fmt/format.h>

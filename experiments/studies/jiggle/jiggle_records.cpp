@@ -75,9 +75,10 @@ const Columns<SeriesRow> walk_series_columns = {
 
 namespace {
 
-const Columns<BoneInZone> bone_columns = {{"bone", &BoneInZone::name, "", "name of a bone"},
-                                          {"share_of_zone", &BoneInZone::share_of_zone, "", "share of the zone that is bound to it"},
-                                          {"share_of_bone", &BoneInZone::share_of_bone, "", "share of the bone's vertices in the zone"}};
+const Columns<pbs::BoneInZone> bone_columns = {
+    {"bone", &pbs::BoneInZone::name, "", "name of a bone"},
+    {"share_of_zone", &pbs::BoneInZone::share_of_zone, "", "share of the zone that is bound to it"},
+    {"share_of_bone", &pbs::BoneInZone::share_of_bone, "", "share of the bone's vertices in the zone"}};
 
 const Columns<WalkResponse> lag_columns = {
     {"moving_lag_rms_mm", &WalkResponse::moving_lag_mm, "mm", "root mean square lag over the motion"},
@@ -114,10 +115,10 @@ void add_series(std::vector<SeriesRow>& series, const std::string& name, double 
         series.push_back({name, static_cast<double>(i + 1) * time_step_s, excursion_m[i], speed_rms_m_s[i]});
 }
 
-std::vector<ZoneRow> zone_rows(const ZoneContents& zone)
+std::vector<ZoneRow> zone_rows(const pbs::ZoneContents& zone)
 {
     std::vector<ZoneRow> rows;
-    for (const BoneInZone& bone : zone.bones)
+    for (const pbs::BoneInZone& bone : zone.bones)
         rows.push_back(
             {zone.share, zone.skin_share, static_cast<int>(zone.pieces.size()), static_cast<int>(zone.pieces.front().size()), bone});
     return rows;
@@ -203,7 +204,7 @@ nlohmann::json to_json(const WalkCase& of)
 std::string record_jolts(const JoltCase& of, const std::string& folder)
 {
     const pbs::Character character = pbs::make_character(of.scene.character);
-    const ZoneContents zone = zone_contents(character);
+    const pbs::ZoneContents zone = zone_contents(character);
     JoltRecords records;
     std::vector<MeasuredJiggle> measured;
     std::string breakdown;

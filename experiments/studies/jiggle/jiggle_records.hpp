@@ -5,7 +5,7 @@
 
 #include "analysis/records/typed_table.hpp"
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
-#include "experiments/studies/jiggle/jiggle_zone_contents.hpp"
+#include "pbs/character/jiggle_zone_contents.hpp"
 #include "experiments/studies/jiggle/jolt_response.hpp"
 #include "experiments/studies/jiggle/walk_response.hpp"
 #include "experiments/scene/scene.hpp"
@@ -48,7 +48,7 @@ struct SeriesRow {
 struct ZoneRow {
     double share_of_vertices = 0.0, share_on_skin = 0.0;
     int pieces = 0, largest_piece = 0;
-    BoneInZone bone;
+    pbs::BoneInZone bone;
 };
 // walk.csv
 struct WalkRow {

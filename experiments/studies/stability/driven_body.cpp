@@ -1,7 +1,7 @@
 #include "experiments/studies/stability/driven_body.hpp"
 
 #include "experiments/deformers/registry.hpp"
-#include "experiments/deformers/xpbd/xpbd_solver.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 #include "pbs/solver/particles.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "pbs/solver/projection.hpp"
@@ -120,8 +120,9 @@ std::unique_ptr<DrivenBody> make_pbs(const StabilityCell& cell, const pbs::Chara
 std::unique_ptr<DrivenBody> make_driven_body(const StabilityCell& cell, const pbs::Character& character)
 {
     if (options_if<pbs::PbsOptions>(cell.spec)) return make_pbs(cell, character);
-    if (const auto* xpbd = options_if<XpbdOptions>(cell.spec))
-        return std::make_unique<Solved<XpbdSolver>>(character.mesh, character.binding.distance, zone_of(character, xpbd->jiggle), *xpbd);
+    if (const auto* xpbd = options_if<pbs::XpbdOptions>(cell.spec))
+        return std::make_unique<Solved<pbs::XpbdSolver>>(character.mesh, character.binding.distance, zone_of(character, xpbd->jiggle),
+                                                         *xpbd);
     return std::make_unique<Posed>(cell, character);
 }
 

@@ -1,13 +1,13 @@
-#include "experiments/deformers/xpbd/xpbd_options.hpp"
+#include "pbs/solver/xpbd_options.hpp"
 #include "experiments/studies/stability/cell_sweep.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 
 namespace experiments {
 namespace {
 
-XpbdOptions& xpbd_of(StabilityCell& cell)
+pbs::XpbdOptions& xpbd_of(StabilityCell& cell)
 {
-    return options_of<XpbdOptions>(cell.spec);
+    return options_of<pbs::XpbdOptions>(cell.spec);
 }
 
 const Sweep youngs{
@@ -26,7 +26,7 @@ StabilityCell base(bool small_steps, bool full)
 {
     StabilityCell cell;
     cell.model = small_steps ? "xpbd_small_steps" : "xpbd";
-    XpbdOptions options;
+    pbs::XpbdOptions options;
     options.jiggle = true;
     options.gravity_m_s2 = pbs::Vec3(0.0, -g_m_s2, 0.0);
     if (small_steps) std::swap(options.iterations, options.substeps);

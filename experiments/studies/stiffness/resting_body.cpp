@@ -1,6 +1,6 @@
 #include "experiments/studies/stiffness/resting_body.hpp"
 
-#include "experiments/deformers/xpbd/xpbd_solver.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 #include "experiments/process/interruption.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/solver/pbs_solver.hpp"
@@ -59,10 +59,10 @@ pbs::PbsOptions pbs_options(const LoadedBody& body, const StiffnessSetting& sett
     return options;
 }
 
-XpbdOptions xpbd_options(const StiffnessSetting& setting)
+pbs::XpbdOptions xpbd_options(const StiffnessSetting& setting)
 {
     const bool small_steps = setting.method == Method::xpbd_small_steps;
-    XpbdOptions options;
+    pbs::XpbdOptions options;
     options.young_pa = setting.young_pa;
     options.density_kg_m3 = flesh_density_kg_m3;
     options.iterations = small_steps ? 1 : setting.iterations;
@@ -110,7 +110,7 @@ void add_pbs(const LoadedBody& body, const StiffnessSetting& setting, pbs::StepN
 
 void add_xpbd(const LoadedBody& body, const StiffnessSetting& setting, pbs::StepNearRest& step)
 {
-    const XpbdSolver solver(body.mesh, body.bind_distance, body.zone, xpbd_options(setting), body.held);
+    const pbs::XpbdSolver solver(body.mesh, body.bind_distance, body.zone, xpbd_options(setting), body.held);
     const auto add_class = [&](auto constraints) {
         shuffle_if(setting.order_seed, constraints);
         for (const auto& [constraint, compliance, multiplier] : constraints)
@@ -173,9 +173,9 @@ SteppedBody step_until_still(const LoadedBody& body, const StiffnessSetting& set
 {
     const pbs::Vec3 gravity = gravity_m_s2 * body.direction;
     if (is_xpbd(setting.method)) {
-        XpbdOptions options = xpbd_options(setting);
+        pbs::XpbdOptions options = xpbd_options(setting);
         options.gravity_m_s2 = gravity;
-        XpbdSolver solver(body.mesh, body.bind_distance, body.zone, options, body.held);
+        pbs::XpbdSolver solver(body.mesh, body.bind_distance, body.zone, options, body.held);
         return step(solver, body, setting.time_step_s(), most_steps);
     }
     pbs::PbsOptions options = pbs_options(body, setting);

@@ -1,9 +1,9 @@
 #include "experiments/studies/work_precision/point_row.hpp"
 
-#include "experiments/deformers/delta_mush/delta_mush.hpp"
+#include "pbs/skinning/delta_mush.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "experiments/deformers/xpbd/xpbd_options.hpp"
+#include "pbs/solver/xpbd_options.hpp"
 
 #include <cmath>
 
@@ -33,8 +33,8 @@ const Columns<PbsParts> after_discretisation = {{"not_converged_pct", &PbsParts:
 void add_setting(PointRow& row, const PointSetting& setting)
 {
     const DeformerSpec& spec = setting.spec;
-    if (const auto* mush = options_if<DeltaMushOptions>(spec)) row.iterations = mush->iterations;
-    if (const auto* xpbd = options_if<XpbdOptions>(spec)) row.iterations = xpbd->iterations, row.substeps = xpbd->substeps;
+    if (const auto* mush = options_if<pbs::DeltaMushOptions>(spec)) row.iterations = mush->iterations;
+    if (const auto* xpbd = options_if<pbs::XpbdOptions>(spec)) row.iterations = xpbd->iterations, row.substeps = xpbd->substeps;
     if (const auto* fem = options_if<FemOptions>(spec)) row.element_order = fem->element_order;
     const auto* pbs = options_if<pbs::PbsOptions>(spec);
     if (!pbs) return;

@@ -1,10 +1,10 @@
 #include "experiments/studies/work_precision/point_setting.hpp"
 
-#include "experiments/deformers/delta_mush/delta_mush.hpp"
+#include "pbs/skinning/delta_mush.hpp"
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/deformers/xpbd/xpbd_options.hpp"
+#include "pbs/solver/xpbd_options.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/character/body_cache.hpp"
@@ -39,7 +39,7 @@ public:
         for (const char* kind : {"lbs", "dqs"}) add({.deformer = kind, .words = "", .spec = default_spec(kind)});
         for (const int iterations : {0, 1, 2, 5, 10, 20, 50, 100, 200}) {
             PointSetting setting{"delta_mush", fmt::format("{} iterations", iterations), default_spec("delta_mush")};
-            options_of<DeltaMushOptions>(setting.spec).iterations = iterations;
+            options_of<pbs::DeltaMushOptions>(setting.spec).iterations = iterations;
             add(setting);
         }
     }
@@ -73,7 +73,7 @@ public:
         for (const int count : {1, 2, 4, 8, 16, 24, 48, 96, 384}) {
             PointSetting setting{"xpbd", fmt::format("{} iterations", count), default_spec("xpbd")};
             const auto& flesh = options_of<FemOptions>(first_fem(scene_));
-            XpbdOptions options = {.young_pa = flesh.young_pa, .poisson = flesh.poisson, .iterations = count};
+            pbs::XpbdOptions options = {.young_pa = flesh.young_pa, .poisson = flesh.poisson, .iterations = count};
             setting.spec.options = options;
             add(setting);
             setting.deformer = "xpbd_small_steps";

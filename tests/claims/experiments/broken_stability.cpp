@@ -4,7 +4,7 @@
 // - one class dropped: a projection removes at most its own error, and the other classes still hold the body, so the verdict stays.
 // - multipliers forgotten: XPBD is not part of the claim; each of its projections still takes a share below one, so it is as stable as with
 //   them.
-#include "experiments/deformers/xpbd/xpbd_options.hpp"
+#include "pbs/solver/xpbd_options.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "pbs/solver/options.hpp"
@@ -81,7 +81,7 @@ TEST(BrokenStability, ForgottenMultipliersRunAwayNowhereAndAreNoPartOfTheClaim)
     std::vector<MeasuredCell> measured;
     for (StabilityCell cell : chosen(xpbd_cells(false), "start"))
         for (const bool keep : {true, false}) {
-            options_of<XpbdOptions>(cell.spec).keep_multipliers = keep;
+            options_of<pbs::XpbdOptions>(cell.spec).keep_multipliers = keep;
             measured.push_back({cell, run_cell(cell)});
             EXPECT_FALSE(ran_away(measured.back().result)) << cell.named << (keep ? "" : ", multipliers forgotten");
         }

@@ -1,8 +1,8 @@
 // --resume repeats a run when anything changed that its work depends on. Reference: the members of the cases, each changed in turn.
-#include "experiments/deformers/delta_mush/delta_mush.hpp"
+#include "pbs/skinning/delta_mush.hpp"
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/deformers/xpbd/xpbd_options.hpp"
+#include "pbs/solver/xpbd_options.hpp"
 #include "experiments/studies/ambiguity/reading_figures.hpp"
 #include "experiments/studies/ambiguity/volume_readings.hpp"
 #include "experiments/studies/artefacts/artefact_figures.hpp"
@@ -174,8 +174,8 @@ void expect_each_option_is_recorded(const std::string& kind, const Options& opti
 TEST(RecordedSettings, OfDeformers)
 {
     expect_each_option_is_recorded("fem", FemOptions{});
-    expect_each_option_is_recorded("xpbd", XpbdOptions{});
-    expect_each_option_is_recorded("delta_mush", DeltaMushOptions{});
+    expect_each_option_is_recorded("xpbd", pbs::XpbdOptions{});
+    expect_each_option_is_recorded("delta_mush", pbs::DeltaMushOptions{});
     const int threads = 6;  // the member on which results do not depend
     expect_each_option_is_recorded("pbs", pbs::PbsOptions{}, threads);
 }

@@ -3,7 +3,7 @@
 //   sum over edges of n n^T / alpha u = m g,
 // for any number of iterations and substeps per step. A multiplier that were forgotten between iterations would stiffen it with each.
 // Poisson's ratio 1/4 leaves the volume constraints out. Displacements are 1e-4 of an edge; the neglected terms are of second order.
-#include "experiments/deformers/xpbd/xpbd_solver.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "tests/support/hanging_tet.hpp"
 
@@ -12,13 +12,13 @@
 
 namespace {
 
-using experiments::XpbdOptions;
 using pbs::Vec3;
+using pbs::XpbdOptions;
 
 const test_support::HangingTet tet = test_support::hanging_tet();
 constexpr double dt_s = 0.01;
 
-XpbdOptions hanging(int iterations, int substeps)
+pbs::XpbdOptions hanging(int iterations, int substeps)
 {
     return {.young_pa = 1e7,
             .poisson = 0.25,
@@ -29,7 +29,7 @@ XpbdOptions hanging(int iterations, int substeps)
             .jiggle = true};
 }
 
-Vec3 static_displacement(const XpbdOptions& options)
+Vec3 static_displacement(const pbs::XpbdOptions& options)
 {
     const double volume = pbs::tet_volumes(tet.mesh.rest, tet.mesh.tets)(0);
     const double mu = options.young_pa / (2.0 * (1.0 + options.poisson));
@@ -45,8 +45,8 @@ class XpbdAtRest : public testing::TestWithParam<std::pair<int, int>> {};
 
 TEST_P(XpbdAtRest, HangsAsSpringsDo)
 {
-    const XpbdOptions options = hanging(GetParam().first, GetParam().second);
-    experiments::XpbdSolver solver(tet.mesh, {}, tet.free, options, tet.held);
+    const pbs::XpbdOptions options = hanging(GetParam().first, GetParam().second);
+    pbs::XpbdSolver solver(tet.mesh, {}, tet.free, options, tet.held);
     for (int step = 0; step < 4000; ++step) solver.advance(tet.mesh.rest, tet.mesh.rest, dt_s);
     const Vec3 expected = static_displacement(options);
     ASSERT_GT(expected.norm(), 1e-6);
@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(IterationsAndSubsteps, XpbdAtRest, testing::Values(std:
 TEST(XpbdAtRestWithSmallSteps, ConvergesWithTheSubsteps)
 {
     const auto error = [](int substeps) {
-        experiments::XpbdSolver solver(tet.mesh, {}, tet.free, hanging(1, substeps), tet.held);
+        pbs::XpbdSolver solver(tet.mesh, {}, tet.free, hanging(1, substeps), tet.held);
         for (int step = 0; step < 4000; ++step) solver.advance(tet.mesh.rest, tet.mesh.rest, dt_s);
         const Vec3 expected = static_displacement(hanging(1, substeps));
         return (solver.positions().row(3) - tet.mesh.rest.row(3) - expected.transpose()).norm() / expected.norm();

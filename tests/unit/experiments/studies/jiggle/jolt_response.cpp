@@ -3,7 +3,7 @@
 #include "experiments/studies/jiggle/jolt_response.hpp"
 
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
-#include "experiments/studies/jiggle/jiggle_zone_contents.hpp"
+#include "pbs/character/jiggle_zone_contents.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/solver/options.hpp"
 
@@ -23,7 +23,7 @@ protected:
     experiments::JoltResponse response() const { return experiments::jolt_response(limb, spec, probe, jolt); }
 
     pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 400});
-    std::vector<int> probe = experiments::zone_contents(limb).pieces.front();
+    std::vector<int> probe = pbs::zone_contents(limb).pieces.front();
     experiments::DeformerSpec spec = experiments::default_spec("pbs");
     experiments::Jolt jolt;
 };

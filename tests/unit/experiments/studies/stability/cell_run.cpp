@@ -2,7 +2,7 @@
 #include "experiments/studies/stability/cell_run.hpp"
 
 #include "experiments/deformers/registry.hpp"
-#include "experiments/deformers/xpbd/xpbd_options.hpp"
+#include "pbs/solver/xpbd_options.hpp"
 #include "experiments/studies/stability/driven_body.hpp"
 #include "pbs/solver/options.hpp"
 
@@ -93,7 +93,7 @@ TEST(CellRun, ForgottenMultipliersEndElsewhere)
 {
     StabilityCell cell = pbs_cell();
     cell.spec = default_spec("xpbd");
-    options_of<XpbdOptions>(cell.spec).young_pa = 1e4;
+    options_of<pbs::XpbdOptions>(cell.spec).young_pa = 1e4;
     cell.disturbance.angle_deg = 45.0;
     const auto last_positions = [&] {
         StabilityBody body(cell);
@@ -102,7 +102,7 @@ TEST(CellRun, ForgottenMultipliersEndElsewhere)
         return driven->positions();
     };
     const pbs::Positions sound = last_positions();
-    options_of<XpbdOptions>(cell.spec).keep_multipliers = false;
+    options_of<pbs::XpbdOptions>(cell.spec).keep_multipliers = false;
     StabilityBody body(cell);
     const pbs::Positions broken = last_positions();
     const Drive last = body.drive(body.steps() - 1);

@@ -1,5 +1,5 @@
 // Reference: the built-in limb, whose skin is farther from the bones than the mean vertex, and a zone that consists of two known pieces.
-#include "experiments/studies/jiggle/jiggle_zone_contents.hpp"
+#include "pbs/character/jiggle_zone_contents.hpp"
 
 #include "pbs/character/bodies.hpp"
 #include "tests/support/limb_character.hpp"
@@ -14,7 +14,7 @@ namespace {
 TEST(JiggleZoneContents, OfTheLimbIsMostlySkinInOnePieceOnBothBones)
 {
     const pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 600});
-    const auto zone = experiments::zone_contents(limb);
+    const auto zone = pbs::zone_contents(limb);
     const auto flags = pbs::jiggle_zone(limb.binding);
     EXPECT_DOUBLE_EQ(zone.share, double(std::count(flags.begin(), flags.end(), true)) / double(flags.size()));
     EXPECT_GT(zone.skin_share, 0.9);
@@ -28,7 +28,7 @@ TEST(JiggleZoneContents, TwoEndsAreTwoPiecesAndTogetherTheWholeZone)
 {
     pbs::Character bar = test_support::character_of(test_support::two_bone_limb({10, 2, 2}, {0, 0, 1}, 0.0));
     for (Eigen::Index v = 0; v < bar.mesh.rest.rows(); ++v) bar.binding.distance(v) = std::abs(bar.mesh.rest(v, 0)) > 0.7 ? 1.0 : 0.0;
-    const auto zone = experiments::zone_contents(bar);
+    const auto zone = pbs::zone_contents(bar);
     ASSERT_EQ(zone.pieces.size(), 2u);
     std::set<int> seen;
     for (const auto& piece : zone.pieces) seen.insert(piece.begin(), piece.end());

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-namespace experiments {
+namespace analysis {
 
 // Headings, paragraphs, lists and tables within `width` characters. Only the text of a link is kept, and comments are left out. Lines of
 // code keep their blanks unless they are too long.
@@ -13,4 +13,4 @@ std::string plain_text(const std::string& markdown, std::size_t width);
 
 std::string first_paragraph(const std::string& markdown);  // the one below the title, on one line
 
-}  // namespace experiments
+}  // namespace analysis

@@ -1,5 +1,5 @@
 // Reference: order statistics of a few frames by hand, linear between them.
-#include "experiments/run/frame_statistics.hpp"
+#include "analysis/frame_statistics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace {
 
 using analysis::CsvTable;
-using experiments::frame_statistics;
+using analysis::frame_statistics;
 
 CsvTable metrics()
 {

@@ -1,9 +1,9 @@
 // Reference: the definition, on small texts.
-#include "experiments/command_line/plain_markdown.hpp"
+#include "analysis/plain_markdown.hpp"
 
 #include <gtest/gtest.h>
 
-using namespace experiments;
+using namespace analysis;
 
 TEST(PlainMarkdown, FillsParagraphsAndLeavesOutCommentsAndLinks)
 {

@@ -1,4 +1,4 @@
-#include "experiments/deformers/xpbd/xpbd_solver.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_volume.hpp"
@@ -8,9 +8,9 @@
 
 namespace {
 
-using experiments::XpbdOptions;
-using experiments::XpbdSolver;
 using pbs::Positions;
+using pbs::XpbdOptions;
+using pbs::XpbdSolver;
 
 const test_support::TwoBoneLimb bent = test_support::two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 60.0);
 

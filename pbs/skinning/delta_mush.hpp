@@ -10,7 +10,7 @@
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 
-namespace experiments {
+namespace pbs {
 
 struct DeltaMushOptions {
     int iterations = 20;  // of smoothing
@@ -19,18 +19,18 @@ struct DeltaMushOptions {
 
 class DeltaMush {
 public:
-    DeltaMush(const pbs::TetMesh& mesh, const DeltaMushOptions& options);
+    DeltaMush(const TetMesh& mesh, const DeltaMushOptions& options);
 
-    void apply(const pbs::Positions& blended, pbs::Positions& posed) const;  // [m], #V x 3
+    void apply(const Positions& blended, Positions& posed) const;  // [m], #V x 3
 
 private:
-    pbs::Positions smoothed(pbs::Positions positions) const;
-    Eigen::Matrix3d rotation(const pbs::Positions& smoothed_posed, int vertex) const;
+    Positions smoothed(Positions positions) const;
+    Eigen::Matrix3d rotation(const Positions& smoothed_posed, int vertex) const;
 
     DeltaMushOptions options_;
-    pbs::Adjacency neighbours_;
-    pbs::Positions smoothed_rest_;
-    pbs::Positions delta_;  // the detail that smoothing removes [m], #V x 3
+    Adjacency neighbours_;
+    Positions smoothed_rest_;
+    Positions delta_;  // the detail that smoothing removes [m], #V x 3
 };
 
-}  // namespace experiments
+}  // namespace pbs

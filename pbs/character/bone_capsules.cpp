@@ -1,4 +1,4 @@
-#include "experiments/deformers/fem/bone_capsules.hpp"
+#include "pbs/character/bone_capsules.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace experiments {
+namespace pbs {
 namespace {
 
 constexpr double middle_begin = 1.0 / 6.0, middle_end = 5.0 / 6.0;  // Eq. 2
@@ -27,10 +27,10 @@ struct LimbRadii {
     Mean on_skeleton;
 };
 
-LimbRadii limb_radii(const pbs::Character& character)
+LimbRadii limb_radii(const Character& character)
 {
-    const pbs::BoneBinding& binding = character.binding;
-    const std::vector<bool> skin = pbs::boundary_vertices(character.mesh.tets, character.mesh.rest.rows());
+    const BoneBinding& binding = character.binding;
+    const std::vector<bool> skin = boundary_vertices(character.mesh.tets, character.mesh.rest.rows());
     const std::size_t bones = character.skeleton.bones.size();
     LimbRadii radii{std::vector<Mean>(bones), std::vector<Mean>(bones), {}};
     for (std::size_t v = 0; v < skin.size(); ++v) {
@@ -45,9 +45,9 @@ LimbRadii limb_radii(const pbs::Character& character)
 
 }  // namespace
 
-bool BoneCapsule::contains(const pbs::Vec3& point) const
+bool BoneCapsule::contains(const Vec3& point) const
 {
-    const pbs::Vec3 axis = end - start;
+    const Vec3 axis = end - start;
     const double parameter = (point - start).dot(axis) / axis.squaredNorm();
     return parameter >= 0.0 && parameter <= 1.0 && (point - start - parameter * axis).norm() <= radius_m;
 }
@@ -57,15 +57,15 @@ double BoneCapsule::volume_m3() const
     return std::numbers::pi * radius_m * radius_m * (end - start).norm();
 }
 
-std::vector<BoneCapsule> bone_capsules(const pbs::Character& character, double core_radius)
+std::vector<BoneCapsule> bone_capsules(const Character& character, double core_radius)
 {
     if (character.unrefined) return bone_capsules(*character.unrefined, core_radius);
     const LimbRadii radii = limb_radii(character);
     std::vector<BoneCapsule> capsules;
     for (std::size_t j = 0; j < character.skeleton.bones.size(); ++j) {
-        const pbs::Bone& bone = character.skeleton.bones[j];
-        const pbs::Vec3 axis = bone.tail - bone.head;
-        if (!(axis.norm() > 0.0)) throw pbs::InputError(character.name, 0, "bone", bone.name, "expected a length above 0");
+        const Bone& bone = character.skeleton.bones[j];
+        const Vec3 axis = bone.tail - bone.head;
+        if (!(axis.norm() > 0.0)) throw InputError(character.name, 0, "bone", bone.name, "expected a length above 0");
         BoneCapsule capsule{bone.head + middle_begin * axis, bone.head + middle_end * axis, 0.0, "skin on its middle"};
         Mean radius = radii.on_middle[j];
         if (radius.count == 0) {
@@ -82,14 +82,14 @@ std::vector<BoneCapsule> bone_capsules(const pbs::Character& character, double c
     return capsules;
 }
 
-pbs::Positions sample_points(const BoneCapsule& capsule)
+Positions sample_points(const BoneCapsule& capsule)
 {
-    const pbs::Vec3 axis = capsule.end - capsule.start;
-    const pbs::Vec3 across = axis.unitOrthogonal(), binormal = axis.normalized().cross(across);
-    pbs::Positions points(stations * points_per_disc, 3);
+    const Vec3 axis = capsule.end - capsule.start;
+    const Vec3 across = axis.unitOrthogonal(), binormal = axis.normalized().cross(across);
+    Positions points(stations * points_per_disc, 3);
     Eigen::Index next = 0;
     for (int station = 0; station < stations; ++station) {
-        const pbs::Vec3 centre = capsule.start + (station + 0.5) / stations * axis;
+        const Vec3 centre = capsule.start + (station + 0.5) / stations * axis;
         points.row(next++) = centre;
         for (int ring = 0; ring < rings; ++ring) {
             // The points further in and half of this ring's own points lie within this radius, and so does their share of the area.
@@ -103,4 +103,4 @@ pbs::Positions sample_points(const BoneCapsule& capsule)
     return points;
 }
 
-}  // namespace experiments
+}  // namespace pbs

@@ -1,15 +1,15 @@
-#include "experiments/studies/jiggle/jiggle_zone_contents.hpp"
+#include "pbs/character/jiggle_zone_contents.hpp"
 
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>
 
-namespace experiments {
+namespace pbs {
 namespace {
 
-std::vector<std::vector<int>> pieces_of(const std::vector<bool>& zone, const pbs::Tets& tets)
+std::vector<std::vector<int>> pieces_of(const std::vector<bool>& zone, const Tets& tets)
 {
-    const pbs::Adjacency edges = pbs::adjacency_of(tets, static_cast<int>(zone.size()));
+    const Adjacency edges = adjacency_of(tets, static_cast<int>(zone.size()));
     std::vector<bool> seen(zone.size(), false);
     std::vector<std::vector<int>> pieces;
     for (int start = 0; start < static_cast<int>(zone.size()); ++start) {
@@ -29,7 +29,7 @@ std::vector<std::vector<int>> pieces_of(const std::vector<bool>& zone, const pbs
     return pieces;
 }
 
-std::vector<BoneInZone> bones_of(const std::vector<bool>& zone, const pbs::Character& character)
+std::vector<BoneInZone> bones_of(const std::vector<bool>& zone, const Character& character)
 {
     std::vector<int> all(character.skeleton.bones.size(), 0), inside(all);
     for (std::size_t v = 0; v < zone.size(); ++v) {
@@ -46,10 +46,10 @@ std::vector<BoneInZone> bones_of(const std::vector<bool>& zone, const pbs::Chara
 
 }  // namespace
 
-ZoneContents zone_contents(const pbs::Character& character)
+ZoneContents zone_contents(const Character& character)
 {
-    const std::vector<bool> zone = pbs::jiggle_zone(character.binding);
-    const std::vector<bool> skin = pbs::boundary_vertices(character.mesh.tets, character.mesh.rest.rows());
+    const std::vector<bool> zone = jiggle_zone(character.binding);
+    const std::vector<bool> skin = boundary_vertices(character.mesh.tets, character.mesh.rest.rows());
     ZoneContents contents;
     contents.pieces = pieces_of(zone, character.mesh.tets);
     contents.bones = bones_of(zone, character);
@@ -63,4 +63,4 @@ ZoneContents zone_contents(const pbs::Character& character)
     return contents;
 }
 
-}  // namespace experiments
+}  // namespace pbs

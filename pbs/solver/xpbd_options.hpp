@@ -3,7 +3,7 @@
 
 #include "pbs/geometry/types.hpp"
 
-namespace experiments {
+namespace pbs {
 
 struct XpbdOptions {
     double young_pa = 1.0e5;
@@ -11,9 +11,9 @@ struct XpbdOptions {
     double density_kg_m3 = 1000.0;
     int iterations = 24;  // per substep
     int substeps = 1;     // per time step
-    pbs::Vec3 gravity_m_s2 = pbs::Vec3::Zero();
+    Vec3 gravity_m_s2 = Vec3::Zero();
     bool jiggle = false;           // the jiggling zone is integrated in time
     bool keep_multipliers = true;  // false: set to zero in every iteration, a common mistake; a negative control
 };
 
-}  // namespace experiments
+}  // namespace pbs

@@ -1,4 +1,4 @@
-#include "experiments/deformers/delta_mush/delta_mush.hpp"
+#include "pbs/skinning/delta_mush.hpp"
 
 #include "pbs/geometry/tet_volume.hpp"
 #include "tests/support/two_bone_limb.hpp"
@@ -7,13 +7,13 @@
 
 namespace {
 
-using experiments::DeltaMush;
+using pbs::DeltaMush;
 using pbs::Positions;
 using pbs::Vec3;
 
 const test_support::TwoBoneLimb bent = test_support::two_bone_limb({16, 4, 4}, Vec3::UnitZ(), 60.0);
 
-Positions mushed(const Positions& blended, const experiments::DeltaMushOptions& options = {})
+Positions mushed(const Positions& blended, const pbs::DeltaMushOptions& options = {})
 {
     Positions posed;
     DeltaMush(bent.mesh, options).apply(blended, posed);

@@ -11,7 +11,7 @@
 // physics simulation, SCA 2019) the multipliers begin at zero in each substep.
 #pragma once
 
-#include "experiments/deformers/xpbd/xpbd_options.hpp"
+#include "pbs/solver/xpbd_options.hpp"
 #include "pbs/constraints/bind.hpp"
 #include "pbs/constraints/stretch.hpp"
 #include "pbs/constraints/volume.hpp"
@@ -20,16 +20,16 @@
 
 #include <vector>
 
-namespace experiments {
+namespace pbs {
 
 class XpbdSolver {
 public:
     // bind_distance: d_i [m], #V; empty: no bind constraints. jiggle_zone: #V, or empty. held: #V, or empty: infinite mass.
-    XpbdSolver(const pbs::TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
-               const XpbdOptions& options, const std::vector<bool>& held = {});
+    XpbdSolver(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone, const XpbdOptions& options,
+               const std::vector<bool>& held = {});
 
-    pbs::StepSummary advance(const pbs::Positions& lbs_positions, const pbs::Positions& bind_points, double dt_s);
-    const pbs::Positions& positions() const { return positions_; }  // [m], #V x 3
+    StepSummary advance(const Positions& lbs_positions, const Positions& bind_points, double dt_s);
+    const Positions& positions() const { return positions_; }  // [m], #V x 3
 
     template <typename Constraint>
     struct Compliant {
@@ -38,28 +38,28 @@ public:
         double multiplier = 0.0;  // lambda of this substep
     };
     // In the order of their projection.
-    const std::vector<Compliant<pbs::BindConstraint<double>>>& bind() const { return bind_; }
-    const std::vector<Compliant<pbs::StretchConstraint<double>>>& stretch() const { return stretch_; }
-    const std::vector<Compliant<pbs::VolumeConstraint<double>>>& volume() const { return volume_; }
+    const std::vector<Compliant<BindConstraint<double>>>& bind() const { return bind_; }
+    const std::vector<Compliant<StretchConstraint<double>>>& stretch() const { return stretch_; }
+    const std::vector<Compliant<VolumeConstraint<double>>>& volume() const { return volume_; }
     const std::vector<double>& inverse_masses_1_kg() const { return w_; }  // #V
 
 private:
-    using Point = pbs::Vector3<double>;
+    using Point = Vector3<double>;
 
     void predict(double dt_s);
     void forget_multipliers();
-    void project(const pbs::Positions& bind_points, double dt_s);
+    void project(const Positions& bind_points, double dt_s);
     void update_velocities(double dt_s);
 
     XpbdOptions options_;
     std::vector<double> w_;  // inverse masses [1/kg], #V
     std::vector<bool> integrated_;
-    std::vector<Compliant<pbs::BindConstraint<double>>> bind_;
-    std::vector<Compliant<pbs::StretchConstraint<double>>> stretch_;
-    std::vector<Compliant<pbs::VolumeConstraint<double>>> volume_;
+    std::vector<Compliant<BindConstraint<double>>> bind_;
+    std::vector<Compliant<StretchConstraint<double>>> stretch_;
+    std::vector<Compliant<VolumeConstraint<double>>> volume_;
     std::vector<Point> x_, before_, v_;  // [m], [m], [m/s]
-    pbs::Positions positions_;
+    Positions positions_;
     bool started_ = false;
 };
 
-}  // namespace experiments
+}  // namespace pbs

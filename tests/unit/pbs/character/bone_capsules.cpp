@@ -1,5 +1,5 @@
 // Reference: the capsule of a bone of a bar of known width, by hand.
-#include "experiments/deformers/fem/bone_capsules.hpp"
+#include "pbs/character/bone_capsules.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "tests/unit/experiments/deformers/fem/bar_character.hpp"

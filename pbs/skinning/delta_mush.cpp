@@ -1,29 +1,29 @@
-#include "experiments/deformers/delta_mush/delta_mush.hpp"
+#include "pbs/skinning/delta_mush.hpp"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
 #include <limits>
 
-namespace experiments {
+namespace pbs {
 
-DeltaMush::DeltaMush(const pbs::TetMesh& mesh, const DeltaMushOptions& options)
-    : options_(options), neighbours_(pbs::adjacency_of(mesh.tets, static_cast<int>(mesh.rest.rows())))
+DeltaMush::DeltaMush(const TetMesh& mesh, const DeltaMushOptions& options)
+    : options_(options), neighbours_(adjacency_of(mesh.tets, static_cast<int>(mesh.rest.rows())))
 {
     smoothed_rest_ = smoothed(mesh.rest);
     delta_ = mesh.rest - smoothed_rest_;
 }
 
-void DeltaMush::apply(const pbs::Positions& blended, pbs::Positions& posed) const
+void DeltaMush::apply(const Positions& blended, Positions& posed) const
 {
-    const pbs::Positions smooth = smoothed(blended);
+    const Positions smooth = smoothed(blended);
     posed.resize(blended.rows(), 3);
     for (int i = 0; i < blended.rows(); ++i) posed.row(i) = smooth.row(i) + (rotation(smooth, i) * delta_.row(i).transpose()).transpose();
 }
 
-pbs::Positions DeltaMush::smoothed(pbs::Positions positions) const
+Positions DeltaMush::smoothed(Positions positions) const
 {
-    pbs::Positions next = positions;
+    Positions next = positions;
     for (int iteration = 0; iteration < options_.iterations; ++iteration) {
         for (Eigen::Index i = 0; i < positions.rows(); ++i) {
             if (neighbours_.first[i] == neighbours_.first[i + 1]) continue;
@@ -37,7 +37,7 @@ pbs::Positions DeltaMush::smoothed(pbs::Positions positions) const
 }
 
 // The rotation nearest to the sum over the neighbours of (posed edge) (rest edge)^T.
-Eigen::Matrix3d DeltaMush::rotation(const pbs::Positions& smoothed_posed, int vertex) const
+Eigen::Matrix3d DeltaMush::rotation(const Positions& smoothed_posed, int vertex) const
 {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     for (int k = neighbours_.first[vertex]; k < neighbours_.first[vertex + 1]; ++k)
@@ -50,4 +50,4 @@ Eigen::Matrix3d DeltaMush::rotation(const pbs::Positions& smoothed_posed, int ve
     return u * svd.matrixV().transpose();
 }
 
-}  // namespace experiments
+}  // namespace pbs

@@ -1,4 +1,4 @@
-#include "experiments/deformers/xpbd/xpbd_solver.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
@@ -9,11 +9,11 @@
 #include <array>
 #include <map>
 
-namespace experiments {
+namespace pbs {
 namespace {
 
 // A sixth of the rest volume of the tets around each edge [m^3]. The sum is the volume of the body.
-std::map<std::pair<int, int>, double> edge_volumes(const pbs::Tets& tets, const Eigen::VectorXd& tet_volumes)
+std::map<std::pair<int, int>, double> edge_volumes(const Tets& tets, const Eigen::VectorXd& tet_volumes)
 {
     std::map<std::pair<int, int>, double> volumes;
     for (Eigen::Index t = 0; t < tets.rows(); ++t)
@@ -31,7 +31,7 @@ double multiplier_step(double C, double compliance_per_dt2, double lambda, doubl
 
 }  // namespace
 
-XpbdSolver::XpbdSolver(const pbs::TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
+XpbdSolver::XpbdSolver(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
                        const XpbdOptions& options, const std::vector<bool>& held)
     : options_(options),
       integrated_(mesh.rest.rows(), false),
@@ -41,11 +41,11 @@ XpbdSolver::XpbdSolver(const pbs::TetMesh& mesh, const Eigen::VectorXd& bind_dis
       positions_(mesh.rest)
 {
     if (!(options.poisson >= 0.25 && options.poisson < 0.5))
-        throw pbs::InputError("xpbd", 0, "poisson", std::to_string(options.poisson), "expected 1/4 <= poisson < 1/2");
-    if (options.substeps < 1) throw pbs::InputError("xpbd", 0, "substeps", std::to_string(options.substeps), "expected 1 or more");
+        throw InputError("xpbd", 0, "poisson", std::to_string(options.poisson), "expected 1/4 <= poisson < 1/2");
+    if (options.substeps < 1) throw InputError("xpbd", 0, "substeps", std::to_string(options.substeps), "expected 1 or more");
     const double mu = options.young_pa / (2.0 * (1.0 + options.poisson));
     const double missing_bulk = options.young_pa / (3.0 * (1.0 - 2.0 * options.poisson)) - 5.0 / 3.0 * mu;
-    const Eigen::VectorXd volumes = pbs::tet_volumes(mesh.rest, mesh.tets), lumped = pbs::lumped_volumes(mesh.rest, mesh.tets);
+    const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets), lumped = lumped_volumes(mesh.rest, mesh.tets);
     const std::map<std::pair<int, int>, double> around = edge_volumes(mesh.tets, volumes);
 
     for (Eigen::Index i = 0; i < lumped.size(); ++i) {
@@ -63,10 +63,10 @@ XpbdSolver::XpbdSolver(const pbs::TetMesh& mesh, const Eigen::VectorXd& bind_dis
             {{{mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)}, volumes(t), 1.0}, volumes(t) / missing_bulk});
 }
 
-pbs::StepSummary XpbdSolver::advance(const pbs::Positions& lbs_positions, const pbs::Positions& bind_points, double dt_s)
+StepSummary XpbdSolver::advance(const Positions& lbs_positions, const Positions& bind_points, double dt_s)
 {
-    if (!(dt_s > 0.0)) throw pbs::InputError("xpbd", 0, "dt", std::to_string(dt_s) + " s", "expected a positive time step");
-    const pbs::Stopwatch stopwatch;
+    if (!(dt_s > 0.0)) throw InputError("xpbd", 0, "dt", std::to_string(dt_s) + " s", "expected a positive time step");
+    const Stopwatch stopwatch;
     for (std::size_t i = 0; i < x_.size(); ++i)
         if (!integrated_[i] || !started_) x_[i] = lbs_positions.row(i);
     started_ = true;
@@ -81,9 +81,9 @@ pbs::StepSummary XpbdSolver::advance(const pbs::Positions& lbs_positions, const 
     }
     for (std::size_t i = 0; i < x_.size(); ++i) positions_.row(i) = x_[i];
 
-    pbs::StepSummary summary;
+    StepSummary summary;
     summary.iterations = options_.iterations * options_.substeps;
-    if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
+    if (!positions_.allFinite()) summary.outcome = Outcome::not_finite;
     summary.seconds = stopwatch.seconds();
     return summary;
 }
@@ -105,7 +105,7 @@ void XpbdSolver::forget_multipliers()
     for (auto& compliant : volume_) compliant.multiplier = 0.0;
 }
 
-void XpbdSolver::project(const pbs::Positions& bind_points, double dt_s)
+void XpbdSolver::project(const Positions& bind_points, double dt_s)
 {
     const double dt2 = dt_s * dt_s;
     for (auto& [constraint, compliance, lambda] : bind_) {
@@ -143,4 +143,4 @@ void XpbdSolver::update_velocities(double dt_s)
         if (integrated_[i]) v_[i] = (x_[i] - before_[i]) / dt_s;
 }
 
-}  // namespace experiments
+}  // namespace pbs

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace experiments {
+namespace pbs {
 
 struct BoneInZone {
     std::string name;
@@ -24,6 +24,6 @@ struct ZoneContents {
     std::vector<BoneInZone> bones;         // those with vertices in the zone, the largest share of the zone first
 };
 
-ZoneContents zone_contents(const pbs::Character& character);
+ZoneContents zone_contents(const Character& character);
 
-}  // namespace experiments
+}  // namespace pbs

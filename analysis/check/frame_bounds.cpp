@@ -1,4 +1,4 @@
-#include "experiments/command_line/measure/frame_bounds.hpp"
+#include "analysis/check/frame_bounds.hpp"
 
 #include "analysis/records/csv_table.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -8,11 +8,9 @@
 #include <cmath>
 #include <limits>
 
-namespace experiments {
+namespace analysis {
 namespace {
 
-using analysis::CheckCase;
-using analysis::CheckState;
 
 bool holds(const FrameBound& bound, double value)
 {
@@ -71,7 +69,7 @@ std::vector<FrameBound> known_frame_bounds()
 void require_meaningful(const FrameBound& bound)
 {
     if (!bound.value || (std::isfinite(*bound.value) && *bound.value >= bound.lowest)) return;
-    throw pbs::InputError("", 0, bound.option, analysis::number_text(*bound.value),
+    throw pbs::InputError("", 0, bound.option, number_text(*bound.value),
                           bound.lowest == 0.0 ? "expected a finite number >= 0" : "expected a finite number");
 }
 
@@ -81,10 +79,10 @@ std::string broken_text(const FrameBound& bound, const FrameValues& values)
     return fmt::format("{} = {:.6g} {} {:g}", bound.metric, bound.of(values), bound.is_upper ? '>' : '<', *bound.value);
 }
 
-analysis::CheckSuite frame_suite(const std::string& name, const std::vector<FrameBound>& bounds, const std::vector<MeasuredFrame>& frames,
-                                 const std::vector<RefusedFrame>& refused, double seconds)
+CheckSuite frame_suite(const std::string& name, const std::vector<FrameBound>& bounds, const std::vector<MeasuredFrame>& frames,
+                       const std::vector<RefusedFrame>& refused, double seconds)
 {
-    analysis::CheckSuite suite{name, seconds, {}, {}};
+    CheckSuite suite{name, seconds, {}, {}};
     for (const FrameBound& bound : bounds)
         if (bound.value && !frames.empty()) suite.cases.push_back(judged(name, bound, frames));
     if (suite.cases.empty() && !frames.empty())
@@ -95,4 +93,4 @@ analysis::CheckSuite frame_suite(const std::string& name, const std::vector<Fram
     return suite;
 }
 
-}  // namespace experiments
+}  // namespace analysis

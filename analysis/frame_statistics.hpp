@@ -7,9 +7,9 @@
 
 #include "analysis/records/csv_table.hpp"
 
-namespace experiments {
+namespace analysis {
 
 // metrics: the table metrics.csv.
-analysis::CsvTable frame_statistics(const analysis::CsvTable& metrics);
+CsvTable frame_statistics(const CsvTable& metrics);
 
-}  // namespace experiments
+}  // namespace analysis

@@ -8,26 +8,26 @@
 #include <string>
 #include <vector>
 
-namespace experiments {
+namespace pbs {
 
 struct BoneCapsule {
-    pbs::Vec3 start, end;  // of its axis [m]
+    Vec3 start, end;  // of its axis [m]
     double radius_m = 0.0;
     std::string radius_from;  // the vertices that gave the limb radius
 
-    bool contains(const pbs::Vec3& point) const;  // between the ends and within the radius
+    bool contains(const Vec3& point) const;  // between the ends and within the radius
     double volume_m3() const;
 };
 
 // The local limb radius is the mean rest distance to the bone over the skin vertices that are nearest to it and project on its middle;
 // where there are none, over all skin vertices nearest to it; where there are none either, over the whole skin to its nearest bones.
 // A refined character has the capsules of the unrefined one, although its skin has other vertices. A bone without length is a
-// pbs::InputError.
-std::vector<BoneCapsule> bone_capsules(const pbs::Character& character, double core_radius);
+// InputError.
+std::vector<BoneCapsule> bone_capsules(const Character& character, double core_radius);
 
 // Sample points of a capsule [m], 7,720 x 3, each with the same share of its volume: 40 stations along the axis, and in each disc the
 // centre and eight rings of 24 points, at the radii that halve their areas. They are the same for every mesh and element order, and dense
 // enough to act as a volume on tets refined twice: a few points would be point loads there, under which the flesh yields without limit.
-pbs::Positions sample_points(const BoneCapsule& capsule);
+Positions sample_points(const BoneCapsule& capsule);
 
-}  // namespace experiments
+}  // namespace pbs

@@ -1,4 +1,4 @@
-#include "experiments/command_line/plain_markdown.hpp"
+#include "analysis/plain_markdown.hpp"
 
 #include "analysis/text_columns.hpp"
 
@@ -8,7 +8,7 @@
 #include <sstream>
 #include <vector>
 
-namespace experiments {
+namespace analysis {
 namespace {
 
 using Row = std::vector<std::string>;
@@ -33,7 +33,7 @@ std::vector<std::size_t> column_widths(const std::vector<Row>& rows, std::size_t
     constexpr std::size_t gap = 2, least = 6;
     std::vector<std::size_t> widths(rows.front().size(), 1);
     for (const Row& row : rows)
-        for (std::size_t i = 0; i < std::min(row.size(), widths.size()); ++i) widths[i] = std::max(widths[i], analysis::characters(row[i]));
+        for (std::size_t i = 0; i < std::min(row.size(), widths.size()); ++i) widths[i] = std::max(widths[i], characters(row[i]));
     const auto sum = [&] { return std::accumulate(widths.begin(), widths.end(), gap * (widths.size() - 1)); };
     for (auto widest = std::max_element(widths.begin(), widths.end()); sum() > width && *widest > least;
          widest = std::max_element(widths.begin(), widths.end()))
@@ -53,7 +53,7 @@ public:
         if (line.starts_with("|")) return rows_.push_back(cells_of(line));
         const bool is_code = line.starts_with("    "), is_heading = line.starts_with("#");
         if (line.empty() || is_code || is_heading || !rows_.empty() || std::regex_match(line, item)) end_block();
-        if (is_code && analysis::characters(line) <= width_)
+        if (is_code && characters(line) <= width_)
             text_ += line + "\n";
         else if (line.empty())
             text_ += text_.ends_with("\n\n") ? "" : "\n";
@@ -74,19 +74,18 @@ private:
         if (!rows_.empty()) {
             const std::vector<std::size_t> widths = column_widths(rows_, width_);
             for (const Row& row : rows_) {
-                std::vector<analysis::TextColumn> columns;
+                std::vector<TextColumn> columns;
                 for (std::size_t i = 0; i < std::min(row.size(), widths.size()); ++i) columns.push_back({row[i], widths[i]});
-                text_ += analysis::side_by_side(columns);
+                text_ += side_by_side(columns);
             }
         }
         if (!paragraph_.empty()) {
             static const std::regex item(R"((-|\d+\.) (.*))");
             std::smatch parts;
             if (std::regex_match(paragraph_, parts, item))
-                text_ +=
-                    analysis::side_by_side({{parts[1].str(), parts[1].str().size()}, {parts[2].str(), width_ - parts[1].str().size() - 2}});
+                text_ += side_by_side({{parts[1].str(), parts[1].str().size()}, {parts[2].str(), width_ - parts[1].str().size() - 2}});
             else
-                text_ += analysis::side_by_side({{paragraph_, width_}});
+                text_ += side_by_side({{paragraph_, width_}});
         }
         rows_.clear();
         paragraph_.clear();
@@ -116,4 +115,4 @@ std::string first_paragraph(const std::string& markdown)
     return paragraph;
 }
 
-}  // namespace experiments
+}  // namespace analysis

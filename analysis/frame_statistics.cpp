@@ -1,4 +1,4 @@
-#include "experiments/run/frame_statistics.hpp"
+#include "analysis/frame_statistics.hpp"
 
 #include "analysis/records/typed_table.hpp"
 #include "analysis/statistics.hpp"
@@ -9,10 +9,9 @@
 #include <cmath>
 #include <utility>
 
-namespace experiments {
+namespace analysis {
 namespace {
 
-using analysis::CsvTable;
 
 const std::array<std::string, 6> settings = {"scene", "deformer", "variant", "order", "precision", "iterations"};
 const std::array<std::string, 4> quantities = {"volume_change", "volume_abs_change", "error_l2", "error_joint"};  // each [%]
@@ -25,9 +24,9 @@ struct Group {
     std::array<std::array<std::optional<double>, 5>, 4> statistics = {};  // by quantity and share
 };
 
-analysis::Columns<Group> all_columns()
+Columns<Group> all_columns()
 {
-    analysis::Columns<Group> columns;
+    Columns<Group> columns;
     for (std::size_t i = 0; i < settings.size(); ++i)
         columns.emplace_back(
             settings[i], [i](auto& group) -> decltype(auto) { return (group.setting[i]); }, "", "as in metrics.csv");
@@ -67,17 +66,17 @@ std::vector<double> values_of(const CsvTable& metrics, const std::vector<int>& r
 
 CsvTable frame_statistics(const CsvTable& metrics)
 {
-    static const analysis::Columns<Group> columns = all_columns();
+    static const Columns<Group> columns = all_columns();
     std::vector<Group> groups = by_setting(metrics);
     for (Group& group : groups) {
         group.frames = static_cast<int>(group.rows.size());
         for (std::size_t q = 0; q < quantities.size(); ++q) {
             const std::vector<double> values = values_of(metrics, group.rows, quantities[q] + "_pct");
             if (values.empty()) continue;
-            for (std::size_t i = 0; i < shares.size(); ++i) group.statistics[q][i] = analysis::quantile(values, shares[i].second);
+            for (std::size_t i = 0; i < shares.size(); ++i) group.statistics[q][i] = quantile(values, shares[i].second);
         }
     }
     return table_of(columns, groups);
 }
 
-}  // namespace experiments
+}  // namespace analysis

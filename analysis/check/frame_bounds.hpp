@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-namespace experiments {
+namespace analysis {
 
 struct FrameValues {
-    analysis::FrameMetrics metrics;
+    FrameMetrics metrics;
     double j_max = 0.0;            // largest V_t / V0_t
     double edge_strain_max = 0.0;  // largest |l / l0 - 1|
 };
@@ -45,7 +45,7 @@ struct RefusedFrame {
 
 // One case per bound, which names the worst frame and counts the others, or a case "measured" if no bound was asked for. One case per
 // refused frame.
-analysis::CheckSuite frame_suite(const std::string& name, const std::vector<FrameBound>& bounds, const std::vector<MeasuredFrame>& frames,
-                                 const std::vector<RefusedFrame>& refused, double seconds);
+CheckSuite frame_suite(const std::string& name, const std::vector<FrameBound>& bounds, const std::vector<MeasuredFrame>& frames,
+                       const std::vector<RefusedFrame>& refused, double seconds);
 
-}  // namespace experiments
+}  // namespace analysis
