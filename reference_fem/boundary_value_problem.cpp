@@ -1,8 +1,8 @@
 #include "reference_fem/boundary_value_problem.hpp"
 
 #include "reference_fem/eliminated_system.hpp"
-#include "reference_fem/near_null_space.hpp"
 #include "reference_fem/linear_flesh.hpp"
+#include "reference_fem/near_null_space.hpp"
 
 #include "pbs/geometry/topology.hpp"
 

@@ -1,6 +1,6 @@
 // CHOLMOD: Y. Chen, T. Davis, W. Hager, S. Rajamanickam, Algorithm 887, ACM TOMS 35(3), 2008.
-#include "reference_fem/prepared_solver.hpp"
 #include "pbs/geometry/stopwatch.hpp"
+#include "reference_fem/prepared_solver.hpp"
 
 #include <cholmod.h>
 

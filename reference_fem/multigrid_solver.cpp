@@ -1,9 +1,9 @@
 // Conjugate gradients (Eigen), preconditioned by one V-cycle of smoothed aggregation (Trilinos ML through Epetra, on this process alone).
 #include "reference_fem/prepared_solver.hpp"
 
+#include "pbs/geometry/stopwatch.hpp"
 #include "reference_fem/iterative_options.hpp"
 #include "reference_fem/smoothed_aggregation.hpp"
-#include "pbs/geometry/stopwatch.hpp"
 
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Map.h>

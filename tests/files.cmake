@@ -12,7 +12,7 @@ if(PBS_WITH_CGAL)
     list(APPEND left_out pbs/geometry/meshing_unavailable)
 else()
     list(APPEND left_out pbs/geometry/meshing_builtin pbs/geometry/meshing_count pbs/geometry/meshing_surface
-        pbs/geometry/self_intersection pbs/character/bodies)
+        pbs/geometry/self_intersection pbs/character/bodies pbs/character/jiggle_zone_contents)
 endif()
 if(NOT PBS_WITH_RIG_IMPORT)
     list(APPEND left_out pbs/character/skeleton_file pbs/character/bvh_header pbs/character/retarget_plan pbs/character/bodies_from_files)

@@ -1,6 +1,6 @@
 // pbskin explain NAME: prints what a metric, claim, scene key, study, deformer or scene means.
-#include "analysis/text_columns.hpp"
 #include "analysis/plain_markdown.hpp"
+#include "analysis/text_columns.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/terminal.hpp"

@@ -1,11 +1,11 @@
 // pbskin measure REST FRAME... [--csv FILE] [--junit FILE] [--max-volume-change PCT]...: applies the metrics to frames of any program.
 //   pbskin measure rest.msh 'out/frame_%04d.vtu' --max-volume-change 0.5 --max-inverted 0 --junit volume.xml
+#include "analysis/check/frame_bounds.hpp"
 #include "analysis/edge_strain.hpp"
 #include "analysis/frame_metrics.hpp"
 #include "analysis/records/atomic_file.hpp"
 #include "analysis/records/typed_table.hpp"
 #include "experiments/command_line/measure/foreign_frame.hpp"
-#include "analysis/check/frame_bounds.hpp"
 #include "experiments/command_line/measure/frame_files.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/warnings.hpp"

@@ -1,10 +1,10 @@
 #include "experiments/distributed/loaded_body.hpp"
 
 #include "experiments/deformers/fem/bone_attachment.hpp"
-#include "reference_fem/verification/structured_mesh.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
+#include "reference_fem/verification/structured_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>

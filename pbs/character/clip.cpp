@@ -2,10 +2,10 @@
 
 #include "pbs/character/bvh_header.hpp"
 #include "pbs/character/clip_bytes.hpp"
-#include "pbs/geometry/text_file.hpp"
 #include "pbs/geometry/assimp_files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/isolated_reader.hpp"
+#include "pbs/geometry/text_file.hpp"
 
 #include <assimp/config.h>
 #include <assimp/scene.h>

@@ -1,7 +1,7 @@
 #include "pbs/character/iqm.hpp"
 
-#include "pbs/geometry/text_file.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/text_file.hpp"
 
 #include <Eigen/Geometry>
 

@@ -1,9 +1,9 @@
 #include "pbs/character/weights_file.hpp"
 
-#include "pbs/geometry/text_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/nearest_name.hpp"
 #include "pbs/geometry/number_text.hpp"
+#include "pbs/geometry/text_file.hpp"
 
 #include <charconv>
 #include <cmath>

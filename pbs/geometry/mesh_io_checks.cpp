@@ -1,8 +1,8 @@
 #include "pbs/geometry/mesh_io_checks.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
+#include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/geometry/topology.hpp"
 

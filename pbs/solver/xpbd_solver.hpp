@@ -11,12 +11,12 @@
 // physics simulation, SCA 2019) the multipliers begin at zero in each substep.
 #pragma once
 
-#include "pbs/solver/xpbd_options.hpp"
 #include "pbs/constraints/bind.hpp"
 #include "pbs/constraints/stretch.hpp"
 #include "pbs/constraints/volume.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/step_summary.hpp"
+#include "pbs/solver/xpbd_options.hpp"
 
 #include <vector>
 

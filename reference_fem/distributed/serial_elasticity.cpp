@@ -1,12 +1,12 @@
 #include "reference_fem/distributed/serial_elasticity.hpp"
 
+#include "pbs/geometry/topology.hpp"
 #include "reference_fem/assembly.hpp"
 #include "reference_fem/attached_points.hpp"
 #include "reference_fem/distributed/peak_memory.hpp"
 #include "reference_fem/distributed/prescribed_nodes.hpp"
 #include "reference_fem/eliminated_system.hpp"
 #include "reference_fem/near_null_space.hpp"
-#include "pbs/geometry/topology.hpp"
 
 #include <Eigen/Geometry>
 

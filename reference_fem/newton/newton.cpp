@@ -1,7 +1,7 @@
 #include "reference_fem/newton/newton.hpp"
 
-#include "reference_fem/near_null_space.hpp"
 #include "pbs/geometry/stopwatch.hpp"
+#include "reference_fem/near_null_space.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 // isochoric neo-Hookean panel, mu = 0.4225 N/mm^2, nu = 0.3, a dead shear load of 1/16 N/mm^2. Its figure of 14.33 mm belongs to free z
 // faces; with u_z held (plane strain) the corner rises by 13.77 mm. Free faces without the middle plane held buckle sideways at 1/40 of the
 // load: the Hessian loses its positive definiteness there.
-#include "reference_fem/verification/membrane.hpp"
 #include "reference_fem/finite_strain_problem.hpp"
+#include "reference_fem/verification/membrane.hpp"
 
 #include <limits>
 

@@ -1,10 +1,10 @@
 // A cantilever of linear flesh that vibrates in its first mode, compared with closed forms in time: the mode, phi cos(omega t), is an exact
 // solution of the semi-discrete problem, so every difference is due to the time stepper alone. The frequency itself is compared with beam
 // theory.
+#include "reference_fem/dynamics/vibrating_body.hpp"
 #include "reference_fem/verification/beam_frequency.hpp"
 #include "reference_fem/verification/common.hpp"
 #include "reference_fem/verification/structured_mesh.hpp"
-#include "reference_fem/dynamics/vibrating_body.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

@@ -2,10 +2,10 @@
 // and the states that it finds by each law, against an earlier implementation of ours with an assembly and a Newton loop of its own.
 // Large rotations distinguish the laws: linear strain takes them for a swelling of 31 % at 90 degrees and turns tets inside out, St
 // Venant-Kirchhoff gives way.
-#include "reference_fem/verification/common.hpp"
-#include "reference_fem/verification/structured_mesh.hpp"
 #include "reference_fem/newton/newton.hpp"
 #include "reference_fem/potentials/elastic_potential.hpp"
+#include "reference_fem/verification/common.hpp"
+#include "reference_fem/verification/structured_mesh.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,8 +1,8 @@
 // Each constitutive law at one large deformation gradient: its stress is the slope of its energy and its tangent the slope of its stress
 // (the error of central differences falls with the square of the step), its tangent is symmetric, a rotation of the whole leaves its
 // energy alone, and at rest it is linear elasticity.
-#include "reference_fem/verification/common.hpp"
 #include "reference_fem/laws/constitutive_law.hpp"
+#include "reference_fem/verification/common.hpp"
 
 #include <Eigen/Geometry>
 

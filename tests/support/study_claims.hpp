@@ -3,8 +3,8 @@
 //   judge(test_support::claim("C13"), records)
 #pragma once
 
-#include "analysis/records/atomic_file.hpp"
 #include "analysis/claims.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/verdict.hpp"
 #include "experiments/studies/study_run.hpp"
 #include "experiments/verdicts/study_records.hpp"

@@ -1,9 +1,9 @@
 // LBS, then delta mush.
-#include "pbs/skinning/delta_mush.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
+#include "pbs/skinning/delta_mush.hpp"
 
 #include <optional>
 

@@ -2,8 +2,8 @@
 // bound vertices, each with the bone that moves it.
 #pragma once
 
-#include "pbs/character/bone_capsules.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
+#include "pbs/character/bone_capsules.hpp"
 #include "reference_fem/elastic_body.hpp"
 
 namespace experiments {

@@ -1,10 +1,10 @@
 #include "experiments/deformers/fem/elastic_fem_deformer.hpp"
 
-#include "pbs/skinning/harmonic_weights.hpp"
 #include "pbs/geometry/refinement.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/skinning/blend.hpp"
+#include "pbs/skinning/harmonic_weights.hpp"
 
 #include <algorithm>
 #include <cmath>

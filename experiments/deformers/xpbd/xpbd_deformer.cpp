@@ -1,10 +1,10 @@
 // LBS, then extended position based dynamics with a material. It costs what PBS costs: the iterations of PBS, or as many substeps of one
 // iteration. What jiggles in PBS jiggles here.
 #include "experiments/deformers/registry.hpp"
-#include "pbs/solver/xpbd_solver.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -1,14 +1,14 @@
 #include "experiments/studies/ambiguity/reading_figures.hpp"
 
-#include "experiments/settings/option_fields.hpp"
 #include "experiments/process/cpu_clock.hpp"
-#include "experiments/studies/shared/timed_rounds.hpp"
-#include "experiments/scene/motion_case.hpp"
-#include "experiments/studies/convergence/convergence_figures.hpp"
 #include "experiments/process/interruption.hpp"
+#include "experiments/scene/motion_case.hpp"
+#include "experiments/settings/option_fields.hpp"
+#include "experiments/studies/convergence/convergence_figures.hpp"
 #include "experiments/studies/jiggle/jiggle_figures.hpp"
-#include "pbs/character/jiggle_zone_contents.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
+#include "experiments/studies/shared/timed_rounds.hpp"
+#include "pbs/character/jiggle_zone_contents.hpp"
 
 #include <fmt/format.h>
 

@@ -5,9 +5,9 @@
 #pragma once
 
 #include "experiments/studies/bench/machine_limits.hpp"
-#include "pbs/solver/batched/projection_work.hpp"
 #include "experiments/studies/bench/step_loops.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
+#include "pbs/solver/batched/projection_work.hpp"
 
 #include <optional>
 #include <string>

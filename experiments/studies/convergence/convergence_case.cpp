@@ -1,8 +1,8 @@
 #include "experiments/studies/convergence/convergence_case.hpp"
 
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "experiments/settings/option_fields.hpp"
 #include "experiments/scene/motion_case.hpp"
+#include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/solver/options.hpp"
 

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "analysis/case_key.hpp"
-#include "experiments/studies/shared/iteration_path.hpp"
-#include "experiments/studies/convergence/starts.hpp"
 #include "experiments/scene/scene.hpp"
+#include "experiments/studies/convergence/starts.hpp"
+#include "experiments/studies/shared/iteration_path.hpp"
 
 #include <string>
 #include <vector>

@@ -11,11 +11,11 @@
 #include "analysis/measurement.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "analysis/report_table.hpp"
-#include "experiments/studies/shared/table_1.hpp"
-#include "experiments/studies/shared/real_bodies.hpp"
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/studies/convergence/convergence_figures.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/studies/shared/real_bodies.hpp"
+#include "experiments/studies/shared/table_1.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <fmt/format.h>

@@ -4,8 +4,8 @@
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/fit/young_fit.hpp"
-#include "pbs/near_rest/step_near_rest.hpp"
 #include "pbs/character/bodies.hpp"
+#include "pbs/near_rest/step_near_rest.hpp"
 
 #include <cmath>
 #include <numbers>

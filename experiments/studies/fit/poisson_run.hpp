@@ -2,8 +2,8 @@
 // poisson.csv, poisson_poses.csv and valley.csv.
 #pragma once
 
-#include "experiments/studies/fit/bar_runs.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/studies/fit/bar_runs.hpp"
 
 namespace experiments {
 

@@ -1,12 +1,12 @@
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 
+#include "analysis/records/folder_files.hpp"
 #include "analysis/statistics.hpp"
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/settings/option_fields.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "experiments/studies/shared/posed_character.hpp"
-#include "analysis/records/folder_files.hpp"
 #include "experiments/studies/jiggle/jiggle_figures.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 
 #include <fmt/format.h>
 

@@ -4,11 +4,11 @@
 #pragma once
 
 #include "analysis/records/typed_table.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
-#include "pbs/character/jiggle_zone_contents.hpp"
 #include "experiments/studies/jiggle/jolt_response.hpp"
 #include "experiments/studies/jiggle/walk_response.hpp"
-#include "experiments/scene/scene.hpp"
+#include "pbs/character/jiggle_zone_contents.hpp"
 
 #include <string>
 #include <vector>

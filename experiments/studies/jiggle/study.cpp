@@ -10,8 +10,8 @@
 // Writes DIR/jiggle/RUN/{responses,series,zone,measurements}.csv or walk.csv, and jiggle.md.
 #include "analysis/records/folder_files.hpp"
 #include "analysis/report_table.hpp"
-#include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
+#include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <fmt/format.h>

@@ -6,8 +6,8 @@
 // Writes DIR/setup/BODY/measurements.csv, changed_keys.csv, trials.csv and run/ (the folder of a run), and setup.csv.
 #include "analysis/measurement.hpp"
 #include "analysis/report_table.hpp"
-#include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
+#include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 

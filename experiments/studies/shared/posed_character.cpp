@@ -1,8 +1,8 @@
 #include "experiments/studies/shared/posed_character.hpp"
 
-#include "experiments/scene/motion_case.hpp"
-#include "experiments/run/frame_measurement.hpp"
 #include "experiments/process/interruption.hpp"
+#include "experiments/run/frame_measurement.hpp"
+#include "experiments/scene/motion_case.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"

@@ -1,10 +1,10 @@
 #include "experiments/studies/stability/driven_body.hpp"
 
 #include "experiments/deformers/registry.hpp"
-#include "pbs/solver/xpbd_solver.hpp"
 #include "pbs/solver/particles.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "pbs/solver/projection.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 
 #include <cmath>
 #include <random>

@@ -1,9 +1,9 @@
 #include "experiments/studies/stiffness/resting_body.hpp"
 
-#include "pbs/solver/xpbd_solver.hpp"
 #include "experiments/process/interruption.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/solver/pbs_solver.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 
 #include <algorithm>
 #include <cmath>

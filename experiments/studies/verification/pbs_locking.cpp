@@ -5,10 +5,10 @@
 // The sag is 5/6 where the constraints do no more than incompressibility does: edges alone are a body of central forces, with nu = 1/4 and
 // E = 2.5 mu, and where no volume changes E = 3 mu.
 #include "experiments/studies/verification/problem.hpp"
+#include "pbs/geometry/topology.hpp"
 #include "pbs/near_rest/step_near_rest.hpp"
 #include "pbs/near_rest/volume_constraints.hpp"
 #include "reference_fem/verification/beam_problems.hpp"
-#include "pbs/geometry/topology.hpp"
 
 #include <fmt/format.h>
 

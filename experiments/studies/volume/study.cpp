@@ -11,8 +11,8 @@
 // limb (with elements of order 2 when it is twisted and --full is given) and, with order 1 at five frames per second, on the human and with
 // --full on the others. In addition to the scene's own order of projection PBS has each other order and precision, so that the report can
 // say whether the verdict depends on it. Each run writes regions.csv; the study sums them up in regions.csv and regions.txt.
-#include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/volume/region_table.hpp"
 

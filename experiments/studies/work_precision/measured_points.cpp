@@ -1,9 +1,9 @@
 #include "experiments/studies/work_precision/measured_points.hpp"
 
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/scene/motion_case.hpp"
-#include "experiments/run/frame_measurement.hpp"
 #include "experiments/process/interruption.hpp"
+#include "experiments/run/frame_measurement.hpp"
+#include "experiments/scene/motion_case.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
 #include "pbs/geometry/meshing.hpp"

@@ -1,8 +1,8 @@
 #include "experiments/studies/work_precision/point_row.hpp"
 
-#include "pbs/skinning/delta_mush.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "pbs/skinning/delta_mush.hpp"
 #include "pbs/solver/xpbd_options.hpp"
 
 #include <cmath>

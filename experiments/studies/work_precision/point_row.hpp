@@ -1,8 +1,8 @@
 // points.csv: one row per setting, with its time, its error, its volume and the reference that it is compared with.
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
 #include "analysis/frame_metrics.hpp"
+#include "analysis/records/typed_table.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/studies/work_precision/reached_reference.hpp"
 

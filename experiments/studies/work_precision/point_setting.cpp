@@ -1,14 +1,14 @@
 #include "experiments/studies/work_precision/point_setting.hpp"
 
-#include "pbs/skinning/delta_mush.hpp"
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "pbs/solver/xpbd_options.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/skinning/delta_mush.hpp"
+#include "pbs/solver/xpbd_options.hpp"
 
 #include <fmt/format.h>
 

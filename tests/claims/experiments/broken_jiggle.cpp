@@ -6,8 +6,8 @@
 //   of the bind constraints was expected not to involve them, but they hold the parts to which the flesh is attached.
 // - any: half the time step still gives twice the frequency, since Algorithm 1 contains steps but no time.
 // The verdict itself is already against the claim, by the time step and by the small effect of k_stretch; the values behind it must change.
-#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/jiggle/jiggle_figures.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/character/jiggle_zone_contents.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/broken_solver.hpp"

@@ -4,10 +4,10 @@
 // - one class dropped: a projection removes at most its own error, and the other classes still hold the body, so the verdict stays.
 // - multipliers forgotten: XPBD is not part of the claim; each of its projections still takes a share below one, so it is as stable as with
 //   them.
-#include "pbs/solver/xpbd_options.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "pbs/solver/options.hpp"
+#include "pbs/solver/xpbd_options.hpp"
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/study_claims.hpp"
 

@@ -1,7 +1,7 @@
 // C17 is judged from the measurements of the setup study: if they are altered, the verdict changes. Reference: the project's own
 // claims.toml. The frames are invented, and the values are computed from them by the study's own functions.
-#include "analysis/records/atomic_file.hpp"
 #include "analysis/claims.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/verdict.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
 

@@ -1,7 +1,7 @@
 // C08 judged from records like those of the stability study: a single cell that diverges changes the verdict.
-#include "analysis/records/atomic_file.hpp"
 #include "analysis/claims.hpp"
 #include "analysis/measurement.hpp"
+#include "analysis/records/atomic_file.hpp"
 #include "analysis/verdict.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/stability/cell_table.hpp"

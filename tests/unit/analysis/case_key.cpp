@@ -40,7 +40,9 @@ TEST(CaseKey, EachFieldHasANameAndAMemberOfItsOwn)
     EXPECT_EQ(names.size(), case_key_fields().size());
     const CaseKey key = with_every_field();
     for (const CaseKeyField& field : case_key_fields())
-        if (field.text) EXPECT_EQ(key.*field.text, field.name);
+        if (field.text) {
+            EXPECT_EQ(key.*field.text, field.name);
+        }
     EXPECT_EQ(case_key_field("joint")->text, &CaseKey::joint);
     EXPECT_EQ(case_key_field("colour"), nullptr);
 }

@@ -61,8 +61,9 @@ TEST(ClaimsJson, HoldsNoSentence)
     const auto document = document_of(two_verdicts());
     for (const auto& claim : document.at("claims"))
         for (const auto& [key, value] : claim.items())
-            if (value.is_string() && key != "statement" && key != "place" && key != "reason")
+            if (value.is_string() && key != "statement" && key != "place" && key != "reason") {
                 EXPECT_EQ(value.get<std::string>().find(' '), std::string::npos) << key << ": " << value;
+            }
 }
 
 TEST(ClaimsJson, ValuesThatAreNotKnownAreNull)

@@ -2,8 +2,8 @@
 // experiments/verdicts/claims.toml.
 #include "analysis/verdict.hpp"
 
-#include "analysis/records/atomic_file.hpp"
 #include "analysis/order_verdicts.hpp"
+#include "analysis/records/atomic_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Reference: calculus and theory. Each potential's gradient is the derivative of its value and its Hessian that of its gradient (eps sweeps
 // on a distorted mesh, away from rest); the Hessian of the linear law is the stiffness that deal.II assembles separately; rotations store
 // no energy.
-#include "reference_fem/assembly.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "reference_fem/assembly.hpp"
 #include "reference_fem/potentials/bind_potential.hpp"
 #include "reference_fem/potentials/dead_load.hpp"
 #include "reference_fem/potentials/elastic_potential.hpp"

@@ -1,8 +1,8 @@
 // Every bad clip by name: refused with its file and a reason, never a crash or a silent repair.
 #include "pbs/character/clip.hpp"
 
-#include "tests/unit/pbs/character/expect_input_error.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <random>
 

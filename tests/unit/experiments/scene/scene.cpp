@@ -1,8 +1,8 @@
 // Scenes as the combination of a file, --set and the defaults. Reference: the contract of scene files (experiments/scene/manual.md) and the
 // options' own defaults.
-#include "experiments/scene/scene.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/scene/scene_keys.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/scratch_folder.hpp"

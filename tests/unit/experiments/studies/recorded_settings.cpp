@@ -1,8 +1,6 @@
 // --resume repeats a run when anything changed that its work depends on. Reference: the members of the cases, each changed in turn.
-#include "pbs/skinning/delta_mush.hpp"
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "pbs/solver/xpbd_options.hpp"
 #include "experiments/studies/ambiguity/reading_figures.hpp"
 #include "experiments/studies/ambiguity/volume_readings.hpp"
 #include "experiments/studies/artefacts/artefact_figures.hpp"
@@ -19,6 +17,8 @@
 #include "experiments/studies/study_run.hpp"
 #include "experiments/studies/timing/timing_records.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
+#include "pbs/skinning/delta_mush.hpp"
+#include "pbs/solver/xpbd_options.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/struct_members.hpp"
 
@@ -58,7 +58,8 @@ Scene limb()
 
 TEST(RecordedSettings, OfErrorSplit)
 {
-    ErrorSplitCase of{.scene = limb(), .frames = {3}, .k_stretch = {0.2}, .iterations = {24}, .core_radii = {0.2}};
+    ErrorSplitCase of;
+    of.scene = limb(), of.frames = {3}, of.k_stretch = {0.2}, of.iterations = {24}, of.core_radii = {0.2};
     of.pbs = default_spec("pbs");
     of.truth = of.twin = default_spec("fem");
     EXPECT_GE(expect_each_change_repeats(of), 10);
@@ -66,14 +67,16 @@ TEST(RecordedSettings, OfErrorSplit)
 
 TEST(RecordedSettings, OfWorkPrecision)
 {
-    WorkPrecisionCase of{.body = "limb bend", .pose = "60 deg", .scene = limb(), .frame = 12};
+    WorkPrecisionCase of;
+    of.body = "limb bend", of.pose = "60 deg", of.scene = limb(), of.frame = 12;
     of.range.coarser_vertices = {600};
     EXPECT_GE(expect_each_change_repeats(of), 18);
 }
 
 TEST(RecordedSettings, OfConvergence)
 {
-    const ConvergenceCase of{.scene = limb(), .frames = {{18, "bend 90"}}, .k_stretch = {0.2}, .settings = {{}}, .other_vertices = {600}};
+    ConvergenceCase of;
+    of.scene = limb(), of.frames = {{18, "bend 90"}}, of.k_stretch = {0.2}, of.settings = {{}}, of.other_vertices = {600};
     EXPECT_GE(expect_each_change_repeats(of), 15);
 }
 

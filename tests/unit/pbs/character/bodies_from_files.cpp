@@ -3,8 +3,8 @@
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 
-#include "tests/support/structured_bar.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/structured_bar.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "pbs/character/bone_capsules.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "tests/unit/experiments/deformers/fem/bar_character.hpp"
+#include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 namespace {
 
-using namespace experiments;
+using namespace pbs;
 using pbs::Vec3;
 
 pbs::Character bar()

@@ -1,8 +1,8 @@
 // Reference: the format as documented (TOML: [[joint]] with name, parent, head_m, tail_m); each refusal by file, line and field.
 #include "pbs/character/skeleton_file.hpp"
 
-#include "tests/unit/pbs/character/expect_input_error.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/unit/pbs/character/expect_input_error.hpp"
 
 namespace {
 

@@ -1,8 +1,8 @@
 // Reference: PbsSolver, one pose at a time. The two share their order of projection and their arithmetic, so the only difference is, with
 // unequal masses, the rounding of k / (w1 + w2).
-#include "pbs/solver/poses_solver.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/pbs_solver.hpp"
+#include "pbs/solver/poses_solver.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
 #include <gtest/gtest.h>

@@ -3,8 +3,8 @@
 //   sum over edges of n n^T / alpha u = m g,
 // for any number of iterations and substeps per step. A multiplier that were forgotten between iterations would stiffen it with each.
 // Poisson's ratio 1/4 leaves the volume constraints out. Displacements are 1e-4 of an edge; the neglected terms are of second order.
-#include "pbs/solver/xpbd_solver.hpp"
 #include "pbs/geometry/tet_volume.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 #include "tests/support/hanging_tet.hpp"
 
 #include <Eigen/LU>

@@ -3,7 +3,7 @@
 #include "experiments/deformers/fem/bone_attachment.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "tests/unit/experiments/deformers/fem/bar_character.hpp"
+#include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "experiments/deformers/fem/elastic_fem_deformer.hpp"
 
 #include "pbs/character/refined_character.hpp"
-#include "tests/unit/experiments/deformers/fem/bar_character.hpp"
+#include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>
 

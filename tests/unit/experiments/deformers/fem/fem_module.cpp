@@ -3,7 +3,7 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/module.hpp"
-#include "tests/unit/experiments/deformers/fem/bar_character.hpp"
+#include "tests/support/bar_character.hpp"
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "experiments/deformers/fem/linear_fem_deformer.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "tests/unit/experiments/deformers/fem/bar_character.hpp"
+#include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "experiments/deformers/fem/bone_attachment.hpp"
 #include "pbs/character/refined_character.hpp"
 #include "pbs/geometry/tet_volume.hpp"
-#include "tests/unit/experiments/deformers/fem/bar_character.hpp"
+#include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 #include "experiments/studies/ambiguity/reading_figures.hpp"
 
 #include "experiments/scene/motion_case.hpp"
-#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 
 #include <gtest/gtest.h>
 

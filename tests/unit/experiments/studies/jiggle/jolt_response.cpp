@@ -3,8 +3,8 @@
 #include "experiments/studies/jiggle/jolt_response.hpp"
 
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
-#include "pbs/character/jiggle_zone_contents.hpp"
 #include "pbs/character/bodies.hpp"
+#include "pbs/character/jiggle_zone_contents.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <gtest/gtest.h>

@@ -2,9 +2,9 @@
 #include "experiments/studies/stability/cell_run.hpp"
 
 #include "experiments/deformers/registry.hpp"
-#include "pbs/solver/xpbd_options.hpp"
 #include "experiments/studies/stability/driven_body.hpp"
 #include "pbs/solver/options.hpp"
+#include "pbs/solver/xpbd_options.hpp"
 
 #include <gtest/gtest.h>
 

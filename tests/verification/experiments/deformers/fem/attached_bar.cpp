@@ -1,7 +1,7 @@
 // Reference: rigid motion and objectivity, which are exact for a linear law since the root's motion is removed; the limit of stiff springs;
 // a second solver. The body is the bar of two bones, with both attachments and both element orders.
 #include "experiments/deformers/fem/linear_fem_deformer.hpp"
-#include "tests/unit/experiments/deformers/fem/bar_character.hpp"
+#include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // reference; the motions that the bind constraint allows and prevents. The body is the bar of two bones.
 #include "experiments/deformers/fem/elastic_fem_deformer.hpp"
 #include "experiments/deformers/fem/linear_fem_deformer.hpp"
-#include "tests/unit/experiments/deformers/fem/bar_character.hpp"
+#include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // the forces.
 #include "experiments/deformers/fem/elastic_fem_deformer.hpp"
 #include "experiments/deformers/fem/linear_fem_deformer.hpp"
-#include "tests/unit/experiments/deformers/fem/bar_character.hpp"
+#include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>
 
