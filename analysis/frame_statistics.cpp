@@ -12,7 +12,6 @@
 namespace analysis {
 namespace {
 
-
 const std::array<std::string, 6> settings = {"scene", "deformer", "variant", "order", "precision", "iterations"};
 const std::array<std::string, 4> quantities = {"volume_change", "volume_abs_change", "error_l2", "error_joint"};  // each [%]
 const std::array<std::pair<std::string, double>, 5> shares = {{{"least", 0.0}, {"p10", 0.1}, {"median", 0.5}, {"p90", 0.9}, {"most", 1.0}}};

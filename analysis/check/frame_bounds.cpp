@@ -11,7 +11,6 @@
 namespace analysis {
 namespace {
 
-
 bool holds(const FrameBound& bound, double value)
 {
     return bound.is_upper ? value <= *bound.value : value >= *bound.value;

@@ -96,11 +96,10 @@ const Rows scale_columns = {{"vertices", &ScaleRow::vertices, "", "vertices of t
 
 nlohmann::json to_json(const ScaleCase& of)
 {
-    static const auto fields =
-        OptionFields<ScaleCase>("scale")
-            .record("vertices", &ScaleCase::vertices)
-            .derived("scene", [](const ScaleCase& of) { return to_json(human_of(of.vertices.front())); })
-            .complete();
+    static const auto fields = OptionFields<ScaleCase>("scale")
+                                   .record("vertices", &ScaleCase::vertices)
+                                   .derived("scene", [](const ScaleCase& of) { return to_json(human_of(of.vertices.front())); })
+                                   .complete();
     return fields.json(of);
 }
 
