@@ -1,4 +1,4 @@
-// A deformer moves the vertices of a character. LBS, DQS, PBS and the finite elements are deformers, so that every scene, study and metric
+// A deformer moves the vertices of a character. LBS, DQS, PBS and the finite elements are deformers, so that every scene and metric
 // works for each of them. README.md describes how to add one.
 #pragma once
 
