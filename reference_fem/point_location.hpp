@@ -9,7 +9,7 @@
 
 namespace reference_fem {
 
-// Of a point; its coordinate on corner 1 is 1 - the sum of the others.
+// The place of a point in a tet. Its coordinate on corner 1 is 1 - the sum of the others.
 struct Location {
     int tet = -1;                               // -1: outside every tet
     pbs::Vec3 barycentric = pbs::Vec3::Zero();  // coordinates on corners 2, 3, 4 of that tet

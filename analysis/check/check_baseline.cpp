@@ -195,7 +195,7 @@ std::vector<std::pair<std::string, std::string>> step_times(const std::string& s
         const auto found = before.find(deformer);
         times.emplace_back(
             "wall time of " + deformer,
-            fmt::format("{:.4g} ms a step", ms) +
+            fmt::format("{:.4g} ms per step", ms) +
                 (found == before.end() ? "" : fmt::format(", {:.3g} of the baseline's", ms / median_step_ms(*baseline, found->second))));
     }
     return times;

@@ -29,7 +29,7 @@ std::vector<CheckCase> scenes_gone(const CheckRules& rules, const CsvTable& base
 std::vector<CheckCase> compare_with_baseline(const CheckRules& rules, const std::string& scene, const CsvTable& now,
                                              const CsvTable& baseline, const std::string& baseline_file);
 
-// "1.234 ms a step, 1.05 of the baseline's" for each deformer. Times depend on the machine, so they are shown and never judged.
+// "1.234 ms per step, 1.05 of the baseline's" for each deformer. Times depend on the machine, so they are shown and never judged.
 std::vector<std::pair<std::string, std::string>> step_times(const std::string& scene, const CsvTable& now, const CsvTable* baseline);
 
 }  // namespace analysis

@@ -1,4 +1,4 @@
-// Bounds on the frames of other programs, as given on the command line, and their results frame by frame and as test cases.
+// Bounds on single frames, and their results frame by frame and as test cases. Each bound has the name of the option that sets it.
 #pragma once
 
 #include "analysis/check/check_case.hpp"

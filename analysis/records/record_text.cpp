@@ -1,5 +1,7 @@
 #include "analysis/records/record_text.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace analysis {
 
 std::string record_text(const nlohmann::json& record)

@@ -2,7 +2,7 @@
 //   analysis::write_text_atomically(path, record_text(run));
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 

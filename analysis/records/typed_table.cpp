@@ -1,7 +1,6 @@
 #include "analysis/records/typed_table.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <stdexcept>
 
@@ -43,24 +42,6 @@ void require_unit(const std::string& name, const std::string& unit)
     const std::string ending = unit_by_ending(name);
     if (unit == ending || (ending.empty() && is_inside(name, unit))) return;
     throw std::logic_error{fmt::format("column {}: the unit '{}' does not agree with the name, which says '{}'", name, unit, ending)};
-}
-
-nlohmann::json cells_json(const std::vector<std::string>& names, const std::vector<CsvTable::Cell>& cells)
-{
-    nlohmann::json json = nlohmann::json::object();
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        const CsvTable::Cell& cell = cells[i];
-        using enum CsvTable::Cell::Kind;
-        if (cell.kind == text)
-            json[names[i]] = cell.text;
-        else if (cell.kind == whole)
-            json[names[i]] = cell.whole;
-        else if (cell.kind == real)
-            json[names[i]] = cell.real;
-        else
-            json[names[i]] = nullptr;
-    }
-    return json;
 }
 
 }  // namespace analysis

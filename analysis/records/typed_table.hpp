@@ -9,8 +9,6 @@
 
 #include "analysis/records/csv_table.hpp"
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -104,9 +102,6 @@ struct CellOf<std::optional<Value>> {
 // std::logic_error unless the name ends with its unit or, if it ends with no unit, contains it: time_s is in s, volume_change_pct in %,
 // step_ms_median in ms. A name that ends with a unit cannot belong to a pure number.
 void require_unit(const std::string& name, const std::string& unit);
-
-// {"frame": 3, "rms_mm": 0.25}; null for an empty cell.
-nlohmann::json cells_json(const std::vector<std::string>& names, const std::vector<CsvTable::Cell>& cells);
 
 template <typename Row>
 struct Column {
@@ -226,13 +221,6 @@ std::vector<Row> rows_of(const Columns<Row>& columns, const CsvTable& table)
         if (is_present(column.group))
             for (int r = 0; r < table.rows(); ++r) column.read(rows[r], table, r);
     return rows;
-}
-
-// Callers include nlohmann/json.hpp.
-template <typename Row>
-auto row_json(const Columns<Row>& columns, const Row& row)
-{
-    return cells_json(columns.names(), cells_of(columns, row));
 }
 
 }  // namespace analysis

@@ -2,14 +2,15 @@
 //   1. Write a folder with a Deformer, a struct of its options if it has any, and a function that returns its DeformerKind. The options'
 //      keys, defaults, ranges and meanings are declared once, with OptionFields (experiments/settings/option_fields.hpp).
 //   2. Declare that function below, add it to the list in registry.cpp, and name the folder in CMakeLists.txt.
-// Scenes, `pbskin list`, `explain`, records and metrics take it from there. Code depends on its name only where a study is about that deformer.
+// Scenes, `pbskin list`, `explain`, records and metrics take it from there. Code depends on its name only where a
+// study is about that deformer.
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/deformers/deformer_spec.hpp"
 #include "experiments/settings/scene_schema.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <memory>
 #include <optional>

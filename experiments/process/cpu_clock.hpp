@@ -12,13 +12,13 @@ inline double clock_s(clockid_t clock)
     return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
-// Of the calling thread.
+// Processor time of the calling thread.
 inline double thread_cpu_s()
 {
     return clock_s(CLOCK_THREAD_CPUTIME_ID);
 }
 
-// Of all threads of the process.
+// Processor time of all threads of the process.
 inline double process_cpu_s()
 {
     return clock_s(CLOCK_PROCESS_CPUTIME_ID);

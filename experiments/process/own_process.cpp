@@ -6,6 +6,8 @@
 #include "experiments/process/interruption.hpp"
 #include "pbs/geometry/input_error.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <sys/wait.h>
 
 #include <cerrno>

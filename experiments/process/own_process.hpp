@@ -2,7 +2,7 @@
 //   const nlohmann::json cost = in_own_process([&] { return cost_of(scene); });
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <functional>
 

@@ -1,6 +1,7 @@
 #include "experiments/run/broken_frame.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 

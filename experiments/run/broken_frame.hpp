@@ -6,7 +6,7 @@
 #include "pbs/geometry/types.hpp"
 #include "pbs/solver/step_summary.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 

@@ -2,6 +2,8 @@
 
 #include "experiments/process/peak_memory.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <link.h>
 
 namespace experiments {

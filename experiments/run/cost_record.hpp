@@ -7,7 +7,7 @@
 #include "experiments/process/cpu_clock.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <map>
 #include <string>

@@ -3,6 +3,7 @@
 #include "experiments/process/blas_kernels.hpp"
 
 #include <fmt/chrono.h>
+#include <nlohmann/json.hpp>
 
 #include <ctime>
 

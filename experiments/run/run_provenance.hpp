@@ -4,7 +4,7 @@
 
 #include "analysis/records/provenance.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace experiments {
 

@@ -10,7 +10,7 @@ struct CharacterSource {
     std::string body = {};  // limb, bar, ring, human, man, lady, frankie; empty: from files
     // Tets that read_tet_mesh takes [m]; read where `body` is empty.
     std::string mesh_file = {}, skeleton_file = {};  // .bvh, .gltf, .glb, .fbx: a clip's zero pose; any other: the skeleton TOML
-    double skeleton_scale = 1.0;                     // metres a unit of the skeleton file
+    double skeleton_scale = 1.0;                     // metres per unit of the skeleton file
     int vertices = 0;  // wanted size of a body; 0: its default (limb 1,775, bar 1,800, others in Table 1's neighbourhood)
     WeightKind weights = WeightKind::paper;  // paper or rigid; not read where there is a weights_file
     std::string weights_file = {};           // CSV vertex,joint,weight; empty: `weights`

@@ -1,6 +1,6 @@
-// Each bone as a rigid capsule inside the flesh, which holds the reference. The capsule is the bone's middle (1/6 to 5/6 of its length, the
-// part that Eq. 2 gives to one bone alone); its radius is core_radius times the local limb radius. It depends on the character alone, so
-// the continuous problem does not depend on the elements. Its ends are flat: it is a cylinder without half spheres.
+// Each bone as a rigid capsule inside the flesh, by which a deformable body can be held. The capsule is the bone's middle (1/6 to 5/6 of
+// its length, the part that Eq. 2 gives to one bone alone); its radius is core_radius times the local limb radius. It depends on the
+// character alone, so the continuous problem does not depend on the elements. Its ends are flat: it is a cylinder without half spheres.
 #pragma once
 
 #include "pbs/character/character.hpp"
@@ -21,8 +21,8 @@ struct BoneCapsule {
 
 // The local limb radius is the mean rest distance to the bone over the skin vertices that are nearest to it and project on its middle;
 // where there are none, over all skin vertices nearest to it; where there are none either, over the whole skin to its nearest bones.
-// A refined character has the capsules of the unrefined one, although its skin has other vertices. A bone without length is a
-// InputError.
+// A refined character has the capsules of the unrefined one, although its skin has other vertices. InputError for a bone
+// without length.
 std::vector<BoneCapsule> bone_capsules(const Character& character, double core_radius);
 
 // Sample points of a capsule [m], 7,720 x 3, each with the same share of its volume: 40 stations along the axis, and in each disc the

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of a glTF; a buffer within the text ("data:...") is no file, and the reader refuses one that does not exist.
+// The files that a glTF refers to. A buffer within the text ("data:...") is no file, and the reader refuses one that does not exist.
 std::vector<std::string> referred_files(const std::string& path)
 {
     const std::string text = read_text_file(path, most_mesh_bytes), key = "\"uri\"", blank = " \t\r\n";

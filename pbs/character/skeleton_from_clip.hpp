@@ -7,7 +7,8 @@
 namespace pbs {
 
 // A bone runs from each joint to its first child that lies elsewhere; joints without one (ends, and joints that coincide with their child)
-// have none, and what hangs on them hangs on the next bone above. scale: metres a unit of the clip. InputError where no bone is left.
+// have none, and what is attached to them is attached to the next bone above. scale: metres per unit of the clip. InputError where no bone
+// is left.
 Skeleton skeleton_from_clip(const Clip& clip, double scale);
 
 }  // namespace pbs

@@ -43,7 +43,7 @@ struct SurfaceMesh {
 // InputError where there is none of that name, no triangle, or a coordinate that is not finite or beyond 1e9 m; a surface may be open.
 SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name = "");
 
-// One deformed frame as VTK XML: Float64, compressed, atomic. Fields have one entry a point (or 3, or one a cell).
+// One deformed frame as VTK XML: Float64, compressed, atomic. Fields have one entry per point (or 3, or one per cell).
 struct FrameFields {
     std::map<std::string, Positions> point_vectors;       // e.g. displacement, rest_position
     std::map<std::string, std::vector<int>> point_flags;  // e.g. prescribed

@@ -1,4 +1,4 @@
-// The paper's volume constraints, one a tet, linearised at rest: how many motions they leave, and how much of a given one. On linear tets
+// The paper's volume constraints, one per tet, linearised at rest: how many motions they leave, and how much of a given one. On linear tets
 // they ask exactly what incompressibility asks of the displacements (div u = 0 in each), so they lock as P1 does as nu goes to 1/2.
 //   const VolumeConstraints volumes(mesh, held);
 //   volumes.dofs() - volumes.rank();           // independent motions that change no tet's volume

@@ -1,5 +1,5 @@
 // Smooth weights of the bones in the flesh: each bone's weight is harmonic, 1 where that bone grips the flesh and 0 where another does.
-// They predict where the flesh moves with the bones and so give Newton's method its initial guess; no reported value depends on them.
+// They predict where the flesh moves with the bones, for example as an initial guess of a solver.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"

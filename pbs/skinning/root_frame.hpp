@@ -1,5 +1,5 @@
 // A pose relative to its root bone, and back: the rigid motion of the whole body is removed before a quasi-static solve and applied after
-// it. This is exact: all laws except the linear one are invariant under a rigid motion, and the linear one must not see any.
+// it. This is exact for every material law that is invariant under a rigid motion, and a linear law must not see any.
 #pragma once
 
 #include "pbs/skinning/pose.hpp"

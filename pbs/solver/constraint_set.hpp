@@ -16,9 +16,9 @@ namespace pbs {
 // projection, by share_removed.
 template <typename Scalar>
 struct ConstraintSet {
-    std::vector<BindConstraint<Scalar>> bind;        // at most one a vertex
+    std::vector<BindConstraint<Scalar>> bind;        // at most one per vertex
     std::vector<StretchConstraint<Scalar>> stretch;  // at most one an edge
-    std::vector<VolumeConstraint<Scalar>> volume;    // one a tet, or none
+    std::vector<VolumeConstraint<Scalar>> volume;    // one per tet, or none
     // unit: 1; lumped: mean lumped volume / lumped volume of the vertex, so that no unit enters; held: 0, #V
     std::vector<Scalar> inverse_mass;
 };

@@ -22,7 +22,7 @@ inline constexpr int poses_at_once = 16;  // that share a block; a last block ma
 // Many poses, each with a state of its own; not copied, and for one thread at a time.
 class PosesSolver {
 public:
-    // As PbsSolver; options: one a pose, threads of the first are shared out over blocks of sixteen poses. InputError as there, and
+    // As PbsSolver; options: one per pose; threads of the first are shared out over blocks of sixteen poses. InputError as there, and
     // where there is no pose, poses differ in order, precision, masses or whether they jiggle, or ask for what is not for many at once:
     // order plain, another reading than Algorithm 1's (volume_form, class_order, lbs_entry, bind_on_bone, Jiggle::k_bind), stop_residual,
     // record_iterations, sleep.
@@ -31,8 +31,8 @@ public:
     ~PosesSolver();
 
     // One time step of dt [s]. lbs_positions, bind_points: of every pose [m], #V x 3; the same for all where there is one only.
-    // Summaries are one a pose; seconds is an even share of the step's wall time. InputError where there are neither as many positions as
-    // poses nor one, and as PbsSolver::advance.
+    // There is one summary per pose; seconds is an even share of the step's wall time. InputError where there are neither as many positions
+    // as poses nor one, and as PbsSolver::advance.
     std::vector<StepSummary> advance(const std::vector<Positions>& lbs_positions, const std::vector<Positions>& bind_points, double dt_s);
 
     const Positions& positions(int pose) const;  // pose: from 0, unchecked [m], #V x 3

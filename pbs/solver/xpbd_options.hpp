@@ -1,4 +1,4 @@
-// Options of extended position based dynamics as a deformer.
+// Options of extended position based dynamics (XPBD).
 #pragma once
 
 #include "pbs/geometry/types.hpp"

@@ -164,8 +164,8 @@ NewtonSummary NewtonMinimiser::minimise(const Terms& terms, const Eigen::VectorX
         if (!factorise(terms, displacement, summary)) return end(NewtonOutcome::not_positive_definite);
         const Eigen::VectorXd step = system_->solve(-state.gradient, increment).displacement;
         if (!step.allFinite()) return end(NewtonOutcome::not_finite);
-        // The step that moves the data cannot be shortened: it is taken whole or the increment is too large. That of a quadratic ends in
-        // its minimum.
+        // The step that moves the data cannot be shortened: it is taken whole or the increment is too large. The step of a quadratic energy
+        // ends in its minimum.
         double length = 1.0;
         if (!carries_increment && !all_quadratic(terms)) length = step_length(terms, state, displacement, step, options);
         if (length == 0.0) return end(is_converged(state, options) ? NewtonOutcome::converged : NewtonOutcome::no_descent);

@@ -7,6 +7,8 @@
 #include "analysis/records/csv_table.hpp"
 #include "analysis/records/scratch_folder.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>

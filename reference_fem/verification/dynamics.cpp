@@ -109,7 +109,7 @@ Eigen::Matrix3d amplification(const TimeScheme& s, double Omega)
     return next.inverse() * now;
 }
 
-// Of one mode from u = 1 at rest, and what the energy falls by a step in the long run.
+// The motion of one mode from u = 1 at rest, and the factor by which its energy falls per step in the long run.
 struct Decay {
     double energy_left, spectral_radius;
 };

@@ -14,15 +14,15 @@
 
 namespace reference_fem {
 
-// Of a symmetric matrix, definite or not.
+// The extreme eigenvalues in magnitude of a symmetric matrix, definite or not.
 struct Spectrum {
     int unknowns = 0;                      // n
     double largest = 0.0, smallest = 0.0;  // magnitudes of eigenvalues, in the matrix's unit
     double condition() const { return largest / smallest; }
 };
 
-// Of the block of the unknowns that are not prescribed. By Lanczos' method on it and on its inverse (by a direct solver), in at most 60
-// steps each: lower bounds of cond(K), which agree with dense eigenvalues to six digits on the meshes of the tests.
+// The same for the block of the unknowns that are not prescribed. By Lanczos' method on it and on its inverse (by a direct solver), in at
+// most 60 steps each: lower bounds of cond(K), which agree with dense eigenvalues to six digits on the meshes of the tests.
 Spectrum spectrum(const SparseMatrix& symmetric, const std::vector<bool>& prescribed);
 Spectrum spectrum(const BoundaryValueSolution& solution, const ElasticMaterial& material);  // in the solution's own formulation
 

@@ -3,6 +3,7 @@
 #include "analysis/records/atomic_file.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>

@@ -1,5 +1,7 @@
 #include "reference_fem/verification/verification_row.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 
 namespace reference_fem {

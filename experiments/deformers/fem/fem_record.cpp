@@ -4,6 +4,8 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>

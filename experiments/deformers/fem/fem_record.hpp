@@ -4,7 +4,7 @@
 
 #include "experiments/deformers/fem/bone_attachment.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace experiments {
 

@@ -7,7 +7,7 @@
 #include "experiments/settings/option_names.hpp"
 #include "pbs/solver/options.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <vector>

@@ -38,7 +38,7 @@ struct FrequencyRatio {
     Interval ratio;
 };
 
-// Of the frequency at each setting to that at the setting it is changed from.
+// The ratio of the frequency at each setting to the frequency at the setting from which it is changed.
 std::vector<FrequencyRatio> ratios(const std::vector<MeasuredJiggle>& measured, void (*change)(JiggleSetting&))
 {
     std::vector<FrequencyRatio> all;

@@ -5,7 +5,7 @@
 
 #include "analysis/records/typed_table.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <vector>

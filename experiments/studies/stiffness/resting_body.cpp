@@ -17,7 +17,7 @@ using Setting = StiffnessSetting;
 
 const Columns<Row> stiffness_columns =
     Columns<Row>{{"body", &Row::body, "", "name of the body"},
-                 {"load", &Row::load, "", "zone, zone on held or cantilever: what hangs on what"},
+                 {"load", &Row::load, "", "zone, zone on held or cantilever: what is loaded and what holds it"},
                  {"vertices", &Row::vertices, "", "number of vertices"},
                  {"edges", &Row::edges, "", "number of edges"},
                  {"tets", &Row::tets, "", "number of tets"},

@@ -20,7 +20,7 @@ struct BatchRun {
 template <typename Scalar>
 struct ConstraintValues {
     // The same values as in Batch, one per constraint.
-    std::vector<Scalar> rest, stiffness;  // as Batch has them, one a constraint
+    std::vector<Scalar> rest, stiffness;  // as Batch has them, one per constraint
 };
 
 // Made once a mesh. Scalar: float or double.

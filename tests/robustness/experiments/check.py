@@ -139,7 +139,7 @@ class Check(program.ProgramTest):
         self.altered_baseline("step_ms", lambda v: 1e3 * v)
         process = self.check("--baseline", self.baseline)
         self.assertEqual(process.returncode, 0, process.stderr)
-        self.assertRegex(process.stdout, r"wall time of pbs +\S+ ms a step, \S+ of the baseline's")
+        self.assertRegex(process.stdout, r"wall time of pbs +\S+ ms per step, \S+ of the baseline's")
 
     def test_a_scene_of_the_baseline_that_is_gone_fails(self):
         self.check("--write-baseline", self.baseline)

@@ -40,7 +40,7 @@ Positions moved_points(double x, double y)
 
 class LinearResponse : public testing::TestWithParam<int> {
 protected:
-    // Of one solve under this test's springs and options.
+    // The bound for one solve under this test's springs and options.
     test_support::SolveRounding rounding_of(const LinearElasticity& solved) const
     {
         return test_support::rounding_of(solved, bar, options, springs());

@@ -4,7 +4,6 @@
 #include "pbs/geometry/input_error.hpp"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <limits>
 #include <stdexcept>
@@ -119,12 +118,6 @@ TEST(TypedTable, WrongCellsAreNamedWithFileLineColumnValueAndRule)
     EXPECT_EQ(message_of(head + "0,limb,1,0,ended,\n"), "m.csv:2:5: ending = ended: expected one of finished, not_finite");
     EXPECT_EQ(message_of(head + "0,limb,1,0,finished,none\n"), "m.csv:2:6: error_pct = none: expected a number");
     EXPECT_EQ(message_of("frame\n0\n"), "m.csv:1: columns = frame: expected a column body");
-}
-
-TEST(TypedTable, JsonHasTheColumnsNamesAndNullForNothing)
-{
-    EXPECT_EQ(row_json(row_columns, Row{1, {"limb", 0.5}, false, Ending::finished, std::nullopt}).dump(),
-              R"({"body":"limb","ending":"finished","error_pct":null,"frame":1,"height_m":0.5,"is_masked":0})");
 }
 
 TEST(TypedTable, AFlagIsZeroOrOne)
