@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 namespace experiments {
@@ -53,6 +54,7 @@ RealTimeEnd real_time_end(const std::vector<double>& vertices, const std::vector
     constexpr double real_time_ms = 1e3 / 30.0;
     std::vector<std::pair<double, double>> sizes;  // vertices, ms
     for (std::size_t i = 0; i < vertices.size(); ++i) sizes.emplace_back(vertices[i], total_ms[i]);
+    if (sizes.size() < 2) throw std::invalid_argument("real_time_end: fewer than two sizes");
     std::sort(sizes.begin(), sizes.end());
     std::size_t next = 1;  // the line passes through sizes[next - 1] and sizes[next]
     while (next + 1 < sizes.size() && sizes[next].second < real_time_ms) ++next;
