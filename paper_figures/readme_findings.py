@@ -38,7 +38,7 @@ def volume(claims):
     share = best["share_of_frames"]
     return (f"**Volume.** With 24 iterations, PBS keeps the volume within 0.5 % in at most {100 * share['estimate']:.0f} % of the "
             f"frames of a clip (95 % interval {100 * share['low']:.0f} to {100 * share['high']:.0f} %; {case_words.run(best)}). "
-            f"In the worst of {len(clips)} clips it is {100 * worst['share_of_frames']['estimate']:.0f} % of the frames "
+            f"In the worst of {len(clips)} runs it is {100 * worst['share_of_frames']['estimate']:.0f} % of the frames "
             f"({case_words.run(worst)}).")
 
 

@@ -20,7 +20,7 @@ namespace experiments {
 
 class SceneValues;
 
-// What other code may ask about a deformer without knowing its kind.
+// Properties of a deformer that other code may read without knowing its kind.
 struct DeformerTraits {
     std::string order = {};              // order of projection; empty: it projects nothing
     std::string precision = "f64";       // of its arithmetic

@@ -13,7 +13,7 @@ bool is_finished(const StudyRun& run, const std::string& folder);
 // Does the run and returns what broke down numerically, or "".
 std::string carry_out(const StudyRun& run, const std::string& folder);
 
-// What carry_out returned for the finished run in `folder`.
+// The text that carry_out returned for the finished run in `folder`.
 std::string breakdown_on_record(const StudyRun& run, const std::string& folder);
 
 }  // namespace experiments

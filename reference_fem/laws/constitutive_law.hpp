@@ -23,7 +23,7 @@ using Tangent = Eigen::Matrix<double, 9, 9>;  // d vec(A) / d vec(F), vec by col
 // By F, of the energy density: none asks for psi alone, second for all.
 enum class Derivatives { none, first, second };
 
-// What is asked for of: shape [Pa], theta [1], and their derivatives by F; the rest is left as it is.
+// The requested quantities: shape [Pa], theta [1], and their derivatives by F; the rest is left as it is.
 struct PointResponse {
     bool defined = true;                                  // false: F is outside the law's domain (det F <= 0), nothing else is set
     double shape = 0.0, dilatation = 0.0;                 // [Pa], [1]

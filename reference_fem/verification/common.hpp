@@ -24,7 +24,7 @@ VerificationRows dynamics_rows(const Effort& effort);
 VerificationRows moving_skeleton_rows(const Effort& effort);
 VerificationRows distributed_rows(const Effort& effort);
 
-// What the solver is given in place of `material`: the same, unless the effort asks for an error in lambda.
+// The material that the solver receives in place of `material`: the same, unless the effort asks for an error in lambda.
 ElasticMaterial solver_material(const Effort& effort, const ElasticMaterial& material);
 
 // P1, P2, P2 mean dilatation, P2 Taylor-Hood

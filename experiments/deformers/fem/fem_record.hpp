@@ -8,7 +8,7 @@
 
 namespace experiments {
 
-// What the attachment holds for one bone.
+// The flesh that the attachment of one bone holds.
 struct BoneGrip {
     std::string name;
     int holds = 0;             // embedded: sample points; bind: vertices

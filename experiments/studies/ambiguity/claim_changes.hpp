@@ -1,4 +1,5 @@
-// What each reading changes in the judged values of each claim: the values of A and B, and whether the claim's bound judges them otherwise.
+// The changes that each reading makes in the judged values of each claim: the values of A and B, and whether the claim's bound judges them
+// otherwise.
 //   ReadingComparison comparison("limb", readings);
 //   comparison.measure({"C03", "C12"}, [&](const auto& touching) { return figures_of_starts(of, touching); });
 //   table_of(claim_change_columns, comparison.changes()).write("ambiguity.csv");

@@ -36,7 +36,7 @@ std::vector<Reading> all_readings(const Scene& scene)
     return readings;
 }
 
-// What a run depends on besides its case: it repeats when a reading or a bound of its claims changes.
+// The further settings of a run: it repeats when a reading or a bound of its claims changes.
 nlohmann::json judging(const std::vector<Reading>& readings, const std::vector<std::string>& claims)
 {
     std::vector<analysis::Claim> judging;

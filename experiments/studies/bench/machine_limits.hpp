@@ -1,4 +1,4 @@
-// What one core of this machine can do at best: multiply-adds per second, and bytes per second copied within its caches and memory.
+// The limits of one core of this machine: multiply-adds per second, and bytes per second copied within its caches and memory.
 //   const MachineLimits limits = measure_limits(0.02);
 //   bandwidth_at(limits, 2.5e6);   // GB/s of a loop over 2.5 MB
 #pragma once

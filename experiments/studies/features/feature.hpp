@@ -1,4 +1,4 @@
-// What a scene may ask for or leave out, as pairs of scenes that differ in nothing else.
+// The optional features of a scene, as pairs of scenes that differ in one feature alone.
 #pragma once
 
 #include "experiments/scene/scene.hpp"

@@ -1,4 +1,4 @@
-// What a feature costs: time and memory of both scenes of the pair, and how far the result moves.
+// The cost of a feature: time and memory of both scenes of the pair, and how far the result moves.
 //   const Samples with = take_turns(...)[0];   // each turn is costs_of_run(run_scene_alone(scene, folder), scene)
 //   table_of(feature_columns, {feature_row("limb", "sleep", without, with)}).write("features.csv");
 #pragma once

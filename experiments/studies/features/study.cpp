@@ -1,5 +1,5 @@
-// What a feature of a scene costs: time per frame, time to start and peak memory, with it and without it, and how far the result moves. The
-// scenes take turns in one run, each in a process of its own.
+// The cost of a feature of a scene: time per frame, time to start and peak memory, with it and without it, and how far the result moves.
+// The scenes take turns in one run, each in a process of its own.
 //
 //   limb   the capsule limb, bent to 150 degrees in 11 frames
 //   human  MakeHuman's body, 21 frames of the clip's jump

@@ -145,7 +145,7 @@ void add_fit(PoissonRows& rows, const FemOptions& elastic, const PosedPbs& body,
     for (const auto& point : fit.valley) rows.valleys.push_back({setting, point.parameter, point.value});
 }
 
-// What did not converge, and how well the rest is interpolated.
+// Lists the poses that did not converge, and the interpolation error of the others.
 nlohmann::json to_json(const ElasticPoses& elastic)
 {
     nlohmann::json json = nlohmann::json::array();

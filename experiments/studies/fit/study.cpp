@@ -60,7 +60,7 @@ nlohmann::json exponent(const std::vector<SagRow>& rows, const std::function<dou
     return analysis::observed_order(xs, young).slope.estimate;
 }
 
-// What Young's modulus depends on, for each k_stretch: the iterations on the finest mesh, the mean edge at 24 iterations.
+// The exponents with which Young's modulus grows, for each k_stretch: the iterations on the finest mesh, the mean edge at 24 iterations.
 nlohmann::json exponents(const std::vector<SagRow>& rows)
 {
     nlohmann::json json = nlohmann::json::array();

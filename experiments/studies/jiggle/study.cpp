@@ -52,7 +52,7 @@ StudyPlan plan(bool full)
     return plan;
 }
 
-// What the zone is on the body, and the response at each setting.
+// Records the zone on the body, and the response at each setting.
 std::string jolt_text(const std::string& folder)
 {
     const auto zone = rows_of(zone_columns, analysis::read_csv(analysis::path_in(folder, "zone.csv")));

@@ -1,4 +1,4 @@
-// What a frame of a character costs on one core, and its parts: LBS, the three classes of constraints over 24 iterations, the whole frame
+// The cost of a frame of a character on one core, and its parts: LBS, the three classes of constraints over 24 iterations, the whole frame
 // as a deformer computes it, and the same with the embedded surface. The variants take turns.
 //   const std::vector<FrameTiming> timings = time_frames(character, motion, {.k_jiggle = 0.9}, {.seconds = 2.0});
 // Every turn continues in the motion by a few frames. Whole frames are measured in wall time, from which a frame rate follows, and in

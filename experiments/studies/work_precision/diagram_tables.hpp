@@ -1,4 +1,4 @@
-// What follows from work-precision diagrams, as tables: the fronts, which group of deformers is nearer from which time on, and how near
+// The results of work-precision diagrams as tables: the fronts, which group of deformers is nearer from which time on, and how near
 // each group is at equal cost.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What one projection of each class asks of a machine, counted by hand: the numerator and the denominator of the roofline.
+// The work of one projection of each class, counted by hand: the numerator and the denominator of the roofline.
 // Operations: every +, -, *, / and square root of real numbers counts one, a change of sign or a comparison none, and a multiply-add two.
 // They are those of pbs/solver/batched/project_lanes.hpp, which computes in advance what no frame changes (k over w1 + w2, 6 V0). The same
 // count is used for every order, so that GFLOP/s are useful ones; what `plain` does beyond them is not counted.
