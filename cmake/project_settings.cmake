@@ -30,10 +30,13 @@ target_compile_features(pbs_settings INTERFACE cxx_std_20)
 target_compile_options(pbs_settings INTERFACE "$<INSTALL_INTERFACE:SHELL:-include pbs/geometry/installed_eigen.hpp>")
 target_link_libraries(pbs_settings INTERFACE Eigen3::Eigen)
 
-# unity_build(TARGET): compiles the sources eight at once, so that their anonymous namespaces are one. The presets dev and package compile
-# each source alone, which detects a missing include. GCC 12 warns of its own headers where it inlines more.
+# unity_build(TARGET [ALONE SOURCE...]): compiles the sources eight at once, so that their anonymous namespaces are one. A source with a
+# name that another one has too is compiled alone. The presets dev and package compile each source alone, which detects a missing include.
+# GCC 12 warns of its own headers where it inlines more.
 function(unity_build target)
+    cmake_parse_arguments(PARSE_ARGV 1 unity "" "" "ALONE")
     set_target_properties(${target} PROPERTIES UNITY_BUILD ${PBS_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 8)
+    set_source_files_properties(${unity_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     if(PBS_UNITY_BUILD)
         target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
     endif()

@@ -13,14 +13,24 @@ endif()
 
 # A verdict changes with its records: the project's own claims with the values of the studies. A broken solver changes the values and
 # verdicts that it must change by theory, and no others.
-pbs_tests(claims experiments FOLDERS experiments EXCEPT ${left_out} LIBRARIES experiments)
+pbs_tests(claims experiments FOLDERS experiments EXCEPT ${left_out}
+    ALONE experiments/broken_bulge experiments/broken_momentum experiments/broken_stiffness experiments/broken_weights
+        experiments/jiggle_verdict experiments/momentum_verdict experiments/setup_verdict experiments/stiffness_verdict
+    LIBRARIES experiments)
 target_compile_definitions(test_claims_experiments PRIVATE ${claims_file})
 pbs_tests(unit experiments BLAS
     FOLDERS experiments/process experiments/scene experiments/run experiments/deformers experiments/verdicts experiments/command_line
     FILES experiments/deformers/fem/fem_module
     EXCEPT experiments/deformers/fem ${left_out}
+    ALONE experiments/run/limb_stations experiments/run/reference_error_bar
     LIBRARIES experiments)
-pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${left_out} LIBRARIES experiments)
+pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${left_out}
+    ALONE experiments/studies/ambiguity/read_motion experiments/studies/ambiguity/reading_figures
+        experiments/studies/ambiguity/reading_sections experiments/studies/ambiguity/untouched experiments/studies/convergence/starts
+        experiments/studies/fit/poisson_fit experiments/studies/recorded_settings experiments/studies/shared/iteration_path
+        experiments/studies/stability/cell_sweep experiments/studies/stiffness/stiffness_ratios experiments/studies/timing/timing_table
+        experiments/studies/work_precision/measured_points
+    LIBRARIES experiments)
 pbs_tests(properties experiments FOLDERS experiments LIBRARIES experiments)
 pbs_tests(regression experiments FOLDERS experiments LIBRARIES experiments)
 target_compile_definitions(test_regression_experiments PRIVATE PBS_KEPT_RECORDS="${PROJECT_SOURCE_DIR}/experiments/records/full")

@@ -23,8 +23,11 @@ pbs_tests(unit pbs_files
         pbs/geometry/meshing_builtin pbs/geometry/meshing_count pbs/geometry/meshing_surface pbs/geometry/meshing_unavailable
         pbs/geometry/module pbs/geometry/self_intersection pbs/geometry/surface_reader
     EXCEPT ${left_out}
+    ALONE pbs/geometry/surface_reader
     LIBRARIES pbs_mesh_io pbs_meshing pbs_module)
-pbs_tests(unit pbs_character FOLDERS pbs/character EXCEPT ${left_out} LIBRARIES pbs_character pbs_mesh_io)
+pbs_tests(unit pbs_character FOLDERS pbs/character EXCEPT ${left_out}
+    ALONE pbs/character/refined_character pbs/character/retarget
+    LIBRARIES pbs_character pbs_mesh_io)
 if(TARGET pbskin_gmsh)
     add_dependencies(test_unit_pbs_files pbskin_gmsh)
 endif()

@@ -9,13 +9,23 @@ pbs_tests(unit pbs_geometry FOLDERS pbs/geometry
     EXCEPT pbs/geometry/isolated_reader pbs/geometry/mesh_io pbs/geometry/mesh_io_checks pbs/geometry/mesh_io_unavailable
         pbs/geometry/meshing_builtin pbs/geometry/meshing_count pbs/geometry/meshing_surface pbs/geometry/meshing_unavailable
         pbs/geometry/module pbs/geometry/self_intersection pbs/geometry/surface_reader
+    ALONE pbs/geometry/topology
     LIBRARIES pbs_method)
-pbs_tests(unit pbs_skinning FOLDERS pbs/skinning pbs/constraints LIBRARIES pbs_method)
-pbs_tests(unit pbs_solver FOLDERS pbs/solver LIBRARIES pbs_method ${threads})
-pbs_tests(unit analysis FOLDERS analysis LIBRARIES analysis GSL::gsl)
+pbs_tests(unit pbs_skinning FOLDERS pbs/skinning pbs/constraints
+    ALONE pbs/skinning/bone_binding pbs/skinning/pose_path pbs/skinning/root_frame pbs/constraints/volume_printed
+    LIBRARIES pbs_method)
+pbs_tests(unit pbs_solver FOLDERS pbs/solver
+    ALONE pbs/solver/batched/batched_constraints pbs/solver/batched/batched_projection pbs/solver/batched/constraint_groups
+        pbs/solver/batched/vertex_order pbs/solver/constraint_set pbs/solver/poses_solver pbs/solver/reordered_projection
+        pbs/solver/xpbd_solver
+    LIBRARIES pbs_method ${threads})
+pbs_tests(unit analysis FOLDERS analysis
+    ALONE analysis/pareto_front analysis/records/typed_table analysis/region_volume analysis/smoothness
+    LIBRARIES analysis GSL::gsl)
 set_source_files_properties(unit/analysis/claims.cpp unit/analysis/verdict.cpp PROPERTIES COMPILE_DEFINITIONS ${claims_file})
 pbs_tests(properties method FOLDERS pbs analysis
     EXCEPT pbs/geometry/meshing_repeats pbs/solver/orders
+    ALONE pbs/skinning/invariance pbs/solver/invariance pbs/solver/left_out pbs/solver/sleep pbs/solver/threads
     LIBRARIES analysis ${threads})
 pbs_tests(verification method FOLDERS pbs/solver pbs/near_rest analysis LIBRARIES analysis pbs_near_rest GSL::gsl)
 pbs_tests(robustness method FOLDERS pbs/solver LIBRARIES pbs_method)
