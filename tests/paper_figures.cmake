@@ -1,19 +1,19 @@
-# Tests of the figure scripts. Those that draw take longer than 2 s: they have the label drawing instead of unit.
-# figures_test(NAME FILE LABEL [COMMAND...]): runs FILE of unit/paper_figures, with COMMAND if it is given.
-function(figures_test name file label)
-    add_test(NAME unit/paper_figures${name}
+# Tests of the figure scripts. Those that draw take longer than 2 s: they are of the kind drawing instead of unit.
+# figures_test(NAME FILE KIND [COMMAND...]): runs FILE of unit/paper_figures, with COMMAND if it is given.
+function(figures_test name file kind)
+    add_test(NAME ${kind}/paper_figures${name}
         COMMAND ${ARGN} ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/${file}_test.py)
-    set_tests_properties(unit/paper_figures${name} PROPERTIES LABELS ${label} TIMEOUT 300)
+    set_tests_properties(${kind}/paper_figures${name} PROPERTIES LABELS ${kind} TIMEOUT 300)
 endfunction()
 figures_test("" figures drawing)
 figures_test(/listed listed_figures drawing)
+figures_test(/own own_figures drawing)
 figures_test(/plots plots drawing)
 figures_test(/report_records report_records drawing)
 figures_test(/stills stills drawing xvfb-run -a)
 foreach(name captions readme_part report same_pose sentences viewer whole_file)
     figures_test(/${name} ${name} unit)
 endforeach()
-figures_test(/own own_figures unit)
 
 # Tests of the viewer's program, if node is installed; ./check --long installs it.
 find_program(PBS_NODE NAMES node nodejs)
