@@ -28,7 +28,7 @@ if(NOT PBS_WITH_RIG_IMPORT OR NOT PBS_WITH_CGAL OR NOT PBS_WITH_MESH_IO)
 endif()
 pbs_tests(unit experiments_fem BLAS FOLDERS experiments/deformers/fem
     EXCEPT experiments/deformers/fem/fem_module
-    LIBRARIES fem_deformer pbs_character)
+    LIBRARIES fem_deformer pbs_character reference_fem_verification)
 pbs_tests(verification experiments_fem BLAS FOLDERS experiments/deformers/fem
     FILES experiments/studies/verification/calculix experiments/verification_record
     EXCEPT ${left_out}
