@@ -51,7 +51,9 @@ TEST(WriteAtomically, GivesTheUsualPermissions)
 TEST(WriteAtomically, ANameOfTheGreatestLengthIsWritten)
 {
     const ScratchFolder folder;
-    const std::string path = folder / (std::string(251, 'x') + ".vtu");
+    std::string name = ".vtu";
+    name.insert(0, 251, 'x');
+    const std::string path = folder / name;
     write_atomically(path, "whole");
     EXPECT_EQ(read_text_file(path), "whole");
 }

@@ -75,7 +75,7 @@ TEST(Gmsh, VerticesKeepTheOrderOfTheirTags)
 // Runs Python with VTK; `script` finds the paths in sys.argv.
 int python(const std::string& script, const std::string& paths)
 {
-    return std::system((std::string(PBS_TEST_PYTHON) + " -B -c '" + script + "' " + paths).c_str());
+    return std::system((PBS_TEST_PYTHON " -B -c '" + script + "' " + paths).c_str());
 }
 
 TEST(Vtk, ReadsTheFramesWeWriteToTheBit)

@@ -95,7 +95,10 @@ TEST(LastWords, AreTheEndWithoutBlankLines)
 {
     EXPECT_EQ(last_words("one\ntwo\n\n"), "one\ntwo");
     EXPECT_EQ(last_words(" \n"), "");
-    EXPECT_EQ(last_words(std::string(1000, 'a') + "end"), std::string(397, 'a') + "end");
+    std::string text = "end", last = text;
+    text.insert(0, 1000, 'a');
+    last.insert(0, 397, 'a');
+    EXPECT_EQ(last_words(text), last);
 }
 
 }  // namespace
