@@ -54,8 +54,9 @@ public:
     {
         const analysis::ScratchFolder folder;
         const std::string launch = ranks ? "mpirun --allow-run-as-root --oversubscribe -n " + std::to_string(ranks) + " " : "";
-        const auto text = output_of(launch + "'" + path_.string() + "' --bar 3000 --gravity 0 0 -9.81 --order " +
-                                    std::to_string(element_order) + " --nodes -o " + folder.path() + " " + arguments + " 2>/dev/null");
+        const auto text =
+            output_of(launch + "'" + path_.string() + "' --bar 3000 --gravity 0 0 -9.81 --order " + std::to_string(element_order) +
+                      " --nodes -o " + folder.path().string() + " " + arguments + " 2>/dev/null");
         if (!text) return {};
         return Answer{nlohmann::json::parse(*text), displacement_in(folder / "nodes.csv")};
     }

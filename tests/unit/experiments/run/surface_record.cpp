@@ -44,8 +44,8 @@ TEST(SurfaceRecord, BothFilesStandInTheFolder)
     const analysis::ScratchFolder folder;
     const pbs::TetMesh mesh = test_support::unit_tet();
     write_surface(triangle(mesh), mesh, folder.path());
-    EXPECT_GT(std::filesystem::file_size(folder.path() + "/surface_rest.vtp"), 0U);
-    EXPECT_EQ(analysis::read_csv(folder.path() + "/embedding.csv").rows(), 3);
+    EXPECT_GT(std::filesystem::file_size(folder / "surface_rest.vtp"), 0U);
+    EXPECT_EQ(analysis::read_csv(folder / "embedding.csv").rows(), 3);
 }
 
 }  // namespace
