@@ -41,7 +41,7 @@ TEST(FemModule, BringsDealIIOnlyWhenItIsAskedFor)
 // MPI starts with the first multigrid hierarchy and ends with the program. |error| <= cond(K) 1e-10 |motion|, see AttachedBar.
 TEST(FemModule, ConjugateGradientsRunInsideIt)
 {
-    const auto character = test_support::bar_character({24, 4, 4});
+    const auto character = test_support::bar_character({12, 3, 3});
     const auto direct = make_fem({.element_order = 2});
     const auto iterative = make_fem({.element_order = 2, .solver = reference_fem::LinearSolver::cg_ml});
     pbs::Pose turned(2, Eigen::Isometry3d::Identity());
