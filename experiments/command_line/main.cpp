@@ -8,6 +8,7 @@
 #include "experiments/process/interruption.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -31,9 +32,16 @@ CLI::App* add_verb(CLI::App& app, CommonOptions& common, const std::string& name
 
 namespace {
 
-std::string version_text()
+std::string version_text(bool as_json)
 {
     const analysis::Provenance build = analysis::collect_provenance(1);
+    if (as_json)
+        return nlohmann::json{{"version", build.version},
+                              {"git_revision", build.git_revision},
+                              {"git_dirty", build.git_dirty},
+                              {"compiler", build.compiler},
+                              {"build_type", build.build_type}}
+            .dump(2);
     return fmt::format("pbskin {} (git {}{}; {}, {})", build.version, build.git_revision.substr(0, 12), build.git_dirty ? ", dirty" : "",
                        build.compiler, build.build_type);
 }
@@ -49,7 +57,9 @@ void start_log(const CommonOptions& common)
 int parse_and_act(int argc, char** argv)
 {
     CLI::App app("pbskin: a verification suite for position based skinning", "pbskin");
-    app.set_version_flag("--version", version_text());
+    bool as_json = false;  // declared before --version, whose callback reads it
+    CLI::Option* json = app.add_flag("--json", as_json, "with --version: for programs, with the whole git revision");
+    json->needs(app.set_version_flag("--version", [&] { return version_text(as_json); }));
     app.add_flag_callback("--describe", [&app] { throw CLI::CallForVersion(describe(app), 0); })->group("");
     app.require_subcommand(1);
     CommonOptions common;

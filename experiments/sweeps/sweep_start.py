@@ -5,7 +5,6 @@ import fcntl
 import json
 import os
 import pathlib
-import re
 import shutil
 import signal
 import subprocess
@@ -53,10 +52,12 @@ def forget_lost_runs(folder):
 
 
 def revision_of_program(pbskin):
-    """(git revision, dirty), or nothing where it does not tell."""
-    process = subprocess.run([pbskin, "--version"], capture_output=True, text=True, errors="replace")
-    match = re.search(r"\(git (\w+)(, dirty)?", process.stdout)
-    return match and (match[1], bool(match[2]))
+    """(git revision, dirty), or nothing if the program does not state it."""
+    process = subprocess.run([pbskin, "--version", "--json"], capture_output=True, text=True, errors="replace")
+    with contextlib.suppress(ValueError, KeyError, TypeError):
+        build = json.loads(process.stdout)
+        return build["git_revision"], build["git_dirty"]
+    return None
 
 
 def runs_of_other_revisions(sweep, folder, pbskin):
@@ -66,7 +67,7 @@ def runs_of_other_revisions(sweep, folder, pbskin):
     for run in sweep.runs if now else []:
         with contextlib.suppress(OSError, ValueError, KeyError):  # not finished, or the merge tells what is wrong
             told = json.loads((folder / "runs" / run.name / "run.json").read_text(encoding="utf-8"))["provenance"]
-            if (told["git_revision"][:len(now[0])], told.get("git_dirty", False)) != now:
+            if (told["git_revision"], told.get("git_dirty", False)) != now:
                 names.append(run.name)
     return names
 

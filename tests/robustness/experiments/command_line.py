@@ -33,6 +33,12 @@ class CommandLine(program.ProgramTest):
 
     def test_version(self):
         self.assertRegex(self.succeeds("--version").stdout, r"^pbskin \d+\.\d+\.\d+ \(git ")
+        for arguments in (("--version", "--json"), ("--json", "--version")):
+            build = json.loads(self.succeeds(*arguments).stdout)
+            self.assertRegex(build["version"], r"^\d+\.\d+\.\d+$")
+            self.assertRegex(build["git_revision"], r"^([0-9a-f]{40}|unknown)$")
+            self.assertIsInstance(build["git_dirty"], bool)
+        self.refuses("--json requires --version", "--json", "list")
 
     def test_lists_every_kind(self):
         for kind, name in (("cases", "sweep"), ("scenes", "limb_twist"), ("deformers", "dqs"), ("studies", "volume"), ("claims", "C02"),

@@ -107,6 +107,15 @@ class SweepStart(unittest.TestCase):
             self.assertEqual(sweep_start.runs_of_other_revisions(sweep, self.out, self.program), [sweep.runs[1].name], change)
             record.write_text(json.dumps(told))
 
+    def test_a_program_that_states_no_revision_is_no_other_revision(self):
+        sweep = self.sweep(1)
+        self.finished(sweep)
+        for output in ("", "pbskin 0.1.0 (git def)", "[]", "{}"):
+            program = self.folder / "silent"
+            program.write_text(f"#!/bin/sh\necho '{output}'\n")
+            program.chmod(0o755)
+            self.assertEqual(sweep_start.runs_of_other_revisions(sweep, self.out, program), [], output)
+
     def test_bad_usage_is_refused(self):
         self.sweep(1)
         (self.folder / "file").write_text("")

@@ -30,8 +30,8 @@ def write(folder, iterations, step_ms=1.0, status=0, volumes=(0.1, 0.2, 0.6)):
 
 
 def main(arguments):
-    if arguments == ["--version"]:
-        print("pbskin 0.1.0 (git abc; none)")
+    if arguments == ["--version", "--json"]:
+        print(json.dumps({"version": "0.1.0", "git_revision": "abc", "git_dirty": False}))
         return 0
     folder = arguments[arguments.index("-o") + 1]
     iterations = next(int(part.split("=")[1]) for part in arguments if part.startswith("pbs.iterations="))
