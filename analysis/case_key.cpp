@@ -13,43 +13,40 @@ namespace analysis {
 const std::vector<CaseKeyField>& case_key_fields()
 {
     using Key = CaseKey;
-    const auto text = [](const char* name, std::string Key::*member, const char* label = "{}") {
-        return CaseKeyField{name, label, member, nullptr};
-    };
-    const auto number = [](const char* name, std::optional<double> Key::*member, const char* label) {
-        return CaseKeyField{name, label, nullptr, member};
-    };
+    const auto text = [](const char* name, std::string Key::*member) { return CaseKeyField{name, false, member, nullptr}; };
+    const auto named = [](const char* name, std::string Key::*member) { return CaseKeyField{name, true, member, nullptr}; };
+    const auto number = [](const char* name, std::optional<double> Key::*member) { return CaseKeyField{name, true, nullptr, member}; };
     static const std::vector<CaseKeyField> fields = {text("body", &Key::body),
                                                      text("motion", &Key::motion),
                                                      text("pose", &Key::pose),
                                                      text("joint", &Key::joint),
-                                                     number("angle_deg", &Key::angle_deg, "{:.4g} deg"),
-                                                     number("time_s", &Key::time_s, "at {:.4g} s"),
+                                                     number("angle_deg", &Key::angle_deg),
+                                                     number("time_s", &Key::time_s),
                                                      text("deformer", &Key::deformer),
                                                      text("variant", &Key::variant),
-                                                     text("reference", &Key::reference, "reference {}"),
+                                                     named("reference", &Key::reference),
                                                      text("order", &Key::order),
                                                      text("precision", &Key::precision),
-                                                     number("vertices", &Key::vertices, "{:.6g} vertices"),
-                                                     number("vertices_to", &Key::vertices_to, "to {:.6g} vertices"),
-                                                     number("k_stretch", &Key::k_stretch, "k_stretch {:.4g}"),
-                                                     number("k_stretch_to", &Key::k_stretch_to, "to k_stretch {:.4g}"),
-                                                     number("k_bind", &Key::k_bind, "k_bind {:.4g}"),
-                                                     number("young_pa", &Key::young_pa, "{:.3g} Pa"),
-                                                     text("masses", &Key::masses, "{} masses"),
-                                                     number("iterations", &Key::iterations, "{:.4g} iterations"),
-                                                     number("iterations_to", &Key::iterations_to, "to {:.4g} iterations"),
-                                                     number("time_step_s", &Key::time_step_s, "step {:.4g} s"),
-                                                     number("time_step_to_s", &Key::time_step_to_s, "to step {:.4g} s"),
-                                                     text("constraint", &Key::constraint, "{} constraints"),
-                                                     text("initial_guess", &Key::initial_guess, "from {}"),
-                                                     text("tolerance", &Key::tolerance, "tolerance {}"),
+                                                     number("vertices", &Key::vertices),
+                                                     number("vertices_to", &Key::vertices_to),
+                                                     number("k_stretch", &Key::k_stretch),
+                                                     number("k_stretch_to", &Key::k_stretch_to),
+                                                     number("k_bind", &Key::k_bind),
+                                                     number("young_pa", &Key::young_pa),
+                                                     named("masses", &Key::masses),
+                                                     number("iterations", &Key::iterations),
+                                                     number("iterations_to", &Key::iterations_to),
+                                                     number("time_step_s", &Key::time_step_s),
+                                                     number("time_step_to_s", &Key::time_step_to_s),
+                                                     named("constraint", &Key::constraint),
+                                                     named("initial_guess", &Key::initial_guess),
+                                                     named("tolerance", &Key::tolerance),
                                                      text("load", &Key::load),
                                                      text("ladder", &Key::ladder),
                                                      text("factor", &Key::factor),
-                                                     text("second_factor", &Key::second_factor, "and {}"),
+                                                     named("second_factor", &Key::second_factor),
                                                      text("model", &Key::model),
-                                                     text("equation", &Key::equation, "Eq. {}"),
+                                                     named("equation", &Key::equation),
                                                      text("gradient_of", &Key::gradient_of),
                                                      text("reading", &Key::reading)};
     return fields;
@@ -70,13 +67,10 @@ std::string value_text(const CaseKeyField& field, const CaseKey& key)
 
 std::string text_of(const CaseKey& key)
 {
-    std::vector<std::string> labels;
-    for (const CaseKeyField& field : case_key_fields()) {
-        if (!field.is_set(key)) continue;
-        labels.push_back(field.text ? fmt::format(fmt::runtime(field.label), key.*field.text)
-                                    : fmt::format(fmt::runtime(field.label), *(key.*field.number)));
-    }
-    return fmt::format("{}", fmt::join(labels, ", "));
+    std::vector<std::string> fields;
+    for (const CaseKeyField& field : case_key_fields())
+        if (field.is_set(key)) fields.push_back((field.is_named ? field.name + std::string(" ") : "") + value_text(field, key));
+    return fmt::format("{}", fmt::join(fields, ", "));
 }
 
 bool matches(const CaseKey& key, const CaseKey& wanted)

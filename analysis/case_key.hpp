@@ -43,7 +43,7 @@ struct CaseKey {
 // A field of the key, which is either a text or a number.
 struct CaseKeyField {
     const char* name;
-    const char* label;  // how text_of() writes the value: "{} deg"
+    bool is_named;  // text_of() writes the name before the value, which alone would not be understood
     std::string CaseKey::*text = nullptr;
     std::optional<double> CaseKey::*number = nullptr;
 
@@ -53,7 +53,8 @@ const std::vector<CaseKeyField>& case_key_fields();           // in the order in
 const CaseKeyField* case_key_field(const std::string& name);  // null if no field has that name
 
 std::string value_text(const CaseKeyField& field, const CaseKey& key);  // without its unit; empty if the field is not set
-std::string text_of(const CaseKey& key);                                // the labels of all fields that are set: limb, bend, 90 deg
+// The fields that are set: limb, bend, angle_deg 90, pbs, reference snh_p2. Sentences are composed by paper_figures/case_words.py.
+std::string text_of(const CaseKey& key);
 
 // True if every field that is set in `wanted` has the same value in `key`.
 bool matches(const CaseKey& key, const CaseKey& wanted);

@@ -7,11 +7,13 @@ import records
 import style
 from number_words import listed
 
-models = {"pbs": "PBS", "pbs_no_memory": "PBS, no\nmemory", "pbs_jiggle": "PBS,\njiggle", "xpbd": "XPBD",
-          "xpbd_small_steps": "XPBD, small\nsteps", "fem_linear": "linear\nFEM", "fem_corotational": "corotat.\nFEM",
-          "fem_stable_neo_hookean": "neo-Hook.\nFEM",
-          "fem_stable_neo_hookean_in_time": "neo-Hook.\nin time"}
-spelled = {"corotat.": "corotational", "neo-Hook.": "neo-Hookean"}
+models = {"pbs": "PBS", "pbs_no_memory": "PBS, no memory", "pbs_jiggle": "PBS, jiggle", "xpbd": "XPBD",
+          "xpbd_small_steps": "XPBD, small steps", "fem_linear": "linear FEM", "fem_corotational": "corotational FEM",
+          "fem_stable_neo_hookean": "neo-Hookean FEM", "fem_stable_neo_hookean_in_time": "neo-Hookean in time"}
+# Below a column there is room for one word or an abbreviation per line.
+ticks = models | {"pbs_no_memory": "PBS, no\nmemory", "pbs_jiggle": "PBS,\njiggle", "xpbd_small_steps": "XPBD, small\nsteps",
+                  "fem_linear": "linear\nFEM", "fem_corotational": "corotat.\nFEM", "fem_stable_neo_hookean": "neo-Hook.\nFEM",
+                  "fem_stable_neo_hookean_in_time": "neo-Hook.\nin time"}
 columns = {"body", "model", "factor", "value", "unit", "named", "second_factor", "precision", "outcome"}
 
 
@@ -43,10 +45,6 @@ def draw_factor(axes, rows, place):
         outcomes.draw_marks(axes, places, [cell["outcome"] for cell in cells], size=9 if len(cells) < 6 else 4)
 
 
-def named(model):
-    return " ".join(spelled.get(word, word) for word in models[model].split())
-
-
 def factors_with(rows, model, outcome):
     return list(dict.fromkeys(row["factor"] for row in rows if (row["model"], row["outcome"]) == (model, outcome)))
 
@@ -57,11 +55,11 @@ def facts(rows):
 
     def at_rest(model):
         ends = [row["outcome"] for row in rows if row["model"] == model]
-        return f"{named(model)} in {ends.count('converged')} of {len(ends)}"
+        return f"{models[model]} in {ends.count('converged')} of {len(ends)}"
 
     def by_method(outcome):
         found = {model: factors_with(rows, model, outcome) for model in present}
-        return listed([f"{named(model)} ({' and '.join(factors)})" for model, factors in found.items() if factors], "; ")
+        return listed([f"{models[model]} ({' and '.join(factors)})" for model, factors in found.items() if factors], "; ")
 
     return {"at_rest": listed([at_rest(model) for model in present], "; "), "diverged": by_method("diverged"),
             "not_finite": by_method("not_finite"), "inverted_pbs": listed(factors_with(rows, "pbs", "inverted"), "; "),
@@ -79,7 +77,7 @@ def draw(results, figures):
         cells = [row for row in rows if row["factor"] == factor]
         draw_factor(panel, cells, place)
         labels.append(f"{factor}: {range_of(cells)}")
-    panel.set_xticks(range(len(models)), models.values())
+    panel.set_xticks(range(len(ticks)), ticks.values())
     panel.set_yticks(range(len(factors)), labels)
     panel.set(xlim=(-0.5, len(models) - 0.5), ylim=(len(factors) - 0.5, -0.5))
     panel.xaxis.tick_top()

@@ -18,7 +18,7 @@ struct RatioLine {
     double ratio = 0.0, least = 0.0, largest = 0.0;
 };
 const analysis::Columns<RatioLine> ratio_columns = {{"at", &RatioLine::at, "", "what is doubled"},
-                                                    {"case", &RatioLine::of, "", "everything else, in words"},
+                                                    {"case", &RatioLine::of, "", "everything else: the fields of its case"},
                                                     {"body", &RatioLine::body, "", "body and load"},
                                                     {"deformer", &RatioLine::deformer, "", "the solver"},
                                                     {"ratio", &RatioLine::ratio, "", "of the stiffnesses, for one doubling"},

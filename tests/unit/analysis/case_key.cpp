@@ -103,7 +103,8 @@ TEST(CaseKey, MatchesWhatAsksForNoMore)
 
 TEST(CaseKey, ItsTextNamesWhatIsSet)
 {
-    EXPECT_EQ(text_of(bent_limb()), "limb, bend, upper|forearm, 90 deg, pbs, k_stretch 0.2");
+    EXPECT_EQ(text_of(bent_limb()), "limb, bend, upper|forearm, angle_deg 90, pbs, k_stretch 0.2");
+    EXPECT_EQ(text_of({.reference = "snh_p2", .masses = "unit", .equation = "12"}), "reference snh_p2, masses unit, equation 12");
     EXPECT_EQ(text_of({}), "");
 }
 

@@ -42,7 +42,7 @@ TEST_F(BulgeFigures, AreOverQuadraticElementsWhereverTheyComeAmongTheSamples)
     EXPECT_DOUBLE_EQ(figures()[0].value, 1.2 / 1.5);
     EXPECT_DOUBLE_EQ(figures()[0].low, 1.2 / 1.5);   // relative to the largest reference
     EXPECT_DOUBLE_EQ(figures()[0].high, 1.2 / 0.8);  // relative to the smallest
-    EXPECT_EQ(text_of(figures()[0].of), "limb, bend, upper|forearm, 30 deg, pbs, reference snh_p2");
+    EXPECT_EQ(text_of(figures()[0].of), "limb, bend, upper|forearm, angle_deg 30, pbs, reference snh_p2");
 }
 
 TEST_F(BulgeFigures, AreOverLinearElementsWhereThereAreNoOthers)
@@ -143,7 +143,7 @@ TEST(CandyWrapperFigures, TakeTheThinnestOfAllAndDoWithoutTheReference)
     ASSERT_EQ(own.size(), 2u);
     EXPECT_DOUBLE_EQ(own[0].value, 0.95);
     EXPECT_DOUBLE_EQ(own[0].low, 0.85);
-    EXPECT_EQ(text_of(own[0].of), "limb, bend, upper|forearm, 30 deg, pbs");
+    EXPECT_EQ(text_of(own[0].of), "limb, bend, upper|forearm, angle_deg 30, pbs");
     EXPECT_EQ(of_quantity(figures, "smallest_section_area_over_rest", "lbs").size(), 1u);
     EXPECT_TRUE(of_quantity(figures, "smallest_section_area_over_rest", "reference").empty());
     const auto outcomes = experiments::section_outcomes(of, body, samples);

@@ -42,7 +42,7 @@ TEST(WeightsComparison, FiguresAreTheRatiosOfTheRecords)
         EXPECT_DOUBLE_EQ(jump->value, strain_jump(bent, "paper", deformer) / strain_jump(bent, "rigid", deformer));
         EXPECT_LE(jump->low, jump->value);
         EXPECT_GE(jump->high, jump->value);
-        EXPECT_EQ(text_of(jump->of), "limb, bend, upper|forearm, 60 deg, " + deformer);
+        EXPECT_EQ(text_of(jump->of), "limb, bend, upper|forearm, angle_deg 60, " + deformer);
     }
 }
 
