@@ -13,6 +13,8 @@ tolerances = {"residual": "tolerance on the residual", "volume": "tolerance on t
 guesses = {"previous_frame": "from the previous frame", "rest_pose": "from the rest pose", "rigid_bind": "from the rigid bind"}
 readings = {"as_printed": "as printed", "relative_to_p1": "read relative to p1", "derived_gradients": "with the derived gradients"}
 variants = {"jiggle": "jiggling flesh"}
+formulations = {"displacement": "", "mean_dilatation": "mean dilatation", "taylor_hood": "Taylor-Hood", "pbs": "PBS",
+                "volume_constraints": "PBS, every volume kept", "one_point": "one point", "three_grids": "three grids"}
 limits = {"at_least": "at least ", "at_most": "at most ", "more_than": "more than "}
 
 
@@ -51,6 +53,17 @@ def of_field(field, value):
     known = {"deformer": bodies_by, "precision": precisions, "masses": masses, "tolerance": tolerances, "initial_guess": guesses,
              "reading": readings, "variant": variants}
     return known.get(field, {}).get(value, in_plain(str(value)))
+
+
+def elements(order, formulation):
+    """P2 Taylor-Hood. Where there are no finite elements, the order is empty and the formulation names what is in their place."""
+    return " ".join(part for part in (f"P{order}" if order else "", formulations[formulation]) if part)
+
+
+def posed(row):
+    """limb, bend 90\u00b0; human, clip 01_01, crouch: the case of a row of points.csv."""
+    case = {field: row[field] for field in ("body", "motion", "pose") if row[field]}
+    return of(case | ({"angle_deg": float(row["angle_deg"])} if row["angle_deg"] else {}))
 
 
 def settings(case):

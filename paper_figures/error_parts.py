@@ -1,20 +1,22 @@
 """The error of PBS in each pose of the study of error against run time, split into three parts over the iterations: the solver's part, the
 part of the converged constraints, and the bound on the reference's own discretisation error. Where the bound exceeds the whole error, the
 reference is too coarse to measure the error of PBS."""
+import case_words
 import entries
 import error_split
 import records
 import style
 
-columns = {"body", "pose", "deformer", "setting", "iterations", "k_stretch", "order", "precision", "substeps",
+case_columns = ("body", "motion", "pose", "angle_deg")
+columns = {*case_columns, "deformer", "iterations", "k_stretch", "order", "precision", "substeps", "wanted_vertices",
            *(column for column, *_ in error_split.parts)}
 most_panels = 4
 
 
 def of_pbs(rows, k_stretch):
     chosen = [row for row in rows if (row["deformer"], row["order"], row["precision"]) == ("pbs", "ordered", "f32")
-              and float(row["k_stretch"]) == k_stretch and row["solver_pct"] and "substeps" not in row["setting"]
-              and "mesh" not in row["setting"]]
+              and float(row["k_stretch"]) == k_stretch and row["solver_pct"] and row["substeps"] == "1"
+              and not row["wanted_vertices"]]
     return sorted(chosen, key=lambda row: int(row["iterations"]))
 
 
@@ -23,12 +25,12 @@ def draw_case(axes, rows):
     for column, label, color, marker, line in error_split.parts:
         iterations, values = records.numbers(rows, "iterations"), records.numbers(rows, column)
         axes.plot(iterations, values, color=color, marker=marker, linestyle=line, label=label)
-        behind += [{"body": rows[0]["body"], "pose": rows[0]["pose"], "part": column, "iterations": i, "value_pct": v}
-                   for i, v in zip(iterations, values)]
+        of_case = {name: rows[0][name] for name in case_columns}
+        behind += [of_case | {"part": column, "iterations": i, "value_pct": v} for i, v in zip(iterations, values)]
     axes.axvline(24, color=style.black, linewidth=0.6)
     style.log_scale(axes.xaxis, [1, 4, 24, 96, 384])
     style.log_scale(axes.yaxis)
-    axes.set_title(f"{rows[0]['body']}, {rows[0]['pose']}".replace(" deg", "\u00b0"))
+    axes.set_title(case_words.posed(rows[0]))
     axes.set_xlabel("iterations; line: the paper's 24")
     axes.set_ylabel("error at the joints [%]")
     return behind
@@ -37,7 +39,7 @@ def draw_case(axes, rows):
 def draw(results, figures):
     folder = results / "work_precision"
     cases = [of_pbs(records.table(file, columns), 0.2) for file in sorted(folder.glob("*/points.csv"))]
-    cases = sorted(filter(None, cases), key=lambda rows: not rows[0]["body"].startswith("limb"))[:most_panels]
+    cases = sorted(filter(None, cases), key=lambda rows: rows[0]["body"] != "limb")[:most_panels]
     if not cases:
         raise records.RecordsMissing(f"{folder}: no case with the error split")
     figure, axes = style.panels(-(-len(cases) // 2), 2, height_in=2.1)

@@ -158,10 +158,11 @@ def ratio_bar(figure, axes, scale, colors):
     bar(figure, axes, scale, colors, label, "both")
 
 
-def bone_in_words(bone):
-    """The name of a bone in words: left upper arm for `upper_arm.L`."""
+def bone_in_words(bone, next_to=""):
+    """The name of a bone in words: left upper arm for `upper_arm.L`. The side is left out next to a bone on the same side."""
     name, _, side = bone.partition(".")
-    return " ".join([*{"L": ["left"], "R": ["right"]}.get(side, []), *name.split("_")])
+    known = side == next_to.partition(".")[2]
+    return " ".join([*({"L": ["left"], "R": ["right"]}.get(side, []) if not known else []), *name.split("_")])
 
 
 def source_of(provenance):

@@ -1,35 +1,41 @@
 """The finite element reference against theory: errors of a manufactured solution against the cell size, with the theoretical slopes; the
 stiffness in bending and torsion that remains as Poisson's ratio approaches 1/2; and the difference of every benchmark from its reference on
 the finest mesh."""
+import case_words
 import entries
 import records
 import style
 from number_words import figure, span
 
-looks = {"P1": (style.vermillion, "v"), "P2": (style.blue, "o"), "P2 mean dilatation": (style.orange, "s"),
-         "P2 Taylor-Hood": (style.green, "D")}
-norms = {"error in L2 over that of the solution": ("$L^2$", "-", 1),
-         "error in the H1 seminorm over that of the solution": ("$H^1$", (0, (4, 1.5)), 0)}
+# Element order and formulation.
+looks = {("1", "displacement"): (style.vermillion, "v"), ("2", "displacement"): (style.blue, "o"),
+         ("2", "mean_dilatation"): (style.orange, "s"), ("2", "taylor_hood"): (style.green, "D")}
+norms = {"error_l2": ("$L^2$", "-", 1), "error_h1_seminorm": ("$H^1$", (0, (4, 1.5)), 0)}
 # The problems shown, and their names in the figure.
 benchmarks = {
-    ("cantilever", "tip deflection"): "cantilever, tip",
-    ("gravity_cantilever", "deflection of the end's middle"): "cantilever under its own weight",
+    ("cantilever", "tip_deflection"): "cantilever, tip",
+    ("gravity_cantilever", "end_deflection"): "cantilever under its own weight",
     ("torsion", "torque"): "torsion of a square bar",
-    ("thick_sphere", "radial displacement of the inner surface"): "Lam\u00e9's thick sphere",
-    ("cooks_membrane", "rise of the corner (48,60), plane strain"): "Cook, plane strain",
-    ("cooks_membrane", "rise of the right edge's middle (48,52), plane stress"): "Cook, plane stress",
-    ("cooks_membrane_finite_strain", "rise of the corner (48,60), free faces"): "Cook, finite strain, free faces",
-    ("cooks_membrane_finite_strain", "rise of the corner (48,60), plane strain"): "Cook, finite strain, plane strain",
-    ("twisted_beam", "tip deflection, load along the tip's width (in plane)"): "MacNeal\u2013Harder twisted beam, in plane",
-    ("twisted_beam", "tip deflection, load across the tip's width (out of plane)"): "MacNeal\u2013Harder twisted beam, out of plane",
-    ("thick_plate", "sigma_yy at D"): "NAFEMS LE10, stress at D",
+    ("thick_sphere", "inner_radial_displacement"): "Lam\u00e9's thick sphere",
+    ("cooks_membrane", "corner_rise_plane_strain"): "Cook, plane strain",
+    ("cooks_membrane", "edge_middle_rise_plane_stress"): "Cook, plane stress",
+    ("cooks_membrane_finite_strain", "corner_rise_free_faces"): "Cook, finite strain, free faces",
+    ("cooks_membrane_finite_strain", "corner_rise_plane_strain"): "Cook, finite strain, plane strain",
+    ("twisted_beam", "tip_deflection_in_plane"): "MacNeal\u2013Harder twisted beam, in plane",
+    ("twisted_beam", "tip_deflection_out_of_plane"): "MacNeal\u2013Harder twisted beam, out of plane",
+    ("thick_plate", "stress_yy_at_d"): "NAFEMS LE10, stress at D",
 }
+
+
+def solved_with(rows, elements):
+    """The rows with this element order and formulation."""
+    return [row for row in rows if (row["element_order"], row["formulation"]) == elements]
 
 
 def theory(ladder, order):
     """The rows with the errors that this order predicts, based on the error of the finest mesh."""
     finest_mesh = ladder[-1]
-    return [{**row, "quantity": f"theory, h^{order}: {row['quantity']}",
+    return [{**row, "quantity": f"{row['quantity']}_by_theory", "expected_order": order,
              "value": float(finest_mesh["value"]) * (float(row["h_m"]) / float(finest_mesh["h_m"])) ** order} for row in ladder]
 
 
@@ -37,15 +43,17 @@ def draw_convergence(axes, rows):
     """One line per norm and element order; the theoretical slope is dotted from its finest to its coarsest mesh. Returns the dotted
     rows."""
     dotted = []
-    for elements in ("P1", "P2"):
+    for element_order in (1, 2):
+        elements = str(element_order), "displacement"
         color, marker = looks[elements]
         for quantity, (norm, line, gain) in norms.items():
-            ladder = [row for row in rows if row["elements"] == elements and row["quantity"] == quantity]
+            ladder = [row for row in solved_with(rows, elements) if row["quantity"] == quantity]
             if not ladder:
-                raise records.RecordsMissing(f"verification.csv: no {quantity} of {elements}")
+                raise records.RecordsMissing(f"verification.csv: no {quantity} of elements of order {element_order}")
             h, error = records.numbers(ladder, "h_m"), records.numbers(ladder, "value")
-            order = int(elements[1]) + gain
-            axes.plot(h, error, color=color, linestyle=line, marker=marker, label=f"{elements} in {norm}, theory $h^{order}$")
+            order = element_order + gain
+            axes.plot(h, error, color=color, linestyle=line, marker=marker,
+                      label=f"{case_words.elements(*elements)} in {norm}, theory $h^{order}$")
             dotted += theory(ladder, order)
             axes.plot(h, records.numbers(dotted[-len(h):], "value"), color=style.black, linestyle=(0, (1, 2)), linewidth=0.7)
     axes.set_xscale("log", base=2)
@@ -59,19 +67,20 @@ def draw_convergence(axes, rows):
 
 def shown_of(row):
     """The members of a row that the locking panel and the CSV show."""
-    distance = 1.0 - 2.0 * float(row["poisson"]) if row["elements"] in looks else 0.0  # rows without a volume change have no distance
+    distance = 1.0 - 2.0 * float(row["poisson"]) if row["element_order"] else 0.0  # volume constraints: nu = 1/2
     return {"one_less_two_nu": distance, "value_over_reference": float(row["value"]) / float(row["reference"])}
 
 
 def draw_locking(axes, rows):
     """The value relative to the reference, against the distance to incompressibility."""
-    for quantity, line in (("tip deflection", "-"), ("torque", (0, (4, 1.5)))):
+    for quantity, line in (("tip_deflection", "-"), ("torque", (0, (4, 1.5)))):
         for elements, (color, marker) in looks.items():
-            ladder = [row for row in rows if row["elements"] == elements and row["quantity"] == quantity]
+            ladder = [row for row in solved_with(rows, elements) if row["quantity"] == quantity]
             if ladder:
                 distance, ratio = zip(*(shown_of(row).values() for row in ladder))
-                axes.plot(distance, ratio, color=color, linestyle=line, marker=marker, label=elements if line == "-" else None)
-    kept = [row for row in rows if row["elements"] == "PBS, volumes kept" and row["quantity"] == "tip deflection"]
+                label = case_words.elements(*elements) if line == "-" else None
+                axes.plot(distance, ratio, color=color, linestyle=line, marker=marker, label=label)
+    kept = [row for row in rows if (row["formulation"], row["quantity"]) == ("volume_constraints", "tip_deflection")]
     if kept:  # nu = 1/2 lies beyond a logarithmic axis, so it is a line
         axes.axhline(shown_of(kept[-1])["value_over_reference"], color=style.purple, linestyle=(0, (1, 1)),
                      label="PBS constraints, every volume kept")
@@ -86,10 +95,10 @@ def draw_locking(axes, rows):
 
 
 def finest(rows):
-    """For each benchmark, material and element, the row with the most degrees of freedom."""
+    """For each benchmark, Poisson's ratio and element, the row with the most degrees of freedom."""
     chosen = {}
     for row in rows:
-        key = (row["problem"], row["quantity"], row["material"], row["elements"])
+        key = (row["problem"], row["quantity"], row["poisson"], row["element_order"], row["formulation"])
         if key[:2] in benchmarks and row["difference_pct"] and (key not in chosen or int(row["dofs"]) > int(chosen[key]["dofs"])):
             chosen[key] = row
     return list(chosen.values())
@@ -104,10 +113,10 @@ def draw_benchmarks(axes, rows):
     axes.axvspan(-2.0, 2.0, color="#E8E8E8", linewidth=0, zorder=0)
     axes.axvline(0.0, color=style.black, linewidth=0.6)
     for elements, (color, marker) in looks.items():
-        shown = [row for row in rows if row["elements"] == elements]
+        shown = solved_with(rows, elements)
         if shown:
             axes.plot(records.numbers(shown, "difference_pct"), [places[label_of(row)] for row in shown], color=color, marker=marker,
-                      linestyle="none", label=elements, markersize=4.5)
+                      linestyle="none", label=case_words.elements(*elements), markersize=4.5)
     axes.set_xscale("symlog", linthresh=2.0, linscale=1.5)
     ticks = [-50, -10, -2, -1, 0, 1, 2, 10, 50]
     axes.set_xticks(ticks, [f"{tick:+g}".replace("-", "\u2212") if tick else "0" for tick in ticks])
@@ -123,9 +132,9 @@ def facts(rows):
     """How much of a beam's bending quadratic and linear elements keep as it becomes incompressible, and their largest benchmark difference
     [%]."""
     def of(order, rows):
-        return [row for row in rows if row["elements"].startswith(f"P{order}")]
+        return [row for row in rows if row["element_order"] == str(order)]
 
-    bent = [row for row in rows if (row["problem"], row["quantity"]) == ("locking", "tip deflection")]
+    bent = [row for row in rows if (row["problem"], row["quantity"]) == ("locking", "tip_deflection")]
     judged = [row for row in rows if (row["problem"], row["quantity"]) in benchmarks and row["difference_pct"]]
     kept = {f"p{order}_bending": span([100 * float(row["value_over_reference"]) for row in of(order, bent)]) for order in (1, 2)}
     off = {f"p{order}_off": figure(max((abs(float(row["difference_pct"])) for row in of(order, judged)), default=None)) for order in (1, 2)}
@@ -134,7 +143,8 @@ def facts(rows):
 
 def draw(results, figures):
     rows = records.table(results / "verification" / "verification.csv",
-                         {"problem", "quantity", "elements", "material", "poisson", "h_m", "dofs", "value", "reference", "difference_pct"})
+                         {"problem", "quantity", "element_order", "formulation", "poisson", "h_m", "dofs", "value", "reference",
+                          "difference_pct"})
     manufactured, locking = ([row for row in rows if row["problem"] == name] for name in ("manufactured_solution", "locking"))
     shown = finest(rows)
     if not shown:

@@ -5,7 +5,7 @@ import records
 import style
 
 deformers = ("lbs", "dqs", "pbs", "snh_p1")
-columns = {"run", "deformer", "kind", "region", "rest_share_pct", "change_pct", "own_change_pct"}
+columns = {"run", "deformer", "kind", "bone", "second_bone", "rest_share_pct", "change_pct", "own_change_pct"}
 run_shown = "human_01_01_truth"
 most_regions = 10
 
@@ -14,30 +14,30 @@ def largest(rows):
     """The regions that LBS changes most, the largest loss first."""
     of_lbs = [row for row in rows if row["deformer"] == "lbs"]
     of_lbs.sort(key=lambda row: -abs(float(row["change_pct"])))
-    return [row["region"] for row in of_lbs[:most_regions]]
+    return [bones_of(row) for row in of_lbs[:most_regions]]
 
 
-def in_words(region):
+def bones_of(row):
+    """The bone of the region, or the two bones of a joint."""
+    return tuple(row[column] for column in ("bone", "second_bone") if row[column])
+
+
+def in_words(bones):
     """The name of a bone, or of the two bones of a joint with their side only once."""
-    first, *second = map(style.bone_in_words, region.split(" - "))
-    return "\u2013".join([first, *(bone.removeprefix(side_of(first)) for bone in second)])
-
-
-def side_of(bone):
-    return next((side for side in ("left ", "right ") if bone.startswith(side)), "")
+    first, *second = bones
+    return "\u2013".join([style.bone_in_words(first), *(style.bone_in_words(bone, first) for bone in second)])
 
 
 def draw_kind(axes, rows):
     regions = largest(rows)
     behind = []
     for deformer in deformers:
-        shown = sorted((row for row in rows if row["deformer"] == deformer and row["region"] in regions),
-                       key=lambda row: regions.index(row["region"]))
+        shown = sorted((row for row in rows if row["deformer"] == deformer and bones_of(row) in regions),
+                       key=lambda row: regions.index(bones_of(row)))
         look = style.look_of(deformer)
-        axes.plot(records.numbers(shown, "change_pct"), [regions.index(row["region"]) for row in shown], linestyle="none", color=look.color,
+        axes.plot(records.numbers(shown, "change_pct"), [regions.index(bones_of(row)) for row in shown], linestyle="none", color=look.color,
                   marker=look.marker, markersize=4, label=look.label)
-        behind += [{name: row[name] for name in ("run", "deformer", "kind", "region", "rest_share_pct", "change_pct", "own_change_pct")}
-                   for row in shown]
+        behind += [{name: row[name] for name in row if name in columns} for row in shown]
     axes.axvline(0, color=style.black, linewidth=0.6)
     axes.set_yticks(range(len(regions)), list(map(in_words, regions)))
     axes.set_ylim(len(regions) - 0.5, -0.5)

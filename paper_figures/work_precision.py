@@ -1,5 +1,6 @@
 """Error against run time, one panel per pose: every setting of every deformer, the front of each and the overall front, and the bound on
 the reference's own error, below which differences have no meaning. Dotted: the distance between the reference and the second solution."""
+import case_words
 import entries
 import records
 import style
@@ -8,10 +9,11 @@ looks = {"lbs": ("LBS", style.vermillion, "v"), "dqs": ("DQS", style.orange, "s"
          "pbs": ("PBS", style.blue, "o"), "pbs_exponent": ("PBS, exponent", style.sky, "p"), "xpbd": ("XPBD", style.purple, "D"),
          "xpbd_small_steps": ("XPBD, small steps", "#8B5A2B", "<"), "fem_linear": ("linear FEM", "#999999", "x"),
          "fem_corotational": ("corotational FEM", style.black, "+"), "fem_stable_neo_hookean": ("neo-Hookean FEM", style.black, "P")}
-point_columns = {"body", "pose", "deformer", "setting", "outcome", "ms_median", "error_joint_pct", "reference_error_joint_pct",
+case_columns = ("body", "motion", "pose", "angle_deg")
+point_columns = {*case_columns, "deformer", "setting", "outcome", "ms_median", "error_joint_pct", "reference_error_joint_pct",
                  "error_joint_beside_pct"}
 front_columns = {"case", "measure", "front", "deformer", "setting", "ms_median", "error_joint_pct"}
-point_numbers = ("body", "pose", "deformer", "setting", "ms_median", "error_joint_pct")
+point_numbers = ("deformer", "setting", "ms_median", "error_joint_pct")
 most_panels = 6
 
 
@@ -47,42 +49,42 @@ def draw_bounds(axes, bound, beside):
     axes.set_ylim(low, high)
 
 
-def draw_case(axes, rows, fronts):
+def draw_case(axes, case, rows, fronts):
     """Returns the rows behind it: points, fronts, the bound on the reference's own error, and the distance of the second solution."""
-    case = f"{rows[0]['body']}, {rows[0]['pose']}"
     fronts = [row for row in fronts if row["case"] == case]
     bound = rows[0]["reference_error_joint_pct"]
     beside = next((row["error_joint_beside_pct"] for row in rows if row["outcome"] == "reference"), "")
     draw_deformers(axes, rows, fronts)
     draw_bounds(axes, bound, beside)
     style.log_scale(axes.yaxis)
-    axes.set_title((f"{case}; bound {float(bound):.3g} %" if bound else case).replace(" deg", "\u00b0"))
+    axes.set_title(case_words.posed(rows[0]) + (f"; bound {float(bound):.3g} %" if bound else ""))
     axes.set_xlabel("processor time per frame [ms]")
     axes.set_ylabel("error at the joints [%]")
     points = [{"shown": "point"} | {name: row[name] for name in point_numbers} for row in measured(rows)]
-    of_fronts = [{"shown": f"front of {row['front']}"} | {name: row[name] for name in point_numbers[2:]} for row in fronts]
+    of_fronts = [{"shown": f"front of {row['front']}"} | {name: row[name] for name in point_numbers} for row in fronts]
     levels = [{"shown": shown, "error_joint_pct": value} for shown, value in (("bound", bound), ("second solution", beside)) if value]
-    return points + [{"body": rows[0]["body"], "pose": rows[0]["pose"]} | row for row in of_fronts + levels]
+    of_case = {name: rows[0][name] for name in case_columns}
+    return [of_case | row for row in points + of_fronts + levels]
 
 
 def place(rows):
     """The limb first, then the poses that the quick study also has, then the rest."""
     body, pose = rows[0]["body"], rows[0]["pose"]
-    return not body.startswith("limb"), (body, pose) not in (("human", "crouch"), ("human", "in the air"))
+    return body != "limb", (body, pose) not in (("human", "crouch"), ("human", "in_the_air"))
 
 
 def draw(results, figures):
     folder = results / "work_precision"
-    cases = [records.table(file, point_columns) for file in sorted(folder.glob("*/points.csv"))]
-    cases = [rows for rows in cases if measured(rows)]
+    cases = [(file.parent.name, records.table(file, point_columns)) for file in sorted(folder.glob("*/points.csv"))]
+    cases = [(case, rows) for case, rows in cases if measured(rows)]
     if not cases:
         raise records.RecordsMissing(f"{folder}: no case with a reference")
-    cases.sort(key=place)
+    cases.sort(key=lambda case: place(case[1]))
     fronts = [row for row in records.table(folder / "fronts.csv", front_columns) if row["measure"] == "error_joint_pct"]
     shown = cases[:most_panels]
     columns = 2
     figure, axes = style.panels(-(-len(shown) // columns), columns, height_in=2.4)
-    behind = [row for panel, rows in zip(axes.flat, shown) for row in draw_case(panel, rows, fronts)]
+    behind = [row for panel, (case, rows) in zip(axes.flat, shown) for row in draw_case(panel, case, rows, fronts)]
     for panel in axes.flat[len(shown):]:
         panel.set_visible(False)
     axes.flat[0].plot([], [], linestyle="none", marker="o", color="#777777", markersize=2.6, alpha=0.45,

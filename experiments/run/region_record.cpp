@@ -5,18 +5,28 @@
 #include <algorithm>
 
 namespace experiments {
+namespace {
 
-const analysis::Columns<RegionChange> region_columns = {
-    {"deformer", &RegionChange::deformer, "", "label of the deformer"},
-    {"kind", &RegionChange::kind, "", "what the region belongs to: bone or joint"},
-    {"region", &RegionChange::region, "", "name of the bone, or of the two bones of the joint: thigh.L - shin.L"},
-    {"rest_share_pct", &RegionChange::rest_share_pct, "%", "the region's share of the body's rest volume"},
-    {"change_pct", &RegionChange::change_pct, "%", "mean change of volume over the frames, of the body's rest volume; the bones' add up"},
-    {"abs_change_pct", &RegionChange::abs_change_pct, "%", "mean sum of the tets' absolute changes, of the body's rest volume"},
-    {"lowest_pct", &RegionChange::lowest_pct, "%", "lowest change_pct of a frame"},
-    {"highest_pct", &RegionChange::highest_pct, "%", "highest change_pct of a frame"},
-    {"own_change_pct", &RegionChange::own_change_pct, "%", "mean change of volume over the frames, of the region's own rest volume"},
-    {"frames", &RegionChange::frames, "", "number of frames whose positions are finite"}};
+const analysis::Columns<RegionBones> region_bone_columns = {
+    {"bone", &RegionBones::bone, "", "name of the bone, or of the joint's first bone"},
+    {"second_bone", &RegionBones::second_bone, "", "name of the joint's second bone; empty where the region belongs to one bone"}};
+
+}  // namespace
+
+using Changes = analysis::Columns<RegionChange>;
+const Changes region_columns =
+    Changes{{"deformer", &RegionChange::deformer, "", "label of the deformer"},
+            {"kind", &RegionChange::kind, "", "what the region belongs to: bone or joint"}} +
+    within(&RegionChange::bones, region_bone_columns) +
+    Changes{
+        {"rest_share_pct", &RegionChange::rest_share_pct, "%", "the region's share of the body's rest volume"},
+        {"change_pct", &RegionChange::change_pct, "%",
+         "mean change of volume over the frames, of the body's rest volume; the bones' add up"},
+        {"abs_change_pct", &RegionChange::abs_change_pct, "%", "mean sum of the tets' absolute changes, of the body's rest volume"},
+        {"lowest_pct", &RegionChange::lowest_pct, "%", "lowest change_pct of a frame"},
+        {"highest_pct", &RegionChange::highest_pct, "%", "highest change_pct of a frame"},
+        {"own_change_pct", &RegionChange::own_change_pct, "%", "mean change of volume over the frames, of the region's own rest volume"},
+        {"frames", &RegionChange::frames, "", "number of frames whose positions are finite"}};
 
 namespace {
 
@@ -51,7 +61,7 @@ BodyRegions regions_by_bone(const pbs::Character& character)
 {
     const pbs::Weights weights = pbs::paper_weights(character.binding, character.skeleton);
     BodyRegions regions{"bone", {}, {}};
-    for (const auto& bone : character.skeleton.bones) regions.names.push_back(bone.name);
+    for (const auto& bone : character.skeleton.bones) regions.bones.push_back({bone.name});
     for (Eigen::Index tet = 0; tet < character.mesh.tets.rows(); ++tet)
         regions.of_tet.push_back(heaviest(weights_of_tet(character, weights, tet).of_bone));
     return regions;
@@ -62,7 +72,7 @@ BodyRegions regions_by_joint(const pbs::Character& character)
     const auto& bones = character.skeleton.bones;
     const pbs::Weights weights = pbs::paper_weights(character.binding, character.skeleton);
     BodyRegions regions{"joint", {}, {}};
-    std::map<std::string, int> index_of;
+    std::map<RegionBones, int> index_of;
     for (Eigen::Index tet = 0; tet < character.mesh.tets.rows(); ++tet) {
         TetWeights sum = weights_of_tet(character, weights, tet);
         regions.of_tet.push_back(-1);
@@ -70,9 +80,9 @@ BodyRegions regions_by_joint(const pbs::Character& character)
         const int first = heaviest(sum.of_bone);
         sum.of_bone[first] = 0.0;
         const int second = heaviest(sum.of_bone);
-        const std::string name = bones[std::min(first, second)].name + " - " + bones[std::max(first, second)].name;
-        const auto [entry, is_new] = index_of.emplace(name, static_cast<int>(regions.names.size()));
-        if (is_new) regions.names.push_back(name);
+        const RegionBones two = {bones[std::min(first, second)].name, bones[std::max(first, second)].name};
+        const auto [entry, is_new] = index_of.emplace(two, static_cast<int>(regions.bones.size()));
+        if (is_new) regions.bones.push_back(two);
         regions.of_tet.back() = entry->second;
     }
     return regions;
@@ -90,7 +100,7 @@ void RegionRecord::add(const std::string& label, const pbs::Positions& positions
     const bool is_first = frames_[label]++ == 0;
     if (is_first) {
         labels_.push_back(label);
-        for (const Kind& kind : kinds_) sums_[label].emplace_back(kind.regions.names.size());
+        for (const Kind& kind : kinds_) sums_[label].emplace_back(kind.regions.bones.size());
     }
     for (std::size_t k = 0; k < kinds_.size(); ++k) {
         const auto changes = kinds_[k].ruler.measure(positions);
@@ -112,11 +122,11 @@ std::vector<RegionChange> RegionRecord::changes() const
     for (const std::string& label : labels_)
         for (std::size_t k = 0; k < kinds_.size(); ++k) {
             const BodyRegions& regions = kinds_[k].regions;
-            for (std::size_t r = 0; r < regions.names.size(); ++r) {
+            for (std::size_t r = 0; r < regions.bones.size(); ++r) {
                 const Sums& sums = sums_.at(label)[k][r];
                 if (sums.rest == 0.0) continue;  // a bone that carries no tet
                 const int frames = frames_.at(label);
-                changes.push_back({label, regions.kind, regions.names[r], sums.rest, sums.change / frames, sums.abs_change / frames,
+                changes.push_back({label, regions.kind, regions.bones[r], sums.rest, sums.change / frames, sums.abs_change / frames,
                                    sums.lowest, sums.highest, 100.0 * sums.change / frames / sums.rest, frames});
             }
         }

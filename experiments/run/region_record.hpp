@@ -12,22 +12,30 @@
 
 namespace experiments {
 
+// The bone that a region belongs to, or the two bones of a joint.
+struct RegionBones {
+    std::string bone, second_bone = {};
+    auto operator<=>(const RegionBones&) const = default;
+    std::string text() const { return second_bone.empty() ? bone : bone + " - " + second_bone; }
+};
+
 // A character's tets cut into regions, by the weights of Eq. 2 whatever weights the character is skinned with.
 struct BodyRegions {
     std::string kind;  // bone, joint
-    std::vector<std::string> names;
-    std::vector<int> of_tet;  // index into `names`; -1: none, #T
+    std::vector<RegionBones> bones;
+    std::vector<int> of_tet;  // index into `bones`; -1: none, #T
 };
 
 // Each tet belongs to the bone that has most weight over its four corners; among equals, to the one that most corners are nearest to.
 BodyRegions regions_by_bone(const pbs::Character& character);
 
-// Each tet with a blended corner belongs to the joint of the two bones with most weight, "thigh.L - shin.L". Joints without tets are left
-// out.
+// Each tet with a blended corner belongs to the joint of the two bones with most weight, in the order of the skeleton. Joints without
+// tets are left out.
 BodyRegions regions_by_joint(const pbs::Character& character);
 
 struct RegionChange {
-    std::string deformer, kind, region;
+    std::string deformer, kind;
+    RegionBones bones;
     double rest_share_pct = 0.0, change_pct = 0.0, abs_change_pct = 0.0, lowest_pct = 0.0, highest_pct = 0.0, own_change_pct = 0.0;
     int frames = 0;
 };

@@ -1,5 +1,6 @@
 """The first screen: which claims hold, where the others fail, the distance from the finite elements, and the cost. Every sentence is
 composed from claims.json, work_precision/*/points.csv, timing/timing.csv and the studies' costs."""
+import case_words
 import record_shapes
 import sentences
 from report import costs, verdicts
@@ -50,7 +51,7 @@ class Pose:
     """A case of the study work_precision: LBS, PBS as the paper sets it, and the reference, on the same tets."""
 
     def __init__(self, rows, k_stretch):
-        self.name = f"{rows[0]['body']}, {rows[0]['pose']}"
+        self.name, self.body = case_words.posed(rows[0]), rows[0]["body"]
         self.reference = next((row for row in rows if row["outcome"] == "reference"), None)
         vertices = self.reference and self.reference["vertices"]
         own = [row for row in rows if row["vertices"] == vertices]
@@ -74,7 +75,7 @@ def poses(found):
             all_poses.append(Pose(rows, scene.get("pbs", {}).get("k_stretch", 0.2)))
     whole = [pose for pose in all_poses if pose.is_whole()]
     left_out = [pose.name for pose in all_poses if not pose.is_whole()]
-    return sorted(whole, key=lambda pose: not pose.name.startswith("limb")), left_out + without_table
+    return sorted(whole, key=lambda pose: pose.body != "limb"), left_out + without_table
 
 
 def planned_without_table(found):

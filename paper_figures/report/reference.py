@@ -1,5 +1,6 @@
 """The verification of the finite element reference itself, if that study is on record: its values, their sources and the origins of
 bounds."""
+import case_words
 from number_words import counted, figure
 from report.markup import element, inline, joined, table
 from report.record_set import not_run, number
@@ -26,8 +27,9 @@ def cells(row, notes):
     theory = f" ({figure(number(row, 'expected_order'))})" if order and number(row, "expected_order") is not None else ""
     difference = number(row, "difference_pct")
     marks = [str(notes.index(row[column]) + 1) for column in ("source", "bound_from") if row[column]]
-    return [row["problem"], inline(row["quantity"] + (f" ({row['note']})" if row["note"] else "")), row["elements"], row["material"],
-            row["mesh"], row["dofs"], figure(number(row, "value")), figure(number(row, "reference")), row["unit"],
+    return [row["problem"], inline(row["description"] + (f" ({row['note']})" if row["note"] else "")),
+            case_words.elements(row["element_order"], row["formulation"]), row["material"], row["mesh"], row["dofs"],
+            figure(number(row, "value")), figure(number(row, "reference")), row["unit"],
             "" if difference is None else f"{difference:+.3g}".replace("-", "\u2212"), order + theory,
             "" if ends == [None, None] else f"{figure(ends[0])} to {figure(ends[1])}", row["holds"], ", ".join(marks)]
 

@@ -44,8 +44,8 @@ VerificationRow cantilever_row(const Effort& effort, double nu, int element_orde
                .formulation = formulation});
     const BeamTheory theory = timoshenko(nu);
     VerificationRow row = {.problem = "cantilever",
-                           .quantity = "tip deflection",
-                           .elements = elements_name(element_order, formulation),
+                           .quantity = {"tip_deflection", "tip deflection"},
+                           .elements = elements_of(element_order, formulation),
                            .material = linear_material(nu),
                            .mesh = text_of(divisions),
                            .h_m = depth_m / divisions[1],

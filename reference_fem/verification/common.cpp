@@ -13,12 +13,11 @@ ElasticMaterial solver_material(const Effort& effort, const ElasticMaterial& mat
     return {mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu), lambda / (2.0 * (lambda + mu))};
 }
 
-std::string elements_name(int element_order, Formulation formulation)
+RowElements elements_of(int order, Formulation formulation)
 {
-    const std::string order = "P" + std::to_string(element_order);
-    if (formulation == Formulation::mean_dilatation) return order + " mean dilatation";
-    if (formulation == Formulation::taylor_hood) return order + " Taylor-Hood";
-    return order;
+    if (formulation == Formulation::mean_dilatation) return {order, "mean_dilatation"};
+    if (formulation == Formulation::taylor_hood) return {order, "taylor_hood"};
+    return {order, "displacement"};
 }
 
 RowMaterial material_of(const std::string& law, double poisson)

@@ -27,8 +27,7 @@ VerificationRows distributed_rows(const Effort& effort);
 // The material that the solver receives in place of `material`: the same, unless the effort asks for an error in lambda.
 ElasticMaterial solver_material(const Effort& effort, const ElasticMaterial& material);
 
-// P1, P2, P2 mean dilatation, P2 Taylor-Hood
-std::string elements_name(int element_order, Formulation formulation = Formulation::displacement);
+RowElements elements_of(int order, Formulation formulation = Formulation::displacement);
 RowMaterial material_of(const std::string& law, double poisson);  // neo-Hookean, nu = 0.3
 RowMaterial linear_material(double poisson);                      // linear, nu = 0.3
 double order_between(double coarse, double fine);                 // of errors on two meshes, one twice as fine

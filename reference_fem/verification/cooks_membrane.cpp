@@ -40,7 +40,7 @@ BoundaryValueSolution bend(const Effort& effort, const ElasticMaterial& material
 VerificationRow row_of(int element_order, int n, const BoundaryValueSolution& solution)
 {
     return {.problem = "cooks_membrane",
-            .elements = elements_name(element_order),
+            .elements = elements_of(element_order),
             .material = linear_material(1.0 / 3.0),
             .mesh = text_of({n, n, 1}),
             .h_m = 16.0 / n * 1e-3,
@@ -52,7 +52,7 @@ VerificationRow plane_strain_row(const Effort& effort, int element_order, int n)
 {
     const BoundaryValueSolution solution = bend(effort, {70.0, 1.0 / 3.0}, 6.25, true, element_order, n);
     VerificationRow row = row_of(element_order, n, solution);
-    row.quantity = "rise of the corner (48,60), plane strain";
+    row.quantity = {"corner_rise_plane_strain", "rise of the corner (48,60), plane strain"};
     row.value = solution.displacement_at({48, 60, 0}).y();
     row.reference = 32.24;
     row.source =
@@ -68,7 +68,7 @@ VerificationRow plane_stress_row(const Effort& effort, int element_order, int n)
 {
     const BoundaryValueSolution solution = bend(effort, {1.0, 1.0 / 3.0}, 1.0 / 16.0, false, element_order, n);
     VerificationRow row = row_of(element_order, n, solution);
-    row.quantity = "rise of the right edge's middle (48,52), plane stress";
+    row.quantity = {"edge_middle_rise_plane_stress", "rise of the right edge's middle (48,52), plane stress"};
     row.value = solution.displacement_at({48, 52, 0}).y();
     row.reference = 23.96;
     row.source =

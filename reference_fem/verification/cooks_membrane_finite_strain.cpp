@@ -19,8 +19,9 @@ VerificationRow row_of(const Effort& effort, bool plane_strain, int element_orde
         solve_at_finite_strain(membrane(n), solver_material(effort, material), Model::isochoric_neo_hookean,
                                membrane_problem(1.0 / 16.0, plane_strain, element_order), {.first_step = 0.2});
     return {.problem = "cooks_membrane_finite_strain",
-            .quantity = plane_strain ? "rise of the corner (48,60), plane strain" : "rise of the corner (48,60), free faces",
-            .elements = elements_name(element_order),
+            .quantity = plane_strain ? RowQuantity{"corner_rise_plane_strain", "rise of the corner (48,60), plane strain"}
+                                     : RowQuantity{"corner_rise_free_faces", "rise of the corner (48,60), free faces"},
+            .elements = elements_of(element_order),
             .material = material_of("isochoric neo-Hookean", poisson),
             .mesh = text_of({n, n, 1}),
             .h_m = 16.0 / n * 1e-3,

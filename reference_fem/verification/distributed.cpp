@@ -76,11 +76,11 @@ private:
     fs::path path_;
 };
 
-VerificationRow row_of(int element_order, const std::string& quantity)
+VerificationRow row_of(int element_order, const std::string& processes)
 {
     return {.problem = "distributed",
-            .quantity = "node differences over displacements, root mean square, " + quantity,
-            .elements = elements_name(element_order),
+            .quantity = {"node_difference", "node differences over displacements, root mean square, " + processes},
+            .elements = elements_of(element_order),
             .material = linear_material(0.3),
             .unit = "1",
             .source = "CHOLMOD, one process",
@@ -132,8 +132,7 @@ VerificationRows distributed_rows(const Effort& effort)
     VerificationRows rows = {multigrid_row(effort, 1), multigrid_row(effort, 2)};
     const Program program;
     const VerificationRow left_out = {.problem = "distributed",
-                                      .quantity = "several processes",
-                                      .elements = "P1, P2",
+                                      .quantity = {"several_processes", "several processes, P1 and P2"},
                                       .mesh = "31 x 4 x 4",
                                       .unit = "1",
                                       .source = "CHOLMOD, one process",

@@ -38,11 +38,11 @@ VibratingBody cantilever(const Effort& effort, double nu, int element_order, con
              .held = [](const pbs::Vec3& x) { return x.x() < 1e-9; }}};
 }
 
-VerificationRow row_of(const VibratingBody& body, const Divisions& divisions, const std::string& quantity)
+VerificationRow row_of(const VibratingBody& body, const Divisions& divisions, const RowQuantity& quantity)
 {
     return {.problem = "dynamics",
             .quantity = quantity,
-            .elements = elements_name(body.space().element_order()),
+            .elements = elements_of(body.space().element_order()),
             .material = linear_material(poisson),
             .mesh = text_of(divisions),
             .h_m = 0.1 / divisions[1],
@@ -60,8 +60,8 @@ void add_orders(const Effort& effort, VerificationRows& rows)
             TimeStepper stepper = body.stepper({.scheme = scheme.scheme});
             stepper.start(mode.shape);
             body.run(stepper, end_s / steps, steps);
-            VerificationRow row =
-                row_of(body, coarse, fmt::format("error of the first mode, {}, omega h = {:.3g}", scheme.name, 4.0 / steps));
+            VerificationRow row = row_of(
+                body, coarse, {"first_mode_error", fmt::format("error of the first mode, {}, omega h = {:.3g}", scheme.name, 4.0 / steps)});
             row.value = (stepper.motion().displacement - std::cos(4.0) * mode.shape).norm() / mode.shape.norm();
             row.source = newmark_source;
             row.note = "order in the time step h";
@@ -91,7 +91,8 @@ void add_energy(const Effort& effort, VerificationRows& rows)
     const int steps = 1000;
     double drift = 0.0;
     body.run(stepper, 0.01, steps, [&](int) { drift = std::max(drift, std::abs(body.energy_j(stepper) / before - 1.0)); });
-    VerificationRow row = row_of(body, coarse, fmt::format("largest relative drift of the energy in {} steps of 0.01 s, Newmark", steps));
+    VerificationRow row =
+        row_of(body, coarse, {"energy_drift", fmt::format("largest relative drift of the energy in {} steps of 0.01 s, Newmark", steps)});
     row.value = drift;
     row.source = "closed form: average acceleration keeps the energy (T. Hughes, The Finite Element Method, 1987, ch. 9)";
     row.low = 0.0;
@@ -134,8 +135,9 @@ void add_dissipation(const Effort& effort, VerificationRows& rows)
         const double before = body.energy_j(stepper);
         body.run(stepper, Omega / mode.omega_rad_s, steps);
         const Decay theory = decay(scheme, Omega, steps);
-        VerificationRow row =
-            row_of(body, coarse, fmt::format("energy left after {} steps, generalised-alpha, rho = 0.8, omega h = {:.3g}", steps, Omega));
+        VerificationRow row = row_of(
+            body, coarse,
+            {"energy_left", fmt::format("energy left after {} steps, generalised-alpha, rho = 0.8, omega h = {:.3g}", steps, Omega)});
         row.value = body.energy_j(stepper) / before;
         row.reference = theory.energy_left;
         row.source = "closed form: powers of the scheme's 3 x 3 amplification matrix (Chung and Hulbert 1993)";
@@ -162,8 +164,10 @@ void add_rayleigh(const Effort& effort, VerificationRows& rows)
         const double one = body.amplitude(stepper, mode);
         body.run(stepper, 2.0 * pi / omega_d / a_period, a_period);
         const double decrement = std::log(one / body.amplitude(stepper, mode));
-        VerificationRow row = row_of(
-            body, coarse, fmt::format("damping ratio of the first mode, {:.2f} by mass and {:.2f} by stiffness", of_mass, of_stiffness));
+        VerificationRow row =
+            row_of(body, coarse,
+                   {"damping_ratio",
+                    fmt::format("damping ratio of the first mode, {:.2f} by mass and {:.2f} by stiffness", of_mass, of_stiffness)});
         row.value = decrement / std::hypot(2.0 * pi, decrement);
         row.reference = zeta;
         row.source = "closed form: zeta = (a / omega + b omega) / 2, by the logarithmic decrement";
@@ -184,7 +188,7 @@ void add_frequency(const Effort& effort, VerificationRows& rows)
                 const Divisions divisions = {10 * n, n, n};
                 const VibratingBody body = cantilever(effort, nu, element_order, divisions);
                 const Beam beam{1.0, 0.1, young_pa, nu, density_kg_m3};
-                VerificationRow row = row_of(body, divisions, "first bending frequency over Timoshenko's");
+                VerificationRow row = row_of(body, divisions, {"bending_frequency_ratio", "first bending frequency over Timoshenko's"});
                 row.material = linear_material(nu);
                 row.value = body.first_mode().omega_rad_s / timoshenko_rad_s(beam);
                 row.reference = 1.0;

@@ -28,8 +28,8 @@ VerificationRow row_of(const Effort& effort, int element_order, int n)
     const double bending = weight_n_m * std::pow(length_m, 4) / (8.0 * material.young_pa * inertia);
     const double shear = weight_n_m * length_m * length_m / (2.0 * k_g_a);
     VerificationRow row = {.problem = "gravity_cantilever",
-                           .quantity = "deflection of the end's middle",
-                           .elements = elements_name(element_order),
+                           .quantity = {"end_deflection", "deflection of the end's middle"},
+                           .elements = elements_of(element_order),
                            .material = linear_material(nu),
                            .mesh = text_of(divisions),
                            .h_m = depth_m / n,

@@ -63,11 +63,11 @@ struct Point {
     }
 };
 
-VerificationRow row_of(const Law& law, const std::string& quantity, double value)
+VerificationRow row_of(const Law& law, const RowQuantity& quantity, double value)
 {
     return {.problem = "laws",
             .quantity = quantity,
-            .elements = "one point",
+            .elements = {.formulation = "one_point"},
             .material = material_of(law.name, 0.4),
             .mesh = "none",
             .value = value,
@@ -84,7 +84,7 @@ VerificationRow bounded(VerificationRow row, double high, const std::string& fro
 }
 
 // From 1e-2 to 1e-3 the error has to fall a hundredfold; what is exact for a central difference has none to fall.
-VerificationRow slope_row(const Law& law, const std::string& quantity, double coarse, double fine)
+VerificationRow slope_row(const Law& law, const RowQuantity& quantity, double coarse, double fine)
 {
     constexpr double rounding = 1e-10;  // of values of order 1 over steps of 1e-3, a thousand times eps
     VerificationRow row = row_of(law, quantity, fine);
@@ -106,18 +106,21 @@ VerificationRows rows_of(const Effort& effort, const Law& law)
     const Matrix3d turn = Eigen::AngleAxisd(2.0, pbs::Vec3(3, -1, 2).normalized()).toRotationMatrix();
     const double energy = point.energy(strained()), turned = std::abs(point.energy(turn * strained()) - energy) / energy;
 
-    VerificationRow frame = row_of(law, "change of energy under a rotation of the whole", turned);
+    VerificationRow frame = row_of(law, {"energy_change_under_rotation", "change of energy under a rotation of the whole"}, turned);
     if (law.model == Model::linear)
         frame.note = "negative control: linear strain takes rotation for strain";
     else
         frame = bounded(frame, 1e-12, "rounding of some 100 operations on stretches of order 1, times their cancellation");
-    return {slope_row(law, "stress against the slope of the energy", point.energy_slope_error(1e-2), point.energy_slope_error(1e-3)),
-            slope_row(law, "tangent against the slope of the stress", point.stress_slope_error(1e-2), point.stress_slope_error(1e-3)),
-            bounded(row_of(law, "asymmetry of the tangent", (tangent - tangent.transpose()).norm() / tangent.norm()), 1e-13,
-                    "rounding of a second derivative"),
+    return {slope_row(law, {"stress_error", "stress against the slope of the energy"}, point.energy_slope_error(1e-2),
+                      point.energy_slope_error(1e-3)),
+            slope_row(law, {"tangent_error", "tangent against the slope of the stress"}, point.stress_slope_error(1e-2),
+                      point.stress_slope_error(1e-3)),
+            bounded(row_of(law, {"tangent_asymmetry", "asymmetry of the tangent"}, (tangent - tangent.transpose()).norm() / tangent.norm()),
+                    1e-13, "rounding of a second derivative"),
             frame,
-            bounded(row_of(law, "distance from linear elasticity at rest", (at_rest - linear).norm() / linear.norm()), 1e-12,
-                    "rounding; the same Lame parameters")};
+            bounded(row_of(law, {"distance_from_linear_elasticity", "distance from linear elasticity at rest"},
+                           (at_rest - linear).norm() / linear.norm()),
+                    1e-12, "rounding; the same Lame parameters")};
 }
 
 }  // namespace

@@ -32,11 +32,11 @@ Vec3 body_force(const Vec3& x)
     return -(lambda + mu) * gradient_of_divergence - mu * laplacian;
 }
 
-VerificationRow row_of(const std::string& norm, int element_order, int n, int dofs, double relative_error)
+VerificationRow row_of(const RowQuantity& quantity, int element_order, int n, int dofs, double relative_error)
 {
     return {.problem = "manufactured_solution",
-            .quantity = "error in " + norm + " over that of the solution",
-            .elements = elements_name(element_order),
+            .quantity = quantity,
+            .elements = elements_of(element_order),
             .material = linear_material(material.poisson),
             .mesh = text_of({n, n, n}) + " jittered",
             .h_m = 1.0 / n,
@@ -66,8 +66,9 @@ VerificationRows ladder(const Effort& effort, int element_order, int coarsest, i
         const int dofs = solution.space->dofs();
         const ErrorNorms error = solution.errors(exact, exact_gradient);
         const ErrorNorms whole = error_norms(*solution.space, Eigen::VectorXd::Zero(dofs), exact, exact_gradient);
-        rows.push_back(row_of("L2", element_order, n, dofs, error.l2 / whole.l2));
-        rows.push_back(row_of("the H1 seminorm", element_order, n, dofs, error.h1_seminorm / whole.h1_seminorm));
+        rows.push_back(row_of({"error_l2", "error in L2 over that of the solution"}, element_order, n, dofs, error.l2 / whole.l2));
+        rows.push_back(row_of({"error_h1_seminorm", "error in the H1 seminorm over that of the solution"}, element_order, n, dofs,
+                              error.h1_seminorm / whole.h1_seminorm));
     }
     const std::size_t last = rows.size();
     judge_order(rows[last - 2], rows[last - 4], element_order + 1);

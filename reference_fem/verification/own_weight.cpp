@@ -32,8 +32,8 @@ VerificationRows own_weight_rows(const Effort& effort)
                                                   .held = [](const Vec3& x) { return x.x() < 1e-9; },
                                                   .element_order = 2});
     return {{.problem = "own_weight",
-             .quantity = "largest nodal error over largest displacement",
-             .elements = "P2",
+             .quantity = {"nodal_error", "largest nodal error over largest displacement"},
+             .elements = elements_of(2),
              .material = linear_material(material.poisson),
              .mesh = text_of({n, n, n}) + " jittered",
              .h_m = 1.0 / n,

@@ -45,8 +45,8 @@ VerificationRow row_of(const Effort& effort, const std::string& data, const Boun
     double largest = 0.0;
     for (const auto& point : mesh.rest.rowwise()) largest = std::max(largest, exact(point.transpose()).norm());
     return {.problem = "patch_test",
-            .quantity = "largest nodal error over largest displacement, from " + data,
-            .elements = elements_name(problem.element_order),
+            .quantity = {"nodal_error_from_" + data, "largest nodal error over largest displacement, from " + data},
+            .elements = elements_of(problem.element_order),
             .material = linear_material(material.poisson),
             .mesh = text_of({n, n, n}) + " jittered",
             .h_m = 1.0 / n,

@@ -46,8 +46,8 @@ VerificationRow row_of(const Effort& effort, int element_order, const Divisions&
                .tractions = {{[](const Vec3& centre) { return centre.z() > thickness_m - 1e-9; },
                               [](const Vec3&, const Vec3& normal) -> Vec3 { return -pressure_pa * normal; }}}});
     return {.problem = "thick_plate",
-            .quantity = "sigma_yy at D",
-            .elements = elements_name(element_order),
+            .quantity = {"stress_yy_at_d", "sigma_yy at D"},
+            .elements = elements_of(element_order),
             .material = linear_material(material.poisson),
             .mesh = text_of(divisions),
             .h_m = thickness_m / divisions[2],

@@ -48,8 +48,8 @@ VerificationRow row_of(const Effort& effort, double nu, int element_order, Formu
         ++count;
     }
     return {.problem = "thick_sphere",
-            .quantity = "radial displacement of the inner surface",
-            .elements = elements_name(element_order, formulation),
+            .quantity = {"inner_radial_displacement", "radial displacement of the inner surface"},
+            .elements = elements_of(element_order, formulation),
             .material = linear_material(nu),
             .mesh = "3 x " + text_of({n, n, n}) + " in an octant",
             .h_m = (outer_m - inner_m) / n,

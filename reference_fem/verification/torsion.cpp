@@ -37,8 +37,8 @@ VerificationRow torsion_row(const Effort& effort, double nu, int element_order, 
               {.displacement = turned, .held = held, .element_order = element_order, .formulation = formulation});
     const double shear_pa = young_pa / (2.0 * (1.0 + nu));
     return {.problem = "torsion",
-            .quantity = "torque",
-            .elements = elements_name(element_order, formulation),
+            .quantity = {"torque", "torque"},
+            .elements = elements_of(element_order, formulation),
             .material = linear_material(nu),
             .mesh = text_of({n, n, n}),
             .h_m = side_m / n,

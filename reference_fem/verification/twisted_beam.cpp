@@ -60,9 +60,9 @@ VerificationRow row_of(const Effort& effort, const Vec3& load, int element_order
     char note[120];
     std::snprintf(note, sizeof note, "beam theory, bending alone: %.6f in", beam_theory(load));
     return {.problem = "twisted_beam",
-            .quantity = in_plane ? "tip deflection, load along the tip's width (in plane)"
-                                 : "tip deflection, load across the tip's width (out of plane)",
-            .elements = elements_name(element_order),
+            .quantity = in_plane ? RowQuantity{"tip_deflection_in_plane", "tip deflection, load along the tip's width (in plane)"}
+                                 : RowQuantity{"tip_deflection_out_of_plane", "tip deflection, load across the tip's width (out of plane)"},
+            .elements = elements_of(element_order),
             .material = linear_material(material.poisson),
             .mesh = text_of(divisions),
             .h_m = width_in / divisions[1] * 0.0254,

@@ -12,6 +12,25 @@
 namespace reference_fem {
 namespace {
 
+using analysis::Columns;
+using analysis::within;
+
+const Columns<RowQuantity> quantity_columns = {
+    {"quantity", &RowQuantity::key, "", "what is computed, as an identifier"},
+    {"description", &RowQuantity::description, "", "the same in words, with the settings that it belongs to"}};
+const Columns<RowElements> element_columns = {
+    {"element_order", &RowElements::order, "", "1 linear, 2 quadratic; empty in a row without finite elements"},
+    {"formulation", &RowElements::formulation, "",
+     "displacement, mean_dilatation or taylor_hood; without finite elements pbs, volume_constraints, one_point or three_grids"}};
+const Columns<RowMaterial> material_columns = {{"material", &RowMaterial::text, "", "constitutive law and its parameters in words"},
+                                               {"poisson", &RowMaterial::poisson, "", "Poisson's ratio, of an elastic law"}};
+const Columns<VerificationRow> bound_columns = {{"low", &VerificationRow::low, "", "lower bound of the value"},
+                                                {"high", &VerificationRow::high, "", "upper bound of the value"},
+                                                {"bound_from", &VerificationRow::bound_from, "", "where the bounds are from"},
+                                                {"observed_order", &VerificationRow::observed_order, "", "observed order of convergence"},
+                                                {"expected_order", &VerificationRow::expected_order, "", "order of convergence by theory"},
+                                                {"note", &VerificationRow::note, "", "remark"}};
+
 std::string verdict_of(const VerificationRow& row)
 {
     const std::optional<bool> held = holds(row);
@@ -61,8 +80,8 @@ std::string markdown(const VerificationRows& rows)
         "holds | notes |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const VerificationRow& row : rows)
         text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.6g} | {} | {} | {} | {} | {} | {} | {} |\n", row.problem,
-                            row.quantity + (row.note.empty() ? "" : " (" + row.note + ")"), row.elements, row.material.text, row.mesh,
-                            row.dofs, row.value, row.reference == 0.0 ? "0" : number(row.reference), row.unit,
+                            row.quantity.description + (row.note.empty() ? "" : " (" + row.note + ")"), row.elements.text(),
+                            row.material.text, row.mesh, row.dofs, row.value, row.reference == 0.0 ? "0" : number(row.reference), row.unit,
                             number(difference_pct(row), "{:+.3g}"), order_text(row), bounds_text(row), verdict_of(row), marks(row, notes));
     text += "\n";
     for (std::size_t k = 0; k < notes.size(); ++k) text += fmt::format("{}. {}\n", k + 1, notes[k]);
@@ -106,8 +125,9 @@ ProblemSummary summarise(const std::string& problem, const VerificationRows& row
         if (const auto difference = difference_pct(row)) summary.difference_pct.add(*difference);
         if (row.expected_order && row.observed_order) summary.order_difference.add(*row.observed_order - *row.expected_order);
         if (!*row_holds)
-            summary.failing += fmt::format("  does not hold: {}, {}, {}, {}: {} {}, expected {} {}\n", row.quantity, row.elements,
-                                           row.material.text, row.mesh, number(row.value), row.unit, bounds_text(row), order_text(row));
+            summary.failing +=
+                fmt::format("  does not hold: {}, {}, {}, {}: {} {}, expected {} {}\n", row.quantity.description, row.elements.text(),
+                            row.material.text, row.mesh, number(row.value), row.unit, bounds_text(row), order_text(row));
     }
     return summary;
 }
@@ -116,39 +136,23 @@ ProblemSummary summarise(const std::string& problem, const VerificationRows& row
 
 const analysis::Columns<RecordedRow>& verification_columns()
 {
-    static const analysis::Columns<VerificationRow> compared = {{"problem", &VerificationRow::problem, "", "name of the problem"},
-                                                                {"quantity", &VerificationRow::quantity, "", "what is computed"},
-                                                                {"elements", &VerificationRow::elements, "", "elements and formulation"},
-                                                                {"material", [](auto& row) -> auto& {return row.material.text;
-}
-, "", "constitutive law and its parameters"
-}  // namespace reference_fem
-, {"poisson", [](auto& row) -> auto& {return row.material.poisson;
-}
-, "", "Poisson's ratio, of an elastic law"
-}
-, {"mesh", &VerificationRow::mesh, "", "the mesh in words"}, {"h_m", &VerificationRow::h_m, "m", "size of its elements"},
-    {"dofs", &VerificationRow::dofs, "", "degrees of freedom"}, {"value", &VerificationRow::value, "", "computed value, in the row's unit"},
-    {"reference", &VerificationRow::reference, "", "value that it is compared with, in the row's unit"},
-    {"unit", &VerificationRow::unit, "", "unit of both"},
-{
-    "source", &VerificationRow::source, "", "where the reference is from"
-}
-}
-;
-static const analysis::Columns<VerificationRow> bounds = {
-    {"low", &VerificationRow::low, "", "lower bound of the value"},
-    {"high", &VerificationRow::high, "", "upper bound of the value"},
-    {"bound_from", &VerificationRow::bound_from, "", "where the bounds are from"},
-    {"observed_order", &VerificationRow::observed_order, "", "observed order of convergence"},
-    {"expected_order", &VerificationRow::expected_order, "", "order of convergence by theory"},
-    {"note", &VerificationRow::note, "", "remark"}};
-static const analysis::Columns<RecordedRow> all =
-    within(&RecordedRow::row, compared) +
-    analysis::Columns<RecordedRow>{{"difference_pct", &RecordedRow::difference_pct, "%", "difference of the value from the reference"}} +
-    within(&RecordedRow::row, bounds) +
-    analysis::Columns<RecordedRow>{{"holds", &RecordedRow::holds, "", "yes, no, or empty where the row has no bounds"}};
-return all;
+    static const Columns<VerificationRow> compared =
+        Columns<VerificationRow>{{"problem", &VerificationRow::problem, "", "name of the problem"}} +
+        within(&VerificationRow::quantity, quantity_columns) + within(&VerificationRow::elements, element_columns) +
+        within(&VerificationRow::material, material_columns) +
+        Columns<VerificationRow>{{"mesh", &VerificationRow::mesh, "", "the mesh in words"},
+                                 {"h_m", &VerificationRow::h_m, "m", "size of its elements"},
+                                 {"dofs", &VerificationRow::dofs, "", "degrees of freedom"},
+                                 {"value", &VerificationRow::value, "", "computed value, in the row's unit"},
+                                 {"reference", &VerificationRow::reference, "", "value that it is compared with, in the row's unit"},
+                                 {"unit", &VerificationRow::unit, "", "unit of both"},
+                                 {"source", &VerificationRow::source, "", "where the reference is from"}};
+    static const Columns<RecordedRow> all =
+        within(&RecordedRow::row, compared) +
+        Columns<RecordedRow>{{"difference_pct", &RecordedRow::difference_pct, "%", "difference of the value from the reference"}} +
+        within(&RecordedRow::row, bound_columns) +
+        Columns<RecordedRow>{{"holds", &RecordedRow::holds, "", "yes, no, or empty where the row has no bounds"}};
+    return all;
 }
 
 void write_verification_record(const std::string& folder, const VerificationRows& rows)

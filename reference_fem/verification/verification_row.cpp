@@ -1,5 +1,6 @@
 #include "reference_fem/verification/verification_row.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -25,6 +26,12 @@ double number_or_nan(const nlohmann::json& json, const char* key)
 
 }  // namespace
 
+std::string RowElements::text() const
+{
+    if (!order) return formulation;
+    return fmt::format("P{}{}", *order, formulation == "displacement" ? "" : " " + formulation);
+}
+
 std::optional<double> difference_pct(const VerificationRow& row)
 {
     if (row.reference == 0.0) return std::nullopt;
@@ -45,8 +52,10 @@ nlohmann::json to_json(const VerificationRow& row)
 {
     const std::optional<bool> held = holds(row);
     return {{"problem", row.problem},
-            {"quantity", row.quantity},
-            {"elements", row.elements},
+            {"quantity", row.quantity.key},
+            {"description", row.quantity.description},
+            {"element_order", row.elements.order ? nlohmann::json(*row.elements.order) : nlohmann::json(nullptr)},
+            {"formulation", row.elements.formulation},
             {"material", row.material.text},
             {"poisson", to_json(row.material.poisson)},
             {"mesh", row.mesh},
@@ -70,8 +79,9 @@ VerificationRow verification_row(const nlohmann::json& json)
 {
     VerificationRow row;
     row.problem = json.at("problem");
-    row.quantity = json.at("quantity");
-    row.elements = json.at("elements");
+    row.quantity = {json.at("quantity"), json.at("description")};
+    if (!json.at("element_order").is_null()) row.elements.order = json.at("element_order").get<int>();
+    row.elements.formulation = json.at("formulation");
     row.material = {json.at("material"), optional_number(json, "poisson")};
     row.mesh = json.at("mesh");
     row.h_m = json.at("h_m");

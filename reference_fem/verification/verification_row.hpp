@@ -15,10 +15,23 @@ struct RowMaterial {
     std::optional<double> poisson = {};  // Poisson's ratio, of an elastic law
 };
 
+struct RowQuantity {
+    std::string key = {};          // of what is compared, an identifier: tip_deflection
+    std::string description = {};  // the same in words, with the settings that it belongs to
+};
+
+struct RowElements {
+    std::optional<int> order = {};  // 1 linear, 2 quadratic; nothing in a row without finite elements
+    // displacement, mean_dilatation or taylor_hood; without finite elements pbs, volume_constraints, one_point or three_grids
+    std::string formulation = "displacement";
+
+    std::string text() const;  // P2, P2 taylor_hood, one_point
+};
+
 struct VerificationRow {
-    std::string problem = {};   // its name in the list of problems
-    std::string quantity = {};  // what is compared
-    std::string elements = {};  // P1, P2, with the formulation where it is not that of displacements
+    std::string problem = {};  // its name in the list of problems
+    RowQuantity quantity = {};
+    RowElements elements = {};
     RowMaterial material = {};
     std::string mesh = {};  // divisions
     double h_m = 0.0;       // edge of a cell

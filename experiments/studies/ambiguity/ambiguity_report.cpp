@@ -49,7 +49,7 @@ std::string value_text(const ClaimChange& row)
 std::string cell_text(const std::vector<ClaimChange>& rows)
 {
     if (rows.empty()) return "";
-    if (std::ranges::find(rows, "not touched", &ClaimChange::verdict_flips) != rows.end()) return ".";
+    if (std::ranges::find(rows, "not_touched", &ClaimChange::verdict_flips) != rows.end()) return ".";
     const auto rank = [](const ClaimChange& row) { return std::pair(row.verdict_flips == "yes", size_of_change(row)); };
     const ClaimChange& chosen = *std::ranges::max_element(rows, {}, rank);
     return value_text(chosen) + (chosen.verdict_flips == "yes" ? "!" : "");
@@ -107,8 +107,8 @@ std::string words_of(const std::string& claim, const std::vector<ClaimChange>& c
         figures += row.verdict_flips == "yes" || row.verdict_flips == "no";
         flips += row.verdict_flips == "yes";
         if (row.verdict_flips == "yes") add_new(flipping, row.body + ", " + row.reading_b);
-        if (row.verdict_flips == "not touched") add_new(reasons, row.reason);
-        if (row.verdict_flips == "no figure") add_new(without[row.reason], row.quantity);
+        if (row.verdict_flips == "not_touched") add_new(reasons, row.reason);
+        if (row.verdict_flips == "no_value") add_new(without[row.reason], row.quantity);
     }
     std::string text = hanging(fmt::format("{}: {} of {} values flip{}", claim, flips, figures, flips > 0 ? " by" : ""), flipping);
     if (!reasons.empty()) text += hanging("     not touched where", reasons);

@@ -15,7 +15,7 @@ const analysis::Columns<ClaimChange> claim_change_columns = {
     {"reading_b", &ClaimChange::reading_b, "", "the other reading"},
     {"claim", &ClaimChange::claim, "", "id of the claim"},
     {"quantity", &ClaimChange::quantity, "", "quantity that the claim is judged by"},
-    {"of", &ClaimChange::of, "", "its case, in words"},
+    {"of", &ClaimChange::of, "", "the fields of its case"},
     {"unit", &ClaimChange::unit, "", "unit of a, b and change"},
     {"bound", &ClaimChange::bound, "", "the claim's bound"},
     {"a", &ClaimChange::a, "", "value by reading A"},
@@ -24,7 +24,7 @@ const analysis::Columns<ClaimChange> claim_change_columns = {
     {"b_over_a", &ClaimChange::b_over_a, "", "b over a"},
     {"holds_a", &ClaimChange::holds_a, "", "extent to which a lies within the bound"},
     {"holds_b", &ClaimChange::holds_b, "", "extent to which b lies within the bound"},
-    {"verdict_flips", &ClaimChange::verdict_flips, "", "yes, no, not touched or no figure"},
+    {"verdict_flips", &ClaimChange::verdict_flips, "", "yes, no, not_touched or no_value"},
     {"reason", &ClaimChange::reason, "", "why there is no value, or why it is only a limit"}};
 
 namespace {
@@ -51,7 +51,7 @@ std::string why(const JudgedFigure* a, const JudgedFigure* b, bool b_broke_down)
 std::string flips(const JudgedFigure* a, const JudgedFigure* b, bool b_broke_down)
 {
     if (a && !b && b_broke_down) return a->extent == analysis::Extent::none ? "no" : "yes";
-    if (!a || !b) return "no figure";
+    if (!a || !b) return "no_value";
     return a->extent == b->extent ? "no" : "yes";
 }
 
@@ -96,15 +96,15 @@ std::vector<ClaimChange> claim_changes(const std::string& body, const std::strin
     for (const JudgedFigure& of_b : b.figures)
         if (of_b.claim == claim && !find(a, of_b)) changes.push_back(compared(named(row, of_b), nullptr, &of_b, b.broke_down));
     for (const LeftOutQuantity& one : b.left_out)
-        if (one.claim == claim) changes.push_back(without_figure(row, "no figure", one.reason, one.quantity));
+        if (one.claim == claim) changes.push_back(without_figure(row, "no_value", one.reason, one.quantity));
     if (changes.empty())
-        changes.push_back(without_figure(row, "no figure", b.broke_down ? "B breaks down" : "neither reading has a figure"));
+        changes.push_back(without_figure(row, "no_value", b.broke_down ? "B breaks down" : "neither reading has a figure"));
     return changes;
 }
 
 ClaimChange untouched_claim(const std::string& body, const std::string& claim, const Reading& reading, const std::string& reason)
 {
-    return without_figure(row_of(body, claim, reading), "not touched", reason);
+    return without_figure(row_of(body, claim, reading), "not_touched", reason);
 }
 
 const Reading& ReadingComparison::baseline_of(const Reading& reading) const

@@ -13,7 +13,7 @@
 
 namespace experiments {
 
-// verdict_flips: yes, no, not touched, no figure. A value that B lacks because the reading broke down does not hold, so the verdict flips
+// verdict_flips: yes, no, not_touched, no_value. A value that B lacks because the reading broke down does not hold, so the verdict flips
 // where A's held. Where A or B has no value for another reason, there is no statement about the verdict. A quantity that is left out of
 // readings has a row with the reason.
 struct ClaimChange {

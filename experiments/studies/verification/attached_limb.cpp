@@ -50,12 +50,12 @@ double distance(const pbs::Character& limb, const pbs::Positions& one, const pbs
     return (one - to).norm() / (to - limb.mesh.rest).norm();
 }
 
-VerificationRow row_of(const pbs::Character& limb, const std::string& quantity, double value, double reference, double tolerance,
+VerificationRow row_of(const pbs::Character& limb, const RowQuantity& quantity, double value, double reference, double tolerance,
                        const std::string& from)
 {
     return {.problem = "attached_limb",
             .quantity = quantity,
-            .elements = "P1",
+            .elements = elements_of(1),
             .material = material_of("stable neo-Hookean", 0.45),
             .mesh = "limb, " + std::to_string(limb.mesh.rest.rows()) + " vertices",
             .dofs = static_cast<int>(3 * limb.mesh.rest.rows()),
@@ -75,7 +75,7 @@ VerificationRow young_cancels(const pbs::Character& limb)
     hard.young_pa = 1e7;
     const pbs::Pose pose = twisted(limb, 40.0);
 
-    return row_of(limb, "change of the shape with Young's modulus, 1e3 to 1e7 Pa",
+    return row_of(limb, {"shape_change_with_young", "change of the shape with Young's modulus, 1e3 to 1e7 Pa"},
                   distance(limb, shape(limb, soft, pose), shape(limb, hard, pose)), 0.0, 1e-6,
                   "every force scales with Young's modulus; Newton stops at 1e-8 of them, 1e-6 leaves a condition of 100");
 }
@@ -87,7 +87,7 @@ VerificationRow rigid_motion(const pbs::Character& limb, FemAttachment attachmen
     const pbs::Pose pose = turned_whole(limb, 120.0);
     pbs::Positions turned = limb.mesh.rest;
     for (auto row : turned.rowwise()) row = (pose.front() * pbs::Vec3(row.transpose())).transpose();
-    return row_of(limb, "distance from a rigid turn of 120 degrees, bones hold by " + name,
+    return row_of(limb, {"distance_from_rigid_turn", "distance from a rigid turn of 120 degrees, bones hold by " + name},
                   distance(limb, shape(limb, options, pose), turned), 0.0, 1e-9,
                   "rounding of positions, eps, times at most some 1e6 of condition");
 }
@@ -104,8 +104,9 @@ VerificationRow found_poisson(const Effort& effort, const pbs::Character& limb)
     const pbs::Positions made = of(solver_material(effort, {1e5, made_with}).poisson);
     const analysis::Minimum fit =
         analysis::minimise([&](double poisson) { return distance(limb, of(poisson), made); }, 0.3, 0.45, {.samples = 4, .tolerance = 1e-4});
-    return row_of(limb, "Poisson's ratio fitted to a shape of 0.37", fit.identifiable() ? fit.x : std::numeric_limits<double>::quiet_NaN(),
-                  made_with, 1e-4, "the minimiser's tolerance: 1e-4 of an interval of 0.15, and as much again where the misfit bends");
+    return row_of(limb, {"fitted_poisson", "Poisson's ratio fitted to a shape of 0.37"},
+                  fit.identifiable() ? fit.x : std::numeric_limits<double>::quiet_NaN(), made_with, 1e-4,
+                  "the minimiser's tolerance: 1e-4 of an interval of 0.15, and as much again where the misfit bends");
 }
 
 VerificationRow kept_factor(const pbs::Character& limb)
@@ -118,11 +119,11 @@ VerificationRow kept_factor(const pbs::Character& limb)
     std::vector<double> later_s;
     for (int frame = 2; frame <= 8; ++frame) later_s.push_back(deformer.advance(twisted(limb, frame), 0.01).seconds);
     std::nth_element(later_s.begin(), later_s.begin() + 3, later_s.end());
-    VerificationRow row =
-        row_of(limb, "time of a further frame over that of the first, set-up included", later_s[3] / first_s, 0.0, 0.0, "");
+    VerificationRow row = row_of(limb, {"time_of_further_frame", "time of a further frame over that of the first, set-up included"},
+                                 later_s[3] / first_s, 0.0, 0.0, "");
     row.low.reset();
     row.high.reset();
-    row.elements = "P2";
+    row.elements = elements_of(2);
     row.material = linear_material(0.45);
     row.source = "none: a cost of this run; at most 1/50 is wanted of a factor that is kept";
     return row;

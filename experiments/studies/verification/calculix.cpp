@@ -69,7 +69,7 @@ VerificationRows calculix_rows(const Effort& effort)
     const auto program = calculix_on_path();
     if (!program)
         return {{.problem = "calculix",
-                 .quantity = "second opinion",
+                 .quantity = {"second_opinion", "second opinion"},
                  .unit = "1",
                  .note = "not installed: no ccx on the PATH (Debian: calculix-ccx)"}};
     const CalculixComparison comparison{effort, *program, calculix_version(*program)};

@@ -66,11 +66,11 @@ public:
         return norms_.measure(one.topRows(limb_.mesh.rest.rows()), other.topRows(limb_.mesh.rest.rows())).joint_pct;
     }
 
-    VerificationRow row(const std::string& quantity, const std::string& unit, double value) const
+    VerificationRow row(const RowQuantity& quantity, const std::string& unit, double value) const
     {
         return {.problem = "error_split",
                 .quantity = quantity,
-                .elements = "P1",
+                .elements = elements_of(1),
                 .material = material_of("stable neo-Hookean", 0.45),
                 .mesh = fmt::format("limb, {} vertices, twist of {:.0f} degrees", limb_.mesh.rest.rows(), angle_deg),
                 .dofs = static_cast<int>(3 * limb_.mesh.rest.rows()),
@@ -89,8 +89,9 @@ VerificationRow whole_and_parts(const TwistedLimb& limb, const pbs::Positions& f
 {
     const pbs::Positions converged = limb.skinned(4000), stopped = limb.skinned(iterations);
     const double solver = limb.distance_pct(stopped, converged), model = limb.distance_pct(converged, flesh);
-    VerificationRow row = limb.row(fmt::format("error after {} iterations over the sum of its solver and model parts", iterations), "1",
-                                   limb.distance_pct(stopped, flesh) / (solver + model));
+    VerificationRow row =
+        limb.row({"error_over_parts", fmt::format("error after {} iterations over the sum of its solver and model parts", iterations)}, "1",
+                 limb.distance_pct(stopped, flesh) / (solver + model));
     row.reference = 1.0;
     row.low = std::abs(solver - model) / (solver + model) - 1e-12;
     row.high = 1.0 + 1e-12;
@@ -104,7 +105,7 @@ VerificationRow bound_covers(const TwistedLimb& limb, const TwistedLimb& refined
     FemOptions quadratic = options;
     quadratic.element_order = 2;
     const double bound = analysis::two_fields(limb.distance_pct(refined.flesh(options), flesh), 2.0, 1.0).bounds[1];
-    VerificationRow row = limb.row("distance from refined P2 flesh over the bound from two meshes of P1", "1",
+    VerificationRow row = limb.row({"distance_over_bound", "distance from refined P2 flesh over the bound from two meshes of P1"}, "1",
                                    limb.distance_pct(refined.flesh(quadratic), flesh) / bound);
     row.low = 0.0;
     row.high = 1.0;
@@ -114,8 +115,8 @@ VerificationRow bound_covers(const TwistedLimb& limb, const TwistedLimb& refined
 
 VerificationRow variant(const TwistedLimb& limb, const pbs::Positions& flesh, const FemOptions& options, const std::string& name)
 {
-    VerificationRow row = limb.row("distance from flesh on embedded bones of 0.35: " + name, "% of the bone distance",
-                                   limb.distance_pct(limb.flesh(options), flesh));
+    VerificationRow row = limb.row({"distance_of_variant", "distance from flesh on embedded bones of 0.35: " + name},
+                                   "% of the bone distance", limb.distance_pct(limb.flesh(options), flesh));
     row.source = "none: what the choice is worth";
     return row;
 }

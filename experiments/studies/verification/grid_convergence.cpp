@@ -11,11 +11,11 @@ using namespace reference_fem;
 
 namespace {
 
-VerificationRow row_of(const std::string& quantity, const std::string& unit, double value, double reference, double half_a_digit)
+VerificationRow row_of(const RowQuantity& quantity, const std::string& unit, double value, double reference, double half_a_digit)
 {
     return {.problem = "grid_convergence",
             .quantity = quantity,
-            .elements = "three grids",
+            .elements = {.formulation = "three_grids"},
             .material = {"none"},
             .mesh = "ratio 2",
             .value = value,
@@ -32,9 +32,10 @@ VerificationRow row_of(const std::string& quantity, const std::string& unit, dou
 VerificationRows grid_convergence_rows(const Effort&)
 {
     const analysis::GridConvergence grids = analysis::three_grids({0.97050, 0.96854, 0.96178}, {2.0, 2.0}, 2.0);
-    return {row_of("observed order of pressure recovery", "1", grids.observed_order, 1.786170, 5e-7),
-            row_of("grid convergence index of the finest grid", "%", 100.0 * grids.bounds[0] / 0.97050, 0.103083, 5e-7),
-            row_of("extrapolated pressure recovery", "1", grids.extrapolated, 0.97130, 5e-6)};
+    return {row_of({"observed_order", "observed order of pressure recovery"}, "1", grids.observed_order, 1.786170, 5e-7),
+            row_of({"grid_convergence_index", "grid convergence index of the finest grid"}, "%", 100.0 * grids.bounds[0] / 0.97050,
+                   0.103083, 5e-7),
+            row_of({"extrapolated_value", "extrapolated pressure recovery"}, "1", grids.extrapolated, 0.97130, 5e-6)};
 }
 
 }  // namespace experiments

@@ -53,12 +53,12 @@ Positions end_load(const pbs::TetMesh& bar)
     return load;
 }
 
-VerificationRow row_on(const Clamped& clamped, const std::string& quantity)
+VerificationRow row_on(const Clamped& clamped, const RowQuantity& quantity)
 {
     VerificationRow row;
     row.problem = "locking";
     row.quantity = quantity;
-    row.elements = "PBS, volumes kept";
+    row.elements = {.formulation = "volume_constraints"};
     row.mesh = text_of(clamped.divisions);
     row.h_m = 1.0 / clamped.divisions[1];
     row.dofs = 3 * static_cast<int>(clamped.bar.rest.rows());
@@ -76,7 +76,7 @@ VerificationRows deflection_rows(const Effort& effort, const Clamped& clamped)
     const auto p1 = [&](double nu) { return cantilever_row(effort, nu, 1, Formulation::displacement, clamped.divisions); };
     const VerificationRow near = p1(0.4999), nearer = p1(0.49999);
 
-    VerificationRow beam = row_on(clamped, "tip deflection");
+    VerificationRow beam = row_on(clamped, {"tip_deflection", "tip deflection"});
     beam.material = linear_material(0.5);
     beam.value = deflection_m;
     beam.reference = nearer.reference;
@@ -85,7 +85,7 @@ VerificationRows deflection_rows(const Effort& effort, const Clamped& clamped)
     beam.note = "the share of bending that one volume constraint a tet leaves";
 
     VerificationRow limit = beam;
-    limit.quantity = "tip deflection, against P1's limit";
+    limit.quantity = {"tip_deflection_of_p1_limit", "tip deflection, against P1's limit"};
     const double per_difference = (1.0 - 2.0 * 0.49999) / (2.0 * (0.49999 - 0.4999));  // 1 - 2 nu is in proportion to mu / lambda
     limit.reference = nearer.value - per_difference * (near.value - nearer.value);
     limit.low = limit.reference - 0.1 * std::abs(near.value - nearer.value);
@@ -99,7 +99,7 @@ VerificationRows deflection_rows(const Effort& effort, const Clamped& clamped)
 VerificationRow count_row(const Clamped& clamped)
 {
     const pbs::VolumeConstraints volumes(clamped.bar, clamped.held);
-    VerificationRow row = row_on(clamped, "motions left, share of all");
+    VerificationRow row = row_on(clamped, {"share_of_motions_left", "motions left, share of all"});
     const int rank = volumes.rank();
     row.value = 1.0 - static_cast<double>(rank) / volumes.dofs();
     row.reference = 1.0 - static_cast<double>(volumes.constraints()) / volumes.dofs();
@@ -124,8 +124,8 @@ VerificationRows sag_rows(const Clamped& clamped, double k_stretch)
     VerificationRows rows;
     const double without = sag_over_dt2(clamped, k_stretch, 0.0);
     for (const double k_volume : {0.01, 0.1, 1.0}) {
-        VerificationRow row = row_on(clamped, "sag over sag without volume constraints");
-        row.elements = "PBS";
+        VerificationRow row = row_on(clamped, {"sag_ratio", "sag over sag without volume constraints"});
+        row.elements = {.formulation = "pbs"};
         row.material.text = fmt::format("k_stretch {:g}, k_volume {:g}, {} iterations", k_stretch, k_volume, iterations);
         row.value = sag_over_dt2(clamped, k_stretch, k_volume) / without;
         row.reference = 5.0 / 6.0;

@@ -54,7 +54,8 @@ std::string solve_and_record(const VerificationCase& of, const std::string& fold
     std::string breakdown;
     for (const VerificationRow& row : problem->rows({{.full = of.full}, limb})) {
         json.push_back(to_json(row));
-        if (!std::isfinite(row.value)) breakdown += fmt::format("{} of {} on {} is not finite. ", row.quantity, row.elements, row.mesh);
+        if (!std::isfinite(row.value))
+            breakdown += fmt::format("{} of {} on {} is not finite. ", row.quantity.description, row.elements.text(), row.mesh);
     }
     analysis::write_text_atomically((fs::path(folder) / "rows.json").string(), json.dump(2) + "\n");
     return breakdown;

@@ -41,7 +41,7 @@ LossRow loss_row(const RunRegions& run, const std::string& deformer, const std::
         row.change_pct += region.change_pct;
         if (most-- <= 0) continue;
         row.greatest += row.greatest.empty() ? "" : ", ";
-        row.greatest += fmt::format("{} {:.2f} ({:.1f})", region.region, region.change_pct, region.own_change_pct);
+        row.greatest += fmt::format("{} {:.2f} ({:.1f})", region.bones.text(), region.change_pct, region.own_change_pct);
     }
     return row;
 }

@@ -1,5 +1,6 @@
 #include "experiments/studies/work_precision/diagram.hpp"
 
+#include "experiments/deformers/registry.hpp"
 #include "experiments/studies/work_precision/point_setting.hpp"
 
 #include <fmt/format.h>
@@ -17,9 +18,9 @@ constexpr std::size_t fewest_for_a_mean = 3;
 Diagram diagram_of(const std::vector<PointRow>& rows)
 {
     Diagram diagram;
-    diagram.body = rows.front().body;
-    diagram.pose = rows.front().pose;
-    diagram.name = diagram.body + ", " + diagram.pose;
+    diagram.pose = rows.front().of;
+    diagram.key = case_name(diagram.pose);
+    diagram.name = text_of(diagram.pose);
     for (const PointRow& row : rows) {
         if (row.outcome == "reference") {
             diagram.reference = row.reference;
@@ -29,8 +30,8 @@ Diagram diagram_of(const std::vector<PointRow>& rows)
             diagram.self_intersecting = row.reference_self_intersects.value_or(false);
         }
         if (row.ms_median && row.error)
-            diagram.points.push_back({row.deformer, row.setting, *row.ms_median, row.ms_q1, row.ms_q3, row.error->joint_pct,
-                                      row.error->l2_pct, row.error->linf_m, row.metrics.volume_abs_change_pct, row.error_joint_beside_pct,
+            diagram.points.push_back({row.key, row.setting, *row.ms_median, row.ms_q1, row.ms_q3, row.error->joint_pct, row.error->l2_pct,
+                                      row.error->linf_m, row.metrics.volume_abs_change_pct, row.error_joint_beside_pct,
                                       row.below_reference_error.value_or(false)});
     }
     return diagram;
@@ -52,11 +53,11 @@ std::optional<DiagramPoint> mean_of(const std::vector<Diagram>& poses, const Dia
     constexpr std::optional<double> DiagramPoint::*known_or_not[] = {&DiagramPoint::ms_q1,      &DiagramPoint::ms_q3,
                                                                      &DiagramPoint::l2_pct,     &DiagramPoint::linf_m,
                                                                      &DiagramPoint::beside_pct, &DiagramPoint::volume_abs_change_pct};
-    DiagramPoint mean{setting.deformer, setting.setting};
+    DiagramPoint mean{setting.key, setting.setting};
     for (const auto figure : known_or_not) mean.*figure = 0.0;
     const double share = 1.0 / double(poses.size());
     for (const Diagram& pose : poses) {
-        const auto same = [&](const DiagramPoint& point) { return point.words() == setting.words(); };
+        const auto same = [&](const DiagramPoint& point) { return point.key == setting.key; };
         const auto found = std::find_if(pose.points.begin(), pose.points.end(), same);
         if (found == pose.points.end()) return std::nullopt;
         for (const auto figure : {&DiagramPoint::ms, &DiagramPoint::error_pct}) mean.*figure += share * (*found).*figure;
@@ -72,6 +73,7 @@ std::optional<DiagramPoint> mean_of(const std::vector<Diagram>& poses, const Dia
 Diagram mean_diagram(const std::string& what, const std::string& over, const std::vector<Diagram>& poses)
 {
     Diagram mean;
+    mean.key = fmt::format("{}_mean_of_{}_{}", what, poses.size(), over);
     mean.name = fmt::format("{}, mean of {} {}", what, poses.size(), over);
     mean.poses = static_cast<int>(poses.size());
     for (const Diagram& pose : poses) mean.self_intersecting += pose.self_intersecting;
@@ -86,12 +88,6 @@ Diagram mean_diagram(const std::string& what, const std::string& over, const std
             mean.points.push_back(*point);
         }
     return mean;
-}
-
-// "limb" of "limb twist"
-std::string family_of(const std::string& body)
-{
-    return body.substr(0, body.find(' '));
 }
 
 using Family = std::pair<std::string, std::vector<Diagram>>;
@@ -126,7 +122,7 @@ std::vector<analysis::WorkPrecision> Diagram::of(const std::vector<std::string>&
     std::vector<analysis::WorkPrecision> chosen;
     indices.clear();
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (std::find(deformers.begin(), deformers.end(), points[i].deformer) == deformers.end()) continue;
+        if (std::find(deformers.begin(), deformers.end(), points[i].key.deformer) == deformers.end()) continue;
         chosen.push_back({points[i].ms, value_of(points[i], measure)});
         indices.push_back(i);
     }
@@ -141,8 +137,9 @@ std::vector<Diagram> diagrams_of(const std::vector<std::vector<PointRow>>& point
         if (rows.empty()) continue;
         diagrams.push_back(diagram_of(rows));
         if (diagrams.back().reference.empty()) continue;
-        add_to(bodies, family_of(diagrams.back().body), diagrams.back());
-        add_to(poses, diagrams.back().pose, diagrams.back());
+        const analysis::CaseKey of = diagrams.back().pose;
+        add_to(bodies, of.body, diagrams.back());
+        if (!of.pose.empty()) add_to(poses, of.pose, diagrams.back());
     }
     for (const auto& [over, families] : {std::pair{"poses", bodies}, {"bodies", poses}})
         for (const auto& [name, of] : families)
@@ -154,10 +151,11 @@ std::vector<DiagramPoint> budgets_of(const Diagram& diagram)
 {
     std::vector<DiagramPoint> budgets;
     for (const int iterations : {1, 4, 24, 96}) {
-        pbs::PbsOptions options;
-        options.iterations = iterations;
+        PointSetting setting{"pbs", "", default_spec("pbs")};
+        options_of<pbs::PbsOptions>(setting.spec).iterations = iterations;
+        const SettingKey key = key_of(setting);
         for (const DiagramPoint& point : diagram.points)
-            if (point.deformer == "pbs" && point.setting == words_of(options)) budgets.push_back(point);
+            if (point.key == key) budgets.push_back(point);
     }
     return budgets;
 }
@@ -171,14 +169,14 @@ const DiagramPoint* best_of(const Diagram& diagram, const DeformerGroup& group, 
 
 const std::vector<DeformerGroup>& deformer_groups()
 {
-    static const std::vector<DeformerGroup> groups = {{"LBS", {"lbs"}},
-                                                      {"DQS", {"dqs"}},
-                                                      {"delta mush", {"delta_mush"}},
-                                                      {"PBS", {"pbs"}},
-                                                      {"PBS with exponent", {"pbs_exponent"}},
-                                                      {"XPBD", {"xpbd", "xpbd_small_steps"}},
-                                                      {"linear FEM", {"fem_linear"}},
-                                                      {"nonlinear FEM", {"fem_corotational", "fem_stable_neo_hookean"}}};
+    static const std::vector<DeformerGroup> groups = {{"lbs", "LBS", {"lbs"}},
+                                                      {"dqs", "DQS", {"dqs"}},
+                                                      {"delta_mush", "delta mush", {"delta_mush"}},
+                                                      {"pbs", "PBS", {"pbs"}},
+                                                      {"pbs_exponent", "PBS with exponent", {"pbs_exponent"}},
+                                                      {"xpbd", "XPBD", {"xpbd", "xpbd_small_steps"}},
+                                                      {"linear_fem", "linear FEM", {"fem_linear"}},
+                                                      {"nonlinear_fem", "nonlinear FEM", {"fem_corotational", "fem_stable_neo_hookean"}}};
     return groups;
 }
 
@@ -187,6 +185,13 @@ const DeformerGroup& group_of(const std::string& deformer)
     for (const DeformerGroup& group : deformer_groups())
         if (std::count(group.deformers.begin(), group.deformers.end(), deformer)) return group;
     throw std::logic_error("a deformer of no group: " + deformer);
+}
+
+const DeformerGroup& group_named(const std::string& key)
+{
+    for (const DeformerGroup& group : deformer_groups())
+        if (group.key == key) return group;
+    throw std::logic_error("no group of deformers: " + key);
 }
 
 }  // namespace experiments

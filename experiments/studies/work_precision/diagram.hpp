@@ -1,5 +1,5 @@
 // Work-precision diagrams from the recorded points. There is one per pose. There is also one of the mean over the poses of a body, if these
-// are three or more (both motions of the limb count as one body); it shows what a setting is worth that is not chosen anew for each pose.
+// are three or more (the limb is one body, twisted or bent); it shows what a setting is worth that is not chosen anew for each pose.
 // Likewise there is one of the mean over the bodies in a pose, if these are three or more.
 //   for (const Diagram& diagram : diagrams_of({points_of_a, points_of_b})) ...
 // The recorded error of a point is error_joint_pct: the root mean square over the blended vertices, over their mean distance to the bone.
@@ -15,7 +15,8 @@
 namespace experiments {
 
 struct DiagramPoint {
-    std::string deformer, setting;
+    SettingKey key;
+    std::string setting;  // in words
     double ms = 0.0;
     std::optional<double> ms_q1 = {}, ms_q3 = {};  // nothing where there were too few rounds
     double error_pct = 0.0;
@@ -23,7 +24,7 @@ struct DiagramPoint {
     std::optional<double> beside_pct = {};  // against the second solution
     bool below_reference_error = false;
 
-    std::string words() const { return setting.empty() ? deformer : deformer + ", " + setting; }
+    std::string words() const { return setting.empty() ? key.deformer : key.deformer + ", " + setting; }
 };
 
 // The measures of fronts, named as the points' columns: error_joint_pct, which all sentences use, error_l2_pct, error_linf_m and
@@ -32,8 +33,9 @@ const std::vector<std::string>& measures();
 double value_of(const DiagramPoint& point, const std::string& measure);  // not a number where it is not recorded
 
 struct Diagram {
-    std::string body, pose;            // "limb twist", "90 deg"
-    std::string name;                  // "limb twist, 90 deg"
+    analysis::CaseKey pose;            // of one case; a mean of several has none
+    std::string key;                   // limb_twist_90, or limb_mean_of_4_poses
+    std::string name;                  // for readers: limb, twist, angle_deg 90
     std::vector<DiagramPoint> points;  // those with a time and an error; the reference has no error
     std::string reference;             // name of its deformer; empty: none was reached
     std::optional<double> reference_ms;
@@ -55,11 +57,12 @@ std::vector<DiagramPoint> budgets_of(const Diagram& diagram);
 
 // Deformers that are one entry in sentences and tables.
 struct DeformerGroup {
-    std::string words;
+    std::string key, words;  // linear_fem, linear FEM
     std::vector<std::string> deformers;
 };
 const std::vector<DeformerGroup>& deformer_groups();
 const DeformerGroup& group_of(const std::string& deformer);
+const DeformerGroup& group_named(const std::string& key);
 
 // The best of the group's points within a budget of time. Null where none is as fast.
 const DiagramPoint* best_of(const Diagram& diagram, const DeformerGroup& group, double budget_ms);

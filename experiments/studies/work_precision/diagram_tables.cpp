@@ -12,9 +12,11 @@ namespace {
 using analysis::Columns;
 using analysis::within;
 
-const Columns<DiagramPoint> setting_columns = {{"deformer", &DiagramPoint::deformer, "", "name of the deformer"},
-                                               {"setting", &DiagramPoint::setting, "", "its setting in words"},
-                                               {"ms_median", &DiagramPoint::ms, "ms", "median of the processor time per frame"}};
+const Columns<SettingKey> point_deformer_columns = {{"deformer", &SettingKey::deformer, "", "name of the deformer"}};
+const Columns<DiagramPoint> timed_columns =
+    within(&DiagramPoint::key, point_deformer_columns) +
+    Columns<DiagramPoint>{{"setting", &DiagramPoint::setting, "", "its setting in words"},
+                          {"ms_median", &DiagramPoint::ms, "ms", "median of the processor time per frame"}};
 const Columns<DiagramPoint> quartile_columns = {{"ms_q1", &DiagramPoint::ms_q1, "ms", "its lower quartile"},
                                                 {"ms_q3", &DiagramPoint::ms_q3, "ms", "its upper quartile"}};
 const Columns<DiagramPoint> point_error_columns = {{"error_joint_pct", &DiagramPoint::error_pct, "%", "error over the blended vertices"}};
@@ -28,10 +30,10 @@ struct FrontRow {
     std::optional<double> reference_error_pct;
 };
 const Columns<FrontRow> front_columns =
-    Columns<FrontRow>{{"case", &FrontRow::diagram, "", "body and pose"},
+    Columns<FrontRow>{{"case", &FrontRow::diagram, "", "name of the case's run, or of the mean over several"},
                       {"measure", &FrontRow::measure, "", "what the front is the best of: a column of points.csv"},
                       {"front", &FrontRow::front, "", "whose front it is: a deformer's, or all"}} +
-    within(&FrontRow::point, setting_columns + quartile_columns) +
+    within(&FrontRow::point, timed_columns + quartile_columns) +
     Columns<FrontRow>{{"value", &FrontRow::value, "", "the point's value of the measure, in the measure's unit"}} +
     within(&FrontRow::point, point_error_columns + below_columns) +
     Columns<FrontRow>{
@@ -45,8 +47,8 @@ struct CrossingRow {
     std::optional<bool> told_apart = {}, holds_beside = {};
 };
 const Columns<CrossingRow> crossing_columns = {
-    {"case", &CrossingRow::diagram, "", "body and pose"},
-    {"deformer", &CrossingRow::deformer, "", "a group of deformers"},
+    {"case", &CrossingRow::diagram, "", "name of the case's run, or of the mean over several"},
+    {"deformer", &CrossingRow::deformer, "", "key of a group of deformers"},
     {"other", &CrossingRow::other, "", "another group"},
     {"outcome", &CrossingRow::outcome, "", "whether the first group's best is nearer to the reference: always, from some time on, never"},
     {"from_ms", &CrossingRow::from_ms, "ms", "time per frame from which on it is nearer"},
@@ -62,11 +64,11 @@ const Columns<CrossingRow> crossing_columns = {
 }  // namespace
 
 const Columns<BudgetRow> budget_columns =
-    Columns<BudgetRow>{{"case", &BudgetRow::diagram, "", "body and pose"},
+    Columns<BudgetRow>{{"case", &BudgetRow::diagram, "", "name of the case's run, or of the mean over several"},
                        {"budget_of", &BudgetRow::budget_of, "", "the setting of PBS whose time is the budget"},
                        {"budget_ms", &BudgetRow::budget_ms, "ms", "that time per frame"},
-                       {"group", &BudgetRow::group, "", "a group of deformers"}} +
-    within(&BudgetRow::point, setting_columns + point_error_columns);
+                       {"group", &BudgetRow::group, "", "key of a group of deformers"}} +
+    within(&BudgetRow::point, timed_columns + point_error_columns);
 
 namespace {
 
@@ -88,7 +90,7 @@ void add_front(std::vector<FrontRow>& rows, const Diagram& diagram, const std::s
     std::vector<std::size_t> indices;
     for (const std::size_t on_front : analysis::pareto_front(diagram.of(deformers, indices, measure))) {
         const DiagramPoint& point = diagram.points[indices[on_front]];
-        rows.push_back({diagram.name, measure, name, point, value_of(point, measure), diagram.reference_error_pct});
+        rows.push_back({diagram.key, measure, name, point, value_of(point, measure), diagram.reference_error_pct});
     }
 }
 
@@ -97,7 +99,7 @@ void add_crossing(std::vector<CrossingRow>& rows, const Diagram& diagram, const 
     std::vector<std::size_t> of_one, of_other;
     const auto ones = diagram.of(one.deformers, of_one), others = diagram.of(other.deformers, of_other);
     if (ones.empty() || others.empty()) return;
-    CrossingRow& row = rows.emplace_back(CrossingRow{diagram.name, one.words, other.words});
+    CrossingRow& row = rows.emplace_back(CrossingRow{diagram.key, one.key, other.key});
     row.reference_error_pct = diagram.reference_error_pct;
     const auto crossing = analysis::nearer_from(ones, others);
     if (!crossing) return;
@@ -145,7 +147,7 @@ std::vector<BudgetRow> equal_cost(const std::vector<Diagram>& diagrams)
         for (const DiagramPoint& budget : budgets_of(diagram))
             for (const DeformerGroup& group : deformer_groups())
                 if (const DiagramPoint* point = best_of(diagram, group, budget.ms))
-                    rows.push_back({diagram.name, budget.words(), budget.ms, group.words, *point});
+                    rows.push_back({diagram.key, budget.words(), budget.ms, group.key, *point});
     return rows;
 }
 

@@ -47,15 +47,15 @@ std::vector<std::string> who_is_nearest(const Diagram& diagram)
     const std::vector<const DiagramPoint*> front = front_of(diagram);
     std::vector<std::string> lines;
     for (std::size_t begin = 0; begin < front.size();) {
-        const std::string& group = group_of(front[begin]->deformer).words;
+        const DeformerGroup& group = group_of(front[begin]->key.deformer);
         std::size_t end = begin;
-        while (end < front.size() && group_of(front[end]->deformer).words == group) ++end;
+        while (end < front.size() && &group_of(front[end]->key.deformer) == &group) ++end;
         const DiagramPoint &from = *front[begin], &to = *front[end - 1];
         std::string error = fmt::format("{:.1f} %", from.error_pct);
         if (end > begin + 1) error += fmt::format(" to {:.1f} % at {}", to.error_pct, ms_text(to.ms));
         const std::string mark = begin > 0 ? words_of(certainty_of(diagram, from, *front[begin - 1]), diagram) : "";
         lines.push_back(
-            fmt::format("from {} on {} is nearest, with an error of {} ({}){}", ms_text(from.ms), group, error, to.words(), mark));
+            fmt::format("from {} on {} is nearest, with an error of {} ({}){}", ms_text(from.ms), group.words, error, to.words(), mark));
         begin = end;
     }
     return lines;
@@ -84,16 +84,11 @@ std::string who_passes(const Diagram& diagram, const DeformerGroup& one, const D
                        certainty ? words_of(*certainty, diagram) : "");
 }
 
-const DeformerGroup& group_named(const std::string& words)
-{
-    return *std::find_if(deformer_groups().begin(), deformer_groups().end(), [&](const auto& group) { return group.words == words; });
-}
-
 // Delta mush, which is pure geometry, against PBS and XPBD within the time of `whose`.
 std::string is_physics_worth_it(const Diagram& diagram, double budget_ms, const std::string& whose)
 {
-    const DiagramPoint *mush = best_of(diagram, group_named("delta mush"), budget_ms),
-                       *pbs = best_of(diagram, group_named("PBS"), budget_ms), *xpbd = best_of(diagram, group_named("XPBD"), budget_ms);
+    const DiagramPoint *mush = best_of(diagram, group_named("delta_mush"), budget_ms),
+                       *pbs = best_of(diagram, group_named("pbs"), budget_ms), *xpbd = best_of(diagram, group_named("xpbd"), budget_ms);
     const auto error = [](const DiagramPoint* point) { return point ? fmt::format("{:.1f} %", point->error_pct) : "none as fast"; };
     std::string text = fmt::format("within the {} of {} the errors are: delta mush {}, PBS {}, XPBD {}", ms_text(budget_ms), whose,
                                    error(mush), error(pbs), error(xpbd));
@@ -127,11 +122,11 @@ std::string what_is_undecided(const Diagram& diagram)
 // The law of the reference with order 1, on the case's own tets and on tets cut into eight.
 std::string what_refinement_does(const Diagram& diagram)
 {
-    const auto with = [&](const std::string& setting) {
-        return std::find_if(diagram.points.begin(), diagram.points.end(),
-                            [&](const auto& point) { return point.deformer == "fem_stable_neo_hookean" && point.setting == setting; });
+    const auto with = [&](bool refined) {
+        const SettingKey key{.deformer = "fem_stable_neo_hookean", .element_order = 1, .refined = refined};
+        return std::find_if(diagram.points.begin(), diagram.points.end(), [&](const auto& point) { return point.key == key; });
     };
-    const auto own = with("P1"), refined = with("P1, tets cut into eight");
+    const auto own = with(false), refined = with(true);
     if (own == diagram.points.end() || refined == diagram.points.end()) return "";
     return fmt::format(
         "one refinement: stable neo-Hookean flesh of order 1 has an error of {:.1f} % on the case's own tets and of {:.1f} % on tets cut "
@@ -156,7 +151,7 @@ std::vector<std::string> findings(const Diagram& diagram)
     if (diagram.points.empty()) return {"no reference was reached: there is no error to show"};
     std::vector<std::string> lines = {who_is_quickest(diagram)};
     for (const std::string& line : who_is_nearest(diagram)) lines.push_back(line);
-    for (const auto& [one, other] : {std::pair{"PBS", "delta mush"}, {"PBS", "XPBD"}, {"linear FEM", "PBS"}, {"nonlinear FEM", "PBS"}})
+    for (const auto& [one, other] : {std::pair{"pbs", "delta_mush"}, {"pbs", "xpbd"}, {"linear_fem", "pbs"}, {"nonlinear_fem", "pbs"}})
         lines.push_back(who_passes(diagram, group_named(one), group_named(other)));
     for (const DiagramPoint& budget : budgets_of(diagram))
         lines.push_back(is_physics_worth_it(diagram, budget.ms, "PBS, " + budget.setting));
@@ -203,7 +198,7 @@ std::string best_text(const std::vector<Diagram>& diagrams)
 
 std::string physics_text(const Diagram& diagram)
 {
-    const DiagramPoint* mush = best_of(diagram, group_named("delta mush"), std::numeric_limits<double>::infinity());
+    const DiagramPoint* mush = best_of(diagram, group_named("delta_mush"), std::numeric_limits<double>::infinity());
     return mush ? is_physics_worth_it(diagram, mush->ms, "delta mush at its best, " + mush->setting) : "";
 }
 

@@ -85,7 +85,7 @@ private:
 
     PointRow row_of(const ReachedPoint& point, const FrameTime& time)
     {
-        PointFigures figures{of_.body, of_.pose, time, {}, {}, {}, reference_self_intersects_};
+        PointFigures figures{of_.of, time, {}, {}, {}, reference_self_intersects_};
         const auto error_to = [&](const ReachedPoint& other) { return ruler_.measure(point.on_base, other.on_base); };
         if (point.shape.finished && reference_.point) {
             if (&point != reference_.point) figures.error = error_to(*reference_.point);
@@ -141,8 +141,7 @@ nlohmann::json to_json(const WorkPrecisionCase& of)
 {
     static const auto fields =
         OptionFields<WorkPrecisionCase>("work_precision")
-            .record("body", &WorkPrecisionCase::body)
-            .record("pose", &WorkPrecisionCase::pose)
+            .record("of", &WorkPrecisionCase::of)
             .record("scene", &WorkPrecisionCase::scene)
             .record("frame", &WorkPrecisionCase::frame)
             .record("range", &WorkPrecisionCase::range)

@@ -12,9 +12,9 @@
 namespace experiments {
 
 struct WorkPrecisionCase {
-    std::string body, pose;  // in words: "limb twist", "90 deg"
-    Scene scene;             // its character and motion
-    int frame = 0;           // of its motion; a timed frame begins in the one before it
+    analysis::CaseKey of;  // body, motion, and the pose or the angle
+    Scene scene;           // its character and motion
+    int frame = 0;         // of its motion; a timed frame begins in the one before it
     SettingRange range;
     Rounds rounds, newton_rounds;  // newton_rounds: of the nonlinear laws, which take seconds per frame; a failed round is dropped
     int converged_iterations = 8000;

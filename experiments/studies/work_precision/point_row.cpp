@@ -1,19 +1,33 @@
 #include "experiments/studies/work_precision/point_row.hpp"
 
-#include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "pbs/skinning/delta_mush.hpp"
-#include "pbs/solver/xpbd_options.hpp"
+#include <fmt/format.h>
 
 #include <cmath>
 
 namespace experiments {
 namespace {
 
+using analysis::CaseKey;
 using analysis::Columns;
 using analysis::ErrorNorms;
 using analysis::FrameMetrics;
 using analysis::within;
+
+const Columns<CaseKey> case_columns = {{"body", &CaseKey::body, "", "name of the body"},
+                                       {"motion", &CaseKey::motion, "", "twist, bend, or the name of a clip"},
+                                       {"pose", &CaseKey::pose, "", "name of a pose in a clip"},
+                                       {"angle_deg", &CaseKey::angle_deg, "deg", "angle of a joint that is twisted or bent"}};
+
+const Columns<SettingKey> deformer_columns = {{"deformer", &SettingKey::deformer, "", "name of the deformer"}};
+const Columns<SettingKey> setting_columns = {
+    {"iterations", &SettingKey::iterations, "", "iterations per step"},
+    {"k_stretch", &SettingKey::k_stretch, "", "PBS: stiffness of the stretch constraints"},
+    {"order", &SettingKey::order, "", "PBS: order of projection"},
+    {"precision", &SettingKey::precision, "", "PBS: f32 or f64"},
+    {"substeps", &SettingKey::substeps, "", "PBS and XPBD: substeps per frame"},
+    {"element_order", &SettingKey::element_order, "", "finite elements: 1 linear, 2 quadratic"},
+    {"wanted_vertices", &SettingKey::wanted_vertices, "", "wanted size of another mesh of the body; empty on the case's own"},
+    {"refined", &SettingKey::refined, "", "solved on the case's own tets, each cut into eight"}};
 
 const Columns<ErrorNorms> error_columns = {{"error_joint_pct", &ErrorNorms::joint_pct, "%", "error over the blended vertices"},
                                            {"error_l2_pct", &ErrorNorms::l2_pct, "%", "error over all vertices"},
@@ -29,21 +43,6 @@ const Columns<PbsParts> before_discretisation = {
     {"model_pct", &PbsParts::model_pct, "%", "PBS: distance of its converged shape from the reference, at the joints"}};
 const Columns<PbsParts> after_discretisation = {{"not_converged_pct", &PbsParts::not_converged_pct, "%",
                                                  "PBS: distance of its converged shape from that after half of the iterations"}};
-
-void add_setting(PointRow& row, const PointSetting& setting)
-{
-    const DeformerSpec& spec = setting.spec;
-    if (const auto* mush = options_if<pbs::DeltaMushOptions>(spec)) row.iterations = mush->iterations;
-    if (const auto* xpbd = options_if<pbs::XpbdOptions>(spec)) row.iterations = xpbd->iterations, row.substeps = xpbd->substeps;
-    if (const auto* fem = options_if<FemOptions>(spec)) row.element_order = fem->element_order;
-    const auto* pbs = options_if<pbs::PbsOptions>(spec);
-    if (!pbs) return;
-    row.iterations = pbs->iterations;
-    row.k_stretch = pbs->k_stretch;
-    row.order = name_of(pbs->order);
-    row.precision = name_of(pbs->precision);
-    row.substeps = setting.substeps;
-}
 
 std::string outcome_of(const ReachedPoint& point, const ReachedReference& reference)
 {
@@ -79,17 +78,9 @@ void add_reference(PointRow& row, const ReachedReference& reference, const Point
 
 using Points = Columns<PointRow>;
 const Columns<PointRow> point_columns =
-    Points{{"body", &PointRow::body, "", "body and motion: limb twist"},
-           {"pose", &PointRow::pose, "", "pose of the motion: 90 deg"},
-           {"deformer", &PointRow::deformer, "", "name of the deformer"},
-           {"setting", &PointRow::setting, "", "its setting in words"},
-           {"iterations", &PointRow::iterations, "", "iterations per step"},
-           {"k_stretch", &PointRow::k_stretch, "", "PBS: stiffness of the stretch constraints"},
-           {"order", &PointRow::order, "", "PBS: order of projection"},
-           {"precision", &PointRow::precision, "", "PBS: f32 or f64"},
-           {"substeps", &PointRow::substeps, "", "PBS and XPBD: substeps per frame"},
-           {"element_order", &PointRow::element_order, "", "finite elements: 1 linear, 2 quadratic"},
-           {"vertices", &PointRow::vertices, "", "vertices of the mesh that it is solved on"},
+    within(&PointRow::of, case_columns) + within(&PointRow::key, deformer_columns) +
+    Points{{"setting", &PointRow::setting, "", "its setting in words"}} + within(&PointRow::key, setting_columns) +
+    Points{{"vertices", &PointRow::vertices, "", "vertices of the mesh that it is solved on"},
            {"tets", &PointRow::tets, "", "tets of that mesh"},
            {"outcome", &PointRow::outcome, "", "reference, finished, not_converged or not_finite"},
            {"reach_ms", &PointRow::reach_ms, "ms", "wall time from rest to the pose"},
@@ -110,6 +101,11 @@ const Columns<PointRow> point_columns =
     Points{{"discretisation_pct", &PointRow::discretisation_pct, "%", "PBS: bound of the reference's distance from its limit"}} +
     within(&PointRow::parts, after_discretisation);
 
+std::string case_name(const CaseKey& of)
+{
+    return of.angle_deg ? fmt::format("{}_{}_{:g}", of.body, of.motion, *of.angle_deg) : of.body + "_" + of.pose;
+}
+
 FrameTime frame_time(std::vector<double> samples)
 {
     FrameTime time;
@@ -121,8 +117,7 @@ FrameTime frame_time(std::vector<double> samples)
 PointRow point_row(const ReachedPoint& point, const ReachedReference& reference, const PointFigures& figures)
 {
     const pbs::TetMesh& mesh = point.mesh->character().mesh;
-    PointRow row{figures.body, figures.pose, point.setting->deformer, point.setting->words};
-    add_setting(row, *point.setting);
+    PointRow row{figures.of, key_of(*point.setting), point.setting->words};
     row.vertices = int(mesh.rest.rows());
     row.tets = int(mesh.tets.rows());
     row.outcome = outcome_of(point, reference);

@@ -1,12 +1,16 @@
 // points.csv: one row per setting, with its time, its error, its volume and the reference that it is compared with.
 #pragma once
 
+#include "analysis/case_key.hpp"
 #include "analysis/frame_metrics.hpp"
 #include "analysis/records/typed_table.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/studies/work_precision/reached_reference.hpp"
 
 namespace experiments {
+
+// limb_twist_90, human_crouch: the name of a case's run, and of its diagram in the tables.
+std::string case_name(const analysis::CaseKey& of);
 
 // The parts of PBS's error at the joints [%]. The third part is the error of the reference.
 struct PbsParts {
@@ -24,7 +28,7 @@ FrameTime frame_time(std::vector<double> samples);
 constexpr int fewest_for_quartiles = 3;  // rounds
 
 struct PointFigures {
-    std::string body, pose;
+    analysis::CaseKey of;
     FrameTime time;
     std::optional<analysis::ErrorNorms> error;  // nothing for the reference, and where there is no reference
     std::optional<double> beside_pct;           // error at the joints against the second solution
@@ -33,11 +37,9 @@ struct PointFigures {
 };
 
 struct PointRow {
-    std::string body, pose, deformer, setting;
-    std::optional<int> iterations = {};
-    std::optional<double> k_stretch = {};
-    std::string order = {}, precision = {};
-    std::optional<int> substeps = {}, element_order = {};
+    analysis::CaseKey of;  // body, motion, and the pose or the angle
+    SettingKey key;
+    std::string setting;  // in words
     int vertices = 0, tets = 0;
     std::string outcome = {};
     double reach_ms = 0.0;

@@ -26,6 +26,13 @@ const DeformerSpec& first_fem(const Scene& scene)
     return *fem;
 }
 
+// "24 iterations, k_stretch 0.2, ordered f32"
+std::string words_of(const pbs::PbsOptions& options)
+{
+    return fmt::format("{} iterations, k_stretch {}, {} {}", options.iterations, options.k_stretch, name_of(options.order),
+                       name_of(options.precision));
+}
+
 class SettingList {
 public:
     explicit SettingList(const Scene& scene) : scene_(scene), base_(spec_of(scene, "pbs"))
@@ -152,6 +159,25 @@ private:
 
 }  // namespace
 
+SettingKey key_of(const PointSetting& setting)
+{
+    const DeformerSpec& spec = setting.spec;
+    SettingKey key{setting.deformer};
+    if (setting.vertices > 0) key.wanted_vertices = setting.vertices;
+    key.refined = setting.refined;
+    if (const auto* mush = options_if<pbs::DeltaMushOptions>(spec)) key.iterations = mush->iterations;
+    if (const auto* xpbd = options_if<pbs::XpbdOptions>(spec)) key.iterations = xpbd->iterations, key.substeps = xpbd->substeps;
+    if (const auto* fem = options_if<FemOptions>(spec)) key.element_order = fem->element_order;
+    const auto* pbs = options_if<pbs::PbsOptions>(spec);
+    if (!pbs) return key;
+    key.iterations = pbs->iterations;
+    key.k_stretch = pbs->k_stretch;
+    key.order = name_of(pbs->order);
+    key.precision = name_of(pbs->precision);
+    key.substeps = setting.substeps;
+    return key;
+}
+
 std::string digest_of(const std::vector<PointSetting>& settings)
 {
     nlohmann::json all = nlohmann::json::array();
@@ -171,12 +197,6 @@ nlohmann::json to_json(const SettingRange& range)
                                    .record("refined", &SettingRange::refined)
                                    .complete();
     return fields.json(range);
-}
-
-std::string words_of(const pbs::PbsOptions& options)
-{
-    return fmt::format("{} iterations, k_stretch {}, {} {}", options.iterations, options.k_stretch, name_of(options.order),
-                       name_of(options.precision));
 }
 
 DeformerSpec fem_spec(const Scene& scene, reference_fem::Model model, int element_order)

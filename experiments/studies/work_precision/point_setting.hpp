@@ -10,6 +10,7 @@
 #include "experiments/scene/scene.hpp"
 #include "pbs/solver/options.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ namespace experiments {
 
 struct PointSetting {
     std::string deformer;  // its front: lbs, dqs, delta_mush, pbs, pbs_exponent, xpbd, xpbd_small_steps, fem_linear, ...
-    std::string words;     // what distinguishes it from the others of its deformer: "24 iterations, k_stretch 0.2"
+    std::string words;     // the setting for readers: "24 iterations, k_stretch 0.2"
     DeformerSpec spec;
     int substeps = 1;      // steps per frame
     int vertices = 0;      // wanted size of another mesh of the body; 0: the case's own
@@ -31,6 +32,19 @@ struct PointSetting {
         return fem && fem->model != reference_fem::Model::linear;
     }
 };
+
+// What distinguishes a setting from the others. A field that the deformer does not have is empty.
+struct SettingKey {
+    std::string deformer;  // as in PointSetting
+    std::optional<int> iterations = {};
+    std::optional<double> k_stretch = {};
+    std::string order = {}, precision = {};
+    std::optional<int> substeps = {}, element_order = {};
+    std::optional<int> wanted_vertices = {};  // of another mesh of the body
+    bool refined = false;
+    bool operator==(const SettingKey&) const = default;
+};
+SettingKey key_of(const PointSetting& setting);
 
 struct SettingRange {
     bool quadratic = true;                   // stable neo-Hookean flesh on quadratic elements too: the reference
@@ -47,9 +61,6 @@ std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange&
 
 // A digest in 32 hexadecimal digits of everything that the points depend on: their words, options, substeps and meshes.
 std::string digest_of(const std::vector<PointSetting>& settings);
-
-// "24 iterations, k_stretch 0.2, ordered f32"
-std::string words_of(const pbs::PbsOptions& options);
 
 // Finite elements of the scene's own material, by law and element order, without mean dilatation. Quadratic elements do not need it at the
 // scenes' Poisson's ratio of 0.45, and with it Newton's method does not converge in a body's creases.

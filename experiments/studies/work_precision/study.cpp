@@ -16,8 +16,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace experiments {
 namespace {
 
@@ -33,8 +31,7 @@ StudyRun limb_run(const std::string& motion, int angle_deg, bool full, double co
 {
     const std::string scene = "limb_" + motion;
     WorkPrecisionCase of;
-    of.body = "limb " + motion;
-    of.pose = fmt::format("{} deg", angle_deg);
+    of.of = {.body = "limb", .motion = motion, .angle_deg = angle_deg};
     of.scene = read_scene(scene, {fmt::format("motion.angle_deg={}", angle_deg), fmt::format("motion.frames={}", angle_deg / 5 + 1)});
     of.frame = angle_deg / 5;
     of.range.quadratic_corotational = full;
@@ -43,7 +40,7 @@ StudyRun limb_run(const std::string& motion, int angle_deg, bool full, double co
         of.range.finer_vertices = {5000};  // in the fine creases of a bend Newton's method takes minutes per frame
     of.rounds = {.seconds = full ? 10.0 : 3.0, .fewest = 5, .most = 31};
     of.newton_rounds = {.seconds = full ? 10.0 : 0.0, .fewest = full ? 3 : 1, .most = 9};
-    return work_run(fmt::format("{}_{}", scene, angle_deg), of, cost_s, measure_and_record);
+    return work_run(case_name(of.of), of, cost_s, measure_and_record);
 }
 
 struct BodyPose {
@@ -55,19 +52,18 @@ struct BodyPose {
 std::vector<BodyPose> human_poses(bool full)
 {
     if (!full) return {{"crouch", 164}};
-    std::vector<BodyPose> poses = {{"standing", 0}, {"crouch", 164, true}, {"in the air", 672, true}, {"landing", 708}};
+    std::vector<BodyPose> poses = {{"standing", 0}, {"crouch", 164, true}, {"in_the_air", 672, true}, {"landing", 708}};
     const Scene scene = read_scene("human_01_01", {});
     const pbs::Motion motion = make_motion(scene.motion, pbs::make_character(scene.character).skeleton, scene.file);
     const int last = static_cast<int>(motion.steps.size()) / motion.steps_per_frame - 1;
-    for (const int fifths : {1, 2, 3, 4}) poses.push_back({fmt::format("{}/5 of the clip", fifths), last * fifths / 5});
+    for (const int fifths : {1, 2, 3, 4}) poses.push_back({fmt::format("{}_5_of_the_clip", fifths), last * fifths / 5});
     return poses;
 }
 
 StudyRun body_run(const std::string& body, const BodyPose& pose, bool full, double cost_s)
 {
     WorkPrecisionCase of;
-    of.body = body;
-    of.pose = pose.name;
+    of.of = {.body = body, .motion = "01_01", .pose = pose.name};
     of.scene = read_scene("human_01_01", {"character.body=" + body});
     of.frame = pose.frame;
     of.range.quadratic_corotational = false;
@@ -77,10 +73,7 @@ StudyRun body_run(const std::string& body, const BodyPose& pose, bool full, doub
     if (full) of.range.finer_vertices = {4650};
     of.rounds = {.seconds = full ? 10.0 : 3.0, .fewest = 5, .most = 31};
     of.newton_rounds = {.seconds = full ? 10.0 : 0.0, .fewest = 1, .most = 9};
-    std::string name = body + "_" + pose.name;
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return c == ' ' || c == '/'; }, '_');
-    return work_run(name, of, cost_s, measure_and_record);
+    return work_run(case_name(of.of), of, cost_s, measure_and_record);
 }
 
 StudyPlan plan(bool full)

@@ -28,14 +28,14 @@ LoadedCantilever cantilever_of(const Effort& effort)
 
 }  // namespace
 
-VerificationRow calculix_row(const CalculixComparison& comparison, const std::string& quantity, const std::string& law,
-                             AnsweredProblem answer, const DeckOptions& options)
+VerificationRow calculix_row(const CalculixComparison& comparison, const std::string& pose, const std::string& law, AnsweredProblem answer,
+                             const DeckOptions& options)
 {
     const int element_order = answer.problem.tets.cols() == 4 ? 1 : 2;
     answer.problem.material = calculix_flesh;  // CalculiX has the right material, whatever error the effort asks of the reference
     VerificationRow row = {.problem = "calculix",
-                           .quantity = "largest node difference over largest displacement, " + quantity,
-                           .elements = elements_name(element_order),
+                           .quantity = {"largest_node_difference", "largest node difference over largest displacement, " + pose},
+                           .elements = elements_of(element_order),
                            .material = material_of(law, calculix_flesh.poisson),
                            .dofs = 3 * static_cast<int>(answer.problem.nodes.rows()),
                            .reference = 0.0,
@@ -68,10 +68,10 @@ VerificationRows calculix_cantilever_rows(const CalculixComparison& comparison)
 VerificationRows calculix_timing_rows(const CalculixComparison& comparison)
 {
     const FirstSolveTiming timing = time_first_solve(comparison.program, cantilever_mesh(), 1, cantilever_of(comparison.effort), 9);
-    const auto row = [&](const std::string& quantity, double value, const std::string& note) {
+    const auto row = [&](const RowQuantity& quantity, double value, const std::string& note) {
         return VerificationRow{.problem = "calculix",
                                .quantity = quantity,
-                               .elements = "P1",
+                               .elements = elements_of(1),
                                .material = linear_material(calculix_flesh.poisson),
                                .mesh = text_of(divisions),
                                .h_m = 1.0 / divisions[1],
@@ -83,13 +83,13 @@ VerificationRows calculix_timing_rows(const CalculixComparison& comparison)
                                .note = note};
     };
     const auto ms = [](double seconds) { return std::to_string(static_cast<int>(std::lround(1e3 * seconds))) + " ms"; };
-    return {row("time of CalculiX over ours, first solve", timing.speedup(),
+    return {row({"time_ratio", "time of CalculiX over ours, first solve"}, timing.speedup(),
                 "wanted, and not judged, for machines are noisy: at least 3 times; ours, stiffness, load, analysis, factor and solve: " +
                     ms(timing.solve_s) + "; CalculiX, the whole process: " + ms(timing.calculix_s)),
-            row("the same with our set-up of the elements", timing.speedup_with_elements(),
+            row({"time_ratio_with_elements", "the same with our set-up of the elements"}, timing.speedup_with_elements(),
                 "triangulation and numbering: " + ms(timing.elements_s)),
-            row("the same without CalculiX's start and reading of the mesh", timing.speedup_without_reading(),
-                "start and reading: " + ms(timing.reading_s))};
+            row({"time_ratio_without_reading", "the same without CalculiX's start and reading of the mesh"},
+                timing.speedup_without_reading(), "start and reading: " + ms(timing.reading_s))};
 }
 
 }  // namespace reference_fem

@@ -17,9 +17,10 @@ struct CalculixComparison {
     std::string program, version;
 };
 
-// The largest difference of a node's displacement, relative to the largest displacement. Mesh and cell size are left to the caller.
-VerificationRow calculix_row(const CalculixComparison& comparison, const std::string& quantity, const std::string& law,
-                             AnsweredProblem answer, const DeckOptions& options);
+// The largest difference of a node's displacement, relative to the largest displacement, in a pose that is described in words. Mesh and
+// cell size are left to the caller.
+VerificationRow calculix_row(const CalculixComparison& comparison, const std::string& pose, const std::string& law, AnsweredProblem answer,
+                             const DeckOptions& options);
 
 VerificationRows calculix_cantilever_rows(const CalculixComparison& comparison);  // P1 and P2
 VerificationRows calculix_timing_rows(const CalculixComparison& comparison);      // of the first solve

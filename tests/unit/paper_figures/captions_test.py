@@ -96,14 +96,14 @@ class Captions(unittest.TestCase):
         self.assertIn("grows 2.5-fold (bar, 6 to 48) with the iterations; in small steps 1.25-fold (human, 6 to 48).", text)
 
     def test_linear_elements_are_told_apart_from_the_truth(self):
-        def row(problem, quantity, elements, difference="", ratio=""):
-            return {"problem": problem, "quantity": quantity, "elements": elements, "difference_pct": difference,
+        def row(problem, quantity, order, difference="", ratio=""):
+            return {"problem": problem, "quantity": quantity, "element_order": order, "difference_pct": difference,
                     "value_over_reference": ratio}
 
-        rows = [row("locking", "tip deflection", elements, -50, ratio) for elements, ratio in (
-            ("P1", 0.5), ("P1", 0.0125), ("P2", 0.75), ("P2 Taylor-Hood", 0.875), ("PBS, volumes kept", 0.001))]
-        rows += [row("locking", "torque", "P1", 37, 1.37), row("thick_plate", "another", "P2", 99)]
-        rows += [row("thick_plate", "sigma_yy at D", elements, pct) for elements, pct in (("P1", -47), ("P1", 12), ("P2", -1.5), ("P2", 1))]
+        rows = [row("locking", "tip_deflection", order, -50, ratio) for order, ratio in (
+            (1, 0.5), (1, 0.0125), (2, 0.75), (2, 0.875), ("", 0.001))]
+        rows += [row("locking", "torque", 1, 37, 1.37), row("thick_plate", "another", 2, 99)]
+        rows += [row("thick_plate", "stress_yy_at_d", order, pct) for order, pct in ((1, -47), (1, 12), (2, -1.5), (2, 1))]
         text = self.told("verification", rows)
         self.assertIn("keep 75 to 87.5 % of a beam's bending towards incompressibility and meet published benchmarks within 1.5 %.", text)
         self.assertIn("lock: they keep 1.25 to 50 % of the bending and miss benchmarks by up to 47 %.", text)

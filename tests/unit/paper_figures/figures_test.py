@@ -110,7 +110,7 @@ class Figures(unittest.TestCase):
             self.assertIn(synthetic_records.revision.encode(), (results / "figures" / "verification.png").read_bytes())
             with open(results / "figures" / "verification.csv", newline="") as stream:
                 rows = [row for row in csv.DictReader(stream) if row["problem"] == "cantilever"]
-            self.assertEqual([(row["elements"], float(row["difference_pct"])) for row in rows], [("P1", -10.0), ("P2", -0.625)])
+            self.assertEqual([(row["element_order"], float(row["difference_pct"])) for row in rows], [("1", -10.0), ("2", -0.625)])
             (results / "verification" / "verification.csv").unlink()
             with contextlib.redirect_stderr(io.StringIO()) as said:
                 with contextlib.redirect_stdout(io.StringIO()):

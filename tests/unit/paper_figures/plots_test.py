@@ -160,7 +160,7 @@ class Plots(unittest.TestCase):
         synthetic_records.write_study(self.results)
         self.drawn("volume_by_region")
         self.assertIn("LBS: -1, spine\u2013chest", self.titles("change [% of the body's volume]"))
-        self.assertEqual([volume_by_region.in_words(region) for region in ("upper_arm.L", "chest - clavicle.R", "thigh.R - shin.R")],
+        self.assertEqual([volume_by_region.in_words(bones) for bones in (("upper_arm.L",), ("chest", "clavicle.R"), ("thigh.R", "shin.R"))],
                          ["left upper arm", "chest\u2013right clavicle", "right thigh\u2013shin"])
 
     def test_timing(self):

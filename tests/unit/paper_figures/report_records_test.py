@@ -170,8 +170,8 @@ class ReportRecords(unittest.TestCase):
         status, said, there = self.made()
         self.assertEqual((status, there), (2, False))
         self.assertIn(f"pbskin: {points}:2: error_joint_pct = east: expected a number", said)
-        points.write_text(whole.replace("pose", "place", 1))
-        self.assertIn(f"pbskin: {points}:2: no column pose", self.made()[1])
+        points.write_text(whole.replace("motion", "movement", 1))
+        self.assertIn(f"pbskin: {points}:2: no column motion", self.made()[1])
 
 
 class RecordShapes(unittest.TestCase):

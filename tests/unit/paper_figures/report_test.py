@@ -235,7 +235,7 @@ class Report(unittest.TestCase):
     def test_the_reference_s_verification(self):
         synthetic_records.write_verification(self.results)
         _, text, _, _ = self.make()
-        self.assertIn('<th scope="row">beam</th><td>deflection</td>', text)
+        self.assertIn('<th scope="row">beam</th><td>largest deflection</td><td>P1</td>', text)
         self.assertIn("1 of 2 values with a bound fixed beforehand lie within it; 16 more have no bound", text)
         self.assertIn("<li>closed form: a beam</li>", text)
 

@@ -44,13 +44,16 @@ def write_convergence(study):
 
 
 def write_error_parts(study):
-    """A solver part of 30 % / n and a model part of 20 %; rows with other k_stretch, orders and substeps are not part of the figure."""
+    """A solver part of 30 % / n and a model part of 20 %; rows with other k_stretch, orders, substeps and meshes are not part of the
+    figure."""
     write_origin(study / "limb_twist_90")
-    settings = [("ordered", 0.2, ""), ("plain", 0.2, ""), ("ordered", 0.9, ""), ("ordered", 0.2, ", 2 substeps")]
+    settings = [("ordered", 0.2, 1, ""), ("plain", 0.2, 1, ""), ("ordered", 0.9, 1, ""), ("ordered", 0.2, 2, ""),
+                ("ordered", 0.2, 1, 300)]
     write(study / "limb_twist_90" / "points.csv",
-          [{"body": "limb twist", "pose": "90 deg", "deformer": "pbs", "setting": f"{n} iterations{more}", "iterations": n, "k_stretch": k,
-            "order": order, "precision": "f32", "substeps": "", "error_joint_pct": 25.0, "solver_pct": 30.0 / n,
-            "model_pct": 20.0, "discretisation_pct": 5.0} for n in (1, 24, 384) for order, k, more in settings])
+          [{"body": "limb", "motion": "twist", "pose": "", "angle_deg": 90, "deformer": "pbs", "iterations": n, "k_stretch": k,
+            "order": order, "precision": "f32", "substeps": substeps, "wanted_vertices": vertices, "error_joint_pct": 25.0,
+            "solver_pct": 30.0 / n, "model_pct": 20.0, "discretisation_pct": 5.0}
+           for n in (1, 24, 384) for order, k, substeps, vertices in settings])
 
 
 def write_error_split(study):

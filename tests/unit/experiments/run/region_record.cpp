@@ -30,7 +30,7 @@ double middle(Eigen::Index tet)
 TEST(BodyRegions, ATetLiesWithItsNearestBone)
 {
     const BodyRegions regions = regions_by_bone(character_of(bent()));
-    EXPECT_EQ(regions.names, (std::vector<std::string>{"upper", "forearm"}));
+    EXPECT_EQ(regions.bones, (std::vector<RegionBones>{{"upper"}, {"forearm"}}));
     for (Eigen::Index tet = 0; tet < bent().mesh.tets.rows(); ++tet)
         if (std::abs(middle(tet)) > 0.1) {
             EXPECT_EQ(regions.of_tet[tet], middle(tet) > 0.0 ? 1 : 0) << middle(tet);
@@ -40,7 +40,7 @@ TEST(BodyRegions, ATetLiesWithItsNearestBone)
 TEST(BodyRegions, AJointHasTheBlendedTetsAlone)
 {
     const BodyRegions regions = regions_by_joint(character_of(bent()));
-    ASSERT_EQ(regions.names, (std::vector<std::string>{"upper - forearm"}));
+    ASSERT_EQ(regions.bones, (std::vector<RegionBones>{{"upper", "forearm"}}));
     for (Eigen::Index tet = 0; tet < bent().mesh.tets.rows(); ++tet) {
         const double longest_cell = 2.0 / 24.0;  // Eq. 2 blends within a sixth of the bone's length from the joint
         if (std::abs(middle(tet)) < 1.0 / 6.0 - longest_cell) {
@@ -97,7 +97,7 @@ TEST(RegionRecord, MeansAndExtremesOverFramesAndNoBrokenFrame)
 TEST(RegionTable, NamesTheGreatestLossFirst)
 {
     const auto change = [](const char* deformer, const char* region, double change_pct, double own_change_pct) {
-        return RegionChange{deformer, "bone", region, 50.0, change_pct, 0.0, 0.0, 0.0, own_change_pct, 1};
+        return RegionChange{deformer, "bone", {region}, 50.0, change_pct, 0.0, 0.0, 0.0, own_change_pct, 1};
     };
     const std::vector<RegionChange> regions = {change("lbs", "shin", -1.0, -2.0), change("lbs", "thigh", -3.0, -4.0),
                                                change("dqs", "head", -9.0, -9.0)};
@@ -105,6 +105,7 @@ TEST(RegionTable, NamesTheGreatestLossFirst)
     EXPECT_NE(text.find("-4.00  thigh -3.00 (-4.0)"), std::string::npos) << text;
     EXPECT_EQ(text.find("shin"), std::string::npos);
     EXPECT_EQ(text.find("head"), std::string::npos);
+    EXPECT_EQ((RegionBones{"thigh.L", "shin.L"}.text()), "thigh.L - shin.L");
     const analysis::CsvTable all = region_csv({{"clip", regions}, {"sweep", regions}});
     EXPECT_EQ(all.rows(), 6);
     EXPECT_EQ(all.text_at(3, "run"), "sweep");

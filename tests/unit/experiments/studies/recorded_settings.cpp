@@ -68,7 +68,7 @@ TEST(RecordedSettings, OfErrorSplit)
 TEST(RecordedSettings, OfWorkPrecision)
 {
     WorkPrecisionCase of;
-    of.body = "limb bend", of.pose = "60 deg", of.scene = limb(), of.frame = 12;
+    of.of = {.body = "limb", .motion = "bend", .angle_deg = 60.0}, of.scene = limb(), of.frame = 12;
     of.range.coarser_vertices = {600};
     EXPECT_GE(expect_each_change_repeats(of), 18);
 }

@@ -15,8 +15,8 @@ using namespace reference_fem;
 VerificationRow row()
 {
     return {.problem = "beam",
-            .quantity = "deflection, \"mean\"",
-            .elements = "P2",
+            .quantity = {"mean_deflection", "deflection, \"mean\""},
+            .elements = {2, "taylor_hood"},
             .material = {"linear, nu = 0.3", 0.3},
             .mesh = "4 x 1 x 1",
             .h_m = 0.25,
@@ -92,15 +92,21 @@ TEST(VerificationRecordTest, IsWrittenAsCsvJsonAndMarkdown)
     VerificationRow seen = row();
     seen.low = seen.high = std::nullopt;
     seen.material = {"none"};
+    seen.elements = {.formulation = "pbs"};
     write_verification_record(folder.path().string(), {row(), seen});
     const analysis::CsvTable table = analysis::read_csv(folder / "verification.csv");
     EXPECT_EQ(table.rows(), 2);
-    EXPECT_EQ(table.text_at(0, "quantity"), "deflection, \"mean\"");
+    EXPECT_EQ(table.text_at(0, "quantity"), "mean_deflection");
+    EXPECT_EQ(table.text_at(0, "description"), "deflection, \"mean\"");
+    EXPECT_EQ(table.text_at(0, "element_order"), "2");
+    EXPECT_EQ(table.text_at(0, "formulation"), "taylor_hood");
     EXPECT_EQ(table.number(0, "value"), 1.96);
     EXPECT_EQ(table.text_at(0, "material"), "linear, nu = 0.3");
     EXPECT_EQ(table.number(0, "poisson"), 0.3);
     EXPECT_EQ(table.text_at(0, "holds"), "yes");
     EXPECT_EQ(table.text_at(1, "poisson"), "");
+    EXPECT_EQ(table.text_at(1, "element_order"), "");
+    EXPECT_EQ(table.text_at(1, "formulation"), "pbs");
     EXPECT_EQ(table.text_at(1, "holds"), "");
     EXPECT_TRUE(std::filesystem::exists(folder / "verification.json"));
     EXPECT_TRUE(std::filesystem::exists(folder / "verification.md"));
@@ -116,8 +122,9 @@ TEST(VerificationRecordTest, TheTableCountsWhatHoldsAndNamesWhatDoesNot)
     const std::string table = verification_table({row(), failing, seen});
     EXPECT_NE(table.find("+198 to +250"), std::string::npos) << table;
     EXPECT_NE(table.find("-0.25"), std::string::npos) << table;
-    EXPECT_NE(table.find("does not hold: deflection, \"mean\", P2, linear, nu = 0.3, 4 x 1 x 1: 3 m, expected 1.95 to 2.05 1.75 (2)"),
-              std::string::npos)
+    EXPECT_NE(
+        table.find("does not hold: deflection, \"mean\", P2 taylor_hood, linear, nu = 0.3, 4 x 1 x 1: 3 m, expected 1.95 to 2.05 1.75 (2)"),
+        std::string::npos)
         << table;
     EXPECT_NE(table.find("1 of 2 rows hold; 1 more"), std::string::npos) << table;
 }

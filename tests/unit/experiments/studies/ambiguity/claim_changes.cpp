@@ -46,7 +46,7 @@ TEST(ClaimChanges, DoNotFlipWithinTheBound)
 TEST(ClaimChanges, WithoutAFigureOfEitherSayWhoseIsMissing)
 {
     const auto of_a_alone = compared({{figure(0.5, Extent::whole)}}, {});
-    EXPECT_EQ(of_a_alone.at(0).verdict_flips, "no figure");
+    EXPECT_EQ(of_a_alone.at(0).verdict_flips, "no_value");
     EXPECT_EQ(of_a_alone.at(0).reason, "B has no such figure");
     EXPECT_FALSE(of_a_alone.at(0).b.has_value());
     EXPECT_FALSE(of_a_alone.at(0).change.has_value());
@@ -59,7 +59,7 @@ TEST(ClaimChanges, OfAClaimWithoutAFigureHaveARowThatSaysSo)
 {
     const auto table = compared({}, {});
     ASSERT_EQ(table.size(), 1u);
-    EXPECT_EQ(table.at(0).verdict_flips, "no figure");
+    EXPECT_EQ(table.at(0).verdict_flips, "no_value");
     EXPECT_EQ(table.at(0).reason, "neither reading has a figure");
 }
 
@@ -70,7 +70,7 @@ TEST(ClaimChanges, OfAQuantityThatIsLeftOutHaveARowWithTheReason)
     ASSERT_EQ(table.size(), 2u);
     EXPECT_EQ(table.at(0).verdict_flips, "no");
     EXPECT_EQ(table.at(1).quantity, "share");
-    EXPECT_EQ(table.at(1).verdict_flips, "no figure");
+    EXPECT_EQ(table.at(1).verdict_flips, "no_value");
     EXPECT_EQ(table.at(1).reason, "four settings");
     EXPECT_FALSE(table.at(1).b.has_value());
 }
@@ -100,7 +100,7 @@ TEST(ClaimChanges, OfAFigureThatWasZeroHaveNoRatio)
 TEST(ClaimChanges, OfAReadingThatCannotTouchTheClaimSayWhy)
 {
     const ClaimChange row = experiments::untouched_claim("limb", "C10", reading, "another factor is no more work");
-    EXPECT_EQ(row.verdict_flips, "not touched");
+    EXPECT_EQ(row.verdict_flips, "not_touched");
     EXPECT_EQ(row.reason, "another factor is no more work");
 }
 

@@ -35,7 +35,7 @@ TEST(ReadingComparison, MeasuresWhatTouchesTheClaimAndItsBaselineOnce)
     EXPECT_EQ(measured, (std::vector<std::string>{"own", "lumped"}));
     ASSERT_EQ(comparison.changes().size(), 2u);
     EXPECT_EQ(comparison.changes()[0].b_over_a, 1.5);
-    EXPECT_EQ(comparison.changes()[1].verdict_flips, "not touched");
+    EXPECT_EQ(comparison.changes()[1].verdict_flips, "not_touched");
     EXPECT_TRUE(comparison.breakdown().empty());
 }
 

@@ -15,21 +15,24 @@
 namespace {
 
 using namespace experiments;
+using analysis::CaseKey;
 using analysis::CsvTable;
 
 struct Row {
-    std::string deformer, setting;
+    SettingKey key;
+    std::string setting;
     double ms;
     std::optional<double> error_pct;
     std::string outcome = "finished";
     double further_from_second_pct = 1.0;
 };
 
-std::vector<PointRow> points(const std::string& pose, const std::vector<Row>& rows, double bar_pct = 6.0, const std::string& body = "limb")
+std::vector<PointRow> points(const CaseKey& of, const std::vector<Row>& rows)
 {
+    constexpr double bar_pct = 6.0;
     std::vector<PointRow> points;
     for (const Row& row : rows) {
-        PointRow& point = points.emplace_back(PointRow{body, pose, row.deformer, row.setting});
+        PointRow& point = points.emplace_back(PointRow{of, row.key, row.setting});
         point.outcome = row.outcome;
         point.ms_median = point.ms_q1 = row.ms;
         if (row.error_pct) point.error = {.l2_pct = *row.error_pct, .joint_pct = *row.error_pct, .linf_m = std::nan("")};
@@ -38,28 +41,29 @@ std::vector<PointRow> points(const std::string& pose, const std::vector<Row>& ro
         point.reference_error_joint_pct = bar_pct;
         point.below_reference_error = row.error_pct.value_or(99.0) <= bar_pct;
         point.metrics.volume_abs_change_pct = 10.0 / row.ms;
-        point.reference_self_intersects = pose == "folded";
+        point.reference_self_intersects = of.pose == "folded";
     }
     return points;
 }
 
-const std::string pbs_24 = "24 iterations, k_stretch 0.2, ordered f32";
+const CaseKey bent_limb = {.body = "limb", .motion = "bend", .angle_deg = 90.0};
+const SettingKey pbs_24 = {"pbs", 24, 0.2, "ordered", "f32", 1};
 
 std::vector<Row> rows(double mush_pct)
 {
-    return {{"lbs", "", 0.01, 60.0},
-            {"dqs", "", 0.02, 50.0},
-            {"delta_mush", "20 iterations", 0.5, mush_pct},
-            {"pbs", pbs_24, 0.7, 20.0},
-            {"xpbd", "8 iterations", 0.65, 25.0},
-            {"fem_linear", "P1", 5.0, 30.0},
-            {"fem_corotational", "P1", 100.0, 5.0},
-            {"fem_stable_neo_hookean", "P2", 900.0, std::nullopt, "reference"}};
+    return {{{"lbs"}, "", 0.01, 60.0},
+            {{"dqs"}, "", 0.02, 50.0},
+            {{"delta_mush"}, "20 iterations", 0.5, mush_pct},
+            {pbs_24, "24 iterations, k_stretch 0.2", 0.7, 20.0},
+            {{"xpbd"}, "8 iterations", 0.65, 25.0},
+            {{"fem_linear"}, "P1", 5.0, 30.0},
+            {{"fem_corotational"}, "P1", 100.0, 5.0},
+            {{"fem_stable_neo_hookean"}, "P2", 900.0, std::nullopt, "reference"}};
 }
 
 Diagram diagram(double mush_pct)
 {
-    return diagrams_of({points("90 deg", rows(mush_pct))}).front();
+    return diagrams_of({points(bent_limb, rows(mush_pct))}).front();
 }
 
 bool says(const std::vector<std::string>& lines, const std::string& text)
@@ -70,7 +74,8 @@ bool says(const std::vector<std::string>& lines, const std::string& text)
 TEST(Diagram, HoldsThePointsWithTimeAndErrorAndTheReferenceBeside)
 {
     const Diagram read = diagram(30.0);
-    EXPECT_EQ(read.name, "limb, 90 deg");
+    EXPECT_EQ(read.name, "limb, bend, angle_deg 90");
+    EXPECT_EQ(read.key, "limb_bend_90");
     EXPECT_EQ(read.points.size(), 7u);
     EXPECT_EQ(read.reference, "snh_p2");
     EXPECT_EQ(read.reference_ms, 900.0);
@@ -83,12 +88,14 @@ TEST(Diagram, AMeanTakesThreePosesAndTheSettingsThatAllOfThemHave)
 {
     std::vector<Row> other = rows(36.0), without = rows(24.0);
     without.erase(without.begin() + 1);  // no DQS
-    const auto two = diagrams_of({points("a", rows(30.0)), points("b", other)});
+    const auto two = diagrams_of({points({.body = "limb", .pose = "a"}, rows(30.0)), points({.body = "limb", .pose = "b"}, other)});
     EXPECT_EQ(two.size(), 2u);
-    const auto three = diagrams_of({points("a", rows(30.0)), points("b", other), points("c", without)});
+    const auto three = diagrams_of({points({.body = "limb", .pose = "a"}, rows(30.0)), points({.body = "limb", .pose = "b"}, other),
+                                    points({.body = "limb", .pose = "c"}, without)});
     ASSERT_EQ(three.size(), 4u);
     const Diagram& mean = three[3];
     EXPECT_EQ(mean.name, "limb, mean of 3 poses");
+    EXPECT_EQ(mean.key, "limb_mean_of_3_poses");
     EXPECT_EQ(mean.points.size(), 6u);
     EXPECT_NEAR(mean.points[1].error_pct, 30.0, 1e-12);
     EXPECT_NEAR(mean.points[1].beside_pct.value(), 31.0, 1e-12);
@@ -99,9 +106,10 @@ TEST(Diagram, AMeanTakesThreePosesAndTheSettingsThatAllOfThemHave)
 TEST(Diagram, AMeanThrowsNoBodyOfManyPosesTogetherWithOthersOfOne)
 {
     std::vector<std::vector<PointRow>> tables;
-    for (const char* pose : {"crouch", "standing", "folded"}) tables.push_back(points(pose, rows(30.0), 6.0, "human"));
-    for (const char* body : {"man", "lady"}) tables.push_back(points("crouch", rows(60.0), 6.0, body));
-    for (const char* body : {"limb twist", "limb bend"}) tables.push_back(points("90 deg", rows(90.0), 6.0, body));
+    for (const char* pose : {"crouch", "standing", "folded"}) tables.push_back(points({.body = "human", .pose = pose}, rows(30.0)));
+    for (const char* body : {"man", "lady"}) tables.push_back(points({.body = body, .pose = "crouch"}, rows(60.0)));
+    for (const char* motion : {"twist", "bend"})
+        tables.push_back(points({.body = "limb", .motion = motion, .angle_deg = 90.0}, rows(90.0)));
     const auto diagrams = diagrams_of(tables);
     ASSERT_EQ(diagrams.size(), 9u);
     EXPECT_EQ(diagrams[7].name, "human, mean of 3 poses");
@@ -118,7 +126,7 @@ TEST(Diagram, WithoutAReferenceHasNoPointsAndSaysSo)
     std::vector<Row> unreached = rows(30.0);
     for (Row& row : unreached) row.error_pct.reset(), row.outcome = "finished";
     unreached.back().outcome = "not_converged";
-    const Diagram empty = diagrams_of({points("90 deg", unreached)}).front();
+    const Diagram empty = diagrams_of({points(bent_limb, unreached)}).front();
     EXPECT_TRUE(empty.points.empty());
     EXPECT_TRUE(says(findings(empty), "no reference was reached"));
     EXPECT_EQ(fronts_table({empty}).rows(), 0);
@@ -153,18 +161,18 @@ std::vector<std::string> crossing(const Diagram& of, const std::string& one, con
 
 TEST(DiagramTables, CrossingsTurnRoundWithTheErrors)
 {
-    EXPECT_EQ(crossing(diagram(33.0), "PBS", "delta mush"), (std::vector<std::string>{"from", "0.7", "1", "1"}));
-    EXPECT_EQ(crossing(diagram(31.0), "PBS", "delta mush"), (std::vector<std::string>{"from", "0.7", "0", "1"}));  // by less than 2 x 6 %
-    EXPECT_EQ(crossing(diagram(15.0), "PBS", "delta mush"), (std::vector<std::string>{"never", "", "", ""}));
-    EXPECT_EQ(crossing(diagram(15.0), "LBS", "DQS")[0], "never");
-    EXPECT_EQ(crossing(diagram(15.0), "delta mush", "PBS")[0], "always");
+    EXPECT_EQ(crossing(diagram(33.0), "pbs", "delta_mush"), (std::vector<std::string>{"from", "0.7", "1", "1"}));
+    EXPECT_EQ(crossing(diagram(31.0), "pbs", "delta_mush"), (std::vector<std::string>{"from", "0.7", "0", "1"}));  // by less than 2 x 6 %
+    EXPECT_EQ(crossing(diagram(15.0), "pbs", "delta_mush"), (std::vector<std::string>{"never", "", "", ""}));
+    EXPECT_EQ(crossing(diagram(15.0), "lbs", "dqs")[0], "never");
+    EXPECT_EQ(crossing(diagram(15.0), "delta_mush", "pbs")[0], "always");
 }
 
 Diagram where_pbs_is_further_from_the_second(double by_pct)
 {
     std::vector<Row> altered = rows(33.0);
     altered[3].further_from_second_pct = by_pct;
-    return diagrams_of({points("90 deg", altered)}).front();
+    return diagrams_of({points(bent_limb, altered)}).front();
 }
 
 TEST(Certainty, HangsOnTheBoundAndOnTheSecondSolution)
@@ -185,8 +193,8 @@ TEST(Certainty, HangsOnTheBoundAndOnTheSecondSolution)
 TEST(Certainty, OfAllTimesIsTheLeast)
 {
     std::vector<Row> later = rows(33.0);
-    later.push_back({"delta_mush", "50 iterations", 2.0, 21.0});
-    const Diagram closer = diagrams_of({points("90 deg", later)}).front();
+    later.push_back({{"delta_mush"}, "50 iterations", 2.0, 21.0});
+    const Diagram closer = diagrams_of({points(bent_limb, later)}).front();
     EXPECT_EQ(certainty_from(diagram(33.0), group_of("pbs"), group_of("delta_mush"), 0.7), Certainty::told_apart);
     EXPECT_EQ(certainty_from(closer, group_of("pbs"), group_of("delta_mush"), 0.7), Certainty::both_solutions);
     EXPECT_EQ(certainty_from(closer, group_of("pbs"), group_of("pbs_exponent"), 0.0), std::nullopt);
@@ -233,20 +241,36 @@ TEST(Findings, SayWhatTheFiguresSay)
     EXPECT_TRUE(says(other, "the physics increases the error of geometry alone by 25 %"));
 }
 
+// The budgets are found by their keys, whatever their words are.
+TEST(Diagram, BudgetsArePbsWithDefaultsOnTheCasesOwnMesh)
+{
+    std::vector<Row> with = rows(30.0);
+    SettingKey coarser = pbs_24, stiffer = pbs_24, fewer = pbs_24;
+    coarser.wanted_vertices = 300, stiffer.k_stretch = 0.9, fewer.iterations = 4;
+    for (const SettingKey& key : {coarser, stiffer, fewer}) with.push_back({key, "24 iterations, k_stretch 0.2", 0.3, 22.0});
+    const std::vector<DiagramPoint> budgets = budgets_of(diagrams_of({points(bent_limb, with)}).front());
+    ASSERT_EQ(budgets.size(), 2u);
+    EXPECT_EQ(budgets[0].key, fewer);
+    EXPECT_EQ(budgets[1].key, pbs_24);
+}
+
 TEST(Findings, EveryDeformerOfTheStudyHasAGroup)
 {
     EXPECT_EQ(group_of("xpbd_small_steps").words, "XPBD");
     EXPECT_THROW(group_of("wishful"), std::logic_error);
+    EXPECT_EQ(group_named("linear_fem").words, "linear FEM");
+    EXPECT_THROW(group_named("linear FEM"), std::logic_error);
 }
 
 TEST(WorkPrecisionFindings, OneRefinementIsToldWhereBothSolutionsAreThere)
 {
     std::vector<Row> with = rows(30.0);
-    with.push_back({"fem_stable_neo_hookean", "P1", 90.0, 9.0});
-    EXPECT_FALSE(says(findings(diagrams_of({points("90 deg", with)}).front()), "refinement"));
-    with.push_back({"fem_stable_neo_hookean", "P1, tets cut into eight", 800.0, 3.0});
-    EXPECT_TRUE(
-        says(findings(diagrams_of({points("90 deg", with)}).front()), "order 1 has an error of 9.0 % on the case's own tets and of 3.0 %"));
+    const std::string model = "fem_stable_neo_hookean";
+    with.push_back({{.deformer = model, .element_order = 1}, "P1", 90.0, 9.0});
+    EXPECT_FALSE(says(findings(diagrams_of({points(bent_limb, with)}).front()), "refinement"));
+    with.push_back({{.deformer = model, .element_order = 1, .refined = true}, "P1, tets cut into eight", 800.0, 3.0});
+    EXPECT_TRUE(says(findings(diagrams_of({points(bent_limb, with)}).front()),
+                     "order 1 has an error of 9.0 % on the case's own tets and of 3.0 %"));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -133,17 +134,21 @@ TEST_F(Choice, WithoutASolutionThereIsNone)
     EXPECT_EQ(choose().point, nullptr);
 }
 
-TEST(PointSettings, AreEachOnceInWordsAndEightOrMoreOfEachDeformerWithSomethingToSet)
+TEST(PointSettings, AreEachOnceInWordsAndKeysAndEightOrMoreOfEachDeformerWithSomethingToSet)
 {
     SettingRange range;
     range.coarser_vertices = {300, 400, 500, 600};
+    range.refined = true;
     range.quadratic = range.quadratic_corotational = false;
     range.quadratic_up_to = 500;
     const std::vector<PointSetting> settings = point_settings(read_scene("limb_twist", {}), range);
     std::set<std::string> words;
+    std::vector<SettingKey> keys;
     std::map<std::string, int> of_deformer;
     for (const PointSetting& setting : settings) {
         EXPECT_TRUE(words.insert(setting.deformer + ": " + setting.words).second) << setting.deformer << ": " << setting.words;
+        EXPECT_EQ(std::count(keys.begin(), keys.end(), key_of(setting)), 0) << setting.deformer << ": " << setting.words;
+        keys.push_back(key_of(setting));
         ++of_deformer[setting.deformer];
     }
     for (const auto& [deformer, count] : of_deformer) EXPECT_GE(count, deformer == "lbs" || deformer == "dqs" ? 1 : 8) << deformer;
