@@ -3,15 +3,15 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace pbs {
 namespace {
 
 constexpr double middle_begin = 1.0 / 6.0, middle_end = 5.0 / 6.0;  // Eq. 2
-constexpr int stations = 40, rings = 8, spokes = 24;
-constexpr int points_per_disc = 1 + rings * spokes;
 
 struct Mean {
     double sum = 0.0;
@@ -82,8 +82,11 @@ std::vector<BoneCapsule> bone_capsules(const Character& character, double core_r
     return capsules;
 }
 
-Positions sample_points(const BoneCapsule& capsule)
+Positions sample_points(const BoneCapsule& capsule, int density)
 {
+    if (density < 1) throw std::invalid_argument("sample_points: expected a density of at least 1, not " + std::to_string(density));
+    const int stations = 40 * density, rings = 8 * density, spokes = 24 * density;
+    const int points_per_disc = 1 + rings * spokes;
     const Vec3 axis = capsule.end - capsule.start;
     const Vec3 across = axis.unitOrthogonal(), binormal = axis.normalized().cross(across);
     Positions points(stations * points_per_disc, 3);
@@ -101,6 +104,23 @@ Positions sample_points(const BoneCapsule& capsule)
         }
     }
     return points;
+}
+
+double smooth_density(const BoneCapsule& capsule, AttachmentKernel kernel, double ends, const Vec3& point)
+{
+    const double length = (capsule.end - capsule.start).norm();
+    const double along = (point - capsule.start).dot(capsule.end - capsule.start) / length;
+    const double from_end = std::min(along, length - along);
+    const double s = (point - capsule.start).cross(capsule.end - capsule.start).norm() / (length * capsule.radius_m);
+    if (from_end <= 0.0 || s >= 1.0) return 0.0;
+    const double t = std::min(1.0, from_end / std::min(ends * capsule.radius_m, length / 2.0));
+    switch (kernel) {
+        case AttachmentKernel::biweight:
+            return std::pow(1.0 - s * s, 2) * (3.0 - 2.0 * t) * t * t;
+        case AttachmentKernel::wendland:
+            return std::pow(1.0 - s, 4) * (4.0 * s + 1.0) * ((6.0 * t - 15.0) * t + 10.0) * t * t * t;
+    }
+    return 0.0;
 }
 
 }  // namespace pbs

@@ -45,5 +45,9 @@ std::vector<bool> points_inside(const Positions&, const Triangles&, const std::v
 {
     refuse("points inside");
 }
+std::vector<int> vertices_inside_other_tets(const Positions&, const Tets&, const std::vector<int>&)
+{
+    refuse("vertices inside other tets");
+}
 
 }  // namespace pbs

@@ -4,9 +4,19 @@
 #include "pbs/geometry/tet_volume.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace experiments {
 namespace {
+
+// Capsules that hold nothing yet.
+BoneAttachment empty_attachment(const pbs::Character& character, double core_radius)
+{
+    BoneAttachment bones;
+    bones.capsules = pbs::bone_capsules(character, core_radius);
+    bones.vertex_bone.assign(character.mesh.rest.rows(), -1);
+    return bones;
+}
 
 // Indices of tets with all four corners inside the capsule: it is convex, so all of the tet is.
 std::vector<int> tets_inside(const pbs::TetMesh& mesh, const pbs::BoneCapsule& capsule)
@@ -19,11 +29,35 @@ std::vector<int> tets_inside(const pbs::TetMesh& mesh, const pbs::BoneCapsule& c
     return inside;
 }
 
+// Springs at the sample points of the capsules, each with the stiffness of its share of the volume. relative_density(capsule, point) is 1
+// on the axis.
+template <typename RelativeDensity>
+BoneAttachment springs_of_density(const pbs::Character& character, const FemOptions& options, const RelativeDensity& relative_density)
+{
+    BoneAttachment bones = empty_attachment(character, core_radius_of(options));
+    std::vector<double> stiffness;
+    for (std::size_t j = 0; j < bones.capsules.size(); ++j) {
+        const pbs::BoneCapsule& capsule = bones.capsules[j];
+        const pbs::Positions points = pbs::sample_points(capsule, options.attachment_samples);
+        const double on_axis = spring_factor_of(options) * options.young_pa / (capsule.radius_m * capsule.radius_m);
+        const Eigen::Index springs = bones.attachment.spring_points.rows();
+        bones.attachment.spring_points.conservativeResize(springs + points.rows(), 3);
+        bones.attachment.spring_points.bottomRows(points.rows()) = points;
+        bones.spring_bone.insert(bones.spring_bone.end(), points.rows(), static_cast<int>(j));
+        for (const auto& point : points.rowwise()) {
+            bones.spring_density.push_back(relative_density(capsule, point.transpose()));
+            stiffness.push_back(on_axis * bones.spring_density.back() * capsule.volume_m3() / static_cast<double>(points.rows()));
+        }
+    }
+    bones.attachment.spring_stiffness = Eigen::VectorXd::Map(stiffness.data(), stiffness.size());
+    return bones;
+}
+
 // The children of the tets that are held in the unrefined character, which are the same parts of the flesh.
 BoneAttachment nodes_of_unrefined(const pbs::Character& character, const FemOptions& options)
 {
     const BoneAttachment coarse = nodes_attachment(*character.unrefined, options);
-    BoneAttachment bones{coarse.capsules, {}, {}, std::vector<int>(character.mesh.rest.rows(), -1), {}, {}};
+    BoneAttachment bones = empty_attachment(character, core_radius_of(options));
     const int children = 1 << 3 * character.refinements;
     for (std::size_t k = 0; k < coarse.tet_bone.size(); ++k) {
         const int first = children * coarse.attachment.prescribed_tets[k];
@@ -41,6 +75,8 @@ BoneAttachment nodes_of_unrefined(const pbs::Character& character, const FemOpti
 BoneAttachment bone_attachment(const pbs::Character& character, const FemOptions& options)
 {
     switch (options.attachment) {
+        case FemAttachment::smooth:
+            return smooth_attachment(character, options);
         case FemAttachment::embedded:
             return embedded_attachment(character, options);
         case FemAttachment::nodes:
@@ -51,29 +87,23 @@ BoneAttachment bone_attachment(const pbs::Character& character, const FemOptions
     return {};
 }
 
+BoneAttachment smooth_attachment(const pbs::Character& character, const FemOptions& options)
+{
+    return springs_of_density(character, options, [&](const pbs::BoneCapsule& capsule, const pbs::Vec3& point) {
+        return pbs::smooth_density(capsule, options.attachment_kernel, options.attachment_ends, point);
+    });
+}
+
 BoneAttachment embedded_attachment(const pbs::Character& character, const FemOptions& options)
 {
-    BoneAttachment bones{bone_capsules(character, options.core_radius), {}, {}, std::vector<int>(character.mesh.rest.rows(), -1), {}, {}};
-    const Eigen::Index per_bone = bones.capsules.empty() ? 0 : sample_points(bones.capsules.front()).rows();
-    const auto springs = static_cast<Eigen::Index>(bones.capsules.size()) * per_bone;
-    bones.attachment.spring_points.resize(springs, 3);
-    bones.attachment.spring_stiffness.resize(springs);
-    for (std::size_t j = 0; j < bones.capsules.size(); ++j) {
-        const pbs::BoneCapsule& capsule = bones.capsules[j];
-        const double density = options.spring_factor * options.young_pa / (capsule.radius_m * capsule.radius_m);
-        bones.attachment.spring_points.middleRows(j * per_bone, per_bone) = sample_points(capsule);
-        bones.attachment.spring_stiffness.segment(j * per_bone, per_bone)
-            .setConstant(density * capsule.volume_m3() / static_cast<double>(per_bone));
-        bones.spring_bone.insert(bones.spring_bone.end(), per_bone, static_cast<int>(j));
-    }
-    return bones;
+    return springs_of_density(character, options, [](const pbs::BoneCapsule&, const pbs::Vec3&) { return 1.0; });
 }
 
 BoneAttachment nodes_attachment(const pbs::Character& character, const FemOptions& options)
 {
     if (character.unrefined) return nodes_of_unrefined(character, options);
     const pbs::TetMesh& mesh = character.mesh;
-    BoneAttachment bones{bone_capsules(character, options.core_radius), {}, {}, std::vector<int>(mesh.rest.rows(), -1), {}, {}};
+    BoneAttachment bones = empty_attachment(character, core_radius_of(options));
     for (int j = 0; j < static_cast<int>(bones.capsules.size()); ++j) {
         int kept = 0;
         for (const int tet : tets_inside(mesh, bones.capsules[j])) {
@@ -97,9 +127,10 @@ BoneAttachment bind_attachment(const pbs::Character& character, const FemOptions
 {
     const pbs::TetMesh& mesh = character.mesh;
     constexpr double whole_limb = 1.0;
-    BoneAttachment bones{bone_capsules(character, whole_limb), {}, {}, std::vector<int>(mesh.rest.rows(), -1), {}, character.binding};
+    BoneAttachment bones = empty_attachment(character, whole_limb);
+    bones.binding = character.binding;
     bones.attachment.bind_distance = character.binding.distance;
-    bones.attachment.bind_stiffness = options.spring_factor * options.young_pa * pbs::lumped_volumes(mesh.rest, mesh.tets);
+    bones.attachment.bind_stiffness = spring_factor_of(options) * options.young_pa * pbs::lumped_volumes(mesh.rest, mesh.tets);
     for (Eigen::Index v = 0; v < mesh.rest.rows(); ++v) {
         const double radius = bones.capsules[character.binding.bone[v]].radius_m;
         bones.attachment.bind_stiffness(v) /= radius * radius;
@@ -109,10 +140,19 @@ BoneAttachment bind_attachment(const pbs::Character& character, const FemOptions
 
 std::vector<int> gripping_bones(const BoneAttachment& bones, const pbs::Tets& tets, const std::vector<int>& spring_tet)
 {
-    std::vector<int> gripping = bones.vertex_bone;
+    std::map<std::pair<int, int>, double> stiffness;  // of the springs of a vertex and a bone
     for (std::size_t s = 0; s < spring_tet.size(); ++s)
-        if (spring_tet[s] >= 0)
-            for (const int v : tets.row(spring_tet[s])) gripping[v] = bones.spring_bone[s];
+        if (spring_tet[s] >= 0 && bones.spring_density[s] >= gripping_density)
+            for (const int v : tets.row(spring_tet[s])) stiffness[{v, bones.spring_bone[s]}] += bones.attachment.spring_stiffness(s);
+
+    std::vector<int> gripping = bones.vertex_bone;
+    std::vector<double> largest(gripping.size(), 0.0);
+    for (const auto& [at, of_springs] : stiffness) {
+        const auto [vertex, bone] = at;
+        if (of_springs <= largest[vertex]) continue;
+        largest[vertex] = of_springs;
+        gripping[vertex] = bone;
+    }
     return gripping;
 }
 

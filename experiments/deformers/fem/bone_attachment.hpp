@@ -1,4 +1,4 @@
-// The attachment of the reference to the skeleton in its three forms (see FemAttachment): springs at sample points, prescribed tets, or
+// The attachment of the reference to the skeleton in its four forms (see FemAttachment): springs at sample points, prescribed tets, or
 // bound vertices, each with the bone that moves it.
 #pragma once
 
@@ -12,12 +12,16 @@ struct BoneAttachment {
     std::vector<pbs::BoneCapsule> capsules;  // #bones
     reference_fem::Attachment attachment;    // springs, prescribed tets or bound vertices
     std::vector<int> spring_bone;            // #springs
+    std::vector<double> spring_density;      // #springs, 0 to 1: over the density on the axis
     std::vector<int> vertex_bone;            // #V, -1: not prescribed
     std::vector<int> tet_bone;               // of each prescribed tet
     pbs::BoneBinding binding;                // of bound vertices; otherwise empty
 };
 
 BoneAttachment bone_attachment(const pbs::Character& character, const FemOptions& options);  // by options.attachment
+
+// Springs over each capsule's volume, of density q E / r^2 times smooth_density (pbs/character/bone_capsules.hpp).
+BoneAttachment smooth_attachment(const pbs::Character& character, const FemOptions& options);
 
 // Springs of density q E / r^2 over each capsule's volume.
 BoneAttachment embedded_attachment(const pbs::Character& character, const FemOptions& options);
@@ -33,7 +37,11 @@ BoneAttachment nodes_attachment(const pbs::Character& character, const FemOption
 // the bone.
 BoneAttachment bind_attachment(const pbs::Character& character, const FemOptions& options);
 
-// The bone that grips each vertex by springs or as prescribed, #V, -1: none. spring_tet: the tet that holds each spring, -1: outside.
+// Springs of a smaller density, over that on the axis, do not grip: the flesh yields to them.
+constexpr double gripping_density = 0.5;
+
+// The bone that grips each vertex as prescribed, or by the stiffest springs in the tets around it, #V; -1: none. spring_tet: the tet that
+// holds each spring, -1: outside.
 std::vector<int> gripping_bones(const BoneAttachment& bones, const pbs::Tets& tets, const std::vector<int>& spring_tet);
 
 // Positions [m] of what is attached, in a pose: of springs, #springs x 3; of vertices, #V x 3, with rest positions where nothing is

@@ -219,8 +219,7 @@ FrameSolve ElasticFemDeformer::move(const pbs::Pose& pose, double dt_s)
 void ElasticFemDeformer::record_grip()
 {
     const reference_fem::Targets held = targets_of(reached_pose_);
-    if (options_.attachment == FemAttachment::embedded)
-        record_.add_grip(held.springs, (held.springs - body_->spring_points_deformed()).rowwise().norm());
+    if (held.springs.rows() > 0) record_.add_grip(held.springs, (held.springs - body_->spring_points_deformed()).rowwise().norm());
     if (options_.attachment == FemAttachment::bind)
         record_.add_grip(held.bind_points, (body_->positions() - held.bind_points).rowwise().norm() - bones_.attachment.bind_distance);
 }

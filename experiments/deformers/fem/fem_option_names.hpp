@@ -31,8 +31,15 @@ struct OptionNames<reference_fem::Dynamics> {
 };
 template <>
 struct OptionNames<FemAttachment> {
-    static constexpr std::array<std::pair<FemAttachment, const char*>, 3> table{
-        {{FemAttachment::embedded, "embedded"}, {FemAttachment::nodes, "nodes"}, {FemAttachment::bind, "bind"}}};
+    static constexpr std::array<std::pair<FemAttachment, const char*>, 4> table{{{FemAttachment::smooth, "smooth"},
+                                                                                 {FemAttachment::embedded, "embedded"},
+                                                                                 {FemAttachment::nodes, "nodes"},
+                                                                                 {FemAttachment::bind, "bind"}}};
+};
+template <>
+struct OptionNames<pbs::AttachmentKernel> {
+    static constexpr std::array<std::pair<pbs::AttachmentKernel, const char*>, 2> table{
+        {{pbs::AttachmentKernel::biweight, "biweight"}, {pbs::AttachmentKernel::wendland, "wendland"}}};
 };
 template <>
 struct OptionNames<reference_fem::LinearSolver> {

@@ -6,13 +6,15 @@
 #include "reference_fem/linear_solver.hpp"
 #include "reference_fem/model.hpp"
 
+#include "pbs/character/bone_capsules.hpp"
 #include "pbs/geometry/types.hpp"
 
 namespace experiments {
 
-// How the bones hold the flesh. embedded: each bone is a rigid capsule inside the flesh, tied to it by springs. nodes: whole tets inside
-// the capsule are prescribed. bind: the paper's bind constraint as an energy, for nonlinear models.
-enum class FemAttachment { embedded, nodes, bind };
+// How the bones hold the flesh. smooth: springs, whose density decreases smoothly to zero from the axis of each bone to the surface of a
+// capsule around it. embedded: each bone is a rigid capsule inside the flesh, tied to it by stiff springs of one density. nodes: whole tets
+// inside the capsule are prescribed. bind: the paper's bind constraint as an energy, for nonlinear models.
+enum class FemAttachment { smooth, embedded, nodes, bind };
 
 struct FemOptions {
     reference_fem::Model model = reference_fem::Model::linear;
@@ -26,11 +28,27 @@ struct FemOptions {
     double rayleigh_mass_1_s = 0.0;  // damping C = rayleigh_mass M + rayleigh_stiffness K(rest)
     double rayleigh_stiffness_s = 0.0;
     FemAttachment attachment = FemAttachment::embedded;
-    double core_radius = 0.35;     // capsule radius over local limb radius
-    double spring_factor = 1.0e4;  // q: springs of density q E / r^2, r the capsule's radius; doubling it changes no reported value
+    double core_radius = 0.0;    // capsule radius over local limb radius; 0: 0.7 with smooth, otherwise 0.35
+    double spring_factor = 0.0;  // q: springs of density q E / r^2, r the capsule's radius (on its axis, if smooth); 0: 100 with smooth,
+                                 // otherwise 1e4. Doubling the latter changes no reported value
+    pbs::AttachmentKernel attachment_kernel = pbs::AttachmentKernel::biweight;  // of smooth: how the density decreases
+    double attachment_ends = 1.0;                                               // of smooth: over so many capsule radii at each end
+    int attachment_samples = 1;  // of smooth and embedded: multiplies the numbers of sample points along, across and around a bone
     reference_fem::LinearSolver solver = reference_fem::LinearSolver::cholmod;
     int most_newton_steps = 0;  // quasi-static: per stage of the way to a pose, which is then not reached; 0: no limit
     bool nested_start = false;  // nonlinear: the way to a far pose begins at the solution with fewer nodes (order 1, unrefined)
 };
+
+// The options themselves, or the attachment's own values where these are 0.
+inline double core_radius_of(const FemOptions& options)
+{
+    if (options.core_radius > 0.0) return options.core_radius;
+    return options.attachment == FemAttachment::smooth ? 0.7 : 0.35;
+}
+inline double spring_factor_of(const FemOptions& options)
+{
+    if (options.spring_factor > 0.0) return options.spring_factor;
+    return options.attachment == FemAttachment::smooth ? 100.0 : 1e4;
+}
 
 }  // namespace experiments

@@ -39,8 +39,7 @@ nlohmann::json to_json(const BoneGrip& grip, const pbs::BoneCapsule& capsule, Fe
         return json;
     }
     json.update({{"tets_gripped", grip.tets}, {"shared_vertices", grip.shared_vertices}});
-    if (attachment == FemAttachment::embedded)
-        json.update({{"samples", grip.holds}, {"inside", grip.inside}, {"grip_error_rms_m", grip.error_rms_m}});
+    if (grip.holds > 0) json.update({{"samples", grip.holds}, {"inside", grip.inside}, {"grip_error_rms_m", grip.error_rms_m}});
     return json;
 }
 
@@ -68,6 +67,7 @@ void FemRecord::add_bound_vertices(const pbs::Character& character)
 {
     hold_bone_ = bones_.binding.bone;
     hold_rest_ = bones_.binding.rest_point;
+    hold_weight_.assign(hold_bone_.size(), 1.0);
     std::vector<std::set<int>> bound(grips_.size());
     for (std::size_t v = 0; v < hold_bone_.size(); ++v) bound[hold_bone_[v]].insert(static_cast<int>(v));
     for (std::size_t j = 0; j < grips_.size(); ++j) {
@@ -80,13 +80,14 @@ void FemRecord::add_gripped_tets(const pbs::Character& character, const std::vec
 {
     hold_bone_ = bones_.spring_bone;
     hold_rest_ = bones_.attachment.spring_points;
+    hold_weight_ = bones_.spring_density;
     std::vector<std::set<int>> gripped(grips_.size());
     for (std::size_t s = 0; s < spring_tet.size(); ++s) {
         BoneGrip& grip = grips_[hold_bone_[s]];
         ++grip.holds;
         if (spring_tet[s] < 0) continue;
         ++grip.inside;
-        gripped[hold_bone_[s]].insert(spring_tet[s]);
+        if (bones_.spring_density[s] >= gripping_density) gripped[hold_bone_[s]].insert(spring_tet[s]);
     }
     for (std::size_t k = 0; k < bones_.tet_bone.size(); ++k) gripped[bones_.tet_bone[k]].insert(bones_.attachment.prescribed_tets[k]);
 
@@ -113,25 +114,30 @@ void FemRecord::add_frame(const pbs::Pose& relative_pose)
 
 void FemRecord::add_grip(const pbs::Positions& targets, const Eigen::VectorXd& errors_m)
 {
-    std::vector<double> squared(grips_.size(), 0.0);
+    std::vector<double> squared(grips_.size(), 0.0), weight(grips_.size(), 0.0);
     double error_squared = 0.0, motion_squared = 0.0;
     for (Eigen::Index s = 0; s < targets.rows(); ++s) {
         if (!std::isfinite(errors_m(s))) continue;  // outside the flesh
-        largest_grip_error_m_ = std::max(largest_grip_error_m_, std::abs(errors_m(s)));
-        squared[hold_bone_[s]] += errors_m(s) * errors_m(s);
-        error_squared += errors_m(s) * errors_m(s);
-        motion_squared += (targets.row(s) - hold_rest_.row(s)).squaredNorm();
+        if (hold_weight_[s] >= gripping_density) largest_grip_error_m_ = std::max(largest_grip_error_m_, std::abs(errors_m(s)));
+        squared[hold_bone_[s]] += hold_weight_[s] * errors_m(s) * errors_m(s);
+        weight[hold_bone_[s]] += hold_weight_[s];
+        error_squared += hold_weight_[s] * errors_m(s) * errors_m(s);
+        motion_squared += hold_weight_[s] * (targets.row(s) - hold_rest_.row(s)).squaredNorm();
     }
     for (std::size_t j = 0; j < grips_.size(); ++j)
-        if (grips_[j].inside > 0) grips_[j].error_rms_m = std::max(grips_[j].error_rms_m, std::sqrt(squared[j] / grips_[j].inside));
+        if (weight[j] > 0.0) grips_[j].error_rms_m = std::max(grips_[j].error_rms_m, std::sqrt(squared[j] / weight[j]));
     if (motion_squared > 0.0) grip_error_over_motion_ = std::max(grip_error_over_motion_, std::sqrt(error_squared / motion_squared));
 }
 
 nlohmann::json FemRecord::attachment_json() const
 {
     nlohmann::json attachment = {{"kind", name_of(options_.attachment)}};
-    if (options_.attachment != FemAttachment::bind) attachment["core_radius"] = options_.core_radius;
-    if (options_.attachment != FemAttachment::nodes) attachment["spring_factor"] = options_.spring_factor;
+    if (options_.attachment != FemAttachment::bind) attachment["core_radius"] = core_radius_of(options_);
+    if (options_.attachment != FemAttachment::nodes) attachment["spring_factor"] = spring_factor_of(options_);
+    if (options_.attachment == FemAttachment::smooth) {
+        attachment["kernel"] = name_of(options_.attachment_kernel);
+        attachment["ends"] = options_.attachment_ends;
+    }
     for (std::size_t j = 0; j < grips_.size(); ++j)
         attachment["bones"].push_back(experiments::to_json(grips_[j], bones_.capsules[j], options_.attachment));
     return attachment;

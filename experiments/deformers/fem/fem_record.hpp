@@ -11,12 +11,12 @@ namespace experiments {
 // The flesh that the attachment of one bone holds.
 struct BoneGrip {
     std::string name;
-    int holds = 0;             // embedded: sample points; bind: vertices
+    int holds = 0;             // smooth and embedded: sample points; bind: vertices
     int inside = 0;            // the holds that are in the flesh
     int tets = 0;              // tets gripped
     double skin_share = 0.0;   // share of the gripped tets' vertices that lie on the skin
     int shared_vertices = 0;   // vertices of the gripped tets that another bone grips too: P1 cannot follow both
-    double error_rms_m = 0.0;  // largest over the frames of the frame's rms error of its holds
+    double error_rms_m = 0.0;  // largest over the frames of the frame's rms error of its holds, weighted by their density
 };
 
 class FemRecord {
@@ -40,9 +40,10 @@ private:
 
     FemOptions options_;
     BoneAttachment bones_;
-    std::vector<int> hold_bone_;   // #holds
-    pbs::Positions hold_rest_;     // [m], #holds x 3
-    std::vector<BoneGrip> grips_;  // #bones
+    std::vector<int> hold_bone_;       // #holds
+    pbs::Positions hold_rest_;         // [m], #holds x 3
+    std::vector<double> hold_weight_;  // #holds: the relative density of springs; 1 with bind
+    std::vector<BoneGrip> grips_;      // #bones
     int frames_ = 0;
     double largest_rotation_rad_ = 0.0;
     double largest_grip_error_m_ = 0.0;

@@ -52,19 +52,57 @@ void add_rayleigh_key(OptionFields<FemOptions>& fields)
                read, write);
 }
 
+// A key whose value 0 stands for the attachment's own, which records state.
+void add_key_with_own_value(OptionFields<FemOptions>& fields, const std::string& name, double FemOptions::*member,
+                            double (*value_of)(const FemOptions&), const FieldText& text)
+{
+    fields.add(
+        name, KeyType::number, FemOptions{}.*member, text,
+        [member](FemOptions& options, const SceneValues& values, const std::string& path) { options.*member = values.number(path); },
+        [name, value_of](const FemOptions& options, nlohmann::json& record) { record[name] = value_of(options); });
+}
+
+void add_attachment_keys(OptionFields<FemOptions>& fields)
+{
+    fields.add(
+        "attachment", &FemOptions::attachment,
+        {.meaning = "smooth: springs whose density decreases smoothly to zero from the bone's axis to the surface of a capsule around it; "
+                    "embedded: bones as rigid capsules tied to the flesh by stiff springs; nodes: whole tets inside the capsules "
+                    "prescribed; bind: the paper's bind constraint as an energy on every vertex, for nonlinear models"});
+    add_key_with_own_value(
+        fields, "core_radius", &FemOptions::core_radius, core_radius_of,
+        {.lowest = 0,
+         .highest = 1,
+         .meaning = "radius of the bone's capsule over the local limb radius; 0: 0.7 with attachment smooth, otherwise 0.35"});
+    add_key_with_own_value(
+        fields, "spring_factor", &FemOptions::spring_factor, spring_factor_of,
+        {.lowest = 0,
+         .highest = 1e9,
+         .meaning = "q: the attachment's density is q E / r^2, r the capsule's radius (smooth: the density on the axis) or the local limb "
+                    "radius (bind); 0: 100 with attachment smooth, otherwise 1e4"});
+    fields
+        .add("attachment_kernel", &FemOptions::attachment_kernel,
+             {.meaning =
+                  "attachment smooth, s = distance to the axis / r: biweight: density (1 - s^2)^2 across the bone and a cubic step at "
+                  "its ends, once continuously differentiable; wendland: (1 - s)^4 (4 s + 1) (H. Wendland, 1995) and a step of "
+                  "degree 5, twice so"})
+        .add(
+            "attachment_ends", &FemOptions::attachment_ends,
+            {.unit = "r",
+             .lowest = 0.01,
+             .highest = 100,
+             .meaning = "attachment smooth: the length, in radii of the capsule, over which the density rises from 0 at each end of it; at "
+                        "most half of the capsule's length"})
+        .add("attachment_samples", &FemOptions::attachment_samples,
+             {.lowest = 1,
+              .highest = 4,
+              .meaning = "attachments smooth and embedded: multiplies the 40 stations along a bone, the 8 rings of sample points across it "
+                         "and the 24 points of a ring"});
+}
+
 void add_solution_keys(OptionFields<FemOptions>& fields)
 {
     fields
-        .add(
-            "attachment", &FemOptions::attachment,
-            {.meaning = "embedded: bones as rigid capsules tied to the flesh by springs; nodes: whole tets inside the capsules prescribed; "
-                        "bind: the paper's bind constraint as an energy on every vertex, for nonlinear models"})
-        .add("core_radius", &FemOptions::core_radius,
-             {.lowest = 0.01, .highest = 1, .meaning = "radius of the bone's capsule over the local limb radius"})
-        .add("spring_factor", &FemOptions::spring_factor,
-             {.lowest = 1e-3,
-              .highest = 1e9,
-              .meaning = "q: the attachment's density is q E / r^2, r the capsule's radius (embedded) or the local limb radius (bind)"})
         .add(
             "solver", &FemOptions::solver,
             {.meaning = "cholmod; umfpack, for comparison, with the linear model; cg_ml: conjugate gradients with algebraic multigrid, for "
@@ -88,7 +126,9 @@ void check(const SceneValues& values, const std::string& table, const FemOptions
     const bool linear = options.model == reference_fem::Model::linear;
     const bool quasi_static = options.dynamics == reference_fem::Dynamics::quasi_static;
     if (linear && options.attachment == FemAttachment::bind)
-        values.refuse(table + ".attachment", "expected embedded or nodes with model linear: the bind constraint is not linear");
+        values.refuse(table + ".attachment", "expected smooth, embedded or nodes with model linear: the bind constraint is not linear");
+    if (options.core_radius > 0.0 && options.core_radius < 0.01) values.refuse(table + ".core_radius", "expected 0, or 0.01 to 1");
+    if (options.spring_factor > 0.0 && options.spring_factor < 1e-3) values.refuse(table + ".spring_factor", "expected 0, or 0.001 to 1e9");
     if (!linear && options.solver != reference_fem::LinearSolver::cholmod)
         values.refuse(table + ".solver",
                       "expected cholmod with a nonlinear model: Newton needs to know where a matrix is not positive definite");
@@ -114,6 +154,7 @@ const OptionFields<FemOptions>& fem_fields()
         OptionFields<FemOptions> declared("fem", true);
         add_material_keys(declared);
         add_rayleigh_key(declared);
+        add_attachment_keys(declared);
         add_solution_keys(declared);
         return declared;
     }();

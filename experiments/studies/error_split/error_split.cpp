@@ -161,7 +161,7 @@ private:
         const auto& fem = options_of<FemOptions>(spec);
         for (std::size_t pose = 0; pose < shapes.size(); ++pose)
             split_.attachments.push_back({of_.scene.name, of_.frames[pose], base_.angle_deg(pose), spec.label, name_of(fem.attachment),
-                                          fem.core_radius, base_.distance(shapes[pose], references_.twin[pose]).joint_pct, k_stretch,
+                                          core_radius_of(fem), base_.distance(shapes[pose], references_.twin[pose]).joint_pct, k_stretch,
                                           base_.distance(converged.shapes[pose], shapes[pose]).joint_pct, shapes[pose].finished,
                                           shapes[pose].self_intersects});
     }

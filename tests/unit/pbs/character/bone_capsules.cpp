@@ -84,4 +84,35 @@ TEST(BoneCapsules, SamplesStandForEqualSharesOfTheVolume)
     for (const auto& sample : samples.rowwise()) EXPECT_TRUE(capsule.contains(sample.transpose()));
 }
 
+// A capsule of radius 1/2 and length 2 along x, with steps of one radius. By hand: s = 1/2 a quarter off the axis, t = 1/2 a quarter from
+// an end, where both steps are 1/2.
+TEST(SmoothDensity, IsThatOfTheKernelsFormulas)
+{
+    const BoneCapsule capsule{{0, 0, 0}, {2, 0, 0}, 0.5, ""};
+    const auto at = [&](AttachmentKernel kernel, const Vec3& point) { return smooth_density(capsule, kernel, 1.0, point); };
+    EXPECT_DOUBLE_EQ(at(AttachmentKernel::biweight, {1, 0, 0}), 1.0);
+    EXPECT_DOUBLE_EQ(at(AttachmentKernel::wendland, {1, 0, 0}), 1.0);
+    EXPECT_DOUBLE_EQ(at(AttachmentKernel::biweight, {1, 0, 0.25}), 9.0 / 16.0);
+    EXPECT_DOUBLE_EQ(at(AttachmentKernel::wendland, {1, 0.25, 0}), 3.0 / 16.0);
+    EXPECT_DOUBLE_EQ(at(AttachmentKernel::biweight, {0.25, 0, 0}), 0.5);
+    EXPECT_DOUBLE_EQ(at(AttachmentKernel::wendland, {1.75, 0, 0}), 0.5);
+    for (const auto kernel : {AttachmentKernel::biweight, AttachmentKernel::wendland})
+        for (const Vec3& outside : {Vec3(-0.1, 0, 0), Vec3(2.1, 0, 0), Vec3(1, 0.5, 0), Vec3(1, 0, 7)}) EXPECT_EQ(at(kernel, outside), 0.0);
+}
+
+// Steps longer than half of the capsule would not meet: each is half of it then, and the density is 1 in the middle alone.
+TEST(SmoothDensity, StepsAreAtMostHalfOfTheCapsule)
+{
+    const BoneCapsule capsule{{0, 0, 0}, {2, 0, 0}, 0.5, ""};
+    EXPECT_DOUBLE_EQ(smooth_density(capsule, AttachmentKernel::biweight, 10.0, {1, 0, 0}), 1.0);
+    EXPECT_DOUBLE_EQ(smooth_density(capsule, AttachmentKernel::biweight, 10.0, {0.5, 0, 0}), 0.5);
+}
+
+TEST(BoneCapsules, ADensityOfSamplesMultipliesTheirNumbersInEachDirection)
+{
+    const BoneCapsule capsule{{0, 0, 0}, {2, 0, 0}, 0.5, ""};
+    EXPECT_EQ(sample_points(capsule, 2).rows(), 80 * (1 + 16 * 48));
+    EXPECT_THROW(sample_points(capsule, 0), std::invalid_argument);
+}
+
 }  // namespace

@@ -110,11 +110,59 @@ TEST(BindAttachment, TargetsAreTheRestProjectionsCarriedByTheirBones)
 TEST(GrippingBones, AreThoseOfTheSpringsTets)
 {
     const auto character = test_support::bar_character({24, 2, 2});
-    const BoneAttachment springs{{}, {}, {1, 0}, std::vector<int>(character.mesh.rest.rows(), -1), {}, {}};
+    BoneAttachment springs;
+    springs.spring_bone = {1, 0};
+    springs.spring_density = {1.0, 1.0};
+    springs.attachment.spring_stiffness = Eigen::Vector2d(1.0, 1.0);
+    springs.vertex_bone.assign(character.mesh.rest.rows(), -1);
     const std::vector<int> gripping = gripping_bones(springs, character.mesh.tets, {5, -1});
     const auto corners = character.mesh.tets.row(5);
     for (int v = 0; v < character.mesh.rest.rows(); ++v)
         EXPECT_EQ(gripping[v], std::find(corners.begin(), corners.end(), v) != corners.end() ? 1 : -1);
+}
+
+// A vertex that springs of two bones share belongs to the stiffer ones; springs of less than half of the density on the axis do not count.
+TEST(GrippingBones, TheStifferSpringsDecideAndWeakOnesDoNotCount)
+{
+    const auto character = test_support::bar_character({24, 2, 2});
+    BoneAttachment springs;
+    springs.spring_bone = {0, 1, 1, 0};
+    springs.spring_density = {1.0, 1.0, 1.0, 0.4};
+    springs.attachment.spring_stiffness = Eigen::Vector4d(3.0, 2.0, 2.0, 100.0);
+    springs.vertex_bone.assign(character.mesh.rest.rows(), -1);
+    const std::vector<int> gripping = gripping_bones(springs, character.mesh.tets, {5, 5, 5, 5});
+    for (const int v : character.mesh.tets.row(5)) EXPECT_EQ(gripping[v], 1);
+}
+
+// The integral of q E / r^2 (1 - (rho / r)^2)^2 across a bone is q E pi / 3; the steps of one radius at both ends take half a radius each.
+// The midpoint rule in rho^2 and along the axis is exact within h^2 / 8 times the integral of the second derivative (its Peano kernel).
+TEST(SmoothAttachment, SpringsAddUpToTheIntegralOfTheirDensity)
+{
+    for (const int samples : {1, 2}) {
+        FemOptions smooth{.young_pa = 2e5, .attachment = FemAttachment::smooth, .attachment_samples = samples};
+        const BoneAttachment bones = smooth_attachment(test_support::bar_character({24, 2, 2}), smooth);
+        const double length = 4.0 / 6.0, radius = bones.capsules[1].radius_m;
+        double of_forearm = 0.0;
+        for (std::size_t s = 0; s < bones.spring_bone.size(); ++s)
+            if (bones.spring_bone[s] == 1) of_forearm += bones.attachment.spring_stiffness(s);
+        const double exact = 100.0 * 2e5 * std::numbers::pi / 3.0 * (length - radius);
+        const double station = length / (40 * samples), ring = 1.0 / (8 * samples);
+        const double along = station * station / 8.0 * (6.0 / radius) / (length - radius), across = ring * ring / 8.0 * 2.0 * 3.0;
+        EXPECT_NEAR(of_forearm, exact, (along + across) * exact) << samples;
+    }
+}
+
+// Where the capsules of two bones overlap, each spring still lies in its own bone's.
+TEST(SmoothAttachment, SpringsLieInTheCapsuleOfTheirBoneAndVanishOnItsSurface)
+{
+    const BoneAttachment bones = smooth_attachment(test_support::bar_character({24, 2, 2}), {.attachment = FemAttachment::smooth});
+    for (std::size_t s = 0; s < bones.spring_bone.size(); ++s) {
+        const pbs::BoneCapsule& capsule = bones.capsules[bones.spring_bone[s]];
+        const pbs::Vec3 point = bones.attachment.spring_points.row(s);
+        EXPECT_TRUE(capsule.contains(point));
+        const double rho = std::hypot(point.y(), point.z());
+        EXPECT_LE(bones.spring_density[s], std::pow(1.0 - std::pow(rho / capsule.radius_m, 2), 2) + 1e-15);
+    }
 }
 
 }  // namespace

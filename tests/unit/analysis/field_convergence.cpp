@@ -1,0 +1,117 @@
+// Reference: fields made by hand as x_0 + e h^p, whose order, limit and distances are known.
+#include "analysis/field_convergence.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace {
+
+using analysis::fit_fields;
+
+pbs::Positions random_field(unsigned seed)
+{
+    std::mt19937 generator(seed);
+    std::normal_distribution<double> normal;
+    return pbs::Positions::NullaryExpr(40, 3, [&](Eigen::Index, Eigen::Index) { return normal(generator); });
+}
+
+const pbs::Positions exact_limit = random_field(1), error_field = random_field(2);
+
+std::vector<pbs::Positions> series(const std::vector<double>& sizes, double order)
+{
+    std::vector<pbs::Positions> fields;
+    for (const double size : sizes) fields.push_back(exact_limit + std::pow(size, order) * error_field);
+    return fields;
+}
+
+double rms(const pbs::Positions& one, const pbs::Positions& other)
+{
+    return (one - other).norm() / std::sqrt(static_cast<double>(one.rows()));
+}
+
+// The search stops within 1e-5 of its interval, 2 x 3: an order within 6e-5, and with it the limit within
+// |e| h^p ln(2) 6e-5 / (2^p - 1)^2 (2^p) < 1e-3 |e| h^p for all these orders.
+TEST(FieldConvergence, FindsTheOrderAndTheLimitOfAPowerOfTheMeshSize)
+{
+    for (const double order : {0.5, 1.0, 1.7, 3.0})
+        for (const auto& sizes : {std::vector{0.1, 0.2, 0.4}, std::vector{0.1, 0.15, 0.2, 0.35}}) {
+            const auto fields = series(sizes, order);
+            const auto fit = fit_fields(fields, sizes, 3.0);
+            EXPECT_NEAR(fit.observed_order, order, 6e-5);
+            EXPECT_LT(rms(fit.limit, exact_limit), 1e-3 * rms(fields[0], exact_limit)) << order;
+            EXPECT_LT(fit.unexplained, 1e-3);
+            EXPECT_EQ(fit.reliable, order >= 1.5);
+            EXPECT_EQ(fit.safety_factor, order >= 1.5 ? 1.25 : 3.0);
+        }
+}
+
+TEST(FieldConvergence, UsesNoHigherOrderThanTheFormalOne)
+{
+    const std::vector<double> sizes{0.1, 0.2, 0.4};
+    const auto fit = fit_fields(series(sizes, 3.0), sizes, 2.0);
+    EXPECT_NEAR(fit.observed_order, 3.0, 6e-5);
+    EXPECT_EQ(fit.order, 2.0);
+}
+
+// Points of weight 0, here without any order and not finite, do not count.
+TEST(FieldConvergence, LeavesOutPointsWithoutWeight)
+{
+    const std::vector<double> sizes{0.1, 0.2, 0.4};
+    auto fields = series(sizes, 2.0);
+    Eigen::VectorXd weights = Eigen::VectorXd::Ones(40);
+    for (int v = 30; v < 40; ++v) {
+        weights(v) = 0.0;
+        fields[1].row(v).setConstant(v == 35 ? std::nan("") : 17.0 * v);
+    }
+    EXPECT_NEAR(fit_fields(fields, sizes, 3.0, weights).observed_order, 2.0, 6e-5);
+    EXPECT_THROW(fit_fields(fields, sizes, 3.0), pbs::InputError);
+}
+
+// The differences grow under refinement: there is no limit to approach, and the bound is three times the largest difference.
+TEST(FieldConvergence, ObservesNoOrderWhereRefinementMovesAway)
+{
+    const std::vector<double> sizes{0.1, 0.2, 0.4};
+    const std::vector<pbs::Positions> fields{exact_limit + 3.0 * error_field, exact_limit + error_field, exact_limit};
+    const auto fit = fit_fields(fields, sizes, 2.0);
+    EXPECT_TRUE(std::isnan(fit.observed_order));
+    EXPECT_FALSE(fit.reliable);
+    EXPECT_NEAR(analysis::bound_of(fit, fields, 0, rms), 3.0 * rms(fields[0], fields[2]), 1e-12);
+}
+
+// A bound by hand: the exact series leaves no residual, so that 1.25 times the distance remains.
+TEST(FieldConvergence, BoundsTheDistanceWithTheSafetyFactor)
+{
+    const std::vector<double> sizes{0.1, 0.2, 0.4};
+    const auto fields = series(sizes, 2.0);
+    const auto fit = fit_fields(fields, sizes, 2.0);
+    for (const std::size_t which : {0u, 1u, 2u})
+        EXPECT_NEAR(analysis::bound_of(fit, fields, which, rms), 1.25 * rms(fields[which], exact_limit),
+                    2e-3 * rms(fields[which], exact_limit));
+}
+
+TEST(FieldConvergence, EqualFieldsHaveNoErrorAndNoOrder)
+{
+    const std::vector<pbs::Positions> fields(3, exact_limit);
+    const auto fit = fit_fields(fields, {1.0, 2.0, 4.0}, 2.0);
+    EXPECT_TRUE(std::isnan(fit.observed_order));
+    EXPECT_EQ(analysis::bound_of(fit, fields, 0, rms), 0.0);
+}
+
+TEST(FieldConvergence, RefusesWhatCannotBeFitted)
+{
+    const auto fields = series({0.1, 0.2, 0.4}, 1.0);
+    EXPECT_THROW(fit_fields({fields[0], fields[1]}, {0.1, 0.2}, 1.0), pbs::InputError);
+    EXPECT_THROW(fit_fields(fields, {0.1, 0.2}, 1.0), pbs::InputError);
+    EXPECT_THROW(fit_fields(fields, {0.1, 0.129, 0.4}, 1.0), pbs::InputError);
+    EXPECT_THROW(fit_fields(fields, {0.4, 0.2, 0.1}, 1.0), pbs::InputError);
+    EXPECT_THROW(fit_fields(fields, {0.0, 0.2, 0.4}, 1.0), pbs::InputError);
+    EXPECT_THROW(fit_fields(fields, {0.1, 0.2, 0.4}, 0.0), pbs::InputError);
+    EXPECT_THROW(fit_fields(fields, {0.1, 0.2, 0.4}, 1.0, Eigen::VectorXd::Ones(7)), pbs::InputError);
+    EXPECT_THROW(fit_fields({fields[0], fields[1], fields[2].topRows(5)}, {0.1, 0.2, 0.4}, 1.0), pbs::InputError);
+}
+
+}  // namespace
