@@ -77,31 +77,31 @@ std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string&
     return records;
 }
 
-std::vector<PrintedFigure> printed_figures(const std::string& csv)
+std::vector<PrintedValue> printed_values(const std::string& csv)
 {
     const CsvTable table = read_csv(csv);
-    std::vector<PrintedFigure> figures;
+    std::vector<PrintedValue> values;
     for (int row = 0; row < table.rows(); ++row)
-        figures.push_back({table.text_at(row, "claim"), table.text_at(row, "quantity"), case_key(table, row), table.number(row, "printed"),
-                           table.number(row, "least"),
-                           table.number_or_nothing(row, "most").value_or(std::numeric_limits<double>::infinity())});
-    return figures;
+        values.push_back({table.text_at(row, "claim"), table.text_at(row, "quantity"), case_key(table, row), table.number(row, "printed"),
+                          table.number(row, "least"),
+                          table.number_or_nothing(row, "most").value_or(std::numeric_limits<double>::infinity())});
+    return values;
 }
 
-CsvTable printed_table(const std::vector<PrintedFigure>& figures)
+CsvTable printed_table(const std::vector<PrintedValue>& values)
 {
     std::vector<const CaseKey*> keys;
-    for (const PrintedFigure& figure : figures) keys.push_back(&figure.of);
+    for (const PrintedValue& value : values) keys.push_back(&value.of);
     const auto fields = used_fields(keys);
     std::vector<std::string> columns = {"claim", "quantity"};
     for (const CaseKeyField* field : fields) columns.emplace_back(field->name);
     columns.insert(columns.end(), {"printed", "least", "most"});
     CsvTable table(columns);
-    for (const PrintedFigure& figure : figures) {
-        std::vector<CsvTable::Cell> cells = {figure.claim, figure.quantity};
-        for (const CaseKeyField* field : fields) cells.push_back(cell_of(*field, figure.of));
-        cells.insert(cells.end(), {CsvTable::Cell(figure.printed), CsvTable::Cell(figure.least),
-                                   std::isinf(figure.most) ? CsvTable::Cell(std::nullopt) : CsvTable::Cell(figure.most)});
+    for (const PrintedValue& value : values) {
+        std::vector<CsvTable::Cell> cells = {value.claim, value.quantity};
+        for (const CaseKeyField* field : fields) cells.push_back(cell_of(*field, value.of));
+        cells.insert(cells.end(), {CsvTable::Cell(value.printed), CsvTable::Cell(value.least),
+                                   std::isinf(value.most) ? CsvTable::Cell(std::nullopt) : CsvTable::Cell(value.most)});
         table.add_row(cells);
     }
     return table;

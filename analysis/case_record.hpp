@@ -31,7 +31,7 @@ struct LeftOut {
 };
 
 // A value printed in the paper, and the bounds that other values of the paper imply: a row of printed.csv.
-struct PrintedFigure {
+struct PrintedValue {
     std::string claim;                              // id of the claim
     std::string quantity;                           // snake_case
     CaseKey of;                                     // the row of Table 1, or the equation
@@ -60,7 +60,7 @@ struct Measurement {
 struct Records {
     std::vector<CaseRecord> cases = {};            // all scenes and deformers
     std::vector<LeftOut> left_out = {};            // named in the verdict
-    std::vector<PrintedFigure> printed = {};       // values for all claims with rule = "printed"
+    std::vector<PrintedValue> printed = {};        // values for all claims with rule = "printed"
     std::vector<Measurement> measurements = {};    // values for all claims with rule = "measured"
     std::vector<std::string> missing_runs = {};    // planned runs that have not ended; measured values cannot be judged without them
     std::vector<std::string> planned_scenes = {};  // each must have a record or be left out; otherwise the verdict cannot be computed
@@ -77,8 +77,8 @@ std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string&
 
 // The rows of a file printed.csv: claim, quantity, fields of the key, printed, least, most. An empty most means that there is no upper
 // bound. InputError as for read_csv, for a missing column and for a cell that is not a number.
-std::vector<PrintedFigure> printed_figures(const std::string& csv);
-CsvTable printed_table(const std::vector<PrintedFigure>& figures);  // the table that printed_figures() reads
+std::vector<PrintedValue> printed_values(const std::string& csv);
+CsvTable printed_table(const std::vector<PrintedValue>& values);  // the table that printed_values() reads
 
 // The series of a claim's metric, #frames. InputError for an unknown name, or for a record with series of different lengths.
 std::vector<double> metric_series(const CaseRecord& record, const std::string& metric);

@@ -88,16 +88,16 @@ json to_json_of(const Claim& claim, const Measurement& measured)
     return object;
 }
 
-json to_json_of(const PrintedFigure& figure)
+json to_json_of(const PrintedValue& value)
 {
-    json object = to_json_of(figure.of);
-    object.update({{"quantity", figure.quantity},
-                   {"value", finite(figure.printed)},
-                   {"low", finite(figure.printed)},
-                   {"high", finite(figure.printed)},
-                   {"bound_low", finite(figure.least)},
-                   {"bound_high", finite(figure.most)},
-                   {"holds", name_of(figure.is_consistent() ? Extent::whole : Extent::none)}});
+    json object = to_json_of(value.of);
+    object.update({{"quantity", value.quantity},
+                   {"value", finite(value.printed)},
+                   {"low", finite(value.printed)},
+                   {"high", finite(value.printed)},
+                   {"bound_low", finite(value.least)},
+                   {"bound_high", finite(value.most)},
+                   {"holds", name_of(value.is_consistent() ? Extent::whole : Extent::none)}});
     return object;
 }
 
@@ -166,7 +166,7 @@ json cases_of(const Verdict& verdict)
 {
     json cases = list_of(verdict.cases);
     for (const Measurement& measured : verdict.measurements) cases.push_back(to_json_of(verdict.claim, measured));
-    for (const PrintedFigure& figure : verdict.printed) cases.push_back(to_json_of(figure));
+    for (const PrintedValue& value : verdict.printed) cases.push_back(to_json_of(value));
     return cases;
 }
 

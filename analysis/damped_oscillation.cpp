@@ -125,7 +125,7 @@ Interval interval_of(double estimate, double variance, double level, int samples
     return {estimate, estimate - half, estimate + half, level, samples, 0};
 }
 
-void add_figures(DampedOscillation& swing, const Fit& fit, double level)
+void add_values(DampedOscillation& swing, const Fit& fit, double level)
 {
     const double d = fit.value[0], w = std::abs(fit.value[1]), undamped = std::hypot(d, w);
     swing.frequency_hz =
@@ -160,7 +160,7 @@ DampedOscillation fit_damped_oscillation(const std::vector<double>& series, doub
     const double spread = sum_of_squares(samples.y);
     const Fit fit = refine(samples, best_start(samples));
     swing.explained = 1.0 - fit.residual / spread;
-    add_figures(swing, fit, level);
+    add_values(swing, fit, level);
     const bool turns = std::abs(fit.value[1]) * samples.time_s(samples.y.size()) > std::numbers::pi;
     swing.outcome = !(swing.explained >= least_explained)                      ? OscillationOutcome::unclear
                     : !turns || swing.damping_ratio.estimate > overdamped_from ? OscillationOutcome::overdamped

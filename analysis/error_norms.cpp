@@ -49,7 +49,7 @@ Eigen::Matrix3d edge_matrix(const pbs::Positions& positions, const pbs::Tets& te
 
 }  // namespace
 
-ErrorRuler::ErrorRuler(const ErrorDomain& domain)
+ErrorMetrics::ErrorMetrics(const ErrorDomain& domain)
 {
     checked_rest_volumes(domain.rest, domain.tets);
     require_consistent(domain);
@@ -63,7 +63,7 @@ ErrorRuler::ErrorRuler(const ErrorDomain& domain)
     bone_distance_m_ = weighted_mean(blended_, mass_, [&](int vertex) { return domain.bone_distance_m(vertex); });
 }
 
-ErrorNorms ErrorRuler::measure(const pbs::Positions& positions, const pbs::Positions& reference) const
+ErrorNorms ErrorMetrics::measure(const pbs::Positions& positions, const pbs::Positions& reference) const
 {
     require_points(positions, mass_.size(), "the frame");
     require_points(reference, mass_.size(), "the reference");

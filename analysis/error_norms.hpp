@@ -1,5 +1,5 @@
 // The distance of a deformed mesh from a reference on the same vertices. The reference is an array, which may come from FEM or from a file.
-//   const ErrorNorms error = ErrorRuler{{mesh.rest, mesh.tets, prescribed, blended, bone_distance_m}}.measure(positions, reference);
+//   const ErrorNorms error = ErrorMetrics{{mesh.rest, mesh.tets, prescribed, blended, bone_distance_m}}.measure(positions, reference);
 // A norm without anything to measure (no free vertex, no blended vertex) is NaN, and so is one of a frame that is not finite.
 #pragma once
 
@@ -28,10 +28,10 @@ struct ErrorNorms {
 };
 
 // Stores the quantities of the domain that the norms need.
-class ErrorRuler {
+class ErrorMetrics {
 public:
     // InputError for a mesh that checked_rest_volumes refuses, and for arrays whose sizes do not match.
-    explicit ErrorRuler(const ErrorDomain& domain);
+    explicit ErrorMetrics(const ErrorDomain& domain);
     ErrorNorms measure(const pbs::Positions& positions, const pbs::Positions& reference) const;  // both [m], #V x 3, otherwise InputError
 
 private:

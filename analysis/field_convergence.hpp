@@ -3,7 +3,7 @@
 // to fields x_i on meshes of size h_i, point by point, with one order p for all points. L. Eca, M. Hoekstra, Journal of Computational
 // Physics 262, 2014, apply it to single values; here the limit x_0 and the amplitude e are fields.
 //   const FieldConvergence fit = fit_fields({on_h, on_2h, on_4h}, {1.0, 2.0, 4.0}, 3.0, mass);
-//   const double bound = bound_of(fit, fields, 0, [&](const auto& a, const auto& b) { return ruler.measure(a, b).joint_pct; });
+//   const double bound = bound_of(fit, fields, 0, [&](const auto& a, const auto& b) { return error_metrics.measure(a, b).joint_pct; });
 // Mesh 1 is the finest. The theoretical order limits the one in use, since a higher one would be optimistic.
 #pragma once
 

@@ -20,7 +20,7 @@ Eigen::VectorXd edge_lengths(const pbs::Positions& positions, const pbs::Edges& 
 
 }  // namespace
 
-Ruler::Ruler(const pbs::Positions& rest, const pbs::Tets& tets)
+MeshMetrics::MeshMetrics(const pbs::Positions& rest, const pbs::Tets& tets)
     : tets_(tets),
       rest_volumes_(checked_rest_volumes(rest, tets)),
       edges_(pbs::edges_of(tets)),
@@ -32,7 +32,7 @@ Ruler::Ruler(const pbs::Positions& rest, const pbs::Tets& tets)
     rest_volume_ = total.value();
 }
 
-FrameMetrics Ruler::measure(const pbs::Positions& positions) const
+FrameMetrics MeshMetrics::measure(const pbs::Positions& positions) const
 {
     require_points(positions, vertices_, "the frame");
     const Eigen::VectorXd volumes = pbs::tet_volumes(positions, tets_);
@@ -53,13 +53,13 @@ FrameMetrics Ruler::measure(const pbs::Positions& positions) const
     return metrics;
 }
 
-Eigen::VectorXd Ruler::volume_ratios(const pbs::Positions& positions) const
+Eigen::VectorXd MeshMetrics::volume_ratios(const pbs::Positions& positions) const
 {
     require_points(positions, vertices_, "the frame");
     return pbs::tet_volumes(positions, tets_).cwiseQuotient(rest_volumes_);
 }
 
-double Ruler::stretch_rms(const pbs::Positions& positions) const
+double MeshMetrics::stretch_rms(const pbs::Positions& positions) const
 {
     const Eigen::VectorXd lengths = edge_lengths(positions, edges_);
     CompensatedSum squares;

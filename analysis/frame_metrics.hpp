@@ -1,5 +1,5 @@
 // The metrics of one frame, the same for every deformer and for files from other programs.
-//   const FrameMetrics metrics = Ruler{mesh.rest, mesh.tets}.measure(positions);
+//   const FrameMetrics metrics = MeshMetrics{mesh.rest, mesh.tets}.measure(positions);
 // A frame with positions that are not finite (a numerical breakdown) is measured, not refused: its values are NaN and its broken tets count
 // as inverted.
 #pragma once
@@ -20,9 +20,9 @@ struct FrameMetrics {
 
 // Stores what does not change from frame to frame. InputError for a rest mesh with indices out of range or a tet without positive volume,
 // and for a frame with another number of points.
-class Ruler {
+class MeshMetrics {
 public:
-    Ruler(const pbs::Positions& rest, const pbs::Tets& tets);              // [m], #V x 3; #T x 4
+    MeshMetrics(const pbs::Positions& rest, const pbs::Tets& tets);        // [m], #V x 3; #T x 4
     FrameMetrics measure(const pbs::Positions& positions) const;           // [m], #V x 3
     Eigen::VectorXd volume_ratios(const pbs::Positions& positions) const;  // J_t, #T
 

@@ -8,7 +8,7 @@
 
 namespace analysis {
 
-RegionRuler::RegionRuler(const pbs::Positions& rest, const pbs::Tets& tets, const std::vector<int>& region)
+RegionMetrics::RegionMetrics(const pbs::Positions& rest, const pbs::Tets& tets, const std::vector<int>& region)
     : tets_(tets), rest_volumes_(pbs::tet_volumes(rest, tets)), region_(region)
 {
     if (static_cast<Eigen::Index>(region.size()) != tets.rows())
@@ -16,7 +16,7 @@ RegionRuler::RegionRuler(const pbs::Positions& rest, const pbs::Tets& tets, cons
     for (const int r : region) regions_ = std::max(regions_, static_cast<std::size_t>(r + 1));
 }
 
-std::vector<RegionVolume> RegionRuler::measure(const pbs::Positions& positions) const
+std::vector<RegionVolume> RegionMetrics::measure(const pbs::Positions& positions) const
 {
     const Eigen::VectorXd volumes = pbs::tet_volumes(positions, tets_);
     std::vector<RegionVolume> changes(regions_);

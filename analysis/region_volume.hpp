@@ -1,5 +1,5 @@
 // The volume that each region of a body gains or loses. Regions are disjoint sets of tets.
-//   const std::vector<RegionVolume> changes = RegionRuler(mesh.rest, mesh.tets, region_of_tet).measure(positions);
+//   const std::vector<RegionVolume> changes = RegionMetrics(mesh.rest, mesh.tets, region_of_tet).measure(positions);
 #pragma once
 
 #include "pbs/geometry/types.hpp"
@@ -16,10 +16,10 @@ struct RegionVolume {
 };
 
 // Regions are numbered from 0 to the highest number in use.
-class RegionRuler {
+class RegionMetrics {
 public:
     // region: one entry per tet, #T; 0 or more, or -1 for a tet in no region. InputError unless there is one entry for each tet.
-    RegionRuler(const pbs::Positions& rest, const pbs::Tets& tets, const std::vector<int>& region);
+    RegionMetrics(const pbs::Positions& rest, const pbs::Tets& tets, const std::vector<int>& region);
 
     std::vector<RegionVolume> measure(const pbs::Positions& positions) const;  // one per region; positions [m], #V x 3, not checked
     double rest_volume_m3() const { return rest_volumes_.sum(); }              // all tets, including those in no region

@@ -60,7 +60,7 @@ double rms(double weighted_squares, double weights)
 
 }  // namespace
 
-SmoothnessRuler::SmoothnessRuler(const Positions& rest, const pbs::Tets& tets, const std::vector<bool>& near) : rest_(rest), tets_(tets)
+SmoothnessMetrics::SmoothnessMetrics(const Positions& rest, const pbs::Tets& tets, const std::vector<bool>& near) : rest_(rest), tets_(tets)
 {
     checked_rest_volumes(rest, tets);
     if (static_cast<Eigen::Index>(near.size()) != rest.rows()) throw pbs::InputError("", 0, "near", "", "expected one entry a vertex");
@@ -68,7 +68,7 @@ SmoothnessRuler::SmoothnessRuler(const Positions& rest, const pbs::Tets& tets, c
     find_skin_edges(near);
 }
 
-void SmoothnessRuler::find_inner_faces(const std::vector<bool>& near)
+void SmoothnessMetrics::find_inner_faces(const std::vector<bool>& near)
 {
     std::map<std::array<int, 3>, int> open;  // faces seen once, and the tet of each
     for (int t = 0; t < static_cast<int>(tets_.rows()); ++t)
@@ -83,7 +83,7 @@ void SmoothnessRuler::find_inner_faces(const std::vector<bool>& near)
         }
 }
 
-void SmoothnessRuler::find_skin_edges(const std::vector<bool>& near)
+void SmoothnessMetrics::find_skin_edges(const std::vector<bool>& near)
 {
     std::map<std::array<int, 2>, int> left_of;  // directed edges of the outward triangles, and the vertex opposite to each
     const pbs::Triangles skin = pbs::boundary_of(tets_);
@@ -98,13 +98,13 @@ void SmoothnessRuler::find_skin_edges(const std::vector<bool>& near)
     }
 }
 
-Eigen::Matrix3d SmoothnessRuler::green_strain(const Positions& positions, int tet) const
+Eigen::Matrix3d SmoothnessMetrics::green_strain(const Positions& positions, int tet) const
 {
     const Eigen::Matrix3d f = edges_from_first(positions, tets_, tet) * edges_from_first(rest_, tets_, tet).inverse();
     return 0.5 * (f.transpose() * f - Eigen::Matrix3d::Identity());
 }
 
-Smoothness SmoothnessRuler::measure(const Positions& positions) const
+Smoothness SmoothnessMetrics::measure(const Positions& positions) const
 {
     require_points(positions, rest_.rows(), "the frame");
     double jumps = 0.0, area = 0.0, bends = 0.0, length = 0.0;

@@ -1,7 +1,7 @@
 // The smoothness of a deformed body in a region: jumps of strain between neighbouring tets, and bending of the skin between neighbouring
 // faces.
-//   const SmoothnessRuler ruler(mesh.rest, mesh.tets, near_the_joint);
-//   ruler.measure(positions).strain_jump_rms;
+//   const SmoothnessMetrics smoothness_metrics(mesh.rest, mesh.tets, near_the_joint);
+//   smoothness_metrics.measure(positions).strain_jump_rms;
 // Strains are invariant under rotation: a region that turns as a whole is as smooth as at rest.
 #pragma once
 
@@ -19,11 +19,11 @@ struct Smoothness {
 };
 
 // Stores the quantities of the rest pose that the metrics need.
-class SmoothnessRuler {
+class SmoothnessMetrics {
 public:
     // near: marks the vertices of the region, #V. Faces and edges with all corners in it are measured; without any, both metrics are 0.
     // InputError for a mesh that checked_rest_volumes refuses, and if the number of entries differs from that of the vertices.
-    SmoothnessRuler(const pbs::Positions& rest, const pbs::Tets& tets, const std::vector<bool>& near);
+    SmoothnessMetrics(const pbs::Positions& rest, const pbs::Tets& tets, const std::vector<bool>& near);
     Smoothness measure(const pbs::Positions& positions) const;  // [m], #V x 3, otherwise InputError
 
 private:

@@ -100,24 +100,24 @@ Verdict judge_cases(const Claim& claim, const Records& records)
 }
 
 // How far the value lies outside, relative to the size of the bound; negative inside.
-double distance_outside(const PrintedFigure& figure)
+double distance_outside(const PrintedValue& value)
 {
-    const double below = (figure.least - figure.printed) / std::max(std::abs(figure.least), 1e-300);
-    const double above = std::isinf(figure.most) ? -figure.most : (figure.printed - figure.most) / std::max(std::abs(figure.most), 1e-300);
+    const double below = (value.least - value.printed) / std::max(std::abs(value.least), 1e-300);
+    const double above = std::isinf(value.most) ? -value.most : (value.printed - value.most) / std::max(std::abs(value.most), 1e-300);
     return std::max(below, above);
 }
 
-Verdict judge_print(const Claim& claim, const std::vector<PrintedFigure>& figures)
+Verdict judge_print(const Claim& claim, const std::vector<PrintedValue>& values)
 {
     Verdict verdict = verdict_of(claim, VerdictKind::not_computable);
-    for (const PrintedFigure& figure : figures)
-        if (figure.claim == claim.id) verdict.printed.push_back(figure);
+    for (const PrintedValue& value : values)
+        if (value.claim == claim.id) verdict.printed.push_back(value);
     if (verdict.printed.empty()) return verdict;
     verdict.n = static_cast<int>(verdict.printed.size());
     verdict.within = static_cast<int>(
-        std::count_if(verdict.printed.begin(), verdict.printed.end(), [](const auto& figure) { return figure.is_consistent(); }));
+        std::count_if(verdict.printed.begin(), verdict.printed.end(), [](const auto& value) { return value.is_consistent(); }));
     verdict.kind = verdict.within == verdict.n ? VerdictKind::reproduced : VerdictKind::inconsistent_in_print;
-    const PrintedFigure& farthest = *std::max_element(verdict.printed.begin(), verdict.printed.end(), [](const auto& a, const auto& b) {
+    const PrintedValue& farthest = *std::max_element(verdict.printed.begin(), verdict.printed.end(), [](const auto& a, const auto& b) {
         return distance_outside(a) < distance_outside(b);
     });
     verdict.primary = PrimaryFact{farthest.quantity, "printed",     "",         farthest.printed, farthest.printed, farthest.printed,

@@ -61,7 +61,7 @@ struct Verdict {
     std::vector<Measurement> measurements = {};  // the values by which a measured claim is judged, its own quantity first
     std::vector<Measurement> controls = {};      // its quantities with other keys, then claim.reported; not part of the verdict
     std::vector<SubjectCount> subjects = {};     // subjects of the measurements
-    std::vector<PrintedFigure> printed = {};     // values of a claim about printed numbers
+    std::vector<PrintedValue> printed = {};      // values of a claim about printed numbers
     std::vector<OrderVerdict> orders = {};       // the claim in other orders and precisions; not part of the verdict
     std::vector<LeftOut> left_out = {};          // scenes that are not installed
     std::vector<std::string> missing = {};       // planned scenes or runs without a record: the reason why it is not computable

@@ -25,7 +25,7 @@ pbs_tests(unit experiments BLAS
     ALONE experiments/run/limb_stations experiments/run/reference_error_bar
     LIBRARIES experiments)
 pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${left_out}
-    ALONE experiments/studies/ambiguity/read_motion experiments/studies/ambiguity/reading_figures
+    ALONE experiments/studies/ambiguity/read_motion experiments/studies/ambiguity/reading_values
         experiments/studies/ambiguity/reading_sections experiments/studies/ambiguity/untouched experiments/studies/convergence/starts
         experiments/studies/fit/poisson_fit experiments/studies/recorded_settings experiments/studies/shared/iteration_path
         experiments/studies/stability/cell_sweep experiments/studies/stiffness/stiffness_ratios experiments/studies/timing/timing_table

@@ -71,7 +71,7 @@ bool holds_between(const CheckBound& bound, const Seen& seen)
     return seen.outside == 0 && std::isfinite(bound.low) && std::isfinite(bound.high) && seen.least.value < seen.largest.value;
 }
 
-std::string figures_text(const CheckBound& bound, const Seen& seen, const std::string& unit)
+std::string values_text(const CheckBound& bound, const Seen& seen, const std::string& unit)
 {
     if (holds_between(bound, seen))
         return fmt::format("frames {} and {}: {} of {} = {:.6g} to {:.6g}{}", seen.least.frame, seen.largest.frame, bound.metric,
@@ -89,7 +89,7 @@ CheckCase judge_bound(const CheckBound& bound, const std::string& unit, const Cs
     CheckCase check{bound.scene, bound.name,       seen.outside > 0 ? CheckState::failed : CheckState::held,
                     "",          seen.worst.frame, seen.worst.value,
                     rules_file,  bound.line};
-    check.message = fmt::format("{}, expected {}{}", figures_text(bound, seen, of_unit), interval_text(bound), of_unit);
+    check.message = fmt::format("{}, expected {}{}", values_text(bound, seen, of_unit), interval_text(bound), of_unit);
     if (seen.outside > 1)
         check.message += fmt::format(" ({} of {} frames outside, the first is {})", seen.outside, seen.frames, seen.first_outside);
     return check;

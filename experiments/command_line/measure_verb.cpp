@@ -34,14 +34,14 @@ struct MeasureArguments {
 };
 
 // The worst tet of a frame with inverted tets. The reader refuses frames that are not finite.
-std::string worst_of(const analysis::Ruler& ruler, const pbs::Positions& positions)
+std::string worst_of(const analysis::MeshMetrics& mesh_metrics, const pbs::Positions& positions)
 {
-    return worst_element(broken_frame(0, pbs::Outcome::finished, positions, ruler.volume_ratios(positions)));
+    return worst_element(broken_frame(0, pbs::Outcome::finished, positions, mesh_metrics.volume_ratios(positions)));
 }
 
-analysis::FrameValues values_of(const RestMesh& rest, const analysis::Ruler& ruler, const pbs::Positions& positions)
+analysis::FrameValues values_of(const RestMesh& rest, const analysis::MeshMetrics& mesh_metrics, const pbs::Positions& positions)
 {
-    return {ruler.measure(positions), ruler.volume_ratios(positions).maxCoeff<Eigen::PropagateNaN>(),
+    return {mesh_metrics.measure(positions), mesh_metrics.volume_ratios(positions).maxCoeff<Eigen::PropagateNaN>(),
             analysis::largest_edge_strain(rest.mesh().rest, rest.edges(), positions)};
 }
 
@@ -97,7 +97,7 @@ int measure(const MeasureArguments& arguments)
     const pbs::MeshReading reading = pbs::read_tet_mesh(arguments.rest);
     warn(pbs::remarks_on(arguments.rest, reading));
     const RestMesh rest(reading.mesh);
-    const analysis::Ruler ruler(rest.mesh().rest, rest.mesh().tets);
+    const analysis::MeshMetrics mesh_metrics(rest.mesh().rest, rest.mesh().tets);
     std::vector<analysis::MeasuredFrame> frames;
     std::vector<analysis::RefusedFrame> refused;
     bool all_hold = true;
@@ -105,10 +105,10 @@ int measure(const MeasureArguments& arguments)
     for (std::size_t i = 0; i < paths.size(); ++i) {
         try {
             const pbs::Positions positions = rest.read_frame(paths[i]);
-            frames.push_back({names[i], values_of(rest, ruler, positions)});
+            frames.push_back({names[i], values_of(rest, mesh_metrics, positions)});
             if (!arguments.quiet) print_row(frames.back());
             if (frames.back().values.metrics.inverted_tets > 0)
-                fmt::print(stderr, "pbskin: {}: {}\n", paths[i], worst_of(ruler, positions));
+                fmt::print(stderr, "pbskin: {}: {}\n", paths[i], worst_of(mesh_metrics, positions));
             all_hold = report_broken(arguments.bounds, paths[i], frames.back()) && all_hold;
         } catch (const pbs::InputError& error) {
             fmt::print(stderr, "pbskin: {}\n", error.what());

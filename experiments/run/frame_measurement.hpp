@@ -54,8 +54,8 @@ private:
     double min_section_pct(const pbs::Positions& positions, const pbs::Pose& pose);
 
     const pbs::Character& character_;
-    analysis::Ruler metrics_;
-    std::optional<analysis::ErrorRuler> error_metrics_;
+    analysis::MeshMetrics metrics_;
+    std::optional<analysis::ErrorMetrics> error_metrics_;
     pbs::Triangles boundary_;  // of the tets, if errors are measured
     std::vector<LimbStation> stations_;
     std::vector<analysis::SectionStation> sections_;  // one per station, in the pose that is being measured

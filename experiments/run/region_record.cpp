@@ -91,7 +91,7 @@ BodyRegions regions_by_joint(const pbs::Character& character)
 RegionRecord::RegionRecord(const pbs::Character& character)
 {
     for (const BodyRegions& regions : {regions_by_bone(character), regions_by_joint(character)})
-        kinds_.push_back({regions, analysis::RegionRuler(character.mesh.rest, character.mesh.tets, regions.of_tet)});
+        kinds_.push_back({regions, analysis::RegionMetrics(character.mesh.rest, character.mesh.tets, regions.of_tet)});
 }
 
 void RegionRecord::add(const std::string& label, const pbs::Positions& positions)
@@ -103,9 +103,9 @@ void RegionRecord::add(const std::string& label, const pbs::Positions& positions
         for (const Kind& kind : kinds_) sums_[label].emplace_back(kind.regions.bones.size());
     }
     for (std::size_t k = 0; k < kinds_.size(); ++k) {
-        const auto changes = kinds_[k].ruler.measure(positions);
+        const auto changes = kinds_[k].region_metrics.measure(positions);
         for (std::size_t r = 0; r < changes.size(); ++r) {
-            const double to_pct = 100.0 / kinds_[k].ruler.rest_volume_m3(), change_pct = to_pct * changes[r].change_m3;
+            const double to_pct = 100.0 / kinds_[k].region_metrics.rest_volume_m3(), change_pct = to_pct * changes[r].change_m3;
             Sums& sums = sums_[label][k][r];
             sums.rest = to_pct * changes[r].rest_m3;
             sums.change += change_pct;

@@ -57,7 +57,7 @@ private:
     };
     struct Kind {
         BodyRegions regions;
-        analysis::RegionRuler ruler;
+        analysis::RegionMetrics region_metrics;
     };
 
     std::vector<Kind> kinds_;

@@ -79,7 +79,7 @@ analysis::CaseKey place_of(const nlohmann::json& run, const std::string& file)
 void add_run(analysis::Records& records, const fs::path& folder, const std::string& name, const analysis::CaseKey& place, bool beside)
 {
     if (const fs::path printed = folder / "printed.csv"; fs::exists(printed))
-        for (auto& figure : analysis::printed_figures(printed.string())) records.printed.push_back(std::move(figure));
+        for (auto& value : analysis::printed_values(printed.string())) records.printed.push_back(std::move(value));
     if (const fs::path measured = folder / "measurements.csv"; fs::exists(measured))
         for (auto& measurement : analysis::measurements(measured.string())) {
             measurement.run = name;

@@ -20,7 +20,7 @@ constexpr int steps = 10;
 const std::string source =
     "our earlier implementation of the same laws and tets, with an assembly and a Newton loop of its own: regression, no outside truth";
 
-struct Figures {
+struct TurnValues {
     double iterations;                                         // of all steps
     double volume_change_at_90_pct, volume_change_at_180_pct;  // 100 (V - V0) / V0
     double energy_j;                                           // at 180 degrees
@@ -30,7 +30,7 @@ struct Law {
     Model model;
     std::string name;
     double poisson;
-    Figures reference;
+    TurnValues reference;
 };
 
 const std::vector<Law> laws = {
@@ -67,22 +67,22 @@ Eigen::VectorXd turned_end(const SimplexSpace& space, double angle)
 }
 
 // Not a number from the step on that did not converge.
-Figures turn(const SimplexSpace& space, const ElasticPotential& flesh)
+TurnValues turn(const SimplexSpace& space, const ElasticPotential& flesh)
 {
     NewtonMinimiser newton(space, held_ends(space), LinearSolver::cholmod);
     Eigen::VectorXd displacement = Eigen::VectorXd::Zero(space.dofs());
     const auto volume_change_pct = [&] { return 100.0 * (flesh.jacobians(displacement).volume / length_m - 1.0); };
     const double none = std::numeric_limits<double>::quiet_NaN();
-    Figures figures{0.0, none, none, none};
+    TurnValues turned{0.0, none, none, none};
     for (int step = 1; step <= steps; ++step) {
         const NewtonSummary summary = newton.minimise({&flesh}, turned_end(space, std::numbers::pi * step / steps), displacement, {});
-        if (!summary.converged()) return figures;
-        figures.iterations += summary.steps();
-        if (2 * step == steps) figures.volume_change_at_90_pct = volume_change_pct();
+        if (!summary.converged()) return turned;
+        turned.iterations += summary.steps();
+        if (2 * step == steps) turned.volume_change_at_90_pct = volume_change_pct();
     }
-    figures.volume_change_at_180_pct = volume_change_pct();
-    figures.energy_j = flesh.value(displacement);
-    return figures;
+    turned.volume_change_at_180_pct = volume_change_pct();
+    turned.energy_j = flesh.value(displacement);
+    return turned;
 }
 
 VerificationRow row_of(const Law& law, const RowQuantity& quantity, const std::string& unit, double value, double reference)
@@ -106,7 +106,7 @@ VerificationRow row_of(const Law& law, const RowQuantity& quantity, const std::s
 VerificationRows rows_of(const Effort& effort, const SimplexSpace& space, const Law& law)
 {
     const ElasticMaterial material = solver_material(effort, {young_pa, law.poisson});
-    const Figures ours =
+    const TurnValues ours =
         turn(space, ElasticPotential(space, law.model, lame_parameters(material.young_pa, material.poisson), Formulation::displacement));
     VerificationRow iterations =
         row_of(law, {"newton_iterations", "Newton iterations of ten steps to 180 degrees"}, "1", ours.iterations, law.reference.iterations);

@@ -144,7 +144,7 @@ Violations include_form(const SourceTree& tree)
     return violations;
 }
 
-Violations figures_compute(const SourceTree& tree)
+Violations values_compute(const SourceTree& tree)
 {
     static const std::regex starts_programs(R"(\b(subprocess|ctypes|cffi|os\.system|os\.popen|os\.exec\w*|os\.spawn\w*|scipy)\b)");
     Violations violations;

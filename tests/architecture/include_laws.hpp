@@ -11,7 +11,7 @@ Violations include_direction(const SourceTree& tree);
 Violations layer_direction(const SourceTree& tree);  // the layers inside of experiments
 // includes of this project in quotes, from the root, of files that exist; headers with #pragma once
 Violations include_form(const SourceTree& tree);
-Violations figures_compute(const SourceTree& tree);
+Violations values_compute(const SourceTree& tree);
 // outside experiments/deformers/, where code uses their traits and options instead
 Violations deformers_tested_by_name(const SourceTree& tree);
 

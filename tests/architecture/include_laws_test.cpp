@@ -19,7 +19,7 @@ TEST(IncludeLaws, AreWrittenFromTheRootInQuotes)
 }
 TEST(IncludeLaws, FiguresComputeNothing)
 {
-    expect_lawful(figures_compute);
+    expect_lawful(values_compute);
 }
 TEST(IncludeLaws, DeformersAreNotTestedByName)
 {
@@ -36,7 +36,7 @@ TEST(IncludeLawsBite, TheJudgeIncludesTheJudged)
                  "reference_fem/x.cpp:2: reference_fem/ may not include pbs/solver/b.hpp");
 }
 
-TEST(IncludeLawsBite, TheRulerIncludesSkinning)
+TEST(IncludeLawsBite, TheMetricsIncludeSkinning)
 {
     expect_found(include_direction, {{"analysis/x.hpp", "#include \"pbs/skinning/a.hpp\"\n"}}, "analysis/ may not include");
 }
@@ -133,7 +133,7 @@ TEST(IncludeLawsBite, HeaderWithoutPragmaOnce)
 
 TEST(IncludeLawsBite, AFigureRunsTheSolver)
 {
-    expect_found(figures_compute, {{"paper_figures/x.py", "import csv\nimport subprocess\n"}}, "paper_figures/x.py:2: subprocess");
+    expect_found(values_compute, {{"paper_figures/x.py", "import csv\nimport subprocess\n"}}, "paper_figures/x.py:2: subprocess");
 }
 
 TEST(IncludeLawsBite, AStudyTestsForADeformersName)

@@ -1,7 +1,7 @@
 // A small limb bent by 30, 90 and 150 degrees, and invented sections of it.
 #pragma once
 
-#include "experiments/studies/artefacts/artefact_figures.hpp"
+#include "experiments/studies/artefacts/artefact_values.hpp"
 
 namespace test_support {
 

@@ -51,12 +51,12 @@ inline experiments::Scene broken(experiments::Scene scene, Broken how)
 }
 
 // The measurements of the quantity whose key has these fields.
-inline std::vector<analysis::Measurement> figures_of(const std::vector<analysis::Measurement>& measured, const std::string& quantity,
-                                                     const analysis::CaseKey& of = {})
+inline std::vector<analysis::Measurement> values_of(const std::vector<analysis::Measurement>& measured, const std::string& quantity,
+                                                    const analysis::CaseKey& of = {})
 {
     std::vector<analysis::Measurement> found;
-    for (const analysis::Measurement& figure : measured)
-        if (figure.quantity == quantity && analysis::matches(figure.of, of)) found.push_back(figure);
+    for (const analysis::Measurement& measurement : measured)
+        if (measurement.quantity == quantity && analysis::matches(measurement.of, of)) found.push_back(measurement);
     return found;
 }
 

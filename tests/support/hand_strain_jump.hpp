@@ -1,5 +1,5 @@
-// The jump of strain between neighbouring tets, computed differently from SmoothnessRuler: Green's strain of a tet follows from the change
-// of its six edge lengths, l^2 - L^2 = 2 e^T E e, without a deformation gradient; areas by Heron's formula.
+// The jump of strain between neighbouring tets, computed differently from SmoothnessMetrics: Green's strain of a tet follows from the
+// change of its six edge lengths, l^2 - L^2 = 2 e^T E e, without a deformation gradient; areas by Heron's formula.
 //   hand_strain_jump(mesh, near, positions)   // rms over inner faces, weighted by rest area
 #pragma once
 

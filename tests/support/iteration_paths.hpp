@@ -9,13 +9,13 @@
 namespace test_support {
 
 // Records every iteration; figure(n) is the combined residual, the absolute volume change [%] and the error [%] at once.
-inline experiments::IterationPath path_by(int most, const std::function<double(int)>& figure)
+inline experiments::IterationPath path_by(int most, const std::function<double(int)>& value)
 {
     experiments::IterationPath path;
     for (int n = 0; n <= most; ++n) {
         experiments::Look look;
         look.iteration = n;
-        look.combined = look.volume_abs_change_pct = look.error_joint_pct = figure(n);
+        look.combined = look.volume_abs_change_pct = look.error_joint_pct = value(n);
         path.looks.push_back(look);
     }
     return path;

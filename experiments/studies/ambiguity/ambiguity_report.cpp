@@ -101,16 +101,16 @@ std::string words_of(const std::string& claim, const std::vector<ClaimChange>& c
 {
     std::vector<std::string> flipping, reasons;
     std::map<std::string, std::vector<std::string>> without;  // quantities by why there is none
-    int figures = 0, flips = 0;
+    int values = 0, flips = 0;
     for (const ClaimChange& row : changes) {
         if (row.claim != claim) continue;
-        figures += row.verdict_flips == "yes" || row.verdict_flips == "no";
+        values += row.verdict_flips == "yes" || row.verdict_flips == "no";
         flips += row.verdict_flips == "yes";
         if (row.verdict_flips == "yes") add_new(flipping, row.body + ", " + row.reading_b);
         if (row.verdict_flips == "not_touched") add_new(reasons, row.reason);
         if (row.verdict_flips == "no_value") add_new(without[row.reason], row.quantity);
     }
-    std::string text = hanging(fmt::format("{}: {} of {} values flip{}", claim, flips, figures, flips > 0 ? " by" : ""), flipping);
+    std::string text = hanging(fmt::format("{}: {} of {} values flip{}", claim, flips, values, flips > 0 ? " by" : ""), flipping);
     if (!reasons.empty()) text += hanging("     not touched where", reasons);
     for (const auto& [reason, quantities] : without)
         text += hanging("     no value:", {fmt::format("{}: {}", reason, fmt::join(quantities, ", "))});
@@ -136,10 +136,10 @@ std::string volume_markdown(const std::vector<VolumeChange>& changes)
         "| scene | place | B | signed A -> B [%] | absolute A -> B [%] | within 0.5 % A -> B | distance of B from A [mm] | jiggle A -> B "
         "[mm] | verdict changed |\n|---|---|---|---|---|---|---|---|---|\n";
     for (const VolumeChange& first : changes) {
-        if (first.figure != mean_change) continue;
-        const auto of = [&](const char* figure) -> const VolumeChange& {
+        if (first.value != mean_change) continue;
+        const auto of = [&](const char* value) -> const VolumeChange& {
             return *std::ranges::find_if(changes, [&](const VolumeChange& other) {
-                return other.figure == figure && other.scene == first.scene && other.place == first.place &&
+                return other.value == value && other.scene == first.scene && other.place == first.place &&
                        other.reading_b == first.reading_b;
             });
         };

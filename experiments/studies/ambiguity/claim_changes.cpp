@@ -29,40 +29,40 @@ const analysis::Columns<ClaimChange> claim_change_columns = {
 
 namespace {
 
-const JudgedFigure* find(const ReadingFigures& of, const JudgedFigure& wanted)
+const JudgedValue* find(const ReadingValues& of, const JudgedValue& wanted)
 {
-    const auto found = std::ranges::find_if(of.figures, [&](const JudgedFigure& one) {
+    const auto found = std::ranges::find_if(of.values, [&](const JudgedValue& one) {
         return one.claim == wanted.claim && one.quantity == wanted.quantity && one.of == wanted.of;
     });
-    return found == of.figures.end() ? nullptr : &*found;
+    return found == of.values.end() ? nullptr : &*found;
 }
 
-std::string why(const JudgedFigure* a, const JudgedFigure* b, bool b_broke_down)
+std::string why(const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
 {
     if (b_broke_down) return "B breaks down";
     if (!a || !b) return std::string(a ? "B" : "A") + " has no such figure";
-    const auto limit = [](const char* which, const JudgedFigure& of) {
+    const auto limit = [](const char* which, const JudgedValue& of) {
         return of.limit == analysis::Limit::none ? "" : std::string(which) + ": " + analysis::name_of(of.limit);
     };
     const std::string of_a = limit("A", *a), of_b = limit("B", *b);
     return of_a + (of_a.empty() || of_b.empty() ? "" : "; ") + of_b;
 }
 
-std::string flips(const JudgedFigure* a, const JudgedFigure* b, bool b_broke_down)
+std::string flips(const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
 {
     if (a && !b && b_broke_down) return a->extent == analysis::Extent::none ? "no" : "yes";
     if (!a || !b) return "no_value";
     return a->extent == b->extent ? "no" : "yes";
 }
 
-ClaimChange named(ClaimChange row, const JudgedFigure& one)
+ClaimChange named(ClaimChange row, const JudgedValue& one)
 {
     row.quantity = one.quantity, row.of = text_of(one.of), row.unit = one.unit, row.bound = one.bound;
     return row;
 }
 
 // row: named by one of them. Either may be null.
-ClaimChange compared(ClaimChange row, const JudgedFigure* a, const JudgedFigure* b, bool b_broke_down)
+ClaimChange compared(ClaimChange row, const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
 {
     if (a) row.a = a->value, row.holds_a = word_for(a->extent);
     if (b) row.b = b->value, row.holds_b = word_for(b->extent);
@@ -73,7 +73,7 @@ ClaimChange compared(ClaimChange row, const JudgedFigure* a, const JudgedFigure*
     return row;
 }
 
-ClaimChange without_figure(ClaimChange row, const std::string& verdict_flips, const std::string& reason, const std::string& quantity = "")
+ClaimChange without_value(ClaimChange row, const std::string& verdict_flips, const std::string& reason, const std::string& quantity = "")
 {
     row.quantity = quantity, row.verdict_flips = verdict_flips, row.reason = reason;
     return row;
@@ -86,25 +86,24 @@ ClaimChange row_of(const std::string& body, const std::string& claim, const Read
 
 }  // namespace
 
-std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const ReadingFigures& a,
-                                       const ReadingFigures& b)
+std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const ReadingValues& a,
+                                       const ReadingValues& b)
 {
     const ClaimChange row = row_of(body, claim, reading);
     std::vector<ClaimChange> changes;
-    for (const JudgedFigure& of_a : a.figures)
+    for (const JudgedValue& of_a : a.values)
         if (of_a.claim == claim) changes.push_back(compared(named(row, of_a), &of_a, find(b, of_a), b.broke_down));
-    for (const JudgedFigure& of_b : b.figures)
+    for (const JudgedValue& of_b : b.values)
         if (of_b.claim == claim && !find(a, of_b)) changes.push_back(compared(named(row, of_b), nullptr, &of_b, b.broke_down));
     for (const LeftOutQuantity& one : b.left_out)
-        if (one.claim == claim) changes.push_back(without_figure(row, "no_value", one.reason, one.quantity));
-    if (changes.empty())
-        changes.push_back(without_figure(row, "no_value", b.broke_down ? "B breaks down" : "neither reading has a figure"));
+        if (one.claim == claim) changes.push_back(without_value(row, "no_value", one.reason, one.quantity));
+    if (changes.empty()) changes.push_back(without_value(row, "no_value", b.broke_down ? "B breaks down" : "neither reading has a figure"));
     return changes;
 }
 
 ClaimChange untouched_claim(const std::string& body, const std::string& claim, const Reading& reading, const std::string& reason)
 {
-    return without_figure(row_of(body, claim, reading), "not_touched", reason);
+    return without_value(row_of(body, claim, reading), "not_touched", reason);
 }
 
 const Reading& ReadingComparison::baseline_of(const Reading& reading) const
@@ -124,11 +123,11 @@ void ReadingComparison::measure(const std::vector<std::string>& claims, const Me
             add(baseline_of(reading));
             add(reading);
         }
-    const std::vector<ReadingFigures> figures = measure(measured);
-    std::map<std::string, const ReadingFigures*> by_name;
+    const std::vector<ReadingValues> values = measure(measured);
+    std::map<std::string, const ReadingValues*> by_name;
     for (std::size_t i = 0; i < measured.size(); ++i) {
-        by_name[measured[i].name] = &figures.at(i);
-        if (figures[i].broke_down) breakdown_ += fmt::format("{} ({}). ", measured[i].name, fmt::join(claims, ", "));
+        by_name[measured[i].name] = &values.at(i);
+        if (values[i].broke_down) breakdown_ += fmt::format("{} ({}). ", measured[i].name, fmt::join(claims, ", "));
     }
     for (const Reading& reading : readings_)
         for (const std::string& claim : claims) {

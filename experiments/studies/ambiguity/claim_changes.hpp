@@ -1,12 +1,12 @@
 // The changes that each reading makes in the judged values of each claim: the values of A and B, and whether the claim's bound judges them
 // otherwise.
 //   ReadingComparison comparison("limb", readings);
-//   comparison.measure({"C03", "C12"}, [&](const auto& touching) { return figures_of_starts(of, touching); });
+//   comparison.measure({"C03", "C12"}, [&](const auto& touching) { return values_of_starts(of, touching); });
 //   table_of(claim_change_columns, comparison.changes()).write("ambiguity.csv");
 #pragma once
 
 #include "analysis/records/typed_table.hpp"
-#include "experiments/studies/ambiguity/judged_figure.hpp"
+#include "experiments/studies/ambiguity/judged_value.hpp"
 
 #include <functional>
 #include <optional>
@@ -25,15 +25,15 @@ struct ClaimChange {
 };
 extern const analysis::Columns<ClaimChange> claim_change_columns;
 
-std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const ReadingFigures& a,
-                                       const ReadingFigures& b);
+std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const ReadingValues& a,
+                                       const ReadingValues& b);
 ClaimChange untouched_claim(const std::string& body, const std::string& claim, const Reading& reading, const std::string& reason);
 
 // Readings and their baselines, claim by claim. Only readings that can touch one of the claims are measured, and their baselines before
 // them.
 class ReadingComparison {
 public:
-    using Measure = std::function<std::vector<ReadingFigures>(const std::vector<Reading>&)>;  // one per reading
+    using Measure = std::function<std::vector<ReadingValues>(const std::vector<Reading>&)>;  // one per reading
 
     ReadingComparison(const std::string& body, const std::vector<Reading>& readings) : body_(body), readings_(readings) {}
 

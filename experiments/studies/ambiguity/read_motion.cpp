@@ -68,7 +68,7 @@ pbs::StepSummary ReadDeformer::advance(const pbs::Pose& pose, double dt_s)
 ReadMotion move(const pbs::Character& character, const Scene& scene, const Reading& reading)
 {
     const pbs::Motion motion = motion_of(character, scene, reading.substeps);
-    const analysis::Ruler ruler(character.mesh.rest, character.mesh.tets);
+    const analysis::MeshMetrics mesh_metrics(character.mesh.rest, character.mesh.tets);
     ReadDeformer moving(reading);
     moving.reset(character);
     ReadMotion moved;
@@ -82,8 +82,8 @@ ReadMotion move(const pbs::Character& character, const Scene& scene, const Readi
         moving.advance(motion.steps[step], motion.time_step_s);
         if (!is_frame) continue;
         const int frame = step / motion.steps_per_frame;
-        add_frame(moved.pbs, frame, step * motion.time_step_s, motion, ruler.measure(moving.positions()));
-        add_frame(moved.lbs, frame, step * motion.time_step_s, motion, ruler.measure(moving.lbs()));
+        add_frame(moved.pbs, frame, step * motion.time_step_s, motion, mesh_metrics.measure(moving.positions()));
+        add_frame(moved.lbs, frame, step * motion.time_step_s, motion, mesh_metrics.measure(moving.lbs()));
         moved.shapes.push_back(moving.positions());
         moved.finite = moved.finite && moving.positions().allFinite();
     }

@@ -1,5 +1,5 @@
-#include "experiments/studies/ambiguity/reading_figures.hpp"
-#include "experiments/studies/artefacts/artefact_figures.hpp"
+#include "experiments/studies/ambiguity/reading_values.hpp"
+#include "experiments/studies/artefacts/artefact_values.hpp"
 
 namespace experiments {
 namespace {
@@ -25,11 +25,11 @@ std::vector<ArtefactSample> reference_samples(const ArtefactCase& of, const Arte
 
 }  // namespace
 
-std::vector<ReadingFigures> figures_of_sections(const ArtefactCase& of, const std::vector<Reading>& readings)
+std::vector<ReadingValues> values_of_sections(const ArtefactCase& of, const std::vector<Reading>& readings)
 {
     const ArtefactBody body(of);
     const std::vector<ArtefactSample> reference = reference_samples(of, body);
-    std::vector<ReadingFigures> all;
+    std::vector<ReadingValues> all;
     for (const Reading& reading : readings) {
         const ReadMotion moved = move(body.posed.character(), of.scene, reading);
         std::vector<ArtefactSample> samples = reference;
@@ -38,7 +38,7 @@ std::vector<ReadingFigures> figures_of_sections(const ArtefactCase& of, const st
             if (shape.allFinite()) add_samples(samples, body, "pbs", pose, shape, 0);
         }
         const bool bulge = of.claim == ArtefactCase::Claim::bulge;
-        all.push_back({judged(bulge ? bulge_figures(of, body, samples) : candy_wrapper_figures(of, body, samples)), !moved.finite});
+        all.push_back({judged(bulge ? bulge_values(of, body, samples) : candy_wrapper_values(of, body, samples)), !moved.finite});
     }
     return all;
 }

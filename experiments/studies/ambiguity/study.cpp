@@ -14,8 +14,8 @@
 #include "analysis/records/folder_files.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/ambiguity/ambiguity_report.hpp"
-#include "experiments/studies/ambiguity/reading_figures.hpp"
-#include "experiments/studies/artefacts/artefact_figures.hpp"
+#include "experiments/studies/ambiguity/reading_values.hpp"
+#include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -56,7 +56,7 @@ StudyRun volume_run(const std::string& name, const std::string& body, Scene scen
 template <typename Case>
 struct MeasuredClaims {
     std::vector<std::string> claims;
-    std::vector<ReadingFigures> (*figures)(const Case& of, const std::vector<Reading>& readings);
+    std::vector<ReadingValues> (*values)(const Case& of, const std::vector<Reading>& readings);
 };
 
 // A run of claims that are not measured by volume.
@@ -70,18 +70,18 @@ StudyRun claims_run(const std::string& name, const Case& of, double cost_s, cons
     run.settings.update(judging(all_readings(of.scene), claims));
     run.work = [of, parts](const std::string& folder) {
         ReadingComparison comparison(of.scene.character.body, all_readings(of.scene));
-        for (const auto& [together, figures] : parts)
-            comparison.measure(together, [&](const std::vector<Reading>& readings) { return figures(of, readings); });
+        for (const auto& [together, values] : parts)
+            comparison.measure(together, [&](const std::vector<Reading>& readings) { return values(of, readings); });
         table_of(claim_change_columns, comparison.changes()).write(analysis::path_in(folder, "ambiguity.csv"));
         return comparison.breakdown();
     };
     return run;
 }
 
-const std::vector<MeasuredClaims<ArtefactCase>> twisted = {{{"C04"}, figures_of_sections}}, bent = {{{"C05"}, figures_of_sections}};
-const std::vector<MeasuredClaims<ReadingsCase>> starts = {{{"C03", "C12"}, figures_of_starts}}, step = {{{"C07"}, figures_of_projections},
-                                                                                                        {{"C09"}, figures_of_jolts},
-                                                                                                        {{"C10"}, figures_of_frames}};
+const std::vector<MeasuredClaims<ArtefactCase>> twisted = {{{"C04"}, values_of_sections}}, bent = {{{"C05"}, values_of_sections}};
+const std::vector<MeasuredClaims<ReadingsCase>> starts = {{{"C03", "C12"}, values_of_starts}}, step = {{{"C07"}, values_of_projections},
+                                                                                                       {{"C09"}, values_of_jolts},
+                                                                                                       {{"C10"}, values_of_frames}};
 
 LimbJoint joint_of(const pbs::Character& character, const std::string& name)
 {

@@ -20,7 +20,7 @@ const analysis::Columns<VolumeChange> volume_change_columns = {
     {"place", &VolumeChange::place, "", "place of the paper that can be read in two ways"},
     {"reading_a", &VolumeChange::reading_a, "", "the baseline"},
     {"reading_b", &VolumeChange::reading_b, "", "the other reading"},
-    {"figure", &VolumeChange::figure, "", "the value, in words, with its unit"},
+    {"figure", &VolumeChange::value, "", "the value, in words, with its unit"},
     {"a", &VolumeChange::a, "", "value by reading A"},
     {"b", &VolumeChange::b, "", "value by reading B"},
     {"change", &VolumeChange::change, "", "b less a"},
@@ -101,8 +101,8 @@ std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading
     using analysis::mean;
     const std::string verdict = changed_verdicts(a, b);
     std::vector<VolumeChange> rows;
-    const auto add = [&](const std::string& figure, double of_a, double of_b) {
-        rows.push_back({scene, reading.place, reading.baseline, reading.name, figure, of_a, of_b, of_b - of_a, verdict});
+    const auto add = [&](const std::string& value, double of_a, double of_b) {
+        rows.push_back({scene, reading.place, reading.baseline, reading.name, value, of_a, of_b, of_b - of_a, verdict});
     };
     add(mean_change, mean(a.pbs.volume_change_pct), mean(b.pbs.volume_change_pct));
     add(mean_abs_change, mean(a.pbs.volume_abs_change_pct), mean(b.pbs.volume_abs_change_pct));

@@ -16,7 +16,7 @@ nlohmann::json to_json(const VolumeReadings& of);
 
 // A row of figures.csv.
 struct VolumeChange {
-    std::string scene, place, reading_a, reading_b, figure;
+    std::string scene, place, reading_a, reading_b, value;
     double a = 0.0, b = 0.0, change = 0.0;
     std::string verdict_changed;  // no, or the claims with their extents before and after
 };

@@ -103,7 +103,7 @@ public:
             const pbs::Pose& now = twin.paper.posed.pose(pose);
             const pbs::Positions bind_points = pbs::posed_bind_points(paper.binding, now);
             const std::vector<IterationPath> paths = iterate(paper, options, bind_points, {blended(paper, now), blended(rigid, now)},
-                                                             most_weight_iterations, IterationRuler(paper, bind_points));
+                                                             most_weight_iterations, IterationMetrics(paper, bind_points));
             const double floor = floor_of(paths);
             add_iterations(twin, pose, reached_residual(paths[0], floor), reached_residual(paths[1], floor));
         }
@@ -114,13 +114,13 @@ public:
         for (const auto& [text, ratios] : ratios_) {
             const double own = ratios.values.front();
             if (!std::isfinite(own)) continue;
-            analysis::Measurement figure{"C06", ratios.quantity, ratios.of, own, own, own, "1"};
-            figure.limit = ratios.limit;
+            analysis::Measurement measurement{"C06", ratios.quantity, ratios.of, own, own, own, "1"};
+            measurement.limit = ratios.limit;
             for (const double ratio : ratios.values) {
-                figure.low = std::fmin(figure.low, ratio);
-                figure.high = std::fmax(figure.high, ratio);
+                measurement.low = std::fmin(measurement.low, ratio);
+                measurement.high = std::fmax(measurement.high, ratio);
             }
-            result_.figures.push_back(figure);
+            result_.measurements.push_back(measurement);
         }
         return std::move(result_);
     }
@@ -163,15 +163,16 @@ private:
     static double volume_change_pct(const ArtefactBody& body, const Shape& shape)
     {
         const pbs::TetMesh& mesh = body.posed.character().mesh;
-        return analysis::Ruler(mesh.rest, mesh.tets).measure(shape.positions).volume_abs_change_pct;
+        return analysis::MeshMetrics(mesh.rest, mesh.tets).measure(shape.positions).volume_abs_change_pct;
     }
 
     analysis::Smoothness measure(const ArtefactBody& body, const DeformerSpec& spec, const Shape& shape, std::size_t pose,
                                  std::size_t joint, const std::string& weights)
     {
         const pbs::Character& character = body.posed.character();
-        const analysis::SmoothnessRuler ruler(character.mesh.rest, character.mesh.tets, near_joint(character, body.joints[joint]));
-        const analysis::Smoothness smoothness = ruler.measure(shape.positions);
+        const analysis::SmoothnessMetrics smoothness_metrics(character.mesh.rest, character.mesh.tets,
+                                                            near_joint(character, body.joints[joint]));
+        const analysis::Smoothness smoothness = smoothness_metrics.measure(shape.positions);
         result_.smoothness.push_back({character.name, static_cast<int>(character.mesh.rest.rows()), weights, of_.poses[pose].name,
                                       body.joints[joint].name, recorded(spec), smoothness, volume_change_pct(body, shape)});
         return smoothness;

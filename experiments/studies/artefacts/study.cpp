@@ -15,7 +15,7 @@
 // they have none elsewhere.
 #include "analysis/records/folder_files.hpp"
 #include "analysis/report_table.hpp"
-#include "experiments/studies/artefacts/artefact_figures.hpp"
+#include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/artefacts/smoothness_comparison.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/study.hpp"
@@ -36,17 +36,17 @@ std::string look_and_record(const ArtefactCase& of, const std::string& folder)
     const ArtefactBody body(of);
     const ArtefactRecords records = find_artefacts(of, body);
     WeightsComparison weights = compare_weights(of);
-    std::vector<analysis::Measurement> figures = of.claim == ArtefactCase::Claim::candy_wrapper
-                                                     ? candy_wrapper_figures(of, body, records.samples)
-                                                     : bulge_figures(of, body, records.samples);
-    figures.insert(figures.end(), weights.figures.begin(), weights.figures.end());
+    std::vector<analysis::Measurement> measurements = of.claim == ArtefactCase::Claim::candy_wrapper
+                                                          ? candy_wrapper_values(of, body, records.samples)
+                                                          : bulge_values(of, body, records.samples);
+    measurements.insert(measurements.end(), weights.measurements.begin(), weights.measurements.end());
     const auto path = [&](const char* name) { return analysis::path_in(folder, name); };
     table_of(section_columns, section_rows(of, body, section_outcomes(of, body, records.samples))).write(path("sections.csv"));
     table_of(profile_columns, records.profiles).write(path("profiles.csv"));
     table_of(intersection_columns, records.intersections).write(path("intersections.csv"));
     table_of(smoothness_columns, weights.smoothness).write(path("smoothness.csv"));
     table_of(weight_iteration_columns, weights.iterations).write(path("iterations.csv"));
-    analysis::measurement_table(figures).write(path("measurements.csv"));
+    analysis::measurement_table(measurements).write(path("measurements.csv"));
     return records.breakdown;
 }
 

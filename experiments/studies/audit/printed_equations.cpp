@@ -57,7 +57,7 @@ struct RandomTets {
 constexpr double rounding = 1e-10;
 
 template <typename Gradient>
-analysis::PrintedFigure gradient_figure(const analysis::CaseKey& of, int corner, int tets, unsigned seed, Gradient gradient)
+analysis::PrintedValue gradient_value(const analysis::CaseKey& of, int corner, int tets, unsigned seed, Gradient gradient)
 {
     RandomTets random(seed);
     double largest = 0.0;
@@ -70,7 +70,7 @@ analysis::PrintedFigure gradient_figure(const analysis::CaseKey& of, int corner,
 }
 
 template <typename Projection>
-analysis::PrintedFigure correction_figure(const analysis::CaseKey& of, int tets, unsigned seed, Projection project)
+analysis::PrintedValue correction_value(const analysis::CaseKey& of, int tets, unsigned seed, Projection project)
 {
     RandomTets random(seed);
     double largest = 0.0;
@@ -97,28 +97,27 @@ auto printed_projection()
 
 }  // namespace
 
-std::vector<analysis::PrintedFigure> equation_figures(int tets, unsigned seed)
+std::vector<analysis::PrintedValue> equation_values(int tets, unsigned seed)
 {
     using pbs::Printed;
     const std::array<std::string, 4> equations = {"15-16", "12", "13", "14"};
     const auto gradient = [&](int corner, const std::string& reading) {
         return analysis::CaseKey{.equation = equations[corner], .gradient_of = "p" + std::to_string(corner + 1), .reading = reading};
     };
-    std::vector<analysis::PrintedFigure> figures;
+    std::vector<analysis::PrintedValue> values;
     for (int corner = 0; corner < 4; ++corner)
-        figures.push_back(
-            gradient_figure(gradient(corner, "as_printed"), corner, tets, seed, printed_gradient<Printed::labels_absolute>()));
+        values.push_back(gradient_value(gradient(corner, "as_printed"), corner, tets, seed, printed_gradient<Printed::labels_absolute>()));
     for (int corner = 1; corner < 4; ++corner)
-        figures.push_back(
-            gradient_figure(gradient(corner, "relative_to_p1"), corner, tets, seed, printed_gradient<Printed::labels_relative>()));
+        values.push_back(
+            gradient_value(gradient(corner, "relative_to_p1"), corner, tets, seed, printed_gradient<Printed::labels_relative>()));
     const auto correction = [&](const std::string& equation, const std::string& reading, auto project) {
-        figures.push_back(correction_figure({.equation = equation, .reading = reading}, tets, seed, project));
+        values.push_back(correction_value({.equation = equation, .reading = reading}, tets, seed, project));
     };
     correction("17-20", "derived_gradients", printed_projection<Printed::sign>());
     correction("12-20", "as_printed", printed_projection<Printed::as_printed>());
     correction("8", "derived_gradients", [](const Tet& tet, Corners& p) { pbs::project(tet, 1.0, 1.0, 1.0, 1.0, p[0], p[1], p[2], p[3]); });
-    figures.back().claim = "control of C15";
-    return figures;
+    values.back().claim = "control of C15";
+    return values;
 }
 
 }  // namespace experiments

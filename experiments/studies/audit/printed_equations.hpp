@@ -10,6 +10,6 @@ namespace experiments {
 
 // Gradients: the largest |printed - difference quotient| / |difference quotient| over the tets. It may be as large as the rounding of the
 // quotient. Corrections: the largest |C after| / |C before| when Eq. 17-21 are applied with k = 1. A correction does not make C larger.
-std::vector<analysis::PrintedFigure> equation_figures(int tets = 200, unsigned seed = 1);
+std::vector<analysis::PrintedValue> equation_values(int tets = 200, unsigned seed = 1);
 
 }  // namespace experiments

@@ -28,18 +28,18 @@ nlohmann::json to_json(const AuditCase& of)
 
 std::string audit_print(const AuditCase& of, const std::string& folder)
 {
-    std::vector<analysis::PrintedFigure> all;
-    for (const auto& figures : {mesh_size_figures(), table_1_figures(), equation_figures(of.tets, of.seed)})
-        all.insert(all.end(), figures.begin(), figures.end());
+    std::vector<analysis::PrintedValue> all;
+    for (const auto& values : {mesh_size_values(), table_1_values(), equation_values(of.tets, of.seed)})
+        all.insert(all.end(), values.begin(), values.end());
     analysis::printed_table(all).write(analysis::path_in(folder, "printed.csv"));
     return {};
 }
 
-std::string bound_text(const analysis::PrintedFigure& figure)
+std::string bound_text(const analysis::PrintedValue& value)
 {
-    if (std::isinf(figure.most)) return fmt::format("{:.6g} or more", figure.least);
-    if (figure.least == figure.most) return fmt::format("{:.6g}", figure.least);
-    return fmt::format("{:.6g} to {:.6g}", figure.least, figure.most);
+    if (std::isinf(value.most)) return fmt::format("{:.6g} or more", value.least);
+    if (value.least == value.most) return fmt::format("{:.6g}", value.least);
+    return fmt::format("{:.6g} to {:.6g}", value.least, value.most);
 }
 
 StudyPlan plan(bool)
@@ -51,9 +51,9 @@ StudyConclusion conclude(const FinishedRuns& finished)
 {
     std::string page = "| claim | quantity | of | printed | follows from the rest | consistent |\n|---|---|---|---|---|---|\n";
     for (const std::string& file : finished.files("printed.csv"))
-        for (const analysis::PrintedFigure& figure : analysis::printed_figures(file))
-            page += fmt::format("| {} | {} | {} | {:.6g} | {} | {} |\n", figure.claim, figure.quantity, text_of(figure.of), figure.printed,
-                                bound_text(figure), figure.is_consistent() ? "yes" : "no");
+        for (const analysis::PrintedValue& value : analysis::printed_values(file))
+            page += fmt::format("| {} | {} | {} | {:.6g} | {} | {} |\n", value.claim, value.quantity, text_of(value.of), value.printed,
+                                bound_text(value), value.is_consistent() ? "yes" : "no");
     finished.write("audit.md", page);
     return {"", !finished.none()};
 }

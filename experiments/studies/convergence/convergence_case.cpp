@@ -75,7 +75,7 @@ private:
         const pbs::Character& character = posed_.character();
         const bool has_truth = frame < truth_.size() && truth_[frame].finished;
         const auto error = [&](const pbs::Positions& shape) { return joint_pct(shape, truth_[frame]); };
-        const IterationRuler ruler(character, starts.bind_points, has_truth ? error : IterationRuler::ErrorPct{});
+        const IterationMetrics iteration_metrics(character, starts.bind_points, has_truth ? error : IterationMetrics::ErrorPct{});
         ConvergencePaths paths{of_.scene.character.body,
                                of_.frames[frame].name,
                                of_.frames[frame].key,
@@ -90,8 +90,8 @@ private:
                                has_truth && truth_[frame].self_intersects,
                                {},
                                {}};
-        paths.paths =
-            iterate(character, options, starts.bind_points, {starts.shapes.begin(), starts.shapes.end()}, of_.most_iterations, ruler);
+        paths.paths = iterate(character, options, starts.bind_points, {starts.shapes.begin(), starts.shapes.end()}, of_.most_iterations,
+                              iteration_metrics);
         for (const IterationPath& path : paths.paths)
             paths.limit_from_lbs_pct.push_back(joint_pct(path.last, {paths.paths.front().last, paths.paths.front().finite}));
         return paths;

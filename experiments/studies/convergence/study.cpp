@@ -12,7 +12,7 @@
 #include "analysis/records/folder_files.hpp"
 #include "analysis/report_table.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "experiments/studies/convergence/convergence_figures.hpp"
+#include "experiments/studies/convergence/convergence_values.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/shared/table_1.hpp"
@@ -40,7 +40,7 @@ std::string measure_and_record(const ConvergenceCase& of, const std::string& fol
     table_of(residual_columns, looks).write(path("residuals.csv"));
     table_of(rate_columns, rate_rows(result)).write(path("rates.csv"));
     table_of(towards_columns, towards_rows(looks)).write(path("towards.csv"));
-    analysis::measurement_table(convergence_figures(result)).write(path("measurements.csv"));
+    analysis::measurement_table(convergence_values(result)).write(path("measurements.csv"));
     return result.breakdown;
 }
 

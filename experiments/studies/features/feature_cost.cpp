@@ -114,7 +114,7 @@ ResultChange change_between(const Scene& without, const Scene& with)
 {
     const pbs::Character character = pbs::make_character(without.character);
     const pbs::Motion motion = make_motion(without.motion, character.skeleton, without.file);
-    const analysis::Ruler ruler(character.mesh.rest, character.mesh.tets);
+    const analysis::MeshMetrics mesh_metrics(character.mesh.rest, character.mesh.tets);
     const auto before = make_deformer(pbs_of(without)), after = make_deformer(pbs_of(with));
     before->reset(character);
     after->reset(character);
@@ -123,7 +123,8 @@ ResultChange change_between(const Scene& without, const Scene& with)
         before->advance(pose, motion.time_step_s);
         after->advance(pose, motion.time_step_s);
         const double distance = (before->positions() - after->positions()).rowwise().norm().maxCoeff();
-        const double volume = ruler.measure(before->positions()).volume_change_pct - ruler.measure(after->positions()).volume_change_pct;
+        const double volume =
+            mesh_metrics.measure(before->positions()).volume_change_pct - mesh_metrics.measure(after->positions()).volume_change_pct;
         change.distance_m = std::max(change.distance_m, distance);
         change.volume_difference_pct = std::max(change.volume_difference_pct, std::abs(volume));
     }

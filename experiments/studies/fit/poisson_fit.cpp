@@ -25,12 +25,12 @@ double poisson_of(double logarithm)
     return (1.0 - std::pow(10.0, logarithm)) / 2.0;
 }
 
-analysis::ErrorRuler joint_ruler(const pbs::Character& character, const std::vector<bool>& prescribed)
+analysis::ErrorMetrics joint_metrics(const pbs::Character& character, const std::vector<bool>& prescribed)
 {
     analysis::ErrorDomain domain{character.mesh.rest, character.mesh.tets, prescribed, {}, character.binding.distance};
     for (std::size_t v = 0; v < character.blended.size(); ++v)
         if (character.blended[v]) domain.blended.push_back(static_cast<int>(v));
-    return analysis::ErrorRuler(domain);
+    return analysis::ErrorMetrics(domain);
 }
 
 // The poses of a path at one Poisson's ratio, up to the first that did not converge.
@@ -126,14 +126,14 @@ void ElasticPoses::add_path(const pbs::Character& character, const std::vector<N
         poses_.push_back(std::move(elastic));
     }
     if (usable_in_all < least_nodes) return;
-    const analysis::ErrorRuler ruler = joint_ruler(character, prescribed_);
+    const analysis::ErrorMetrics error_metrics = joint_metrics(character, prescribed_);
     for (const int before : {static_cast<int>(nodes.size()) / 2 - 1, static_cast<int>(usable_in_all) - 2}) {
         const double poisson = between(nodes, before);
         const Solved check = solve(character, path, options, poisson);
         for (std::size_t p = 0; p < check.positions.size(); ++p) {
             Elastic& elastic = poses_[first + p];
             elastic.interpolation_error_pct =
-                std::max(elastic.interpolation_error_pct, ruler.measure(elastic.family->at(poisson), check.positions[p]).joint_pct);
+                std::max(elastic.interpolation_error_pct, error_metrics.measure(elastic.family->at(poisson), check.positions[p]).joint_pct);
         }
     }
 }
@@ -141,7 +141,7 @@ void ElasticPoses::add_path(const pbs::Character& character, const std::vector<N
 std::optional<PoissonFit> fit_poisson(const pbs::Character& character, const ElasticPoses& elastic,
                                       const std::vector<pbs::Positions>& positions)
 {
-    const analysis::ErrorRuler ruler = joint_ruler(character, elastic.prescribed());
+    const analysis::ErrorMetrics error_metrics = joint_metrics(character, elastic.prescribed());
     std::vector<analysis::Misfit> misfits;
     PoissonFit fit;
     fit.highest_poisson = highest_poisson;
@@ -150,8 +150,9 @@ std::optional<PoissonFit> fit_poisson(const pbs::Character& character, const Ela
         if (!pose.family) continue;
         fit.poses.push_back(pose.pose.name);
         fit.highest_poisson = std::min(fit.highest_poisson, pose.highest_poisson);
-        misfits.push_back(
-            [&ruler, &pose, &body = positions[p]](double poisson) { return ruler.measure(body, pose.family->at(poisson)).joint_pct; });
+        misfits.push_back([&error_metrics, &pose, &body = positions[p]](double poisson) {
+            return error_metrics.measure(body, pose.family->at(poisson)).joint_pct;
+        });
     }
     if (misfits.empty()) return std::nullopt;
     fit.poisson = analysis::fit_over_cases(misfits, 0.0, fit.highest_poisson, {}, level);

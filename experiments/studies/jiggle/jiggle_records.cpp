@@ -5,7 +5,7 @@
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/settings/option_fields.hpp"
-#include "experiments/studies/jiggle/jiggle_figures.hpp"
+#include "experiments/studies/jiggle/jiggle_values.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 
 #include <fmt/format.h>
@@ -134,7 +134,7 @@ Jolt jolt_at(const JoltCase& of, const JiggleSetting& setting)
 struct JoltRecords {
     std::vector<ResponseRow> responses = {};
     std::vector<SeriesRow> series = {};
-    std::vector<analysis::Measurement> figures = {};
+    std::vector<analysis::Measurement> measurements = {};
 };
 
 void add_reference(const JoltCase& of, const pbs::Character& character, const std::vector<int>& probe, const MeasuredJiggle& measured,
@@ -153,10 +153,10 @@ void add_reference(const JoltCase& of, const pbs::Character& character, const st
     at.reference = "snh_p1";
     at.young_pa = reference->young_pa;
     const double pace = hz / swing.frequency_hz.estimate, reach = own.overshoot_over_jolt / reference->response.overshoot_over_jolt;
-    records.figures.push_back({"C09", "frequency_over_reference", at, pace, own.swing.frequency_hz.low / swing.frequency_hz.high,
-                               own.swing.frequency_hz.high / swing.frequency_hz.low, "1"});
-    records.figures.push_back({"C09", "amplitude_over_reference", at, reach, reach, reach, "1"});
-    records.figures.push_back(
+    records.measurements.push_back({"C09", "frequency_over_reference", at, pace, own.swing.frequency_hz.low / swing.frequency_hz.high,
+                                    own.swing.frequency_hz.high / swing.frequency_hz.low, "1"});
+    records.measurements.push_back({"C09", "amplitude_over_reference", at, reach, reach, reach, "1"});
+    records.measurements.push_back(
         {"C09", "damping_ratio_of_reference", at, swing.damping_ratio.estimate, swing.damping_ratio.low, swing.damping_ratio.high, "1"});
 }
 
@@ -219,11 +219,11 @@ std::string record_jolts(const JoltCase& of, const std::string& folder)
     if (of.with_reference)
         for (const MeasuredJiggle& one : measured) add_reference(of, character, zone.pieces.front(), one, records);
     else
-        records.figures = jiggle_figures(character.name, measured);
+        records.measurements = jiggle_values(character.name, measured);
     table_of(zone_columns, zone_rows(zone)).write(analysis::path_in(folder, "zone.csv"));
     table_of(response_columns, records.responses).write(analysis::path_in(folder, "responses.csv"));
     table_of(jolt_series_columns, records.series).write(analysis::path_in(folder, "series.csv"));
-    analysis::measurement_table(records.figures).write(analysis::path_in(folder, "measurements.csv"));
+    analysis::measurement_table(records.measurements).write(analysis::path_in(folder, "measurements.csv"));
     return breakdown;
 }
 

@@ -24,7 +24,7 @@ public:
     }
 
     IterationPath follow(const pbs::Positions& start, const pbs::Positions& bind_points, const std::vector<int>& looks,
-                         const IterationRuler& ruler)
+                         const IterationMetrics& iteration_metrics)
     {
         IterationPath path{{}, start, true};
         const pbs::Vec3 origin = pbs::local_origin<Scalar>(start);
@@ -42,7 +42,7 @@ public:
             seconds += process_cpu_s() - start_s;
             if (look > 0) projection_->store(origin, path.last);
             path.finite = path.last.allFinite();
-            path.looks.push_back(ruler.measure(look, path.last));
+            path.looks.push_back(iteration_metrics.measure(look, path.last));
             if (!path.finite) break;
         }
         path.iteration_ms = 1e3 * seconds / std::max(iteration, 1);
@@ -55,38 +55,38 @@ private:
 
 template <typename Scalar>
 std::vector<IterationPath> iterate_in(const pbs::Character& character, const pbs::PbsOptions& options, const pbs::Positions& bind_points,
-                                      const std::vector<pbs::Positions>& starts, int most, const IterationRuler& ruler)
+                                      const std::vector<pbs::Positions>& starts, int most, const IterationMetrics& iteration_metrics)
 {
     IteratedProjection<Scalar> projection(character, options);
     std::vector<IterationPath> paths;
-    for (const pbs::Positions& start : starts) paths.push_back(projection.follow(start, bind_points, looked_at(most), ruler));
+    for (const pbs::Positions& start : starts) paths.push_back(projection.follow(start, bind_points, looked_at(most), iteration_metrics));
     return paths;
 }
 
-Reached reached(const IterationPath& path, double Look::*figure, double bound)
+Reached reached(const IterationPath& path, double Look::*value, double bound)
 {
     Reached result{path.looks.back().iteration, false};
-    for (auto look = path.looks.rbegin(); look != path.looks.rend() && (*look).*figure <= bound; ++look) result = {look->iteration, true};
+    for (auto look = path.looks.rbegin(); look != path.looks.rend() && (*look).*value <= bound; ++look) result = {look->iteration, true};
     return result;
 }
 
 }  // namespace
 
-IterationRuler::IterationRuler(const pbs::Character& character, const pbs::Positions& bind_points, ErrorPct error)
-    : ruler_(character.mesh.rest, character.mesh.tets),
+IterationMetrics::IterationMetrics(const pbs::Character& character, const pbs::Positions& bind_points, ErrorPct error)
+    : mesh_metrics_(character.mesh.rest, character.mesh.tets),
       bind_points_(bind_points),
       bind_distance_(character.binding.distance),
       error_(std::move(error))
 {
 }
 
-Look IterationRuler::measure(int iteration, const pbs::Positions& positions) const
+Look IterationMetrics::measure(int iteration, const pbs::Positions& positions) const
 {
-    const analysis::FrameMetrics metrics = ruler_.measure(positions);
+    const analysis::FrameMetrics metrics = mesh_metrics_.measure(positions);
     Look look;
     look.iteration = iteration;
     look.stretch_rms = metrics.stretch_rms;
-    look.volume_rms = std::sqrt((ruler_.volume_ratios(positions).array() - 1.0).square().mean());
+    look.volume_rms = std::sqrt((mesh_metrics_.volume_ratios(positions).array() - 1.0).square().mean());
     look.bind_rms_m = analysis::bind_rms(positions, bind_points_, bind_distance_);
     const double bind_rms = look.bind_rms_m / bind_distance_.mean();
     look.combined = std::sqrt((look.stretch_rms * look.stretch_rms + look.volume_rms * look.volume_rms + bind_rms * bind_rms) / 3.0);
@@ -109,13 +109,13 @@ std::vector<int> looked_at(int most)
 }
 
 std::vector<IterationPath> iterate(const pbs::Character& character, const pbs::PbsOptions& options, const pbs::Positions& bind_points,
-                                   const std::vector<pbs::Positions>& starts, int most, const IterationRuler& ruler)
+                                   const std::vector<pbs::Positions>& starts, int most, const IterationMetrics& iteration_metrics)
 {
     pbs::PbsOptions own = options;
     own.jiggle.reset();
     own.sleep = false;
-    return own.precision == pbs::Precision::f32 ? iterate_in<float>(character, own, bind_points, starts, most, ruler)
-                                                : iterate_in<double>(character, own, bind_points, starts, most, ruler);
+    return own.precision == pbs::Precision::f32 ? iterate_in<float>(character, own, bind_points, starts, most, iteration_metrics)
+                                                : iterate_in<double>(character, own, bind_points, starts, most, iteration_metrics);
 }
 
 double floor_of(const std::vector<IterationPath>& paths)

@@ -1,6 +1,6 @@
 // Lines 10-14 of Algorithm 1 iterated far past the paper's 24 iterations, from any initial guess. Each look at the positions on the way is
 // measured by the metrics of all records; no value is taken from the solver.
-//   const IterationRuler ruler(character, bind_points);
+//   const IterationMetrics iteration_metrics(character, bind_points);
 //   const std::vector<IterationPath> paths = iterate(character, options, bind_points, starts, 1000, ruler);
 //   const Reached reached = reached_residual(paths[0], floor_of(paths));   // reached.iterations, or more than those where !reached.within
 // The constraints contradict each other, so a residual does not go to zero. A path has arrived by one of two tolerances:
@@ -40,15 +40,15 @@ struct IterationPath {
     double iteration_ms = 0.0;  // mean processor time per iteration, without the looks
 };
 
-class IterationRuler {
+class IterationMetrics {
 public:
     using ErrorPct = std::function<double(const pbs::Positions&)>;  // to the reference
 
-    IterationRuler(const pbs::Character& character, const pbs::Positions& bind_points, ErrorPct error = {});
+    IterationMetrics(const pbs::Character& character, const pbs::Positions& bind_points, ErrorPct error = {});
     Look measure(int iteration, const pbs::Positions& positions) const;
 
 private:
-    analysis::Ruler ruler_;
+    analysis::MeshMetrics mesh_metrics_;
     pbs::Positions bind_points_;
     Eigen::VectorXd bind_distance_;
     ErrorPct error_;
@@ -59,7 +59,7 @@ std::vector<int> looked_at(int most);
 
 // One path per initial guess. options.iterations and options.jiggle are ignored.
 std::vector<IterationPath> iterate(const pbs::Character& character, const pbs::PbsOptions& options, const pbs::Positions& bind_points,
-                                   const std::vector<pbs::Positions>& starts, int most, const IterationRuler& ruler);
+                                   const std::vector<pbs::Positions>& starts, int most, const IterationMetrics& iteration_metrics);
 
 inline constexpr double residual_tolerance = 0.05;  // of the floor
 inline constexpr double satisfied_residual = 1e-4;

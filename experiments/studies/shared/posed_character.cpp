@@ -24,7 +24,7 @@ pbs::Positions blended(const pbs::Character& character, const pbs::Pose& pose)
 PosedCharacter::PosedCharacter(const Scene& scene, const std::vector<int>& frames)
     : character_(pbs::make_character(scene.character)),
       time_step_s_(scene.motion.time_step_s),
-      ruler_(error_domain(character_, {})),
+      error_metrics_(error_domain(character_, {})),
       boundary_(pbs::boundary_of(character_.mesh.tets))
 {
     const pbs::Motion motion = make_motion(scene.motion, character_.skeleton, scene.file);
@@ -78,7 +78,7 @@ analysis::ErrorNorms PosedCharacter::distance(const Shape& one, const Shape& oth
     constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     if (!one.finished || !other.finished) return {nothing, nothing, nothing};
     const Eigen::Index vertices = character_.mesh.rest.rows();
-    return ruler_.measure(one.positions.topRows(vertices), other.positions.topRows(vertices));
+    return error_metrics_.measure(one.positions.topRows(vertices), other.positions.topRows(vertices));
 }
 
 const DeformerSpec& spec_of(const Scene& scene, const std::string& name)

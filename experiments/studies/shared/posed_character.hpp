@@ -50,7 +50,7 @@ private:
     double time_step_s_;
     std::vector<pbs::Pose> poses_;
     std::vector<double> angles_deg_;
-    analysis::ErrorRuler ruler_;
+    analysis::ErrorMetrics error_metrics_;
     pbs::Triangles boundary_;
 };
 

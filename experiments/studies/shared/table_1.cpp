@@ -5,7 +5,7 @@
 
 namespace experiments {
 
-using analysis::PrintedFigure;
+using analysis::PrintedValue;
 
 const std::array<TableOneRow, 5>& table_1()
 {
@@ -17,16 +17,16 @@ const std::array<TableOneRow, 5>& table_1()
     return rows;
 }
 
-std::vector<PrintedFigure> mesh_size_figures()
+std::vector<PrintedValue> mesh_size_values()
 {
     const auto range = [](const std::string& quantity, double printed, auto count, auto counted) {
-        PrintedFigure figure{"C13", quantity, {}, printed, std::numeric_limits<double>::infinity(), 0.0};
+        PrintedValue value{"C13", quantity, {}, printed, std::numeric_limits<double>::infinity(), 0.0};
         for (const TableOneRow& row : table_1()) {
             if (!counted(row)) continue;
-            figure.least = std::min<double>(figure.least, count(row));
-            figure.most = std::max<double>(figure.most, count(row));
+            value.least = std::min<double>(value.least, count(row));
+            value.most = std::max<double>(value.most, count(row));
         }
-        return figure;
+        return value;
     };
     const auto vertices = [](const TableOneRow& row) { return row.vertices; };
     const auto tets = [](const TableOneRow& row) { return row.tets; };
@@ -36,22 +36,22 @@ std::vector<PrintedFigure> mesh_size_figures()
             range("tets_of_meshes_with_2k_vertices", 10000.0, tets, some_2k)};
 }
 
-std::vector<PrintedFigure> table_1_figures()
+std::vector<PrintedValue> table_1_values()
 {
     constexpr double half_a_digit_ms = 0.05, half_a_digit_fps = 0.05, steps_in_1_s = 100.0;
     const double infinite = std::numeric_limits<double>::infinity();
-    std::vector<PrintedFigure> figures;
+    std::vector<PrintedValue> values;
     for (const TableOneRow& row : table_1()) {
         const analysis::CaseKey of = {.model = row.model};
-        figures.push_back(
+        values.push_back(
             {"C14", "stretch_constraints", of, double(row.stretch), double(row.vertices + row.tets + 1), double(6 * row.tets)});
-        figures.push_back({"C14", "bind_constraints", of, double(row.bind), double(row.vertices), double(row.vertices)});
-        figures.push_back({"C14", "ct_total_ms", of, row.total_ms, row.stretch_ms + row.volume_ms - 3.0 * half_a_digit_ms, infinite});
-        figures.push_back({"C14", "ct_total_of_1_s_ms", of, row.total_ms,
-                           steps_in_1_s * 1e3 / (row.frames_per_s + half_a_digit_fps) - half_a_digit_ms,
-                           steps_in_1_s * 1e3 / (row.frames_per_s - half_a_digit_fps) + half_a_digit_ms});
+        values.push_back({"C14", "bind_constraints", of, double(row.bind), double(row.vertices), double(row.vertices)});
+        values.push_back({"C14", "ct_total_ms", of, row.total_ms, row.stretch_ms + row.volume_ms - 3.0 * half_a_digit_ms, infinite});
+        values.push_back({"C14", "ct_total_of_1_s_ms", of, row.total_ms,
+                          steps_in_1_s * 1e3 / (row.frames_per_s + half_a_digit_fps) - half_a_digit_ms,
+                          steps_in_1_s * 1e3 / (row.frames_per_s - half_a_digit_fps) + half_a_digit_ms});
     }
-    return figures;
+    return values;
 }
 
 }  // namespace experiments

@@ -18,11 +18,11 @@ struct TableOneRow {
 const std::array<TableOneRow, 5>& table_1();
 
 // C13: "roughly 2K vertices and 10K tetrahedral elements" (Sec. 4) against the counts of Table 1.
-std::vector<analysis::PrintedFigure> mesh_size_figures();
+std::vector<analysis::PrintedValue> mesh_size_values();
 
 // C14. A tet mesh of a ball-like body has V - E + F - T = 1 and F = 2T + Fb/2, so E = V + T + Fb/2 - 1 with at least four boundary
 // triangles; handles, voids and pinches raise E. Every vertex has one bind constraint. A total is no less than its parts. One second has
 // a hundred steps of 10 ms, each of which is a frame, so the printed frame rate gives the time of a second.
-std::vector<analysis::PrintedFigure> table_1_figures();
+std::vector<analysis::PrintedValue> table_1_values();
 
 }  // namespace experiments

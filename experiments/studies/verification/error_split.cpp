@@ -81,7 +81,7 @@ public:
 private:
     pbs::Character limb_;
     pbs::Pose pose_;
-    analysis::ErrorRuler norms_;
+    analysis::ErrorMetrics norms_;
 };
 
 // In a norm, the whole lies between the difference and the sum of its two parts.

@@ -37,12 +37,12 @@ Diagram diagram_of(const std::vector<PointRow>& rows)
     return diagram;
 }
 
-std::optional<double> mean_of(const std::vector<Diagram>& poses, std::optional<double> Diagram::*figure)
+std::optional<double> mean_of(const std::vector<Diagram>& poses, std::optional<double> Diagram::*value)
 {
     double sum = 0.0;
     for (const Diagram& pose : poses) {
-        if (!(pose.*figure)) return std::nullopt;
-        sum += *(pose.*figure);
+        if (!(pose.*value)) return std::nullopt;
+        sum += *(pose.*value);
     }
     return sum / double(poses.size());
 }
@@ -54,16 +54,16 @@ std::optional<DiagramPoint> mean_of(const std::vector<Diagram>& poses, const Dia
                                                                      &DiagramPoint::l2_pct,     &DiagramPoint::linf_m,
                                                                      &DiagramPoint::beside_pct, &DiagramPoint::volume_abs_change_pct};
     DiagramPoint mean{setting.key, setting.setting};
-    for (const auto figure : known_or_not) mean.*figure = 0.0;
+    for (const auto value : known_or_not) mean.*value = 0.0;
     const double share = 1.0 / double(poses.size());
     for (const Diagram& pose : poses) {
         const auto same = [&](const DiagramPoint& point) { return point.key == setting.key; };
         const auto found = std::find_if(pose.points.begin(), pose.points.end(), same);
         if (found == pose.points.end()) return std::nullopt;
-        for (const auto figure : {&DiagramPoint::ms, &DiagramPoint::error_pct}) mean.*figure += share * (*found).*figure;
-        for (const auto figure : known_or_not) {
-            std::optional<double>& sum = mean.*figure;
-            const std::optional<double>& more = (*found).*figure;
+        for (const auto value : {&DiagramPoint::ms, &DiagramPoint::error_pct}) mean.*value += share * (*found).*value;
+        for (const auto value : known_or_not) {
+            std::optional<double>& sum = mean.*value;
+            const std::optional<double>& more = (*found).*value;
             sum = sum && more ? std::optional(*sum + share * *more) : std::nullopt;
         }
     }

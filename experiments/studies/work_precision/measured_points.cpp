@@ -30,7 +30,7 @@ public:
         : of_(of),
           base_(std::make_shared<pbs::Character>(pbs::make_character(of.scene.character))),
           poses_(poses_of(of, base_->skeleton)),
-          ruler_(error_domain(*base_, {})),
+          error_metrics_(error_domain(*base_, {})),
           settings_(point_settings(of.scene, of.range))
     {
         meshes_.emplace(0, BodyMesh(base_));
@@ -42,7 +42,7 @@ public:
     MeasuredPoints measure()
     {
         for (const PointSetting& setting : settings_) reach(setting);
-        reference_ = choose_reference(points_, base_->mesh.rest.rows(), ruler_);
+        reference_ = choose_reference(points_, base_->mesh.rest.rows(), error_metrics_);
         reference_self_intersects_ =
             reference_.point && pbs::self_intersects(reference_.point->on_base, pbs::boundary_of(base_->mesh.tets));
         const std::vector<FrameTime> times = time_all();
@@ -85,20 +85,20 @@ private:
 
     PointRow row_of(const ReachedPoint& point, const FrameTime& time)
     {
-        PointFigures figures{of_.of, time, {}, {}, {}, reference_self_intersects_};
-        const auto error_to = [&](const ReachedPoint& other) { return ruler_.measure(point.on_base, other.on_base); };
+        PointValues values{of_.of, time, {}, {}, {}, reference_self_intersects_};
+        const auto error_to = [&](const ReachedPoint& other) { return error_metrics_.measure(point.on_base, other.on_base); };
         if (point.shape.finished && reference_.point) {
-            if (&point != reference_.point) figures.error = error_to(*reference_.point);
-            if (reference_.beside && &point != reference_.beside) figures.beside_pct = error_to(*reference_.beside).joint_pct;
-            if (point.setting->deformer == "pbs" && point.setting->on_own_mesh()) figures.parts = parts_of(point);
+            if (&point != reference_.point) values.error = error_to(*reference_.point);
+            if (reference_.beside && &point != reference_.beside) values.beside_pct = error_to(*reference_.beside).joint_pct;
+            if (point.setting->deformer == "pbs" && point.setting->on_own_mesh()) values.parts = parts_of(point);
         }
-        return point_row(point, reference_, figures);
+        return point_row(point, reference_, values);
     }
 
     PbsParts parts_of(const ReachedPoint& point)
     {
         const auto& [whole, half] = converged(*point.setting);
-        const auto joint_pct = [&](const pbs::Positions& a, const pbs::Positions& b) { return ruler_.measure(a, b).joint_pct; };
+        const auto joint_pct = [&](const pbs::Positions& a, const pbs::Positions& b) { return error_metrics_.measure(a, b).joint_pct; };
         return {joint_pct(point.on_base, whole), joint_pct(whole, reference_.point->on_base), joint_pct(whole, half)};
     }
 
@@ -123,7 +123,7 @@ private:
     const WorkPrecisionCase& of_;
     std::shared_ptr<const pbs::Character> base_;
     PosePair poses_;
-    analysis::ErrorRuler ruler_;
+    analysis::ErrorMetrics error_metrics_;
     std::vector<PointSetting> settings_;
     static constexpr int refined = -1;
     std::map<int, BodyMesh> meshes_;  // by wanted size; 0: the case's own

@@ -60,18 +60,18 @@ void add_time(PointRow& row, const FrameTime& time)
     if (time.ms->rounds >= fewest_for_quartiles) row.ms_q1 = time.ms->lower, row.ms_q3 = time.ms->upper;
 }
 
-void add_reference(PointRow& row, const ReachedReference& reference, const PointFigures& figures)
+void add_reference(PointRow& row, const ReachedReference& reference, const PointValues& values)
 {
     if (!reference.point) return;
     row.reference = reference.point->setting->spec.name;
-    row.reference_self_intersects = figures.reference_self_intersects;
+    row.reference_self_intersects = values.reference_self_intersects;
     if (!reference.bar) return;
     row.reference_error_joint_pct = reference.bar->joint_pct;
     row.reference_error_l2_pct = reference.bar->l2_pct;
     row.beside = reference.beside->setting->words;
-    row.error_joint_beside_pct = figures.beside_pct;
-    if (figures.error) row.below_reference_error = figures.error->joint_pct <= reference.bar->joint_pct;
-    if (figures.parts) row.discretisation_pct = reference.bar->joint_pct;
+    row.error_joint_beside_pct = values.beside_pct;
+    if (values.error) row.below_reference_error = values.error->joint_pct <= reference.bar->joint_pct;
+    if (values.parts) row.discretisation_pct = reference.bar->joint_pct;
 }
 
 }  // namespace
@@ -114,19 +114,19 @@ FrameTime frame_time(std::vector<double> samples)
     return time;
 }
 
-PointRow point_row(const ReachedPoint& point, const ReachedReference& reference, const PointFigures& figures)
+PointRow point_row(const ReachedPoint& point, const ReachedReference& reference, const PointValues& values)
 {
     const pbs::TetMesh& mesh = point.mesh->character().mesh;
-    PointRow row{figures.of, key_of(*point.setting), point.setting->words};
+    PointRow row{values.of, key_of(*point.setting), point.setting->words};
     row.vertices = int(mesh.rest.rows());
     row.tets = int(mesh.tets.rows());
     row.outcome = outcome_of(point, reference);
     row.reach_ms = 1e3 * point.shape.seconds;
-    add_time(row, figures.time);
-    row.error = figures.error;
-    row.metrics = analysis::Ruler(mesh.rest, mesh.tets).measure(point.shape.positions);
-    add_reference(row, reference, figures);
-    row.parts = figures.parts;
+    add_time(row, values.time);
+    row.error = values.error;
+    row.metrics = analysis::MeshMetrics(mesh.rest, mesh.tets).measure(point.shape.positions);
+    add_reference(row, reference, values);
+    row.parts = values.parts;
     return row;
 }
 

@@ -27,7 +27,7 @@ FrameTime frame_time(std::vector<double> samples);
 
 constexpr int fewest_for_quartiles = 3;  // rounds
 
-struct PointFigures {
+struct PointValues {
     analysis::CaseKey of;
     FrameTime time;
     std::optional<analysis::ErrorNorms> error;  // nothing for the reference, and where there is no reference
@@ -57,6 +57,6 @@ struct PointRow {
 };
 extern const analysis::Columns<PointRow> point_columns;
 
-PointRow point_row(const ReachedPoint& point, const ReachedReference& reference, const PointFigures& figures);
+PointRow point_row(const ReachedPoint& point, const ReachedReference& reference, const PointValues& values);
 
 }  // namespace experiments

@@ -78,7 +78,8 @@ pbs::Positions BodyMesh::on_base(const pbs::Positions& positions) const
                    : pbs::Positions(positions.topRows(base_vertices_));
 }
 
-ReachedReference choose_reference(const std::vector<ReachedPoint>& points, Eigen::Index base_vertices, const analysis::ErrorRuler& ruler)
+ReachedReference choose_reference(const std::vector<ReachedPoint>& points, Eigen::Index base_vertices,
+                                  const analysis::ErrorMetrics& error_metrics)
 {
     ReachedReference reference;
     reference.point = solution(points, 2, On::own_tets, base_vertices);
@@ -91,7 +92,7 @@ ReachedReference choose_reference(const std::vector<ReachedPoint>& points, Eigen
     const double nodes = nodes_along(*reference.point), nodes_beside = nodes_along(*reference.beside);
     const double ratio = std::max(nodes, nodes_beside) / std::min(nodes, nodes_beside);
     const int place = nodes > nodes_beside ? 0 : 1;  // the finer one comes first
-    const analysis::ErrorNorms difference = ruler.measure(reference.point->on_base, reference.beside->on_base);
+    const analysis::ErrorNorms difference = error_metrics.measure(reference.point->on_base, reference.beside->on_base);
     const auto bound = [&](double distance) { return analysis::two_fields(distance, ratio, assumed_order).bounds[place]; };
     reference.bar = {bound(difference.l2_pct), bound(difference.joint_pct), bound(difference.linf_m)};
     return reference;

@@ -14,7 +14,7 @@ namespace experiments {
 // A mesh of the body: the case's own, or a coarser or finer one. Shapes on it are mapped to the vertices of the case's own mesh, so that
 // errors on all meshes are measured at the same points of the flesh and by the same metrics.
 //   const BodyMesh coarse(source, 600, base);
-//   ruler.measure(coarse.on_base(positions), reference);
+//   error_metrics.measure(coarse.on_base(positions), reference);
 class BodyMesh {
 public:
     explicit BodyMesh(std::shared_ptr<const pbs::Character> base)
@@ -55,6 +55,7 @@ struct ReachedReference {
 // The reference is stable neo-Hookean flesh on the case's own tets: quadratic, or linear if that was not reached. The second solution of a
 // quadratic one is the quadratic one on the finest coarser mesh, or else the linear one; of a linear one it is that on tets cut into eight,
 // or else on the finest coarser mesh. Order 1 is assumed for all elements (reference_error_bar.hpp states why).
-ReachedReference choose_reference(const std::vector<ReachedPoint>& points, Eigen::Index base_vertices, const analysis::ErrorRuler& ruler);
+ReachedReference choose_reference(const std::vector<ReachedPoint>& points, Eigen::Index base_vertices,
+                                  const analysis::ErrorMetrics& error_metrics);
 
 }  // namespace experiments

@@ -28,7 +28,7 @@ void expect_the_claims_quantities(const std::string& id, const std::vector<Measu
 {
     const analysis::Claim claim = test_support::claim(id);
     std::set<std::string> known(claim.metrics.begin(), claim.metrics.end()), written;
-    for (const Measurement& figure : measured) written.insert(figure.quantity);
+    for (const Measurement& measurement : measured) written.insert(measurement.quantity);
     for (const std::string& quantity : known) EXPECT_TRUE(written.contains(quantity)) << quantity;
     known.insert(claim.reported.begin(), claim.reported.end());
     for (const std::string& quantity : written) EXPECT_TRUE(known.contains(quantity)) << quantity;
@@ -38,11 +38,11 @@ class ArtefactsVerdict : public testing::Test {
 protected:
     std::vector<Measurement> thin(const std::vector<ArtefactSample>& samples) const
     {
-        return experiments::candy_wrapper_figures(twisted, body, samples);
+        return experiments::candy_wrapper_values(twisted, body, samples);
     }
     std::vector<Measurement> wide(const std::vector<ArtefactSample>& samples) const
     {
-        return experiments::bulge_figures(bent, body, samples);
+        return experiments::bulge_values(bent, body, samples);
     }
 
     ArtefactCase twisted = test_support::small_limb(ArtefactCase::Claim::candy_wrapper);
@@ -101,11 +101,12 @@ TEST_F(ArtefactsVerdict, WithoutAReferenceThereIsNoVerdict)
 TEST_F(ArtefactsVerdict, ARatioAboveOneIsNotSmoother)
 {
     bent.poses = {{2, "bend 60 deg"}};
-    std::vector<Measurement> measured = experiments::compare_weights(bent).figures;
+    std::vector<Measurement> measured = experiments::compare_weights(bent).measured;
     expect_the_claims_quantities("C06", measured);
     const auto put = [&](const std::string& quantity, const analysis::CaseKey& of, double ratio) {
-        for (Measurement& figure : measured)
-            if (figure.quantity == quantity && analysis::matches(figure.of, of)) figure.value = figure.low = figure.high = ratio;
+        for (Measurement& measurement : measured)
+            if (measurement.quantity == quantity && analysis::matches(measurement.of, of))
+                measurement.value = measurement.low = measurement.high = ratio;
     };
     put("strain_jump_over_rigid_weights", {}, 0.5);
     put("curvature_over_rigid_weights", {}, 9.0);  // reported only

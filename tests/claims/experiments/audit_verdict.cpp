@@ -23,12 +23,11 @@ TEST(AuditVerdict, ThePaperContradictsItself)
 TEST(AuditVerdict, APrintThatIsMendedIsConsistent)
 {
     analysis::Records mended = print();
-    for (auto& figure : mended.printed) figure.printed = figure.least;
+    for (auto& value : mended.printed) value.printed = value.least;
     for (const char* id : {"C13", "C14", "C15"}) {
         EXPECT_EQ(judge(claim(id), mended).kind, VerdictKind::reproduced) << id;
         analysis::Records one_wrong = mended;
-        const auto first =
-            std::find_if(one_wrong.printed.begin(), one_wrong.printed.end(), [&](auto& figure) { return figure.claim == id; });
+        const auto first = std::find_if(one_wrong.printed.begin(), one_wrong.printed.end(), [&](auto& value) { return value.claim == id; });
         first->printed = first->least - 1.0;
         EXPECT_EQ(judge(claim(id), one_wrong).kind, VerdictKind::inconsistent_in_print) << id;
     }

@@ -8,7 +8,7 @@
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/study_claims.hpp"
 
-#include "experiments/studies/artefacts/artefact_figures.hpp"
+#include "experiments/studies/artefacts/artefact_values.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 using analysis::Measurement;
 using analysis::VerdictKind;
 using test_support::Broken;
-using test_support::figures_of;
+using test_support::values_of;
 
 // Without other orders and meshes, which only affect the interval.
 std::vector<Measurement> twisted(Broken how, const std::string& angle_deg = "170")
@@ -34,7 +34,7 @@ std::vector<Measurement> twisted(Broken how, const std::string& angle_deg = "170
         const experiments::Shape shape = body.posed.shapes(spec).at(0);
         samples.push_back({spec.kind, 0, 0, extremes_of(body.sections.at(0).measure(shape.positions, body.posed.pose(0)))});
     }
-    return candy_wrapper_figures(of, body, samples);
+    return candy_wrapper_values(of, body, samples);
 }
 
 VerdictKind verdict(const std::vector<Measurement>& measured)
@@ -46,8 +46,8 @@ VerdictKind verdict(const std::vector<Measurement>& measured)
 
 double smallest(const std::vector<Measurement>& measured, const std::string& what, const std::string& deformer = "pbs")
 {
-    for (const Measurement& figure : measured)
-        if (figure.quantity == "smallest_section_" + what && figure.of.deformer == deformer) return figure.value;
+    for (const Measurement& measurement : measured)
+        if (measurement.quantity == "smallest_section_" + what && measurement.of.deformer == deformer) return measurement.value;
     ADD_FAILURE() << what;
     return 0.0;
 }

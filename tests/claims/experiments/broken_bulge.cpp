@@ -14,7 +14,7 @@
 #include "tests/support/hand_cut_sections.hpp"
 #include "tests/support/study_claims.hpp"
 
-#include "experiments/studies/artefacts/artefact_figures.hpp"
+#include "experiments/studies/artefacts/artefact_values.hpp"
 
 #include <gtest/gtest.h>
 
@@ -28,8 +28,8 @@ using analysis::VerdictKind;
 using experiments::ArtefactSample;
 using experiments::Shapes;
 using test_support::Broken;
-using test_support::figures_of;
 using test_support::hand_cut_widest;
+using test_support::values_of;
 
 const std::string radius = "largest_section_radius_over_reference", area = "largest_section_area_over_reference";
 
@@ -74,12 +74,12 @@ void add_samples(const std::string& group, const Shapes& shapes, int element_ord
 }
 
 // The values with these shapes in place of the solver's.
-std::vector<Measurement> figures(const Shapes& shapes)
+std::vector<Measurement> measured(const Shapes& shapes)
 {
     std::vector<ArtefactSample> samples;
     add_samples("pbs", shapes, 0, samples);
     add_samples("reference", limb().reference, 1, samples);
-    return bulge_figures(limb().of, limb().body, samples);
+    return bulge_values(limb().of, limb().body, samples);
 }
 
 VerdictKind verdict(const std::vector<Measurement>& measured)
@@ -92,8 +92,8 @@ VerdictKind verdict(const std::vector<Measurement>& measured)
 // The verdict by one bound alone.
 VerdictKind verdict(const std::vector<Measurement>& measured, const std::string& quantity)
 {
-    EXPECT_EQ(figures_of(measured, quantity).size(), limb().of.poses.size());
-    return verdict(figures_of(measured, quantity));
+    EXPECT_EQ(values_of(measured, quantity).size(), limb().of.poses.size());
+    return verdict(values_of(measured, quantity));
 }
 
 // Every vertex around the joint is farther from its bone.
@@ -130,7 +130,7 @@ constexpr double thicker = 1.2;
 
 TEST(BrokenBulge, AsItIsThereIsNone)
 {
-    const auto measured = figures(solved(Broken::nothing));
+    const auto measured = measured(solved(Broken::nothing));
     EXPECT_EQ(verdict(measured), VerdictKind::reproduced);
     for (const std::string& quantity : {radius, area}) EXPECT_EQ(verdict(measured, quantity), VerdictKind::reproduced) << quantity;
     // The correct solver, driven by hand like the thick one below, gives the same result.
@@ -141,18 +141,18 @@ TEST(BrokenBulge, AsItIsThereIsNone)
 TEST(BrokenBulge, FiguresAreTheRatiosOfSectionsCutByHand)
 {
     const Shapes own = solved(Broken::nothing);
-    const auto measured = figures(own);
+    const auto measured = measured(own);
     for (std::size_t pose = 0; pose < own.size(); ++pose) {
         const auto by_hand = hand_cut_widest(limb().body, own[pose].positions, limb().body.posed.pose(pose)),
                    reference = hand_cut_widest(limb().body, limb().reference[pose].positions, limb().body.posed.pose(pose));
-        EXPECT_NEAR(figures_of(measured, radius).at(pose).value, by_hand.radius / reference.radius, 1e-9);  // f64, lengths of 1
-        EXPECT_NEAR(figures_of(measured, area).at(pose).value, by_hand.area / reference.area, 1e-9);
+        EXPECT_NEAR(values_of(measured, radius).at(pose).value, by_hand.radius / reference.radius, 1e-9);  // f64, lengths of 1
+        EXPECT_NEAR(values_of(measured, area).at(pose).value, by_hand.area / reference.area, 1e-9);
     }
 }
 
 TEST(BrokenBulge, DualQuaternionsInItsPlaceAreToldByTheRadius)
 {
-    const auto measured = figures(limb().shapes("dqs"));
+    const auto measured = measured(limb().shapes("dqs"));
     EXPECT_EQ(verdict(measured), VerdictKind::not_reproduced);
     EXPECT_EQ(verdict(measured, radius), VerdictKind::not_reproduced);
     EXPECT_EQ(verdict(measured, area), VerdictKind::reproduced);
@@ -160,7 +160,7 @@ TEST(BrokenBulge, DualQuaternionsInItsPlaceAreToldByTheRadius)
 
 TEST(BrokenBulge, NothingProjectedIsLbs)
 {
-    const auto measured = figures(solved(Broken::nothing_projected)), lbs = figures(limb().shapes("lbs"));
+    const auto measured = measured(solved(Broken::nothing_projected)), lbs = measured(limb().shapes("lbs"));
     ASSERT_EQ(measured.size(), lbs.size());
     for (std::size_t i = 0; i < lbs.size(); ++i) EXPECT_NEAR(measured[i].value, lbs[i].value, 1e-5);  // f32
     EXPECT_EQ(verdict(measured), VerdictKind::not_reproduced);
@@ -168,7 +168,7 @@ TEST(BrokenBulge, NothingProjectedIsLbs)
 
 TEST(BrokenBulge, FleshTakenTooThickRoundTheJointTurnsBothBounds)
 {
-    const auto measured = figures(solved_with(thickened(limb().body.posed.character(), thicker), bent_poses()));
+    const auto measured = measured(solved_with(thickened(limb().body.posed.character(), thicker), bent_poses()));
     EXPECT_EQ(verdict(measured), VerdictKind::not_reproduced);
     for (const std::string& quantity : {radius, area}) EXPECT_EQ(verdict(measured, quantity), VerdictKind::not_reproduced) << quantity;
 }
@@ -190,18 +190,18 @@ TEST(BrokenBulge, AtRestItIsAsThickAsItWasTaken)
 
 TEST(BrokenBulge, TheSignTurnedRoundTurnsBothBounds)
 {
-    const auto sound = figures(solved(Broken::nothing_in_plain_order)), measured = figures(solved(Broken::volume_sign));
+    const auto sound = measured(solved(Broken::nothing_in_plain_order)), measured = measured(solved(Broken::volume_sign));
     EXPECT_EQ(verdict(sound), VerdictKind::reproduced);
     for (const std::string& quantity : {radius, area}) EXPECT_EQ(verdict(measured, quantity), VerdictKind::not_reproduced) << quantity;
 }
 
 TEST(BrokenBulge, WithoutOneClassTheOthersStillTakeItBack)
 {
-    const auto lbs = figures_of(figures(limb().shapes("lbs")), radius);
+    const auto lbs = values_of(measured(limb().shapes("lbs")), radius);
     for (const Broken how : {Broken::bind_dropped, Broken::stretch_dropped, Broken::volume_dropped}) {
-        const auto measured = figures(solved(how));
+        const auto measured = measured(solved(how));
         EXPECT_EQ(verdict(measured), VerdictKind::reproduced) << name_of(how);
-        for (std::size_t pose = 0; pose < lbs.size(); ++pose) EXPECT_LT(figures_of(measured, radius).at(pose).value, lbs[pose].value);
+        for (std::size_t pose = 0; pose < lbs.size(); ++pose) EXPECT_LT(values_of(measured, radius).at(pose).value, lbs[pose].value);
     }
 }
 

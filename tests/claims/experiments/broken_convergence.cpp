@@ -8,7 +8,7 @@
 //   converged at once, so LBS is not the better initial guess.
 // - nothing projected: every initial guess stays unchanged, to the bit: the rest pose has its volume at once, LBS never.
 // - stretch dropped: the bind and the volume constraints remain, and the last residual of the edges is larger.
-#include "experiments/studies/convergence/convergence_figures.hpp"
+#include "experiments/studies/convergence/convergence_values.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/study_claims.hpp"
@@ -25,7 +25,7 @@ using experiments::ConvergencePaths;
 using experiments::SolverStart;
 using test_support::Broken;
 using test_support::claim;
-using test_support::figures_of;
+using test_support::values_of;
 
 const analysis::CaseKey by_volume = {.tolerance = "volume"};
 
@@ -41,9 +41,9 @@ const experiments::ConvergenceResult& bend(Broken how)
     return kept.emplace(how, experiments::measure_convergence(of)).first->second;
 }
 
-std::vector<Measurement> figures(Broken how)
+std::vector<Measurement> measured(Broken how)
 {
-    return experiments::convergence_figures(bend(how));
+    return experiments::convergence_values(bend(how));
 }
 
 const experiments::IterationPath& path(Broken how, SolverStart start)
@@ -61,19 +61,19 @@ VerdictKind verdict_of_c03(const std::vector<Measurement>& measured)
 // The limb is reported with C12; here it is judged like the value of a character.
 analysis::Extent twenty_four_suffice(Broken how)
 {
-    Measurement figure = figures_of(figures(how), "iterations_to_tolerance_of_limbs", by_volume).at(0);
-    figure.quantity = "iterations_to_tolerance";
-    return analysis::extent_of(claim("C12"), figure);
+    Measurement measurement = values_of(measured(how), "iterations_to_tolerance_of_limbs", by_volume).at(0);
+    measurement.quantity = "iterations_to_tolerance";
+    return analysis::extent_of(claim("C12"), measurement);
 }
 
 double share_without_arrival(Broken how)
 {
-    return figures_of(figures(how), "share_of_ratios_not_reached", by_volume).at(0).value;
+    return values_of(measured(how), "share_of_ratios_not_reached", by_volume).at(0).value;
 }
 
 double from_rest_over_lbs_by_volume(Broken how)
 {
-    return figures_of(figures(how), "iterations_over_lbs_guess", {.initial_guess = "rest_pose", .tolerance = "volume"}).at(0).value;
+    return values_of(measured(how), "iterations_over_lbs_guess", {.initial_guess = "rest_pose", .tolerance = "volume"}).at(0).value;
 }
 
 TEST(BrokenConvergence, AsItIsEveryStartArrivesByVolume)
@@ -81,14 +81,14 @@ TEST(BrokenConvergence, AsItIsEveryStartArrivesByVolume)
     EXPECT_EQ(share_without_arrival(Broken::nothing), 0.0);
     EXPECT_EQ(twenty_four_suffice(Broken::nothing), analysis::Extent::whole);
     EXPECT_GT(from_rest_over_lbs_by_volume(Broken::nothing), 1.05);
-    EXPECT_EQ(verdict_of_c03(figures(Broken::nothing)), VerdictKind::reproduced);
+    EXPECT_EQ(verdict_of_c03(measured(Broken::nothing)), VerdictKind::reproduced);
 }
 
 TEST(BrokenConvergence, TheSignTurnedRoundArrivesFromNowhere)
 {
     EXPECT_EQ(share_without_arrival(Broken::volume_sign), 1.0);
     EXPECT_EQ(twenty_four_suffice(Broken::volume_sign), analysis::Extent::none);
-    EXPECT_NE(verdict_of_c03(figures(Broken::volume_sign)), VerdictKind::reproduced);
+    EXPECT_NE(verdict_of_c03(measured(Broken::volume_sign)), VerdictKind::reproduced);
     const double sound = experiments::floor_of(bend(Broken::nothing).all.front().paths),
                  turned = experiments::floor_of(bend(Broken::volume_sign).all.front().paths);
     EXPECT_FALSE(turned <= 10.0 * sound) << turned << " " << sound;  // not a number if nothing stayed finite
@@ -98,8 +98,8 @@ TEST(BrokenConvergence, WithoutVolumeNoStartArrivesByVolume)
 {
     EXPECT_EQ(share_without_arrival(Broken::volume_dropped), 1.0);
     EXPECT_EQ(twenty_four_suffice(Broken::volume_dropped), analysis::Extent::none);
-    EXPECT_TRUE(figures_of(figures(Broken::volume_dropped), "iterations_over_lbs_guess", by_volume).empty());
-    EXPECT_FALSE(figures_of(figures(Broken::nothing), "iterations_over_lbs_guess", by_volume).empty());
+    EXPECT_TRUE(values_of(measured(Broken::volume_dropped), "iterations_over_lbs_guess", by_volume).empty());
+    EXPECT_FALSE(values_of(measured(Broken::nothing), "iterations_over_lbs_guess", by_volume).empty());
 }
 
 TEST(BrokenConvergence, WithoutBindTheRestPoseStaysAndIsThereAtOnce)
@@ -108,7 +108,7 @@ TEST(BrokenConvergence, WithoutBindTheRestPoseStaysAndIsThereAtOnce)
     EXPECT_LT(rest.looks.back().stretch_rms, 1e-5);                                  // rounding of f32
     EXPECT_NEAR(rest.looks.back().bind_rms_m, rest.looks.front().bind_rms_m, 1e-4);  // it has not come any closer
     EXPECT_LE(from_rest_over_lbs_by_volume(Broken::bind_dropped), 1.0);
-    EXPECT_NE(verdict_of_c03(figures(Broken::bind_dropped)), VerdictKind::reproduced);
+    EXPECT_NE(verdict_of_c03(measured(Broken::bind_dropped)), VerdictKind::reproduced);
 }
 
 TEST(BrokenConvergence, WithoutStretchEdgesAreFartherFromTheirLengths)
@@ -126,7 +126,7 @@ TEST(BrokenConvergence, WithNothingProjectedEveryStartStays)
     }
     EXPECT_LE(from_rest_over_lbs_by_volume(Broken::nothing_projected), 1.0);
     EXPECT_EQ(twenty_four_suffice(Broken::nothing_projected), analysis::Extent::none);
-    EXPECT_NE(verdict_of_c03(figures(Broken::nothing_projected)), VerdictKind::reproduced);
+    EXPECT_NE(verdict_of_c03(measured(Broken::nothing_projected)), VerdictKind::reproduced);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 //   of the bind constraints was expected not to involve them, but they hold the parts to which the flesh is attached.
 // - any: half the time step still gives twice the frequency, since Algorithm 1 contains steps but no time.
 // The verdict itself is already against the claim, by the time step and by the small effect of k_stretch; the values behind it must change.
-#include "experiments/studies/jiggle/jiggle_figures.hpp"
+#include "experiments/studies/jiggle/jiggle_values.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/character/jiggle_zone_contents.hpp"
 #include "pbs/solver/options.hpp"
@@ -24,7 +24,7 @@ using namespace experiments;
 using analysis::Extent;
 using analysis::Measurement;
 using test_support::Broken;
-using test_support::figures_of;
+using test_support::values_of;
 
 const std::vector<JiggleSetting> settings = {
     {}, {.k_stretch = 0.05}, {.k_stretch = 0.2}, {.k_stretch = 0.5}, {.time_step_s = 0.005}, {.iterations = 48}};
@@ -50,8 +50,8 @@ const std::vector<MeasuredJiggle>& jolted(Broken how)
 std::vector<Extent> extents(Broken how, const std::string& quantity)
 {
     std::vector<Extent> found;
-    for (const Measurement& figure : jiggle_figures("limb", jolted(how)))
-        if (figure.quantity == quantity) found.push_back(analysis::extent_of(test_support::claim("C09"), figure));
+    for (const Measurement& measurement : jiggle_values("limb", jolted(how)))
+        if (measurement.quantity == quantity) found.push_back(analysis::extent_of(test_support::claim("C09"), measurement));
     return found;
 }
 
@@ -62,8 +62,8 @@ const char* const range = "frequency_ratio_over_k_stretch";
 TEST(BrokenJiggle, AsItIsKStretchSetsTheFrequency)
 {
     EXPECT_EQ(extents(Broken::nothing, share), std::vector<Extent>{Extent::whole});
-    const auto measured = jiggle_figures("limb", jolted(Broken::nothing));
-    EXPECT_GT(figures_of(measured, range).at(0).low, 1.0);
+    const auto measured = jiggle_values("limb", jolted(Broken::nothing));
+    EXPECT_GT(values_of(measured, range).at(0).low, 1.0);
     EXPECT_EQ(extents(Broken::nothing, correlation), std::vector<Extent>{Extent::whole});
 }
 
@@ -85,7 +85,7 @@ TEST(BrokenJiggle, WithoutStretchKStretchSaysNothing)
         EXPECT_EQ(dropped[i].response.excursion_m, dropped[0].response.excursion_m);
         EXPECT_NE(sound[i].response.excursion_m, sound[0].response.excursion_m);
     }
-    EXPECT_NEAR(figures_of(jiggle_figures("limb", dropped), range).at(0).value, 1.0, 1e-12);
+    EXPECT_NEAR(values_of(jiggle_values("limb", dropped), range).at(0).value, 1.0, 1e-12);
     for (const Extent extent : extents(Broken::stretch_dropped, correlation)) EXPECT_EQ(extent, Extent::none);
 }
 
@@ -102,7 +102,7 @@ TEST(BrokenJiggle, TheSignTurnedRoundDoesNotComeToRest)
 TEST(BrokenJiggle, WithOneClassLessItSwingsMoreSlowly)
 {
     const auto frequency = [](Broken how) {
-        return figures_of(jiggle_figures("limb", jolted(how)), "frequency_hz", {.k_stretch = 0.1, .iterations = 24.0, .time_step_s = 0.01})
+        return values_of(jiggle_values("limb", jolted(how)), "frequency_hz", {.k_stretch = 0.1, .iterations = 24.0, .time_step_s = 0.01})
             .at(0);
     };
     for (const Broken how : {Broken::bind_dropped, Broken::stretch_dropped, Broken::volume_dropped}) {
@@ -114,8 +114,8 @@ TEST(BrokenJiggle, WithOneClassLessItSwingsMoreSlowly)
 TEST(BrokenJiggle, WhicheverClassIsDroppedAStepIsAStep)
 {
     for (const Broken how : {Broken::nothing, Broken::bind_dropped, Broken::stretch_dropped, Broken::volume_dropped}) {
-        const auto measured = jiggle_figures("limb", jolted(how));
-        EXPECT_NEAR(figures_of(measured, "frequency_ratio_at_half_time_step").at(0).value, 2.0, 1e-6) << name_of(how);
+        const auto measured = jiggle_values("limb", jolted(how));
+        EXPECT_NEAR(values_of(measured, "frequency_ratio_at_half_time_step").at(0).value, 2.0, 1e-6) << name_of(how);
     }
 }
 

@@ -60,15 +60,15 @@ VerdictKind verdict(const std::vector<Measurement>& measured)
 std::vector<Measurement> single(const std::vector<Measurement>& measured, const std::string& of)
 {
     std::vector<Measurement> found;
-    for (const Measurement& figure : measured)
-        if (!figure.quantity.ends_with("_of_a_pass") && (of.empty() || figure.of.constraint == of)) found.push_back(figure);
+    for (const Measurement& measurement : measured)
+        if (!measurement.quantity.ends_with("_of_a_pass") && (of.empty() || measurement.of.constraint == of)) found.push_back(measurement);
     return found;
 }
 
 double drift(const std::vector<Measurement>& measured, const std::string& quantity, const std::string& of)
 {
-    for (const Measurement& figure : measured)
-        if (figure.quantity == quantity && figure.of.constraint == of) return figure.value;
+    for (const Measurement& measurement : measured)
+        if (measurement.quantity == quantity && measurement.of.constraint == of) return measurement.value;
     ADD_FAILURE() << quantity;
     return 0.0;
 }

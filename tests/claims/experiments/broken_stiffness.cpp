@@ -49,10 +49,10 @@ std::vector<Measurement> control(Method method)
 {
     std::vector<Measurement> measured;
     for (const Varied varied : {Varied::iterations, Varied::time_step})
-        for (Measurement figure : ratios(held_flesh(), method, varied)) {
-            figure.of.deformer = "pbs";
-            figure.of.load = "zone";
-            measured.push_back(figure);
+        for (Measurement measurement : ratios(held_flesh(), method, varied)) {
+            measurement.of.deformer = "pbs";
+            measurement.of.load = "zone";
+            measured.push_back(measurement);
         }
     measured.push_back({"C11", "stiffness_ratio_at_twice_resolution", measured.front().of, 1.0, 1.0, 1.0, "1"});  // not varied
     return measured;

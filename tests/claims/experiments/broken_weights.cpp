@@ -24,8 +24,8 @@ using analysis::Measurement;
 using analysis::VerdictKind;
 using experiments::WeightsComparison;
 using test_support::Broken;
-using test_support::figures_of;
 using test_support::hand_strain_jump;
+using test_support::values_of;
 
 const std::string of_pbs = "pbs", of_lbs = "lbs", strain_jump = "strain_jump_over_rigid_weights";
 
@@ -86,13 +86,13 @@ VerdictKind verdict(const std::vector<Measurement>& measured)
 // The verdict for one deformer alone.
 VerdictKind verdict(const WeightsComparison& comparison, const std::string& deformer)
 {
-    EXPECT_EQ(figures_of(comparison.figures, strain_jump, {.deformer = deformer}).size(), 1u);
-    return verdict(figures_of(comparison.figures, strain_jump, {.deformer = deformer}));
+    EXPECT_EQ(values_of(comparison.measured, strain_jump, {.deformer = deformer}).size(), 1u);
+    return verdict(values_of(comparison.measured, strain_jump, {.deformer = deformer}));
 }
 
-Measurement figure(const WeightsComparison& comparison, const std::string& deformer)
+Measurement measurement(const WeightsComparison& comparison, const std::string& deformer)
 {
-    return figures_of(comparison.figures, strain_jump, {.deformer = deformer}).at(0);
+    return values_of(comparison.measured, strain_jump, {.deformer = deformer}).at(0);
 }
 
 // Eq. 1 by hand, with weights of Eq. 2 or without blending: the forearm is rotated about the limb's axis, and the upper arm stays.
@@ -110,7 +110,7 @@ pbs::Positions turned(bool is_by_eq_2)
 
 TEST(BrokenWeights, AsTheyAreTheResultIsSmoother)
 {
-    EXPECT_EQ(verdict(sound().figures), VerdictKind::reproduced);
+    EXPECT_EQ(verdict(sound().measured), VerdictKind::reproduced);
     for (const std::string& deformer : {of_pbs, of_lbs}) EXPECT_EQ(verdict(sound(), deformer), VerdictKind::reproduced) << deformer;
 }
 
@@ -118,22 +118,23 @@ TEST(BrokenWeights, TheFigureOfLbsIsTheRatioOfStrainsByHand)
 {
     const auto near = near_joint(limb(), experiments::limb_joints(limb()).at(0));
     const double smooth = hand_strain_jump(limb().mesh, near, turned(true)), rough = hand_strain_jump(limb().mesh, near, turned(false));
-    EXPECT_NEAR(figure(sound(), of_lbs).value, smooth / rough, 1e-9);  // f64
+    EXPECT_NEAR(measurement(sound(), of_lbs).value, smooth / rough, 1e-9);  // f64
 }
 
 // The defects below are introduced by a file; the weights of Eq. 2 from a file equal those of Eq. 2.
 TEST(BrokenWeights, Equation2FromAFileIsEquation2)
 {
     const WeightsComparison from_file = twisted_with([](int) { return 0.5; });
-    for (const std::string& deformer : {of_pbs, of_lbs}) EXPECT_EQ(figure(from_file, deformer).value, figure(sound(), deformer).value);
+    for (const std::string& deformer : {of_pbs, of_lbs})
+        EXPECT_EQ(measurement(from_file, deformer).value, measurement(sound(), deformer).value);
 }
 
 TEST(BrokenWeights, RigidOnesInTheirPlaceAreNotSmoother)
 {
     const WeightsComparison rigid = twisted_with([](int v) { return limb().binding.bone[v]; });
-    EXPECT_EQ(verdict(rigid.figures), VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict(rigid.measured), VerdictKind::not_reproduced);
     for (const std::string& deformer : {of_pbs, of_lbs}) {
-        EXPECT_EQ(figure(rigid, deformer).value, 1.0);
+        EXPECT_EQ(measurement(rigid, deformer).value, 1.0);
         EXPECT_EQ(verdict(rigid, deformer), VerdictKind::not_reproduced) << deformer;
     }
 }
@@ -146,9 +147,9 @@ int in_turn(int v)
 TEST(BrokenWeights, BonesInTurnAreRougher)
 {
     const WeightsComparison rough = twisted_with(in_turn);
-    EXPECT_EQ(verdict(rough.figures), VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict(rough.measured), VerdictKind::not_reproduced);
     EXPECT_EQ(verdict(rough, of_lbs), VerdictKind::not_reproduced);
-    EXPECT_GT(figure(rough, of_lbs).value, 1.0);
+    EXPECT_GT(measurement(rough, of_lbs).value, 1.0);
 }
 
 TEST(BrokenWeights, TheSolverAloneUndoesWhatTheyTear)
@@ -156,15 +157,15 @@ TEST(BrokenWeights, TheSolverAloneUndoesWhatTheyTear)
     EXPECT_EQ(verdict(twisted_with(in_turn), of_pbs), VerdictKind::reproduced);
     const WeightsComparison left = twisted_with(in_turn, Broken::nothing_projected);
     EXPECT_EQ(verdict(left, of_pbs), VerdictKind::not_reproduced);
-    EXPECT_NEAR(figure(left, of_pbs).value, figure(left, of_lbs).value, 1e-3);  // f32
+    EXPECT_NEAR(measurement(left, of_pbs).value, measurement(left, of_lbs).value, 1e-3);  // f32
 }
 
 TEST(BrokenWeights, NothingProjectedIsLbs)
 {
     const WeightsComparison left = twisted(Broken::nothing_projected);
-    EXPECT_EQ(figure(left, of_lbs).value, figure(sound(), of_lbs).value);
-    EXPECT_NEAR(figure(left, of_pbs).value, figure(sound(), of_lbs).value, 1e-4);  // f32
-    EXPECT_GT(std::abs(figure(sound(), of_pbs).value - figure(sound(), of_lbs).value), 0.1);
+    EXPECT_EQ(measurement(left, of_lbs).value, measurement(sound(), of_lbs).value);
+    EXPECT_NEAR(measurement(left, of_pbs).value, measurement(sound(), of_lbs).value, 1e-4);  // f32
+    EXPECT_GT(std::abs(measurement(sound(), of_pbs).value - measurement(sound(), of_lbs).value), 0.1);
 }
 
 }  // namespace

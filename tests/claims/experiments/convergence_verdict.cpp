@@ -1,6 +1,6 @@
 // The verdicts on C03 and C12 follow from the values that the convergence study writes, and change when the paths behind them are altered.
 // Reference: the rules in experiments/verdicts/claims.toml.
-#include "experiments/studies/convergence/convergence_figures.hpp"
+#include "experiments/studies/convergence/convergence_values.hpp"
 
 #include "analysis/records/atomic_file.hpp"
 #include "analysis/verdict.hpp"
@@ -21,7 +21,7 @@ VerdictKind kind_for(const std::string& id, const std::vector<ConvergencePaths>&
 {
     const auto claims = analysis::parse_claims(analysis::read_text(PBS_CLAIMS_FILE), "claims.toml");
     const auto claim = std::find_if(claims.begin(), claims.end(), [&](const analysis::Claim& entry) { return entry.id == id; });
-    return analysis::judge(*claim, {.measurements = experiments::convergence_figures({paths, false, ""})}).kind;
+    return analysis::judge(*claim, {.measurements = experiments::convergence_values({paths, false, ""})}).kind;
 }
 
 // The volume converges after one iteration from LBS and after two from all other initial guesses, so only the residual decides.

@@ -36,8 +36,8 @@ VerdictKind verdict(const std::vector<std::vector<MeasuredJiggle>>& bodies)
 {
     analysis::Records records;
     for (std::size_t body = 0; body < bodies.size(); ++body)
-        for (const auto& figure : experiments::jiggle_figures("body " + std::to_string(body), bodies[body]))
-            records.measurements.push_back(figure);
+        for (const auto& value : experiments::jiggle_values("body " + std::to_string(body), bodies[body]))
+            records.measurements.push_back(value);
     return judge(test_support::claim("C09"), records).kind;
 }
 
@@ -45,7 +45,7 @@ TEST(JiggleVerdict, EveryJudgedQuantityIsWrittenAndNoneUnknown)
 {
     const analysis::Claim claim = test_support::claim("C09");
     std::set<std::string> known(claim.metrics.begin(), claim.metrics.end()), written;
-    for (const auto& figure : experiments::jiggle_figures("limb", flesh(elastic_hz))) written.insert(figure.quantity);
+    for (const auto& value : experiments::jiggle_values("limb", flesh(elastic_hz))) written.insert(value.quantity);
     for (const std::string& quantity : known) EXPECT_TRUE(written.contains(quantity)) << quantity;
     known.insert(claim.reported.begin(), claim.reported.end());
     for (const std::string& quantity : written) EXPECT_TRUE(known.contains(quantity)) << quantity;

@@ -22,7 +22,7 @@ int main()
     if (!fem.solve(no_springs, targets).finite) return 4;
 
     const double error_m = (fem.positions() - targets).cwiseAbs().maxCoeff();
-    const auto metrics = analysis::Ruler{mesh.rest, mesh.tets}.measure(fem.positions());  // analysis
+    const auto metrics = analysis::MeshMetrics{mesh.rest, mesh.tets}.measure(fem.positions());  // analysis
     std::printf("tets %d, bones %d, moved to within %.1e m, volume change %.1e %%\n", int(mesh.tets.rows()),
                 int(limb.skeleton.bones.size()), error_m, metrics.volume_change_pct);
 }

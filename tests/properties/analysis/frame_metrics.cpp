@@ -17,7 +17,7 @@
 namespace {
 
 using analysis::FrameMetrics;
-using analysis::Ruler;
+using analysis::MeshMetrics;
 using pbs::Positions;
 
 struct Sample {
@@ -37,7 +37,7 @@ Sample wobbled_bar()
 
 FrameMetrics measure(const Sample& sample)
 {
-    return Ruler(sample.mesh.rest, sample.mesh.tets).measure(sample.frame);
+    return MeshMetrics(sample.mesh.rest, sample.mesh.tets).measure(sample.frame);
 }
 
 void expect_same(const FrameMetrics& a, const FrameMetrics& b)

@@ -2,7 +2,7 @@
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/run/region_record.hpp"
 #include "experiments/studies/ambiguity/volume_readings.hpp"
-#include "experiments/studies/artefacts/artefact_figures.hpp"
+#include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/artefacts/smoothness_comparison.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
@@ -171,7 +171,7 @@ TEST(KeptTables, OfMeasuredAndPrintedValues)
             ++measured;
         }
         if (name == "printed.csv") {
-            expect_same_cells(analysis::printed_table(analysis::printed_figures(file)), analysis::read_csv(file), file);
+            expect_same_cells(analysis::printed_table(analysis::printed_values(file)), analysis::read_csv(file), file);
             ++printed;
         }
     }

@@ -12,8 +12,8 @@
 namespace {
 
 using analysis::ErrorDomain;
+using analysis::ErrorMetrics;
 using analysis::ErrorNorms;
-using analysis::ErrorRuler;
 using pbs::Positions;
 
 ErrorDomain bar_domain()
@@ -29,7 +29,7 @@ TEST(ErrorNorms, TranslationByKnownDistance)
     ErrorDomain domain = bar_domain();
     domain.blended = {0, 5, 7};
     const Eigen::RowVector3d d(0.03, -0.04, 0.12);  // length 0.13
-    const ErrorNorms error = ErrorRuler(domain).measure(domain.rest.rowwise() + d, domain.rest);
+    const ErrorNorms error = ErrorMetrics(domain).measure(domain.rest.rowwise() + d, domain.rest);
     EXPECT_NEAR(error.linf_m, 0.13, 1e-13);
     EXPECT_NEAR(error.l2_pct, 100.0 * 0.13 / bar_diagonal, 1e-11);
     EXPECT_NEAR(error.joint_pct, 130.0, 1e-10);
@@ -47,7 +47,7 @@ TEST(ErrorNorms, VerticesWeighByTheirLumpedRestVolume)
     domain.bone_distance_m = (Eigen::VectorXd(5) << 9, 9, 9, 1.0, 3.0).finished();
     Positions moved = domain.rest;
     moved(4, 0) += 1.0;
-    const ErrorNorms error = ErrorRuler(domain).measure(moved, domain.rest);
+    const ErrorNorms error = ErrorMetrics(domain).measure(moved, domain.rest);
     EXPECT_NEAR(error.l2_pct, 100.0 * std::sqrt(0.75 / 4.0) / std::sqrt(18.0), 1e-12);
     EXPECT_NEAR(error.joint_pct, 100.0 * std::sqrt(0.75) / (0.25 * 1.0 + 0.75 * 3.0), 1e-12);
 }
@@ -57,11 +57,11 @@ TEST(ErrorNorms, PrescribedVerticesAreLeftOut)
     ErrorDomain domain = bar_domain();
     Positions moved = domain.rest;
     moved.row(4) += Eigen::RowVector3d(0.0, 1.0, 0.0);
-    EXPECT_NEAR(ErrorRuler(domain).measure(moved, domain.rest).linf_m, 1.0, 1e-15);
+    EXPECT_NEAR(ErrorMetrics(domain).measure(moved, domain.rest).linf_m, 1.0, 1e-15);
     domain.blended = {4, 5};
     domain.prescribed.assign(domain.rest.rows(), false);
     domain.prescribed[4] = true;
-    const ErrorNorms error = ErrorRuler(domain).measure(moved, domain.rest);
+    const ErrorNorms error = ErrorMetrics(domain).measure(moved, domain.rest);
     EXPECT_EQ(error.linf_m, 0.0);
     EXPECT_EQ(error.l2_pct, 0.0);
     EXPECT_EQ(error.joint_pct, 0.0);
@@ -70,9 +70,9 @@ TEST(ErrorNorms, PrescribedVerticesAreLeftOut)
 TEST(ErrorNorms, NothingToMeasureIsNaN)
 {
     ErrorDomain domain = bar_domain();
-    EXPECT_TRUE(std::isnan(ErrorRuler(domain).measure(domain.rest, domain.rest).joint_pct));
+    EXPECT_TRUE(std::isnan(ErrorMetrics(domain).measure(domain.rest, domain.rest).joint_pct));
     domain.prescribed.assign(domain.rest.rows(), true);
-    const ErrorNorms error = ErrorRuler(domain).measure(domain.rest, domain.rest);
+    const ErrorNorms error = ErrorMetrics(domain).measure(domain.rest, domain.rest);
     EXPECT_TRUE(std::isnan(error.l2_pct));
     EXPECT_TRUE(std::isnan(error.linf_m));
 }
@@ -82,7 +82,7 @@ TEST(ErrorNorms, BrokenFrameIsNaN)
     const ErrorDomain domain = bar_domain();
     Positions broken = domain.rest;
     broken(3, 1) = std::numeric_limits<double>::quiet_NaN();
-    const ErrorNorms error = ErrorRuler(domain).measure(broken, domain.rest);
+    const ErrorNorms error = ErrorMetrics(domain).measure(broken, domain.rest);
     EXPECT_TRUE(std::isnan(error.l2_pct));
     EXPECT_TRUE(std::isnan(error.linf_m));
 }
@@ -92,16 +92,16 @@ TEST(ErrorNorms, RefusesArraysThatDoNotFit)
     const ErrorDomain good = bar_domain();
     ErrorDomain bad = good;
     bad.prescribed.assign(3, false);
-    EXPECT_THROW(ErrorRuler{bad}, pbs::InputError);
+    EXPECT_THROW(ErrorMetrics{bad}, pbs::InputError);
     bad = good;
     bad.blended = {static_cast<int>(good.rest.rows())};
-    EXPECT_THROW(ErrorRuler{bad}, pbs::InputError);
+    EXPECT_THROW(ErrorMetrics{bad}, pbs::InputError);
     bad = good;
     bad.blended = {0};
     bad.bone_distance_m.resize(0);
-    EXPECT_THROW(ErrorRuler{bad}, pbs::InputError);
-    EXPECT_THROW(ErrorRuler(good).measure(good.rest.topRows(2), good.rest), pbs::InputError);
-    EXPECT_THROW(ErrorRuler(good).measure(good.rest, good.rest.topRows(2)), pbs::InputError);
+    EXPECT_THROW(ErrorMetrics{bad}, pbs::InputError);
+    EXPECT_THROW(ErrorMetrics(good).measure(good.rest.topRows(2), good.rest), pbs::InputError);
+    EXPECT_THROW(ErrorMetrics(good).measure(good.rest, good.rest.topRows(2)), pbs::InputError);
 }
 
 TEST(ErrorH1, OfALinearDifferenceIsTheNormOfItsGradient)

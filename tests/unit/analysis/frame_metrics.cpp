@@ -14,7 +14,7 @@
 namespace {
 
 using analysis::FrameMetrics;
-using analysis::Ruler;
+using analysis::MeshMetrics;
 using pbs::Positions;
 using test_support::unit_tet;
 
@@ -31,7 +31,7 @@ pbs::TetMesh two_tets()
 
 FrameMetrics measured(const pbs::TetMesh& mesh, const Eigen::Matrix3d& map)
 {
-    return Ruler(mesh.rest, mesh.tets).measure(Positions(mesh.rest * map.transpose()));
+    return MeshMetrics(mesh.rest, mesh.tets).measure(Positions(mesh.rest * map.transpose()));
 }
 
 TEST(FrameMetrics, RestMeasuresNothing)
@@ -93,7 +93,7 @@ TEST(FrameMetrics, InvertedTetThatCancelsShowsInTheAbsoluteMeasure)
     Positions frame = mesh.rest;
     frame(3, 2) = -1.0;
     frame(4, 2) = -3.0;
-    const FrameMetrics metrics = Ruler(mesh.rest, mesh.tets).measure(frame);
+    const FrameMetrics metrics = MeshMetrics(mesh.rest, mesh.tets).measure(frame);
     EXPECT_NEAR(metrics.volume_change_pct, 0.0, 1e-12);
     EXPECT_NEAR(metrics.volume_abs_change_pct, 200.0, 1e-12);
     EXPECT_EQ(metrics.inverted_tets, 1);
@@ -105,7 +105,7 @@ TEST(FrameMetrics, FlatTetCountsAsInverted)
     auto mesh = unit_tet();
     Positions frame = mesh.rest;
     frame.row(3).setZero();
-    EXPECT_EQ(Ruler(mesh.rest, mesh.tets).measure(frame).inverted_tets, 1);
+    EXPECT_EQ(MeshMetrics(mesh.rest, mesh.tets).measure(frame).inverted_tets, 1);
 }
 
 TEST(FrameMetrics, MeanOfVolumeRatiosIsWeightedByRestVolume)
@@ -114,10 +114,10 @@ TEST(FrameMetrics, MeanOfVolumeRatiosIsWeightedByRestVolume)
     mesh.rest(4, 2) = -3.0;  // rest volumes 1/6 and 3/6
     Positions frame = mesh.rest;
     frame(3, 2) = 0.5;  // J = 1/2 in the small one
-    const Ruler ruler(mesh.rest, mesh.tets);
-    EXPECT_NEAR(ruler.measure(frame).mean_abs_j_minus_1, 0.25 * 0.5, 1e-14);
-    EXPECT_NEAR(ruler.volume_ratios(frame)(0), 0.5, 1e-14);
-    EXPECT_NEAR(ruler.volume_ratios(frame)(1), 1.0, 1e-14);
+    const MeshMetrics mesh_metrics(mesh.rest, mesh.tets);
+    EXPECT_NEAR(mesh_metrics.measure(frame).mean_abs_j_minus_1, 0.25 * 0.5, 1e-14);
+    EXPECT_NEAR(mesh_metrics.volume_ratios(frame)(0), 0.5, 1e-14);
+    EXPECT_NEAR(mesh_metrics.volume_ratios(frame)(1), 1.0, 1e-14);
 }
 
 TEST(FrameMetrics, BrokenFrameIsMeasuredNotRefused)
@@ -126,7 +126,7 @@ TEST(FrameMetrics, BrokenFrameIsMeasuredNotRefused)
     for (int vertex : {3, 4}) {
         Positions frame = mesh.rest;
         frame(vertex, 2) = std::numeric_limits<double>::quiet_NaN();
-        const FrameMetrics metrics = Ruler(mesh.rest, mesh.tets).measure(frame);
+        const FrameMetrics metrics = MeshMetrics(mesh.rest, mesh.tets).measure(frame);
         EXPECT_EQ(metrics.inverted_tets, 1);
         EXPECT_TRUE(std::isnan(metrics.volume_change_pct));
         EXPECT_TRUE(std::isnan(metrics.j_min));
@@ -137,10 +137,10 @@ TEST(FrameMetrics, BrokenFrameIsMeasuredNotRefused)
 TEST(FrameMetrics, RefusesWhatCannotBeMeasured)
 {
     const auto mesh = unit_tet();
-    EXPECT_THROW(Ruler(mesh.rest, pbs::Tets(0, 4)), pbs::InputError);
-    EXPECT_THROW(Ruler(mesh.rest.topRows(3), mesh.tets), pbs::InputError);
-    EXPECT_THROW(Ruler(-mesh.rest, mesh.tets), pbs::InputError);
-    EXPECT_THROW(Ruler(mesh.rest, mesh.tets).measure(mesh.rest.topRows(3)), pbs::InputError);
+    EXPECT_THROW(MeshMetrics(mesh.rest, pbs::Tets(0, 4)), pbs::InputError);
+    EXPECT_THROW(MeshMetrics(mesh.rest.topRows(3), mesh.tets), pbs::InputError);
+    EXPECT_THROW(MeshMetrics(-mesh.rest, mesh.tets), pbs::InputError);
+    EXPECT_THROW(MeshMetrics(mesh.rest, mesh.tets).measure(mesh.rest.topRows(3)), pbs::InputError);
 }
 
 TEST(BindRms, IsTheRootMeanSquareOfTheDistanceResiduals)

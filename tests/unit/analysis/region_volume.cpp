@@ -29,7 +29,7 @@ TEST(RegionVolume, OnlyTheStretchedHalfGrows)
 {
     pbs::Positions stretched = bar.rest;
     for (Eigen::Index i = 0; i < stretched.rows(); ++i) stretched(i, 0) += 0.5 * std::max(0.0, bar.rest(i, 0) - 1.0);
-    const auto changes = RegionRuler(bar.rest, bar.tets, halves()).measure(stretched);
+    const auto changes = RegionMetrics(bar.rest, bar.tets, halves()).measure(stretched);
     ASSERT_EQ(changes.size(), 2u);
     EXPECT_NEAR(changes[0].change_m3, 0.0, 1e-14);
     EXPECT_NEAR(changes[1].change_m3, 0.5, 1e-14);
@@ -41,13 +41,13 @@ TEST(RegionVolume, InsideOutIsTwiceTheVolumeAndSignsDoNotCancelInTheAbsolute)
 {
     pbs::Positions mirrored = bar.rest;
     mirrored.col(1) *= -1.0;
-    const auto changes = RegionRuler(bar.rest, bar.tets, halves()).measure(mirrored);
+    const auto changes = RegionMetrics(bar.rest, bar.tets, halves()).measure(mirrored);
     EXPECT_NEAR(changes[0].change_m3, -2.0, 1e-14);
     EXPECT_NEAR(changes[0].abs_change_m3, 2.0, 1e-14);
     pbs::Positions moved = bar.rest;
     for (Eigen::Index i = 0; i < moved.rows(); ++i)
         if (bar.rest(i, 0) == 1.0) moved(i, 0) = 1.25;
-    const auto both = RegionRuler(bar.rest, bar.tets, std::vector<int>(bar.tets.rows(), 0)).measure(moved);
+    const auto both = RegionMetrics(bar.rest, bar.tets, std::vector<int>(bar.tets.rows(), 0)).measure(moved);
     EXPECT_NEAR(both[0].change_m3, 0.0, 1e-14);
     EXPECT_NEAR(both[0].abs_change_m3, 0.5, 1e-14);
 }
@@ -56,17 +56,17 @@ TEST(RegionVolume, RegionsAddUpToTheWholeAndNoneIsLeftOut)
 {
     pbs::Positions bent = bar.rest;
     for (Eigen::Index i = 0; i < bent.rows(); ++i) bent(i, 2) += 0.3 * bar.rest(i, 0) * bar.rest(i, 1);
-    const auto changes = RegionRuler(bar.rest, bar.tets, halves()).measure(bent);
+    const auto changes = RegionMetrics(bar.rest, bar.tets, halves()).measure(bent);
     const double whole = pbs::tet_volumes(bent, bar.tets).sum() - pbs::tet_volumes(bar.rest, bar.tets).sum();
     EXPECT_NEAR(changes[0].change_m3 + changes[1].change_m3, whole, 1e-14);
     const std::vector<int> none(bar.tets.rows(), -1);
-    EXPECT_TRUE(RegionRuler(bar.rest, bar.tets, none).measure(bent).empty());
-    EXPECT_NEAR(RegionRuler(bar.rest, bar.tets, none).rest_volume_m3(), 2.0, 1e-14);
+    EXPECT_TRUE(RegionMetrics(bar.rest, bar.tets, none).measure(bent).empty());
+    EXPECT_NEAR(RegionMetrics(bar.rest, bar.tets, none).rest_volume_m3(), 2.0, 1e-14);
 }
 
 TEST(RegionVolume, RefusesRegionsOfAnotherMesh)
 {
-    EXPECT_THROW(RegionRuler(bar.rest, bar.tets, {0, 1}), pbs::InputError);
+    EXPECT_THROW(RegionMetrics(bar.rest, bar.tets, {0, 1}), pbs::InputError);
 }
 
 }  // namespace

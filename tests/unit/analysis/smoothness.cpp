@@ -13,7 +13,7 @@
 
 namespace {
 
-using analysis::SmoothnessRuler;
+using analysis::SmoothnessMetrics;
 using pbs::Positions;
 using pbs::Vec3;
 
@@ -22,7 +22,7 @@ pbs::TetMesh bar()
     return test_support::structured_bar({-1.0, -0.5, -0.5}, {1.0, 0.5, 0.5}, {2, 1, 1});
 }
 
-SmoothnessRuler ruler_of(const pbs::TetMesh& mesh)
+SmoothnessMetrics metrics_of(const pbs::TetMesh& mesh)
 {
     return {mesh.rest, mesh.tets, std::vector<bool>(mesh.rest.rows(), true)};
 }
@@ -34,7 +34,7 @@ TEST(Smoothness, RestRigidMotionAndUniformStretchAreSmooth)
     const Positions turned = (mesh.rest * turn.transpose()).rowwise() + Vec3(4, 5, 6).transpose();
     const Positions stretched = mesh.rest * Vec3(1.5, 1.5, 1.5).asDiagonal();
     for (const Positions& positions : std::vector<Positions>{mesh.rest, turned, stretched}) {
-        const auto smoothness = ruler_of(mesh).measure(positions);
+        const auto smoothness = metrics_of(mesh).measure(positions);
         EXPECT_NEAR(smoothness.strain_jump_rms, 0.0, 1e-12);
         EXPECT_NEAR(smoothness.bending_rms_rad, 0.0, 1e-12);
     }
@@ -49,13 +49,13 @@ TEST(Smoothness, JumpOfStrainAcrossAPlane)
     const double s = 1.6, strain = 0.5 * (s * s - 1.0);
     for (Eigen::Index v = 0; v < positions.rows(); ++v)
         if (positions(v, 0) > 0.0) positions(v, 0) *= s;
-    const double jump = ruler_of(mesh).measure(positions).strain_jump_rms;
+    const double jump = metrics_of(mesh).measure(positions).strain_jump_rms;
     Positions twice = positions;
     for (Eigen::Index v = 0; v < twice.rows(); ++v)
         if (mesh.rest(v, 0) > 0.0) twice(v, 0) = mesh.rest(v, 0) * std::sqrt(1.0 + 4.0 * strain);
     EXPECT_GT(jump, 0.0);
     EXPECT_LT(jump, strain);
-    EXPECT_NEAR(ruler_of(mesh).measure(twice).strain_jump_rms, 2.0 * jump, 1e-12);
+    EXPECT_NEAR(metrics_of(mesh).measure(twice).strain_jump_rms, 2.0 * jump, 1e-12);
 }
 
 // Two tets share a triangle of area 1/2. The apex of the second one is raised: its E_zz is known, and that of the other is 0.
@@ -68,7 +68,7 @@ TEST(Smoothness, JumpBetweenTwoTets)
     mesh.tets << 0, 1, 2, 3, 0, 2, 1, 4;
     Positions positions = mesh.rest;
     positions(3, 2) = 2.0;
-    EXPECT_NEAR(ruler_of(mesh).measure(positions).strain_jump_rms, 1.5, 1e-12);
+    EXPECT_NEAR(metrics_of(mesh).measure(positions).strain_jump_rms, 1.5, 1e-12);
 }
 
 // The right end is sheared off. A region that it does not touch is smooth, and so is one without vertices.
@@ -81,12 +81,12 @@ TEST(Smoothness, OnlyTheRegionIsMeasured)
         left[v] = mesh.rest(v, 0) < -0.2;
         if (mesh.rest(v, 0) > 0.9) positions(v, 1) += 0.7;
     }
-    EXPECT_GT(ruler_of(mesh).measure(positions).strain_jump_rms, 0.1);
-    EXPECT_GT(ruler_of(mesh).measure(positions).bending_rms_rad, 0.1);
-    const auto of_left = SmoothnessRuler(mesh.rest, mesh.tets, left).measure(positions);
+    EXPECT_GT(metrics_of(mesh).measure(positions).strain_jump_rms, 0.1);
+    EXPECT_GT(metrics_of(mesh).measure(positions).bending_rms_rad, 0.1);
+    const auto of_left = SmoothnessMetrics(mesh.rest, mesh.tets, left).measure(positions);
     EXPECT_NEAR(of_left.strain_jump_rms, 0.0, 1e-12);
     EXPECT_NEAR(of_left.bending_rms_rad, 0.0, 1e-12);
-    EXPECT_EQ(SmoothnessRuler(mesh.rest, mesh.tets, std::vector<bool>(mesh.rest.rows(), false)).measure(positions).strain_jump_rms, 0.0);
+    EXPECT_EQ(SmoothnessMetrics(mesh.rest, mesh.tets, std::vector<bool>(mesh.rest.rows(), false)).measure(positions).strain_jump_rms, 0.0);
 }
 
 // One tet whose apex is rotated by 0.3 about an edge of its base: the change of both dihedral angles is known, and no other angle changes.
@@ -100,13 +100,13 @@ TEST(Smoothness, BendingOfASkinThatIsTurnedAboutOneEdge)
     std::vector<bool> edge = {true, true, false, false};
     Positions positions = mesh.rest;
     positions.row(3) << 0.5, std::sin(0.3), std::cos(0.3);
-    EXPECT_NEAR(SmoothnessRuler(mesh.rest, mesh.tets, edge).measure(positions).bending_rms_rad, 0.3, 1e-12);
+    EXPECT_NEAR(SmoothnessMetrics(mesh.rest, mesh.tets, edge).measure(positions).bending_rms_rad, 0.3, 1e-12);
 }
 
 TEST(Smoothness, RegionOfAnotherSizeIsRefused)
 {
     const pbs::TetMesh mesh = bar();
-    EXPECT_THROW(SmoothnessRuler(mesh.rest, mesh.tets, {true}), pbs::InputError);
+    EXPECT_THROW(SmoothnessMetrics(mesh.rest, mesh.tets, {true}), pbs::InputError);
 }
 
 }  // namespace

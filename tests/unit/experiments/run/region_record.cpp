@@ -60,12 +60,12 @@ double sum_of(const analysis::CsvTable& table, const std::string& kind, const st
     return sum;
 }
 
-TEST(RegionRecord, BonesAddUpToTheRulersFigures)
+TEST(RegionRecord, BonesAddUpToTheMetricsOfTheBody)
 {
     RegionRecord record(character_of(bent()));
     record.add("lbs", bent().lbs);
     const analysis::CsvTable table = record.table();
-    const auto metrics = analysis::Ruler(bent().mesh.rest, bent().mesh.tets).measure(bent().lbs);
+    const auto metrics = analysis::MeshMetrics(bent().mesh.rest, bent().mesh.tets).measure(bent().lbs);
     EXPECT_NEAR(sum_of(table, "bone", "rest_share_pct"), 100.0, 1e-10);
     EXPECT_NEAR(sum_of(table, "bone", "change_pct"), metrics.volume_change_pct, 1e-10);
     EXPECT_NEAR(sum_of(table, "bone", "abs_change_pct"), metrics.volume_abs_change_pct, 1e-10);

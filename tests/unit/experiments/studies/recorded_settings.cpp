@@ -1,9 +1,9 @@
 // --resume repeats a run when anything changed that its work depends on. Reference: the members of the cases, each changed in turn.
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/studies/ambiguity/reading_figures.hpp"
+#include "experiments/studies/ambiguity/reading_values.hpp"
 #include "experiments/studies/ambiguity/volume_readings.hpp"
-#include "experiments/studies/artefacts/artefact_figures.hpp"
+#include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/bench/bench.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/error_split/error_split.hpp"

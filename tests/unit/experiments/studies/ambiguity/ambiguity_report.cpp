@@ -11,21 +11,21 @@ namespace {
 using analysis::Extent;
 using experiments::ClaimChange;
 using experiments::Reading;
-using experiments::ReadingFigures;
+using experiments::ReadingValues;
 
 Reading named(const std::string& name)
 {
     return {.place = "Table 1: jiggling", .name = name, .baseline = "A", .options = {}};
 }
 
-ReadingFigures with(const std::string& claim, double value, Extent extent)
+ReadingValues with(const std::string& claim, double value, Extent extent)
 {
     return {{{claim, "quantity", {.body = "limb"}, "1", "1 or more", value, extent}}, false};
 }
 
 // Appends the changes of one reading.
-void add(std::vector<ClaimChange>& changes, const std::string& claim, const Reading& reading, const ReadingFigures& a,
-         const ReadingFigures& b)
+void add(std::vector<ClaimChange>& changes, const std::string& claim, const Reading& reading, const ReadingValues& a,
+         const ReadingValues& b)
 {
     std::ranges::copy(experiments::claim_changes("limb", claim, reading, a, b), std::back_inserter(changes));
 }
@@ -51,9 +51,9 @@ TEST(ClaimChangesText, ShowsTheRatioAndMarksAFlip)
 TEST(ClaimChangesText, ShowsTheFigureThatFlips)
 {
     std::vector<ClaimChange> changes;
-    ReadingFigures a = with("C02", 1.0, Extent::whole), b = with("C02", 9.0, Extent::whole);
-    a.figures.push_back({"C02", "other", {.body = "limb"}, "1", "", 1.0, Extent::whole});
-    b.figures.push_back({"C02", "other", {.body = "limb"}, "1", "", 1.1, Extent::part});
+    ReadingValues a = with("C02", 1.0, Extent::whole), b = with("C02", 9.0, Extent::whole);
+    a.values.push_back({"C02", "other", {.body = "limb"}, "1", "", 1.0, Extent::whole});
+    b.values.push_back({"C02", "other", {.body = "limb"}, "1", "", 1.1, Extent::part});
     add(changes, "C02", named("B"), a, b);
     EXPECT_TRUE(has(experiments::claim_changes_text(changes), "x1.1!"));
 }
@@ -78,7 +78,7 @@ TEST(ClaimChangesText, OfAClaimWithoutAValueHasADash)
 TEST(ClaimChangesText, SaysWhichQuantitiesAreLeftOutAndWhy)
 {
     std::vector<ClaimChange> changes;
-    ReadingFigures a = with("C09", 2.0, Extent::whole), b = with("C09", 3.0, Extent::whole);
+    ReadingValues a = with("C09", 2.0, Extent::whole), b = with("C09", 3.0, Extent::whole);
     a.left_out = b.left_out = {{"C09", "share", "four settings"}, {"C09", "range", "four settings"}};
     add(changes, "C09", named("B"), a, b);
     add(changes, "C09", named("other"), a, b);

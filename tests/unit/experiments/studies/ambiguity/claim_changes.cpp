@@ -9,25 +9,25 @@ namespace {
 
 using analysis::Extent;
 using experiments::ClaimChange;
-using experiments::JudgedFigure;
+using experiments::JudgedValue;
 using experiments::Reading;
-using experiments::ReadingFigures;
+using experiments::ReadingValues;
 
 const Reading reading = {.place = "Eq. 2", .name = "B", .baseline = "A", .options = {}};
 
-JudgedFigure figure(double value, Extent extent, analysis::Limit limit = analysis::Limit::none)
+JudgedValue value(double value, Extent extent, analysis::Limit limit = analysis::Limit::none)
 {
     return {"C09", "damping_ratio", {.body = "limb"}, "1", "0.0001 to 1", value, extent, limit};
 }
 
-std::vector<ClaimChange> compared(const ReadingFigures& a, const ReadingFigures& b)
+std::vector<ClaimChange> compared(const ReadingValues& a, const ReadingValues& b)
 {
     return experiments::claim_changes("limb", "C09", reading, a, b);
 }
 
 TEST(ClaimChanges, HoldBothValuesAndFlipWhereTheBoundJudgesThemOtherwise)
 {
-    const auto table = compared({{figure(0.5, Extent::whole)}}, {{figure(1.25, Extent::none, analysis::Limit::at_least)}});
+    const auto table = compared({{value(0.5, Extent::whole)}}, {{value(1.25, Extent::none, analysis::Limit::at_least)}});
     ASSERT_EQ(table.size(), 1u);
     EXPECT_EQ(table.at(0).place, "Eq. 2");
     EXPECT_EQ(table.at(0).change, 0.75);
@@ -40,17 +40,17 @@ TEST(ClaimChanges, HoldBothValuesAndFlipWhereTheBoundJudgesThemOtherwise)
 
 TEST(ClaimChanges, DoNotFlipWithinTheBound)
 {
-    EXPECT_EQ(compared({{figure(0.5, Extent::whole)}}, {{figure(0.6, Extent::whole)}}).at(0).verdict_flips, "no");
+    EXPECT_EQ(compared({{value(0.5, Extent::whole)}}, {{value(0.6, Extent::whole)}}).at(0).verdict_flips, "no");
 }
 
 TEST(ClaimChanges, WithoutAFigureOfEitherSayWhoseIsMissing)
 {
-    const auto of_a_alone = compared({{figure(0.5, Extent::whole)}}, {});
+    const auto of_a_alone = compared({{value(0.5, Extent::whole)}}, {});
     EXPECT_EQ(of_a_alone.at(0).verdict_flips, "no_value");
     EXPECT_EQ(of_a_alone.at(0).reason, "B has no such figure");
     EXPECT_FALSE(of_a_alone.at(0).b.has_value());
     EXPECT_FALSE(of_a_alone.at(0).change.has_value());
-    const auto of_b_alone = compared({}, {{figure(0.5, Extent::whole)}});
+    const auto of_b_alone = compared({}, {{value(0.5, Extent::whole)}});
     EXPECT_EQ(of_b_alone.at(0).reason, "A has no such figure");
     EXPECT_EQ(of_b_alone.at(0).b, 0.5);
 }
@@ -65,7 +65,7 @@ TEST(ClaimChanges, OfAClaimWithoutAFigureHaveARowThatSaysSo)
 
 TEST(ClaimChanges, OfAQuantityThatIsLeftOutHaveARowWithTheReason)
 {
-    const ReadingFigures measured = {{figure(0.5, Extent::whole)}, false, {{"C09", "share", "four settings"}, {"C12", "other", "why"}}};
+    const ReadingValues measured = {{value(0.5, Extent::whole)}, false, {{"C09", "share", "four settings"}, {"C12", "other", "why"}}};
     const auto table = compared(measured, measured);
     ASSERT_EQ(table.size(), 2u);
     EXPECT_EQ(table.at(0).verdict_flips, "no");
@@ -77,22 +77,22 @@ TEST(ClaimChanges, OfAQuantityThatIsLeftOutHaveARowWithTheReason)
 
 TEST(ClaimChanges, OfAReadingThatBreaksDownFlipWhatHeld)
 {
-    const ReadingFigures broken = {{}, true};
-    const auto held = compared({{figure(0.5, Extent::whole)}}, broken), failed = compared({{figure(2.0, Extent::none)}}, broken);
+    const ReadingValues broken = {{}, true};
+    const auto held = compared({{value(0.5, Extent::whole)}}, broken), failed = compared({{value(2.0, Extent::none)}}, broken);
     EXPECT_EQ(held.at(0).verdict_flips, "yes");
     EXPECT_EQ(failed.at(0).verdict_flips, "no");
     EXPECT_EQ(held.at(0).reason, "B breaks down");
     EXPECT_FALSE(held.at(0).b.has_value());
-    const auto with_a_figure =
-        compared({{figure(0.5, Extent::whole)}}, {{figure(std::numeric_limits<double>::quiet_NaN(), Extent::none)}, true});
-    EXPECT_EQ(with_a_figure.at(0).verdict_flips, "yes");
-    EXPECT_EQ(with_a_figure.at(0).reason, "B breaks down");
+    const auto with_a_value =
+        compared({{value(0.5, Extent::whole)}}, {{value(std::numeric_limits<double>::quiet_NaN(), Extent::none)}, true});
+    EXPECT_EQ(with_a_value.at(0).verdict_flips, "yes");
+    EXPECT_EQ(with_a_value.at(0).reason, "B breaks down");
     EXPECT_EQ(compared({}, broken).at(0).reason, "B breaks down");
 }
 
 TEST(ClaimChanges, OfAFigureThatWasZeroHaveNoRatio)
 {
-    const auto table = compared({{figure(0.0, Extent::none)}}, {{figure(0.5, Extent::whole)}});
+    const auto table = compared({{value(0.0, Extent::none)}}, {{value(0.5, Extent::whole)}});
     EXPECT_FALSE(table.at(0).b_over_a.has_value());
     EXPECT_EQ(table.at(0).change, 0.5);
 }
@@ -106,7 +106,7 @@ TEST(ClaimChanges, OfAReadingThatCannotTouchTheClaimSayWhy)
 
 TEST(ClaimChanges, KeepCasesOfOneQuantityApart)
 {
-    JudgedFigure a = figure(0.5, Extent::whole), other = figure(0.7, Extent::whole);
+    JudgedValue a = value(0.5, Extent::whole), other = value(0.7, Extent::whole);
     other.of = {.body = "human"};
     const auto table = compared({{a, other}}, {{other, a}});
     ASSERT_EQ(table.size(), 2u);

@@ -42,9 +42,9 @@ TEST(ReadMotion, OfTheScenesOwnReadingIsTheSolvers)
     pbs::PbsSolver solver(limb.mesh, limb.binding.distance, {}, {});
     solver.advance(lbs, pbs::posed_bind_points(limb.binding, pose), 0.01);
     EXPECT_EQ(moved.shapes[2], solver.positions());
-    const analysis::Ruler ruler(limb.mesh.rest, limb.mesh.tets);
-    EXPECT_EQ(moved.pbs.volume_change_pct[2], ruler.measure(solver.positions()).volume_change_pct);
-    EXPECT_EQ(moved.lbs.volume_change_pct[2], ruler.measure(lbs).volume_change_pct);
+    const analysis::MeshMetrics mesh_metrics(limb.mesh.rest, limb.mesh.tets);
+    EXPECT_EQ(moved.pbs.volume_change_pct[2], mesh_metrics.measure(solver.positions()).volume_change_pct);
+    EXPECT_EQ(moved.lbs.volume_change_pct[2], mesh_metrics.measure(lbs).volume_change_pct);
     EXPECT_EQ(moved.pbs.angle_deg, (std::vector<double>{0.0, 20.0, 40.0, 60.0}));
     EXPECT_TRUE(moved.finite);
 }

@@ -6,7 +6,7 @@
 namespace {
 
 using experiments::Reading;
-using experiments::ReadingFigures;
+using experiments::ReadingValues;
 
 std::vector<Reading> readings()
 {
@@ -24,13 +24,13 @@ TEST(ReadingComparison, MeasuresWhatTouchesTheClaimAndItsBaselineOnce)
     experiments::ReadingComparison comparison("limb", readings());
     std::vector<std::string> measured;
     comparison.measure({"C10"}, [&](const std::vector<Reading>& touching) {
-        std::vector<ReadingFigures> figures;
+        std::vector<ReadingValues> values;
         for (const Reading& reading : touching) {
             measured.push_back(reading.name);
             const double ms = reading.name == "own" ? 2.0 : 3.0;
-            figures.push_back({{{"C10", "ms", {.body = "limb"}, "ms", "", ms, analysis::Extent::whole}}, false});
+            values.push_back({{{"C10", "ms", {.body = "limb"}, "ms", "", ms, analysis::Extent::whole}}, false});
         }
-        return figures;
+        return values;
     });
     EXPECT_EQ(measured, (std::vector<std::string>{"own", "lumped"}));
     ASSERT_EQ(comparison.changes().size(), 2u);
@@ -43,7 +43,7 @@ TEST(ReadingComparison, SaysWhichReadingBreaksDown)
 {
     experiments::ReadingComparison comparison("limb", readings());
     comparison.measure({"C10"}, [](const std::vector<Reading>& touching) {
-        return std::vector<ReadingFigures>(touching.size(), ReadingFigures{{}, true});
+        return std::vector<ReadingValues>(touching.size(), ReadingValues{{}, true});
     });
     EXPECT_NE(comparison.breakdown().find("lumped (C10)"), std::string::npos);
     EXPECT_EQ(comparison.changes().at(0).reason, "B breaks down");

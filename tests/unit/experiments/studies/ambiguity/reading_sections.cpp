@@ -1,5 +1,5 @@
 // Reference: C04 has two values per pose and joint, the smallest radius and the smallest area, and a shape that is not finite has none.
-#include "experiments/studies/ambiguity/reading_figures.hpp"
+#include "experiments/studies/ambiguity/reading_values.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 
 #include <gtest/gtest.h>
@@ -32,13 +32,13 @@ TEST(ReadingSections, AreTwoFiguresAPoseThatTheReadingChanges)
 {
     Reading either = own();
     either.blended_bones = experiments::BlendedBones::either_end;
-    const auto all = figures_of_sections(twisted(), {own(), either});
-    ASSERT_EQ(all[0].figures.size(), 4u);
-    ASSERT_EQ(all[1].figures.size(), 4u);
+    const auto all = values_of_sections(twisted(), {own(), either});
+    ASSERT_EQ(all[0].values.size(), 4u);
+    ASSERT_EQ(all[1].values.size(), 4u);
     for (int i = 0; i < 4; ++i) {
-        EXPECT_EQ(all[0].figures[i].claim, "C04");
-        EXPECT_EQ(all[0].figures[i].of, all[1].figures[i].of);
-        EXPECT_NE(all[0].figures[i].value, all[1].figures[i].value);
+        EXPECT_EQ(all[0].values[i].claim, "C04");
+        EXPECT_EQ(all[0].values[i].of, all[1].values[i].of);
+        EXPECT_NE(all[0].values[i].value, all[1].values[i].value);
     }
 }
 
@@ -47,10 +47,10 @@ TEST(ReadingSections, OfAReadingThatBreaksDownAreNone)
     Reading falling = own();
     falling.options.jiggle = pbs::Jiggle{};
     falling.options.gravity_m_s2.y() = -std::numeric_limits<double>::infinity();
-    const auto all = figures_of_sections(twisted(), {own(), falling});
+    const auto all = values_of_sections(twisted(), {own(), falling});
     EXPECT_FALSE(all[0].broke_down);
     EXPECT_TRUE(all[1].broke_down);
-    EXPECT_TRUE(all[1].figures.empty());
+    EXPECT_TRUE(all[1].values.empty());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Reference: how each claim's values are measured (reading_figures.hpp).
+// Reference: how each claim's values are measured (reading_values.hpp).
 #include "experiments/studies/ambiguity/reading.hpp"
 
 #include <gtest/gtest.h>

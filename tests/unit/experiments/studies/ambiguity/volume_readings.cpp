@@ -38,9 +38,9 @@ std::vector<VolumeChange> compared(const ReadMotion& a, const ReadMotion& b)
     return experiments::volume_changes("walk", Reading{.place = "Eq. 2", .name = "B", .baseline = "A", .options = {}}, a, b, a, {});
 }
 
-const VolumeChange& figure(const std::vector<VolumeChange>& rows, const std::string& name)
+const VolumeChange& value(const std::vector<VolumeChange>& rows, const std::string& name)
 {
-    const auto found = std::ranges::find(rows, name, &VolumeChange::figure);
+    const auto found = std::ranges::find(rows, name, &VolumeChange::value);
     if (found == rows.end()) throw std::runtime_error("no " + name);
     return *found;
 }
@@ -48,13 +48,13 @@ const VolumeChange& figure(const std::vector<VolumeChange>& rows, const std::str
 TEST(VolumeChanges, HaveTheValuesOfBothAndTheirChange)
 {
     const auto rows = compared(motion_of(-0.25, 0.0), motion_of(-0.75, 0.5));
-    EXPECT_EQ(figure(rows, "mean volume change [%]").a, -0.25);
-    EXPECT_EQ(figure(rows, "mean volume change [%]").b, -0.75);
-    EXPECT_EQ(figure(rows, "mean volume change [%]").change, -0.5);
-    EXPECT_EQ(figure(rows, "mean absolute volume change [%]").b, 1.5);
-    EXPECT_EQ(figure(rows, "share of frames within 0.5 %").a, 1.0);
-    EXPECT_EQ(figure(rows, "share of frames within 0.5 %").b, 0.0);
-    EXPECT_EQ(figure(rows, "distance of B from A, rms [m]").b, 0.5);
+    EXPECT_EQ(value(rows, "mean volume change [%]").a, -0.25);
+    EXPECT_EQ(value(rows, "mean volume change [%]").b, -0.75);
+    EXPECT_EQ(value(rows, "mean volume change [%]").change, -0.5);
+    EXPECT_EQ(value(rows, "mean absolute volume change [%]").b, 1.5);
+    EXPECT_EQ(value(rows, "share of frames within 0.5 %").a, 1.0);
+    EXPECT_EQ(value(rows, "share of frames within 0.5 %").b, 0.0);
+    EXPECT_EQ(value(rows, "distance of B from A, rms [m]").b, 0.5);
 }
 
 TEST(VolumeChanges, StateWhereAVerdictChangesAndWhereNot)

@@ -19,9 +19,10 @@ WeightsComparison compared(const std::vector<experiments::ArtefactPose>& poses)
     return experiments::compare_weights(of);
 }
 
-const analysis::Measurement* figure(const WeightsComparison& comparison, const std::string& quantity, const std::string& deformer = "pbs")
+const analysis::Measurement* measurement(const WeightsComparison& comparison, const std::string& quantity,
+                                         const std::string& deformer = "pbs")
 {
-    for (const auto& one : comparison.figures)
+    for (const auto& one : comparison.measurements)
         if (one.quantity == quantity && one.of.deformer == deformer) return &one;
     return nullptr;
 }
@@ -37,7 +38,7 @@ TEST(WeightsComparison, FiguresAreTheRatiosOfTheRecords)
 {
     const WeightsComparison bent = compared({{2, "bend 60 deg", {.motion = "bend", .angle_deg = 60.0}}});
     for (const std::string deformer : {"lbs", "pbs"}) {
-        const auto* jump = figure(bent, "strain_jump_over_rigid_weights", deformer);
+        const auto* jump = measurement(bent, "strain_jump_over_rigid_weights", deformer);
         ASSERT_NE(jump, nullptr);
         EXPECT_DOUBLE_EQ(jump->value, strain_jump(bent, "paper", deformer) / strain_jump(bent, "rigid", deformer));
         EXPECT_LE(jump->low, jump->value);
@@ -54,7 +55,7 @@ TEST(WeightsComparison, RigidBlendingShearsOneLayerInATwistWhatEquation2SpreadsO
     of.scene.motion.axis = pbs::Vec3::UnitX();
     of.poses = {{3, "twist 90 deg"}};
     const WeightsComparison twisted = experiments::compare_weights(of);
-    EXPECT_LT(figure(twisted, "strain_jump_over_rigid_weights", "lbs")->value, 0.8);
+    EXPECT_LT(measurement(twisted, "strain_jump_over_rigid_weights", "lbs")->value, 0.8);
 }
 
 // The blend by Eq. 2 is closer to a crease than two rigid halves that penetrate each other.
@@ -65,7 +66,7 @@ TEST(WeightsComparison, IterationsAreTheRatioOfTheirRecordAndRigidHalvesTakeMore
     of.poses = {{3, "bend 90 deg"}};
     const WeightsComparison bent = experiments::compare_weights(of);
     ASSERT_EQ(bent.iterations.size(), 1u);
-    const auto* ratio = figure(bent, "iterations_over_rigid_weights");
+    const auto* ratio = measurement(bent, "iterations_over_rigid_weights");
     ASSERT_TRUE(bent.iterations[0].paper.within);
     ASSERT_NE(ratio, nullptr);
     EXPECT_LT(ratio->value, 1.0);
@@ -76,10 +77,10 @@ TEST(WeightsComparison, IterationsAreTheRatioOfTheirRecordAndRigidHalvesTakeMore
 TEST(WeightsComparison, AtRestThereIsNothingToCompareButTheSameStart)
 {
     const WeightsComparison rest = compared({{0, "rest"}});
-    EXPECT_EQ(figure(rest, "strain_jump_over_rigid_weights", "lbs"), nullptr);  // a ratio of roundings
+    EXPECT_EQ(measurement(rest, "strain_jump_over_rigid_weights", "lbs"), nullptr);  // a ratio of roundings
     EXPECT_LT(strain_jump(rest, "rigid", "lbs"), 1e-12);
-    ASSERT_NE(figure(rest, "iterations_over_rigid_weights"), nullptr);
-    EXPECT_DOUBLE_EQ(figure(rest, "iterations_over_rigid_weights")->value, 1.0);
+    ASSERT_NE(measurement(rest, "iterations_over_rigid_weights"), nullptr);
+    EXPECT_DOUBLE_EQ(measurement(rest, "iterations_over_rigid_weights")->value, 1.0);
 }
 
 }  // namespace

@@ -73,13 +73,13 @@ TEST(BodySetup, WhatNeverRunsIsNotLeftOut)
 {
     const auto tried = tried_setups({"ring"}, [](const BodySetup&) { return std::string("broken"); });
     EXPECT_EQ(tried.size(), further_keys().size());
-    const auto figures = not_set_up({.body = "ring"});
-    ASSERT_EQ(figures.size(), 2u);
-    EXPECT_TRUE(std::isnan(figures[0].value));
-    EXPECT_EQ(figures[1].value, 0.0);
+    const auto measurements = not_set_up({.body = "ring"});
+    ASSERT_EQ(measurements.size(), 2u);
+    EXPECT_TRUE(std::isnan(measurements[0].value));
+    EXPECT_EQ(measurements[1].value, 0.0);
 }
 
-analysis::Measurement figure(const std::vector<analysis::Measurement>& all, const std::string& quantity)
+analysis::Measurement measurement(const std::vector<analysis::Measurement>& all, const std::string& quantity)
 {
     return *std::find_if(all.begin(), all.end(), [&](const auto& measured) { return measured.quantity == quantity; });
 }
@@ -92,18 +92,18 @@ TEST(BodySetup, AnInvertedTetOrABrokenFrameIsNoGoodFrame)
     metrics.add_row({1.0, 0});
     metrics.add_row({1.0, 0});
     const nlohmann::json run = {{"cost", {{"cpu_seconds", {{"character", 3.0}, {"motion", 0.25}, {"set_up", 0.5}}}}}};
-    const auto figures = setup_measurements({.body = "body"}, metrics, run, {"pbs.k_volume"});
-    EXPECT_EQ(figure(figures, "keys_changed").value, 1.0);
-    EXPECT_DOUBLE_EQ(figure(figures, "share_of_sound_frames").value, 0.75);
-    EXPECT_LT(figure(figures, "share_of_sound_frames").low, 0.75);
-    EXPECT_DOUBLE_EQ(figure(figures, "mean_volume_change_pct").value, -0.5);
-    EXPECT_DOUBLE_EQ(figure(figures, "largest_volume_change_pct").value, -3.0);
-    EXPECT_DOUBLE_EQ(figure(figures, "set_up_s").value, 3.75);
+    const auto measurements = setup_measurements({.body = "body"}, metrics, run, {"pbs.k_volume"});
+    EXPECT_EQ(measurement(measurements, "keys_changed").value, 1.0);
+    EXPECT_DOUBLE_EQ(measurement(measurements, "share_of_sound_frames").value, 0.75);
+    EXPECT_LT(measurement(measurements, "share_of_sound_frames").low, 0.75);
+    EXPECT_DOUBLE_EQ(measurement(measurements, "mean_volume_change_pct").value, -0.5);
+    EXPECT_DOUBLE_EQ(measurement(measurements, "largest_volume_change_pct").value, -3.0);
+    EXPECT_DOUBLE_EQ(measurement(measurements, "set_up_s").value, 3.75);
 
     metrics.add_row({std::nan(""), 0});
     const auto broken = setup_measurements({.body = "body"}, metrics, run, {});
-    EXPECT_DOUBLE_EQ(figure(broken, "share_of_sound_frames").value, 0.6);
-    EXPECT_TRUE(std::isnan(figure(broken, "largest_volume_change_pct").value));
+    EXPECT_DOUBLE_EQ(measurement(broken, "share_of_sound_frames").value, 0.6);
+    EXPECT_TRUE(std::isnan(measurement(broken, "largest_volume_change_pct").value));
 }
 
 }  // namespace

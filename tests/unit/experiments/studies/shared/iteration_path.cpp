@@ -13,8 +13,8 @@
 
 namespace {
 
+using experiments::IterationMetrics;
 using experiments::IterationPath;
-using experiments::IterationRuler;
 using experiments::Look;
 using pbs::Order;
 using pbs::Precision;
@@ -24,8 +24,8 @@ const pbs::Character character = test_support::character_of(limb);
 
 IterationPath path_of(const pbs::PbsOptions& options, const pbs::Positions& start, int most)
 {
-    const IterationRuler ruler(character, limb.bind_points);
-    return experiments::iterate(character, options, limb.bind_points, {start}, most, ruler).front();
+    const IterationMetrics iteration_metrics(character, limb.bind_points);
+    return experiments::iterate(character, options, limb.bind_points, {start}, most, iteration_metrics).front();
 }
 
 class IterationPathOf : public testing::TestWithParam<std::pair<Order, Precision>> {};
@@ -64,12 +64,12 @@ INSTANTIATE_TEST_SUITE_P(Orders, IterationPathOf,
                          testing::Values(std::pair(Order::plain, Precision::f64), std::pair(Order::ordered, Precision::f32),
                                          std::pair(Order::grouped, Precision::f64)));
 
-TEST(IterationRuler, OfAUniformlyScaledBody)
+TEST(IterationMetrics, OfAUniformlyScaledBody)
 {
     constexpr double scale = 1.1;
     const pbs::Positions rest_points = limb.binding.rest_point;
-    const IterationRuler ruler(character, scale * rest_points);
-    const Look look = ruler.measure(0, scale * limb.mesh.rest);
+    const IterationMetrics iteration_metrics(character, scale * rest_points);
+    const Look look = iteration_metrics.measure(0, scale * limb.mesh.rest);
     const double stretch = scale - 1.0, volume = std::pow(scale, 3) - 1.0;
     const double bind_m = stretch * std::sqrt(limb.binding.distance.array().square().mean());
     EXPECT_NEAR(look.stretch_rms, stretch, 1e-12);
@@ -104,8 +104,8 @@ TEST(Iterate, EndsWherePositionsCeaseToBeFinite)
 
 TEST(Iterate, OneStartDoesNotRememberAnother)
 {
-    const IterationRuler ruler(character, limb.bind_points);
-    const auto both = experiments::iterate(character, {}, limb.bind_points, {limb.mesh.rest, limb.lbs}, 10, ruler);
+    const IterationMetrics iteration_metrics(character, limb.bind_points);
+    const auto both = experiments::iterate(character, {}, limb.bind_points, {limb.mesh.rest, limb.lbs}, 10, iteration_metrics);
     EXPECT_EQ(both[1].last, path_of({}, limb.lbs, 10).last);
 }
 

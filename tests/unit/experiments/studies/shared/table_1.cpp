@@ -7,40 +7,40 @@
 
 namespace {
 
-using analysis::PrintedFigure;
+using analysis::PrintedValue;
 
-bool consistent(const PrintedFigure& figure)
+bool consistent(const PrintedValue& value)
 {
-    return figure.is_consistent();
+    return value.is_consistent();
 }
 
-PrintedFigure figure_of(const std::vector<PrintedFigure>& figures, const std::string& model, const std::string& quantity)
+PrintedValue value_of(const std::vector<PrintedValue>& values, const std::string& model, const std::string& quantity)
 {
     const auto found =
-        std::find_if(figures.begin(), figures.end(), [&](const PrintedFigure& f) { return f.of.model == model && f.quantity == quantity; });
-    return found == figures.end() ? PrintedFigure{} : *found;
+        std::find_if(values.begin(), values.end(), [&](const PrintedValue& f) { return f.of.model == model && f.quantity == quantity; });
+    return found == values.end() ? PrintedValue{} : *found;
 }
 
 TEST(TableOne, EdgesOfManAndBunnyAreFewerThanAnyTetMeshHas)
 {
-    const auto figures = experiments::table_1_figures();
-    EXPECT_EQ(figure_of(figures, "Man", "stretch_constraints").least, 1654 + 4998 + 1);
-    EXPECT_FALSE(consistent(figure_of(figures, "Man", "stretch_constraints")));
-    EXPECT_FALSE(consistent(figure_of(figures, "bunny", "stretch_constraints")));
-    EXPECT_TRUE(consistent(figure_of(figures, "ManHQ", "stretch_constraints")));
-    EXPECT_TRUE(consistent(figure_of(figures, "bunnyHQ", "stretch_constraints")));
-    EXPECT_TRUE(consistent(figure_of(figures, "Lady", "stretch_constraints")));
+    const auto values = experiments::table_1_values();
+    EXPECT_EQ(value_of(values, "Man", "stretch_constraints").least, 1654 + 4998 + 1);
+    EXPECT_FALSE(consistent(value_of(values, "Man", "stretch_constraints")));
+    EXPECT_FALSE(consistent(value_of(values, "bunny", "stretch_constraints")));
+    EXPECT_TRUE(consistent(value_of(values, "ManHQ", "stretch_constraints")));
+    EXPECT_TRUE(consistent(value_of(values, "bunnyHQ", "stretch_constraints")));
+    EXPECT_TRUE(consistent(value_of(values, "Lady", "stretch_constraints")));
 }
 
 TEST(TableOne, NoTotalHoldsItsParts)
 {
     for (const auto& row : experiments::table_1())
-        EXPECT_FALSE(consistent(figure_of(experiments::table_1_figures(), row.model, "ct_total_ms"))) << row.model;
+        EXPECT_FALSE(consistent(value_of(experiments::table_1_values(), row.model, "ct_total_ms"))) << row.model;
 }
 
 TEST(TableOne, FrameRateAsksForTwentyTimesTheTotal)
 {
-    const PrintedFigure man = figure_of(experiments::table_1_figures(), "Man", "ct_total_of_1_s_ms");
+    const PrintedValue man = value_of(experiments::table_1_values(), "Man", "ct_total_of_1_s_ms");
     EXPECT_NEAR(0.5 * (man.least + man.most), 1105.0, 1.0);
     EXPECT_EQ(man.printed, 52.0);
     EXPECT_FALSE(consistent(man));
@@ -49,17 +49,17 @@ TEST(TableOne, FrameRateAsksForTwentyTimesTheTotal)
 TEST(TableOne, EveryVertexIsBound)
 {
     for (const auto& row : experiments::table_1())
-        EXPECT_TRUE(consistent(figure_of(experiments::table_1_figures(), row.model, "bind_constraints"))) << row.model;
+        EXPECT_TRUE(consistent(value_of(experiments::table_1_values(), row.model, "bind_constraints"))) << row.model;
 }
 
 TEST(TableOne, MeshesOfRoughly2KVerticesHaveFewerThan10KTets)
 {
-    const auto figures = experiments::mesh_size_figures();
-    ASSERT_EQ(figures.size(), 3u);
-    EXPECT_TRUE(consistent(figures[0]));
-    EXPECT_TRUE(consistent(figures[1]));
-    EXPECT_EQ(figures[2].most, 7827);
-    EXPECT_FALSE(consistent(figures[2]));
+    const auto values = experiments::mesh_size_values();
+    ASSERT_EQ(values.size(), 3u);
+    EXPECT_TRUE(consistent(values[0]));
+    EXPECT_TRUE(consistent(values[1]));
+    EXPECT_EQ(values[2].most, 7827);
+    EXPECT_FALSE(consistent(values[2]));
 }
 
 }  // namespace

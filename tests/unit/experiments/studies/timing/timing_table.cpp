@@ -43,7 +43,7 @@ std::vector<TimingRow> man(const std::string& model = "Man")
     return timing_rows(man_mesh(model), three_variants());
 }
 
-double figure(const std::vector<analysis::Measurement>& measured, const std::string& quantity, const analysis::CaseKey& of = {})
+double measurement(const std::vector<analysis::Measurement>& measured, const std::string& quantity, const analysis::CaseKey& of = {})
 {
     for (const auto& one : measured)
         if (one.quantity == quantity && analysis::matches(one.of, of)) return one.value;
@@ -84,10 +84,10 @@ TEST(TimingTable, ValuesOfTheClaim)
     EXPECT_EQ(measured[0].value, 500.0);
     EXPECT_EQ(measured[0].low, 250.0);
     EXPECT_EQ(measured[0].high, 1000.0);
-    EXPECT_EQ(figure(measured, "frames_per_s_of_processor_time"), 625.0);
-    EXPECT_EQ(figure(measured, "frames_per_s", {.order = "plain", .precision = "f32"}), 250.0);
-    EXPECT_EQ(figure(measured, "frames_per_s", {.order = "ordered", .precision = "f32"}), 1000.0);
-    EXPECT_NEAR(figure(measured, "frames_per_s_over_table_1"), 500.0 / 90.5, 1e-12);
+    EXPECT_EQ(measurement(measured, "frames_per_s_of_processor_time"), 625.0);
+    EXPECT_EQ(measurement(measured, "frames_per_s", {.order = "plain", .precision = "f32"}), 250.0);
+    EXPECT_EQ(measurement(measured, "frames_per_s", {.order = "ordered", .precision = "f32"}), 1000.0);
+    EXPECT_NEAR(measurement(measured, "frames_per_s_over_table_1"), 500.0 / 90.5, 1e-12);
     EXPECT_TRUE(timing_measurements(man("")).empty());  // a step of the ladder
 }
 

@@ -75,7 +75,7 @@ protected:
     }
     ReachedReference choose() const
     {
-        return choose_reference(points_, base_->mesh.rest.rows(), analysis::ErrorRuler(error_domain(*base_, {})));
+        return choose_reference(points_, base_->mesh.rest.rows(), analysis::ErrorMetrics(error_domain(*base_, {})));
     }
 
     std::shared_ptr<const pbs::Character> base_ = limb(400);
@@ -181,9 +181,9 @@ TEST_F(Choice, QuartilesAreOfThreeRoundsOrMore)
     add(1, own_, 0, false, 0.0);
     points_[0].shape.positions = base_->mesh.rest;
     for (const std::vector<double>& samples : {std::vector{1.0, 2.0}, {1.0, 2.0, 4.0}}) {
-        PointFigures figures;
-        figures.time = frame_time(samples);
-        const PointRow row = point_row(points_[0], {}, figures);
+        PointValues values;
+        values.time = frame_time(samples);
+        const PointRow row = point_row(points_[0], {}, values);
         EXPECT_EQ(row.ms_q1.has_value(), samples.size() == 3u);
         EXPECT_EQ(row.ms_q3.has_value(), samples.size() == 3u);
         EXPECT_EQ(row.rounds, static_cast<int>(samples.size()));

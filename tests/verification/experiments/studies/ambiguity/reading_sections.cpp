@@ -1,7 +1,7 @@
 // The narrowest section of a twisted limb, recomputed without CGAL and without the classes of the study. Reference: the limb lies along x
 // and its twist does not move that axis, so that a station's plane is x = const; the area that a closed skin cuts out of it is half the sum
 // of (p x q)_x over the segments p q in which its outward triangles meet the plane.
-#include "experiments/studies/ambiguity/reading_figures.hpp"
+#include "experiments/studies/ambiguity/reading_values.hpp"
 
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
@@ -64,7 +64,7 @@ TEST(ReadingSections, HaveTheNarrowestSectionThatPlainSlicingFinds)
                    .options = experiments::options_of<pbs::PbsOptions>(experiments::spec_of(of.scene, "pbs"))};
     Reading looser = own;
     looser.options.k_bind = 0.1;
-    const auto all = figures_of_sections(of, {own, looser});
+    const auto all = values_of_sections(of, {own, looser});
 
     const pbs::Character character = pbs::make_character(of.scene.character);
     const auto joints = experiments::limb_joints(character);
@@ -81,12 +81,12 @@ TEST(ReadingSections, HaveTheNarrowestSectionThatPlainSlicingFinds)
             narrowest[reading] =
                 std::min(narrowest[reading], section_area_m2(shape, skin, x) / section_area_m2(character.mesh.rest, skin, x));
         }
-        const auto& figures = all[reading].figures;
-        const auto figure =
-            std::find_if(figures.begin(), figures.end(), [](const auto& one) { return one.quantity == "smallest_section_area_over_rest"; });
-        ASSERT_NE(figure, figures.end());
+        const auto& values = all[reading].values;
+        const auto value =
+            std::find_if(values.begin(), values.end(), [](const auto& one) { return one.quantity == "smallest_section_area_over_rest"; });
+        ASSERT_NE(value, values.end());
         // The shapes differ by the rounding of LBS, blended in another order, in f32 projections; their areas by 1e-6 of their size.
-        EXPECT_NEAR(figure->value, narrowest[reading], 1e-5) << text_of(figure->of);
+        EXPECT_NEAR(value->value, narrowest[reading], 1e-5) << text_of(value->of);
     }
     EXPECT_GT(std::abs(narrowest[1] - narrowest[0]), 1e-3);  // the two readings differ
 }

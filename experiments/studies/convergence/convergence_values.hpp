@@ -11,6 +11,6 @@
 
 namespace experiments {
 
-std::vector<analysis::Measurement> convergence_figures(const ConvergenceResult& result);
+std::vector<analysis::Measurement> convergence_values(const ConvergenceResult& result);
 
 }  // namespace experiments

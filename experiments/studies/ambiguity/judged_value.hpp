@@ -1,6 +1,6 @@
 // A value that a claim is judged by, for a character that is moved by one reading, and whether it lies in the claim's bound.
-//   const std::vector<JudgedFigure> figures = judged(measurements);   // only of quantities that a claim is judged by
-//   const std::vector<JudgedFigure> of_sweep = judged(read_motion);   // C01, C02
+//   const std::vector<JudgedValue> values = judged(measurements);   // only of quantities that a claim is judged by
+//   const std::vector<JudgedValue> of_sweep = judged(read_motion);   // C01, C02
 #pragma once
 
 #include "analysis/measurement.hpp"
@@ -12,7 +12,7 @@
 
 namespace experiments {
 
-struct JudgedFigure {
+struct JudgedValue {
     std::string claim, quantity;
     analysis::CaseKey of;
     std::string unit, bound;
@@ -27,8 +27,8 @@ struct LeftOutQuantity {
 };
 
 // The values of the measured claims by one reading.
-struct ReadingFigures {
-    std::vector<JudgedFigure> figures;
+struct ReadingValues {
+    std::vector<JudgedValue> values;
     bool broke_down = false;  // some positions are not finite
     std::vector<LeftOutQuantity> left_out = {};
 };
@@ -39,10 +39,10 @@ const char* word_for(analysis::Extent extent);
 // The quantities that the claim is judged by and that are not among those measured.
 std::vector<LeftOutQuantity> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason);
 
-std::vector<JudgedFigure> judged(const std::vector<analysis::Measurement>& measured);
+std::vector<JudgedValue> judged(const std::vector<analysis::Measurement>& measured);
 
 // C01: the mean of its metrics over the frames; C02: the share of frames within; both judged as analysis::judge_case does.
-std::vector<JudgedFigure> judged(const ReadMotion& moved);
+std::vector<JudgedValue> judged(const ReadMotion& moved);
 
 // A hash of everything that decides whether a value holds: another bound gives another digest.
 std::string digest_of(const std::vector<analysis::Claim>& claims);

@@ -1,4 +1,4 @@
-#include "experiments/studies/convergence/convergence_figures.hpp"
+#include "experiments/studies/convergence/convergence_values.hpp"
 
 #include "analysis/line_fit.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
@@ -13,11 +13,11 @@ namespace experiments {
 namespace {
 
 // A value of one setting, and what it bounds where a tolerance was not reached.
-struct Figure {
+struct PathValue {
     double value = 0.0;
     analysis::Limit limit = analysis::Limit::none;
 };
-using FigureOf = std::function<std::optional<Figure>(const ConvergencePaths&)>;
+using ValueOf = std::function<std::optional<PathValue>(const ConvergencePaths&)>;
 using Group = std::vector<const ConvergencePaths*>;  // the default setting first
 
 std::vector<Group> groups_of(const ConvergenceResult& result)
@@ -54,9 +54,9 @@ struct What {
     std::string tolerance = {}, initial_guess = {};
 };
 
-void add(std::vector<analysis::Measurement>& to, const What& what, const Group& group, const FigureOf& figure_of)
+void add(std::vector<analysis::Measurement>& to, const What& what, const Group& group, const ValueOf& value_of)
 {
-    const std::optional<Figure> own = figure_of(*group.front());
+    const std::optional<PathValue> own = value_of(*group.front());
     if (!own || !std::isfinite(own->value)) return;
     analysis::Measurement measured{what.claim, what.quantity, key_of(*group.front()), own->value, own->value, own->value, "1"};
     measured.of.tolerance = what.tolerance;
@@ -64,11 +64,11 @@ void add(std::vector<analysis::Measurement>& to, const What& what, const Group& 
     measured.limit = own->limit;
     int without = 0;
     for (const ConvergencePaths* other : group) {
-        const std::optional<Figure> figure = figure_of(*other);
-        without += !figure;
-        if (!figure || !std::isfinite(figure->value)) continue;
-        measured.low = std::min(measured.low, figure->value);
-        measured.high = std::max(measured.high, figure->value);
+        const std::optional<PathValue> measurement = value_of(*other);
+        without += !measurement;
+        if (!measurement || !std::isfinite(measurement->value)) continue;
+        measured.low = std::min(measured.low, measurement->value);
+        measured.high = std::max(measured.high, measurement->value);
     }
     if (without > 0) {
         measured.not_reached = without;
@@ -87,37 +87,37 @@ const Tolerance tolerances[] = {
     {"residual", [](const ConvergencePaths& of, std::size_t start) { return reached_residual(of.paths[start], floor_of(of.paths)); }},
     {"volume", [](const ConvergencePaths& of, std::size_t start) { return reached_volume(of.paths[start]); }}};
 
-FigureOf iterations_to(const Tolerance& tolerance)
+ValueOf iterations_to(const Tolerance& tolerance)
 {
     return [&tolerance](const ConvergencePaths& of) {
         const Reached lbs = tolerance.reached(of, 0);
-        return Figure{double(lbs.iterations), lbs.within ? analysis::Limit::none : analysis::Limit::more_than};
+        return PathValue{double(lbs.iterations), lbs.within ? analysis::Limit::none : analysis::Limit::more_than};
     };
 }
 
 // An initial guess that fulfils the tolerance counts as one iteration.
-FigureOf over_lbs(const Tolerance& tolerance, std::size_t start)
+ValueOf over_lbs(const Tolerance& tolerance, std::size_t start)
 {
-    return [&tolerance, start](const ConvergencePaths& of) -> std::optional<Figure> {
+    return [&tolerance, start](const ConvergencePaths& of) -> std::optional<PathValue> {
         const Reached other = tolerance.reached(of, start), lbs = tolerance.reached(of, 0);
         if (!other.within && !lbs.within) return {};
-        return Figure{std::max(other.iterations, 1) / double(std::max(lbs.iterations, 1)), !other.within ? analysis::Limit::at_least
-                                                                                           : !lbs.within ? analysis::Limit::at_most
-                                                                                                         : analysis::Limit::none};
+        return PathValue{std::max(other.iterations, 1) / double(std::max(lbs.iterations, 1)), !other.within ? analysis::Limit::at_least
+                                                                                              : !lbs.within ? analysis::Limit::at_most
+                                                                                                            : analysis::Limit::none};
     };
 }
 
 void add_further(std::vector<analysis::Measurement>& to, const Group& group)
 {
-    const auto figure = [&](const char* quantity, double (*of_lbs)(const IterationPath&)) {
-        add(to, {"C12", quantity}, group, [of_lbs](const ConvergencePaths& of) { return Figure{of_lbs(of.paths[0])}; });
+    const auto measurement = [&](const char* quantity, double (*of_lbs)(const IterationPath&)) {
+        add(to, {"C12", quantity}, group, [of_lbs](const ConvergencePaths& of) { return PathValue{of_lbs(of.paths[0])}; });
     };
-    figure("residual_after_24_over_1000_iterations",
-           [](const IterationPath& path) { return look_at(path, 24).combined / look_at(path, 1000).combined; });
-    figure("error_after_24_iterations_over_least",
-           [](const IterationPath& path) { return look_at(path, 24).error_joint_pct / nearest_to_reference(path).error_joint_pct; });
-    figure("error_after_1000_iterations_over_least",
-           [](const IterationPath& path) { return look_at(path, 1000).error_joint_pct / nearest_to_reference(path).error_joint_pct; });
+    measurement("residual_after_24_over_1000_iterations",
+                [](const IterationPath& path) { return look_at(path, 24).combined / look_at(path, 1000).combined; });
+    measurement("error_after_24_iterations_over_least",
+                [](const IterationPath& path) { return look_at(path, 24).error_joint_pct / nearest_to_reference(path).error_joint_pct; });
+    measurement("error_after_1000_iterations_over_least",
+                [](const IterationPath& path) { return look_at(path, 1000).error_joint_pct / nearest_to_reference(path).error_joint_pct; });
 }
 
 void add_starts(std::vector<analysis::Measurement>& to, const Group& group)
@@ -128,7 +128,7 @@ void add_starts(std::vector<analysis::Measurement>& to, const Group& group)
         for (const Tolerance& tolerance : tolerances)
             add(to, {"C03", "iterations_over_lbs_guess" + in_a_twist, tolerance.name, guess}, group, over_lbs(tolerance, start));
         add(to, {"C03", "error_after_24_iterations_over_lbs_guess", "", guess}, group, [start](const ConvergencePaths& of) {
-            return Figure{look_at(of.paths[start], 24).error_joint_pct / look_at(of.paths[0], 24).error_joint_pct};
+            return PathValue{look_at(of.paths[start], 24).error_joint_pct / look_at(of.paths[0], 24).error_joint_pct};
         });
     }
 }
@@ -181,20 +181,21 @@ void add_exponents(std::vector<analysis::Measurement>& to, const ConvergenceResu
 
 }  // namespace
 
-std::vector<analysis::Measurement> convergence_figures(const ConvergenceResult& result)
+std::vector<analysis::Measurement> convergence_values(const ConvergenceResult& result)
 {
-    std::vector<analysis::Measurement> figures;
+    std::vector<analysis::Measurement> measurements;
     const std::vector<Group> groups = groups_of(result);
     for (const Group& group : groups) {
         for (const Tolerance& tolerance : tolerances)
-            add(figures, {"C12", group.front()->character ? "iterations_to_tolerance" : "iterations_to_tolerance_of_limbs", tolerance.name},
-                group, iterations_to(tolerance));
-        add_further(figures, group);
-        add_starts(figures, group);
+            add(measurements,
+                {"C12", group.front()->character ? "iterations_to_tolerance" : "iterations_to_tolerance_of_limbs", tolerance.name}, group,
+                iterations_to(tolerance));
+        add_further(measurements, group);
+        add_starts(measurements, group);
     }
-    add_neither(figures, result);
-    if (result.ladder) add_exponents(figures, result);
-    return figures;
+    add_neither(measurements, result);
+    if (result.ladder) add_exponents(measurements, result);
+    return measurements;
 }
 
 }  // namespace experiments

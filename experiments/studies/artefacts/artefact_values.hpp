@@ -1,7 +1,7 @@
 // The values of C04 and C05 from the sections of all deformers: the narrowest and the widest section near a joint, with the spread over
 // meshes, orders and the reference's element orders. The reference is snh_p2 where it was run and reached, and snh_p1 otherwise; the key
 // states which.
-//   const auto figures = bulge_figures(of, body, records.samples);
+//   const auto measurements = bulge_values(of, body, records.samples);
 //   section_outcomes(of, body, records.samples)   // which poses and joints have a value, and why the others have none
 #pragma once
 
@@ -15,11 +15,11 @@ nlohmann::json to_json(const ArtefactPose& pose);
 nlohmann::json to_json(const ArtefactCase& of);
 
 // With keys such as "limb, twist 90 deg, upper|forearm". A group without samples has no value.
-std::vector<analysis::Measurement> candy_wrapper_figures(const ArtefactCase& of, const ArtefactBody& body,
-                                                         const std::vector<ArtefactSample>& samples);
+std::vector<analysis::Measurement> candy_wrapper_values(const ArtefactCase& of, const ArtefactBody& body,
+                                                        const std::vector<ArtefactSample>& samples);
 // With keys such as "limb, bend 60 deg, upper|forearm, reference snh_p2". A value requires that flesh has a section there.
-std::vector<analysis::Measurement> bulge_figures(const ArtefactCase& of, const ArtefactBody& body,
-                                                 const std::vector<ArtefactSample>& samples);
+std::vector<analysis::Measurement> bulge_values(const ArtefactCase& of, const ArtefactBody& body,
+                                                const std::vector<ArtefactSample>& samples);
 
 inline constexpr double deepest_bend_deg = 110.0;  // including the bend at rest
 

@@ -1,5 +1,5 @@
 // The values that C09 is judged by, from the responses of one body at all settings.
-//   for (const analysis::Measurement& figure : jiggle_figures("limb", measured)) ...
+//   for (const analysis::Measurement& measurement : jiggle_values("limb", measured)) ...
 #pragma once
 
 #include "analysis/measurement.hpp"
@@ -25,6 +25,6 @@ struct MeasuredJiggle {
 // - the ratio of frequencies with half the time step and with the whole, for the first setting, with its range over all halvings. Without
 //   gravity Algorithm 1 makes it 2 on any body: by lines 7, 8 and 16 a particle moves on by its last movement, x_n + (x_n - x_n-1), however
 //   long a step is, so that the frequency is one per step.
-std::vector<analysis::Measurement> jiggle_figures(const std::string& body, const std::vector<MeasuredJiggle>& measured);
+std::vector<analysis::Measurement> jiggle_values(const std::string& body, const std::vector<MeasuredJiggle>& measured);
 
 }  // namespace experiments

@@ -1,4 +1,4 @@
-#include "experiments/studies/jiggle/jiggle_figures.hpp"
+#include "experiments/studies/jiggle/jiggle_values.hpp"
 
 #include "analysis/statistics.hpp"
 
@@ -12,12 +12,12 @@ constexpr int least_for_correlation = 4;
 using analysis::Interval;
 using analysis::Measurement;
 
-Measurement figure(const std::string& quantity, const analysis::CaseKey& of, const Interval& value, const std::string& unit)
+Measurement measurement(const std::string& quantity, const analysis::CaseKey& of, const Interval& value, const std::string& unit)
 {
     return {"C09", quantity, of, value.estimate, value.low, value.high, unit};
 }
 
-Measurement exact_figure(const std::string& quantity, const analysis::CaseKey& of, double value)
+Measurement exact_value(const std::string& quantity, const analysis::CaseKey& of, double value)
 {
     return {"C09", quantity, of, value, value, value, "1"};
 }
@@ -51,7 +51,7 @@ std::vector<FrequencyRatio> ratios(const std::vector<MeasuredJiggle>& measured, 
     return all;
 }
 
-void add_share(std::vector<Measurement>& figures, const std::string& body, const std::vector<MeasuredJiggle>& measured)
+void add_share(std::vector<Measurement>& measurements, const std::string& body, const std::vector<MeasuredJiggle>& measured)
 {
     int all = 0, swinging = 0;
     for (const MeasuredJiggle& one : measured) {
@@ -60,18 +60,18 @@ void add_share(std::vector<Measurement>& figures, const std::string& body, const
         swinging += one.response.swing.found();
     }
     if (all == 0) return;
-    figures.push_back(exact_figure("share_of_settings_that_swing", {.body = body}, static_cast<double>(swinging) / all));
-    figures.back().n = all;
+    measurements.push_back(exact_value("share_of_settings_that_swing", {.body = body}, static_cast<double>(swinging) / all));
+    measurements.back().n = all;
 }
 
-void add_setting(std::vector<Measurement>& figures, const std::string& body, const MeasuredJiggle& one)
+void add_setting(std::vector<Measurement>& measurements, const std::string& body, const MeasuredJiggle& one)
 {
     const analysis::CaseKey of = key_of(body, one.setting);
-    if (one.response.finished) figures.push_back(exact_figure("amplitude", of, one.response.overshoot_over_jolt));
+    if (one.response.finished) measurements.push_back(exact_value("amplitude", of, one.response.overshoot_over_jolt));
     if (!one.response.swing.found()) return;
     const std::string damping = is_of_the_paper(one.setting) ? "damping_ratio" : "damping_ratio_in_other_readings";
-    figures.push_back(figure(damping, of, one.response.swing.damping_ratio, "1"));
-    figures.push_back(figure("frequency_hz", of, one.response.swing.frequency_hz, "Hz"));
+    measurements.push_back(measurement(damping, of, one.response.swing.damping_ratio, "1"));
+    measurements.push_back(measurement("frequency_hz", of, one.response.swing.frequency_hz, "Hz"));
 }
 
 // Those that swing and differ from the first setting in k_stretch alone, the smallest first.
@@ -95,57 +95,57 @@ double correlation_without(const std::vector<MeasuredJiggle>& measured, std::siz
     return std::clamp(analysis::rank_correlation(k, hz), -1.0, 1.0);  // rounding goes beyond
 }
 
-void add_correlation(std::vector<Measurement>& figures, const std::string& body, const std::vector<MeasuredJiggle>& measured)
+void add_correlation(std::vector<Measurement>& measurements, const std::string& body, const std::vector<MeasuredJiggle>& measured)
 {
     if (static_cast<int>(measured.size()) < least_for_correlation) return;
     Measurement correlation =
-        exact_figure("rank_correlation_of_frequency_and_k_stretch", {.body = body}, correlation_without(measured, measured.size()));
+        exact_value("rank_correlation_of_frequency_and_k_stretch", {.body = body}, correlation_without(measured, measured.size()));
     correlation.n = static_cast<int>(measured.size());
     for (std::size_t left_out = 0; left_out < measured.size(); ++left_out) {
         const double without = correlation_without(measured, left_out);
         correlation.low = std::min(correlation.low, without);
         correlation.high = std::max(correlation.high, without);
     }
-    figures.push_back(correlation);
+    measurements.push_back(correlation);
 }
 
-void add_range(std::vector<Measurement>& figures, const std::string& body, const std::vector<MeasuredJiggle>& measured)
+void add_range(std::vector<Measurement>& measurements, const std::string& body, const std::vector<MeasuredJiggle>& measured)
 {
     if (measured.size() < 2) return;
     const MeasuredJiggle &smallest = measured.front(), &largest = measured.back();
     const analysis::CaseKey of = {.body = body, .k_stretch = smallest.setting.k_stretch, .k_stretch_to = largest.setting.k_stretch};
-    figures.push_back(
-        figure("frequency_ratio_over_k_stretch", of, over(largest.response.swing.frequency_hz, smallest.response.swing.frequency_hz), "1"));
+    measurements.push_back(measurement("frequency_ratio_over_k_stretch", of,
+                                       over(largest.response.swing.frequency_hz, smallest.response.swing.frequency_hz), "1"));
 }
 
-void add_half_step(std::vector<Measurement>& figures, const std::string& body, const std::vector<MeasuredJiggle>& measured)
+void add_half_step(std::vector<Measurement>& measurements, const std::string& body, const std::vector<MeasuredJiggle>& measured)
 {
     const std::vector<FrequencyRatio> halvings = ratios(measured, [](JiggleSetting& setting) { setting.time_step_s /= 2.0; });
     if (halvings.empty()) return;
     Measurement half =
-        exact_figure("frequency_ratio_at_half_time_step", key_of(body, halvings.front().from), halvings.front().ratio.estimate);
+        exact_value("frequency_ratio_at_half_time_step", key_of(body, halvings.front().from), halvings.front().ratio.estimate);
     for (const FrequencyRatio& halving : halvings) {
         half.low = std::min(half.low, halving.ratio.estimate);
         half.high = std::max(half.high, halving.ratio.estimate);
     }
     half.n = static_cast<int>(halvings.size());
-    figures.push_back(half);
+    measurements.push_back(half);
 }
 
 }  // namespace
 
-std::vector<Measurement> jiggle_figures(const std::string& body, const std::vector<MeasuredJiggle>& measured)
+std::vector<Measurement> jiggle_values(const std::string& body, const std::vector<MeasuredJiggle>& measured)
 {
-    std::vector<Measurement> figures;
-    add_share(figures, body, measured);
-    for (const MeasuredJiggle& one : measured) add_setting(figures, body, one);
-    add_correlation(figures, body, by_k_stretch(measured));
-    add_range(figures, body, by_k_stretch(measured));
-    add_half_step(figures, body, measured);
+    std::vector<Measurement> measurements;
+    add_share(measurements, body, measured);
+    for (const MeasuredJiggle& one : measured) add_setting(measurements, body, one);
+    add_correlation(measurements, body, by_k_stretch(measured));
+    add_range(measurements, body, by_k_stretch(measured));
+    add_half_step(measurements, body, measured);
     const std::vector<FrequencyRatio> doublings = ratios(measured, [](JiggleSetting& setting) { setting.iterations *= 2; });
     for (const auto& [from, ratio] : doublings)
-        figures.push_back(figure("frequency_ratio_at_twice_iterations", key_of(body, from), ratio, "1"));
-    return figures;
+        measurements.push_back(measurement("frequency_ratio_at_twice_iterations", key_of(body, from), ratio, "1"));
+    return measurements;
 }
 
 }  // namespace experiments

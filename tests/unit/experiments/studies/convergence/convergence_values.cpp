@@ -1,5 +1,5 @@
 // Reference: paths defined by formulas; a rate r needs ceil(log 0.05 / log r) iterations to the tolerance.
-#include "experiments/studies/convergence/convergence_figures.hpp"
+#include "experiments/studies/convergence/convergence_values.hpp"
 
 #include "tests/support/iteration_paths.hpp"
 
@@ -13,7 +13,7 @@ using namespace experiments;
 using analysis::Measurement;
 using test_support::starts_at_rates;
 
-std::vector<Measurement> figures_named(const std::vector<Measurement>& all, const std::string& quantity, const std::string& guess = "")
+std::vector<Measurement> values_named(const std::vector<Measurement>& all, const std::string& quantity, const std::string& guess = "")
 {
     std::vector<Measurement> named;
     for (const Measurement& measured : all)
@@ -27,7 +27,7 @@ TEST(ConvergenceFigures, ValueIsOfTheFirstSettingAndTheOthersItsInterval)
                                     starts_at_rates(1650, {0.91, 0.95, 0.9, 0.8})},
                                    false,
                                    ""};
-    const auto iterations = figures_named(convergence_figures(result), "iterations_to_tolerance");
+    const auto iterations = values_named(convergence_values(result), "iterations_to_tolerance");
     ASSERT_EQ(iterations.size(), 2u);  // by residual; by volume, which stays at 1 %
     EXPECT_EQ(iterations[0].value, 29.0);
     EXPECT_EQ(iterations[0].low, 24.0);
@@ -39,17 +39,17 @@ TEST(ConvergenceFigures, ValueIsOfTheFirstSettingAndTheOthersItsInterval)
 TEST(ConvergenceFigures, StartsAreComparedWithLbs)
 {
     const ConvergenceResult result{{starts_at_rates(1780, {0.9, 0.95, 0.9, 0.8})}, false, ""};
-    const auto all = convergence_figures(result);
-    EXPECT_EQ(figures_named(all, "iterations_over_lbs_guess", "previous_frame").at(0).value, 59.0 / 29.0);
-    EXPECT_EQ(figures_named(all, "iterations_over_lbs_guess", "rest_pose").at(0).value, 1.0);
-    EXPECT_EQ(figures_named(all, "iterations_over_lbs_guess", "rigid_bind").at(0).value, 14.0 / 29.0);
+    const auto all = convergence_values(result);
+    EXPECT_EQ(values_named(all, "iterations_over_lbs_guess", "previous_frame").at(0).value, 59.0 / 29.0);
+    EXPECT_EQ(values_named(all, "iterations_over_lbs_guess", "rest_pose").at(0).value, 1.0);
+    EXPECT_EQ(values_named(all, "iterations_over_lbs_guess", "rigid_bind").at(0).value, 14.0 / 29.0);
 }
 
 TEST(ConvergenceFigures, AStartThatNeverArrivesGivesABound)
 {
     ConvergencePaths paths = starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9});
     paths.paths[2] = test_support::path_to_floor(1000, 2.0, 1.0, 0.9);
-    const auto ratio = figures_named(convergence_figures({{paths}, false, ""}), "iterations_over_lbs_guess", "rest_pose");
+    const auto ratio = values_named(convergence_values({{paths}, false, ""}), "iterations_over_lbs_guess", "rest_pose");
     ASSERT_EQ(ratio.size(), 1u);
     EXPECT_EQ(ratio[0].value, 1000.0 / 29.0);
     EXPECT_EQ(ratio[0].limit, analysis::Limit::at_least);
@@ -58,10 +58,10 @@ TEST(ConvergenceFigures, AStartThatNeverArrivesGivesABound)
 // Volume stays at 1 % from every initial guess: three comparisons of three.
 TEST(ConvergenceFigures, WhereNeitherArrivesThereIsNoneAndItIsCounted)
 {
-    const auto all = convergence_figures({{starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})}, false, ""});
+    const auto all = convergence_values({{starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})}, false, ""});
     for (const Measurement& measured : all)
         EXPECT_FALSE(measured.quantity == "iterations_over_lbs_guess" && measured.of.tolerance == "volume") << text_of(measured.of);
-    const auto neither = figures_named(all, "share_of_ratios_not_reached");
+    const auto neither = values_named(all, "share_of_ratios_not_reached");
     ASSERT_EQ(neither.size(), 2u);
     EXPECT_EQ(neither[0].value, 0.0);
     EXPECT_EQ(neither[1].value, 1.0);
@@ -76,15 +76,15 @@ TEST(ConvergenceFigures, AnOrderInWhichNeitherArrivesOpensTheInterval)
     for (IterationPath& path : arriving.paths)
         for (Look& look : path.looks) look.volume_abs_change_pct = look.iteration < 8 ? 1.0 : 0.0;
     for (const std::size_t start : {2, 3}) lost.paths[start] = arriving.paths[start];
-    const auto all = convergence_figures({{arriving, lost}, false, ""});
-    const auto previous = figures_named(all, "iterations_over_lbs_guess", "previous_frame").at(1);
+    const auto all = convergence_values({{arriving, lost}, false, ""});
+    const auto previous = values_named(all, "iterations_over_lbs_guess", "previous_frame").at(1);
     EXPECT_EQ(previous.value, 1.0);
     EXPECT_EQ(previous.low, 0.0);
     EXPECT_EQ(previous.high, std::numeric_limits<double>::infinity());
     EXPECT_EQ(previous.not_reached, 1);
     EXPECT_EQ(previous.n, 2);
-    EXPECT_EQ(figures_named(all, "iterations_over_lbs_guess", "rest_pose").at(1).low, 8.0 / 1000.0);
-    EXPECT_EQ(figures_named(all, "share_of_ratios_not_reached").at(1).value, 1.0 / 6.0);
+    EXPECT_EQ(values_named(all, "iterations_over_lbs_guess", "rest_pose").at(1).low, 8.0 / 1000.0);
+    EXPECT_EQ(values_named(all, "share_of_ratios_not_reached").at(1).value, 1.0 / 6.0);
 }
 
 TEST(ConvergenceFigures, TwistsAndTheLimbAreReportedAndNotJudged)
@@ -92,11 +92,11 @@ TEST(ConvergenceFigures, TwistsAndTheLimbAreReportedAndNotJudged)
     ConvergencePaths twist = starts_at_rates(1780, {0.9, 0.95, 0.9, 0.8});
     twist.character = false;
     twist.twist = true;
-    const auto all = convergence_figures({{twist}, false, ""});
-    EXPECT_TRUE(figures_named(all, "iterations_to_tolerance").empty());
-    EXPECT_TRUE(figures_named(all, "iterations_over_lbs_guess", "previous_frame").empty());
-    EXPECT_EQ(figures_named(all, "iterations_to_tolerance_of_limbs").at(0).value, 29.0);
-    EXPECT_EQ(figures_named(all, "iterations_over_lbs_guess_in_a_twist", "previous_frame").at(0).value, 59.0 / 29.0);
+    const auto all = convergence_values({{twist}, false, ""});
+    EXPECT_TRUE(values_named(all, "iterations_to_tolerance").empty());
+    EXPECT_TRUE(values_named(all, "iterations_over_lbs_guess", "previous_frame").empty());
+    EXPECT_EQ(values_named(all, "iterations_to_tolerance_of_limbs").at(0).value, 29.0);
+    EXPECT_EQ(values_named(all, "iterations_over_lbs_guess_in_a_twist", "previous_frame").at(0).value, 59.0 / 29.0);
 }
 
 // Rates exp(-1 / sqrt(vertices)) need log 20 sqrt(vertices) iterations, rounded up: by at most 1 in 67, 1.5 % at one end of a factor of 64.
@@ -110,13 +110,13 @@ TEST(ConvergenceFigures, ExponentOfALadderIsThatOfTheFormula)
             ladder.all.push_back(starts_at_rates(vertices, {rate, 0.5, 0.5, 0.5}, 4000));
             ladder.all.back().setting.order = order;
         }
-    const auto exponent = figures_named(convergence_figures(ladder), "exponent_of_iterations_over_vertices");
+    const auto exponent = values_named(convergence_values(ladder), "exponent_of_iterations_over_vertices");
     ASSERT_EQ(exponent.size(), 2u);  // one for each order
     EXPECT_EQ(exponent[1].value, 0.0);
     EXPECT_NEAR(exponent[0].value, 0.5, 0.015 / std::log(64.0) * 2.0);
     EXPECT_LE(exponent[0].low, exponent[0].value);
     EXPECT_GE(exponent[0].high, exponent[0].value);
-    EXPECT_EQ(figures_named(convergence_figures(ladder), "iterations_to_tolerance").size(), 8u);  // one for each size, with two tolerances
+    EXPECT_EQ(values_named(convergence_values(ladder), "iterations_to_tolerance").size(), 8u);  // one for each size, with two tolerances
 }
 
 TEST(ConvergenceFigures, ErrorsOfNoReferenceAreLeftOut)
@@ -124,7 +124,7 @@ TEST(ConvergenceFigures, ErrorsOfNoReferenceAreLeftOut)
     ConvergencePaths paths = starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9});
     for (IterationPath& path : paths.paths)
         for (Look& look : path.looks) look.error_joint_pct = std::numeric_limits<double>::quiet_NaN();
-    for (const Measurement& measured : convergence_figures({{paths}, false, ""}))
+    for (const Measurement& measured : convergence_values({{paths}, false, ""}))
         EXPECT_FALSE(measured.quantity.starts_with("error")) << measured.quantity;
 }
 

@@ -1,11 +1,11 @@
-#include "experiments/studies/ambiguity/reading_figures.hpp"
+#include "experiments/studies/ambiguity/reading_values.hpp"
 
 #include "experiments/process/cpu_clock.hpp"
 #include "experiments/process/interruption.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/settings/option_fields.hpp"
-#include "experiments/studies/convergence/convergence_figures.hpp"
-#include "experiments/studies/jiggle/jiggle_figures.hpp"
+#include "experiments/studies/convergence/convergence_values.hpp"
+#include "experiments/studies/jiggle/jiggle_values.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 #include "pbs/character/jiggle_zone_contents.hpp"
@@ -19,9 +19,9 @@ namespace experiments {
 namespace {
 
 template <typename Measure>
-std::vector<ReadingFigures> of_each(const std::vector<Reading>& readings, const Measure& measure)
+std::vector<ReadingValues> of_each(const std::vector<Reading>& readings, const Measure& measure)
 {
-    std::vector<ReadingFigures> all;
+    std::vector<ReadingValues> all;
     for (const Reading& reading : readings) all.push_back(measure(reading));
     return all;
 }
@@ -60,7 +60,7 @@ ConvergencePaths paths_of(const ReadingsCase& of, const MovedBody& body, const R
     paths.setting = {reading.options.order, reading.options.precision};
     paths.character = !of.scene.motion.clip.empty();
     paths.paths = iterate(character, reading.options, bind_points, {starts.shapes.begin(), starts.shapes.end()}, of.most_iterations,
-                          IterationRuler(character, bind_points));
+                          IterationMetrics(character, bind_points));
     return paths;
 }
 
@@ -107,14 +107,14 @@ std::vector<MeasuredJiggle> jolts_of(const ReadingsCase& of, const MovedBody& bo
 const std::vector<std::string> quantities_of_few_settings = {"damping_ratio", "frequency_ratio_at_half_time_step",
                                                              "frequency_ratio_at_twice_iterations"};
 
-ReadingFigures of_jolts(const std::string& body, const std::vector<MeasuredJiggle>& measured)
+ReadingValues of_jolts(const std::string& body, const std::vector<MeasuredJiggle>& measured)
 {
     const std::vector<JiggleSetting> all = jiggle_settings();
     const std::string reason = fmt::format("the bound is for the study's {} settings, a reading is jolted at {}",
                                            std::ranges::count_if(all, is_of_the_paper), measured.size());
-    ReadingFigures read = {judged(jiggle_figures(body, measured)), false, all_but("C09", quantities_of_few_settings, reason)};
-    std::erase_if(read.figures, [&](const JudgedFigure& figure) {
-        return std::ranges::find(read.left_out, figure.quantity, &LeftOutQuantity::quantity) != read.left_out.end();
+    ReadingValues read = {judged(jiggle_values(body, measured)), false, all_but("C09", quantities_of_few_settings, reason)};
+    std::erase_if(read.values, [&](const JudgedValue& value) {
+        return std::ranges::find(read.left_out, value.quantity, &LeftOutQuantity::quantity) != read.left_out.end();
     });
     read.broke_down = !std::ranges::all_of(measured, [](const MeasuredJiggle& one) { return one.response.finished; });
     return read;
@@ -159,7 +159,7 @@ private:
     bool finite_ = true;
 };
 
-JudgedFigure of_frame(const std::string& body, int vertices, double ms)
+JudgedValue of_frame(const std::string& body, int vertices, double ms)
 {
     const analysis::Claim& claim = claim_named("C10");
     const double frames_s = 1e3 / ms;
@@ -175,31 +175,31 @@ JudgedFigure of_frame(const std::string& body, int vertices, double ms)
 
 }  // namespace
 
-std::vector<ReadingFigures> figures_of_starts(const ReadingsCase& of, const std::vector<Reading>& readings)
+std::vector<ReadingValues> values_of_starts(const ReadingsCase& of, const std::vector<Reading>& readings)
 {
     const MovedBody body(of);
     return of_each(readings, [&](const Reading& reading) {
         ConvergenceResult result;
         result.all.push_back(paths_of(of, body, reading));
         result.all.front().k_stretch = readings.front().options.k_stretch;  // names the case, alike for all readings
-        ReadingFigures read = {judged(convergence_figures(result)), !are_finite(result.all.front().paths)};
+        ReadingValues read = {judged(convergence_values(result)), !are_finite(result.all.front().paths)};
         if (!result.all.front().character) read.left_out = all_but("C12", {}, "judged on characters alone");
         return read;
     });
 }
 
-std::vector<ReadingFigures> figures_of_projections(const ReadingsCase& of, const std::vector<Reading>& readings)
+std::vector<ReadingValues> values_of_projections(const ReadingsCase& of, const std::vector<Reading>& readings)
 {
     const MovedBody body(of);
     return of_each(readings, [&](const Reading& reading) {
         const pbs::Character character = body.read(reading);
         const pbs::Pose& pose = body.pose_at(of.frame);
-        std::vector<analysis::Measurement> figures;
+        std::vector<analysis::Measurement> values;
         const auto add = [&](const char* which, const std::string& name, double drift) {
             analysis::CaseKey key = of.key;
             key.body = of.scene.character.body;
             key.constraint = which;
-            figures.push_back({"C07", name, key, drift, drift, drift, "1"});
+            values.push_back({"C07", name, key, drift, drift, drift, "1"});
         };
         for (const auto& [projected, which] :
              {std::pair{ProjectedClass::stretch, "stretch"}, std::pair{ProjectedClass::volume, "volume"}}) {
@@ -210,18 +210,18 @@ std::vector<ReadingFigures> figures_of_projections(const ReadingsCase& of, const
             add(which, "linear_drift_of_a_pass", pass.linear);
             add(which, "angular_drift_of_a_pass", pass.angular);
         }
-        return ReadingFigures{judged(figures), false};
+        return ReadingValues{judged(values), false};
     });
 }
 
-std::vector<ReadingFigures> figures_of_jolts(const ReadingsCase& of, const std::vector<Reading>& readings)
+std::vector<ReadingValues> values_of_jolts(const ReadingsCase& of, const std::vector<Reading>& readings)
 {
     const MovedBody body(of);
     const std::vector<int> probe = zone_contents(body.character).pieces.at(0);
     return of_each(readings, [&](const Reading& reading) { return of_jolts(of.scene.character.body, jolts_of(of, body, probe, reading)); });
 }
 
-std::vector<ReadingFigures> figures_of_frames(const ReadingsCase& of, const std::vector<Reading>& readings)
+std::vector<ReadingValues> values_of_frames(const ReadingsCase& of, const std::vector<Reading>& readings)
 {
     const MovedBody body(of);
     std::vector<std::unique_ptr<TimedReading>> timed;
@@ -231,7 +231,7 @@ std::vector<ReadingFigures> figures_of_frames(const ReadingsCase& of, const std:
         turns.push_back([one = timed.back().get()] { return one->turn(); });
     }
     const auto seconds = take_turns(turns, {.seconds = of.timing_s});
-    std::vector<ReadingFigures> all;
+    std::vector<ReadingValues> all;
     for (std::size_t i = 0; i < timed.size(); ++i) {
         const double ms = 1e3 * spread_of(seconds[i][0]).median;
         all.push_back({{of_frame(of.scene.character.body, int(body.character.mesh.rest.rows()), ms)}, !timed[i]->finite()});

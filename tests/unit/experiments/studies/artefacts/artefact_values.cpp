@@ -12,20 +12,20 @@ using experiments::ArtefactSample;
 using experiments::SectionOutcome;
 using test_support::sample;
 
-std::vector<analysis::Measurement> of_quantity(const std::vector<analysis::Measurement>& figures, const std::string& quantity,
+std::vector<analysis::Measurement> of_quantity(const std::vector<analysis::Measurement>& measurements, const std::string& quantity,
                                                const std::string& deformer)
 {
     std::vector<analysis::Measurement> chosen;
-    for (const auto& figure : figures)
-        if (figure.quantity == quantity && figure.of.deformer == deformer) chosen.push_back(figure);
+    for (const auto& measurement : measurements)
+        if (measurement.quantity == quantity && measurement.of.deformer == deformer) chosen.push_back(measurement);
     return chosen;
 }
 
 class BulgeFigures : public testing::Test {
 protected:
-    std::vector<analysis::Measurement> figures(const std::string& deformer = "pbs") const
+    std::vector<analysis::Measurement> measurements(const std::string& deformer = "pbs") const
     {
-        return of_quantity(experiments::bulge_figures(of, body, samples), "largest_section_area_over_reference", deformer);
+        return of_quantity(experiments::bulge_values(of, body, samples), "largest_section_area_over_reference", deformer);
     }
     SectionOutcome outcome(std::size_t pose) const { return experiments::section_outcomes(of, body, samples)[pose].outcome; }
     std::string remark(std::size_t pose) const { return experiments::section_outcomes(of, body, samples)[pose].remark; }
@@ -38,26 +38,26 @@ protected:
 TEST_F(BulgeFigures, AreOverQuadraticElementsWhereverTheyComeAmongTheSamples)
 {
     samples = {sample("pbs", 0, 1.2), sample("reference", 0, 1.0, 1), sample("reference", 0, 1.5, 2), sample("reference", 0, 0.8, 1)};
-    ASSERT_EQ(figures().size(), 1u);
-    EXPECT_DOUBLE_EQ(figures()[0].value, 1.2 / 1.5);
-    EXPECT_DOUBLE_EQ(figures()[0].low, 1.2 / 1.5);   // relative to the largest reference
-    EXPECT_DOUBLE_EQ(figures()[0].high, 1.2 / 0.8);  // relative to the smallest
-    EXPECT_EQ(text_of(figures()[0].of), "limb, bend, upper|forearm, angle_deg 30, pbs, reference snh_p2");
+    ASSERT_EQ(measurements().size(), 1u);
+    EXPECT_DOUBLE_EQ(measurements()[0].value, 1.2 / 1.5);
+    EXPECT_DOUBLE_EQ(measurements()[0].low, 1.2 / 1.5);   // relative to the largest reference
+    EXPECT_DOUBLE_EQ(measurements()[0].high, 1.2 / 0.8);  // relative to the smallest
+    EXPECT_EQ(text_of(measurements()[0].of), "limb, bend, upper|forearm, angle_deg 30, pbs, reference snh_p2");
 }
 
 TEST_F(BulgeFigures, AreOverLinearElementsWhereThereAreNoOthers)
 {
     samples = {sample("pbs", 1, 1.1), sample("pbs", 1, 1.3), sample("reference", 1, 1.0, 1)};
-    ASSERT_EQ(figures().size(), 1u);
-    EXPECT_DOUBLE_EQ(figures()[0].value, 1.1);
-    EXPECT_DOUBLE_EQ(figures()[0].high, 1.3);
-    EXPECT_EQ(figures()[0].of.reference, "snh_p1");
+    ASSERT_EQ(measurements().size(), 1u);
+    EXPECT_DOUBLE_EQ(measurements()[0].value, 1.1);
+    EXPECT_DOUBLE_EQ(measurements()[0].high, 1.3);
+    EXPECT_EQ(measurements()[0].of.reference, "snh_p1");
 }
 
 TEST_F(BulgeFigures, PosesWithoutAReferenceAreCountedAndHaveNone)
 {
     samples = {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1), sample("pbs", 1, 1.0)};
-    EXPECT_EQ(figures().size(), 1u);
+    EXPECT_EQ(measurements().size(), 1u);
     EXPECT_EQ(outcome(0), SectionOutcome::measured);
     EXPECT_EQ(outcome(1), SectionOutcome::reference_not_reached);
 }
@@ -65,7 +65,7 @@ TEST_F(BulgeFigures, PosesWithoutAReferenceAreCountedAndHaveNone)
 TEST_F(BulgeFigures, DeepFoldsAreLeftOutWhateverTheReference)
 {
     samples = {sample("pbs", 2, 5.0), sample("reference", 2, 1.0, 1)};
-    EXPECT_TRUE(figures().empty());
+    EXPECT_TRUE(measurements().empty());
     EXPECT_EQ(outcome(2), SectionOutcome::bent_too_far);
     EXPECT_EQ(remark(2), "");
 }
@@ -74,8 +74,8 @@ TEST_F(BulgeFigures, SectionsOfAPartThatTheReferenceHasGoneIntoAreLeftOut)
 {
     samples = {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1), sample("reference", 0, 3.1, 1),
                sample("dqs", 0, 1.0), sample("pbs", 1, 1.0),          sample("reference", 1, 2.9, 1)};
-    EXPECT_EQ(figures().size(), 1u);
-    EXPECT_TRUE(figures("dqs").empty());
+    EXPECT_EQ(measurements().size(), 1u);
+    EXPECT_TRUE(measurements("dqs").empty());
     EXPECT_EQ(outcome(0), SectionOutcome::inside_another_part);
     EXPECT_EQ(outcome(1), SectionOutcome::measured);
     EXPECT_EQ(remark(0), "reference 3.1 times as wide as at rest, 100 % of that outline the limb's own skin");
@@ -87,9 +87,9 @@ TEST_F(BulgeFigures, WhatIsWideUnderPbsOrABlendAloneIsJudgedWithARemark)
 {
     samples = {sample("pbs", 0, 1.0), sample("pbs", 0, 3.1), sample("reference", 0, 1.0, 1), sample("dqs", 0, 8.0)};
     samples[1].extremes.limb_share_of_widest = 0.25;
-    ASSERT_EQ(figures().size(), 1u);
-    EXPECT_DOUBLE_EQ(figures()[0].high, 3.1);
-    EXPECT_EQ(figures("dqs").size(), 1u);
+    ASSERT_EQ(measurements().size(), 1u);
+    EXPECT_DOUBLE_EQ(measurements()[0].high, 3.1);
+    EXPECT_EQ(measurements("dqs").size(), 1u);
     EXPECT_EQ(outcome(0), SectionOutcome::measured);
     EXPECT_EQ(remark(0),
               "pbs 3.1 times as wide as at rest, 25 % of that outline the limb's own skin; "
@@ -100,8 +100,8 @@ TEST_F(BulgeFigures, WhatIsWideUnderPbsOrABlendAloneIsJudgedWithARemark)
 TEST_F(BulgeFigures, BlendsAreComparedWherePbsBrokeDown)
 {
     samples = {sample("dqs", 0, 2.0), sample("reference", 0, 1.0, 1)};
-    EXPECT_TRUE(figures().empty());
-    ASSERT_EQ(figures("dqs").size(), 1u);
+    EXPECT_TRUE(measurements().empty());
+    ASSERT_EQ(measurements("dqs").size(), 1u);
     EXPECT_EQ(outcome(0), SectionOutcome::pbs_did_not_finish);
 }
 
@@ -138,14 +138,14 @@ TEST(CandyWrapperFigures, TakeTheThinnestOfAllAndDoWithoutTheReference)
     const ArtefactBody body(of);
     const std::vector<ArtefactSample> samples = {sample("pbs", 0, 0.95), sample("pbs", 0, 0.85), sample("lbs", 0, 0.1),
                                                  sample("pbs", 2, 0.9)};
-    const auto figures = experiments::candy_wrapper_figures(of, body, samples);
-    const auto own = of_quantity(figures, "smallest_section_radius_over_rest", "pbs");
+    const auto measurements = experiments::candy_wrapper_values(of, body, samples);
+    const auto own = of_quantity(measurements, "smallest_section_radius_over_rest", "pbs");
     ASSERT_EQ(own.size(), 2u);
     EXPECT_DOUBLE_EQ(own[0].value, 0.95);
     EXPECT_DOUBLE_EQ(own[0].low, 0.85);
     EXPECT_EQ(text_of(own[0].of), "limb, bend, upper|forearm, angle_deg 30, pbs");
-    EXPECT_EQ(of_quantity(figures, "smallest_section_area_over_rest", "lbs").size(), 1u);
-    EXPECT_TRUE(of_quantity(figures, "smallest_section_area_over_rest", "reference").empty());
+    EXPECT_EQ(of_quantity(measurements, "smallest_section_area_over_rest", "lbs").size(), 1u);
+    EXPECT_TRUE(of_quantity(measurements, "smallest_section_area_over_rest", "reference").empty());
     const auto outcomes = experiments::section_outcomes(of, body, samples);
     EXPECT_EQ(outcomes[1].outcome, SectionOutcome::pbs_did_not_finish);
     EXPECT_EQ(outcomes[2].outcome, SectionOutcome::measured);  // bent, which has no effect here

@@ -1,5 +1,5 @@
 // Reference: the studies' own functions, called directly, and what a reading cannot change.
-#include "experiments/studies/ambiguity/reading_figures.hpp"
+#include "experiments/studies/ambiguity/reading_values.hpp"
 
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
@@ -12,10 +12,10 @@
 namespace {
 
 using analysis::Extent;
-using experiments::JudgedFigure;
+using experiments::JudgedValue;
 using experiments::Reading;
-using experiments::ReadingFigures;
 using experiments::ReadingsCase;
+using experiments::ReadingValues;
 
 ReadingsCase small_limb()
 {
@@ -44,67 +44,67 @@ std::vector<Reading> own_and(const Change& change)
     return readings;
 }
 
-const JudgedFigure& figure(const ReadingFigures& read, const std::string& quantity)
+const JudgedValue& value(const ReadingValues& read, const std::string& quantity)
 {
-    const auto found = std::find_if(read.figures.begin(), read.figures.end(), [&](const auto& one) { return one.quantity == quantity; });
-    if (found == read.figures.end()) throw std::runtime_error("no " + quantity);
+    const auto found = std::find_if(read.values.begin(), read.values.end(), [&](const auto& one) { return one.quantity == quantity; });
+    if (found == read.values.end()) throw std::runtime_error("no " + quantity);
     return *found;
 }
 
-int number_of(const ReadingFigures& read, const std::string& quantity)
+int number_of(const ReadingValues& read, const std::string& quantity)
 {
-    return int(std::count_if(read.figures.begin(), read.figures.end(), [&](const auto& one) { return one.quantity == quantity; }));
+    return int(std::count_if(read.values.begin(), read.values.end(), [&](const auto& one) { return one.quantity == quantity; }));
 }
 
-TEST(ReadingFigures, OfStartsAreThreeStartsByTwoTolerancesAtMost)
+TEST(ReadingValues, OfStartsAreThreeStartsByTwoTolerancesAtMost)
 {
-    const auto all = figures_of_starts(small_limb(), own_and([](Reading& r) { r.options.k_stretch = 0.9; }));
+    const auto all = values_of_starts(small_limb(), own_and([](Reading& r) { r.options.k_stretch = 0.9; }));
     ASSERT_EQ(all.size(), 2u);
-    EXPECT_GE(all[0].figures.size(), 3u);
-    EXPECT_LE(all[0].figures.size(), 6u);
-    for (const JudgedFigure& one : all[0].figures) EXPECT_EQ(one.claim, "C03");
-    EXPECT_EQ(all[0].figures[0].of, all[1].figures[0].of);
+    EXPECT_GE(all[0].values.size(), 3u);
+    EXPECT_LE(all[0].values.size(), 6u);
+    for (const JudgedValue& one : all[0].values) EXPECT_EQ(one.claim, "C03");
+    EXPECT_EQ(all[0].values[0].of, all[1].values[0].of);
     ASSERT_EQ(all[0].left_out.size(), 1u);
     EXPECT_EQ(all[0].left_out[0].claim, "C12");
     EXPECT_EQ(all[0].left_out[0].reason, "judged on characters alone");
 }
 
-TEST(ReadingFigures, OfProjectionsAreTheMomentumStudysDrifts)
+TEST(ReadingValues, OfProjectionsAreTheMomentumStudysDrifts)
 {
-    const auto all = figures_of_projections(small_limb(), own_and([](Reading& r) { r.options.masses = pbs::Masses::lumped; }));
+    const auto all = values_of_projections(small_limb(), own_and([](Reading& r) { r.options.masses = pbs::Masses::lumped; }));
     const ReadingsCase of = small_limb();
     const pbs::Character character = pbs::make_character(of.scene.character);
     const pbs::Pose pose = experiments::make_motion(of.scene.motion, character.skeleton, of.scene.file).steps.at(18);
     const auto drift =
         experiments::drift_of_projections(character, pose, own().options, experiments::ProjectedClass::stretch, pbs::Masses::unit);
-    EXPECT_EQ(figure(all[0], "linear_drift").value, drift.linear);
-    EXPECT_EQ(figure(all[0], "angular_drift").value, drift.angular);
-    EXPECT_NE(figure(all[1], "linear_drift_of_a_pass").value, figure(all[0], "linear_drift_of_a_pass").value);
-    EXPECT_EQ(figure(all[1], "linear_drift_of_a_pass").extent, Extent::whole);  // the projection takes these masses into account
+    EXPECT_EQ(value(all[0], "linear_drift").value, drift.linear);
+    EXPECT_EQ(value(all[0], "angular_drift").value, drift.angular);
+    EXPECT_NE(value(all[1], "linear_drift_of_a_pass").value, value(all[0], "linear_drift_of_a_pass").value);
+    EXPECT_EQ(value(all[1], "linear_drift_of_a_pass").extent, Extent::whole);  // the projection takes these masses into account
 }
 
 // In Algorithm 1 the next position depends on the last two alone, whatever the step, so half the step swings twice as fast.
-TEST(ReadingFigures, OfJoltsHaveTheSameDampingInSubstepsThatAreTheSameSteps)
+TEST(ReadingValues, OfJoltsHaveTheSameDampingInSubstepsThatAreTheSameSteps)
 {
-    const auto all = figures_of_jolts(small_limb(), own_and([](Reading& r) { r.substeps = 2; }));
-    EXPECT_NEAR(figure(all[0], "frequency_ratio_at_half_time_step").value, 2.0, 1e-6);
+    const auto all = values_of_jolts(small_limb(), own_and([](Reading& r) { r.substeps = 2; }));
+    EXPECT_NEAR(value(all[0], "frequency_ratio_at_half_time_step").value, 2.0, 1e-6);
     // The series has twice the samples, and has died away by then.
-    EXPECT_NEAR(figure(all[1], "damping_ratio").value, figure(all[0], "damping_ratio").value, 1e-3);
+    EXPECT_NEAR(value(all[1], "damping_ratio").value, value(all[0], "damping_ratio").value, 1e-3);
 }
 
 // LBS moves the flesh by the jolt beforehand, and a body that moves as a whole violates no constraint.
-TEST(ReadingFigures, OfAJoltThatCarriesTheFleshAlongHaveNoSwing)
+TEST(ReadingValues, OfAJoltThatCarriesTheFleshAlongHaveNoSwing)
 {
-    const auto all = figures_of_jolts(small_limb(), own_and([](Reading& r) { r.options.lbs_entry = pbs::LbsEntry::increment; }));
+    const auto all = values_of_jolts(small_limb(), own_and([](Reading& r) { r.options.lbs_entry = pbs::LbsEntry::increment; }));
     EXPECT_EQ(number_of(all[0], "damping_ratio"), 4);  // one per setting
-    EXPECT_TRUE(all[1].figures.empty());
+    EXPECT_TRUE(all[1].values.empty());
     EXPECT_FALSE(all[1].broke_down);
 }
 
 // C09's bounds on these quantities are for the study's 16 settings.
-TEST(ReadingFigures, OfJoltsLeaveOutWhatIsOfAllSettingsOfTheStudy)
+TEST(ReadingValues, OfJoltsLeaveOutWhatIsOfAllSettingsOfTheStudy)
 {
-    const auto all = figures_of_jolts(small_limb(), {own()});
+    const auto all = values_of_jolts(small_limb(), {own()});
     std::vector<std::string> left_out;
     for (const auto& one : all[0].left_out) {
         left_out.push_back(one.quantity);
@@ -118,26 +118,26 @@ TEST(ReadingFigures, OfJoltsLeaveOutWhatIsOfAllSettingsOfTheStudy)
     EXPECT_EQ(number_of(all[0], "frequency_ratio_at_twice_iterations"), 1);
 }
 
-TEST(ReadingFigures, OfFramesAreOneTimeAReading)
+TEST(ReadingValues, OfFramesAreOneTimeAReading)
 {
-    const auto all = figures_of_frames(small_limb(), own_and([](Reading& r) { r.substeps = 4; }));
+    const auto all = values_of_frames(small_limb(), own_and([](Reading& r) { r.substeps = 4; }));
     ASSERT_EQ(all.size(), 2u);
-    for (const ReadingFigures& read : all) {
-        ASSERT_EQ(read.figures.size(), 1u);
-        EXPECT_EQ(read.figures[0].quantity, "processor_time_of_a_frame_ms");
-        EXPECT_EQ(read.figures[0].unit, "ms");
-        EXPECT_GT(read.figures[0].value, 0.0);
+    for (const ReadingValues& read : all) {
+        ASSERT_EQ(read.values.size(), 1u);
+        EXPECT_EQ(read.values[0].quantity, "processor_time_of_a_frame_ms");
+        EXPECT_EQ(read.values[0].unit, "ms");
+        EXPECT_GT(read.values[0].value, 0.0);
         EXPECT_FALSE(read.broke_down);
     }
 }
 
 // Gravity acts only on integrated particles. If all are integrated, an infinite weight leaves nothing finite; if none is, it has no effect.
-TEST(ReadingFigures, OfFramesTellABreakdown)
+TEST(ReadingValues, OfFramesTellABreakdown)
 {
-    const auto all = figures_of_frames(small_limb(), own_and([](Reading& r) {
-                                           r.options.lbs_entry = pbs::LbsEntry::increment;
-                                           r.options.gravity_m_s2 = pbs::Vec3(0.0, -std::numeric_limits<double>::infinity(), 0.0);
-                                       }));
+    const auto all = values_of_frames(small_limb(), own_and([](Reading& r) {
+                                          r.options.lbs_entry = pbs::LbsEntry::increment;
+                                          r.options.gravity_m_s2 = pbs::Vec3(0.0, -std::numeric_limits<double>::infinity(), 0.0);
+                                      }));
     EXPECT_FALSE(all[0].broke_down);
     EXPECT_TRUE(all[1].broke_down);
 }

@@ -1,4 +1,4 @@
-#include "experiments/studies/artefacts/artefact_figures.hpp"
+#include "experiments/studies/artefacts/artefact_values.hpp"
 
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/artefacts/smoothness_comparison.hpp"
@@ -79,10 +79,10 @@ std::string reference_name(const std::vector<ArtefactSample>& samples, std::size
 
 }  // namespace
 
-std::vector<analysis::Measurement> candy_wrapper_figures(const ArtefactCase& of, const ArtefactBody& body,
-                                                         const std::vector<ArtefactSample>& samples)
+std::vector<analysis::Measurement> candy_wrapper_values(const ArtefactCase& of, const ArtefactBody& body,
+                                                        const std::vector<ArtefactSample>& samples)
 {
-    std::vector<analysis::Measurement> figures;
+    std::vector<analysis::Measurement> measurements;
     for (const auto& [pose, joint, reference, outcome, remark] : section_outcomes(of, body, samples))
         for (const std::string group : {"pbs", "lbs", "dqs", "reference"})
             for (const auto& [quantity, extreme] :
@@ -92,15 +92,15 @@ std::vector<analysis::Measurement> candy_wrapper_figures(const ArtefactCase& of,
                 if (values.empty()) continue;
                 analysis::CaseKey key = key_of(of, body, pose, joint, group);
                 if (group == "reference") key.reference = reference;
-                figures.push_back({"C04", quantity, key, values.front(), least(values), most(values), "1"});
+                measurements.push_back({"C04", quantity, key, values.front(), least(values), most(values), "1"});
             }
-    return figures;
+    return measurements;
 }
 
-std::vector<analysis::Measurement> bulge_figures(const ArtefactCase& of, const ArtefactBody& body,
-                                                 const std::vector<ArtefactSample>& samples)
+std::vector<analysis::Measurement> bulge_values(const ArtefactCase& of, const ArtefactBody& body,
+                                                const std::vector<ArtefactSample>& samples)
 {
-    std::vector<analysis::Measurement> figures;
+    std::vector<analysis::Measurement> measurements;
     for (const auto& [pose, joint, reference_name, outcome, remark] : section_outcomes(of, body, samples)) {
         if (outcome != SectionOutcome::measured && outcome != SectionOutcome::pbs_did_not_finish) continue;
         for (const auto& [quantity, extreme] :
@@ -113,12 +113,12 @@ std::vector<analysis::Measurement> bulge_figures(const ArtefactCase& of, const A
                 const std::vector<double> values = sizes(own, extreme);
                 analysis::CaseKey key = key_of(of, body, pose, joint, group);
                 key.reference = reference_name;
-                figures.push_back({"C05", quantity, key, values.front() / reference.front(), least(values) / most(reference),
-                                   most(values) / least(reference), "1"});
+                measurements.push_back({"C05", quantity, key, values.front() / reference.front(), least(values) / most(reference),
+                                        most(values) / least(reference), "1"});
             }
         }
     }
-    return figures;
+    return measurements;
 }
 
 const char* name_of(SectionOutcome outcome)

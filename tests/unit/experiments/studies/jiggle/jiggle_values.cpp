@@ -12,8 +12,8 @@ using test_support::swinging;
 std::vector<analysis::Measurement> of_quantity(const std::vector<MeasuredJiggle>& measured, const std::string& quantity)
 {
     std::vector<analysis::Measurement> chosen;
-    for (const auto& figure : experiments::jiggle_figures("limb", measured))
-        if (figure.quantity == quantity) chosen.push_back(figure);
+    for (const auto& measurement : experiments::jiggle_values("limb", measured))
+        if (measurement.quantity == quantity) chosen.push_back(measurement);
     return chosen;
 }
 
@@ -35,11 +35,11 @@ TEST(JiggleFigures, WhatDoesNotSwingCountsInTheShare)
 
 TEST(JiggleFigures, WhatDoesNotSwingHasNeitherFrequencyNorDamping)
 {
-    const auto figures = experiments::jiggle_figures("limb", {creeping({})});
-    ASSERT_EQ(figures.size(), 2u);  // share, amplitude
-    EXPECT_EQ(figures[0].value, 0.0);
-    EXPECT_EQ(figures[1].quantity, "amplitude");
-    EXPECT_TRUE(experiments::jiggle_figures("limb", {}).empty());
+    const auto measurements = experiments::jiggle_values("limb", {creeping({})});
+    ASSERT_EQ(measurements.size(), 2u);  // share, amplitude
+    EXPECT_EQ(measurements[0].value, 0.0);
+    EXPECT_EQ(measurements[1].quantity, "amplitude");
+    EXPECT_TRUE(experiments::jiggle_values("limb", {}).empty());
 }
 
 TEST(JiggleFigures, WhatBrokeDownHasNoAmplitude)
@@ -99,11 +99,11 @@ TEST(JiggleFigures, CorrelationOfAPerfectOrderIsOneAndInItsInterval)
     std::vector<MeasuredJiggle> measured;
     for (int n = 1; n <= 12; ++n) {
         measured.push_back(swinging({.k_stretch = 0.07 * n}, 1.0 + 0.1 * n));
-        for (const auto& figure : of_quantity(measured, correlation)) {
-            EXPECT_LE(figure.low, figure.value) << n;
-            EXPECT_GE(figure.high, figure.value) << n;
-            EXPECT_LE(figure.high, 1.0) << n;
-            EXPECT_NEAR(figure.value, 1.0, 1e-12) << n;
+        for (const auto& measurement : of_quantity(measured, correlation)) {
+            EXPECT_LE(measurement.low, measurement.value) << n;
+            EXPECT_GE(measurement.high, measurement.value) << n;
+            EXPECT_LE(measurement.high, 1.0) << n;
+            EXPECT_NEAR(measurement.value, 1.0, 1e-12) << n;
         }
     }
 }

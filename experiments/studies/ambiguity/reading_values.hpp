@@ -3,10 +3,10 @@
 // that of its study by wall time; and C09 has the values of single settings and of pairs of them, but none that its study computes from all
 // settings.
 //   const ReadingsCase of = {.scene = read_scene("limb_bend", {}), .frame = 18, .pose = "bend 90"};
-//   for (const ReadingFigures& read : figures_of_starts(of, readings)) ...   // one per reading
+//   for (const ReadingValues& read : values_of_starts(of, readings)) ...   // one per reading
 #pragma once
 
-#include "experiments/studies/ambiguity/judged_figure.hpp"
+#include "experiments/studies/ambiguity/judged_value.hpp"
 #include "experiments/studies/artefacts/artefact_case.hpp"
 
 namespace experiments {
@@ -26,22 +26,22 @@ nlohmann::json to_json(const ReadingsCase& of);
 
 // C03, C12: paths of iterations from the four initial guesses, with the reading's weights and bind points. The previous frame, where it is
 // the initial guess, was reached with the bone's own material points. C12 is judged on characters alone.
-std::vector<ReadingFigures> figures_of_starts(const ReadingsCase& of, const std::vector<Reading>& readings);
+std::vector<ReadingValues> values_of_starts(const ReadingsCase& of, const std::vector<Reading>& readings);
 
 // C04 or C05, as the case has it: sections of the body's joints in the poses of a sweep, all steps of which are taken, and one reference.
-std::vector<ReadingFigures> figures_of_sections(const ArtefactCase& of, const std::vector<Reading>& readings);
+std::vector<ReadingValues> values_of_sections(const ArtefactCase& of, const std::vector<Reading>& readings);
 
 // C07: single projections and a pass of each class that is judged, from the reading's LBS shape. Momentum is that of the reading's masses.
-std::vector<ReadingFigures> figures_of_projections(const ReadingsCase& of, const std::vector<Reading>& readings);
+std::vector<ReadingValues> values_of_projections(const ReadingsCase& of, const std::vector<Reading>& readings);
 
 // C09: a jolt without gravity at the reading's own stiffness in the zone, at 0.1 there, at half the time step and at twice the iterations.
 // A reading whose flesh does not jiggle takes Table 1's 0.9 in the zone. All count as the paper's own setting. The values are damping
 // ratios, and the ratios of frequencies over time steps and iterations; those that the study computes from all its settings are left out.
 inline constexpr double table_1_k_stretch = 0.9, soft_k_stretch = 0.1;
 inline constexpr double least_answer = 1e-3;  // of the jolt; flesh that LBS carries along moves by rounding, some 1e-5, which is no swing
-std::vector<ReadingFigures> figures_of_jolts(const ReadingsCase& of, const std::vector<Reading>& readings);
+std::vector<ReadingValues> values_of_jolts(const ReadingsCase& of, const std::vector<Reading>& readings);
 
 // C10: processor time per frame, including LBS, of all readings in turns, in the order and precision that are judged (plain, f64).
-std::vector<ReadingFigures> figures_of_frames(const ReadingsCase& of, const std::vector<Reading>& readings);
+std::vector<ReadingValues> values_of_frames(const ReadingsCase& of, const std::vector<Reading>& readings);
 
 }  // namespace experiments

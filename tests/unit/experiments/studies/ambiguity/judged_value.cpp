@@ -1,5 +1,5 @@
 // Reference: claims.toml and the rules of analysis::judge_case.
-#include "experiments/studies/ambiguity/judged_figure.hpp"
+#include "experiments/studies/ambiguity/judged_value.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,26 +11,26 @@ namespace {
 using analysis::Extent;
 using experiments::judged;
 
-TEST(JudgedFigure, IsOfWhatAClaimIsJudgedByAlone)
+TEST(JudgedValue, IsOfWhatAClaimIsJudgedByAlone)
 {
-    const auto figures = judged({{"C09", "damping_ratio", {.body = "limb"}, 0.5, 0.5, 0.5, "1"},
-                                 {"C09", "frequency_hz", {.body = "limb"}, 14.0, 14.0, 14.0, "Hz"}});
-    ASSERT_EQ(figures.size(), 1u);
-    EXPECT_EQ(figures[0].quantity, "damping_ratio");
-    EXPECT_EQ(figures[0].extent, Extent::whole);
+    const auto values = judged({{"C09", "damping_ratio", {.body = "limb"}, 0.5, 0.5, 0.5, "1"},
+                                {"C09", "frequency_hz", {.body = "limb"}, 14.0, 14.0, 14.0, "Hz"}});
+    ASSERT_EQ(values.size(), 1u);
+    EXPECT_EQ(values[0].quantity, "damping_ratio");
+    EXPECT_EQ(values[0].extent, Extent::whole);
     EXPECT_EQ(judged({{"C09", "damping_ratio", {.body = "limb"}, 2.0, 2.0, 2.0, "1"}})[0].extent, Extent::none);
 }
 
 // A value of A and one of B belong together whether or not a tolerance was reached.
-TEST(JudgedFigure, KeepsABoundApartFromWhatItIsOf)
+TEST(JudgedValue, KeepsABoundApartFromWhatItIsOf)
 {
     const analysis::CaseKey of = {.body = "limb", .initial_guess = "rest_pose"};
-    const auto figures = judged({{"C03", "iterations_over_lbs_guess", of, 30.0, 30.0, 30.0, "1", "", analysis::Limit::at_least}});
-    EXPECT_EQ(figures[0].of, of);
-    EXPECT_EQ(figures[0].limit, analysis::Limit::at_least);
+    const auto values = judged({{"C03", "iterations_over_lbs_guess", of, 30.0, 30.0, 30.0, "1", "", analysis::Limit::at_least}});
+    EXPECT_EQ(values[0].of, of);
+    EXPECT_EQ(values[0].limit, analysis::Limit::at_least);
 }
 
-TEST(JudgedFigure, LeavesOutWhatIsNotMeasured)
+TEST(JudgedValue, LeavesOutWhatIsNotMeasured)
 {
     const auto left_out = experiments::all_but("C12", {}, "why");
     ASSERT_EQ(left_out.size(), 1u);
@@ -73,25 +73,25 @@ experiments::ReadMotion clip_of(double change_pct)
     return moved;
 }
 
-TEST(JudgedFigure, OfVolumeIsTheMeanOfC01AndTheShareOfC02)
+TEST(JudgedValue, OfVolumeIsTheMeanOfC01AndTheShareOfC02)
 {
-    const auto figures = judged(clip_of(-14.0));
-    ASSERT_EQ(figures.size(), 4u);
-    EXPECT_EQ(figures[0].quantity, "mean_volume_loss_pct");
-    EXPECT_EQ(figures[0].value, 14.0);
-    EXPECT_EQ(figures[0].extent, Extent::whole);
-    EXPECT_EQ(figures[2].quantity, "share_of_frames_by_volume_change_pct");
-    EXPECT_EQ(figures[2].value, 0.0);
+    const auto values = judged(clip_of(-14.0));
+    ASSERT_EQ(values.size(), 4u);
+    EXPECT_EQ(values[0].quantity, "mean_volume_loss_pct");
+    EXPECT_EQ(values[0].value, 14.0);
+    EXPECT_EQ(values[0].extent, Extent::whole);
+    EXPECT_EQ(values[2].quantity, "share_of_frames_by_volume_change_pct");
+    EXPECT_EQ(values[2].value, 0.0);
     EXPECT_EQ(judged(clip_of(-0.25))[2].value, 1.0);
     EXPECT_EQ(judged(clip_of(-0.25))[2].extent, Extent::whole);
 }
 
-TEST(JudgedFigure, OfAReadingThatBreaksDownDoesNotHold)
+TEST(JudgedValue, OfAReadingThatBreaksDownDoesNotHold)
 {
-    for (const auto& figure : judged(clip_of(std::numeric_limits<double>::quiet_NaN()))) EXPECT_EQ(figure.extent, Extent::none);
+    for (const auto& value : judged(clip_of(std::numeric_limits<double>::quiet_NaN()))) EXPECT_EQ(value.extent, Extent::none);
 }
 
-TEST(JudgedFigure, OfAnUnknownClaimIsRefused)
+TEST(JudgedValue, OfAnUnknownClaimIsRefused)
 {
     EXPECT_THROW(experiments::claim_named("C99"), std::logic_error);
 }

@@ -1,4 +1,4 @@
-#include "experiments/studies/ambiguity/judged_figure.hpp"
+#include "experiments/studies/ambiguity/judged_value.hpp"
 
 #include "pbs/character/body_cache.hpp"
 
@@ -9,7 +9,7 @@
 namespace experiments {
 namespace {
 
-JudgedFigure of_case(const analysis::Claim& claim, const analysis::CaseRecord& record, const std::string& metric)
+JudgedValue of_case(const analysis::Claim& claim, const analysis::CaseRecord& record, const std::string& metric)
 {
     const analysis::CaseJudgement judgement = analysis::judge_case(claim, record, metric);
     const bool of_share = claim.rule == analysis::ClaimRule::share_within;
@@ -49,27 +49,27 @@ std::vector<LeftOutQuantity> all_but(const std::string& claim, const std::vector
     return left_out;
 }
 
-std::vector<JudgedFigure> judged(const std::vector<analysis::Measurement>& measured)
+std::vector<JudgedValue> judged(const std::vector<analysis::Measurement>& measured)
 {
-    std::vector<JudgedFigure> figures;
+    std::vector<JudgedValue> values;
     for (const analysis::Measurement& one : measured) {
         const analysis::Claim& claim = claim_named(one.claim);
         if (!analysis::is_judged(claim, one)) continue;
-        figures.push_back({one.claim, one.quantity, one.of, one.unit, analysis::bound_text(analysis::bound_of(claim, one.quantity)),
-                           one.value, analysis::extent_of(claim, one), one.limit});
+        values.push_back({one.claim, one.quantity, one.of, one.unit, analysis::bound_text(analysis::bound_of(claim, one.quantity)),
+                          one.value, analysis::extent_of(claim, one), one.limit});
     }
-    return figures;
+    return values;
 }
 
-std::vector<JudgedFigure> judged(const ReadMotion& moved)
+std::vector<JudgedValue> judged(const ReadMotion& moved)
 {
-    std::vector<JudgedFigure> figures;
+    std::vector<JudgedValue> values;
     for (const analysis::Claim& claim : claims()) {
         if (claim.study != "volume") continue;
         for (const std::string& metric : claim.metrics)
-            figures.push_back(of_case(claim, claim.deformer == "lbs" ? moved.lbs : moved.pbs, metric));
+            values.push_back(of_case(claim, claim.deformer == "lbs" ? moved.lbs : moved.pbs, metric));
     }
-    return figures;
+    return values;
 }
 
 }  // namespace experiments
