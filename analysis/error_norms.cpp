@@ -9,7 +9,9 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace analysis {
 namespace {
@@ -47,6 +49,19 @@ Eigen::Matrix3d edge_matrix(const pbs::Positions& positions, const pbs::Tets& te
     return edges;
 }
 
+void require_entries(const std::vector<bool>& vertices, Eigen::Index expected)
+{
+    if (static_cast<Eigen::Index>(vertices.size()) != expected)
+        throw pbs::InputError("", 0, "marked vertices", std::to_string(vertices.size()), fmt::format("expected {}", expected));
+}
+
+std::vector<int> without(const std::vector<int>& vertices, const std::vector<bool>& left_out)
+{
+    std::vector<int> rest;
+    std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(rest), [&](int vertex) { return !left_out[vertex]; });
+    return rest;
+}
+
 }  // namespace
 
 ErrorMetrics::ErrorMetrics(const ErrorDomain& domain)
@@ -60,22 +75,41 @@ ErrorMetrics::ErrorMetrics(const ErrorDomain& domain)
         if (is_free(vertex)) free_.push_back(vertex);
     for (int vertex : domain.blended)
         if (is_free(vertex)) blended_.push_back(vertex);
-    bone_distance_m_ = weighted_mean(blended_, mass_, [&](int vertex) { return domain.bone_distance_m(vertex); });
+    bone_distance_m_ = domain.bone_distance_m;
 }
 
 ErrorNorms ErrorMetrics::measure(const pbs::Positions& positions, const pbs::Positions& reference) const
 {
+    return measure(positions, reference, std::vector<bool>(mass_.size(), false));
+}
+
+ErrorNorms ErrorMetrics::measure(const pbs::Positions& positions, const pbs::Positions& reference, const std::vector<bool>& left_out) const
+{
     require_points(positions, mass_.size(), "the frame");
     require_points(reference, mass_.size(), "the reference");
+    require_entries(left_out, mass_.size());
+    const std::vector<int> free = without(free_, left_out), blended = without(blended_, left_out);
     const auto square = [&](int vertex) { return (positions.row(vertex) - reference.row(vertex)).squaredNorm(); };
+    const double bone_distance_m = weighted_mean(blended, mass_, [&](int vertex) { return bone_distance_m_(vertex); });
     ErrorNorms error;
-    error.l2_pct = 100.0 * std::sqrt(weighted_mean(free_, mass_, square)) / diagonal_m_;
-    error.joint_pct = 100.0 * std::sqrt(weighted_mean(blended_, mass_, square)) / bone_distance_m_;
-    double largest = free_.empty() ? not_known : 0.0;
-    for (int vertex : free_)
+    error.l2_pct = 100.0 * std::sqrt(weighted_mean(free, mass_, square)) / diagonal_m_;
+    error.joint_pct = 100.0 * std::sqrt(weighted_mean(blended, mass_, square)) / bone_distance_m;
+    double largest = free.empty() ? not_known : 0.0;
+    for (int vertex : free)
         if (const double s = square(vertex); std::isnan(s) || s > largest) largest = s;  // a NaN is kept
     error.linf_m = std::sqrt(largest);
     return error;
+}
+
+double ErrorMetrics::share_pct(const std::vector<bool>& vertices) const
+{
+    require_entries(vertices, mass_.size());
+    CompensatedSum sum, total;
+    for (Eigen::Index v = 0; v < mass_.size(); ++v) {
+        total += mass_(v);
+        if (vertices[v]) sum += mass_(v);
+    }
+    return 100.0 * sum.value() / total.value();
 }
 
 double error_h1_pct(const pbs::Positions& rest, const pbs::Tets& tets, const pbs::Positions& positions, const pbs::Positions& reference)

@@ -33,11 +33,17 @@ public:
     // InputError for a mesh that checked_rest_volumes refuses, and for arrays whose sizes do not match.
     explicit ErrorMetrics(const ErrorDomain& domain);
     ErrorNorms measure(const pbs::Positions& positions, const pbs::Positions& reference) const;  // both [m], #V x 3, otherwise InputError
+    // Without the vertices that are left out of this frame, #V; the mean bone distance is that of the remaining vertices.
+    ErrorNorms measure(const pbs::Positions& positions, const pbs::Positions& reference, const std::vector<bool>& left_out) const;
+
+    // The share of the body's rest volume at these vertices, #V, in per cent.
+    double share_pct(const std::vector<bool>& vertices) const;
 
 private:
     std::vector<int> free_, blended_;  // the vertices that are measured
     Eigen::VectorXd mass_;             // lumped rest volume [m^3], #V
-    double diagonal_m_ = 0.0, bone_distance_m_ = 0.0;
+    Eigen::VectorXd bone_distance_m_;  // #V, or empty
+    double diagonal_m_ = 0.0;
 };
 
 // H1 seminorm of the difference: 100 sqrt(sum V0_t |F_t - Fref_t|^2 / sum V0_t), F the deformation gradient of the tet, Frobenius norm.

@@ -166,6 +166,14 @@ void ElasticBody::start_from(const pbs::Positions& vertices)
     implementation_->displacement_ = implementation_->held_.prescribed_values(vertices);
 }
 
+void ElasticBody::start_from_nodes(const pbs::Positions& nodes)
+{
+    const pbs::Positions& rest = nodes_at_rest();
+    require(nodes.rows() == rest.rows(), "nodes", nodes.rows(), "expected one position a node");
+    const pbs::Positions displacement = nodes - rest;
+    implementation_->displacement_ = Eigen::VectorXd::Map(displacement.data(), displacement.size());
+}
+
 NewtonSummary ElasticBody::solve_at_once(const Targets& targets, const pbs::Vec3& gravity_m_s2)
 {
     require(gravity_m_s2.allFinite(), "gravity_m_s2", gravity_m_s2.transpose(), "expected finite components");
@@ -176,6 +184,19 @@ NewtonSummary ElasticBody::solve_at_once(const Targets& targets, const pbs::Vec3
 const pbs::Positions& ElasticBody::positions() const
 {
     return implementation_->positions_;
+}
+
+const pbs::Positions& ElasticBody::nodes_at_rest() const
+{
+    return implementation_->held_.space().node_positions();
+}
+
+pbs::Positions ElasticBody::moved(const pbs::Positions& points_at_rest) const
+{
+    const HeldSpace& held = implementation_->held_;
+    const pbs::TetMesh mesh{held.rest(), held.space().tet_nodes().leftCols(4)};
+    const AttachedPoints points(mesh, held.space(), points_at_rest, Eigen::VectorXd::Ones(points_at_rest.rows()));
+    return points.moved(implementation_->displacement_);
 }
 
 const Eigen::VectorXd& ElasticBody::displacement() const

@@ -63,14 +63,19 @@ public:
     // pbs::InputError where quasi-static, for a step that is not finite and > 0, and as solve().
     LoadPathSummary advance(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2, double time_step_s);
 
-    // A start for Newton other than the last state [m], #V x 3; mid-edge nodes halfway. Does not change what is converged to, only the way.
+    // A start for Newton other than the last state [m], #V x 3, with mid-edge nodes halfway; or #nodes x 3. Does not change what is
+    // converged to, only the way.
     void start_from(const pbs::Positions& vertices);
+    void start_from_nodes(const pbs::Positions& nodes);
 
     // Newton alone for these targets, from the last state or start_from(), however broken: no load path, nothing taken back. positions()
     // are then the last iterate, converged or not. pbs::InputError unless quasi-static, and as solve().
     NewtonSummary solve_at_once(const Targets& targets, const pbs::Vec3& gravity_m_s2);
 
-    const pbs::Positions& positions() const;        // deformed vertices [m], #V x 3
+    const pbs::Positions& positions() const;      // deformed vertices [m], #V x 3
+    const pbs::Positions& nodes_at_rest() const;  // [m], #nodes x 3: vertices, then the middles of edges
+    // Where points of the flesh are now [m], #P x 3, interpolated by the elements; given at rest. Not a number outside the flesh.
+    pbs::Positions moved(const pbs::Positions& points_at_rest) const;
     const Eigen::VectorXd& displacement() const;    // of every node of the space [m], #dofs: vertices, then the middles of edges
     pbs::Positions spring_points_deformed() const;  // where the tied points went [m], #S x 3
     double strain_energy_j() const;                 // of the flesh alone

@@ -214,6 +214,7 @@ private:
             if (breakdown_.empty()) breakdown_ = text;
         } else if (bad_frame_.empty()) {
             bad_frame_ = fmt::format("{}: {}", outcome == pbs::Outcome::finished ? "inverted tets" : "pose not reached", text);
+            bad_label_ = runner.spec.label;
         }
     }
 
@@ -229,6 +230,8 @@ private:
         std::map<std::string, nlohmann::json> records;
         for (const Runner& runner : runners_)
             if (const auto record = runner.deformer->record(); !record.is_null()) records[runner.spec.label] = record;
+        if (!bad_frame_.empty())
+            bad_frame_ += fmt::format("; {} of {} frames of {} broke down", broken_frames_[bad_label_].size(), frames_, bad_label_);
         nlohmann::json outcome = {{"finished", true}, {"frames", frames_}, {"breakdowns", breakdowns_}, {"not_converged", not_converged_}};
         outcome["broken_frames"] = broken_frames_;
         outcome["breakdown"] = breakdown_;
@@ -258,7 +261,7 @@ private:
     std::optional<ReferenceErrorBar> error_bar_;
     RunFolder folder_;  // made last, for it removes the records of an earlier run
     int frames_ = 0, self_intersecting_frames_ = 0;
-    std::string breakdown_, bad_frame_;
+    std::string breakdown_, bad_frame_, bad_label_;  // bad_label_: of the deformer of bad_frame_
     std::map<std::string, std::vector<int>> breakdowns_, not_converged_;  // label -> frames
     std::map<std::string, std::vector<BrokenFrame>> broken_frames_;       // label -> frames with their worst elements
     std::map<std::string, int> frames_below_reference_error_ = {};        // label -> how many

@@ -16,7 +16,7 @@ struct RunResult {
     int frames = 0;
     double seconds = 0.0;
     std::string breakdown;           // the first deformer and frame that were not finite, with the first such vertex; empty: none
-    std::string bad_frame;           // the first bad frame, with the reason and the worst tet; empty: none
+    std::string bad_frame;           // the first bad frame, with the reason, the worst tet and the number of bad frames; empty: none
     std::vector<std::string> lines;  // a summary for the terminal, one line per deformer
 
     // Why a run failed that was expected to finish without bad frames: the breakdown, else the bad frame. Empty: it did not fail.

@@ -147,10 +147,10 @@ std::vector<int> gripping_bones(const BoneAttachment& bones, const pbs::Tets& te
 
     std::vector<int> gripping = bones.vertex_bone;
     std::vector<double> largest(gripping.size(), 0.0);
-    for (const auto& [at, of_springs] : stiffness) {
-        const auto [vertex, bone] = at;
-        if (of_springs <= largest[vertex]) continue;
-        largest[vertex] = of_springs;
+    for (const auto& entry : stiffness) {
+        const int vertex = entry.first.first, bone = entry.first.second;
+        if (entry.second <= largest[vertex]) continue;
+        largest[vertex] = entry.second;
         gripping[vertex] = bone;
     }
     return gripping;

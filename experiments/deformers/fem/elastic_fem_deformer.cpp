@@ -1,6 +1,5 @@
 #include "experiments/deformers/fem/elastic_fem_deformer.hpp"
 
-#include "pbs/geometry/refinement.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/skinning/blend.hpp"
@@ -71,8 +70,8 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
     reached_pose_ = rest_pose(character.skeleton);
     fewer_nodes_.reset();
     if (options_.nested_start && (options_.element_order == 2 || character.unrefined)) {
-        fewer_nodes_ = std::make_unique<ElasticFemDeformer>(with_order_1(options_));
-        fewer_nodes_->reset(options_.element_order == 2 ? character : *character.unrefined);
+        fewer_nodes_ = std::make_unique<ElasticFemDeformer>(character.unrefined ? options_ : with_order_1(options_));
+        fewer_nodes_->reset(character.unrefined ? *character.unrefined : character);
     }
     unspent_s_ = 0.0;
     start_ = {};
@@ -131,38 +130,25 @@ void ElasticFemDeformer::follow(const pbs::PosePath& way, const Eigen::Isometry3
     reached_pose_ = placed(way.at(solve.reached), place);
 }
 
-// Where this fails, the body returns to where it was, with mid-edge nodes halfway between their ends.
+// Where this fails, the body returns to where it was.
 bool ElasticFemDeformer::settle_from_fewer_nodes(const pbs::Pose& pose, const pbs::RootFrame& frame, FrameSolve& solve)
 {
     const bool far = pbs::PosePath(character_->skeleton, reached_pose_, frame.pose()).largest_turn_deg() > far_turn_deg;
     if (!fewer_nodes_ || !far || fewer_nodes_->advance(pose, 0.0).outcome != pbs::Outcome::finished) return false;
-    const pbs::Positions before = body_->positions();
+    const pbs::Positions& rest = body_->nodes_at_rest();
+    const pbs::Positions before = rest + Eigen::Map<const pbs::Positions>(body_->displacement().data(), rest.rows(), 3);
     const pbs::Pose pose_before = reached_pose_;
-    body_->start_from(from_fewer_nodes());
+    body_->start_from_nodes(fewer_nodes_->body_->moved(rest));
     const pbs::PosePath no_way(character_->skeleton, frame.pose(), frame.pose());
     follow(no_way, Eigen::Isometry3d::Identity(), frame.from_world(options_.gravity_m_s2), solve);
     if (solve.converged()) {
         failures_in_a_row_ = 0;
         return true;
     }
-    body_->start_from(before);
+    body_->start_from_nodes(before);
     reached_pose_ = pose_before;
     solve = {};
     return false;
-}
-
-// The positions of the body with fewer nodes, in the root's frame; prolongated to the refined mesh.
-pbs::Positions ElasticFemDeformer::from_fewer_nodes() const
-{
-    pbs::Positions start = fewer_nodes_->body_->positions();
-    if (options_.element_order == 2) return start;
-    pbs::TetMesh mesh = character_->unrefined->mesh;
-    for (int refinement = 0; refinement < character_->refinements; ++refinement) {
-        pbs::Refinement fine = pbs::refine(mesh);
-        start = pbs::prolongated(start, fine.parents);
-        mesh = std::move(fine.mesh);
-    }
-    return start;
 }
 
 FrameSolve ElasticFemDeformer::settle(const pbs::RootFrame& frame)

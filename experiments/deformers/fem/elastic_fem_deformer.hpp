@@ -4,10 +4,11 @@
 // Quasi-static: the path from the last solved pose to the frame's pose is followed in stages. No bone turns by more than 45 degrees in a
 // stage, and each stage is halved until its parts converge. Where a frame is not reached, the positions are those of the last equilibrium
 // on the path, the outcome is not_converged, and the next frame begins there. The second such frame in a row is tried again from rest,
-// once. nested_start: a body with fewer nodes follows the path to a pose far from the last one, and its solution is the initial guess of
-// this body, which follows the path itself only where that fails. For order 2 that body has order 1; for a refined character it is the
-// unrefined one. start_from(): the next frame is Newton's method alone, in the frame's own pose, from that shape. Where it does not
-// converge, the positions are its last iterate, and the following frame continues from there.
+// once. nested_start: a body with fewer nodes follows the path to a pose far from the last one, and its solution, interpolated by its own
+// elements, is the initial guess of this body, which follows the path itself only where that fails. For a refined character that body is
+// the unrefined one with the same elements, and otherwise the same tets with order 1: from order 1 to order 2 to the refined tets, each
+// space contains the one before. start_from(): the next frame is Newton's method alone, in the frame's own pose, from that shape. Where it
+// does not converge, the positions are its last iterate, and the following frame continues from there.
 //
 // In time: the body rests in equilibrium in the first pose; then every step is a time step. A step that does not converge is undone, and
 // the next step covers its time too.
@@ -43,7 +44,6 @@ private:
     FrameSolve settle(const pbs::RootFrame& frame);  // in the root's frame
     FrameSolve settle_from_start(const pbs::RootFrame& frame);
     bool settle_from_fewer_nodes(const pbs::Pose& pose, const pbs::RootFrame& frame, FrameSolve& solve);
-    pbs::Positions from_fewer_nodes() const;              // [m], #V x 3
     FrameSolve start_at(const pbs::RootFrame& frame);     // in the world, at rest
     FrameSolve move(const pbs::Pose& pose, double dt_s);  // in the world
     void follow(const pbs::PosePath& way, const Eigen::Isometry3d& place, const pbs::Vec3& gravity_m_s2, FrameSolve& solve);

@@ -101,7 +101,7 @@ TEST_F(ArtefactsVerdict, WithoutAReferenceThereIsNoVerdict)
 TEST_F(ArtefactsVerdict, ARatioAboveOneIsNotSmoother)
 {
     bent.poses = {{2, "bend 60 deg"}};
-    std::vector<Measurement> measured = experiments::compare_weights(bent).measured;
+    std::vector<Measurement> measured = experiments::compare_weights(bent).measurements;
     expect_the_claims_quantities("C06", measured);
     const auto put = [&](const std::string& quantity, const analysis::CaseKey& of, double ratio) {
         for (Measurement& measurement : measured)

@@ -74,7 +74,7 @@ void add_samples(const std::string& group, const Shapes& shapes, int element_ord
 }
 
 // The values with these shapes in place of the solver's.
-std::vector<Measurement> measured(const Shapes& shapes)
+std::vector<Measurement> measure(const Shapes& shapes)
 {
     std::vector<ArtefactSample> samples;
     add_samples("pbs", shapes, 0, samples);
@@ -130,7 +130,7 @@ constexpr double thicker = 1.2;
 
 TEST(BrokenBulge, AsItIsThereIsNone)
 {
-    const auto measured = measured(solved(Broken::nothing));
+    const auto measured = measure(solved(Broken::nothing));
     EXPECT_EQ(verdict(measured), VerdictKind::reproduced);
     for (const std::string& quantity : {radius, area}) EXPECT_EQ(verdict(measured, quantity), VerdictKind::reproduced) << quantity;
     // The correct solver, driven by hand like the thick one below, gives the same result.
@@ -141,7 +141,7 @@ TEST(BrokenBulge, AsItIsThereIsNone)
 TEST(BrokenBulge, FiguresAreTheRatiosOfSectionsCutByHand)
 {
     const Shapes own = solved(Broken::nothing);
-    const auto measured = measured(own);
+    const auto measured = measure(own);
     for (std::size_t pose = 0; pose < own.size(); ++pose) {
         const auto by_hand = hand_cut_widest(limb().body, own[pose].positions, limb().body.posed.pose(pose)),
                    reference = hand_cut_widest(limb().body, limb().reference[pose].positions, limb().body.posed.pose(pose));
@@ -152,7 +152,7 @@ TEST(BrokenBulge, FiguresAreTheRatiosOfSectionsCutByHand)
 
 TEST(BrokenBulge, DualQuaternionsInItsPlaceAreToldByTheRadius)
 {
-    const auto measured = measured(limb().shapes("dqs"));
+    const auto measured = measure(limb().shapes("dqs"));
     EXPECT_EQ(verdict(measured), VerdictKind::not_reproduced);
     EXPECT_EQ(verdict(measured, radius), VerdictKind::not_reproduced);
     EXPECT_EQ(verdict(measured, area), VerdictKind::reproduced);
@@ -160,7 +160,7 @@ TEST(BrokenBulge, DualQuaternionsInItsPlaceAreToldByTheRadius)
 
 TEST(BrokenBulge, NothingProjectedIsLbs)
 {
-    const auto measured = measured(solved(Broken::nothing_projected)), lbs = measured(limb().shapes("lbs"));
+    const auto measured = measure(solved(Broken::nothing_projected)), lbs = measure(limb().shapes("lbs"));
     ASSERT_EQ(measured.size(), lbs.size());
     for (std::size_t i = 0; i < lbs.size(); ++i) EXPECT_NEAR(measured[i].value, lbs[i].value, 1e-5);  // f32
     EXPECT_EQ(verdict(measured), VerdictKind::not_reproduced);
@@ -168,7 +168,7 @@ TEST(BrokenBulge, NothingProjectedIsLbs)
 
 TEST(BrokenBulge, FleshTakenTooThickRoundTheJointTurnsBothBounds)
 {
-    const auto measured = measured(solved_with(thickened(limb().body.posed.character(), thicker), bent_poses()));
+    const auto measured = measure(solved_with(thickened(limb().body.posed.character(), thicker), bent_poses()));
     EXPECT_EQ(verdict(measured), VerdictKind::not_reproduced);
     for (const std::string& quantity : {radius, area}) EXPECT_EQ(verdict(measured, quantity), VerdictKind::not_reproduced) << quantity;
 }
@@ -190,16 +190,16 @@ TEST(BrokenBulge, AtRestItIsAsThickAsItWasTaken)
 
 TEST(BrokenBulge, TheSignTurnedRoundTurnsBothBounds)
 {
-    const auto sound = measured(solved(Broken::nothing_in_plain_order)), measured = measured(solved(Broken::volume_sign));
+    const auto sound = measure(solved(Broken::nothing_in_plain_order)), measured = measure(solved(Broken::volume_sign));
     EXPECT_EQ(verdict(sound), VerdictKind::reproduced);
     for (const std::string& quantity : {radius, area}) EXPECT_EQ(verdict(measured, quantity), VerdictKind::not_reproduced) << quantity;
 }
 
 TEST(BrokenBulge, WithoutOneClassTheOthersStillTakeItBack)
 {
-    const auto lbs = values_of(measured(limb().shapes("lbs")), radius);
+    const auto lbs = values_of(measure(limb().shapes("lbs")), radius);
     for (const Broken how : {Broken::bind_dropped, Broken::stretch_dropped, Broken::volume_dropped}) {
-        const auto measured = measured(solved(how));
+        const auto measured = measure(solved(how));
         EXPECT_EQ(verdict(measured), VerdictKind::reproduced) << name_of(how);
         for (std::size_t pose = 0; pose < lbs.size(); ++pose) EXPECT_LT(values_of(measured, radius).at(pose).value, lbs[pose].value);
     }

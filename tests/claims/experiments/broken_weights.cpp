@@ -86,13 +86,13 @@ VerdictKind verdict(const std::vector<Measurement>& measured)
 // The verdict for one deformer alone.
 VerdictKind verdict(const WeightsComparison& comparison, const std::string& deformer)
 {
-    EXPECT_EQ(values_of(comparison.measured, strain_jump, {.deformer = deformer}).size(), 1u);
-    return verdict(values_of(comparison.measured, strain_jump, {.deformer = deformer}));
+    EXPECT_EQ(values_of(comparison.measurements, strain_jump, {.deformer = deformer}).size(), 1u);
+    return verdict(values_of(comparison.measurements, strain_jump, {.deformer = deformer}));
 }
 
 Measurement measurement(const WeightsComparison& comparison, const std::string& deformer)
 {
-    return values_of(comparison.measured, strain_jump, {.deformer = deformer}).at(0);
+    return values_of(comparison.measurements, strain_jump, {.deformer = deformer}).at(0);
 }
 
 // Eq. 1 by hand, with weights of Eq. 2 or without blending: the forearm is rotated about the limb's axis, and the upper arm stays.
@@ -110,7 +110,7 @@ pbs::Positions turned(bool is_by_eq_2)
 
 TEST(BrokenWeights, AsTheyAreTheResultIsSmoother)
 {
-    EXPECT_EQ(verdict(sound().measured), VerdictKind::reproduced);
+    EXPECT_EQ(verdict(sound().measurements), VerdictKind::reproduced);
     for (const std::string& deformer : {of_pbs, of_lbs}) EXPECT_EQ(verdict(sound(), deformer), VerdictKind::reproduced) << deformer;
 }
 
@@ -132,7 +132,7 @@ TEST(BrokenWeights, Equation2FromAFileIsEquation2)
 TEST(BrokenWeights, RigidOnesInTheirPlaceAreNotSmoother)
 {
     const WeightsComparison rigid = twisted_with([](int v) { return limb().binding.bone[v]; });
-    EXPECT_EQ(verdict(rigid.measured), VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict(rigid.measurements), VerdictKind::not_reproduced);
     for (const std::string& deformer : {of_pbs, of_lbs}) {
         EXPECT_EQ(measurement(rigid, deformer).value, 1.0);
         EXPECT_EQ(verdict(rigid, deformer), VerdictKind::not_reproduced) << deformer;
@@ -147,7 +147,7 @@ int in_turn(int v)
 TEST(BrokenWeights, BonesInTurnAreRougher)
 {
     const WeightsComparison rough = twisted_with(in_turn);
-    EXPECT_EQ(verdict(rough.measured), VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict(rough.measurements), VerdictKind::not_reproduced);
     EXPECT_EQ(verdict(rough, of_lbs), VerdictKind::not_reproduced);
     EXPECT_GT(measurement(rough, of_lbs).value, 1.0);
 }

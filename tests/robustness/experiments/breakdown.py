@@ -48,6 +48,7 @@ class Breakdown(program.ProgramTest):
         self.assertLess(first["volume_ratio"], 0.0)
         self.assertNotIn("numerical breakdown", process.stderr)
         self.assertIn(f"inverted tets: snh is inverted in frame 1: worst tet {first['worst_tet']} of volume ratio", process.stderr)
+        self.assertIn("; 1 of 2 frames of snh broke down", process.stderr)
 
     def test_a_frame_that_newton_does_not_reach(self):
         process = self.run_scene("fem.0.most_newton_steps=1", "motion.frames=2", "motion.angle_deg=170.0", 'fem.0.model="neo_hookean"',

@@ -52,6 +52,39 @@ TEST(ErrorNorms, VerticesWeighByTheirLumpedRestVolume)
     EXPECT_NEAR(error.joint_pct, 100.0 * std::sqrt(0.75) / (0.25 * 1.0 + 0.75 * 3.0), 1e-12);
 }
 
+// Of the two blended vertices the far one is left out: the near one, at 1 m from its bone, has moved by 0.2 m. An inverted mask would
+// measure the other, at 3 m, which has not moved.
+TEST(ErrorNorms, WhatIsLeftOutOfAFrameCountsInNoNorm)
+{
+    ErrorDomain domain = bar_domain();
+    domain.blended = {3, 4};
+    domain.bone_distance_m(3) = 1.0;
+    domain.bone_distance_m(4) = 3.0;
+    Positions moved = domain.rest;
+    moved(3, 1) += 0.2;
+    std::vector<bool> left_out(domain.rest.rows(), false);
+    left_out[4] = true;
+    const ErrorMetrics metrics(domain);
+    EXPECT_NEAR(metrics.measure(moved, domain.rest, left_out).joint_pct, 20.0, 1e-12);
+    left_out[3] = true;
+    EXPECT_TRUE(std::isnan(metrics.measure(moved, domain.rest, left_out).joint_pct));
+    EXPECT_EQ(metrics.measure(moved, domain.rest, left_out).linf_m, 0.0);
+    EXPECT_GT(metrics.measure(moved, domain.rest).linf_m, 0.0);
+    EXPECT_THROW(metrics.measure(moved, domain.rest, std::vector<bool>(3)), pbs::InputError);
+}
+
+// A tet of volume 1/6 and one of 3/6 on one face: the apex of the large one carries 3/4 of a quarter of the whole.
+TEST(ErrorNorms, TheShareOfVerticesIsThatOfTheirVolume)
+{
+    ErrorDomain domain;
+    domain.rest.resize(5, 3);
+    domain.rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -3;
+    domain.tets.resize(2, 4);
+    domain.tets << 0, 1, 2, 3, 0, 2, 1, 4;
+    EXPECT_NEAR(ErrorMetrics(domain).share_pct({false, false, false, false, true}), 75.0 / 4.0, 1e-12);
+    EXPECT_NEAR(ErrorMetrics(domain).share_pct({true, true, true, true, true}), 100.0, 1e-12);
+}
+
 TEST(ErrorNorms, PrescribedVerticesAreLeftOut)
 {
     ErrorDomain domain = bar_domain();

@@ -179,4 +179,20 @@ TEST(StVenantKirchhoff, IsAloneInGivingWay)
     }
 }
 
+// M. Macklin, M. Mueller, A Constraint-based Formulation of Stable Neo-Hookean Materials, MIG 2021: mu / 2 (|F|^2 - 3) + lambda' / 2
+// (J - alpha)^2 with alpha = 1 + mu / lambda', which has the small-strain limit of mu and lambda for lambda' = lambda + mu. The square
+// completed, it is the energy of the code up to a constant; both go through fewer roundings than the stress, and terms of degree six.
+TEST(StableNeoHookean, IsTheFormOfMacklinAndMueller)
+{
+    const double lambda_form = lambda + mu, alpha = 1.0 + mu / lambda_form;
+    const auto form = [&](const Eigen::Matrix3d& f) {
+        return mu / 2.0 * (f.squaredNorm() - 3.0) + lambda_form / 2.0 * (std::pow(f.determinant() - alpha, 2) - std::pow(1.0 - alpha, 2));
+    };
+    const LawPoint law(Model::stable_neo_hookean, lame);
+    test_support::RandomPoints random(11);
+    for (int trial = 0; trial < 20; ++trial)
+        for (const Eigen::Matrix3d& f : {random_stretch(random), random_inversion(random)})
+            EXPECT_NEAR(law.energy(f), form(f), 1.6 * tolerance(1.6)) << f;
+}
+
 }  // namespace

@@ -1,0 +1,52 @@
+// Reference: a bar that is folded by hand so that its ends overlap.
+#include "experiments/run/overlap_mask.hpp"
+
+#include "tests/support/bar_character.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+const pbs::Character& bar()
+{
+    static const pbs::Character character = test_support::bar_character({24, 2, 2});
+    return character;
+}
+
+// The bar of length 2 wound to a helix of 8 radians, whose windings are a fifth of the width apart: an angle a and a - 2 pi are both on the
+// bar for a > 2 pi - 4, so that the parts with |x| > pi / 2 - 1 overlap.
+pbs::Positions wound()
+{
+    pbs::Positions positions = bar().mesh.rest;
+    for (auto point : positions.rowwise()) {
+        const double angle = 4.0 * point(0), radius = 0.3 + point(1);
+        point << radius * std::sin(angle), radius * std::cos(angle), point(2) + 0.01 * angle;
+    }
+    return positions;
+}
+
+TEST(OverlapMask, IsEmptyForABodyThatDoesNotOverlap)
+{
+    const std::vector<bool> mask = experiments::OverlapMask(bar()).of(bar().mesh.rest);
+    EXPECT_EQ(std::count(mask.begin(), mask.end(), true), 0);
+}
+
+// The limb radius is the mean distance of the skin from the axis, at most 0.15 sqrt(2): farther than that from the overlap nothing is
+// masked. At the axis of the overlapping ends everything is, for there is skin inside the other winding on one side.
+TEST(OverlapMask, CoversWhatLiesInsideAnotherPartAndTheFleshWithinALimbRadius)
+{
+    const std::vector<bool> mask = experiments::OverlapMask(bar()).of(wound());
+    const double overlap = std::numbers::pi / 2.0 - 1.0, limb_radius = 0.15 * std::numbers::sqrt2;
+    for (Eigen::Index v = 0; v < bar().mesh.rest.rows(); ++v) {
+        const pbs::Vec3 rest = bar().mesh.rest.row(v);
+        const bool on_axis = rest.tail<2>().norm() < 1e-12;
+        EXPECT_TRUE(mask[v] || !on_axis || std::abs(rest.x()) < 0.7) << rest.x();
+        EXPECT_FALSE(mask[v] && std::abs(rest.x()) < overlap - limb_radius) << rest.x();
+    }
+}
+
+}  // namespace
