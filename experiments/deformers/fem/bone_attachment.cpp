@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace experiments {
 namespace {
@@ -143,7 +144,8 @@ std::vector<int> gripping_bones(const BoneAttachment& bones, const pbs::Tets& te
     std::map<std::pair<int, int>, double> stiffness;  // of the springs of a vertex and a bone
     for (std::size_t s = 0; s < spring_tet.size(); ++s)
         if (spring_tet[s] >= 0 && bones.spring_density[s] >= gripping_density)
-            for (const int v : tets.row(spring_tet[s])) stiffness[{v, bones.spring_bone[s]}] += bones.attachment.spring_stiffness(s);
+            for (const int v : tets.row(spring_tet[s]))
+                stiffness[std::pair(v, bones.spring_bone[s])] += bones.attachment.spring_stiffness(s);
 
     std::vector<int> gripping = bones.vertex_bone;
     std::vector<double> largest(gripping.size(), 0.0);
