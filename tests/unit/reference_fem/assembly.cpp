@@ -1,8 +1,9 @@
 // Reference: the P1 stiffness of one tet in closed form, derived by hand; rigid motions store no energy; the load adds up to the weight;
-// the energy is half of u K u.
+// the energy is half of u K u. Tolerances: the roundings of an entry and of the sums that follow, times the magnitudes of the terms. The
+// magnitudes of all shape functions at a point add up to at most 2, at the centroid of a quadratic tet.
 #include "reference_fem/assembly.hpp"
 
-#include "pbs/geometry/tet_volume.hpp"
+#include "tests/support/element_rounding.hpp"
 #include "tests/support/structured_bar.hpp"
 
 #include <Eigen/Geometry>
@@ -14,16 +15,22 @@
 namespace {
 
 using namespace reference_fem;
+using namespace test_support;
 using pbs::Vec3;
 
 const Lame material{2.0, 3.0};
-const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {3, 2, 2});
+const pbs::TetMesh bar = structured_bar({0, 0, 0}, {2, 1, 1}, {3, 2, 2});
 
 Eigen::VectorXd at_nodes(const SimplexSpace& space, const VectorField& field)
 {
     Eigen::VectorXd values(space.dofs());
     for (int n = 0; n < space.nodes(); ++n) values.segment<3>(3 * n) = field(space.node_positions().row(n));
     return values;
+}
+
+double sum_of_weights(const SimplexSpace& space, int points_1d)
+{
+    return element_tables(space, points_1d).weights.cwiseAbs().sum();
 }
 
 TEST(Assembly, StiffnessOfOneLinearTetIsTheClosedForm)
@@ -44,8 +51,9 @@ TEST(Assembly, StiffnessOfOneLinearTetIsTheClosedForm)
                                                  (material.lambda_pa * gradient.col(a) * gradient.col(b).transpose() +
                                                   material.mu_pa * gradient.col(b) * gradient.col(a).transpose() +
                                                   material.mu_pa * gradient.col(a).dot(gradient.col(b)) * Eigen::Matrix3d::Identity());
-    const Eigen::MatrixXd stiffness = stiffness_matrix(SimplexSpace(tet, 1), material);
-    EXPECT_LT((stiffness - expected).norm() / expected.norm(), 1e-14);
+    const SimplexSpace space(tet, 1);
+    const SparseMatrix stiffness = stiffness_matrix(space, material);
+    EXPECT_LT((stiffness - expected).norm(), 2.0 * rounding_error(entry_roundings(space, 1, 2), magnitudes(stiffness).norm()));
 }
 
 TEST(Assembly, StiffnessIsSymmetricAndKnowsNoRigidMotion)
@@ -53,12 +61,17 @@ TEST(Assembly, StiffnessIsSymmetricAndKnowsNoRigidMotion)
     for (const int order : {1, 2}) {
         const SimplexSpace space(bar, order);
         const SparseMatrix stiffness = stiffness_matrix(space, material);
-        EXPECT_LT((stiffness - SparseMatrix(stiffness.transpose())).norm(), 1e-13 * stiffness.norm());
+        const SparseMatrix terms = magnitudes(stiffness);
+        const double roundings = entry_roundings(space, order, 2);
+        EXPECT_LT((stiffness - SparseMatrix(stiffness.transpose())).norm(), rounding_error(roundings, terms.norm()));
+        EXPECT_LT(rounding_error(roundings, terms.norm()), 1e-11 * stiffness.norm())
+            << "a bound that would let a wrong entry pass proves nothing";
         for (int axis = 0; axis < 3; ++axis) {
             const Eigen::VectorXd translation = at_nodes(space, [&](const Vec3&) -> Vec3 { return Vec3::Unit(axis); });
             const Eigen::VectorXd rotation = at_nodes(space, [&](const Vec3& x) -> Vec3 { return Vec3::Unit(axis).cross(x); });
             for (const Eigen::VectorXd& rigid : {translation, rotation})
-                EXPECT_LT((stiffness * rigid).norm(), 1e-13 * stiffness.norm() * rigid.norm());
+                EXPECT_LT((stiffness * rigid).norm(),
+                          rounding_error(roundings + most_entries(stiffness), (terms * rigid.cwiseAbs()).norm()));
         }
     }
 }
@@ -83,9 +96,12 @@ TEST(Assembly, LoadAddsUpToTheTotalForceAndItsMoment)
             total += load.segment<3>(3 * n);
             moment += Vec3(space.node_positions().row(n)).cross(load.segment<3>(3 * n));
         }
-        const double volume = pbs::tet_volumes(bar.rest, bar.tets).sum();
-        EXPECT_LT((total - volume * force).norm(), 1e-12);
-        EXPECT_LT((moment - volume * Vec3(1.0, 0.5, 0.5).cross(force)).norm(), 1e-12);  // about the bar's centre of mass
+        const double volume = 2.0, terms = 2.0 * sum_of_weights(space, order + 1) * force.norm(), farthest = std::sqrt(6.0);
+        const double roundings = entry_roundings(space, order + 1, 1) + space.nodes();
+        EXPECT_LT((total - volume * force).norm(), rounding_error(roundings, terms));
+        EXPECT_LT((moment - volume * Vec3(1.0, 0.5, 0.5).cross(force)).norm(),  // of the weight at the bar's centre
+                  rounding_error(roundings + 2, terms * farthest));
+        EXPECT_LT(rounding_error(roundings, terms), 1e-11) << "a bound that would let a wrong entry pass proves nothing";
     }
 }
 
@@ -96,7 +112,9 @@ TEST(Assembly, LoadOfACubicForceIsExactOnQuadraticTets)
     const SimplexSpace space(bar, 2);
     const Eigen::VectorXd load = load_vector(space, [](const Vec3& x) -> Vec3 { return {x(0) * x(0) * x(0), 0, 0}; });
     const Eigen::VectorXd square = at_nodes(space, [](const Vec3& x) -> Vec3 { return {x(0) * x(0), 0, 0}; });
-    EXPECT_NEAR(load.dot(square), 64.0 / 6.0, 1e-12 * 64.0 / 6.0);
+    // The cube of a coordinate triples its eight roundings; x^3 x^2 is at most 2^5.
+    const double roundings = entry_roundings(space, 3, 1) + 3 * 8 + space.nodes();
+    EXPECT_NEAR(load.dot(square), 64.0 / 6.0, rounding_error(roundings, 2.0 * sum_of_weights(space, 3) * 32.0));
 }
 
 TEST(Assembly, EnergyIsHalfTheWorkOfTheStiffness)
@@ -106,8 +124,17 @@ TEST(Assembly, EnergyIsHalfTheWorkOfTheStiffness)
         const SimplexSpace space(bar, order);
         Eigen::VectorXd displacement(space.dofs());
         for (double& u : displacement) u = random() / 4294967296.0 - 0.5;
-        const double work = displacement.dot(stiffness_matrix(space, material) * displacement) / 2.0;
-        EXPECT_NEAR(strain_energy(space, material, displacement), work, 1e-12 * work);
+        const SparseMatrix stiffness = stiffness_matrix(space, material);
+        const double work = displacement.dot(stiffness * displacement) / 2.0;
+        // The work goes through the entries, their rows and the degrees of freedom, the energy through the gradients of a tet and the
+        // points.
+        const ElementTables tables = element_tables(space, order);
+        const double roundings = 2.0 * entry_roundings(space, order, 2) + most_entries(stiffness) + space.dofs() +
+                                 2 * tables.nodes_per_tet + static_cast<double>(tables.weights.size());
+        const double rounding =
+            rounding_error(roundings, displacement.cwiseAbs().dot(magnitudes(stiffness) * displacement.cwiseAbs()) / 2.0);
+        EXPECT_NEAR(strain_energy(space, material, displacement), work, rounding);
+        EXPECT_LT(rounding, 1e-10 * work) << "a bound that would let a wrong entry pass proves nothing";
     }
 }
 
@@ -118,9 +145,15 @@ TEST(Assembly, ErrorNormsOfZeroAreTheNormsOfTheField)
     const auto field = [](const Vec3& x) -> Vec3 { return {x(0), 0, 0}; };
     const auto gradient = [](const Vec3&) -> Eigen::Matrix3d { return Vec3(1, 0, 0).asDiagonal(); };
     const ErrorNorms norms = error_norms(space, Eigen::VectorXd::Zero(space.dofs()), field, gradient);
-    EXPECT_NEAR(norms.l2, std::sqrt(8.0 / 3.0), 1e-12);
-    EXPECT_NEAR(norms.h1_seminorm, std::sqrt(2.0), 1e-12);
-    EXPECT_LT(error_norms(space, at_nodes(space, field), field, gradient).l2, 1e-14);
+    // Squares go through the roundings of the volume and of a coordinate, twice, and the sum over all points of all tets. The root of s has
+    // the error of s over 2 sqrt s.
+    const ElementTables tables = element_tables(space, 4);
+    const double roundings = jacobian_roundings(space) + 2 * 8 + 4 + static_cast<double>(tables.weights.size()),
+                 volume = tables.weights.cwiseAbs().sum();
+    EXPECT_NEAR(norms.l2, std::sqrt(8.0 / 3.0), rounding_error(roundings, 4.0 * volume) / (2.0 * std::sqrt(8.0 / 3.0)));
+    EXPECT_NEAR(norms.h1_seminorm, std::sqrt(2.0), rounding_error(roundings, volume) / (2.0 * std::sqrt(2.0)));
+    // A coordinate of at most 2 and its interpolation, a sum of four products with shape functions, at every point of a volume of 2.
+    EXPECT_LT(error_norms(space, at_nodes(space, field), field, gradient).l2, rounding_error(8 + 8 + 4, 2.0) * std::sqrt(2.0));
 }
 
 }  // namespace

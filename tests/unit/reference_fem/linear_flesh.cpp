@@ -1,8 +1,12 @@
 // Reference: the weak forms in the header, evaluated by hand. The verification tests show that the formulations solve correctly.
+// Tolerances: the gradient G of a displacement is a sum over ten nodes of at most s = largest_gradient_sum, times the inverse of the
+// Jacobian. An error dG changes the energy density, of at most (mu + 3/2 lambda) |G|^2, by 2 (mu + 3/2 lambda) |G| dG, and the pressure by
+// sqrt 3 lambda dG.
 #include "reference_fem/linear_flesh.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "reference_fem/assembly.hpp"
+#include "tests/support/element_rounding.hpp"
 #include "tests/verification/reference_fem/jittered_cube.hpp"
 
 #include <gtest/gtest.h>
@@ -10,6 +14,7 @@
 namespace {
 
 using namespace reference_fem;
+using test_support::rounding_error;
 
 const pbs::TetMesh cube = test_support::jittered_cube(2);
 const Lame lame{300.0, 100.0};
@@ -22,7 +27,24 @@ Eigen::VectorXd affine(const SimplexSpace& space)
     const pbs::Positions values = space.node_positions() * gradient.transpose();
     return Eigen::Map<const Eigen::VectorXd>(values.data(), values.size());
 }
-const double affine_energy_j = lame.lambda_pa / 2.0 * 25.0 + lame.mu_pa * 26.5;
+const double affine_energy_j = lame.lambda_pa / 2.0 * 25.0 + lame.mu_pa * 26.5, affine_gradient = std::sqrt(32.0);  // |G|
+
+// dG [1/m]: eight roundings of a shape function, eleven of the sum, for which I + G counts as another node, and those of the inverse.
+double gradient_error(const SimplexSpace& space, const Eigen::VectorXd& displacement, double gradient)
+{
+    return rounding_error(8 + 11, 1.0 + test_support::largest_gradient_sum(space, displacement)) +
+           rounding_error(test_support::jacobian_roundings(space), gradient);
+}
+
+// [J] of a body of this volume [m^3]; the energy goes through the volumes, a dozen products and the sum over four points of all tets.
+double energy_error(const SimplexSpace& space, const Eigen::VectorXd& displacement, double gradient, double volume)
+{
+    const double modulus_pa = lame.mu_pa + 1.5 * lame.lambda_pa;
+    const double roundings = test_support::jacobian_roundings(space) + 12.0 + 4.0 * static_cast<double>(space.tet_nodes().rows());
+    return (2.0 * modulus_pa * gradient * gradient_error(space, displacement, gradient) +
+            rounding_error(roundings, modulus_pa * gradient * gradient)) *
+           volume;
+}
 
 std::vector<int> all_tets_but_the_last()
 {
@@ -39,11 +61,15 @@ TEST_P(EveryFormulation, AffineDisplacementsHaveTheEnergyByHand)
     for (const auto& held : {std::vector<int>{}, all_tets_but_the_last()}) {
         const LinearFlesh flesh(space, lame, GetParam(), held);
         const Eigen::VectorXd pressure = Eigen::VectorXd::Constant(flesh.pressures(), 5.0 * lame.lambda_pa);
-        EXPECT_NEAR(flesh.strain_energy_j(affine(space), pressure), affine_energy_j, 1e-12 * affine_energy_j);
+        const double rounding = energy_error(space, affine(space), affine_gradient, 1.0);
+        EXPECT_NEAR(flesh.strain_energy_j(affine(space), pressure), affine_energy_j, rounding);
+        EXPECT_LT(rounding, 1e-10 * affine_energy_j) << "a bound that would let a wrong term pass proves nothing";
     }
 }
 
-// u K u / 2 is the energy if the pressure is lambda div u, since then the row of every q holds.
+// u K u / 2 is the energy if the pressure is lambda div u, since then the row of every q holds. Tolerances: the roundings of an entry, of
+// its row and of the sum over the unknowns. An entry of B, the integral of q div v, is at most sqrt(q q) sqrt(grad v : grad v), and those
+// are entries of -K over 1 / lambda and of K over mu: the bound by diagonal entries holds with a factor sqrt(lambda / mu).
 TEST_P(EveryFormulation, TheMatrixHasTheEnergyOfAffineDisplacements)
 {
     const SimplexSpace space(cube, 2);
@@ -52,10 +78,15 @@ TEST_P(EveryFormulation, TheMatrixHasTheEnergyOfAffineDisplacements)
     unknowns.tail(flesh.pressures()).setConstant(5.0 * lame.lambda_pa / flesh.pressure_unit_pa());
     const SparseMatrix stiffness = flesh.stiffness();
     ASSERT_EQ(stiffness.rows(), flesh.unknowns());
-    EXPECT_NEAR(unknowns.dot(stiffness * unknowns) / 2.0, affine_energy_j, 1e-11 * affine_energy_j);
-    EXPECT_LT((stiffness * unknowns).tail(flesh.pressures()).norm(), 1e-12 * (stiffness * unknowns).norm());
+    const SparseMatrix terms = std::sqrt(lame.lambda_pa / lame.mu_pa) * test_support::magnitudes(stiffness);
+    const Eigen::VectorXd forces = terms * unknowns.cwiseAbs();
+    const double of_entry = test_support::entry_roundings(space, 2, 2), of_row = of_entry + test_support::most_entries(stiffness);
+    const double rounding = rounding_error(of_row + static_cast<double>(unknowns.size()), unknowns.cwiseAbs().dot(forces) / 2.0);
+    EXPECT_NEAR(unknowns.dot(stiffness * unknowns) / 2.0, affine_energy_j, rounding);
+    EXPECT_LT(rounding, 1e-9 * affine_energy_j) << "a bound that would let a wrong entry pass proves nothing";
+    EXPECT_LE((stiffness * unknowns).tail(flesh.pressures()).norm(), rounding_error(of_row, forces.tail(flesh.pressures()).norm()));
     const SparseMatrix transposed = stiffness.transpose();
-    EXPECT_LT((stiffness - transposed).norm(), 1e-14 * stiffness.norm());
+    EXPECT_LT((stiffness - transposed).norm(), rounding_error(of_entry, terms.norm()));
 }
 
 TEST_P(EveryFormulation, PressureAtAVertexIsLambdaTimesTheDilatation)
@@ -63,7 +94,10 @@ TEST_P(EveryFormulation, PressureAtAVertexIsLambdaTimesTheDilatation)
     const SimplexSpace space(cube, 2);
     const LinearFlesh flesh(space, lame, GetParam());
     const Eigen::VectorXd pressure = Eigen::VectorXd::Constant(flesh.pressures(), 5.0 * lame.lambda_pa);
-    for (const int vertex : {0, 13, 26}) EXPECT_NEAR(flesh.pressure_at_vertex_pa(affine(space), pressure, vertex), 1500.0, 1e-9);
+    // The mean over at most 24 tets about a vertex of the mean over four corners.
+    const double rounding =
+        std::sqrt(3.0) * lame.lambda_pa * gradient_error(space, affine(space), affine_gradient) + rounding_error(24 + 4 + 3, 1500.0);
+    for (const int vertex : {0, 13, 26}) EXPECT_NEAR(flesh.pressure_at_vertex_pa(affine(space), pressure, vertex), 1500.0, rounding);
 }
 
 INSTANTIATE_TEST_SUITE_P(Formulations, EveryFormulation,
@@ -79,12 +113,14 @@ TEST(LinearFlesh, MeanDilatationTakesEachTetsMean)
     Eigen::VectorXd displacement = Eigen::VectorXd::Zero(space.dofs());
     for (int node = 0; node < space.nodes(); ++node) displacement(3 * node) = std::pow(space.node_positions()(node, 0), 2);
     const LinearFlesh mean(space, lame, Formulation::mean_dilatation), pointwise(space, lame, Formulation::displacement);
-    EXPECT_NEAR(mean.pressure_at_vertex_pa(displacement, {}, 1), lame.lambda_pa * 0.5, 1e-10);
-    EXPECT_NEAR(pointwise.pressure_at_vertex_pa(displacement, {}, 1), lame.lambda_pa * 2.0, 1e-10);
+    const double of_pressure = std::sqrt(3.0) * lame.lambda_pa * gradient_error(space, displacement, 2.0);  // |G| = 2 x
+    EXPECT_NEAR(mean.pressure_at_vertex_pa(displacement, {}, 1), lame.lambda_pa * 0.5, of_pressure);
+    EXPECT_NEAR(pointwise.pressure_at_vertex_pa(displacement, {}, 1), lame.lambda_pa * 2.0, of_pressure);
     // 2 mu eps:eps / 2 integrates to mu * 4 * V / 10; the volume terms to lambda / 2 * V (1/2)^2 and lambda / 2 * 4 * V / 10.
     const double volume = 1.0 / 6.0, shear = lame.mu_pa * 0.4 * volume;
-    EXPECT_NEAR(mean.strain_energy_j(displacement, {}), shear + lame.lambda_pa / 2.0 * 0.25 * volume, 1e-12);
-    EXPECT_NEAR(pointwise.strain_energy_j(displacement, {}), shear + lame.lambda_pa / 2.0 * 0.4 * volume, 1e-12);
+    const double of_energy = energy_error(space, displacement, 2.0, volume);
+    EXPECT_NEAR(mean.strain_energy_j(displacement, {}), shear + lame.lambda_pa / 2.0 * 0.25 * volume, of_energy);
+    EXPECT_NEAR(pointwise.strain_energy_j(displacement, {}), shear + lame.lambda_pa / 2.0 * 0.4 * volume, of_energy);
 }
 
 TEST(LinearFlesh, PressuresThatOnlyHeldTetsHaveAreNotSolvedFor)

@@ -1,8 +1,10 @@
-// Reference: the definition of nodal elements. Vertex v is node v, shape functions are 1 at their own node and 0 at the others.
+// Reference: the definition of nodal elements. Vertex v is node v, shape functions are 1 at their own node and 0 at the others. At nodes
+// they are polynomials of 0, 1/2 and 1, which are not rounded.
 #include "reference_fem/simplex_space.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
 
 #include <gtest/gtest.h>
@@ -38,8 +40,8 @@ TEST(SimplexSpace, MidEdgeNodesLieInTheMiddleOfTheirEdges)
     for (const auto& tet : space.tet_nodes().rowwise())
         for (int k = 0; k < 6; ++k) {
             const auto& [first, second] = SimplexSpace::edge_corners[k];
-            const auto middle = (bar.rest.row(tet(first)) + bar.rest.row(tet(second))) / 2.0;
-            EXPECT_LT((space.node_positions().row(tet(4 + k)) - middle).norm(), 1e-15);
+            const Eigen::RowVector3d middle = (bar.rest.row(tet(first)) + bar.rest.row(tet(second))) / 2.0;
+            EXPECT_EQ(space.node_positions().row(tet(4 + k)), middle);
             seen.insert(tet(4 + k));
         }
     EXPECT_EQ(static_cast<int>(seen.size()), space.nodes() - bar.rest.rows());
@@ -54,9 +56,10 @@ TEST(SimplexSpace, ShapeFunctionsAreOneAtTheirOwnNodeAndZeroAtTheOthers)
             const auto* ends = SimplexSpace::edge_corners[std::max(node - 4, 0)];
             const Vec3 point = node < 4 ? corners[node] : Vec3((corners[ends[0]] + corners[ends[1]]) / 2.0);
             const Eigen::VectorXd expected = Eigen::VectorXd::Unit(space.tet_nodes().cols(), node);
-            EXPECT_LT((space.shape_values(point) - expected).norm(), 1e-14) << "order " << order << ", node " << node;
+            EXPECT_EQ(space.shape_values(point), expected) << "order " << order << ", node " << node;
         }
-        EXPECT_NEAR(space.shape_values({0.1, 0.2, 0.3}).sum(), 1.0, 1e-14);
+        // Eight roundings of each of at most ten functions; the terms of L_i (2 L_i - 1) and 4 L_i L_j add up to 3 in magnitude.
+        EXPECT_NEAR(space.shape_values({0.1, 0.2, 0.3}).sum(), 1.0, test_support::rounding_error(8 + 10, 3.0));
     }
 }
 
@@ -66,7 +69,10 @@ TEST(SimplexSpace, AffineValuesAtVerticesAreAffineOnAllNodes)
     Eigen::Matrix3d gradient;
     gradient << 1, 2, 3, -4, 5, 6, 7, -8, 9;
     const pbs::Positions expected = space.node_positions() * gradient.transpose();
-    EXPECT_LT((space.from_vertices(bar.rest * gradient.transpose()) - expected).norm(), 1e-12);
+    // Products of three terms on both sides, and the mean of two.
+    const pbs::Positions terms = space.node_positions().cwiseAbs() * gradient.cwiseAbs().transpose();
+    EXPECT_LT((space.from_vertices(bar.rest * gradient.transpose()) - expected).norm(),
+              test_support::rounding_error(3 + 3 + 1, terms.norm()));
 }
 
 TEST(SimplexSpace, RefusesAnElementOrderItDoesNotHave)

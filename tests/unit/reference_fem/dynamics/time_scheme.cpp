@@ -1,7 +1,9 @@
-// Reference: the scheme's own three equations, which the accepted step must satisfy, and the conditions of Chung and Hulbert.
+// Reference: the scheme's own three equations, which the accepted step must satisfy, and the conditions of Chung and Hulbert. Tolerances:
+// roundings of the equations' terms, whose magnitudes add up in displacements to `size`; the rates divide them by powers of the step.
 #include "reference_fem/dynamics/time_scheme.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +12,7 @@
 namespace {
 
 using namespace reference_fem;
+using test_support::rounding_error;
 
 class Scheme : public testing::TestWithParam<TimeScheme> {
 protected:
@@ -28,24 +31,29 @@ TEST_P(Scheme, AnAcceptedStepSatisfiesTheEquationsOfTheScheme)
     const Eigen::VectorXd u =
         before.displacement + h * before.velocity + h * h * ((0.5 - s.beta) * before.acceleration + s.beta * after.acceleration);
     const Eigen::VectorXd v = before.velocity + h * ((1.0 - s.gamma) * before.acceleration + s.gamma * after.acceleration);
-    EXPECT_LT((after.displacement - u).norm(), 1e-14);
-    EXPECT_LT((after.velocity - v).norm(), 1e-14);
-    EXPECT_LT((mean(s.alpha_f, before.displacement, after.displacement) - w).norm(), 1e-15);
-    // Eqs. (d) to (g): the rates in the balance are affine in w. Rounding: eps times c_m of some 1e2.
-    EXPECT_LT(
-        (mean(s.alpha_m, before.acceleration, after.acceleration) - inertia_coefficient(s, h) * (w - inertia_centre(s, before, h))).norm(),
-        1e-12);
-    EXPECT_LT((mean(s.alpha_f, before.velocity, after.velocity) - damping_coefficient(s, h) * (w - damping_centre(s, before, h))).norm(),
-              1e-13);
+    const double size = before.displacement.norm() + w.norm() + h * before.velocity.norm() + h * h * before.acceleration.norm();
+    const double c_m = inertia_coefficient(s, h), c_c = damping_coefficient(s, h);
+    // The increment is (w - u) / (1 - alpha_f), twice the size at most. The new acceleration takes it in eight roundings, and the test's
+    // own equation in eight.
+    EXPECT_LT((after.displacement - u).norm(), rounding_error(8 + 8, 2.0 * size));
+    EXPECT_LT((after.velocity - v).norm(),  // six roundings on each side, of the same accelerations
+              rounding_error(6 + 6, before.velocity.norm() + h * (before.acceleration.norm() + s.gamma * after.acceleration.norm())));
+    EXPECT_LT((mean(s.alpha_f, before.displacement, after.displacement) - w).norm(), rounding_error(8, 2.0 * size));
+    // Eqs. (d) to (g): the rates in the balance are affine in w, with the factors c_m and c_c. Each side goes through some fifteen
+    // roundings.
+    EXPECT_LT((mean(s.alpha_m, before.acceleration, after.acceleration) - c_m * (w - inertia_centre(s, before, h))).norm(),
+              rounding_error(15 + 15, c_m * size));
+    EXPECT_LT((mean(s.alpha_f, before.velocity, after.velocity) - c_c * (w - damping_centre(s, before, h))).norm(),
+              rounding_error(15 + 15, c_c * size));
 }
 
 TEST_P(Scheme, IsOfSecondOrderAndUnconditionallyStable)
 {
     const TimeScheme& s = GetParam();
-    EXPECT_NEAR(s.gamma, 0.5 - s.alpha_m + s.alpha_f, 1e-15);
+    EXPECT_EQ(s.gamma, 0.5 - s.alpha_m + s.alpha_f);
     EXPECT_LE(s.alpha_m, s.alpha_f);
     EXPECT_LE(s.alpha_f, 0.5);
-    EXPECT_GE(s.beta, 0.25 + (s.alpha_f - s.alpha_m) / 2.0 - 1e-15);
+    EXPECT_GE(s.beta, 0.25 + (s.alpha_f - s.alpha_m) / 2.0);  // equal, and of exact numbers, if alpha_f = alpha_m; well above otherwise
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Scheme,

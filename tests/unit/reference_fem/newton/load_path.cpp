@@ -21,7 +21,7 @@ struct Attempt {
 
     NewtonSummary operator()(double fraction) const
     {
-        const bool converges = fraction - u(0) <= longest + 1e-12 && fraction <= wall;
+        const bool converges = fraction - u(0) <= longest && fraction <= wall;
         u(0) = converges ? fraction : -99.0;  // the state that a failed solve leaves
         return ended(converges ? NewtonOutcome::converged : NewtonOutcome::no_descent);
     }

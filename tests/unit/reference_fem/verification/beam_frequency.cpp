@@ -34,17 +34,20 @@ TEST(BeamFrequency, IsLoweredByRotaryInertiaAndShear)
     EXPECT_NEAR(share_of_shear(2.0), 4.647 * r_over_l * r_over_l * (1.0 + (12.0 + 11.0 * nu) / 5.0) / 2.0, 1e-4);
 }
 
+// Factors of powers of two change no digit.
 TEST(BeamFrequency, ScalesAsTheRootOfYoungsModulusOverDensity)
 {
     const Beam beam{1.0, 0.1, 1e5, 0.3, 1000.0}, stiff{1.0, 0.1, 4e5, 0.3, 1000.0}, heavy{1.0, 0.1, 1e5, 0.3, 4000.0};
-    EXPECT_NEAR(timoshenko_rad_s(stiff), 2.0 * timoshenko_rad_s(beam), 1e-9);
-    EXPECT_NEAR(timoshenko_rad_s(heavy), 0.5 * timoshenko_rad_s(beam), 1e-9);
+    EXPECT_EQ(timoshenko_rad_s(stiff), 2.0 * timoshenko_rad_s(beam));
+    EXPECT_EQ(timoshenko_rad_s(heavy), 0.5 * timoshenko_rad_s(beam));
 }
 
 TEST(BeamFrequency, OfBernoulliAndEulerIsAsPrinted)
 {
-    // Blevins, Formulas for natural frequency and mode shape, 1979, table 8-1: f = 1.87510407^2 / (2 pi L^2) sqrt(E I / m).
-    EXPECT_NEAR(bernoulli_euler_rad_s({1.0, 0.1, 1e5, 0.0, 1000.0}), 3.51601527 * std::sqrt(1e5 * 1e-4 / 12.0 / (1000.0 * 1e-2)), 1e-7);
+    // Blevins, Formulas for natural frequency and mode shape, 1979, table 8-1: f = 1.87510407^2 / (2 pi L^2) sqrt(E I / m). Half a unit of
+    // the last printed digit of a root is twice the root times that of its square.
+    const double root = 1.87510407, half_a_unit = 0.5e-8, scale = std::sqrt(1e5 * 1e-4 / 12.0 / (1000.0 * 1e-2));
+    EXPECT_NEAR(bernoulli_euler_rad_s({1.0, 0.1, 1e5, 0.0, 1000.0}), root * root * scale, 2.0 * root * half_a_unit * scale);
 }
 
 }  // namespace

@@ -1,15 +1,20 @@
-// Reference: volumes in closed form, and the topology of a ball.
+// Reference: volumes in closed form, and the topology of a ball. Tolerances: the roundings of tets' volumes and of their sum. Where
+// coordinates are multiples of 1/2 a volume is rounded once, by its division by 6.
 #include "reference_fem/verification/structured_mesh.hpp"
 
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/geometry/topology.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace {
 
 using namespace reference_fem;
 using pbs::Vec3;
+using test_support::rounding_error;
 
 double lowest_volume(const pbs::TetMesh& mesh)
 {
@@ -34,8 +39,8 @@ TEST(StructuredMesh, ABoxIsFilledByEqualTets)
 {
     const pbs::TetMesh box = box_mesh({0, -1, 2}, {3, 1, 3}, {3, 2, 2});
     EXPECT_EQ(box.tets.rows(), 6 * 12);
-    EXPECT_NEAR(volume(box), 6.0, 1e-14);
-    EXPECT_NEAR(lowest_volume(box), 0.5 / 6.0, 1e-15);
+    EXPECT_NEAR(volume(box), 6.0, rounding_error(1 + 6 * 12, 6.0));
+    EXPECT_EQ(lowest_volume(box), 0.5 / 6.0);
     expect_ball(box);
     EXPECT_EQ(text_of({3, 2, 2}), "3 x 2 x 2");
 }
@@ -44,7 +49,9 @@ TEST(StructuredMesh, JitterMovesInnerVerticesOnly)
 {
     const pbs::TetMesh even = jittered_cube(4, 0.0), moved = jittered_cube(4, 0.45);
     EXPECT_GT(lowest_volume(moved), 0.0);
-    EXPECT_NEAR(volume(moved), 1.0, 1e-14);
+    // A volume goes through eight roundings of products of three edges, of at most (1 + 0.45) sqrt 3 / 4 each, over six.
+    const int tets = 6 * 4 * 4 * 4;
+    EXPECT_NEAR(volume(moved), 1.0, rounding_error(8, tets / 6.0 * std::pow(1.45 * std::sqrt(3.0) / 4.0, 3)) + rounding_error(tets, 1.0));
     const std::vector<bool> on_boundary = pbs::boundary_vertices(even.tets, even.rest.rows());
     for (Eigen::Index v = 0; v < even.rest.rows(); ++v) EXPECT_EQ(even.rest.row(v) == moved.rest.row(v), on_boundary[v]);
 }
@@ -61,7 +68,7 @@ TEST(StructuredMesh, JoinedBoxesShareTheirVertices)
 {
     const pbs::TetMesh whole = joined({box_mesh({0, 0, 0}, {1, 1, 1}, {2, 2, 2}), box_mesh({1, 0, 0}, {2, 1, 1}, {2, 2, 2})});
     EXPECT_EQ(whole.rest.rows(), 5 * 3 * 3);
-    EXPECT_NEAR(volume(whole), 2.0, 1e-14);
+    EXPECT_NEAR(volume(whole), 2.0, rounding_error(1 + 2 * 6 * 8, 2.0));
     expect_ball(whole);
 }
 
