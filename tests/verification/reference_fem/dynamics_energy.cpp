@@ -4,9 +4,11 @@
 #include "reference_fem/dynamics/vibrating_body.hpp"
 
 #include "reference_fem/verification/rounding_bound.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <random>
@@ -58,13 +60,23 @@ TEST_F(EnergyInTime, NewmarkKeepsItToRounding)
 }
 
 // The amplification matrix of (u, h v / Omega, h^2 a / Omega^2) for u'' + omega^2 u = 0 and Omega = omega h: the scheme's three equations,
-// each divided by Omega^2.
-Eigen::Matrix3d amplification(const TimeScheme& s, double Omega)
+// each divided by Omega^2: `next` times the new state is `now` times the old one.
+struct Equations {
+    Eigen::Matrix3d now, next;
+};
+
+Equations equations(const TimeScheme& s, double Omega)
 {
     const double one = 1.0 / (Omega * Omega), velocity = 1.0 / Omega;
     Eigen::Matrix3d now, next;
     next << 1.0 - s.alpha_f, 0, 1.0 - s.alpha_m, one, 0, -s.beta, 0, velocity, -s.gamma;
     now << -s.alpha_f, 0, -s.alpha_m, one, velocity, 0.5 - s.beta, 0, velocity, 1.0 - s.gamma;
+    return {now, next};
+}
+
+Eigen::Matrix3d amplification(const TimeScheme& s, double Omega)
+{
+    const auto [now, next] = equations(s, Omega);
     return next.inverse() * now;
 }
 
@@ -86,7 +98,23 @@ TEST(SpectralRadius, FallsFromOneToRho)
         }
         EXPECT_NEAR(before, rho, 1e-3);  // at Omega = 8e4: the triple eigenvalue at infinity differs by Omega^(-2/3)
     }
-    EXPECT_NEAR(spectral_radius(newmark(), 7.0), 1.0, 1e-14);
+}
+
+template <typename Matrix>
+double condition(const Matrix& matrix)  // in the Frobenius norm
+{
+    return matrix.norm() * matrix.inverse().norm();
+}
+
+// An eigenvalue of A is in error by at most cond(V) |dA|, V the eigenvectors (F. Bauer, C. Fike, Numer. Math. 2, 1960). Some twenty
+// roundings go into the inverse by cofactors and the product, which the condition number of the equations magnifies; as many go into the
+// eigenvalues.
+TEST(SpectralRadius, OfNewmarkIsOne)
+{
+    const Equations scheme = equations(newmark(), 7.0);
+    const Eigen::Matrix3d A = amplification(newmark(), 7.0);
+    const double of_matrix = test_support::rounding_error(20 * condition(scheme.next) + 20, A.norm());
+    EXPECT_NEAR(spectral_radius(newmark(), 7.0), 1.0, condition(Eigen::EigenSolver<Eigen::Matrix3d>(A).eigenvectors()) * of_matrix);
 }
 
 class DissipationInTime : public EnergyInTime, public testing::WithParamInterface<double> {};

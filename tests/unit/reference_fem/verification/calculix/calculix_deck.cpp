@@ -1,6 +1,7 @@
 // Reference: CalculiX's manual. A number has 20 characters at most; *BOUNDARY lists node, first and last component, value; *CLOAD node,
 // component, value; C3D10's middle nodes lie on the edges 12 23 31 14 24 34.
 #include "reference_fem/verification/calculix/calculix_deck.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/unit/reference_fem/verification/calculix/one_tet_problem.hpp"
 
 #include <gtest/gtest.h>
@@ -37,6 +38,9 @@ std::vector<std::string> lines_of(const std::string& deck, const std::string& ca
     return lines;
 }
 
+// Half a unit of the thirteenth digit of a number that begins with 1, and the rounding of the number that is read.
+const double thirteen_digits = 0.5e-12 + test_support::rounding_error(1, 1.0);
+
 TEST(CalculixNumber, FitsIntoTwentyCharactersWithThirteenDigits)
 {
     std::mt19937_64 random(1);
@@ -45,17 +49,18 @@ TEST(CalculixNumber, FitsIntoTwentyCharactersWithThirteenDigits)
         const double value = mantissa(random) * std::pow(10.0, exponent(random));
         const std::string text = calculix_number(value);
         ASSERT_LE(text.size(), 20u) << text;
-        ASSERT_NEAR(std::stod(text), value, 1e-12 * std::abs(value)) << text;
+        ASSERT_NEAR(std::stod(text), value, thirteen_digits * std::abs(value)) << text;
     }
 }
 
+// Twenty characters hold a sign, a digit, a point and 17 decimals: half a unit of the last, and the rounding of the number that is read.
 TEST(CalculixNumber, CoordinatesOfAFewMetresKeepEveryDigitOrNearlyEvery)
 {
     std::mt19937_64 random(2);
     std::uniform_real_distribution<double> coordinate(-5.0, 5.0);
     for (int i = 0; i < 10000; ++i) {
         const double value = coordinate(random);
-        ASSERT_NEAR(std::stod(calculix_number(value)), value, 6e-18 + 1e-16 * std::abs(value));
+        ASSERT_NEAR(std::stod(calculix_number(value)), value, 0.5e-17 + test_support::rounding_error(1, std::abs(value)));
     }
     for (const double exact : {0.0, 1.0, -0.5, 1e5, 0.1, -0.12345678901234567, 1.0 / 3.0})
         EXPECT_EQ(std::stod(calculix_number(exact)), exact);
@@ -65,7 +70,7 @@ TEST(CalculixNumber, ExtremesAreNotCut)
 {
     for (const double extreme : {-std::numeric_limits<double>::max(), -std::numeric_limits<double>::min(), -1.2345678901234567e-5}) {
         EXPECT_LE(calculix_number(extreme).size(), 20u);
-        EXPECT_NEAR(std::strtod(calculix_number(extreme).c_str(), nullptr) / extreme, 1.0, 1e-12);
+        EXPECT_NEAR(std::strtod(calculix_number(extreme).c_str(), nullptr) / extreme, 1.0, thirteen_digits);
     }
 }
 
