@@ -3,6 +3,7 @@
 // SIAM 2002, Sec. 3.1). n counts the sums as well, and both sides of a comparison where both are rounded.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 
 namespace test_support {
@@ -11,6 +12,12 @@ namespace test_support {
 constexpr double rounding_error(double roundings, double magnitude)
 {
     return roundings * (std::numeric_limits<double>::epsilon() / 2.0) * magnitude;
+}
+
+// Of the mean of so many values of one sign, each of which is rounded.
+constexpr double mean_error(std::size_t values, double mean)
+{
+    return rounding_error(1.0 + static_cast<double>(values), mean);
 }
 
 }  // namespace test_support

@@ -13,14 +13,9 @@ namespace {
 using analysis::bootstrap_mean;
 using analysis::bootstrap_share;
 using analysis::Interval;
+using test_support::mean_error;
 
 const std::vector<double> series = {0.3, 0.4, 0.4, 0.5, 0.6, 0.7, 0.9, 0.8, 1.0, 1.0, 1.1, 1.2, 1.2, 1.4, 1.3, 1.4};
-
-// The rounding of a mean of so many values of one sign: of each value, and of the sums.
-double mean_error(std::size_t values, double mean)
-{
-    return test_support::rounding_error(1.0 + static_cast<double>(values), mean);
-}
 
 TEST(Bootstrap, EnclosesItsEstimate)
 {

@@ -4,6 +4,7 @@
 
 #include "analysis/order_verdicts.hpp"
 #include "analysis/records/atomic_file.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -99,7 +100,7 @@ TEST(VolumeIsPreserved, ShareAboveTheBoundWithAnIntervalBelowItDoesNotHold)
     auto walk = clip("walk", "pbs", 24, constant(100, 0.0));
     for (int i = 40; i < 43; ++i) set_change(walk, i, -2.0);  // 97 % hold, and the failures are consecutive
     const Verdict verdict = judge(claim_of("C02"), {.cases = {walk}});
-    EXPECT_NEAR(verdict.interval.estimate, 0.97, 1e-12);
+    EXPECT_NEAR(verdict.interval.estimate, 0.97, test_support::mean_error(100, 0.97));
     EXPECT_LT(verdict.interval.low, 0.95);
     EXPECT_EQ(verdict.kind, VerdictKind::not_reproduced);
 }
@@ -188,14 +189,14 @@ TEST(VolumeIsPreserved, OtherDeformersAreComparedAndDecideNothing)
     ASSERT_EQ(verdict.compared.size(), 1u);
     EXPECT_EQ(verdict.compared[0].deformer, "fem_p2");
     EXPECT_EQ(verdict.compared[0].extent, Extent::none);
-    EXPECT_NEAR(verdict.compared[0].mean.estimate, 7.0, 1e-12);
+    EXPECT_NEAR(verdict.compared[0].mean.estimate, 7.0, test_support::mean_error(100, 7.0));
 }
 
 TEST(LossOfLbs, ReproducedWhereTheMeansLieInTheBand)
 {
     const Verdict verdict = judge(claim_of("C01"), {.cases = {clip("walk", "lbs", 0, {-13, -14, -15, -14, -13, -14})}});
     EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
-    EXPECT_NEAR(verdict.interval.estimate, 83.0 / 6.0, 1e-12);
+    EXPECT_NEAR(verdict.interval.estimate, 83.0 / 6.0, test_support::mean_error(6, 83.0 / 6.0));
     ASSERT_TRUE(verdict.primary);
     EXPECT_EQ(verdict.primary->statistic, "mean");
     EXPECT_EQ(verdict.primary->quantity, "volume_loss_pct");
@@ -226,7 +227,7 @@ TEST(LossOfLbs, MeanOutsideWithFramesInTheBandIsAPart)
     const Verdict verdict = judge(claim_of("C01"), {.cases = {walk}});
     EXPECT_EQ(verdict.kind, VerdictKind::reproduced_only_for);
     EXPECT_EQ(verdict.cases[0].extent, Extent::part);
-    EXPECT_NEAR(verdict.cases[0].share.estimate, 1.0 / 3.0, 1e-12);
+    EXPECT_NEAR(verdict.cases[0].share.estimate, 1.0 / 3.0, test_support::mean_error(6, 1.0 / 3.0));
 }
 
 TEST(LossOfLbs, SweepTellsTheAnglesThatReachTheBand)
