@@ -1,7 +1,12 @@
 // Reference: rigid kinematics. A joint is connected if parent and child move it to the same place; slerp rotates at a constant rate.
+// Tolerances: the rounding of motions. A path takes three per joint: that of the pose, its inverse relative to the parent, and slerp.
 #include "pbs/skinning/pose_path.hpp"
 
+#include "tests/support/motion_rounding.hpp"
+
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace {
 
@@ -25,7 +30,8 @@ const pbs::Pose stretched = pose(turn(-20, {0, 1, 0}), turn(5, {1, 0, 0}), turn(
 
 void expect_near(const pbs::Pose& a, const pbs::Pose& b)
 {
-    for (std::size_t j = 0; j < a.size(); ++j) EXPECT_LT((a[j].matrix() - b[j].matrix()).norm(), 1e-14) << arm.bones[j].name;
+    const double rounding = test_support::motion_matrix_error(3 * 3 + 3, 2.0);  // of three joints on a path, and of three others
+    for (std::size_t j = 0; j < a.size(); ++j) EXPECT_LT((a[j].matrix() - b[j].matrix()).norm(), rounding) << arm.bones[j].name;
 }
 
 TEST(PosePath, ItsEndsAreThePosesToTheBit)
@@ -44,9 +50,11 @@ TEST(PosePath, JointsStayJoinedAndBonesRigid)
         const pbs::Pose between = path.at(fraction);
         for (std::size_t j = 1; j < arm.bones.size(); ++j) {
             const Vec3 joint = arm.bones[j].head;
-            EXPECT_LT((between[j] * joint - between[arm.bones[j].parent] * joint).norm(), 1e-14);
+            EXPECT_LT((between[j] * joint - between[arm.bones[j].parent] * joint).norm(), test_support::motion_error(3 * 3 + 3 * 2, 5.0));
         }
-        for (const auto& bone : between) EXPECT_LT((bone.linear() * bone.linear().transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+        for (const auto& bone : between)
+            EXPECT_LT((bone.linear() * bone.linear().transpose() - Eigen::Matrix3d::Identity()).norm(),
+                      test_support::motion_matrix_error(2 * 3 * 3, 0.0));
     }
 }
 
@@ -64,7 +72,7 @@ TEST(PosePath, TheRootMovesInAStraightLine)
 {
     const Eigen::Quaterniond still = Eigen::Quaterniond::Identity();
     const PosePath path(arm, pose(still, still, still, {1, 0, 0}), pose(turn(90, Vec3::UnitY()), still, still, {3, 4, 0}));
-    EXPECT_LT((path.at(0.5)[0] * arm.bones[0].head - Vec3(2, 2, 0)).norm(), 1e-14);
+    EXPECT_LT((path.at(0.5)[0] * arm.bones[0].head - Vec3(2, 2, 0)).norm(), test_support::motion_error(3, 5.0));
 }
 
 // A clip may shift a bone relative to its parent: the head then moves at a constant rate in the parent's frame.
@@ -73,8 +81,8 @@ TEST(PosePath, AHeadThatLeavesItsParentMovesEvenly)
     pbs::Pose pulled(3, Eigen::Isometry3d::Identity());
     pulled[1].translation() = pulled[2].translation() = Vec3(0.4, 0, 0);
     const pbs::Pose half = PosePath(arm, pbs::Pose(3, Eigen::Isometry3d::Identity()), pulled).at(0.5);
-    EXPECT_LT((half[1] * arm.bones[1].head - Vec3(1.2, 0, 0)).norm(), 1e-14);
-    EXPECT_LT((half[2] * arm.bones[2].head - Vec3(2.2, 0, 0)).norm(), 1e-14);
+    EXPECT_LT((half[1] * arm.bones[1].head - Vec3(1.2, 0, 0)).norm(), test_support::motion_error(2 * 3, 1.4));
+    EXPECT_LT((half[2] * arm.bones[2].head - Vec3(2.2, 0, 0)).norm(), test_support::motion_error(3 * 3, 2.4));
 }
 
 TEST(PosePath, TheLargestTurnIsThatOfABoneInTheWorld)
@@ -82,7 +90,8 @@ TEST(PosePath, TheLargestTurnIsThatOfABoneInTheWorld)
     const Eigen::Quaterniond still = Eigen::Quaterniond::Identity();
     const pbs::Pose rest = pose(still, still, still, Vec3::Zero());
     const pbs::Pose bent = pose(still, turn(30, Vec3::UnitZ()), turn(25, Vec3::UnitZ()), Vec3::Zero());
-    EXPECT_NEAR(PosePath(arm, rest, bent).largest_turn_deg(), 55.0, 1e-10);
+    const double rounding = test_support::motion_matrix_error(3 + 1, 0.0);  // three joints, and the angle of a matrix
+    EXPECT_NEAR(PosePath(arm, rest, bent).largest_turn_deg(), 55.0, rounding * 180.0 / std::acos(-1.0));
     EXPECT_EQ(PosePath(arm, bent, bent).largest_turn_deg(), 0.0);
 }
 
