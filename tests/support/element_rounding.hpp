@@ -1,8 +1,8 @@
-// How many roundings what the reference integrates over its tets goes through, and the magnitudes of its terms, for tolerances
-// (rounding_error.hpp).
-//   The Jacobian J of a tet: a dozen for an entry of its inverse by cofactors, and fewer for its determinant, which cond(J) magnifies.
-//   A shape function or its gradient on the unit tet: eight, of the quadrature point and the polynomial.
-//   A sum over the quadrature points and over the tets about a node.
+// Roundings and magnitudes of what the reference integrates over its tets, for tolerances (rounding_error.hpp). The counts are:
+//   Jacobian J of a tet: an entry of its inverse by cofactors goes through a dozen roundings, which cond(J) magnifies; its determinant
+//   goes through fewer.
+//   Shape function: its value or gradient on the unit tet goes through eight roundings, of the quadrature point and of the polynomial.
+//   Entry of a vector or matrix: there are nine roundings of products, and the sums over quadrature points and over tets about a node.
 #pragma once
 
 #include "reference_fem/element_tables.hpp"
@@ -16,7 +16,7 @@
 
 namespace test_support {
 
-// Of the inverse and of the determinant, relative, on the worst tet: 12 cond(J) in the Frobenius norm.
+// Relative to the inverse and to the determinant on the worst tet: 12 cond(J) in the Frobenius norm.
 inline double jacobian_roundings(const reference_fem::SimplexSpace& space)
 {
     double worst = 0.0;
@@ -28,7 +28,7 @@ inline double jacobian_roundings(const reference_fem::SimplexSpace& space)
     return 12.0 * worst;
 }
 
-// Of an entry of an assembled vector or matrix that integrates products of `functions` shape functions or gradients.
+// Of an entry that integrates products of so many shape functions or gradients.
 inline double entry_roundings(const reference_fem::SimplexSpace& space, int points_1d, int functions)
 {
     Eigen::VectorXi tets_about = Eigen::VectorXi::Zero(space.nodes());
@@ -55,8 +55,8 @@ inline int most_entries(const reference_fem::SparseMatrix& matrix)  // of a colu
     return most;
 }
 
-// The largest sum over the nodes of a tet of |u_a| |grad N_a|, the terms of a displacement's gradient. It is convex, so that it has its
-// maximum at a corner.
+// The terms of a displacement's gradient: the largest sum over the nodes of a tet of |u_a| |grad N_a| [1]. The sum is convex, so that it
+// has its maximum at a corner.
 inline double largest_gradient_sum(const reference_fem::SimplexSpace& space, const Eigen::VectorXd& displacement)
 {
     reference_fem::TetQuadrature corners{pbs::Positions::Zero(4, 3), Eigen::VectorXd::Constant(4, 1.0 / 24.0)};

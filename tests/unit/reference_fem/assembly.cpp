@@ -152,7 +152,7 @@ TEST(Assembly, ErrorNormsOfZeroAreTheNormsOfTheField)
                  volume = tables.weights.cwiseAbs().sum();
     EXPECT_NEAR(norms.l2, std::sqrt(8.0 / 3.0), rounding_error(roundings, 4.0 * volume) / (2.0 * std::sqrt(8.0 / 3.0)));
     EXPECT_NEAR(norms.h1_seminorm, std::sqrt(2.0), rounding_error(roundings, volume) / (2.0 * std::sqrt(2.0)));
-    // A coordinate of at most 2 and its interpolation, a sum of four products with shape functions, at every point of a volume of 2.
+    // A coordinate of at most 2 is compared with its interpolation, a sum of four products with shape functions, over a volume of 2.
     EXPECT_LT(error_norms(space, at_nodes(space, field), field, gradient).l2, rounding_error(8 + 8 + 4, 2.0) * std::sqrt(2.0));
 }
 

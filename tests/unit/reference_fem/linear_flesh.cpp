@@ -29,7 +29,7 @@ Eigen::VectorXd affine(const SimplexSpace& space)
 }
 const double affine_energy_j = lame.lambda_pa / 2.0 * 25.0 + lame.mu_pa * 26.5, affine_gradient = std::sqrt(32.0);  // |G|
 
-// dG [1/m]: eight roundings of a shape function, eleven of the sum, for which I + G counts as another node, and those of the inverse.
+// dG [1]: a shape function goes through eight roundings, the sum through eleven, since I + G counts as another node, then the inverse.
 double gradient_error(const SimplexSpace& space, const Eigen::VectorXd& displacement, double gradient)
 {
     return rounding_error(8 + 11, 1.0 + test_support::largest_gradient_sum(space, displacement)) +
@@ -94,7 +94,7 @@ TEST_P(EveryFormulation, PressureAtAVertexIsLambdaTimesTheDilatation)
     const SimplexSpace space(cube, 2);
     const LinearFlesh flesh(space, lame, GetParam());
     const Eigen::VectorXd pressure = Eigen::VectorXd::Constant(flesh.pressures(), 5.0 * lame.lambda_pa);
-    // The mean over at most 24 tets about a vertex of the mean over four corners.
+    // A pressure is the mean over at most 24 tets about a vertex of the mean over four corners.
     const double rounding =
         std::sqrt(3.0) * lame.lambda_pa * gradient_error(space, affine(space), affine_gradient) + rounding_error(24 + 4 + 3, 1500.0);
     for (const int vertex : {0, 13, 26}) EXPECT_NEAR(flesh.pressure_at_vertex_pa(affine(space), pressure, vertex), 1500.0, rounding);

@@ -58,7 +58,7 @@ TEST(SimplexSpace, ShapeFunctionsAreOneAtTheirOwnNodeAndZeroAtTheOthers)
             const Eigen::VectorXd expected = Eigen::VectorXd::Unit(space.tet_nodes().cols(), node);
             EXPECT_EQ(space.shape_values(point), expected) << "order " << order << ", node " << node;
         }
-        // Eight roundings of each of at most ten functions; the terms of L_i (2 L_i - 1) and 4 L_i L_j add up to 3 in magnitude.
+        // A function goes through eight roundings and the sum of ten. The terms of L_i (2 L_i - 1) and 4 L_i L_j add up to 3 in magnitude.
         EXPECT_NEAR(space.shape_values({0.1, 0.2, 0.3}).sum(), 1.0, test_support::rounding_error(8 + 10, 3.0));
     }
 }
@@ -69,7 +69,7 @@ TEST(SimplexSpace, AffineValuesAtVerticesAreAffineOnAllNodes)
     Eigen::Matrix3d gradient;
     gradient << 1, 2, 3, -4, 5, 6, 7, -8, 9;
     const pbs::Positions expected = space.node_positions() * gradient.transpose();
-    // Products of three terms on both sides, and the mean of two.
+    // There are three products and sums on both sides, and the mean of two.
     const pbs::Positions terms = space.node_positions().cwiseAbs() * gradient.cwiseAbs().transpose();
     EXPECT_LT((space.from_vertices(bar.rest * gradient.transpose()) - expected).norm(),
               test_support::rounding_error(3 + 3 + 1, terms.norm()));

@@ -38,9 +38,9 @@ TEST_F(Prescribed, RatesOfACubicAreExactInUnequalSteps)
         t += h;
         step(u(t), h);
     }
-    // d: ten roundings of terms that add up to at most 4. The slopes of the last three steps are in error by 2 d / 0.3, 2 d / 0.05 and
-    // 2 d / 0.2, their differences over 0.35 and 0.25 by 133 d and 200 d, the third difference over 0.55 by 606 d, and the acceleration by
-    // 2 (133 d + 0.65 (606 d)).
+    // A displacement is in error by d, ten roundings of terms that add up to at most 4. The slopes of the last three steps are in error by
+    // 2 d / 0.3, 2 d / 0.05 and 2 d / 0.2, their differences over 0.35 and 0.25 by 133 d and 200 d, the third difference over 0.55 by
+    // 606 d, and the acceleration by 2 (133 d + 0.65 (606 d)).
     EXPECT_NEAR(motion.acceleration(1), -6.0 + 3.0 * t, 1054.0 * rounding_error(10, 4.0));
     // u''' / 6 times the distances to the previous two points
     EXPECT_NEAR(motion.velocity(1), 2.0 - 6.0 * t + 1.5 * t * t, 0.5 * 0.3 * 0.35);
@@ -61,7 +61,7 @@ TEST_F(Prescribed, TheFirstStepTakesTheVelocityItIsGiven)
 TEST_F(Prescribed, AJumpOfTheVelocityIsForgottenAndItsImpulseIsWhole)
 {
     const double h = 0.1, velocity = 3.0;
-    const double d = rounding_error(4, 6 * h * velocity);  // two of the displacement, two of its differences
+    const double d = rounding_error(4, 6 * h * velocity);  // two roundings of the displacement and two of its differences
     double impulse = 0.0;
     step(0.0, h);
     step(0.0, h);

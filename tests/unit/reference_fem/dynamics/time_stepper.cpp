@@ -87,7 +87,7 @@ TEST_F(Stepper, WithEveryDegreeOfFreedomPrescribedTheDataAreReturned)
     const MovingData data{[&](double fraction) -> Eigen::VectorXd { return fraction * end; }, {}};
     ASSERT_TRUE(step(time, 0.1, data).converged());
     EXPECT_EQ(time.motion().displacement, end);
-    const Eigen::VectorXd velocity = 2.0 / 0.1 * end;  // from rest: twice the mean velocity, in four roundings; two here
+    const Eigen::VectorXd velocity = 2.0 / 0.1 * end;  // from rest it is twice the mean velocity, in four roundings there and two here
     EXPECT_LT((time.motion().velocity - velocity).norm(), test_support::rounding_error(4 + 2, velocity.norm()));
 }
 

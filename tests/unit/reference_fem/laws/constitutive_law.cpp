@@ -144,7 +144,8 @@ TEST(DegenerateStates, CorotationalHasOneEnergyWhereTwoStretchesSumToZero)
     EXPECT_EQ(law.energy(zero), 3.0 + 9.0);
     EXPECT_EQ(law.energy(diagonal(1.0, 1.0, -1.0)), 4.0 + 4.0);
     EXPECT_EQ(law.energy(diagonal(2.0, 1.0, -1.0)), 5.0 + 1.0);  // |F|^2 + 3 - 4, (2 - 3)^2
-    // Within h of there, |F|^2, -2 tr S and (tr S - 3)^2 change by at most 2 h each, less 2 h^2 > 6 eps in all.
+    // A change of this stretch by h changes |F|^2, -2 tr S and (tr S - 3)^2 by at most 2 h each. Their sum changes by at most 6 h - 2 h^2,
+    // and 2 h^2 is larger than its rounding.
     for (const double side : {-1e-7, 1e-7}) EXPECT_NEAR(law.energy(diagonal(2.0, 1.0, -1.0 + side)), 6.0, 6.0 * std::abs(side));
 }
 

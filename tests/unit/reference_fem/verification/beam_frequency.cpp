@@ -44,8 +44,8 @@ TEST(BeamFrequency, ScalesAsTheRootOfYoungsModulusOverDensity)
 
 TEST(BeamFrequency, OfBernoulliAndEulerIsAsPrinted)
 {
-    // Blevins, Formulas for natural frequency and mode shape, 1979, table 8-1: f = 1.87510407^2 / (2 pi L^2) sqrt(E I / m). Half a unit of
-    // the last printed digit of a root is twice the root times that of its square.
+    // Blevins, Formulas for natural frequency and mode shape, 1979, table 8-1: f = 1.87510407^2 / (2 pi L^2) sqrt(E I / m). The
+    // printed root is rounded by half a unit of its last digit, which changes its square by twice the root times as much.
     const double root = 1.87510407, half_a_unit = 0.5e-8, scale = std::sqrt(1e5 * 1e-4 / 12.0 / (1000.0 * 1e-2));
     EXPECT_NEAR(bernoulli_euler_rad_s({1.0, 0.1, 1e5, 0.0, 1000.0}), root * root * scale, 2.0 * root * half_a_unit * scale);
 }

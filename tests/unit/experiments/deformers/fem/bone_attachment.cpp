@@ -26,7 +26,7 @@ TEST(EmbeddedAttachment, SpringsAddUpToTheirDensityTimesTheCapsule)
     double of_forearm = 0.0;
     for (std::size_t s = 0; s < bones.spring_bone.size(); ++s)
         if (bones.spring_bone[s] == 1) of_forearm += bones.attachment.spring_stiffness(s);
-    // A dozen roundings of a stiffness, and the sum over a bone's samples.
+    // A stiffness goes through a dozen roundings, and then there is the sum over a bone's samples.
     const double roundings = 12 + static_cast<double>(bones.spring_bone.size()) / 2.0;
     EXPECT_NEAR(of_forearm, 1e3 * 2e5 * std::numbers::pi * 4.0 / 6.0, test_support::rounding_error(roundings, of_forearm));
 }

@@ -38,7 +38,7 @@ std::vector<std::string> lines_of(const std::string& deck, const std::string& ca
     return lines;
 }
 
-// Half a unit of the thirteenth digit of a number that begins with 1, and the rounding of the number that is read.
+// A number that begins with 1 may be in error by half a unit of its thirteenth digit, and the number that is read is rounded.
 const double thirteen_digits = 0.5e-12 + test_support::rounding_error(1, 1.0);
 
 TEST(CalculixNumber, FitsIntoTwentyCharactersWithThirteenDigits)
@@ -53,7 +53,8 @@ TEST(CalculixNumber, FitsIntoTwentyCharactersWithThirteenDigits)
     }
 }
 
-// Twenty characters hold a sign, a digit, a point and 17 decimals: half a unit of the last, and the rounding of the number that is read.
+// Twenty characters hold a sign, a digit, a point and 17 decimals. The last is right to half a unit, and the number that is read is
+// rounded.
 TEST(CalculixNumber, CoordinatesOfAFewMetresKeepEveryDigitOrNearlyEvery)
 {
     std::mt19937_64 random(2);
