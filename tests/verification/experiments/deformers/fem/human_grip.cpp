@@ -4,6 +4,7 @@
 // requires a tenth of it, 1.5e-3. Needs Debian's assimp-testmodels, which the set-up installs.
 #include "experiments/deformers/fem/linear_fem_deformer.hpp"
 #include "pbs/character/bodies.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,6 +21,9 @@ TEST(HumanGrip, EveryBoneIsGrippedAndTheErrorFallsWithTheSprings)
     ASSERT_GE(forearm, 0);
     const pbs::Pose pose = pbs::joint_sweep(human.skeleton, forearm, pbs::Vec3::UnitX(), 10.0, 2, 0.01).steps.back();
 
+    // |r| <= sqrt(n) eps |K| |u| (reference_fem/verification/rounding_bound.hpp), where |K| |u| is at most 100 |f|, the load of the
+    // springs.
+    const double residual = test_support::rounding_error(2.0 * std::sqrt(3.0 * static_cast<double>(human.mesh.rest.rows())), 100.0);
     std::vector<double> errors;
     std::vector<pbs::Positions> positions;
     for (const double q : {1e2, 1e3, 1e4, 2e4}) {
@@ -29,7 +33,7 @@ TEST(HumanGrip, EveryBoneIsGrippedAndTheErrorFallsWithTheSprings)
         const nlohmann::json record = fem.record();
         errors.push_back(record["grip_error_over_motion"]);
         positions.push_back(fem.positions());
-        EXPECT_LT(record["largest_residual"].get<double>(), 1e-12);
+        EXPECT_LT(record["largest_residual"].get<double>(), residual);
         for (const auto& bone : record["attachment"]["bones"]) EXPECT_GT(bone["inside"].get<int>(), 0) << bone;
         RecordProperty("grip_error_over_motion_at_q_" + std::to_string(static_cast<int>(q)), std::to_string(errors.back() * 1e6) + "e-6");
     }
