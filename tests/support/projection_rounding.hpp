@@ -9,6 +9,7 @@
 #include "pbs/constraints/bind.hpp"
 #include "pbs/constraints/stretch.hpp"
 #include "pbs/constraints/volume.hpp"
+#include "pbs/geometry/types.hpp"
 
 #include <algorithm>
 #include <cmath>
