@@ -12,7 +12,7 @@ if(PBS_WITH_CGAL)
     list(APPEND left_out pbs/geometry/meshing_unavailable)
 else()
     list(APPEND left_out pbs/geometry/meshing_builtin pbs/geometry/meshing_count pbs/geometry/meshing_surface
-        pbs/geometry/self_intersection pbs/character/bodies pbs/character/jiggle_zone_contents)
+        pbs/geometry/self_intersection pbs/character/bodies pbs/character/jiggle_zone_contents pbs/character/overlap_mask)
 endif()
 if(NOT PBS_WITH_RIG_IMPORT)
     list(APPEND left_out pbs/character/skeleton_file pbs/character/bvh_header pbs/character/retarget_plan pbs/character/bodies_from_files)
@@ -26,7 +26,7 @@ pbs_tests(unit pbs_files
     ALONE pbs/geometry/surface_reader
     LIBRARIES pbs_mesh_io pbs_meshing pbs_module)
 pbs_tests(unit pbs_character FOLDERS pbs/character EXCEPT ${left_out}
-    ALONE pbs/character/refined_character pbs/character/retarget
+    ALONE pbs/character/overlap_mask pbs/character/refined_character pbs/character/retarget
     LIBRARIES pbs_character pbs_mesh_io)
 if(TARGET pbskin_gmsh)
     add_dependencies(test_unit_pbs_files pbskin_gmsh)

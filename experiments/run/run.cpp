@@ -5,7 +5,6 @@
 #include "experiments/process/progress.hpp"
 #include "experiments/process/warnings.hpp"
 #include "experiments/run/broken_frame.hpp"
-#include "experiments/run/frame_step.hpp"
 #include "experiments/run/reference_error_bar.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "experiments/run/run_provenance.hpp"
@@ -14,6 +13,7 @@
 #include "pbs/character/input_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
+#include "pbs/solver/frame_step.hpp"
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ struct Runner {
     DeformerSpec spec;
     DeformerTraits traits;
     std::unique_ptr<Deformer> deformer;
-    FrameStep steps = {};
+    pbs::FrameStep steps = {};
     double lowest_change_pct = std::numeric_limits<double>::infinity(), highest_change_pct = -lowest_change_pct;
     int most_inverted = 0;
 };
@@ -261,7 +261,7 @@ private:
     std::optional<ReferenceErrorBar> error_bar_;
     RunFolder folder_;  // made last, for it removes the records of an earlier run
     int frames_ = 0, self_intersecting_frames_ = 0;
-    std::string breakdown_, bad_frame_, bad_label_;  // bad_label_: of the deformer of bad_frame_
+    std::string breakdown_, bad_frame_, bad_label_;                       // bad_label_: of the deformer of bad_frame_
     std::map<std::string, std::vector<int>> breakdowns_, not_converged_;  // label -> frames
     std::map<std::string, std::vector<BrokenFrame>> broken_frames_;       // label -> frames with their worst elements
     std::map<std::string, int> frames_below_reference_error_ = {};        // label -> how many

@@ -6,20 +6,20 @@
 
 #include "pbs/character/character.hpp"
 
-namespace experiments {
+namespace pbs {
 
 class OverlapMask {
 public:
-    explicit OverlapMask(const pbs::Character& character);  // which outlives it
+    explicit OverlapMask(const Character& character);  // which outlives it
 
     // reference: deformed vertices [m], #V x 3. True for the skin vertices that lie inside another part of the body, and for each vertex
     // whose distance from one of them at rest is at most the limb radius of that skin vertex's bone, #V.
-    std::vector<bool> of(const pbs::Positions& reference) const;
+    std::vector<bool> of(const Positions& reference) const;
 
 private:
-    const pbs::Character& character_;
+    const Character& character_;
     std::vector<int> skin_;
     std::vector<double> limb_radius_m_;  // of each vertex's bone, #V
 };
 
-}  // namespace experiments
+}  // namespace pbs

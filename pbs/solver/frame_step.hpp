@@ -7,19 +7,19 @@
 
 #include <cstddef>
 
-namespace experiments {
+namespace pbs {
 
 class FrameStep {
 public:
     // step: number of the step in the motion, from 0.
-    void add(pbs::StepSummary summary, std::size_t step);
+    void add(StepSummary summary, std::size_t step);
 
-    const pbs::StepSummary& summary() const { return summary_; }
+    const StepSummary& summary() const { return summary_; }
     std::size_t worst_step() const { return worst_step_; }  // the first with the worst outcome; the last step if all finished
 
 private:
-    pbs::StepSummary summary_;
+    StepSummary summary_;
     std::size_t worst_step_ = 0;
 };
 
-}  // namespace experiments
+}  // namespace pbs

@@ -1,6 +1,5 @@
-// Reference: the outcomes prescribed for a deformer, step by step.
-#include "experiments/deformers/deformer.hpp"
-#include "experiments/run/frame_step.hpp"
+// Reference: outcomes that are given step by step.
+#include "pbs/solver/frame_step.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,36 +7,19 @@
 
 namespace {
 
-using experiments::FrameStep;
+using pbs::FrameStep;
 using pbs::Outcome;
 
-// Its steps end as prescribed, each after as many seconds as its number.
-class FailingDeformer : public experiments::Deformer {
-public:
-    explicit FailingDeformer(std::vector<Outcome> outcomes) : outcomes_(std::move(outcomes)) {}
-
-    void reset(const pbs::Character&) override {}
-    pbs::StepSummary advance(const pbs::Pose&, double) override
-    {
-        pbs::StepSummary summary;
-        summary.outcome = outcomes_.at(steps_);
-        summary.seconds = static_cast<double>(steps_++);
-        return summary;
-    }
-    const pbs::Positions& positions() const override { return positions_; }
-    bool has_memory() const override { return true; }
-
-private:
-    std::vector<Outcome> outcomes_;
-    std::size_t steps_ = 0;
-    pbs::Positions positions_;
-};
-
+// Steps that end with these outcomes, each after as many seconds as its number.
 FrameStep after(const std::vector<Outcome>& outcomes)
 {
-    FailingDeformer deformer(outcomes);
     FrameStep frame;
-    for (std::size_t step = 0; step < outcomes.size(); ++step) frame.add(deformer.advance({}, 0.01), step);
+    for (std::size_t step = 0; step < outcomes.size(); ++step) {
+        pbs::StepSummary summary;
+        summary.outcome = outcomes[step];
+        summary.seconds = static_cast<double>(step);
+        frame.add(summary, step);
+    }
     return frame;
 }
 

@@ -1,5 +1,5 @@
 // Reference: a bar that is folded by hand so that its ends overlap.
-#include "experiments/run/overlap_mask.hpp"
+#include "pbs/character/overlap_mask.hpp"
 
 #include "tests/support/bar_character.hpp"
 
@@ -31,7 +31,7 @@ pbs::Positions wound()
 
 TEST(OverlapMask, IsEmptyForABodyThatDoesNotOverlap)
 {
-    const std::vector<bool> mask = experiments::OverlapMask(bar()).of(bar().mesh.rest);
+    const std::vector<bool> mask = pbs::OverlapMask(bar()).of(bar().mesh.rest);
     EXPECT_EQ(std::count(mask.begin(), mask.end(), true), 0);
 }
 
@@ -39,7 +39,7 @@ TEST(OverlapMask, IsEmptyForABodyThatDoesNotOverlap)
 // masked. At the axis of the overlapping ends everything is, for there is skin inside the other winding on one side.
 TEST(OverlapMask, CoversWhatLiesInsideAnotherPartAndTheFleshWithinALimbRadius)
 {
-    const std::vector<bool> mask = experiments::OverlapMask(bar()).of(wound());
+    const std::vector<bool> mask = pbs::OverlapMask(bar()).of(wound());
     const double overlap = std::numbers::pi / 2.0 - 1.0, limb_radius = 0.15 * std::numbers::sqrt2;
     for (Eigen::Index v = 0; v < bar().mesh.rest.rows(); ++v) {
         const pbs::Vec3 rest = bar().mesh.rest.row(v);
