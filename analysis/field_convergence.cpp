@@ -16,6 +16,8 @@ namespace {
 constexpr double least_ratio = 1.3;  // Celik et al. 2008
 constexpr double lowest_order = 0.05;
 constexpr double reliable_factor = 1.25, other_factor = 3.0;
+constexpr double above_formal = 0.1;  // Eca and Hoekstra 2014
+constexpr double mostly_explained = 0.5;
 constexpr double no_order = std::numeric_limits<double>::quiet_NaN();
 
 void check_fields(const std::vector<pbs::Positions>& fields, const std::vector<double>& sizes, double formal_order,
@@ -72,6 +74,17 @@ double squared_residual(const Eigen::MatrixXd& projection, const Eigen::MatrixXd
     return std::max(0.0, (projection * gram).trace());
 }
 
+// Successive differences of opposite directions. gram: of the differences from the finest field.
+bool oscillates(const Eigen::MatrixXd& gram)
+{
+    const auto product = [&](Eigen::Index i) {  // of x_{i+1} - x_i and x_{i+2} - x_{i+1}
+        return gram(i + 1, i + 2) - gram(i + 1, i + 1) - gram(i, i + 2) + gram(i, i + 1);
+    };
+    for (Eigen::Index i = 0; i + 2 < gram.rows(); ++i)
+        if (product(i) <= 0.0) return true;
+    return false;
+}
+
 }  // namespace
 
 FieldConvergence fit_fields(const std::vector<pbs::Positions>& fields, const std::vector<double>& sizes, double formal_order,
@@ -86,7 +99,8 @@ FieldConvergence fit_fields(const std::vector<pbs::Positions>& fields, const std
         minimise([&](double order) { return squared_residual(left_by(regressors(sizes, order)), gram); }, lowest_order, 2.0 * formal_order);
 
     FieldConvergence fit;
-    const bool observed = best.outcome == MinimumOutcome::converged || best.outcome == MinimumOutcome::at_upper_bound;
+    const bool approaches = best.outcome == MinimumOutcome::converged || best.outcome == MinimumOutcome::at_upper_bound;
+    const bool observed = approaches && !oscillates(gram);
     fit.observed_order = observed ? best.x : no_order;
     fit.order = observed ? std::min(best.x, formal_order) : formal_order;
     const Eigen::MatrixXd columns = regressors(sizes, fit.order);
@@ -99,8 +113,8 @@ FieldConvergence fit_fields(const std::vector<pbs::Positions>& fields, const std
         for (std::size_t j = 0; j < fields.size(); ++j) fit.residuals.back() += projection(i, j) * fields[j];
     }
     fit.unexplained = spread > 0.0 ? std::sqrt(squared_residual(projection, gram) / spread) : 0.0;
-    constexpr double mostly_explained = 0.5;
-    fit.reliable = observed && fit.observed_order >= formal_order / 2.0 && fit.unexplained < mostly_explained;
+    fit.reliable = observed && fit.observed_order >= formal_order / 2.0 && fit.observed_order <= formal_order + above_formal &&
+                   fit.unexplained < mostly_explained;
     fit.safety_factor = fit.reliable ? reliable_factor : other_factor;
     if (!observed) fit.limit.setConstant(no_order);
     return fit;
@@ -111,7 +125,8 @@ double bound_of(const FieldConvergence& fit, const std::vector<pbs::Positions>& 
     if (std::isnan(fit.observed_order)) {
         double largest = 0.0;
         for (std::size_t i = 0; i < fields.size(); ++i)
-            for (std::size_t j = 0; j < i; ++j) largest = std::max(largest, distance(fields[i], fields[j]));
+            for (std::size_t j = 0; j < i; ++j)
+                if (const double d = distance(fields[i], fields[j]); std::isnan(d) || d > largest) largest = d;  // a NaN is kept
         return other_factor * largest;
     }
     const auto residual = [&](std::size_t i) { return distance(fields[i], fields[i] - fit.residuals[i]); };
@@ -119,7 +134,9 @@ double bound_of(const FieldConvergence& fit, const std::vector<pbs::Positions>& 
     for (std::size_t i = 0; i < fields.size(); ++i) squared += residual(i) * residual(i);
     constexpr int fitted = 2;  // values per point: the limit and the amplitude
     const double deviation = std::sqrt(squared / static_cast<double>(fields.size() - fitted));
-    return fit.safety_factor * distance(fields[which], fit.limit) + residual(which) + deviation;
+    const double error = distance(fields[which], fit.limit), unexplained = residual(which) + deviation;
+    if (fit.unexplained >= mostly_explained) return other_factor * (error + unexplained);
+    return fit.safety_factor * error + unexplained;
 }
 
 }  // namespace analysis

@@ -15,11 +15,13 @@
 namespace analysis {
 
 struct FieldConvergence {
-    double observed_order = 0.0;            // of the best fit within (0, 2 formal order]; NaN where the fields do not approach a limit
-    double order = 0.0;                     // in use: the observed one, or the formal one where that is lower
-    bool reliable = false;                  // an order was observed, at least half of the formal one, and the fit explains the differences
-    double safety_factor = 0.0;             // 1.25 if reliable, otherwise 3
-    pbs::Positions limit;                   // x_0, with the order in use; not a number where no order was observed
+    // Of the best fit within (0, 2 formal order]. NaN where the fields do not approach a limit: their differences grow under refinement, or
+    // successive differences have opposite directions.
+    double observed_order = 0.0;
+    double order = 0.0;          // in use: the observed one, or the formal one where that is lower
+    bool reliable = false;       // the order lies between half the formal one and that plus 0.1, and the fit explains the differences
+    double safety_factor = 0.0;  // 1.25 if reliable, otherwise 3
+    pbs::Positions limit;        // x_0, with the order in use; not a number where no order was observed
     std::vector<pbs::Positions> residuals;  // r_i, one per field
     double unexplained = 0.0;               // |r| / |differences from the mean field|, 0 to 1
 };
@@ -33,9 +35,10 @@ FieldConvergence fit_fields(const std::vector<pbs::Positions>& fields, const std
 // The distance of two fields in some norm: norm(a - b).
 using FieldDistance = std::function<double(const pbs::Positions&, const pbs::Positions&)>;
 
-// A bound on the distance of field `which` from the limit (Eca and Hoekstra 2014, Eq. 16): the safety factor times its distance from
-// fit.limit, its own residual, and the standard deviation of the fit. Where no order was observed, three times the largest distance of two
-// fields. The arguments are those of the fit.
+// A bound on the distance of field `which` from the limit, after Eca and Hoekstra 2014: the safety factor times its distance from
+// fit.limit, plus its own residual and the standard deviation of the fit; where at least half of the differences is unexplained, 3 times
+// their sum. Where no order was observed, 3 times the largest distance of two fields. NaN if a distance is NaN. The arguments are those of
+// the fit.
 double bound_of(const FieldConvergence& fit, const std::vector<pbs::Positions>& fields, std::size_t which, const FieldDistance& distance);
 
 }  // namespace analysis

@@ -169,7 +169,7 @@ void ElasticBody::start_from(const pbs::Positions& vertices)
 void ElasticBody::start_from_nodes(const pbs::Positions& nodes)
 {
     const pbs::Positions& rest = nodes_at_rest();
-    require(nodes.rows() == rest.rows(), "nodes", nodes.rows(), "expected one position a node");
+    require(nodes.rows() == rest.rows(), "nodes", nodes.rows(), "expected one position per node");
     const pbs::Positions displacement = nodes - rest;
     implementation_->displacement_ = Eigen::VectorXd::Map(displacement.data(), displacement.size());
 }

@@ -63,8 +63,8 @@ public:
     // pbs::InputError where quasi-static, for a step that is not finite and > 0, and as solve().
     LoadPathSummary advance(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2, double time_step_s);
 
-    // A start for Newton other than the last state [m], #V x 3, with mid-edge nodes halfway; or #nodes x 3. Does not change what is
-    // converged to, only the way.
+    // An initial guess for Newton's method other than the last state [m], #V x 3, with mid-edge nodes halfway; or #nodes x 3. Does not
+    // change what is converged to, only the way.
     void start_from(const pbs::Positions& vertices);
     void start_from_nodes(const pbs::Positions& nodes);
 

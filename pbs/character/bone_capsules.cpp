@@ -82,10 +82,10 @@ std::vector<BoneCapsule> bone_capsules(const Character& character, double core_r
     return capsules;
 }
 
-Positions sample_points(const BoneCapsule& capsule, int density)
+Positions sample_points(const BoneCapsule& capsule, int samples)
 {
-    if (density < 1) throw std::invalid_argument("sample_points: expected a density of at least 1, not " + std::to_string(density));
-    const int stations = 40 * density, rings = 8 * density, spokes = 24 * density;
+    if (samples < 1) throw std::invalid_argument("sample_points: expected samples of at least 1, not " + std::to_string(samples));
+    const int stations = 40 * samples, rings = 8 * samples, spokes = 24 * samples;
     const int points_per_disc = 1 + rings * spokes;
     const Vec3 axis = capsule.end - capsule.start;
     const Vec3 across = axis.unitOrthogonal(), binormal = axis.normalized().cross(across);

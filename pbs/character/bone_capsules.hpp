@@ -26,10 +26,10 @@ struct BoneCapsule {
 std::vector<BoneCapsule> bone_capsules(const Character& character, double core_radius);
 
 // Sample points of a capsule [m], each with the same share of its volume: 40 stations along the axis, and in each disc the centre and eight
-// rings of 24 points, at the radii that halve their areas. That is 7,720 x 3; `density` multiplies the three numbers. The points are the
+// rings of 24 points, at the radii that halve their areas. That is 7,720 x 3; `samples` multiplies the three numbers. The points are the
 // same for every mesh and element order, and dense enough to act as a volume on tets refined twice: a few points would be point loads
-// there, under which the flesh yields without limit. std::invalid_argument for a density below 1.
-Positions sample_points(const BoneCapsule& capsule, int density = 1);
+// there, under which the flesh yields without limit. std::invalid_argument for samples < 1.
+Positions sample_points(const BoneCapsule& capsule, int samples = 1);
 
 // How the density of a smooth attachment decreases from 1 on the middle of the axis to 0 on the capsule's surface: across the bone by a
 // function of s = rho / R, along it by a step over `ends` radii R at each end (at most half of the length).
@@ -37,7 +37,7 @@ Positions sample_points(const BoneCapsule& capsule, int density = 1);
 //   wendland: (1 - s)^4 (4 s + 1) and the step 6 t^5 - 15 t^4 + 10 t^3, twice so (H. Wendland, Adv. Comput. Math. 4, 1995)
 enum class AttachmentKernel { biweight, wendland };
 
-// Of a point [m]; 0 outside the capsule. `ends` > 0.
+// The relative density at a point [m]; 0 outside the capsule. `ends` > 0.
 double smooth_density(const BoneCapsule& capsule, AttachmentKernel kernel, double ends, const Vec3& point);
 
 }  // namespace pbs

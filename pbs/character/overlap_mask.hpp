@@ -1,5 +1,5 @@
 // The part of a body where a reference overlaps itself: no deformer has contact, and where a fold has no contact, finer tets do not make it
-// converge. Errors are measured outside of this part, and separately on the whole body.
+// converge. Errors can be measured outside of this part (analysis::ErrorMetrics). A skin vertex next to an inverted tet counts too.
 //   const OverlapMask mask(character);
 //   error_metrics.measure(positions, reference, mask.of(reference));
 #pragma once

@@ -119,7 +119,7 @@ BoneAttachment nodes_attachment(const pbs::Character& character, const FemOption
         if (kept == 0)
             throw pbs::InputError(character.name, 0, "bone", character.skeleton.bones[j].name,
                                   "expected four vertices of whole tets inside its capsule that are not in one plane; refine the mesh, "
-                                  "raise core_radius or use attachment embedded");
+                                  "raise core_radius or use attachment smooth or embedded");
     }
     return bones;
 }

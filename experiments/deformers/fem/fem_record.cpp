@@ -138,6 +138,7 @@ nlohmann::json FemRecord::attachment_json() const
         attachment["kernel"] = name_of(options_.attachment_kernel);
         attachment["ends"] = options_.attachment_ends;
     }
+    if (!bones_.spring_bone.empty()) attachment["samples"] = options_.attachment_samples;
     for (std::size_t j = 0; j < grips_.size(); ++j)
         attachment["bones"].push_back(experiments::to_json(grips_[j], bones_.capsules[j], options_.attachment));
     return attachment;

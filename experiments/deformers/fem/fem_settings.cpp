@@ -127,6 +127,12 @@ void check(const SceneValues& values, const std::string& table, const FemOptions
     const bool quasi_static = options.dynamics == reference_fem::Dynamics::quasi_static;
     if (linear && options.attachment == FemAttachment::bind)
         values.refuse(table + ".attachment", "expected smooth, embedded or nodes with model linear: the bind constraint is not linear");
+    const bool has_springs = options.attachment == FemAttachment::smooth || options.attachment == FemAttachment::embedded;
+    for (const char* key : {".attachment_kernel", ".attachment_ends"})
+        if (options.attachment != FemAttachment::smooth && values.given(table + key))
+            values.refuse(table + key, "expected attachment smooth, which alone has it");
+    if (!has_springs && values.given(table + ".attachment_samples"))
+        values.refuse(table + ".attachment_samples", "expected attachment smooth or embedded, which have springs");
     if (options.core_radius > 0.0 && options.core_radius < 0.01) values.refuse(table + ".core_radius", "expected 0, or 0.01 to 1");
     if (options.spring_factor > 0.0 && options.spring_factor < 1e-3) values.refuse(table + ".spring_factor", "expected 0, or 0.001 to 1e9");
     if (!linear && options.solver != reference_fem::LinearSolver::cholmod)

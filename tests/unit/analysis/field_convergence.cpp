@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -93,6 +94,41 @@ TEST(FieldConvergence, BoundsTheDistanceWithTheSafetyFactor)
     for (const std::size_t which : {0u, 1u, 2u})
         EXPECT_NEAR(analysis::bound_of(fit, fields, which, rms), 1.25 * rms(fields[which], exact_limit),
                     2e-3 * rms(fields[which], exact_limit));
+}
+
+// Overshooting by half and returning: (x, x + e, x + 0.4 e) has no limit on one side, and (x, x + 0.3 e, x - e) neither.
+TEST(FieldConvergence, ObservesNoOrderWhereFieldsOscillate)
+{
+    const std::vector<double> sizes{0.1, 0.2, 0.4};
+    for (const auto& [middle, coarse] : {std::pair{1.0, 0.4}, {0.3, -1.0}}) {
+        const std::vector<pbs::Positions> fields{exact_limit, exact_limit + middle * error_field, exact_limit + coarse * error_field};
+        const auto fit = fit_fields(fields, sizes, 2.0);
+        EXPECT_TRUE(std::isnan(fit.observed_order));
+        const double range = std::max(middle, coarse) - std::min(0.0, coarse);
+        EXPECT_NEAR(analysis::bound_of(fit, fields, 0, rms), 3.0 * range * rms(error_field, pbs::Positions::Zero(40, 3)), 1e-12);
+    }
+}
+
+// By hand, in units of |e|: the distance 2 from the limit, the own residual 0.2, the deviation sqrt(0.1^2 + 0.2^2 + 0.2^2) = 0.3 of three
+// fields. That is 1.25 * 2 + 0.5 = 3; where the fit explains less than half, 3 * 2.5 = 7.5.
+TEST(FieldConvergence, BoundsWhatTheFitDoesNotExplain)
+{
+    const std::vector<pbs::Positions> fields{exact_limit + error_field, exact_limit + 2.0 * error_field, exact_limit};
+    analysis::FieldConvergence fit{2.0, 2.0, true, 1.25, exact_limit, {0.1 * error_field, -0.2 * error_field, 0.2 * error_field}, 0.2};
+    const double unit = rms(error_field, pbs::Positions::Zero(40, 3));
+    EXPECT_NEAR(analysis::bound_of(fit, fields, 1, rms), 3.0 * unit, 1e-12 * unit);
+    fit.unexplained = 0.7;
+    EXPECT_NEAR(analysis::bound_of(fit, fields, 1, rms), 7.5 * unit, 1e-12 * unit);
+}
+
+TEST(FieldConvergence, ABoundOfWhatCannotBeMeasuredIsNotANumber)
+{
+    const std::vector<double> sizes{0.1, 0.2, 0.4};
+    const auto nothing = [](const pbs::Positions&, const pbs::Positions&) { return std::nan(""); };
+    const auto fields = series(sizes, 2.0);
+    EXPECT_TRUE(std::isnan(analysis::bound_of(fit_fields(fields, sizes, 2.0), fields, 0, nothing)));
+    const std::vector<pbs::Positions> growing{fields[2], fields[1], fields[0]};
+    EXPECT_TRUE(std::isnan(analysis::bound_of(fit_fields(growing, sizes, 2.0), growing, 0, nothing)));
 }
 
 TEST(FieldConvergence, EqualFieldsHaveNoErrorAndNoOrder)

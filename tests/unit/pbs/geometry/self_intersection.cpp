@@ -99,8 +99,8 @@ TEST(PointsInside, AskAClosedSurface)
     EXPECT_THROW(pbs::points_inside(sphere.points, pbs::Triangles(0, 3), {{0, 0, 0}}), pbs::InputError);
 }
 
-// Two bars of one mesh, the second of which is moved by hand: a corner at (0.4, 0, 0) of it lies inside the first, half a bar away nothing
-// does, and at rest a mesh does not overlap itself although its tets share corners, edges and faces.
+// Two cubes of one mesh: moved along the diagonal, a corner of each lies inside the other; beside each other nothing does, although tets of
+// one cube share corners, edges and faces.
 TEST(Overlap, VerticesInsideTetsOfAnotherPartAreFound)
 {
     const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {2, 2, 2});

@@ -1,10 +1,10 @@
-// Reference: a manufactured solution u_i = A sin(a_i . x + phi_i) of stable neo-Hookean flesh that is held by the smooth springs of a bone.
-// The springs' targets lie a given offset c from the exact positions, so that the body force is f = -div P - k(x) c: springs that were
-// weighted wrongly, or attached elsewhere, would leave another force. Order p elements converge with h^(p+1) (Brenner and Scott, ch. 5)
-// down to the error of the sample points, which stand for the integral over k. The tets are cut into eight twice, as those of a reference
-// are, so that the fields have points in common: their fit must find that order, and its bound must hold.
+// Reference: a manufactured solution u_i = A sin(a_i . x + phi_i) of stable neo-Hookean flesh that is held by springs of the density k of a
+// smooth attachment. The springs' targets lie a given offset c from the exact positions, so that the body force is f = -div P - k(x) c.
+// Order p elements converge with h^(p+1) (Brenner and Scott, ch. 5) down to the error of the sample points, which grows with c: a small c
+// serves the orders, and a large one shows whether the springs have the weight that the body force assumes. The tets are cut into eight
+// twice, as those of a reference are, so that the fields have points in common: their fit must find that order, and its bound must hold.
 #include "analysis/field_convergence.hpp"
-#include "experiments/deformers/fem/bone_attachment.hpp"
+#include "pbs/character/bone_capsules.hpp"
 #include "pbs/geometry/refinement.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "reference_fem/assembly.hpp"
@@ -24,7 +24,7 @@ using pbs::Vec3;
 
 const double young_pa = 1.0, poisson = 0.3, spring_factor = 100.0;
 const pbs::BoneCapsule capsule{{0.1, 0.5, 0.5}, {0.9, 0.5, 0.5}, 0.35, ""};
-const Vec3 phase(0.3, 1.1, -0.4), offset(2e-6, -1e-6, 3e-6);
+const Vec3 phase(0.3, 1.1, -0.4), small_offset(2e-6, -1e-6, 3e-6);
 const double amplitude = 0.1;
 
 Eigen::Matrix3d waves()
@@ -33,16 +33,16 @@ Eigen::Matrix3d waves()
     a << 1.7, 0.9, -0.6, -0.8, 1.4, 1.1, 0.5, -1.2, 1.6;
     return a;
 }
-const Eigen::Matrix3d a = waves();  // row i: a_i
+const Eigen::Matrix3d wave_vectors = waves();  // row i: a_i
 
 Vec3 exact(const Vec3& x)
 {
-    return amplitude * (a * x + phase).array().sin();
+    return amplitude * (wave_vectors * x + phase).array().sin();
 }
 
 Eigen::Matrix3d exact_gradient(const Vec3& x)
 {
-    return amplitude * (a * x + phase).array().cos().matrix().asDiagonal() * a;
+    return amplitude * (wave_vectors * x + phase).array().cos().matrix().asDiagonal() * wave_vectors;
 }
 
 double density(const Vec3& x)
@@ -52,7 +52,7 @@ double density(const Vec3& x)
 }
 
 // -div P - k c, where (div P)_i = sum_jkl dP_ij / dF_kl u_k,lj and u_k,lj = -A sin(a_k . x + phi_k) a_kl a_kj.
-Vec3 body_force(const Vec3& x)
+Vec3 body_force(const Vec3& x, const Vec3& offset)
 {
     static const auto law = constitutive_law(Model::stable_neo_hookean, lame_parameters(young_pa, poisson));
     const Tangent slope = tangent(law->evaluate(Eigen::Matrix3d::Identity() + exact_gradient(x), Derivatives::second), law->lambda_pa());
@@ -61,7 +61,8 @@ Vec3 body_force(const Vec3& x)
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
             for (int k = 0; k < 3; ++k)
-                for (int l = 0; l < 3; ++l) divergence(i) += slope(3 * j + i, 3 * l + k) * minus_sine(k) * a(k, l) * a(k, j);
+                for (int l = 0; l < 3; ++l)
+                    divergence(i) += slope(3 * j + i, 3 * l + k) * minus_sine(k) * wave_vectors(k, l) * wave_vectors(k, j);
     return -divergence - density(x) * offset;
 }
 
@@ -70,7 +71,7 @@ struct Springs {
     Eigen::VectorXd stiffness;
 };
 
-Springs springs_of_bone()
+Springs springs_of_bone(const Vec3& offset, double weight)
 {
     constexpr int samples = 3;  // their error is a ninth of the default's
     Springs springs{pbs::sample_points(capsule, samples), {}, {}};
@@ -79,7 +80,7 @@ Springs springs_of_bone()
     for (Eigen::Index s = 0; s < springs.points.rows(); ++s) {
         const Vec3 point = springs.points.row(s);
         springs.targets.row(s) = (point + exact(point) + offset).transpose();
-        springs.stiffness(s) = density(point) * capsule.volume_m3() / static_cast<double>(springs.points.rows());
+        springs.stiffness(s) = weight * density(point) * capsule.volume_m3() / static_cast<double>(springs.points.rows());
     }
     return springs;
 }
@@ -89,15 +90,16 @@ struct Solution {
     double error = 0.0;   // in L2 over that of the exact displacement
 };
 
-Solution solve(const pbs::TetMesh& mesh, int element_order)
+// weight: of the springs, which is 1 where they are those of the body force.
+Solution solve(const pbs::TetMesh& mesh, int element_order, const Vec3& offset = small_offset, double weight = 1.0)
 {
-    static const Springs springs = springs_of_bone();
+    const Springs springs = springs_of_bone(offset, weight);
     const SimplexSpace space(mesh, element_order);
     const ElasticPotential flesh(space, Model::stable_neo_hookean, lame_parameters(young_pa, poisson), Formulation::displacement);
     const AttachedPoints points(mesh, space, springs.points, springs.stiffness);
     SpringPotential held(points);
     held.move_to(springs.targets);
-    const DeadLoad load(load_vector(space, body_force));
+    const DeadLoad load(load_vector(space, [&](const Vec3& x) { return body_force(x, offset); }));
 
     Eigen::VectorXd values(space.dofs());
     std::vector<bool> prescribed(space.dofs(), false);
@@ -122,8 +124,8 @@ double rms(const Positions& one, const Positions& other)
 }
 
 // Errors C h^p (1 + c h) show an order that differs from p by c h / (2 ln 2), half as much on meshes twice as fine. The order of the finest
-// two is therefore within 0.1 (jittered meshes: their constants differ by a few per cent) or at least a quarter closer than that of the
-// coarser two. The fit uses vertices, where quadratic tets are more accurate than elsewhere, so that its order may be higher; below the
+// two is therefore within 0.1 (jittered meshes: their constants differ by a few per cent) or closer than that of the coarser two by
+// nearly a half. The fit uses vertices, where quadratic tets are more accurate than elsewhere, so that its order may be higher; below the
 // theory it is within 0.3, since between the coarsest meshes the order is still that of a coarse mesh.
 void expect_order(int element_order, int coarsest)
 {
@@ -140,7 +142,7 @@ void expect_order(int element_order, int coarsest)
     }
     const double coarser = std::abs(std::log2(errors[2] / errors[1]) - order), finer = std::abs(std::log2(errors[1] / errors[0]) - order);
     testing::Test::RecordProperty("order_differs_by", std::to_string(finer));
-    EXPECT_LT(finer, std::max(0.1, 0.75 * coarser));
+    EXPECT_LT(finer, std::max(0.1, 0.6 * coarser));
 
     Positions truth = fields[0];
     const pbs::TetMesh first = test_support::jittered_cube(coarsest);
@@ -148,7 +150,6 @@ void expect_order(int element_order, int coarsest)
     const auto fit = analysis::fit_fields(fields, {1.0, 2.0, 4.0}, order);
     testing::Test::RecordProperty("fitted_order", std::to_string(fit.observed_order));
     EXPECT_GT(fit.observed_order, order - 0.3);
-    EXPECT_TRUE(fit.reliable);
     for (std::size_t i = 0; i < fields.size(); ++i) EXPECT_LT(rms(fields[i], truth), analysis::bound_of(fit, fields, i, rms)) << i;
 }
 
@@ -160,6 +161,16 @@ TEST(ManufacturedAttachment, LinearTetsConvergeWithOrderTwo)
 TEST(ManufacturedAttachment, QuadraticTetsConvergeWithOrderThree)
 {
     expect_order(2, 2);
+}
+
+// Springs of twice or half the weight pull with another force than the body force balances. Where they are stiff, the flesh then moves by
+// the offset times 1 / 2 or 1; right ones leave only the error of the elements and of the sample points.
+TEST(ManufacturedAttachment, SpringsOfAnotherWeightLeaveAnotherForce)
+{
+    const Vec3 large_offset(0.02, -0.01, 0.03);
+    const pbs::TetMesh mesh = test_support::jittered_cube(8);
+    const double right = solve(mesh, 1, large_offset).error;
+    for (const double weight : {0.5, 2.0}) EXPECT_GT(solve(mesh, 1, large_offset, weight).error, 3.0 * right) << weight;
 }
 
 }  // namespace
