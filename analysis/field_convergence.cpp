@@ -62,7 +62,7 @@ Eigen::MatrixXd regressors(const std::vector<double>& sizes, double order)
     return columns;
 }
 
-// What the least squares fit of the columns leaves of each field, as a projection, #fields x #fields.
+// The projection, #fields x #fields, that leaves the residuals of the least squares fit of the columns.
 Eigen::MatrixXd left_by(const Eigen::MatrixXd& columns)
 {
     const Eigen::MatrixXd q = columns.householderQr().householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());

@@ -15,8 +15,8 @@
 namespace analysis {
 
 struct FieldConvergence {
-    // Of the best fit within (0, 2 formal order]. NaN where the fields do not approach a limit: their differences grow under refinement, or
-    // successive differences have opposite directions.
+    // The order of the best fit within (0, 2 formal order]. NaN where the fields do not approach a limit: their differences grow under
+    // refinement, or successive differences have opposite directions.
     double observed_order = 0.0;
     double order = 0.0;          // in use: the observed one, or the formal one where that is lower
     bool reliable = false;       // the order lies between half the formal one and that plus 0.1, and the fit explains the differences

@@ -66,8 +66,8 @@ def runs_of_other_revisions(sweep, folder, pbskin):
     names = []
     for run in sweep.runs if now else []:
         with contextlib.suppress(OSError, ValueError, KeyError):  # not finished, or the merge tells what is wrong
-            told = json.loads((folder / "runs" / run.name / "run.json").read_text(encoding="utf-8"))["provenance"]
-            if (told["git_revision"], told.get("git_dirty", False)) != now:
+            build = json.loads((folder / "runs" / run.name / "run.json").read_text(encoding="utf-8"))["provenance"]
+            if (build["git_revision"], build.get("git_dirty", False)) != now:
                 names.append(run.name)
     return names
 

@@ -51,7 +51,7 @@ std::vector<std::vector<Positions>> section_outlines(const Positions& positions,
 // Which points [m] lie inside or on a closed manifold boundary, #points. InputError where it has no triangle or is not closed.
 std::vector<bool> points_inside(const Positions& positions, const Triangles& boundary, const std::vector<Vec3>& points);
 
-// Those of `vertices` that lie inside a tet of which they are no corner, sorted: there, parts of a body overlap. positions: deformed [m],
+// The members of `vertices` that lie inside a tet without being its corner, sorted. Parts of a body overlap there. positions: deformed [m],
 // #V x 3. InputError where one is not finite.
 std::vector<int> vertices_inside_other_tets(const Positions& positions, const Tets& tets, const std::vector<int>& vertices);
 

@@ -28,7 +28,7 @@ inline double jacobian_roundings(const reference_fem::SimplexSpace& space)
     return 12.0 * worst;
 }
 
-// Of an entry that integrates products of so many shape functions or gradients.
+// The number of roundings of an entry that integrates products of so many shape functions or gradients.
 inline double entry_roundings(const reference_fem::SimplexSpace& space, int points_1d, int functions)
 {
     Eigen::VectorXi tets_about = Eigen::VectorXi::Zero(space.nodes());

@@ -9,13 +9,13 @@
 
 namespace test_support {
 
-// Of a position after so many motions, in the unit of `farthest`, the largest norm on the way.
+// The rounding error of a position after so many motions, in the unit of `farthest`, the largest norm on the way.
 inline double motion_error(int motions, double farthest)
 {
     return std::sqrt(3.0) * rounding_error((8.0 + 4.0) * motions, farthest);
 }
 
-// Of the matrix of their product in the Frobenius norm, of nine entries and a translation.
+// The rounding error of the matrix of their product in the Frobenius norm, of nine entries and a translation.
 inline double motion_matrix_error(int motions, double translation)
 {
     return 3.0 * rounding_error((8.0 + 4.0) * motions, 1.0) + motion_error(motions, translation);

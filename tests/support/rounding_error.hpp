@@ -14,7 +14,7 @@ constexpr double rounding_error(double roundings, double magnitude)
     return roundings * (std::numeric_limits<double>::epsilon() / 2.0) * magnitude;
 }
 
-// Of the mean of so many values of one sign, each of which is rounded.
+// The rounding error of the mean of so many values of one sign, each of which is rounded.
 constexpr double mean_error(std::size_t values, double mean)
 {
     return rounding_error(1.0 + static_cast<double>(values), mean);

@@ -9,7 +9,7 @@
 
 namespace test_support {
 
-// Of the sum over the tets [m^3].
+// The rounding error of the sum over the tets [m^3].
 inline double volume_error(const pbs::Positions& positions, const pbs::Tets& tets)
 {
     double magnitudes = 0.0;

@@ -33,7 +33,7 @@ struct PointSetting {
     }
 };
 
-// What distinguishes a setting from the others. A field that the deformer does not have is empty.
+// The values that distinguish a setting from the others. A field that the deformer does not have is empty.
 struct SettingKey {
     std::string deformer;  // as in PointSetting
     std::optional<int> iterations = {};

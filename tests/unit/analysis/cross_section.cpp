@@ -98,7 +98,7 @@ TEST(CrossSection, MissingTheBodyIsNothing)
     EXPECT_EQ(area_of(bar(), {{1.1, 0.0, 0.0}, {1.0, 0.0, 0.0}}), 0.0);
 }
 
-// Of a cone of so many tets, with edges of sqrt 2 m at 45 degrees.
+// The rounding error of the area in which a plane cuts a cone of so many tets, with edges of sqrt 2 m at 45 degrees.
 double cone_error(int sides)
 {
     return area_error(sides, std::sqrt(2.0), 1.0, std::sqrt(0.5));

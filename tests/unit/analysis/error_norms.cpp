@@ -58,7 +58,7 @@ TEST(ErrorNorms, VerticesWeighByTheirLumpedRestVolume)
     EXPECT_NEAR(error.joint_pct, joint_pct, rounding_error(20, joint_pct));
 }
 
-// Of the two blended vertices the far one is left out: the near one, at 1 m from its bone, has moved by 0.2 m. An inverted mask would
+// Two vertices are blended, and the far one is left out: the near one, at 1 m from its bone, has moved by 0.2 m. An inverted mask would
 // measure the other, at 3 m, which has not moved.
 TEST(ErrorNorms, WhatIsLeftOutOfAFrameCountsInNoNorm)
 {
