@@ -4,6 +4,8 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/text_file.hpp"
 
+#include <sys/stat.h>
+
 #include <filesystem>
 
 namespace pbs {
@@ -43,12 +45,24 @@ std::string file_name(const std::string& path)
     return fs::path(path).filename().string();
 }
 
+// `written` holds the file's number and the time of its last change; it is "" where there is no file. The time comes first, so that a
+// file written while it is hashed differs the next time.
+InputFile::State InputFile::state_of(const std::string& path)
+{
+    struct stat status = {};
+    std::string written;
+    if (::stat(path.c_str(), &status) == 0)
+        written =
+            std::to_string(status.st_ino) + " " + std::to_string(status.st_ctim.tv_sec) + " " + std::to_string(status.st_ctim.tv_nsec);
+    return {path, hash_of_file(path), written};
+}
+
 InputFile::InputFile(const std::string& path) : path_(path)
 {
     try {
-        before_ = {{path, hash_of_file(path)}};
+        before_ = {state_of(path)};
         for (const std::string& file : companions(path))
-            if (std::error_code error; fs::is_regular_file(file, error)) before_.emplace_back(file, hash_of_file(file));
+            if (std::error_code error; fs::is_regular_file(file, error)) before_.push_back(state_of(file));
     } catch (const std::exception&) {  // its reader says why
     }
 }
@@ -57,9 +71,11 @@ std::vector<std::pair<std::string, std::string>> InputFile::hashed() const
 {
     if (before_.empty()) throw InputError(path_, 0, "", "", "was changed while it was read");
     std::vector<std::pair<std::string, std::string>> named;
-    for (const auto& [file, hash] : before_) {
-        if (hash_of_file(file) != hash) throw InputError(file, 0, "", "", "was changed while it was read");
-        named.emplace_back(file_name(file), hash);
+    for (const State& before : before_) {
+        const State now = state_of(before.path);
+        if (now.hash != before.hash || now.written != before.written)
+            throw InputError(before.path, 0, "", "", "was changed while it was read");
+        named.emplace_back(file_name(before.path), before.hash);
     }
     return named;
 }

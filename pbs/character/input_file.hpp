@@ -19,12 +19,19 @@ class InputFile {
 public:
     explicit InputFile(const std::string& path);  // what cannot be read is left to its reader, who says why; "": no file
 
-    // Names and hashes, the file itself first. InputError where one of them is another than it was, or gone.
+    // Names and hashes, the file itself first. InputError if a file has another content, has been written since, or is gone. A file with
+    // the same content that has been written since may have been read in between.
     std::vector<std::pair<std::string, std::string>> hashed() const;
 
 private:
+    struct State {
+        std::string path, hash;
+        std::string written;  // which file it is, and when it was last changed
+    };
+    static State state_of(const std::string& path);
+
     std::string path_;
-    std::vector<std::pair<std::string, std::string>> before_;  // path, hash
+    std::vector<State> before_;
 };
 
 // By name, for the records; of another file of a name that is taken, "NAME (2)".

@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 namespace {
 
@@ -29,6 +31,18 @@ TEST(InputFile, OneThatIsOverwrittenIsRefused)
     const std::string path = folder.file("arm.vtu", "one");
     const InputFile file(path);
     folder.file("arm.vtu", "two");  // of the same length
+    expect_input_error([&] { file.hashed(); }, path + ": ", changed);
+}
+
+// What was read in between may be the other content. The file system's clock counts in steps of a few milliseconds.
+TEST(InputFile, OneThatIsOverwrittenAndRestoredIsRefused)
+{
+    const test_support::ScratchFolder folder;
+    const std::string path = folder.file("arm.vtu", "one");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    const InputFile file(path);
+    folder.file("arm.vtu", "two");
+    folder.file("arm.vtu", "one");
     expect_input_error([&] { file.hashed(); }, path + ": ", changed);
 }
 
