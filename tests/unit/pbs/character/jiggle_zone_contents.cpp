@@ -20,7 +20,7 @@ TEST(JiggleZoneContents, OfTheLimbIsMostlySkinInOnePieceOnBothBones)
     EXPECT_GT(zone.skin_share, 0.9);
     EXPECT_EQ(zone.pieces.size(), 1u);
     ASSERT_EQ(zone.bones.size(), 2u);
-    EXPECT_NEAR(zone.bones[0].share_of_zone + zone.bones[1].share_of_zone, 1.0, 1e-12);
+    EXPECT_DOUBLE_EQ(zone.bones[0].share_of_zone + zone.bones[1].share_of_zone, 1.0);
 }
 
 // Only the two ends of a bar are farther away than a prescribed distance.
@@ -33,7 +33,7 @@ TEST(JiggleZoneContents, TwoEndsAreTwoPiecesAndTogetherTheWholeZone)
     std::set<int> seen;
     for (const auto& piece : zone.pieces) seen.insert(piece.begin(), piece.end());
     EXPECT_EQ(seen.size(), zone.pieces[0].size() + zone.pieces[1].size());
-    EXPECT_NEAR(zone.share, double(seen.size()) / double(bar.mesh.rest.rows()), 1e-12);
+    EXPECT_DOUBLE_EQ(zone.share, double(seen.size()) / double(bar.mesh.rest.rows()));
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ TEST(SurfaceToTets, TheSphereIsABallOfItsVolume)
     EXPECT_TRUE(quality.topology.boundary_manifold);
     EXPECT_EQ(quality.topology.boundary_euler, 2);
     EXPECT_EQ(quality.topology.components, 1);
-    EXPECT_NEAR(quality.vertices, 500, 50);
+    EXPECT_NEAR(quality.vertices, 500, 50);  // within 10 %, as for the built-in bodies
     EXPECT_GE(quality.min_dihedral_deg, options.min_dihedral_deg);
     EXPECT_GT(pbs::tet_volumes(ball.rest, ball.tets).minCoeff(), 0.0);
     // Skin vertices lie on the wrap, whose vertices are at the offset of 0.01 from the icosphere. Its facets fit in circles of radius alpha
@@ -64,6 +64,8 @@ TEST(SurfaceToTets, TheTorusKeepsItsHandleWhenAsked)
     const pbs::Quality quality = pbs::quality_of(pbs::mesh_surface(torus(1.0, 0.4, 40, 20), options));
     EXPECT_TRUE(quality.topology.boundary_manifold);
     EXPECT_EQ(quality.topology.boundary_euler, 0);
+    // The offset of 0.01 m adds 5 %. The polygons of 20 and 40 sides lack 1.6 % and 0.4 %, and facets that fit in circles of radius alpha,
+    // which sink by 0.1^2 / 0.8 = 0.0125 m, lack up to 6 %.
     EXPECT_NEAR(quality.volume_m3, 2.0 * std::numbers::pi * std::numbers::pi * 0.4 * 0.4, 0.08 * 3.2);
 }
 

@@ -3,11 +3,14 @@
 
 #include "pbs/geometry/quality.hpp"
 #include "pbs/geometry/tet_volume.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <set>
 
 namespace {
@@ -34,14 +37,22 @@ TetMesh ring()
     return box;
 }
 
-// The coordinates of a point in a tet.
-Eigen::Vector4d barycentric(const TetMesh& mesh, Eigen::Index tet, const pbs::Vec3& point)
+// The smallest of the four determinants of a tet in which the point replaces a corner: not negative where the point lies in the tet. It is
+// exact where all coordinates are small multiples of 1/4.
+double smallest_determinant(const TetMesh& mesh, Eigen::Index tet, const pbs::Vec3& point)
 {
-    Eigen::Matrix4d corners = Eigen::Matrix4d::Ones();
-    for (int corner = 0; corner < 4; ++corner) corners.col(corner).head<3>() = mesh.rest.row(mesh.tets(tet, corner));
-    return corners.inverse() * point.homogeneous();
+    double smallest = std::numeric_limits<double>::infinity();
+    for (int replaced = 0; replaced < 4; ++replaced) {
+        std::array<pbs::Vec3, 4> p;
+        for (int corner = 0; corner < 4; ++corner) p[corner] = mesh.rest.row(mesh.tets(tet, corner));
+        p[replaced] = point;
+        smallest = std::min(smallest, (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]));
+    }
+    return smallest;
 }
 
+// Each volume goes through ten roundings of products of edges, whose sum is bounded in tests/support/volume_rounding.hpp. A midpoint is
+// rounded once; its coordinates are at most twice as long as an edge of a child, which has two ends: twelve more for three edges.
 TEST(Refinement, OfOneTetIsEightOfAnEighthOfItsVolume)
 {
     const Refinement fine = pbs::refine(one_tet());
@@ -49,7 +60,8 @@ TEST(Refinement, OfOneTetIsEightOfAnEighthOfItsVolume)
     ASSERT_EQ(fine.mesh.tets.rows(), 8);
     const double volume = pbs::tet_volumes(one_tet().rest, one_tet().tets)(0);
     const Eigen::VectorXd volumes = pbs::tet_volumes(fine.mesh.rest, fine.mesh.tets);
-    for (const double child : volumes) EXPECT_NEAR(child, volume / 8.0, 1e-16);  // sums of products of numbers below 1
+    const double edge_m = pbs::quality_of(fine.mesh).longest_edge_m, magnitude = 2.0 / std::sqrt(3.0) * std::pow(edge_m, 3) / 6.0;
+    for (const double child : volumes) EXPECT_NEAR(child, volume / 8.0, test_support::rounding_error(10 + 10 + 12, magnitude));
 }
 
 TEST(Refinement, KeepsTheCoarseVerticesAndHalvesTheEdges)
@@ -72,7 +84,8 @@ TEST(Refinement, CountsAreThoseOfRedRefinement)
     EXPECT_EQ(fine.tets, 8 * coarse.tets);
     EXPECT_EQ(fine.edges, 2 * coarse.edges + 3 * faces + coarse.tets);
     EXPECT_EQ(fine.boundary_triangles, 4 * coarse.boundary_triangles);  // neighbours agree on the faces between them
-    EXPECT_NEAR(fine.volume_m3, coarse.volume_m3, 1e-13);               // a thousand terms of 0.02
+    // Coordinates are multiples of 1/2: only the division by 6 in three terms of each tet is rounded, their sum, and the sum over tets.
+    EXPECT_NEAR(fine.volume_m3, coarse.volume_m3, test_support::rounding_error(2 * 5 + fine.tets + coarse.tets, 24.0));
 }
 
 TEST(Refinement, ABodyWithAHandleKeepsIt)
@@ -91,7 +104,7 @@ TEST(Refinement, ChildrenLieInTheirParentAndAtItsCorners)
     const TetMesh bar = test_support::structured_bar({0, 0, 0}, {1, 2, 3}, {2, 2, 2});
     const TetMesh fine = pbs::refine(bar).mesh;
     for (Eigen::Index t = 0; t < fine.tets.rows(); ++t) {
-        for (const int v : fine.tets.row(t)) EXPECT_GE(barycentric(bar, t / 8, fine.rest.row(v)).minCoeff(), -1e-14);
+        for (const int v : fine.tets.row(t)) EXPECT_GE(smallest_determinant(bar, t / 8, fine.rest.row(v)), 0.0);
         if (const Eigen::Index child = t % 8; child < 4) {
             EXPECT_EQ(fine.tets(t, child), bar.tets(t / 8, child));
         }
@@ -151,7 +164,7 @@ TEST(Prolongated, CarriesAnAffineFieldExactly)
     const Refinement fine = pbs::refine(bar);
     const Eigen::Matrix3d map = (Eigen::Matrix3d() << 1, 2, 3, -4, 5, 6, 7, 8, -9).finished();
     const pbs::Positions carried = pbs::prolongated(bar.rest * map, fine.parents);
-    EXPECT_LT((carried - fine.mesh.rest * map).cwiseAbs().maxCoeff(), 1e-14);
+    EXPECT_EQ(carried, fine.mesh.rest * map);  // of multiples of 1/4 by whole numbers, which no product or sum rounds
 }
 
 }  // namespace
