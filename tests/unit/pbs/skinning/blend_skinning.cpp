@@ -1,12 +1,13 @@
-// Reference: the rest pose, rigid transforms, and the caller's memory.
+// Reference: the rest pose, rigid transforms, and the caller's memory. Tolerances: the roundings of a blend.
 #include "pbs/skinning/blend_skinning.hpp"
 
 #include "pbs/skinning/blend.hpp"
+#include "tests/support/scalar_rounding.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace {
 
@@ -35,6 +36,23 @@ Pose two_bones()
 const Weights four_vertices = {{0, 1, 3, 5, 7}, {1, 0, 1, 0, 1, 0, 1}, {1.0, 0.25, 0.75, 0.5, 0.5, 0.5, 0.5}};
 const Positions four_points = (Positions(4, 3) << 0.125, 0.5, -0.25, 0.25, -0.5, 1.0, -1.0, 0.0, 0.75, 0.5, 0.5, 0.5).finished();
 
+// Coordinates [m] of these points, which are rounded relative to an origin at that distance. The norm of a point relative to the body's
+// middle is at most 1.7, and that of a translation of the middle is at most 2.3. An entry of a matrix is rounded once and blended in two
+// roundings for each of two bones; its product with a coordinate and three sums follow, and the reference rounds as often.
+template <class Scalar>
+double linear_error(double origin = 0.0)
+{
+    return test_support::rounding_error_in<Scalar>(2 * (1 + 2 * 2 + 1 + 3), 1.7 + 2.3 + origin);
+}
+
+// The same for dual quaternions. The five roundings of their entries occur twice in an entry of the matrix, with two of a product and a
+// sum, and twice more in |r|^2, with four of its products and sums; |r|^2 >= 1/4 + 1/4 of two bones divides.
+template <class Scalar>
+double dual_quaternion_error()
+{
+    return test_support::rounding_error_in<Scalar>(2 * (2 * 5 + 2 + 2 * 5 + 4 + 1 + 1 + 3), 2.0 * (1.7 + 2.3));
+}
+
 TYPED_TEST(BlendSkinningOf, RestPoseStaysWhereItIs)
 {
     BlendSkinning<TypeParam> skinning(four_points, four_vertices);
@@ -54,7 +72,7 @@ TYPED_TEST(BlendSkinningOf, VertexOfOneBoneIsTheSameInBothBlends)
     skinning.dual_quaternion(two_bones(), dqs);
     EXPECT_EQ(lbs.row(0), dqs.row(0));
     const Vec3 expected = two_bones()[1] * Vec3(four_points.row(0));
-    EXPECT_LT((lbs.row(0).transpose() - expected).norm(), 4.0 * std::numeric_limits<TypeParam>::epsilon());
+    EXPECT_LT((lbs.row(0).transpose() - expected).norm(), std::sqrt(3.0) * linear_error<TypeParam>());
 }
 
 TYPED_TEST(BlendSkinningOf, RawRowsAreRelativeToTheOriginAndEndWithTheLastVertex)
@@ -68,7 +86,7 @@ TYPED_TEST(BlendSkinningOf, RawRowsAreRelativeToTheOriginAndEndWithTheLastVertex
     skinning.linear_rows(two_bones(), origin, rows.data());
     for (int i = 0; i < 4; ++i)
         for (int axis = 0; axis < 3; ++axis)
-            EXPECT_NEAR(rows[3 * i + axis], posed(i, axis) - origin[axis], 10.0 * std::numeric_limits<TypeParam>::epsilon());
+            EXPECT_NEAR(rows[3 * i + axis], posed(i, axis) - origin[axis], linear_error<TypeParam>(origin.norm()));
     for (int i = 12; i < 16; ++i) EXPECT_EQ(rows[i], untouched);
 }
 
@@ -90,7 +108,7 @@ TYPED_TEST(BlendSkinningOf, OneVertex)
     Positions posed, plain;
     skinning.dual_quaternion(two_bones(), posed);
     pbs::dual_quaternion_skinning(point, weights, two_bones(), plain);
-    EXPECT_LT((posed - plain).norm(), 20.0 * std::numeric_limits<TypeParam>::epsilon());
+    EXPECT_LT((posed - plain).norm(), std::sqrt(3.0) * dual_quaternion_error<TypeParam>());
 }
 
 TYPED_TEST(BlendSkinningOf, BonesWithoutVertices)  // bones 0 and 2 of four
@@ -106,8 +124,8 @@ TYPED_TEST(BlendSkinningOf, BonesWithoutVertices)  // bones 0 and 2 of four
         linear ? skinning.linear_rows(pose, Vec3::Zero(), posed.data()) : skinning.dual_quaternion_rows(pose, Vec3::Zero(), posed.data());
         for (int i = 0; i < 2; ++i) {
             const Vec3 expected = pose[1] * Vec3(points.row(i));
-            for (int axis = 0; axis < 3; ++axis)
-                EXPECT_NEAR(posed[3 * i + axis], expected[axis], 10.0 * std::numeric_limits<TypeParam>::epsilon());
+            const double rounding = linear ? linear_error<TypeParam>() : dual_quaternion_error<TypeParam>();
+            for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(posed[3 * i + axis], expected[axis], rounding);
         }
     }
 }
