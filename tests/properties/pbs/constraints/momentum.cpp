@@ -1,12 +1,14 @@
 // Reference: Eq. 3-4. A projection moves points along gradients, which are perpendicular to rigid motions, so linear and angular momentum
-// are conserved. Tolerances: a few roundings of terms of order one (masses and positions are of order one), in double and float.
+// are conserved. Tolerances: the rounding of a projection (projection_rounding.hpp), in double and float.
 #include "pbs/constraints/bind.hpp"
 #include "pbs/constraints/stretch.hpp"
+#include "tests/support/projection_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/tet_corners.hpp"
 
 #include <gtest/gtest.h>
 
-#include <limits>
+#include <cmath>
 
 namespace {
 
@@ -18,20 +20,21 @@ class Momentum : public testing::Test {
 protected:
     using Vector = pbs::Vector3<Scalar>;
 
-    // |sum m dp| and |sum r x m dp|, with r from an arbitrary centre, in double precision.
-    void expect_conserved(const std::vector<Vector>& before, const std::vector<Vector>& after, const std::vector<Scalar>& w)
+    // |sum m dp| and |sum r x m dp|, with r from an arbitrary centre, in double precision. `step` is the rounding of a vertex [m].
+    void expect_conserved(const std::vector<Vector>& before, const std::vector<Vector>& after, const std::vector<Scalar>& w, double step)
     {
         Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
-        double largest = 0.0;
+        double largest = 0.0, of_linear = 0.0, of_angular = 0.0;
         for (std::size_t i = 0; i < before.size(); ++i) {
             const Vec3 p = before[i].template cast<double>(), dp = after[i].template cast<double>() - p;
             linear += dp / w[i];
             angular += (p - centre).cross(dp / w[i]);
             largest = std::max(largest, dp.norm());
+            of_linear += step / w[i];
+            of_angular += (p - centre).norm() * step / w[i];
         }
-        const double rounding = 100.0 * std::numeric_limits<Scalar>::epsilon();
-        EXPECT_LT(linear.norm(), rounding);
-        EXPECT_LT(angular.norm(), rounding);
+        EXPECT_LT(linear.norm(), of_linear);
+        EXPECT_LT(angular.norm(), of_angular);
         EXPECT_GT(largest, 1e-3) << "nothing moved, so nothing is shown";
     }
 
@@ -60,7 +63,7 @@ TYPED_TEST(Momentum, OfStretchIsConservedWithEqualAndUnequalMasses)
                                             this->random.point(1.0).template cast<TypeParam>()};
         std::vector<Vector> after = before;
         project(rod, w[0], w[1], after[0], after[1]);
-        this->expect_conserved(before, after, w);
+        this->expect_conserved(before, after, w, rounding_of(rod, w[0], w[1], before[0], before[1]).step);
     }
 }
 
@@ -74,7 +77,8 @@ TYPED_TEST(Momentum, OfVolumeIsConservedWithEqualAndUnequalMasses)
         for (const Vec3& corner : noisy_corner(this->random, 0.2)) before.push_back(corner.template cast<TypeParam>());
         std::vector<Vector> after = before;
         project(tet, w[0], w[1], w[2], w[3], after[0], after[1], after[2], after[3]);
-        this->expect_conserved(before, after, w);
+        const double step = rounding_of(tet, {w[0], w[1], w[2], w[3]}, {before[0], before[1], before[2], before[3]}).step;
+        this->expect_conserved(before, after, w, step);
     }
 }
 
@@ -88,8 +92,8 @@ TEST(MomentumUnweighted, IsLostWithUnequalMasses)
 }
 
 // The momentum of the vertex equals what the bone would receive as the heavy end of a rod between them (Eq. 8-9 at both ends), with 1e8
-// times the vertex's mass. The two differ by that share of a momentum below 3, and the rounding of the bone's 1e-8 steps is as large: below
-// 6e-8.
+// times the vertex's mass. The two differ by that share of the momentum, and by the rounding of the vertex and of the bone, whose step of
+// 1e-8 is rounded with its position.
 TEST(MomentumOfBind, IsTakenByTheBone)
 {
     RandomPoints random(32);
@@ -100,8 +104,11 @@ TEST(MomentumOfBind, IsTakenByTheBone)
         project(pbs::BindConstraint<double>{0, 0.3, 0.7}, vertex, q, bound);
         project(pbs::StretchConstraint<double>{{0, 1}, 0.3, 0.7}, vertex, bone, rod_p, heavy_q);
         const Vec3 given = (bound - p) / vertex, taken = (heavy_q - q) / bone;
-        EXPECT_LT((given + taken).norm(), 1e-7);
-        EXPECT_LT((bound - p).cross(q - p).norm(), 1e-14);
+        const double of_vertex = rounding_of(pbs::BindConstraint<double>{0, 0.3, 0.7}, q, p).step;
+        const double of_bone = std::sqrt(3.0) * rounding_error(1, q.cwiseAbs().maxCoeff());
+        EXPECT_LT((given + taken).norm(), bone / vertex * given.norm() + of_bone / bone + 2.0 * of_vertex / vertex);
+        // The cross product of what is parallel goes through five roundings.
+        EXPECT_LT((bound - p).cross(q - p).norm(), (of_vertex + rounding_error(5, (bound - p).norm())) * (q - p).norm());
         EXPECT_GT(given.norm(), 1e-3) << trial;
     }
 }

@@ -32,7 +32,8 @@ TEST(Meshing, OfASurfaceRepeatsToTheBit)
     expect_same(pbs::mesh_surface(sphere, options), first);
 }
 
-// Lengths are relative to the body; only rounding remains (some 1e-14 m of 1 m).
+// Lengths are relative to the body; only the rounding of CGAL's optimisers remains, some 1e-13 m of 1 m. An absolute length in the code
+// would give another mesh.
 TEST(Meshing, OfASurfaceHasNoUnit)
 {
     pbs::SurfaceMeshing options;

@@ -1,4 +1,5 @@
 // Reference: binding, weights and blends are geometry, so they commute with rigid motions, renumbering, mirrors and changes of unit.
+#include "tests/support/motion_rounding.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
@@ -12,7 +13,7 @@ using namespace test_support;
 using pbs::Positions;
 using pbs::Vec3;
 
-constexpr double rounding = 2e-15;  // a few roundings of numbers of order one
+constexpr double farthest = 1.1, translation = 1.8;  // of the limb, and of a random motion, whose three coordinates are up to 1 m
 
 const TwoBoneLimb limb = two_bone_limb({12, 3, 3}, Vec3(0.3, 0.2, 1.0), 80.0);
 
@@ -57,7 +58,8 @@ TEST(SkinningInvariance, BindingAndWeightsUnderSimilarities)
         const pbs::Skeleton skeleton = mapped(limb.skeleton, map);
         const pbs::BoneBinding binding = pbs::bind_to_nearest_bone(rest, skeleton);
         const pbs::Weights weights = pbs::paper_weights(binding, skeleton);
-        const double tolerance = 1e-14 * (1.0 + 3.0 / size);  // the translation is of order one, and so is its rounding
+        // The vertex and both ends of a bone of unit length are moved, and projected on it in as many roundings.
+        const double tolerance = 4.0 * motion_error(1, farthest + translation / size);
         for (int i = 0; i < rest.rows(); ++i) {
             if (undecided(i)) continue;
             EXPECT_EQ(binding.bone[i], limb.binding.bone[i]);
@@ -97,7 +99,8 @@ TEST(SkinningInvariance, BlendsOfOneRigidMotionAreThatMotion)
         const Eigen::Isometry3d motion = random.rigid_motion(1.0);
         const Positions expected = transformed(limb.mesh.rest, motion);
         for (const auto blend : blends)
-            EXPECT_LT((blended(blend, limb.mesh.rest, limb.weights, {motion, motion}) - expected).cwiseAbs().maxCoeff(), rounding);
+            EXPECT_LT((blended(blend, limb.mesh.rest, limb.weights, {motion, motion}) - expected).cwiseAbs().maxCoeff(),
+                      motion_error(1 + 1, farthest + translation));  // the expected motion and the blended one
     }
 }
 
@@ -110,10 +113,15 @@ TEST(SkinningInvariance, BlendsAreCarriedByAMotionOfTheWholeBody)
         for (const Eigen::Isometry3d& bone : limb.pose) carried.push_back(motion * bone);
         for (const auto blend : blends) {
             const Positions expected = transformed(blended(blend, limb.mesh.rest, limb.weights, limb.pose), motion);
-            EXPECT_LT((blended(blend, limb.mesh.rest, limb.weights, carried) - expected).cwiseAbs().maxCoeff(), 2 * rounding);
+            EXPECT_LT(
+                (blended(blend, limb.mesh.rest, limb.weights, carried) - expected).cwiseAbs().maxCoeff(),
+                motion_error(2 + 2, farthest + 1.0 + translation));  // the pose, which moves by up to 1 m, and the motion, on both sides
         }
     }
 }
+
+// Two blends of the limb's pose, which moves by up to 1 m.
+const double of_blends = motion_error(1 + 1, farthest + 1.0);
 
 TEST(SkinningInvariance, BlendsUnderAMirror)
 {
@@ -126,7 +134,7 @@ TEST(SkinningInvariance, BlendsUnderAMirror)
     }
     for (const auto blend : blends) {
         const Positions expected = blended(blend, limb.mesh.rest, limb.weights, limb.pose) * mirror;
-        EXPECT_LT((blended(blend, limb.mesh.rest * mirror, limb.weights, mirrored) - expected).cwiseAbs().maxCoeff(), rounding);
+        EXPECT_LT((blended(blend, limb.mesh.rest * mirror, limb.weights, mirrored) - expected).cwiseAbs().maxCoeff(), of_blends);
     }
 }
 
@@ -137,7 +145,7 @@ TEST(SkinningInvariance, BlendsScaleWithTheBody)
         for (Eigen::Isometry3d& bone : scaled) bone.translation() *= size;
         for (const auto blend : blends) {
             const Positions expected = blended(blend, limb.mesh.rest, limb.weights, limb.pose);
-            EXPECT_LT((blended(blend, size * limb.mesh.rest, limb.weights, scaled) / size - expected).cwiseAbs().maxCoeff(), rounding);
+            EXPECT_LT((blended(blend, size * limb.mesh.rest, limb.weights, scaled) / size - expected).cwiseAbs().maxCoeff(), of_blends);
         }
     }
 }
@@ -153,7 +161,7 @@ TEST(SkinningInvariance, BlendsDoNotDependOnTheOrderOfTheBones)
         EXPECT_LT((blended(blend, limb.mesh.rest, swapped, limb.pose) - blended(blend, limb.mesh.rest, limb.weights, limb.pose))
                       .cwiseAbs()
                       .maxCoeff(),
-                  rounding);
+                  of_blends);
 }
 
 }  // namespace

@@ -115,7 +115,7 @@ TEST(Orders, GroupedHasABiasOfItsOwn)
     expect_bias_below(Order::grouped, {0.09, 0.19});
 }
 
-// Precision is not an order: in each order float and double converge to the same residuals, up to the effect of 24 iterations on 1e-7.
+// Precision is not an order: in each order, residuals in float and double differ far less than those of two orders, 3 % and 8 %.
 TEST(Orders, PrecisionsAgreeInEachOrder)
 {
     for (const Order order : {Order::plain, Order::ordered, Order::grouped}) {

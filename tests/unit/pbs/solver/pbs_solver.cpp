@@ -3,6 +3,9 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_volume.hpp"
+#include "tests/support/projection_rounding.hpp"
+#include "tests/support/scalar_rounding.hpp"
+#include "tests/support/step_rounding.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
 #include <gtest/gtest.h>
@@ -15,6 +18,7 @@ using pbs::PbsSolver;
 using pbs::Positions;
 using pbs::StepSummary;
 using pbs::Vec3;
+using test_support::rounding_error_in;
 using test_support::TwoBoneLimb;
 
 const TwoBoneLimb bent = test_support::two_bone_limb({16, 4, 4}, Vec3::UnitZ(), 60.0);
@@ -53,14 +57,14 @@ TEST(PbsSolver, RestPoseStaysAtRestInEveryOrder)
     for (const pbs::Order order : {pbs::Order::ordered, pbs::Order::grouped}) {
         PbsOptions options = in_double();
         options.order = order;
-        EXPECT_LT((stepped(straight, options) - straight.mesh.rest).cwiseAbs().maxCoeff(), 24 * 2.3e-16);
+        EXPECT_LT((stepped(straight, options) - straight.mesh.rest).cwiseAbs().maxCoeff(), rounding_error_in<double>(2 * 24, 1.0));
     }
 }
 
 TEST(PbsSolver, RestPoseStaysAtRestInFloat)
 {
-    // Positions and rest data are rounded to float, 6e-8 of the 1 m half length; each of 24 iterations may add to it.
-    EXPECT_LT((stepped(straight, {}) - straight.mesh.rest).cwiseAbs().maxCoeff(), 24 * 6e-8);
+    // Positions and rest data are rounded to float, relative to the 1 m half length; each of 24 iterations may add a rounding.
+    EXPECT_LT((stepped(straight, {}) - straight.mesh.rest).cwiseAbs().maxCoeff(), rounding_error_in<float>(24, 1.0));
 }
 
 TEST(PbsSolver, StartsAtTheRestPose)
@@ -107,13 +111,18 @@ TEST(PbsSolver, BindAloneIsExactAfterOneIteration)
     options.k_stretch = options.k_volume = 0.0;
     options.iterations = 1;
     const Positions positions = stepped(bent, options);
-    EXPECT_LT(((positions - bent.bind_points).rowwise().norm() - bent.binding.distance).cwiseAbs().maxCoeff(), 1e-15);
+    for (int v = 0; v < positions.rows(); ++v) {  // the rounding of a projection, and four of the length
+        const pbs::BindConstraint<double> bind{v, bent.binding.distance(v), 1.0};
+        const Vec3 point = bent.bind_points.row(v);
+        const double rounding_m = test_support::rounding_of<double>(bind, point, bent.lbs.row(v)).step;
+        EXPECT_NEAR((positions.row(v).transpose() - point).norm(), bind.rest_distance,
+                    rounding_m + rounding_error_in<double>(4, bind.rest_distance));
+    }
 }
 
 TEST(PbsSolver, FloatAgreesWithDouble)
 {
-    // A rounding of 6e-8 m, propagated through 24 iterations of contradicting constraints.
-    EXPECT_LT((stepped(bent, {}) - stepped(bent, in_double())).cwiseAbs().maxCoeff(), 2e-5);
+    EXPECT_LT((stepped(bent, {}) - stepped(bent, in_double())).cwiseAbs().maxCoeff(), test_support::step_rounding_m(bent, {}));
 }
 
 TEST(PbsSolver, FloatKeepsItsDigitsFarFromTheOrigin)
@@ -121,7 +130,9 @@ TEST(PbsSolver, FloatKeepsItsDigitsFarFromTheOrigin)
     const Vec3 far(1000.0, -2000.0, 500.0);  // the spacing of floats there is 1e-4 m
     PbsSolver solver(bent.mesh, bent.binding.distance, {}, {});
     solver.advance(bent.lbs.rowwise() + far.transpose(), bent.bind_points.rowwise() + far.transpose(), 0.01);
-    EXPECT_LT(((solver.positions().rowwise() - far.transpose()) - stepped(bent, {})).cwiseAbs().maxCoeff(), 2e-5);
+    // Two steps in float; in double, three roundings of a coordinate where it is far.
+    const double rounding_m = 2.0 * test_support::step_rounding_m(bent, {}) + rounding_error_in<double>(3, far.norm());
+    EXPECT_LT(((solver.positions().rowwise() - far.transpose()) - stepped(bent, {})).cwiseAbs().maxCoeff(), rounding_m);
 }
 
 TEST(PbsSolver, NothingIsRememberedWhereNothingJiggles)

@@ -246,7 +246,7 @@ void expect_binds_as_plain(const std::function<OneBind(int)>& of)
     pbs::BindBatch<Scalar> batches[2] = {};
     std::vector<pbs::Vector3<Scalar>> expected;
     std::vector<double> tolerance;
-    double squares = 0.0;
+    double squares = 0.0, squared_terms = 0.0;
     for (int i = 0; i < count; ++i) {
         const auto [p, q, w, rest_m, k] = of(i);
         pbs::BindBatch<Scalar>& batch = batches[i / pbs::batch_size];
@@ -261,10 +261,12 @@ void expect_binds_as_plain(const std::function<OneBind(int)>& of)
         expected.push_back(p.cast<Scalar>());
         tolerance.push_back(w > 0.0 ? rounding_of(bind, posed, expected[i]).step : 0.0);
         squares += std::pow(double(value(bind, expected[i], posed)), 2);
+        squared_terms += std::pow((expected[i] - posed).norm() + rest_m, 2);
         project(bind, Scalar(w), posed, expected[i]);
     }
-    constexpr double eps = std::numeric_limits<Scalar>::epsilon();
-    EXPECT_NEAR(pbs::sum_squared_bind_errors<Scalar>(batches, 2, xyzw[0]), squares, 100 * eps * (squares + 1.0));
+    // The two terms of an error go through some seven roundings, its square through twice as many and one, and the sum follows, twice.
+    const double rounding = rounding_error_in<Scalar>(2 * (2 * 7 + 1 + count), squared_terms);
+    EXPECT_NEAR(pbs::sum_squared_bind_errors<Scalar>(batches, 2, xyzw[0]), squares, rounding);
     pbs::project_bind_batches<Scalar>(batches, 2, xyzw[0]);
     for (int i = 0; i < count; ++i)
         for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(xyzw[i][axis], expected[i](axis), tolerance[i]) << "vertex " << i;

@@ -123,7 +123,7 @@ void expect_sound(const std::vector<ConstraintGroup>& groups, const std::vector<
     found.read(program);
     EXPECT_EQ(std::count(found.uses.begin(), found.uses.end(), 1), std::ptrdiff_t(constraints.size()));
     EXPECT_EQ(found.groups, int(groups.size()));
-    EXPECT_NEAR(program.fill(), double(groups.size()) / (16.0 * program.batches()), 1e-15);
+    EXPECT_DOUBLE_EQ(program.fill(), double(groups.size()) / (16.0 * program.batches()));
     expect_disjoint(found.touched);
 }
 

@@ -3,6 +3,7 @@
 
 #include "pbs/solver/residuals.hpp"
 #include "tests/support/random_points.hpp"
+#include "tests/support/scalar_rounding.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
 #include <gtest/gtest.h>
@@ -67,7 +68,9 @@ TYPED_TEST(BatchedProjections, WhatIsLoadedIsStored)
             const Vec3 origin = is_double ? Vec3(Vec3::Zero()) : Vec3(p.colwise().mean());
             auto projection = projection_of<TypeParam>(options_of(order));
             projection.load(p, q, origin);
-            const double tolerance = is_double ? 0.0 : 0.5 * std::numeric_limits<float>::epsilon() * 1.5 + 1e-11;
+            // A coordinate relative to the middle, and the coordinate itself: its shift, its distance from the middle, and their sum.
+            const double rounding = rounding_error_in<float>(1, 1.5) + rounding_error_in<double>(3, shift.cwiseAbs().maxCoeff() + 1.5);
+            const double tolerance = is_double ? 0.0 : rounding;
             EXPECT_LE((stored(projection, origin) - p).cwiseAbs().maxCoeff(), tolerance);
         }
 }
@@ -76,7 +79,7 @@ TYPED_TEST(BatchedProjections, WhatIsLoadedIsStored)
 TYPED_TEST(BatchedProjections, ResidualsAreThoseOfThePlainForm)
 {
     RandomPoints random(41);
-    const double tolerance = 20.0 * std::numeric_limits<TypeParam>::epsilon();
+    const double tolerance = rounding_error_in<TypeParam>(2 * 20, 1.0);
     for (const Order order : orders)
         for (const double noise : {0.0, 0.05}) {
             Positions p = limb.lbs;
