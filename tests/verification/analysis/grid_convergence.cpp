@@ -3,6 +3,8 @@
 // NASA's NPARC tutorial "Examining Spatial (Grid) Convergence" (J. W. Slater; pressure recovery of an inlet), which follows P. J. Roache.
 #include "analysis/grid_convergence.hpp"
 
+#include "tests/support/rounding_error.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,6 +14,7 @@ namespace {
 
 using analysis::GridBehaviour;
 using analysis::GridConvergence;
+using test_support::rounding_error;
 
 constexpr double no_limit = 100.0;  // formal order: the observed one is used, as in the print
 
@@ -49,7 +52,7 @@ TEST(CelikTable, Oscillating)
     EXPECT_NEAR(grids.observed_order, 1.51, 0.005);
     // No limit is extrapolated, although the table does so: the bound is wider than its 0.5 %.
     EXPECT_TRUE(std::isnan(grids.extrapolated));
-    EXPECT_NEAR(grids.bounds[0], 3.0 * (6.0909 - 5.9624), 1e-12);
+    EXPECT_DOUBLE_EQ(grids.bounds[0], 3.0 * (6.0909 - 5.9624));
 }
 
 TEST(NparcTutorial, PressureRecovery)
@@ -63,7 +66,17 @@ TEST(NparcTutorial, PressureRecovery)
     EXPECT_NEAR(std::pow(2.0, grids.observed_order) * gci_12_pct / gci_23_pct, 0.997980, 5e-7);
 }
 
-// f + C h^p with unequal ratios is recovered exactly, for any f, C and p.
+// How far rounding moves the order where each value is in error by `of_value`. The quotient R of the differences is in error by those of
+// the two differences, and d ln R / dp lies between the smaller of ln r21 and ln r32 and their sum. The search for the root ends at an
+// interval of 1e-13, relative and absolute.
+double order_error(const std::array<double, 3>& values, const std::array<double, 2>& ratios, double order, double of_value)
+{
+    const double of_quotient = 2.0 * of_value / std::abs(values[1] - values[0]) + 2.0 * of_value / std::abs(values[2] - values[1]);
+    return of_quotient / std::log(std::min(ratios[0], ratios[1])) + 1e-13 * (1.0 + std::abs(order));
+}
+
+// f + C h^p with unequal ratios is recovered exactly, for any f, C and p. A value goes through four roundings. The limit is f1 + D / (r^p -
+// 1) with D = f1 - f2, so that it is in error by that of f1, of D and of p.
 TEST(MadeUpSeries, HasItsOrderAndItsLimit)
 {
     for (const double order : {0.3, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0})
@@ -71,12 +84,17 @@ TEST(MadeUpSeries, HasItsOrderAndItsLimit)
             for (const double r32 : {1.4, 2.0, 3.0})
                 for (const double size : {-0.7, 40.0}) {
                     const auto value = [&](double h) { return 5.0 + size * std::pow(h, order); };
-                    const GridConvergence grids = analysis::three_grids({value(1.0), value(r21), value(r21 * r32)}, {r21, r32}, no_limit);
+                    const std::array<double, 3> values = {value(1.0), value(r21), value(r21 * r32)};
+                    const GridConvergence grids = analysis::three_grids(values, {r21, r32}, no_limit);
+                    const double of_value = rounding_error(4, 5.0 + std::abs(size) * std::pow(r21 * r32, order));
+                    const double of_order = order_error(values, {r21, r32}, order, of_value), growth = std::pow(r21, order);
+                    const double of_limit =
+                        of_value + 2.0 * of_value / (growth - 1.0) + std::abs(size) * growth * std::log(r21) / (growth - 1.0) * of_order;
                     EXPECT_EQ(grids.behaviour, GridBehaviour::monotone);
-                    EXPECT_NEAR(grids.observed_order, order, 1e-9);
-                    EXPECT_NEAR(grids.extrapolated, 5.0, 1e-8 * std::abs(size));
+                    EXPECT_NEAR(grids.observed_order, order, of_order);
+                    EXPECT_NEAR(grids.extrapolated, 5.0, of_limit);
                     for (int grid = 0; grid < 3; ++grid)
-                        EXPECT_NEAR(grids.bounds[grid], 1.25 * std::abs(value(grid == 0 ? 1.0 : grid == 1 ? r21 : r21 * r32) - 5.0), 1e-7);
+                        EXPECT_NEAR(grids.bounds[grid], 1.25 * std::abs(values[grid] - 5.0), 1.25 * (of_value + of_limit));
                 }
 }
 
@@ -84,9 +102,10 @@ TEST(MadeUpSeries, HasItsOrderAndItsLimit)
 TEST(MadeUpSeries, ThatDivergesHasItsNegativeOrder)
 {
     const auto value = [](double h) { return 2.0 + std::pow(h, -0.5); };
-    const GridConvergence grids = analysis::three_grids({value(1.0), value(1.5), value(3.3)}, {1.5, 2.2}, 2.0);
+    const std::array<double, 3> values = {value(1.0), value(1.5), value(3.3)};
+    const GridConvergence grids = analysis::three_grids(values, {1.5, 2.2}, 2.0);
     EXPECT_EQ(grids.behaviour, GridBehaviour::diverging);
-    EXPECT_NEAR(grids.observed_order, -0.5, 1e-9);
+    EXPECT_NEAR(grids.observed_order, -0.5, order_error(values, {1.5, 2.2}, -0.5, rounding_error(4, 3.0)));
     EXPECT_TRUE(std::isnan(grids.extrapolated));
 }
 
@@ -116,6 +135,8 @@ pbs::Positions wave(double length, double height)
     return field;
 }
 
+// A coordinate goes through six roundings of terms up to 3.05, and a field has 200 points in the plane. The norms of two differences are in
+// error by four of them; their cosine and the bounds follow by their formulas.
 TEST(MadeUpField, HasItsOrderAndIsBounded)
 {
     for (const double order : {0.5, 1.0, 2.0}) {
@@ -124,12 +145,16 @@ TEST(MadeUpField, HasItsOrderAndIsBounded)
         const pbs::Positions fine = at(0.25), middle = at(0.5), coarse = at(1.0);
         const analysis::FieldDifferences differences{(fine - middle).norm(), (middle - coarse).norm(), (fine - coarse).norm()};
         const GridConvergence grids = analysis::three_fields(differences, {2.0, 2.0}, order);
-        EXPECT_NEAR(grids.observed_order, order, 1e-9);
-        EXPECT_NEAR(differences.alignment(), 1.0, 1e-9);
+        const double of_field = std::sqrt(2.0 * 200.0) * rounding_error(6, 3.05), smallest = differences.fine_middle;
+        const double of_order = order_error({0.0, smallest, differences.fine_coarse}, {2.0, 2.0}, order, of_field);
+        const double growth = std::pow(2.0, order), of_limit = of_field + 2.0 * of_field / (growth - 1.0);
+        EXPECT_NEAR(grids.observed_order, order, of_order);
+        EXPECT_NEAR(differences.alignment(), 1.0, 3.0 * 4.0 * of_field / smallest * differences.fine_coarse / smallest);
         EXPECT_TRUE(grids.asymptotic);
-        EXPECT_NEAR(grids.bounds[1], 1.25 * (middle - limit).norm(), 1e-9);
-        EXPECT_LT((analysis::extrapolated_field(fine, middle, 2.0, order) - limit).norm(), 1e-12);
-        EXPECT_NEAR(analysis::two_fields(differences.middle_coarse, 2.0, order).bounds[1], 3.0 * (coarse - limit).norm(), 1e-9);
+        const double error_m = (middle - limit).norm();
+        EXPECT_NEAR(grids.bounds[1], 1.25 * error_m, 1.25 * (of_limit + error_m * growth * std::log(2.0) / (growth - 1.0) * of_order));
+        EXPECT_LT((analysis::extrapolated_field(fine, middle, 2.0, order) - limit).norm(), of_limit);
+        EXPECT_NEAR(analysis::two_fields(differences.middle_coarse, 2.0, order).bounds[1], 3.0 * (coarse - limit).norm(), 3.0 * of_limit);
     }
 }
 

@@ -2,6 +2,7 @@
 // Needs Debian's assimp-testmodels, which set-up installs.
 #include "pbs/character/clip.hpp"
 
+#include "tests/support/scalar_rounding.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/verification/pbs/character/bvh_kinematics.hpp"
 
@@ -12,6 +13,13 @@
 namespace {
 
 using namespace pbs;
+using test_support::rounding_error_in;
+
+// assimp reads the time of a frame in single precision.
+double of_time_s(double frame_time_s)
+{
+    return rounding_error_in<float>(1, frame_time_s);
+}
 
 // Joint positions [clip's units] of one frame, from the clip's rotations and the lengths of its zero pose.
 Positions joint_positions(const Clip& clip, int frame)
@@ -38,7 +46,7 @@ TEST(ReadClip, AgreesWithIndependentKinematicsOnACmuClip)
     ASSERT_EQ(clip.frames(), 2752);
     ASSERT_EQ(static_cast<std::size_t>(clip.frames()), expected.frames.size());
     ASSERT_EQ(clip.joints.size(), expected.joints.size());
-    EXPECT_NEAR(clip.frame_time_s, expected.frame_time_s, 1e-9);
+    EXPECT_NEAR(clip.frame_time_s, expected.frame_time_s, of_time_s(expected.frame_time_s));
 
     double largest = 0.0;
     for (int frame = 0; frame < clip.frames(); frame += 10) {
@@ -50,9 +58,9 @@ TEST(ReadClip, AgreesWithIndependentKinematicsOnACmuClip)
         }
     }
     RecordProperty("largest_difference_clip_units", std::to_string(largest));
-    // assimp computes in single precision: 2^-24 of coordinates up to 30 units, over a chain of 9 joints with three products of rotations
-    // each (30 * 6e-8 * 27 = 5e-5), with a factor of two as margin.
-    EXPECT_LT(largest, 1e-4);
+    // assimp computes in single precision, with coordinates up to 30 units, over a chain of 9 joints with three products of rotations each,
+    // of which each is rounded twice, as a product and as a sum.
+    EXPECT_LT(largest, rounding_error_in<float>(2 * 3 * 9, 30.0));
 }
 
 const char* const closed_form = R"(HIERARCHY
@@ -82,28 +90,30 @@ TEST(ReadClip, ClosedForm)
     const test_support::ScratchFolder folder;
     const Clip clip = read_clip(folder.file("closed.bvh", closed_form));
     ASSERT_EQ(clip.frames(), 2);
-    EXPECT_NEAR(clip.frame_time_s, 0.025, 1e-9);
+    EXPECT_NEAR(clip.frame_time_s, 0.025, of_time_s(0.025));
     EXPECT_EQ(clip.joints, (std::vector<std::string>{"upper", "forearm", "EndSite_forearm"}));
     EXPECT_EQ(clip.parent, (std::vector<int>{-1, 0, 1}));
     Positions zero(3, 3), turned(3, 3);
     zero << 0, 0, 0, 2, 0, 0, 2, 3, 0;
     // The root turns x to y; the forearm turns its y to z about its own x, so the end site points along the world's z.
     turned << -1, 0, 5, -1, 2, 5, -1, 2, 8;
-    EXPECT_LT((clip.zero_pose - zero).cwiseAbs().maxCoeff(), 1e-6);
-    EXPECT_LT((joint_positions(clip, 0) - (zero.rowwise() + Eigen::RowVector3d(1, 2, 3))).cwiseAbs().maxCoeff(), 1e-6);
-    EXPECT_LT((joint_positions(clip, 1) - turned).cwiseAbs().maxCoeff(), 2e-6);  // single precision of numbers below ten
+    EXPECT_EQ(clip.zero_pose, zero);
+    EXPECT_EQ(joint_positions(clip, 0), zero.rowwise() + Eigen::RowVector3d(1, 2, 3));
+    // In single precision, a quarter turn and its quaternion go through some eight roundings, twice, on a path of 5 m.
+    EXPECT_LT((joint_positions(clip, 1) - turned).cwiseAbs().maxCoeff(), rounding_error_in<float>(2 * 8, 5.0));
 }
 
 TEST(ReadClip, OtherFormatsThanBvh)
 {
     // assimp's own simple_skin.gltf from the glTF tutorial: joint 2 turns about z to 90 degrees and back, 5.5 s.
     const Clip clip = read_clip("/usr/share/assimp/models/glTF2/simple_skin/simple_skin.gltf");
-    EXPECT_NEAR(clip.frames() * clip.frame_time_s, 5.5, 0.05);
+    EXPECT_NEAR(clip.frames() * clip.frame_time_s, 5.5, clip.frame_time_s);  // whole frames
     double largest = 0.0;
     for (const auto& frame : clip.local)
         for (const Eigen::Quaterniond& rotation : frame)
             largest = std::max(largest, rotation.angularDistance(Eigen::Quaterniond::Identity()));
-    EXPECT_NEAR(largest, M_PI / 2.0, 1e-3);
+    // The file's quaternions are in single precision, and each has an angle of half a turn of its rotation.
+    EXPECT_NEAR(largest, M_PI / 2.0, 2.0 * rounding_error_in<float>(8, 1.0));
 }
 
 }  // namespace
