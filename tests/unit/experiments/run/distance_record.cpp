@@ -1,6 +1,8 @@
 // Reference: distances of a few points by hand.
 #include "experiments/run/distance_record.hpp"
 
+#include "tests/support/rounding_error.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,8 +28,10 @@ TEST(DistanceRecord, EachPairOfAFrameOnce)
     ASSERT_EQ(table.rows(), 3);
     EXPECT_EQ(table.text_at(2, "deformer"), "pbs_jiggle");
     EXPECT_EQ(table.text_at(2, "other"), "pbs");
-    EXPECT_NEAR(table.number(2, "largest_mm"), 3.0, 1e-12);
-    EXPECT_NEAR(table.number(2, "rms_mm"), 3.0 / std::sqrt(2.0), 1e-12);
+    // Two coordinates of at most 4 mm and their difference are rounded; then there are square, mean, root and unit, and two roundings here.
+    const double rounding_mm = test_support::rounding_error(3 + 6 + 2, 4.0);
+    EXPECT_NEAR(table.number(2, "largest_mm"), 3.0, rounding_mm);
+    EXPECT_NEAR(table.number(2, "rms_mm"), 3.0 / std::sqrt(2.0), rounding_mm);
     EXPECT_EQ(table.integer(2, "points"), 2);
 }
 
