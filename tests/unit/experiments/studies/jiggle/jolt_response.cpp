@@ -6,6 +6,7 @@
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/jiggle_zone_contents.hpp"
 #include "pbs/solver/options.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -41,19 +42,21 @@ TEST_F(JoltResponseOfLimb, FreeFleshStaysBehind)
     options().k_stretch = options().k_volume = options().k_bind = 0.0;
     options().jiggle = pbs::Jiggle{.k_stretch = 0.0};
     const auto free = response();
-    for (const double excursion_m : free.excursion_m) EXPECT_NEAR(excursion_m, -jolt.length_m, 1e-12);
-    EXPECT_NEAR(free.left_over_peak, 1.0, 1e-12);
+    const double rounding_m = test_support::mean_error(probe.size(), jolt.length_m);
+    for (const double excursion_m : free.excursion_m) EXPECT_NEAR(excursion_m, -jolt.length_m, rounding_m);
+    EXPECT_EQ(free.left_over_peak, 1.0);  // all excursions are equal
     EXPECT_EQ(free.overshoot_over_jolt, 0.0);
 }
 
-// The motion from step to step does not depend on time (Algorithm 1, lines 7, 8 and 16).
+// The motion from step to step does not depend on time (Algorithm 1, lines 7, 8 and 16). A quarter of a time step and four times a velocity
+// are exact.
 TEST_F(JoltResponseOfLimb, WithoutWeightTheSeriesIsTheSameAtEveryTimeStep)
 {
     spec = experiments::jiggling(spec, {});
     const auto slow = response();
     jolt.time_step_s /= 4.0;
     const auto quick = response();
-    for (std::size_t i = 0; i < slow.excursion_m.size(); ++i) EXPECT_NEAR(quick.excursion_m[i], slow.excursion_m[i], 1e-12) << i;
+    EXPECT_EQ(quick.excursion_m, slow.excursion_m);
 }
 
 // The bones hold the skin: it swings about the place to which they move it, and comes to rest.
@@ -63,7 +66,7 @@ TEST_F(JoltResponseOfLimb, HeldFleshSwingsAndCalmsDown)
     const auto held = response();
     EXPECT_TRUE(held.finished);
     EXPECT_GT(held.peak_over_jolt, 0.05);
-    EXPECT_LT(held.peak_over_jolt, 1.0 + 1e-9);
+    EXPECT_LT(held.peak_over_jolt, 1.0);
     EXPECT_LT(held.left_over_peak, 0.5);
     EXPECT_LT(held.speed_growth, 1.0);
 }

@@ -1,7 +1,9 @@
-// Reference: stiffnesses that are powers of what is varied, so that ratios and exponents are known to rounding (1e-12).
+// Reference: stiffnesses that are powers of what is varied, so that ratios and exponents are known.
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 
 #include "experiments/studies/stiffness/stiffness_report.hpp"
+
+#include "tests/support/fit_rounding.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +13,14 @@ namespace {
 
 using namespace experiments;
 
-constexpr double rounding = 1e-12;
+// The rounding error of a ratio per doubling, (stiffness ratio)^(log 2 / log(x ratio)). The exponent is at most 1 and goes through five
+// roundings, of two logarithms and their quotient, and through those of the x ratio over the least logarithm here, that of 1.9; the power
+// goes through two, and through those of the stiffness ratio.
+double doubling_error(double ratio, double roundings_of_stiffnesses, double roundings_of_x)
+{
+    const double roundings_of_exponent = 5.0 + roundings_of_x / std::log(1.9);
+    return test_support::rounding_error(roundings_of_exponent * std::abs(std::log(ratio)) + 2.0 + roundings_of_stiffnesses, ratio);
+}
 
 StiffnessRow row(int iterations, double stiffness_n_m)
 {
@@ -39,9 +48,11 @@ TEST(StiffnessRatios, OfASquareIsFourForADoubling)
     EXPECT_EQ(ratios[0].claim, "C11");
     EXPECT_EQ(ratios[0].quantity, "stiffness_ratio_at_twice_iterations");
     EXPECT_EQ(text_of(ratios[0].of), "limb, pbs, vertices 600, k_stretch 0.2, iterations 12, iterations_to 48, time_step_s 0.01, zone");
-    for (const double value : {ratios[0].value, ratios[0].low, ratios[0].high}) EXPECT_NEAR(value, 4.0, 4.0 * rounding);
+    for (const double value : {ratios[0].value, ratios[0].low, ratios[0].high}) EXPECT_NEAR(value, 4.0, doubling_error(4.0, 1, 0));
     const auto exponents = stiffness_exponents(squares(), Varied::iterations);
-    EXPECT_NEAR(exponents.at(0).exponent, 2.0, 10 * rounding);
+    std::vector<double> iterations, stiffnesses;
+    for (const StiffnessRow& row : squares()) iterations.push_back(row.setting.iterations), stiffnesses.push_back(row.stiffness_n_m);
+    EXPECT_NEAR(exponents.at(0).exponent, 2.0, test_support::exponent_error(iterations, stiffnesses, 2.0, 0));
     EXPECT_EQ(exponents[0].first, 3.0);
     EXPECT_EQ(exponents[0].last, 96.0);
 }
@@ -51,9 +62,9 @@ TEST(StiffnessRatios, SpreadOverDoublingsAndOrders)
     std::vector<StiffnessRow> rows = {row(12, 1.0), row(24, 3.0), row(48, 6.0), row(12, 1.0), row(24, 5.0)};
     rows[3].setting.order_seed = rows[4].setting.order_seed = 1;
     const auto ratio = stiffness_ratios(rows, Varied::iterations).at(0);
-    EXPECT_NEAR(ratio.value, std::sqrt(6.0), 3.0 * rounding);
-    EXPECT_NEAR(ratio.low, 2.0, 2.0 * rounding);
-    EXPECT_NEAR(ratio.high, 5.0, 5.0 * rounding);
+    EXPECT_NEAR(ratio.value, std::sqrt(6.0), doubling_error(std::sqrt(6.0), 1 + 1, 0));
+    EXPECT_NEAR(ratio.low, 2.0, doubling_error(2.0, 1, 0));
+    EXPECT_NEAR(ratio.high, 5.0, doubling_error(5.0, 1, 0));
 }
 
 TEST(StiffnessRatios, LeavesOutWhatDidNotConvergeOrHangsUpwards)
@@ -62,7 +73,7 @@ TEST(StiffnessRatios, LeavesOutWhatDidNotConvergeOrHangsUpwards)
     rows[3].converged = false;
     rows[3].stiffness_n_m = 1e6;
     rows[5].stiffness_n_m = -1.0;
-    EXPECT_NEAR(stiffness_ratios(rows, Varied::iterations).at(0).high, 4.0, 4.0 * rounding);
+    EXPECT_NEAR(stiffness_ratios(rows, Varied::iterations).at(0).high, 4.0, doubling_error(4.0, 1, 0));
     EXPECT_EQ(stiffness_exponents(rows, Varied::iterations).at(0).left_out, 2);
     for (StiffnessRow& all : rows) all.converged = false;
     EXPECT_TRUE(stiffness_ratios(rows, Varied::iterations).empty());
@@ -78,7 +89,7 @@ TEST(StiffnessRatios, HalvesTheTimeStep)
     }
     const auto ratio = stiffness_ratios(rows, Varied::time_step).at(0);
     EXPECT_EQ(ratio.quantity, "stiffness_ratio_at_half_time_step");
-    EXPECT_NEAR(ratio.value, 4.0, 1e-10);
+    EXPECT_NEAR(ratio.value, 4.0, doubling_error(4.0, 2 * 2 + 1, 2 * 2 + 1));  // squares and quotients, quotients of milliseconds
     EXPECT_EQ(text_of(ratio.of), "limb, pbs, vertices 600, k_stretch 0.2, iterations 24, time_step_s 0.02, time_step_to_s 0.005, zone");
 }
 
@@ -90,8 +101,7 @@ TEST(StiffnessRatios, OfMeshesThatAreNotQuiteTwiceEachOther)
         rows.back().vertices = vertices;
     }
     const auto ratio = stiffness_ratios(rows, Varied::resolution).at(0);
-    EXPECT_NEAR(ratio.low, 0.5, rounding);
-    EXPECT_NEAR(ratio.high, 0.5, rounding);
+    for (const double value : {ratio.low, ratio.high}) EXPECT_NEAR(value, 0.5, doubling_error(0.5, 2 + 1, 1));
 }
 
 // All four run at the same settings, and none is mistaken for another.
@@ -109,7 +119,7 @@ TEST(StiffnessRatios, TellTheMethodsApart)
     const auto ratios = stiffness_ratios(rows, Varied::iterations);
     ASSERT_EQ(ratios.size(), 4u);
     for (const auto& ratio : ratios) {
-        EXPECT_NEAR(ratio.low, ratio.high, 1e-10);
+        EXPECT_NEAR(ratio.low, ratio.high, 2.0 * doubling_error(ratio.high, 2 * 2 + 1, 0));  // powers of two roundings
         EXPECT_EQ(ratio.of.deformer != "pbs", ratio.value > 1.5) << ratio.of.deformer;
     }
     const std::string text = stiffness_text({{Varied::iterations, rows}});

@@ -6,6 +6,8 @@
 #include "experiments/studies/work_precision/diagram_tables.hpp"
 #include "experiments/studies/work_precision/findings.hpp"
 
+#include "tests/support/rounding_error.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,6 +19,7 @@ namespace {
 using namespace experiments;
 using analysis::CaseKey;
 using analysis::CsvTable;
+using test_support::mean_error;
 
 struct Row {
     SettingKey key;
@@ -97,9 +100,9 @@ TEST(Diagram, AMeanTakesThreePosesAndTheSettingsThatAllOfThemHave)
     EXPECT_EQ(mean.name, "limb, mean of 3 poses");
     EXPECT_EQ(mean.key, "limb_mean_of_3_poses");
     EXPECT_EQ(mean.points.size(), 6u);
-    EXPECT_NEAR(mean.points[1].error_pct, 30.0, 1e-12);
-    EXPECT_NEAR(mean.points[1].beside_pct.value(), 31.0, 1e-12);
-    EXPECT_NEAR(mean.points[1].ms_q1.value(), 0.5, 1e-12);
+    EXPECT_NEAR(mean.points[1].error_pct, 30.0, mean_error(3, 30.0));
+    EXPECT_NEAR(mean.points[1].beside_pct.value(), 31.0, mean_error(3, 31.0));
+    EXPECT_NEAR(mean.points[1].ms_q1.value(), 0.5, mean_error(3, 0.5));
     EXPECT_FALSE(mean.points[1].ms_q3);
 }
 
@@ -113,9 +116,9 @@ TEST(Diagram, AMeanThrowsNoBodyOfManyPosesTogetherWithOthersOfOne)
     const auto diagrams = diagrams_of(tables);
     ASSERT_EQ(diagrams.size(), 9u);
     EXPECT_EQ(diagrams[7].name, "human, mean of 3 poses");
-    EXPECT_NEAR(diagrams[7].points[2].error_pct, 30.0, 1e-12);
+    EXPECT_NEAR(diagrams[7].points[2].error_pct, 30.0, mean_error(3, 30.0));
     EXPECT_EQ(diagrams[8].name, "crouch, mean of 3 bodies");
-    EXPECT_NEAR(diagrams[8].points[2].error_pct, 50.0, 1e-12);
+    EXPECT_NEAR(diagrams[8].points[2].error_pct, 50.0, mean_error(3, 50.0));
     EXPECT_TRUE(says(findings(diagrams[7]), "the references of 1 of the 3 poses intersect themselves"));
     EXPECT_TRUE(says(findings(diagrams[2]), "the reference snh_p2 intersects itself"));
     EXPECT_FALSE(says(findings(diagrams[8]), "intersect"));
