@@ -1,8 +1,8 @@
 // Invariances of the metrics: rigid motion, order of tets and vertices, unit of length. Reference: none of them changes a ratio of volumes
-// or lengths. Tolerance: volumes are products of three coordinate differences, each rounded to 1e-16 of the largest coordinate over the
-// shortest difference (some 100 here), which gives 1e-11 relative to the value.
+// or lengths. Tolerance: the rounding of the moved positions, of volumes and of lengths.
 #include "analysis/frame_metrics.hpp"
 
+#include "tests/support/motion_rounding.hpp"
 #include "tests/support/structured_bar.hpp"
 
 #include <Eigen/Geometry>
@@ -40,14 +40,22 @@ FrameMetrics measure(const Sample& sample)
     return MeshMetrics(sample.mesh.rest, sample.mesh.tets).measure(sample.frame);
 }
 
+// Positions are off by e, at most the rounding of a motion within 2.2 m; a new unit of length rounds them, and those at rest, once. All
+// tets have the volume 0.1^3 / 6 at rest. An edge, of at most 0.1 sqrt 3 and another 0.1 sqrt 3 by the wobble, changes by 2 e, and a
+// volume, a sixth of a product of three edges, by at most e times the square of the longest. It goes through ten roundings of products
+// whose magnitudes add up to a fifth of the cube, and a length through five; both sides contain two of them.
 void expect_same(const FrameMetrics& a, const FrameMetrics& b)
 {
-    EXPECT_NEAR(a.volume_change_pct, b.volume_change_pct, 1e-9);
-    EXPECT_NEAR(a.volume_abs_change_pct, b.volume_abs_change_pct, 1e-9);
+    using test_support::rounding_error;
+    const double rest_edge = 0.1, longest = 2.0 * rest_edge * std::sqrt(3.0), rest_volume = std::pow(rest_edge, 3) / 6.0;
+    const double of_position = test_support::motion_error(1, 2.2);
+    const double of_j = (of_position * longest * longest + 4.0 * rounding_error(10, std::pow(longest, 3) / 5.0)) / rest_volume;
+    EXPECT_NEAR(a.volume_change_pct, b.volume_change_pct, 100.0 * of_j);
+    EXPECT_NEAR(a.volume_abs_change_pct, b.volume_abs_change_pct, 100.0 * of_j);
     EXPECT_EQ(a.inverted_tets, b.inverted_tets);
-    EXPECT_NEAR(a.mean_abs_j_minus_1, b.mean_abs_j_minus_1, 1e-11);
-    EXPECT_NEAR(a.j_min, b.j_min, 1e-11);
-    EXPECT_NEAR(a.stretch_rms, b.stretch_rms, 1e-11);
+    EXPECT_NEAR(a.mean_abs_j_minus_1, b.mean_abs_j_minus_1, of_j);
+    EXPECT_NEAR(a.j_min, b.j_min, of_j);
+    EXPECT_NEAR(a.stretch_rms, b.stretch_rms, (2.0 * of_position + 4.0 * rounding_error(5, longest)) / rest_edge);
 }
 
 TEST(FrameMetricsInvariance, SampleIsNotTrivial)
