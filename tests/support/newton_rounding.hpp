@@ -8,10 +8,12 @@
 #include "experiments/deformers/fem/bone_attachment.hpp"
 #include "reference_fem/held_space.hpp"
 #include "reference_fem/verification/rounding_bound.hpp"
+#include "tests/support/motion_rounding.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace test_support {
@@ -46,11 +48,13 @@ inline double newton_error_m(const pbs::Character& character, const experiments:
     return residual_n / spectrum(hessian.matrix(), held.prescribed()).smallest;
 }
 
-// The rounding of positions [m] that are taken into the frame of a bone and back: three products and three sums for each of the two
-// motions, and the difference from rest and its sum, 16 roundings of a coordinate by eps / 2, for each of three coordinates.
+// The rounding of positions [m] that are taken into the frame of a bone and back: two motions (motion_rounding.hpp), and two roundings of
+// each of three coordinates, of the difference from rest and of its sum with the place at rest. No norm on the way exceeds that of the
+// farthest.
 inline double frame_rounding_m(const pbs::Positions& positions)
 {
-    return std::sqrt(3.0) * 8.0 * std::numeric_limits<double>::epsilon() * positions.cwiseAbs().maxCoeff();
+    const double farthest = positions.rowwise().norm().maxCoeff();
+    return motion_error(2, farthest) + std::sqrt(3.0) * rounding_error(2, farthest);
 }
 
 }  // namespace test_support
