@@ -31,7 +31,7 @@ TEST(SettledState, OfAHangingParticleIsTheFixedPoint)
 }
 
 // A bar held at one end, with stretch and volume constraints. A time step with gravity does not move it away from its state of rest: the
-// first step is S (x + a dt^2) = x. Only the second order in displacement over edge may move it, 1e-4 of the deflection here.
+// first step is S (x + a dt^2) = x. Only the second order may move it, a share of deflection over edge of the deflection.
 TEST(SettledState, OfABarIsWhereTheTimeStepperStays)
 {
     const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {1.0, 0.2, 0.2}, {10, 2, 2});
@@ -55,7 +55,7 @@ TEST(SettledState, OfABarIsWhereTheTimeStepperStays)
         pbs::PbsSolver solver(bar, Eigen::VectorXd::Zero(bar.rest.rows()), free, stepping, held);
         const Positions start = bar.rest + deflection_m / tip * state.displacement;
         for (int step = 0; step < 200; ++step) solver.advance(step == 0 ? start : bar.rest, bar.rest, dt_s);
-        EXPECT_LT((solver.positions() - start).cwiseAbs().maxCoeff(), 1e-3 * deflection_m) << dt_s;
+        EXPECT_LT((solver.positions() - start).cwiseAbs().maxCoeff(), deflection_m / 0.1 * deflection_m) << dt_s;
     }
 }
 
