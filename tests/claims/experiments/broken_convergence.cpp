@@ -10,11 +10,15 @@
 // - stretch dropped: the bind and the volume constraints remain, and the last residual of the edges is larger.
 #include "experiments/studies/convergence/convergence_values.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
+#include "pbs/geometry/topology.hpp"
 #include "tests/support/broken_solver.hpp"
+#include "tests/support/scalar_rounding.hpp"
 #include "tests/support/study_claims.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace {
@@ -102,11 +106,24 @@ TEST(BrokenConvergence, WithoutVolumeNoStartArrivesByVolume)
     EXPECT_FALSE(values_of(measured(Broken::nothing), "iterations_over_lbs_guess", by_volume).empty());
 }
 
+// The rounding of strains in float: a coordinate of 1.15 m is rounded once, which is relative to the shortest edge, at both of its ends; a
+// strain goes through eight more roundings.
+double strain_error()
+{
+    const pbs::TetMesh mesh = pbs::make_character({.body = "limb", .vertices = 300}).mesh;
+    const pbs::Edges edges = pbs::edges_of(mesh.tets);
+    double shortest_m = 1.0;
+    for (const auto& edge : edges.rowwise()) shortest_m = std::min(shortest_m, (mesh.rest.row(edge(0)) - mesh.rest.row(edge(1))).norm());
+    return test_support::rounding_error_in<float>(2.0 * std::sqrt(3.0) * 1.15 / shortest_m + 8.0, 1.0);
+}
+
 TEST(BrokenConvergence, WithoutBindTheRestPoseStaysAndIsThereAtOnce)
 {
     const experiments::IterationPath& rest = path(Broken::bind_dropped, SolverStart::rest_pose);
-    EXPECT_LT(rest.looks.back().stretch_rms, 1e-5);                                  // rounding of f32
-    EXPECT_NEAR(rest.looks.back().bind_rms_m, rest.looks.front().bind_rms_m, 1e-4);  // it has not come any closer
+    EXPECT_LT(rest.looks.back().stretch_rms, strain_error());
+    // It has not come any closer; with bind constraints less than a tenth remains.
+    EXPECT_GT(rest.looks.back().bind_rms_m, 0.99 * rest.looks.front().bind_rms_m);
+    EXPECT_LT(path(Broken::nothing, SolverStart::rest_pose).looks.back().bind_rms_m, 0.1 * rest.looks.front().bind_rms_m);
     EXPECT_LE(from_rest_over_lbs_by_volume(Broken::bind_dropped), 1.0);
     EXPECT_NE(verdict_of_c03(measured(Broken::bind_dropped)), VerdictKind::reproduced);
 }
@@ -122,7 +139,10 @@ TEST(BrokenConvergence, WithNothingProjectedEveryStartStays)
 {
     for (const SolverStart start : experiments::all_starts) {
         const auto& looks = path(Broken::nothing_projected, start).looks;
-        EXPECT_NEAR(looks.back().combined, looks.front().combined, 1e-5 * looks.front().combined + 1e-6) << experiments::name_of(start);
+        // The initial guess itself is in double. Volumes are in error by three times as much as lengths, and relative distances by less.
+        EXPECT_NEAR(looks.at(1).combined, looks.front().combined, 3.0 * strain_error() * (1.0 + looks.front().combined))
+            << experiments::name_of(start);
+        EXPECT_EQ(looks.back().combined, looks.at(1).combined) << experiments::name_of(start);
     }
     EXPECT_LE(from_rest_over_lbs_by_volume(Broken::nothing_projected), 1.0);
     EXPECT_EQ(twenty_four_suffice(Broken::nothing_projected), analysis::Extent::none);
