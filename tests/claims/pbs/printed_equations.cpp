@@ -65,7 +65,7 @@ TEST(PrintedEquations, AbsolutePositionsDependOnTheOrigin)
     RecordProperty("labels_absolute_a_metre_away_pct", std::to_string(there));
     EXPECT_GT(std::abs(here - there), 0.2 * lbs_pct);
     EXPECT_GT(std::min(here, there), run(at_the_joint, VolumeForm::derived).change_pct);
-    // Inverted tets propagate the rounding of f32; a fifth separates what it does from the factor between the two origins.
+    // Inverted tets propagate the rounding of f32; a fifth is far below the factor of two between the origins.
     EXPECT_NEAR(run(at_the_joint, VolumeForm::labels_absolute, pbs::Precision::f32).change_pct / here, 1.0, 0.2);
     EXPECT_NEAR(run(a_metre_away, VolumeForm::labels_absolute, pbs::Precision::f32).change_pct / there, 1.0, 0.2);
 }

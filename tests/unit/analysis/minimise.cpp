@@ -160,10 +160,11 @@ TEST(FitOverCases, JackknifeOfAMeanIsItsStandardError)
     const std::vector<double> centres = {0.2, 0.3, 0.35, 0.55};
     std::vector<Misfit> misfits;
     for (const double centre : centres) misfits.push_back([centre](double x) { return std::abs(x - centre); });
-    const auto fit = fit_over_cases(misfits, 0.0, 1.0, {.tolerance = 1e-8});
+    constexpr double tolerance = 1e-8;
+    const auto fit = fit_over_cases(misfits, 0.0, 1.0, {.tolerance = tolerance});
     // The root mean square is sqrt(v + (x - mean)^2), where v is the variance: value sqrt(v) with ten roundings, curvature 1 / sqrt(v).
     const double deviation = standard_deviation(centres);
-    const double of_place = place_error(1e-8, test_support::rounding_error(10, deviation), 1.0 / deviation);
+    const double of_place = place_error(tolerance, test_support::rounding_error(10, deviation), 1.0 / deviation);
     EXPECT_NEAR(fit.all.x, mean(centres), of_place);
     EXPECT_NEAR(fit.interval.estimate, mean(centres), of_place);
     const double t = gsl_cdf_tdist_Pinv(0.975, 3), half_width = t * standard_error(centres);
@@ -171,7 +172,7 @@ TEST(FitOverCases, JackknifeOfAMeanIsItsStandardError)
     EXPECT_NEAR(fit.interval.high - fit.interval.estimate, half_width, t * std::sqrt(3.0 / 4.0 * 4.0) * of_place);
     EXPECT_NEAR(fit.interval.estimate - fit.interval.low, half_width, t * std::sqrt(3.0 / 4.0 * 4.0) * of_place);
     ASSERT_EQ(fit.cases.size(), centres.size());
-    for (std::size_t i = 0; i < centres.size(); ++i) EXPECT_NEAR(fit.cases[i].x, centres[i], 1e-8);
+    for (std::size_t i = 0; i < centres.size(); ++i) EXPECT_NEAR(fit.cases[i].x, centres[i], tolerance);
 }
 
 TEST(FitOverCases, IntervalIsCutToTheBounds)

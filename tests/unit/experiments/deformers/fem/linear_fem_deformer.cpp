@@ -5,6 +5,7 @@
 #include "tests/support/bar_character.hpp"
 #include "tests/support/newton_rounding.hpp"
 #include "tests/support/rounding_error.hpp"
+#include "tests/support/solve_rounding.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,6 +18,20 @@ const FemOptions linear_tets{.element_order = 1};
 pbs::Pose bent(const pbs::Character& character, double angle_deg)
 {
     return pbs::joint_sweep(character.skeleton, 1, pbs::Vec3::UnitZ(), angle_deg, 2, 0.01).steps.back();
+}
+
+TEST(LinearFemDeformer, BarHasTheConditionNumberThatOthersRelyOn)
+{
+    const auto character = test_support::bar_character({12, 3, 3});
+    const FemOptions options{.element_order = 2};
+    const auto spectrum = test_support::spectrum_of(character.mesh,
+                                                    {.element_order = options.element_order,
+                                                     .young_pa = options.young_pa,
+                                                     .poisson = options.poisson,
+                                                     .density_kg_m3 = options.density_kg_m3,
+                                                     .formulation = options.formulation},
+                                                    bone_attachment(character, options).attachment);
+    EXPECT_LT(spectrum.condition(), test_support::quadratic_bar_condition);
 }
 
 TEST(LinearFemDeformer, RecordsWhatIsGrippedOfEachBone)
