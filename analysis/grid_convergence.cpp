@@ -141,35 +141,11 @@ GridConvergence three_grids(const std::array<double, 3>& values, const std::arra
     return convergence;
 }
 
-double FieldDifferences::alignment() const
-{
-    return (fine_coarse * fine_coarse - fine_middle * fine_middle - middle_coarse * middle_coarse) / (2.0 * fine_middle * middle_coarse);
-}
-
 GridConvergence two_fields(double difference, double ratio, double order)
 {
     GridConvergence convergence = two_grids({0.0, difference}, ratio, order);
     convergence.extrapolated = unknown;
     return convergence;
-}
-
-GridConvergence three_fields(const FieldDifferences& differences, const std::array<double, 2>& ratios, double formal_order)
-{
-    // A series of numbers with these differences: it alternates if successive differences of the fields have opposite directions.
-    const double turn = differences.alignment() < 0.0 ? -1.0 : 1.0;
-    GridConvergence convergence =
-        three_grids({0.0, differences.fine_middle, differences.fine_middle + turn * differences.middle_coarse}, ratios, formal_order);
-    convergence.extrapolated = unknown;
-    return convergence;
-}
-
-pbs::Positions extrapolated_field(const pbs::Positions& fine, const pbs::Positions& coarse, double ratio, double order)
-{
-    require_ratio_and_order(ratio, order);
-    if (fine.rows() != coarse.rows())
-        throw pbs::InputError("", 0, "points of the coarse grid", std::to_string(coarse.rows()),
-                              fmt::format("expected {}, as on the fine one", fine.rows()));
-    return fine + (fine - coarse) / (std::pow(ratio, order) - 1.0);
 }
 
 }  // namespace analysis

@@ -8,8 +8,6 @@
 // literature is bounds[0] / |value|.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
-
 #include <array>
 #include <vector>
 
@@ -19,7 +17,7 @@ namespace analysis {
 enum class GridBehaviour {
     presumed,     // two grids: nothing is observed
     monotone,     // differences of one sign that decrease
-    oscillating,  // alternating signs; for fields: successive differences have opposite directions
+    oscillating,  // alternating signs
     diverging,    // the differences do not decrease under refinement: the observed order is 0 or less
     constant,     // all values are equal
     not_finite,   // a value is not finite, and so no bound is
@@ -44,18 +42,9 @@ GridConvergence two_grids(const std::array<double, 2>& values, double ratio, dou
 // Values on grids 1, 2, 3; ratios h2 / h1 and h3 / h2; the theoretical order.
 GridConvergence three_grids(const std::array<double, 3>& values, const std::array<double, 2>& ratios, double formal_order);
 
-// Norms of the differences between fields, on the points that all grids share.
-struct FieldDifferences {
-    double fine_middle = 0.0, middle_coarse = 0.0, fine_coarse = 0.0;  // |f1 - f2|, |f2 - f3|, |f1 - f3|
-    double alignment() const;  // cosine of the angle between f1 - f2 and f2 - f3; 1 if f + h^p e holds with one error field e
-};
-// Like two_grids and three_grids, for fields that are known by the norms of their differences; the bounds use the same norm.
+// Like two_grids, for two fields that are known by the norm of their difference; the bounds use the same norm. Three or more fields are
+// fitted (field_convergence.hpp).
 GridConvergence two_fields(double difference, double ratio, double order);
-// ratios h2 / h1 and h3 / h2; the sign of the alignment decides whether the fields oscillate.
-GridConvergence three_fields(const FieldDifferences& differences, const std::array<double, 2>& ratios, double formal_order);
-
-// The field f1 + (f1 - f2) / (r^p - 1), point by point; InputError for fields of different numbers of points.
-pbs::Positions extrapolated_field(const pbs::Positions& fine, const pbs::Positions& coarse, double ratio, double order);
 
 // The p of f + C h^p through three values, from R = (f3 - f2) / (f2 - f1). It is 0 or negative if they diverge; for R < 0 it is Celik's p.
 double observed_order_of_three(double difference_ratio, const std::array<double, 2>& ratios);

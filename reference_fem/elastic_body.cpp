@@ -81,7 +81,9 @@ public:
     NewtonSummary solve_at_once(const Targets& targets, const pbs::Vec3& gravity_m_s2)
     {
         gravity_.set(held_.gravity_load(gravity_m_s2));
-        const NewtonSummary summary = newton_.minimise(terms_, move_to(targets), displacement_, options_.newton);
+        NewtonOptions options = options_.newton;
+        options.reuse_contraction = 0.0;  // far from a minimum a kept factor can lead elsewhere
+        const NewtonSummary summary = newton_.minimise(terms_, move_to(targets), displacement_, options);
         show();
         return summary;
     }

@@ -1,26 +1,32 @@
 #include "experiments/run/reference_error_bar.hpp"
 
+#include "analysis/field_convergence.hpp"
 #include "analysis/grid_convergence.hpp"
-#include "experiments/deformers/fem/fem_options.hpp"
 #include "pbs/character/refined_character.hpp"
 #include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/tet_volume.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace experiments {
 namespace {
 
-constexpr double presumed_order = 1.0, factor_elsewhere = 3.0;
 constexpr double smallest_difference_pct = 1e-9;  // smaller differences, as in the rest pose, are rounding errors and show no order
 constexpr std::array<double analysis::ErrorNorms::*, 3> norms = {&analysis::ErrorNorms::l2_pct, &analysis::ErrorNorms::joint_pct,
                                                                  &analysis::ErrorNorms::linf_m};
-constexpr std::array<const char*, 3> norm_names = {"l2", "joint", "linf"};
 
-constexpr const char* why_order_1 =
-    "the capsules' surface is followed by no face of a tet and the displacement's gradient jumps across it: the displacement lies in "
-    "H^(3/2 - eps), its energy error falls with h^(1/2) and, by duality, its own with h, whatever the element order";
+const char* why(FemAttachment attachment)
+{
+    if (attachment == FemAttachment::smooth)
+        return "the density of the springs has no jump: the displacement converges in the L2 norm with order 2 for linear and 3 for "
+               "quadratic elements, of which the lower one is used";
+    return "the capsules' surface is followed by no face of a tet and the displacement's gradient jumps across it: the displacement lies "
+           "in "
+           "H^(3/2 - eps), its energy error falls with h^(1/2) and, by duality, its own with h, whatever the element order";
+}
 
 // The inverse mesh size, up to a factor that is the same for all meshes of a body.
 double nodes_along(const pbs::Tets& tets, Eigen::Index vertices, int element_order, int refinements)
@@ -36,10 +42,26 @@ nlohmann::json spread(std::vector<double> values)
     return {{"least", values.front()}, {"median", values[values.size() / 2]}, {"largest", values.back()}};
 }
 
+// The lumped volumes of the blended vertices; of all vertices where none is blended.
+Eigen::VectorXd weights_at_joints(const pbs::Character& character)
+{
+    Eigen::VectorXd weights = pbs::lumped_volumes(character.mesh.rest, character.mesh.tets);
+    const auto& blended = character.blended;
+    if (std::find(blended.begin(), blended.end(), true) == blended.end()) return weights;
+    for (Eigen::Index v = 0; v < weights.size(); ++v)
+        if (!blended[v]) weights(v) = 0.0;
+    return weights;
+}
+
 }  // namespace
 
+double convergence_order(FemAttachment attachment)
+{
+    return attachment == FemAttachment::smooth ? 2.0 : 1.0;
+}
+
 ReferenceErrorBar::ReferenceErrorBar(ErrorBar kind, const DeformerSpec& reference, const pbs::Character& character)
-    : kind_(kind), character_(character)
+    : kind_(kind), attachment_(options_of<FemOptions>(reference).attachment), character_(character), weights_(weights_at_joints(character))
 {
     const int order = options_of<FemOptions>(reference).element_order, other_order = 3 - order;
     const bool graded_by_orders = kind == ErrorBar::orders || (kind == ErrorBar::both && order == 2);
@@ -90,17 +112,28 @@ std::optional<analysis::ErrorNorms> ReferenceErrorBar::bound(const pbs::Position
         }
         positions.push_back(solution.deformer ? solution.deformer->positions().topRows(reference.rows()) : reference);
     }
-    std::vector<analysis::ErrorNorms> differences = {measurer.difference(positions[0], positions[1])};
-    if (positions.size() == 3) {
-        differences.push_back(measurer.difference(positions[1], positions[2]));
-        differences.push_back(measurer.difference(positions[0], positions[2]));
+    if (positions.size() == 3) return bound_of_three(positions, measurer);
+    const analysis::ErrorNorms difference = measurer.difference(positions[0], positions[1]);
+    analysis::ErrorNorms bounds;
+    for (const auto norm : norms)
+        bounds.*norm = analysis::two_fields(difference.*norm, ratios()[0], convergence_order(attachment_)).bounds[reference_];
+    return bounds;
+}
+
+analysis::ErrorNorms ReferenceErrorBar::bound_of_three(const std::vector<pbs::Positions>& positions, const FrameMeasurer& measurer)
+{
+    std::vector<double> sizes;
+    for (const Solution& solution : solutions_) sizes.push_back(1.0 / solution.nodes_along);
+    const analysis::FieldConvergence fit = analysis::fit_fields(positions, sizes, convergence_order(attachment_), weights_);
+    frames_reliable_ += fit.reliable;
+    if (measurer.difference(positions[0], positions[2]).l2_pct > smallest_difference_pct) {
+        if (!std::isnan(fit.observed_order)) observed_orders_.push_back(fit.observed_order);
+        unexplained_.push_back(fit.unexplained);
     }
     analysis::ErrorNorms bounds;
-    for (std::size_t norm = 0; norm < norms.size(); ++norm) {
-        std::vector<double> distances;
-        for (const analysis::ErrorNorms& difference : differences) distances.push_back(difference.*norms[norm]);
-        bounds.*norms[norm] = norm_bound(norm, distances);
-    }
+    for (const auto norm : norms)
+        bounds.*norm =
+            analysis::bound_of(fit, positions, reference_, [&](const auto& a, const auto& b) { return measurer.difference(a, b).*norm; });
     return bounds;
 }
 
@@ -111,31 +144,17 @@ std::vector<double> ReferenceErrorBar::ratios() const
     return ratios;
 }
 
-// distances: between the solutions 1 and 2; with three solutions also between 2 and 3, and between 1 and 3.
-double ReferenceErrorBar::norm_bound(std::size_t norm, const std::vector<double>& distances)
-{
-    const std::vector<double> ratio = ratios();
-    if (distances.size() == 1) return analysis::two_fields(distances[0], ratio[0], presumed_order).bounds[reference_];
-    const analysis::FieldDifferences differences{distances[0], distances[1], distances[2]};
-    const analysis::GridConvergence grids = analysis::three_fields(differences, {ratio[0], ratio[1]}, presumed_order);
-    if (distances[2] > smallest_difference_pct) {
-        observed_order_[norm].push_back(grids.observed_order);
-        if (norm == 0) alignment_.push_back(differences.alignment());
-    }
-    frames_asymptotic_[norm] += grids.asymptotic;
-    return grids.bounds[reference_] * (grids.asymptotic ? 1.0 : std::max(1.0, factor_elsewhere / grids.safety_factor));
-}
-
 nlohmann::json ReferenceErrorBar::method() const
 {
     const bool three = solutions_.size() == 3;
     nlohmann::json method = {
         {"error_bar", name_of(kind_)},
-        {"source", "grid convergence index: P. J. Roache 1994, I. B. Celik et al. 2008; on the character's own vertices"},
-        {"order", presumed_order},
+        {"source", three ? "least squares fit of fields: L. Eca, M. Hoekstra 2014; on the character's own vertices"
+                         : "grid convergence index: P. J. Roache 1994, I. B. Celik et al. 2008; on the character's own vertices"},
+        {"order", convergence_order(attachment_)},
         {"order_note", three ? "observed, but no higher than this" : "presumed"},
-        {"order_because", why_order_1},
-        {"safety_factor", factor_elsewhere},
+        {"order_because", why(attachment_)},
+        {"safety_factor", 3.0},
         {"ratios", ratios()},
         {"frames", frames_},
         {"frames_without", frames_without_}};
@@ -150,12 +169,10 @@ nlohmann::json ReferenceErrorBar::method() const
         method["solutions"].push_back(entry);
     }
     if (!three) return method;
-    method["safety_factor_in_asymptotic_range"] = 1.25;
-    for (std::size_t norm = 0; norm < norms.size(); ++norm) {
-        method["observed_order"][norm_names[norm]] = spread(observed_order_[norm]);
-        method["frames_in_asymptotic_range"][norm_names[norm]] = frames_asymptotic_[norm];
-    }
-    method["alignment_of_differences"] = spread(alignment_);
+    method["safety_factor_of_reliable_order"] = 1.25;
+    method["observed_order"] = spread(observed_orders_);
+    method["frames_of_reliable_order"] = frames_reliable_;
+    method["unexplained_share"] = spread(unexplained_);
     return method;
 }
 

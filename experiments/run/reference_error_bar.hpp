@@ -1,30 +1,33 @@
-// The error bar of the reference. Each pose is solved again with the other element order, on refined tets, or both. The grid convergence
-// index (analysis/grid_convergence.hpp) of the differences on the character's vertices, in the norms of the deformers' errors, is the bar.
+// The error bar of the reference. Each pose is solved again with the other element order, on refined tets, or both. Where the reference's
+// own error lies follows from the differences on the character's vertices, in the norms of the deformers' errors.
 //
 // The mesh size is (number of nodes)^(-1/3) (Celik et al. 2008). Order 1 and order 2 on the same tets are therefore two grids with a ratio
 // of about 1.9, and a refinement halves the mesh size.
 //
-// The order of convergence is presumed to be 1 for both element orders. The bones hold capsules. No faces of tets follow their surface, and
-// the gradient of the displacement jumps across it. The displacement therefore lies in H^(3/2 - eps), its energy error falls with h^(1/2),
-// and its own error, by duality, with h. Where whole tets are held, edges with an angle of up to 360 degrees in the flesh have the same
-// effect.
+// With two solutions nothing is observed: the bar is the grid convergence index (analysis/grid_convergence.hpp) with the theoretical order
+// and the safety factor 3. With three solutions the order is observed at the joints, by least squares, and used up to the theoretical one;
+// the factor is 1.25 where the observed order is credible, and otherwise 3 (analysis/field_convergence.hpp).
 //
-// With two solutions the safety factor is 3. This covers orders down to 0.27 (refined tets), and a reference of order 2 with up to 3/4 of
-// the error of order 1 (other element order). With three solutions the order is observed and used up to 1. The factor is then 1.25 if the
-// observed order is within a tenth of 1, and 3 otherwise: a series of both element orders shows a higher order than one of finer tets (on
-// the limb, at the joint: 1.2 and 1.5 instead of 0.7 and 0.8), for which 1.25 proved too small.
+// The theoretical order depends on the attachment. The density of smooth springs has no jump. The displacement in the L2 norm then
+// converges with order 2 for linear and 3 for quadratic elements, of which the lower one is used, since the solutions are of both. In any
+// other attachment it is 1 for both element orders: the bones hold capsules, whose surface no face of a tet follows and across which the
+// gradient of the displacement jumps. The displacement therefore lies in H^(3/2 - eps), its energy error falls with h^(1/2), and its own
+// error, by duality, with h. Where whole tets are held, edges with an angle of up to 360 degrees in the flesh have the same effect.
 //
 // The bar covers the mesh only, and neither the material, the sample points of the attachment nor the time step.
 #pragma once
 
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/run/frame_measurement.hpp"
 
-#include <array>
 #include <memory>
 #include <optional>
 
 namespace experiments {
+
+// The theoretical order of convergence of the displacement.
+double convergence_order(FemAttachment attachment);
 
 class ReferenceErrorBar {
 public:
@@ -49,16 +52,16 @@ private:
     };
     void add_solution(const DeformerSpec& reference, int element_order, int refinements);
     std::vector<double> ratios() const;  // of each mesh size to the next finer one
-    double norm_bound(std::size_t norm, const std::vector<double>& distances);
+    analysis::ErrorNorms bound_of_three(const std::vector<pbs::Positions>& positions, const FrameMeasurer& measurer);
 
     ErrorBar kind_;
+    FemAttachment attachment_;
     const pbs::Character& character_;
     std::vector<Solution> solutions_;                    // the finest first
     std::size_t reference_ = 0;                          // its place among them
-    std::array<std::vector<double>, 3> observed_order_;  // by norm, one value per frame; with three solutions only
-    std::array<int, 3> frames_asymptotic_{};             // by norm
-    std::vector<double> alignment_;                      // of the differences in the first norm
-    int frames_ = 0, frames_without_ = 0;
+    Eigen::VectorXd weights_;                            // of the vertices in the observed order, #V
+    std::vector<double> observed_orders_, unexplained_;  // with three solutions, one value per frame in which they differ and show an order
+    int frames_ = 0, frames_without_ = 0, frames_reliable_ = 0;
 };
 
 }  // namespace experiments

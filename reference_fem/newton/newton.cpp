@@ -124,6 +124,14 @@ bool NewtonMinimiser::factorise(const Terms& terms, const Eigen::VectorXd& displ
     return factorise(terms, displacement, Definiteness::projected, summary);
 }
 
+// The last of the iterations is the present state.
+bool NewtonMinimiser::may_reuse_factor(const NewtonSummary& summary, const NewtonOptions& options) const
+{
+    if (summary.iterations.size() < 2) return false;
+    const NewtonIteration &now = summary.iterations.back(), &last = summary.iterations.end()[-2];
+    return last.step_length == 1.0 && now.residual_n <= options.reuse_contraction * last.residual_n;
+}
+
 // The largest of 1, 1/2, 1/4, ... that lowers the energy by Armijo's share; where that is below rounding, that lowers the residual. 0:
 // none.
 double NewtonMinimiser::step_length(const Terms& terms, const State& state, const Eigen::VectorXd& displacement,
@@ -141,6 +149,18 @@ double NewtonMinimiser::step_length(const Terms& terms, const State& state, cons
         }
     }
     return 0.0;
+}
+
+// With the factor at hand. The step that moves the data cannot be shortened: it is taken whole or the increment is too large. The step of a
+// quadratic energy ends in its minimum. Length 0: the direction is not finite, or no length lowers the energy enough.
+NewtonMinimiser::Step NewtonMinimiser::step_from(const Terms& terms, const State& state, const Eigen::VectorXd& displacement,
+                                                 const Eigen::VectorXd& increment, const NewtonOptions& options) const
+{
+    Step step{system_->solve(-state.gradient, increment).displacement, 0.0};
+    if (!step.direction.allFinite()) return step;
+    const bool is_whole = !increment.isZero(0.0) || all_quadratic(terms);
+    step.length = is_whole ? 1.0 : step_length(terms, state, displacement, step.direction, options);
+    return step;
 }
 
 NewtonSummary NewtonMinimiser::minimise(const Terms& terms, const Eigen::VectorXd& prescribed_values, Eigen::VectorXd& displacement,
@@ -161,17 +181,18 @@ NewtonSummary NewtonMinimiser::minimise(const Terms& terms, const Eigen::VectorX
         if (!state.finite()) return end(NewtonOutcome::not_finite);
         if (!carries_increment && is_converged(state, options)) return end(NewtonOutcome::converged);
         if (k == options.iterations) break;
-        if (!factorise(terms, displacement, summary)) return end(NewtonOutcome::not_positive_definite);
-        const Eigen::VectorXd step = system_->solve(-state.gradient, increment).displacement;
-        if (!step.allFinite()) return end(NewtonOutcome::not_finite);
-        // The step that moves the data cannot be shortened: it is taken whole or the increment is too large. The step of a quadratic energy
-        // ends in its minimum.
-        double length = 1.0;
-        if (!carries_increment && !all_quadratic(terms)) length = step_length(terms, state, displacement, step, options);
-        if (length == 0.0) return end(is_converged(state, options) ? NewtonOutcome::converged : NewtonOutcome::no_descent);
-        displacement += length * step;
+        Step step;
+        if (may_reuse_factor(summary, options)) step = step_from(terms, state, displacement, increment, options);
+        summary.iterations.back().reuses_factor = step.length > 0.0;
+        if (step.length == 0.0) {
+            if (!factorise(terms, displacement, summary)) return end(NewtonOutcome::not_positive_definite);
+            step = step_from(terms, state, displacement, increment, options);
+        }
+        if (!step.direction.allFinite()) return end(NewtonOutcome::not_finite);
+        if (step.length == 0.0) return end(is_converged(state, options) ? NewtonOutcome::converged : NewtonOutcome::no_descent);
+        displacement += step.length * step.direction;
+        summary.iterations.back().step_length = step.length;
         increment.setZero();
-        summary.iterations.back().step_length = length;
     }
     return end(NewtonOutcome::iterations_exhausted);
 }

@@ -3,7 +3,8 @@
 //   const NewtonSummary summary = newton.minimise({&flesh, &springs}, prescribed_values, displacement, {});
 // The increment of the prescribed data goes into the first linear solve. Guards: where the Hessian is not positive definite it is
 // projected tet by tet; a step that does not lower the energy enough (Armijo) is halved. Every iteration is on record, and a step that
-// does not converge is an outcome. The symbolic analysis is kept; so is the factor where every term is quadratic.
+// does not converge is an outcome. The symbolic analysis is kept; so is the factor where every term is quadratic, and on request where the
+// last step with it was good enough (V. E. Shamanskii, Ukrainian Mathematical Journal 19, 1967).
 #pragma once
 
 #include "reference_fem/eliminated_system.hpp"
@@ -21,6 +22,9 @@ struct NewtonOptions {
     double relative_tolerance = 1e-8;
     int iterations = 40;  // linear solves at most
     int halvings = 25;    // of one step; then no_descent
+    // The factor serves again after a whole step that reduced the residual to at most this share of the one before; 0: for no second step.
+    // Steps then converge linearly, at least at this rate, and cost a small part of a factorisation where the body has many nodes.
+    double reuse_contraction = 0.0;
 };
 
 // A state and the step that left it; the last has none.
@@ -31,6 +35,7 @@ struct NewtonIteration {
     double step_length = 0.0;        // 1: a full Newton step; 0: none was taken
     bool projected = false;          // the Hessian was not positive definite
     bool carries_increment = false;  // the linear solve that moves the prescribed data
+    bool reuses_factor = false;      // of an earlier step, see NewtonOptions::reuse_contraction
 };
 
 // no_descent: no length of the step lowers the energy enough; not_positive_definite: not even the projected Hessian can be factored;
@@ -69,11 +74,18 @@ public:
 
 private:
     struct State;
+    struct Step {
+        Eigen::VectorXd direction;
+        double length = 0.0;
+    };
     State state_at(const Terms& terms, const Eigen::VectorXd& displacement) const;
     Eigen::VectorXd increment_to(const Eigen::VectorXd& prescribed_values, const Eigen::VectorXd& displacement) const;
     bool is_converged(const State& state, const NewtonOptions& options) const;
+    bool may_reuse_factor(const NewtonSummary& summary, const NewtonOptions& options) const;
     bool factorise(const Terms& terms, const Eigen::VectorXd& displacement, NewtonSummary& summary);
     bool factorise(const Terms& terms, const Eigen::VectorXd& displacement, Definiteness definiteness, NewtonSummary& summary);
+    Step step_from(const Terms& terms, const State& state, const Eigen::VectorXd& displacement, const Eigen::VectorXd& increment,
+                   const NewtonOptions& options) const;
     double step_length(const Terms& terms, const State& state, const Eigen::VectorXd& displacement, const Eigen::VectorXd& step,
                        const NewtonOptions& options) const;
 

@@ -26,7 +26,7 @@ reference_fem::ElasticOptions solver_options(const FemOptions& options)
             .rayleigh_mass_1_s = options.rayleigh_mass_1_s,
             .rayleigh_stiffness_s = options.rayleigh_stiffness_s,
             .solver = options.solver,
-            .newton = {},
+            .newton = {.reuse_contraction = options.dynamics == reference_fem::Dynamics::quasi_static ? 0.1 : 0.0},
             .path = {.most_newton_steps = options.most_newton_steps}};
 }
 

@@ -12,7 +12,6 @@
 
 namespace {
 
-using analysis::FieldDifferences;
 using analysis::GridBehaviour;
 using analysis::GridConvergence;
 using test_support::rounding_error;
@@ -131,23 +130,10 @@ TEST(ObservedOrder, BeyondWhatCanBeSeenIsInfinite)
     EXPECT_EQ(analysis::observed_order_of_three(0.0, {2.0, 1.5}), -std::numeric_limits<double>::infinity());
 }
 
-// |f1 - f2| = 1, |f2 - f3| = 2: with equal directions f3 is at a distance of 3 from f1, with opposite ones 1.
-TEST(Fields, WhoseDifferencesTurnRoundOscillate)
-{
-    EXPECT_EQ((FieldDifferences{1.0, 2.0, 3.0}.alignment()), 1.0);
-    EXPECT_EQ((FieldDifferences{1.0, 2.0, 1.0}.alignment()), -1.0);
-    EXPECT_NEAR((FieldDifferences{1.0, 2.0, std::sqrt(5.0)}.alignment()), 0.0,
-                rounding_error(3, 5.0) / 4.0);  // the root, twice, and a square
-    EXPECT_EQ(analysis::three_fields({1.0, 2.0, 3.0}, {2.0, 2.0}, 2.0).behaviour, GridBehaviour::monotone);
-    EXPECT_EQ(analysis::three_fields({1.0, 2.0, 1.5}, {2.0, 2.0}, 2.0).behaviour, GridBehaviour::oscillating);
-    EXPECT_TRUE(std::isnan(analysis::three_fields({1.0, 2.0, 3.0}, {2.0, 2.0}, 2.0).extrapolated));
-}
-
 TEST(Fields, ThatDoNotChangeHaveNoError)
 {
-    const GridConvergence grids = analysis::three_fields({0.0, 0.0, 0.0}, {2.0, 2.0}, 1.0);
-    EXPECT_EQ(grids.behaviour, GridBehaviour::constant);
-    EXPECT_EQ(grids.bounds[1], 0.0);
+    EXPECT_EQ(analysis::two_fields(0.0, 2.0, 1.0).bounds[1], 0.0);
+    EXPECT_TRUE(std::isnan(analysis::two_fields(1.0, 2.0, 1.0).extrapolated));
 }
 
 TEST(GridConvergence, RefusesRatiosAndOrdersThatAreNone)
@@ -157,7 +143,6 @@ TEST(GridConvergence, RefusesRatiosAndOrdersThatAreNone)
     EXPECT_THROW(analysis::two_grids({1.0, 2.0}, 2.0, 0.0), pbs::InputError);
     EXPECT_THROW(analysis::three_grids({1.0, 2.0, 3.0}, {2.0, 0.5}, 1.0), pbs::InputError);
     EXPECT_THROW(analysis::three_grids({1.0, 2.0, 3.0}, {2.0, 2.0}, -1.0), pbs::InputError);
-    EXPECT_THROW(analysis::extrapolated_field(pbs::Positions(2, 3), pbs::Positions(3, 3), 2.0, 1.0), pbs::InputError);
 }
 
 }  // namespace

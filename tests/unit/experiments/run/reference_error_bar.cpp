@@ -106,7 +106,7 @@ TEST(ReferenceErrorBar, OfSolutionsThatDoNotConvergeIsThreeTimesTheirRange)
     ReferenceErrorBar bar(ErrorBar::both, spec_of("pbs"), limb);
     bar.advance(bent(limb), 0.01);
     EXPECT_EQ(bar.bound(reference, measurer)->joint_pct, 3.0 * difference.joint_pct);
-    EXPECT_EQ(bar.method()["frames_in_asymptotic_range"]["joint"], 0);
+    EXPECT_EQ(bar.method()["frames_of_reliable_order"], 0);
 }
 
 // Orders 1, 2 on the same tets: nodes are V and V + E. Three cube roots, of at most eight roundings each in the C library's manual, and two
@@ -132,7 +132,7 @@ TEST(ReferenceErrorBar, SaysWhichSolutionsAndRatios)
         EXPECT_EQ(refined["safety_factor"], 3.0);
         EXPECT_EQ(method(ErrorBar::both, order)["solutions"].size(), 3u);
         EXPECT_EQ(method(ErrorBar::both, order)["safety_factor"], 3.0);
-        EXPECT_EQ(method(ErrorBar::both, order)["safety_factor_in_asymptotic_range"], 1.25);
+        EXPECT_EQ(method(ErrorBar::both, order)["safety_factor_of_reliable_order"], 1.25);
     }
     const auto first = method(ErrorBar::both, 1)["solutions"], second = method(ErrorBar::both, 2)["solutions"];
     EXPECT_EQ(first[2]["is_reference"], true);   // order 1, order 1 refined, order 2 refined

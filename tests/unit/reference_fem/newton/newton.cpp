@@ -88,6 +88,36 @@ TEST(Newton, ConvergesFasterThanLinearly)
     for (std::size_t k = 1; k < n; ++k) EXPECT_LE(last[k].energy_j, last[k - 1].energy_j + of_sums * std::abs(last[k - 1].energy_j));
 }
 
+// The same minimum with fewer factorisations. A kept factor serves only after a whole step that contracted enough.
+TEST(Newton, ReusesItsFactorWhileStepsContract)
+{
+    const SimplexSpace space(bar, 2);
+    const ElasticPotential flesh(space, Model::stable_neo_hookean, lame, Formulation::displacement);
+    const DeadLoad load(weight(space, 10.0));
+    constexpr double contraction = 0.1, tolerance = 1e-11;
+    const auto minimise = [&](double reuse_contraction, Eigen::VectorXd& u) {
+        NewtonMinimiser newton(space, held_end(space), LinearSolver::cholmod);
+        u = Eigen::VectorXd::Zero(space.dofs());
+        return newton.minimise({&flesh, &load}, u, u, {.relative_tolerance = tolerance, .reuse_contraction = reuse_contraction});
+    };
+    Eigen::VectorXd anew, kept;
+    const NewtonSummary each_step = minimise(0.0, anew), reusing = minimise(contraction, kept);
+    ASSERT_TRUE(each_step.converged() && reusing.converged());
+    EXPECT_LT(reusing.factorisations, each_step.factorisations);
+
+    const auto& states = reusing.iterations;
+    EXPECT_FALSE(states.front().reuses_factor);
+    for (std::size_t k = 1; k + 1 < states.size(); ++k) {
+        EXPECT_EQ(states[k].reuses_factor, states[k].residual_n <= contraction * states[k - 1].residual_n) << k;
+        EXPECT_EQ(states[k].step_length, 1.0);
+    }
+    // Both residuals are at most the tolerance times the scale of the forces, and the Hessian, that at rest to first order, divides them by
+    // its smallest eigenvalue.
+    const Spectrum of_flesh = spectrum(rest_stiffness(space, flesh).matrix(), held_end(space));
+    const double residuals = tolerance * (each_step.iterations.back().force_scale_n + reusing.iterations.back().force_scale_n);
+    EXPECT_LT((kept - anew).norm(), 2.0 * residuals / of_flesh.smallest);
+}
+
 TEST(Newton, TheIncrementOfPrescribedDataGoesIntoTheFirstSolve)
 {
     const SimplexSpace space(bar, 1);
