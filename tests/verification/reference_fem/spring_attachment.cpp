@@ -83,7 +83,6 @@ TEST_P(SpringAttachment, ApproachesExactDirichletDataWithOneOverQ)
     }
     // error = c / q (1 - d / q + ...), where d, of order 10, is the stiffness of the flesh at a tied node over E h. The ratio of two errors
     // whose q differ by a factor of ten is 10 to within d / q of the softer.
-    // in q is 10 to within d / q of the softer.
     EXPECT_NEAR(errors[0] / errors[1], 10.0, 1.0);
     EXPECT_NEAR(errors[1] / errors[2], 10.0, 0.1);
     EXPECT_LT(errors[2], 1e-4);
