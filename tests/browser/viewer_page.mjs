@@ -1,0 +1,64 @@
+// The viewer's page for the tests of one file: it is opened before the first test and closed after the last one. browser_test.py names the
+// page and a file with samples of the records.
+import fs from "node:fs";
+import { after, before } from "node:test";
+import { open_viewer, settle } from "./browser.mjs";
+
+export const file = process.env.PBS_VIEWER_PAGE;
+export const truth = JSON.parse(fs.readFileSync(process.env.PBS_VIEWER_TRUTH));
+export const pictures = process.env.PBS_VIEWER_PICTURES;
+export let opened, page;
+
+before(async () => {
+    opened = await open_viewer(file);
+    page = opened.page;
+});
+after(() => opened?.close());
+
+// The number of colours in the panel, and the share of its pixels that differ from the most frequent one.
+export function colours_of(panel) {
+    return page.evaluate((at) => {
+        const bytes = window.viewer.pixels(at), counts = new Map();
+        for (let i = 0; i < bytes.length; i += 4) {
+            const key = (bytes[i] << 16) | (bytes[i + 1] << 8) | bytes[i + 2];
+            counts.set(key, (counts.get(key) ?? 0) + 1);
+        }
+        return { colours: counts.size, drawn: 1 - Math.max(...counts.values()) / (bytes.length / 4) };
+    }, panel);
+}
+
+export async function show(changes) {
+    await page.evaluate((wanted) => window.viewer.state.set(wanted), changes);
+    await settle(page);
+}
+
+// x y z of each vertex [m] in the first panel; nan where no face is visible.
+export function drawn_positions() {
+    return page.evaluate(() => [...window.viewer.drawn_positions(0)]);
+}
+
+export async function show_sample({ run, frame, label }, colour = "skin", { rendered = false, cut = null } = {}) {
+    const also = (rendered ? "&surface=rendered" : "") + (cut ? `&cut=${cut},0.01,below` : "");
+    await page.evaluate((hash) => { location.hash = hash; }, `run=${run}&frame=${frame}&colour=${colour}&panels=${label}${also}`);
+    await page.waitForFunction((wanted) => {
+        const { viewer, state: { now } } = window.viewer;
+        return now.run === wanted.run && now.panels[0] === wanted.label && now.colour === wanted.colour
+            && viewer.run.frames[now.at] === wanted.frame && now.rendered === wanted.rendered && (now.cut?.axis ?? null) === wanted.cut;
+    }, { run, frame, label, colour, rendered, cut });
+    await settle(page);
+}
+
+// The largest distance of a drawn coordinate from the record's [m], and the number of coordinates.
+export function apart(drawn, recorded) {
+    const known = drawn.map((value, i) => Math.abs(value - recorded[i])).filter((value) => !Number.isNaN(value));
+    return { count: known.length, largest_m: Math.max(...known) };
+}
+
+// The rounding of single precision, in multiples of 2 ** -24 of the largest coordinate [m].
+export function roundings(recorded, many) {
+    return many * Math.max(...recorded.map(Math.abs)) * 2 ** -24;
+}
+
+export function legend_words() {
+    return page.locator("#frame-viewer .vw-caption").textContent();
+}
