@@ -1,6 +1,7 @@
 #include "experiments/distributed/distributed_record.hpp"
 
 #include "analysis/records/provenance.hpp"
+#include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/process/blas_kernels.hpp"
 #include "experiments/settings/option_fields.hpp"
 
@@ -42,18 +43,45 @@ analysis::Provenance provenance()
 
 }  // namespace
 
-nlohmann::json to_json(const LoadedBody& body, const reference_fem::ElasticSolution& solution)
+nlohmann::json to_json(const DistributedSettings& settings)
+{
+    using reference_fem::IterativeOptions;
+    using reference_fem::LinearOptions;
+    static const auto body = OptionFields<BodyArguments>("body")
+                                 .record("bar_tets", &BodyArguments::bar_tets)
+                                 .record("limb_vertices", &BodyArguments::limb_vertices)
+                                 .record("mesh_file", &BodyArguments::mesh_file)
+                                 .record("held_below_m", &BodyArguments::held_below_m)
+                                 .record("pulled_above_m", &BodyArguments::pulled_above_m)
+                                 .record("traction_pa", &BodyArguments::traction_pa)
+                                 .record("twist_deg", &BodyArguments::twist_deg)
+                                 .record("bend_deg", &BodyArguments::bend_deg)
+                                 .complete();
+    static const auto elastic = OptionFields<LinearOptions>("elastic")
+                                    .record("element_order", &LinearOptions::element_order)
+                                    .record("young_pa", &LinearOptions::young_pa)
+                                    .record("poisson", &LinearOptions::poisson)
+                                    .record("density_kg_m3", &LinearOptions::density_kg_m3)
+                                    .record("gravity_m_s2", &LinearOptions::gravity_m_s2)
+                                    .record("solver", &LinearOptions::solver)
+                                    .record("formulation", &LinearOptions::formulation)
+                                    .complete();
+    static const auto iterative = OptionFields<IterativeOptions>("iterative")
+                                      .record("tolerance", &IterativeOptions::tolerance)
+                                      .record("most_iterations", &IterativeOptions::most_iterations)
+                                      .complete();
+    return {{"body", body.json(settings.body)},
+            {"elastic", elastic.json(settings.elastic)},
+            {"iterative", iterative.json(settings.iterative)},
+            {"serial", settings.serial}};
+}
+
+nlohmann::json to_json(const DistributedSettings& settings, const LoadedBody& body, const reference_fem::ElasticSolution& solution)
 {
     const reference_fem::ElasticSummary& summary = solution.summary;
-    const reference_fem::LinearOptions& options = body.problem.options;
-    return {{"schema", 1},
+    return {{"schema", 2},
             {"body", body.name},
-            {"element_order", options.element_order},
-            {"young_pa", options.young_pa},
-            {"poisson", options.poisson},
-            {"density_kg_m3", options.density_kg_m3},
-            {"gravity_m_s2", option_json(options.gravity_m_s2)},
-            {"traction_pa", option_json(body.problem.traction_pa)},
+            {"settings", to_json(settings)},
             {"springs", body.problem.attachment.spring_points.rows()},
             {"solver", summary.solver},
             {"ranks", summary.ranks},

@@ -3,12 +3,22 @@
 
 #include "analysis/records/typed_table.hpp"
 #include "experiments/distributed/loaded_body.hpp"
+#include "reference_fem/iterative_options.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
 namespace experiments {
 
-nlohmann::json to_json(const LoadedBody& body, const reference_fem::ElasticSolution& solution);
+// Everything that a solution depends on.
+struct DistributedSettings {
+    BodyArguments body;
+    reference_fem::LinearOptions elastic{.element_order = 1, .poisson = 0.3};
+    reference_fem::IterativeOptions iterative;
+    bool serial = false;  // on one process, by the serial reference
+};
+nlohmann::json to_json(const DistributedSettings& settings);
+
+nlohmann::json to_json(const DistributedSettings& settings, const LoadedBody& body, const reference_fem::ElasticSolution& solution);
 
 struct DisplacedNode {
     int first = 0, second = 0;

@@ -27,13 +27,10 @@
 namespace experiments {
 namespace {
 
-struct Arguments {
-    BodyArguments body;
-    reference_fem::LinearOptions elastic{.element_order = 1, .poisson = 0.3};
-    reference_fem::IterativeOptions iterative;
+struct Arguments : DistributedSettings {
     std::vector<double> gravity_m_s2 = {0, 0, 0}, traction_pa = {0, 0, 0};
     std::string solver = "cg_ml", folder;
-    bool serial = false, nodes = false;
+    bool nodes = false;
 };
 
 void add_options(CLI::App& app, Arguments& arguments)
@@ -93,7 +90,7 @@ LoadedBody same_body_everywhere(const reference_fem::MpiSession& session, const 
 
 void write(const Arguments& arguments, const LoadedBody& body, const reference_fem::ElasticSolution& solution)
 {
-    const std::string text = to_json(body, solution).dump(2) + "\n";
+    const std::string text = to_json(arguments, body, solution).dump(2) + "\n";
     std::fputs(text.c_str(), stdout);
     if (arguments.folder.empty()) return;
     std::filesystem::create_directories(arguments.folder);

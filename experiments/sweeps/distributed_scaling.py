@@ -46,7 +46,8 @@ def run(command):
 
 
 def row_of(solver, record):
-    row = {key: record[key] for key in FROM_RECORD}
+    known = record["settings"]["elastic"] | record
+    row = {key: known[key] for key in FROM_RECORD}
     row["solver"] = solver
     row["total_s"] = sum(record[key] for key in ("mesh_s", "assembly_s", "setup_s", "solve_s"))
     row["git_revision"] = record["provenance"]["git_revision"]
