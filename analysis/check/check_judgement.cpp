@@ -51,7 +51,7 @@ Seen look_at(const CheckBound& bound, const CsvTable& metrics, const std::string
         seen.last_frame = std::max(seen.last_frame, frame);
         if (!bound.frames.empty() && (frame < bound.frames[0] || frame > bound.frames[1])) continue;
         const std::optional<double> value = metrics.number_or_nothing(row, bound.metric);
-        if (!value) refuse(bound, file, "metric", bound.metric, fmt::format("{} has no such figure in frame {}", bound.deformer, frame));
+        if (!value) refuse(bound, file, "metric", bound.metric, fmt::format("{} has no such value in frame {}", bound.deformer, frame));
         const bool outside = excess(bound, *value) > 0.0;
         if (outside && seen.outside++ == 0) seen.first_outside = frame;
         const bool is_first = seen.frames++ == 0;

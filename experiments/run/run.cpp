@@ -111,7 +111,7 @@ public:
           motion_(cost_.time("motion", [&] { return read_motion(scene, character_); })),
           runners_(make_runners(scene, character_, cost_)),
           measurer_(
-              cost_.time("ruler_set_up", [&] { return FrameMeasurer(character_, measured_output(scene), prescribed_by_any(runners_)); })),
+              cost_.time("metrics_set_up", [&] { return FrameMeasurer(character_, measured_output(scene), prescribed_by_any(runners_)); })),
           folder_((refuse_frames_beyond(motion_, scene), scene), character_, folder)
     {
         if (scene.error_bar != ErrorBar::none)
@@ -165,7 +165,7 @@ private:
         const Runner& first = runners_.front();
         if (scene_.output.errors && first.spec.name == scene_.reference && first.steps.summary().outcome == pbs::Outcome::finished) {
             context.reference = &first.deformer->positions();
-            cost_.time("ruler", [&] { context.reference_self_intersects = measurer_.self_intersects(*context.reference); });
+            cost_.time("metrics", [&] { context.reference_self_intersects = measurer_.self_intersects(*context.reference); });
             self_intersecting_frames_ += context.reference_self_intersects;
             if (error_bar_) cost_.time("error_bar", [&] { context.reference_error = error_bar_->bound(*context.reference, measurer_); });
         }
@@ -178,7 +178,7 @@ private:
     {
         const pbs::Positions& positions = runner.deformer->positions();
         const pbs::StepSummary& step = runner.steps.summary();
-        const FrameMeasurement measured = cost_.time("ruler", [&] { return measurer_.measure(positions, context_for(runner, context)); });
+        const FrameMeasurement measured = cost_.time("metrics", [&] { return measurer_.measure(positions, context_for(runner, context)); });
         cost_.time("records", [&] {
             folder_.add_frame(runner.spec, frame, time_s, measured, step);
             folder_.add_state(runner.spec, positions);

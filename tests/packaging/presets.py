@@ -44,7 +44,7 @@ class Presets(unittest.TestCase):
         self.assertEqual(set(self.built), visible)
         self.assertLessEqual(self.tested | set(re.findall(r"--preset (\w[\w-]*)", text("check"))), visible)
 
-    def test_the_method_and_the_ruler_alone(self):
+    def test_the_method_and_the_metrics_alone(self):
         """The presets tsan and valgrind leave out every option except the metrics, the tests and threads."""
         options = set(re.findall(r'option\((PBS_WITH_\w+) ".*" ON\)', text("CMakeLists.txt")))
         for name in ("tsan", "valgrind"):

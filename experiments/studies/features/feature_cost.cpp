@@ -38,7 +38,7 @@ const DeformerSpec& pbs_of(const Scene& scene)
 double start_of(const nlohmann::json& seconds)
 {
     double sum = 0.0;
-    for (const char* part : {"character", "motion", "set_up", "ruler_set_up", "error_bar_set_up"}) sum += seconds.value(part, 0.0);
+    for (const char* part : {"character", "motion", "set_up", "metrics_set_up", "error_bar_set_up"}) sum += seconds.value(part, 0.0);
     return sum;
 }
 

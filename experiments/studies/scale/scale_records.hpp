@@ -24,9 +24,9 @@ struct ScaleRow {
     int iterations = 0, frames = 0;
     double step_ms = 0.0;  // of PBS, mean over the frames
     double ns_per_constraint = 0.0;
-    double character_s = 0.0, set_up_s = 0.0, ruler_set_up_s = 0.0, records_s = 0.0, total_s = 0.0;
-    double ruler_ms = 0.0, write_ms = 0.0;  // per frame and deformer
-    double peak_mb = 0.0;                   // 10^6 bytes
+    double character_s = 0.0, set_up_s = 0.0, metrics_set_up_s = 0.0, records_s = 0.0, total_s = 0.0;
+    double metrics_ms = 0.0, write_ms = 0.0;  // per frame and deformer
+    double peak_mb = 0.0;                     // 10^6 bytes
 };
 extern const analysis::Columns<ScaleRow> scale_columns;
 

@@ -87,8 +87,8 @@ const Rows scale_columns = {{"vertices", &ScaleRow::vertices, "", "vertices of t
                             {"ns_a_constraint", &ScaleRow::ns_per_constraint, "ns", "the same per constraint and iteration"},
                             {"character_s", &ScaleRow::character_s, "s", "mesh, weights and surface"},
                             {"set_up_s", &ScaleRow::set_up_s, "s", "set-up of the deformers"},
-                            {"ruler_set_up_s", &ScaleRow::ruler_set_up_s, "s", "set-up of the metrics"},
-                            {"ruler_ms", &ScaleRow::ruler_ms, "ms", "metrics, per frame and deformer"},
+                            {"metrics_set_up_s", &ScaleRow::metrics_set_up_s, "s", "set-up of the metrics"},
+                            {"metrics_ms", &ScaleRow::metrics_ms, "ms", "metrics, per frame and deformer"},
                             {"write_ms", &ScaleRow::write_ms, "ms", "a frame on disk, per deformer"},
                             {"records_s", &ScaleRow::records_s, "s", "records of the run"},
                             {"total_s", &ScaleRow::total_s, "s", "the whole run"},
@@ -118,10 +118,10 @@ ScaleRow scale_row(const nlohmann::json& run, const analysis::CsvTable& metrics)
     row.ns_per_constraint = 1e6 * row.step_ms / (row.constraints * row.iterations);
     row.character_s = seconds.at("character");
     row.set_up_s = seconds.at("set_up");
-    row.ruler_set_up_s = seconds.at("ruler_set_up");
+    row.metrics_set_up_s = seconds.at("metrics_set_up");
     row.records_s = seconds.at("records");
     row.total_s = seconds.at("total");
-    row.ruler_ms = 1e3 * seconds.at("ruler").get<double>() / metrics.rows();
+    row.metrics_ms = 1e3 * seconds.at("metrics").get<double>() / metrics.rows();
     row.write_ms = 1e3 * seconds.at("frames").get<double>() / metrics.rows();
     row.peak_mb = run.at("cost").at("peak_memory_mb");
     return row;
@@ -131,10 +131,10 @@ std::string scale_markdown(const analysis::CsvTable& table)
 {
     std::string text =
         markdown_table(table, analysis::report_columns("tets constraints:.0f step_ms:.3g ns_a_constraint:.2f character_s:.3g set_up_s:.3g "
-                                                       "ruler_set_up_s:.3g ruler_ms:.3g write_ms:.3g total_s:.3g frames peak_mb:.0f"));
+                                                       "metrics_set_up_s:.3g metrics_ms:.3g write_ms:.3g total_s:.3g frames peak_mb:.0f"));
     if (table.rows() < 2) return text;
     text += "\n| cost | grows with constraints^p, p [95 %] |\n|---|---|\n";
-    for (const char* cost : {"step_ms", "character_s", "set_up_s", "ruler_ms", "write_ms", "peak_mb"}) {
+    for (const char* cost : {"step_ms", "character_s", "set_up_s", "metrics_ms", "write_ms", "peak_mb"}) {
         const analysis::Interval p = analysis::observed_order(table.numbers("constraints"), table.numbers(cost)).slope;
         text += fmt::format("| {} | {:.2f} [{:.2f}, {:.2f}] |\n", scale_columns.named(cost).meaning, p.estimate, p.low, p.high);
     }

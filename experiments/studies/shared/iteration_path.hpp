@@ -1,7 +1,7 @@
 // Lines 10-14 of Algorithm 1 iterated far past the paper's 24 iterations, from any initial guess. Each look at the positions on the way is
 // measured by the metrics of all records; no value is taken from the solver.
 //   const IterationMetrics iteration_metrics(character, bind_points);
-//   const std::vector<IterationPath> paths = iterate(character, options, bind_points, starts, 1000, ruler);
+//   const std::vector<IterationPath> paths = iterate(character, options, bind_points, starts, 1000, metrics);
 //   const Reached reached = reached_residual(paths[0], floor_of(paths));   // reached.iterations, or more than those where !reached.within
 // The constraints contradict each other, so a residual does not go to zero. A path has arrived by one of two tolerances:
 // - residual: the combined residual (Look::combined) is within 5 % of its floor, which is the lowest residual that any of the initial

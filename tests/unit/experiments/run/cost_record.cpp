@@ -21,9 +21,9 @@ void wait_ms(int ms)
 TEST(CostRecord, AddsUpAPartAndHandsItsResultOn)
 {
     CostRecord cost;
-    EXPECT_EQ(cost.time("ruler", [] { return wait_ms(5), 7; }), 7);
-    cost.time("ruler", [] { wait_ms(5); });
-    EXPECT_GE(cost.seconds("ruler"), 0.010);
+    EXPECT_EQ(cost.time("metrics", [] { return wait_ms(5), 7; }), 7);
+    cost.time("metrics", [] { wait_ms(5); });
+    EXPECT_GE(cost.seconds("metrics"), 0.010);
     EXPECT_EQ(cost.seconds("frames"), 0.0);
 }
 

@@ -14,7 +14,7 @@ ScaleRow row_of(double constraints, double step_power)
     ScaleRow row;
     row.constraints = constraints;
     row.step_ms = 1e-3 * std::pow(constraints, step_power);
-    row.character_s = row.set_up_s = row.ruler_ms = row.write_ms = row.peak_mb = constraints;
+    row.character_s = row.set_up_s = row.metrics_ms = row.write_ms = row.peak_mb = constraints;
     return row;
 }
 
@@ -41,9 +41,9 @@ TEST(ScaleTable, ARunIsReadFromItsRecords)
                                   {"cpu_seconds",
                                    {{"character", 1.0},
                                     {"set_up", 2.0},
-                                    {"ruler_set_up", 0.5},
+                                    {"metrics_set_up", 0.5},
                                     {"records", 0.25},
-                                    {"ruler", 0.6},
+                                    {"metrics", 0.6},
                                     {"frames", 0.3},
                                     {"deformers", {{"pbs", {{"step", 0.012}}}}},
                                     {"total", 9.0}}}}}};
@@ -52,7 +52,7 @@ TEST(ScaleTable, ARunIsReadFromItsRecords)
     const ScaleRow row = scale_row(run, metrics);
     EXPECT_EQ(row.step_ms, 4.0);  // of PBS alone, per frame
     EXPECT_EQ(row.iterations, 24);
-    EXPECT_DOUBLE_EQ(row.ruler_ms, 100.0);  // six measurements
+    EXPECT_DOUBLE_EQ(row.metrics_ms, 100.0);  // six measurements
     EXPECT_DOUBLE_EQ(row.write_ms, 50.0);
     EXPECT_EQ(row.constraints, 60.0);  // of all three classes
     EXPECT_DOUBLE_EQ(row.ns_per_constraint, 4e6 / (60.0 * 24.0));
