@@ -28,7 +28,7 @@ def cells(row, notes):
     difference = number(row, "difference_pct")
     marks = [str(notes.index(row[column]) + 1) for column in ("source", "bound_from") if row[column]]
     return [row["problem"], inline(row["description"] + (f" ({row['note']})" if row["note"] else "")),
-            case_words.elements(row["element_order"], row["formulation"]), row["material"], row["mesh"], row["dofs"],
+            case_words.elements(row["element_order"], row["formulation"]), case_words.material(row), row["mesh"], row["dofs"],
             figure(number(row, "value")), figure(number(row, "reference")), row["unit"],
             "" if difference is None else f"{difference:+.3g}".replace("-", "\u2212"), order + theory,
             "" if ends == [None, None] else f"{figure(ends[0])} to {figure(ends[1])}", row["holds"], ", ".join(marks)]

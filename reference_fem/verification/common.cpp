@@ -1,7 +1,7 @@
 #include "reference_fem/verification/common.hpp"
 
+#include <cctype>
 #include <cmath>
-#include <cstdio>
 
 namespace reference_fem {
 
@@ -22,9 +22,17 @@ RowElements elements_of(int order, Formulation formulation)
 
 RowMaterial material_of(const std::string& law, double poisson)
 {
-    char text[64];
-    std::snprintf(text, sizeof text, ", nu = %.6g", poisson);
-    return {law + text, poisson};
+    return {law, poisson};
+}
+
+std::string identifier_of(const std::string& words)
+{
+    std::string identifier;
+    for (const unsigned char letter : words) {
+        const bool kept = std::isalnum(letter) || letter == '.' || letter == '-';
+        if (kept || !identifier.ends_with('_')) identifier += kept ? static_cast<char>(std::tolower(letter)) : '_';
+    }
+    return identifier;
 }
 
 RowMaterial linear_material(double poisson)

@@ -28,8 +28,9 @@ VerificationRows distributed_rows(const Effort& effort);
 ElasticMaterial solver_material(const Effort& effort, const ElasticMaterial& material);
 
 RowElements elements_of(int order, Formulation formulation = Formulation::displacement);
-RowMaterial material_of(const std::string& law, double poisson);  // neo-Hookean, nu = 0.3
-RowMaterial linear_material(double poisson);                      // linear, nu = 0.3
+RowMaterial material_of(const std::string& law, double poisson);  // {"neo_hookean", 0.3}
+RowMaterial linear_material(double poisson);                      // {"linear", 0.3}
+std::string identifier_of(const std::string& words);              // Newmark, step 40 ms: newmark_step_40_ms
 double order_between(double coarse, double fine);                 // of errors on two meshes, one twice as fine
 
 // R. MacNeal, R. Harder, A proposed standard set of problems to test finite element accuracy, Finite Elements in Analysis and Design 1

@@ -22,7 +22,7 @@ VerificationRow row_of(const Effort& effort, bool plane_strain, int element_orde
             .quantity = plane_strain ? RowQuantity{"corner_rise_plane_strain", "rise of the corner (48,60), plane strain"}
                                      : RowQuantity{"corner_rise_free_faces", "rise of the corner (48,60), free faces"},
             .elements = elements_of(element_order),
-            .material = material_of("isochoric neo-Hookean", poisson),
+            .material = material_of("isochoric_neo_hookean", poisson),
             .mesh = text_of({n, n, 1}),
             .h_m = 16.0 / n * 1e-3,
             .dofs = solution.space->dofs(),

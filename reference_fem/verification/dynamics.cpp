@@ -60,8 +60,10 @@ void add_orders(const Effort& effort, VerificationRows& rows)
             TimeStepper stepper = body.stepper({.scheme = scheme.scheme});
             stepper.start(mode.shape);
             body.run(stepper, end_s / steps, steps);
-            VerificationRow row = row_of(
-                body, coarse, {"first_mode_error", fmt::format("error of the first mode, {}, omega h = {:.3g}", scheme.name, 4.0 / steps)});
+            VerificationRow row =
+                row_of(body, coarse,
+                       {"first_mode_error", fmt::format("error of the first mode, {}, omega h = {:.3g}", scheme.name, 4.0 / steps),
+                        identifier_of(fmt::format("{}, omega h = {:.3g}", scheme.name, 4.0 / steps))});
             row.value = (stepper.motion().displacement - std::cos(4.0) * mode.shape).norm() / mode.shape.norm();
             row.source = newmark_source;
             row.note = "order in the time step h";
@@ -135,9 +137,10 @@ void add_dissipation(const Effort& effort, VerificationRows& rows)
         const double before = body.energy_j(stepper);
         body.run(stepper, Omega / mode.omega_rad_s, steps);
         const Decay theory = decay(scheme, Omega, steps);
-        VerificationRow row = row_of(
-            body, coarse,
-            {"energy_left", fmt::format("energy left after {} steps, generalised-alpha, rho = 0.8, omega h = {:.3g}", steps, Omega)});
+        VerificationRow row =
+            row_of(body, coarse,
+                   {"energy_left", fmt::format("energy left after {} steps, generalised-alpha, rho = 0.8, omega h = {:.3g}", steps, Omega),
+                    fmt::format("omega_h_{:.3g}", Omega)});
         row.value = body.energy_j(stepper) / before;
         row.reference = theory.energy_left;
         row.source = "closed form: powers of the scheme's 3 x 3 amplification matrix (Chung and Hulbert 1993)";
@@ -164,10 +167,10 @@ void add_rayleigh(const Effort& effort, VerificationRows& rows)
         const double one = body.amplitude(stepper, mode);
         body.run(stepper, 2.0 * pi / omega_d / a_period, a_period);
         const double decrement = std::log(one / body.amplitude(stepper, mode));
-        VerificationRow row =
-            row_of(body, coarse,
-                   {"damping_ratio",
-                    fmt::format("damping ratio of the first mode, {:.2f} by mass and {:.2f} by stiffness", of_mass, of_stiffness)});
+        VerificationRow row = row_of(
+            body, coarse,
+            {"damping_ratio", fmt::format("damping ratio of the first mode, {:.2f} by mass and {:.2f} by stiffness", of_mass, of_stiffness),
+             fmt::format("mass_{:.2f}_stiffness_{:.2f}", of_mass, of_stiffness)});
         row.value = decrement / std::hypot(2.0 * pi, decrement);
         row.reference = zeta;
         row.source = "closed form: zeta = (a / omega + b omega) / 2, by the logarithmic decrement";

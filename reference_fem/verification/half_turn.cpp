@@ -34,12 +34,12 @@ struct Law {
 };
 
 const std::vector<Law> laws = {
-    {Model::stable_neo_hookean, "stable neo-Hookean", 0.3, {50, -0.54875601453, -2.2862093441, 8.764288341984e3}},
-    {Model::stable_neo_hookean, "stable neo-Hookean", 0.45, {52, -0.14701254924, -0.61770920955, 8.047671776187e3}},
-    {Model::stable_neo_hookean, "stable neo-Hookean", 0.49, {60, -0.031776708163, -0.13479810078, 8.058009117295e3}},
-    {Model::neo_hookean, "neo-Hookean", 0.3, {50, -0.53699726800, -2.1441996139, 8.768634425136e3}},
+    {Model::stable_neo_hookean, "stable_neo_hookean", 0.3, {50, -0.54875601453, -2.2862093441, 8.764288341984e3}},
+    {Model::stable_neo_hookean, "stable_neo_hookean", 0.45, {52, -0.14701254924, -0.61770920955, 8.047671776187e3}},
+    {Model::stable_neo_hookean, "stable_neo_hookean", 0.49, {60, -0.031776708163, -0.13479810078, 8.058009117295e3}},
+    {Model::neo_hookean, "neo_hookean", 0.3, {50, -0.53699726800, -2.1441996139, 8.768634425136e3}},
     {Model::corotational, "corotational", 0.3, {50, -1.1677960915, -4.5892346582, 8.709920258043e3}},
-    {Model::st_venant_kirchhoff, "St Venant-Kirchhoff", 0.3, {50, -2.1304995670, -8.4372925420, 8.902397719894e3}},
+    {Model::st_venant_kirchhoff, "st_venant_kirchhoff", 0.3, {50, -2.1304995670, -8.4372925420, 8.902397719894e3}},
     {Model::linear, "linear", 0.3, {10, 30.753109139, -4.8410438713, 8.406643111517e4}}};
 
 bool at_far_end(const SimplexSpace& space, int node)
@@ -100,7 +100,7 @@ VerificationRow row_of(const Law& law, const RowQuantity& quantity, const std::s
             .source = source,
             .low = reference - same * std::abs(reference),
             .high = reference + same * std::abs(reference),
-            .bound_from = "the same discrete problem: 1e-6 of the figure, for both stop at a residual of 1e-8 of the forces"};
+            .bound_from = "the same discrete problem: 1e-6 of the value, for both stop at a residual of 1e-8 of the forces"};
 }
 
 VerificationRows rows_of(const Effort& effort, const SimplexSpace& space, const Law& law)

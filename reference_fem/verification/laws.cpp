@@ -21,10 +21,10 @@ struct Law {
 };
 const std::vector<Law> laws = {{Model::linear, "linear"},
                                {Model::corotational, "corotational"},
-                               {Model::stable_neo_hookean, "stable neo-Hookean"},
-                               {Model::neo_hookean, "neo-Hookean"},
-                               {Model::st_venant_kirchhoff, "St Venant-Kirchhoff"},
-                               {Model::isochoric_neo_hookean, "isochoric neo-Hookean"}};
+                               {Model::stable_neo_hookean, "stable_neo_hookean"},
+                               {Model::neo_hookean, "neo_hookean"},
+                               {Model::st_venant_kirchhoff, "st_venant_kirchhoff"},
+                               {Model::isochoric_neo_hookean, "isochoric_neo_hookean"}};
 
 Matrix3d strained()
 {

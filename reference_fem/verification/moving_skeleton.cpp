@@ -87,20 +87,20 @@ void add_orders(const Effort& effort, const Skeleton& skeleton, Dynamics dynamic
     for (const int steps : {20, 40}) {
         const Positions end = end_of(effort, skeleton, dynamics, steps);
         const bool reached = end.rows() > 0 && reference.rows() > 0;
-        VerificationRow row = {
-            .problem = "moving_skeleton",
-            .quantity = {"distance_to_fine_step", fmt::format("distance to a step of 2.5 ms, {}, {}, step {:.0f} ms",
-                                                              dynamics == Dynamics::newmark ? "Newmark" : "generalised-alpha, rho = 0.8",
-                                                              skeleton.name, 1e3 * end_s / steps)},
-            .elements = elements_of(1),
-            .material = material_of("stable neo-Hookean", 0.3),
-            .mesh = text_of(divisions),
-            .h_m = cell_m,
-            .dofs = static_cast<int>(3 * skeleton.mesh.rest.rows()),
-            .value = reached ? (end - reference).norm() / std::sqrt(double(end.rows())) : std::nan(""),
-            .unit = "m",
-            .source = "this solver with a step eight times finer than the finest",
-            .note = "order in the time step"};
+        const std::string setting =
+            fmt::format("{}, {}, step {:.0f} ms", dynamics == Dynamics::newmark ? "Newmark" : "generalised-alpha, rho = 0.8", skeleton.name,
+                        1e3 * end_s / steps);
+        VerificationRow row = {.problem = "moving_skeleton",
+                               .quantity = {"distance_to_fine_step", "distance to a step of 2.5 ms, " + setting, identifier_of(setting)},
+                               .elements = elements_of(1),
+                               .material = material_of("stable_neo_hookean", 0.3),
+                               .mesh = text_of(divisions),
+                               .h_m = cell_m,
+                               .dofs = static_cast<int>(3 * skeleton.mesh.rest.rows()),
+                               .value = reached ? (end - reference).norm() / std::sqrt(double(end.rows())) : std::nan(""),
+                               .unit = "m",
+                               .source = "this solver with a step eight times finer than the finest",
+                               .note = "order in the time step"};
         if (steps > 20) {
             row.observed_order = order_between(rows.back().value, row.value);
             row.expected_order = 2.0;

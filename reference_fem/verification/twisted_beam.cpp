@@ -1,6 +1,6 @@
 // MacNeal and Harder's twisted beam: 12 x 1.1 x 0.32 in, turned by 90 degrees from the clamp to the tip, E = 29e6 psi, nu = 0.22, a unit
 // load at the tip. At the clamp the width lies along y, at the tip along z. A load along z lies in the plane of the tip's width and bends
-// the beam about its thin side where the moment is largest: the large figure; a load along y is out of that plane.
+// the beam about its thin side where the moment is largest: the large deflection; a load along y is out of that plane.
 //
 // Beam theory alone determines which value belongs to which load: deflection = P / E times the integral of
 // s^2 (cos^2 phi / I_width + sin^2 phi / I_thickness), s the distance to the tip, phi the angle between the load and the width.

@@ -17,12 +17,13 @@ using analysis::within;
 
 const Columns<RowQuantity> quantity_columns = {
     {"quantity", &RowQuantity::key, "", "what is computed, as an identifier"},
+    {"setting", &RowQuantity::setting, "", "an identifier that distinguishes rows with the same quantity"},
     {"description", &RowQuantity::description, "", "the same in words, with the settings that it belongs to"}};
 const Columns<RowElements> element_columns = {
     {"element_order", &RowElements::order, "", "1 linear, 2 quadratic; empty in a row without finite elements"},
     {"formulation", &RowElements::formulation, "",
      "displacement, mean_dilatation or taylor_hood; without finite elements pbs, volume_constraints, one_point or three_grids"}};
-const Columns<RowMaterial> material_columns = {{"material", &RowMaterial::text, "", "constitutive law and its parameters in words"},
+const Columns<RowMaterial> material_columns = {{"material", &RowMaterial::law, "", "constitutive law, as an identifier"},
                                                {"poisson", &RowMaterial::poisson, "", "Poisson's ratio, of an elastic law"}};
 const Columns<VerificationRow> bound_columns = {{"low", &VerificationRow::low, "", "lower bound of the value"},
                                                 {"high", &VerificationRow::high, "", "upper bound of the value"},
@@ -79,10 +80,11 @@ std::string markdown(const VerificationRows& rows)
         "| problem | quantity | elements | material | mesh | dofs | value | reference | unit | difference [%] | order (theory) | bounds | "
         "holds | notes |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const VerificationRow& row : rows)
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.6g} | {} | {} | {} | {} | {} | {} | {} |\n", row.problem,
-                            row.quantity.description + (row.note.empty() ? "" : " (" + row.note + ")"), row.elements.text(),
-                            row.material.text, row.mesh, row.dofs, row.value, row.reference == 0.0 ? "0" : number(row.reference), row.unit,
-                            number(difference_pct(row), "{:+.3g}"), order_text(row), bounds_text(row), verdict_of(row), marks(row, notes));
+        text +=
+            fmt::format("| {} | {} | {} | {} | {} | {} | {:.6g} | {} | {} | {} | {} | {} | {} | {} |\n", row.problem,
+                        row.quantity.description + (row.note.empty() ? "" : " (" + row.note + ")"), row.elements.text(),
+                        row.material.text(), row.mesh, row.dofs, row.value, row.reference == 0.0 ? "0" : number(row.reference), row.unit,
+                        number(difference_pct(row), "{:+.3g}"), order_text(row), bounds_text(row), verdict_of(row), marks(row, notes));
     text += "\n";
     for (std::size_t k = 0; k < notes.size(); ++k) text += fmt::format("{}. {}\n", k + 1, notes[k]);
     return text;
@@ -127,7 +129,7 @@ ProblemSummary summarise(const std::string& problem, const VerificationRows& row
         if (!*row_holds)
             summary.failing +=
                 fmt::format("  does not hold: {}, {}, {}, {}: {} {}, expected {} {}\n", row.quantity.description, row.elements.text(),
-                            row.material.text, row.mesh, number(row.value), row.unit, bounds_text(row), order_text(row));
+                            row.material.text(), row.mesh, number(row.value), row.unit, bounds_text(row), order_text(row));
     }
     return summary;
 }
@@ -157,7 +159,7 @@ const analysis::Columns<RecordedRow>& verification_columns()
 
 void write_verification_record(const std::string& folder, const VerificationRows& rows)
 {
-    nlohmann::json json = {{"schema", 2}, {"order_tolerance", order_tolerance}, {"rows", nlohmann::json::array()}};
+    nlohmann::json json = {{"schema", 3}, {"order_tolerance", order_tolerance}, {"rows", nlohmann::json::array()}};
     for (const VerificationRow& row : rows) json["rows"].push_back(to_json(row));
     std::vector<RecordedRow> recorded;
     for (const VerificationRow& row : rows) recorded.push_back({row, difference_pct(row), verdict_of(row)});

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <map>
 
 namespace reference_fem {
 namespace {
@@ -32,6 +33,16 @@ std::string RowElements::text() const
     return fmt::format("P{}{}", *order, formulation == "displacement" ? "" : " " + formulation);
 }
 
+std::string RowMaterial::text() const
+{
+    static const std::map<std::string, std::string> names = {{"stable_neo_hookean", "stable neo-Hookean"},
+                                                             {"neo_hookean", "neo-Hookean"},
+                                                             {"isochoric_neo_hookean", "isochoric neo-Hookean"},
+                                                             {"st_venant_kirchhoff", "St Venant-Kirchhoff"}};
+    const auto name = names.find(law);
+    return (name == names.end() ? law : name->second) + (poisson ? fmt::format(", nu = {:.6g}", *poisson) : "");
+}
+
 std::optional<double> difference_pct(const VerificationRow& row)
 {
     if (row.reference == 0.0) return std::nullopt;
@@ -53,10 +64,11 @@ nlohmann::json to_json(const VerificationRow& row)
     const std::optional<bool> held = holds(row);
     return {{"problem", row.problem},
             {"quantity", row.quantity.key},
+            {"setting", row.quantity.setting},
             {"description", row.quantity.description},
             {"element_order", row.elements.order ? nlohmann::json(*row.elements.order) : nlohmann::json(nullptr)},
             {"formulation", row.elements.formulation},
-            {"material", row.material.text},
+            {"material", row.material.law},
             {"poisson", to_json(row.material.poisson)},
             {"mesh", row.mesh},
             {"h_m", row.h_m},
@@ -79,7 +91,7 @@ VerificationRow verification_row(const nlohmann::json& json)
 {
     VerificationRow row;
     row.problem = json.at("problem");
-    row.quantity = {json.at("quantity"), json.at("description")};
+    row.quantity = {json.at("quantity"), json.at("description"), json.at("setting")};
     if (!json.at("element_order").is_null()) row.elements.order = json.at("element_order").get<int>();
     row.elements.formulation = json.at("formulation");
     row.material = {json.at("material"), optional_number(json, "poisson")};

@@ -11,13 +11,16 @@
 namespace reference_fem {
 
 struct RowMaterial {
-    std::string text = {};               // law and parameters in words, or none
-    std::optional<double> poisson = {};  // Poisson's ratio, of an elastic law
+    std::string law = {};                // an identifier: stable_neo_hookean; empty without an elastic law
+    std::optional<double> poisson = {};  // its Poisson's ratio
+
+    std::string text() const;  // stable neo-Hookean, nu = 0.3
 };
 
 struct RowQuantity {
     std::string key = {};          // of what is compared, an identifier: tip_deflection
     std::string description = {};  // the same in words, with the settings that it belongs to
+    std::string setting = {};      // an identifier that distinguishes rows with the same quantity: newmark_omega_h_0.1
 };
 
 struct RowElements {

@@ -56,7 +56,7 @@ VerificationRow row_of(const pbs::Character& limb, const RowQuantity& quantity, 
     return {.problem = "attached_limb",
             .quantity = quantity,
             .elements = elements_of(1),
-            .material = material_of("stable neo-Hookean", 0.45),
+            .material = material_of("stable_neo_hookean", 0.45),
             .mesh = "limb, " + std::to_string(limb.mesh.rest.rows()) + " vertices",
             .dofs = static_cast<int>(3 * limb.mesh.rest.rows()),
             .value = value,
@@ -87,7 +87,7 @@ VerificationRow rigid_motion(const pbs::Character& limb, FemAttachment attachmen
     const pbs::Pose pose = turned_whole(limb, 120.0);
     pbs::Positions turned = limb.mesh.rest;
     for (auto row : turned.rowwise()) row = (pose.front() * pbs::Vec3(row.transpose())).transpose();
-    return row_of(limb, {"distance_from_rigid_turn", "distance from a rigid turn of 120 degrees, bones hold by " + name},
+    return row_of(limb, {"distance_from_rigid_turn", "distance from a rigid turn of 120 degrees, bones hold by " + name, name},
                   distance(limb, shape(limb, options, pose), turned), 0.0, 1e-9,
                   "rounding of positions, eps, times at most some 1e6 of condition");
 }

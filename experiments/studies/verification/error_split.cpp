@@ -71,7 +71,7 @@ public:
         return {.problem = "error_split",
                 .quantity = quantity,
                 .elements = elements_of(1),
-                .material = material_of("stable neo-Hookean", 0.45),
+                .material = material_of("stable_neo_hookean", 0.45),
                 .mesh = fmt::format("limb, {} vertices, twist of {:.0f} degrees", limb_.mesh.rest.rows(), angle_deg),
                 .dofs = static_cast<int>(3 * limb_.mesh.rest.rows()),
                 .value = value,
@@ -90,8 +90,9 @@ VerificationRow whole_and_parts(const TwistedLimb& limb, const pbs::Positions& f
     const pbs::Positions converged = limb.skinned(4000), stopped = limb.skinned(iterations);
     const double solver = limb.distance_pct(stopped, converged), model = limb.distance_pct(converged, flesh);
     VerificationRow row =
-        limb.row({"error_over_parts", fmt::format("error after {} iterations over the sum of its solver and model parts", iterations)}, "1",
-                 limb.distance_pct(stopped, flesh) / (solver + model));
+        limb.row({"error_over_parts", fmt::format("error after {} iterations over the sum of its solver and model parts", iterations),
+                  fmt::format("iterations_{}", iterations)},
+                 "1", limb.distance_pct(stopped, flesh) / (solver + model));
     row.reference = 1.0;
     row.low = std::abs(solver - model) / (solver + model) - 1e-12;
     row.high = 1.0 + 1e-12;
@@ -115,7 +116,7 @@ VerificationRow bound_covers(const TwistedLimb& limb, const TwistedLimb& refined
 
 VerificationRow variant(const TwistedLimb& limb, const pbs::Positions& flesh, const FemOptions& options, const std::string& name)
 {
-    VerificationRow row = limb.row({"distance_of_variant", "distance from flesh on embedded bones of 0.35: " + name},
+    VerificationRow row = limb.row({"distance_of_variant", "distance from flesh on embedded bones of 0.35: " + name, identifier_of(name)},
                                    "% of the bone distance", limb.distance_pct(limb.flesh(options), flesh));
     row.source = "none: what the choice is worth";
     return row;
@@ -138,7 +139,7 @@ VerificationRows error_split_rows(const Effort& effort)
             bound_covers(limb, refined, flesh, options),
             variant(limb, flesh, thin, "core_radius 0.2"),
             variant(limb, flesh, thick, "core_radius 0.5"),
-            variant(limb, flesh, bound, "the paper's bind constraint")};
+            variant(limb, flesh, bound, "bind constraint of the paper")};
 }
 
 }  // namespace experiments

@@ -33,14 +33,15 @@ VerificationRow calculix_row(const CalculixComparison& comparison, const std::st
 {
     const int element_order = answer.problem.tets.cols() == 4 ? 1 : 2;
     answer.problem.material = calculix_flesh;  // CalculiX has the right material, whatever error the effort asks of the reference
-    VerificationRow row = {.problem = "calculix",
-                           .quantity = {"largest_node_difference", "largest node difference over largest displacement, " + pose},
-                           .elements = elements_of(element_order),
-                           .material = material_of(law, calculix_flesh.poisson),
-                           .dofs = 3 * static_cast<int>(answer.problem.nodes.rows()),
-                           .reference = 0.0,
-                           .unit = "1",
-                           .source = comparison.version + ", " + (element_order == 1 ? "C3D4" : "C3D10")};
+    VerificationRow row = {
+        .problem = "calculix",
+        .quantity = {"largest_node_difference", "largest node difference over largest displacement, " + pose, identifier_of(pose)},
+        .elements = elements_of(element_order),
+        .material = material_of(law, calculix_flesh.poisson),
+        .dofs = 3 * static_cast<int>(answer.problem.nodes.rows()),
+        .reference = 0.0,
+        .unit = "1",
+        .source = comparison.version + ", " + (element_order == 1 ? "C3D4" : "C3D10")};
     const SecondOpinion opinion = second_opinion(comparison.program, answer, options);
     row.value = answer.answered ? opinion.relative_difference() : std::numeric_limits<double>::quiet_NaN();
     row.high = largest_difference;

@@ -36,7 +36,7 @@ TEST_P(VerificationRecord, EveryJudgedRowHoldsAndSaysWhy)
     int judged = 0;
     const VerificationRows rows = problem(GetParam()).rows({});
     for (const VerificationRow& row : rows) {
-        const std::string place = row.quantity.description + ", " + row.elements.text() + ", " + row.material.text + ", " + row.mesh;
+        const std::string place = row.quantity.description + ", " + row.elements.text() + ", " + row.material.text() + ", " + row.mesh;
         EXPECT_NO_THROW(problem(row.problem)) << place;
         EXPECT_FALSE(row.quantity.key.empty() || row.quantity.description.empty() || row.mesh.empty() || row.unit.empty()) << place;
         EXPECT_FALSE(row.source.empty()) << place;
