@@ -13,42 +13,48 @@ namespace analysis {
 const std::vector<CaseKeyField>& case_key_fields()
 {
     using Key = CaseKey;
-    const auto text = [](const char* name, std::string Key::*member) { return CaseKeyField{name, false, member, nullptr}; };
-    const auto named = [](const char* name, std::string Key::*member) { return CaseKeyField{name, true, member, nullptr}; };
-    const auto number = [](const char* name, std::optional<double> Key::*member) { return CaseKeyField{name, true, nullptr, member}; };
-    static const std::vector<CaseKeyField> fields = {text("body", &Key::body),
-                                                     text("motion", &Key::motion),
-                                                     text("pose", &Key::pose),
-                                                     text("joint", &Key::joint),
-                                                     number("angle_deg", &Key::angle_deg),
-                                                     number("time_s", &Key::time_s),
-                                                     text("deformer", &Key::deformer),
-                                                     text("variant", &Key::variant),
-                                                     named("reference", &Key::reference),
-                                                     text("order", &Key::order),
-                                                     text("precision", &Key::precision),
-                                                     number("vertices", &Key::vertices),
-                                                     number("vertices_to", &Key::vertices_to),
-                                                     number("k_stretch", &Key::k_stretch),
-                                                     number("k_stretch_to", &Key::k_stretch_to),
-                                                     number("k_bind", &Key::k_bind),
-                                                     number("young_pa", &Key::young_pa),
-                                                     named("masses", &Key::masses),
-                                                     number("iterations", &Key::iterations),
-                                                     number("iterations_to", &Key::iterations_to),
-                                                     number("time_step_s", &Key::time_step_s),
-                                                     number("time_step_to_s", &Key::time_step_to_s),
-                                                     named("constraint", &Key::constraint),
-                                                     named("initial_guess", &Key::initial_guess),
-                                                     named("tolerance", &Key::tolerance),
-                                                     text("load", &Key::load),
-                                                     text("ladder", &Key::ladder),
-                                                     text("factor", &Key::factor),
-                                                     named("second_factor", &Key::second_factor),
-                                                     text("model", &Key::model),
-                                                     named("equation", &Key::equation),
-                                                     text("gradient_of", &Key::gradient_of),
-                                                     text("reading", &Key::reading)};
+    using Text = std::string Key::*;
+    using Number = std::optional<double> Key::*;
+    const auto text = [](const char* name, Text member, const char* words, const char* meaning) {
+        return CaseKeyField{name, words, "", meaning, member, nullptr};
+    };
+    const auto number = [](const char* name, Number member, const char* words, const char* unit, const char* meaning) {
+        return CaseKeyField{name, words, unit, meaning, nullptr, member};
+    };
+    static const std::vector<CaseKeyField> fields = {
+        text("body", &Key::body, "{}", "name of the body: limb, bar, ring, human, man, lady, frankie, or a character of the user's"),
+        text("motion", &Key::motion, "{}", "twist, bend, or the name of a clip such as 01_01"),
+        text("pose", &Key::pose, "{}", "pose in a clip: crouch, landing, in_the_air"),
+        text("joint", &Key::joint, "{}", "the names of the joint's two bones, as in upper|forearm"),
+        number("angle_deg", &Key::angle_deg, "{} deg", "deg", "angle of a joint that is twisted or bent"),
+        number("time_s", &Key::time_s, "at {} s", "s", "time in the clip"),
+        text("deformer", &Key::deformer, "{}", "the deformer that is measured"),
+        text("variant", &Key::variant, "{}", "its variant, as jiggle"),
+        text("reference", &Key::reference, "reference {}", "the deformer that the value is compared with"),
+        text("order", &Key::order, "{}", "order of projection"),
+        text("precision", &Key::precision, "{}", "f32 or f64"),
+        number("vertices", &Key::vertices, "{} vertices", "", "size of the mesh; of a ratio over a range, its first setting"),
+        number("vertices_to", &Key::vertices_to, "", "", "last setting of the range"),
+        number("k_stretch", &Key::k_stretch, "k_stretch {}", "", "stiffness of the stretch constraints; of a range, its first setting"),
+        number("k_stretch_to", &Key::k_stretch_to, "", "", "last setting of the range"),
+        number("k_bind", &Key::k_bind, "k_bind {}", "", "stiffness of the bind constraints"),
+        number("young_pa", &Key::young_pa, "{} Pa", "Pa", "Young's modulus"),
+        text("masses", &Key::masses, "{} masses", "how the particles' masses are set"),
+        number("iterations", &Key::iterations, "{} iterations", "", "iterations per step; of a range, its first setting"),
+        number("iterations_to", &Key::iterations_to, "", "", "last setting of the range"),
+        number("time_step_s", &Key::time_step_s, "steps of {} s", "s", "time step; of a range, its first setting"),
+        number("time_step_to_s", &Key::time_step_to_s, "", "s", "last setting of the range"),
+        text("constraint", &Key::constraint, "{} constraints", "stretch, volume, bind"),
+        text("initial_guess", &Key::initial_guess, "from {}", "previous_frame, rest_pose, rigid_bind"),
+        text("tolerance", &Key::tolerance, "tolerance {}", "residual: within 5 % of its floor; volume: absolute change within 0.5 %"),
+        text("load", &Key::load, "{}", "load of a stiffness test"),
+        text("ladder", &Key::ladder, "{}", "how its mesh sizes are made, if not as wanted"),
+        text("factor", &Key::factor, "{}", "the parameter that a sweep of the stability study varies"),
+        text("second_factor", &Key::second_factor, "and {}", "the second parameter that a map varies"),
+        text("model", &Key::model, "{}", "a row of Table 1 in the paper"),
+        text("equation", &Key::equation, "Eq. {}", "an equation of the paper"),
+        text("gradient_of", &Key::gradient_of, "{}", "a particle p1 to p4"),
+        text("reading", &Key::reading, "{}", "as_printed, relative_to_p1, derived_gradients")};
     return fields;
 }
 
@@ -68,8 +74,13 @@ std::string value_text(const CaseKeyField& field, const CaseKey& key)
 std::string text_of(const CaseKey& key)
 {
     std::vector<std::string> fields;
-    for (const CaseKeyField& field : case_key_fields())
-        if (field.is_set(key)) fields.push_back((field.is_named ? field.name + std::string(" ") : "") + value_text(field, key));
+    const std::vector<CaseKeyField>& all = case_key_fields();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!all[i].is_set(key) || all[i].is_end_of_range()) continue;
+        const bool is_range = i + 1 < all.size() && all[i + 1].is_end_of_range() && all[i + 1].is_set(key);
+        const std::string value = value_text(all[i], key) + (is_range ? " to " + value_text(all[i + 1], key) : "");
+        fields.push_back(fmt::format(fmt::runtime(all[i].words), value));
+    }
     return fmt::format("{}", fmt::join(fields, ", "));
 }
 
@@ -80,32 +91,20 @@ bool matches(const CaseKey& key, const CaseKey& wanted)
     });
 }
 
-std::vector<const CaseKeyField*> used_fields(const std::vector<const CaseKey*>& keys)
+const Columns<CaseKey>& case_key_columns()
 {
-    std::vector<const CaseKeyField*> used;
-    for (const CaseKeyField& field : case_key_fields())
-        if (std::any_of(keys.begin(), keys.end(), [&](const CaseKey* key) { return field.is_set(*key); })) used.push_back(&field);
-    return used;
-}
-
-CsvTable::Cell cell_of(const CaseKeyField& field, const CaseKey& key)
-{
-    if (!field.is_set(key)) return std::nullopt;
-    if (field.text) return key.*field.text;
-    return *(key.*field.number);
-}
-
-CaseKey case_key(const CsvTable& table, int row)
-{
-    CaseKey key;
-    for (const CaseKeyField& field : case_key_fields()) {
-        if (!table.has_column(field.name)) continue;
-        if (field.text)
-            key.*field.text = table.text_at(row, field.name);
-        else
-            key.*field.number = table.number_or_nothing(row, field.name);
-    }
-    return key;
+    static const Columns<CaseKey> columns = [] {
+        Columns<CaseKey> all;
+        for (const CaseKeyField& field : case_key_fields()) {
+            if (field.text)
+                all.emplace_back(field.name, field.text, field.unit, field.meaning);
+            else
+                all.emplace_back(field.name, field.number, field.unit, field.meaning);
+            all.back().group = field.name;
+        }
+        return all;
+    }();
+    return columns;
 }
 
 nlohmann::json to_json_of(const CaseKey& key)

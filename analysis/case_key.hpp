@@ -3,7 +3,7 @@
 // A field has the same name as its column of measurements.csv, its member of a case in claims.json, and its entry in `of` of claims.toml.
 #pragma once
 
-#include "analysis/records/csv_table.hpp"
+#include "analysis/records/typed_table.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -38,32 +38,33 @@ struct CaseKey {
     std::string equation = {};                    // an equation of the paper
     std::string gradient_of = {}, reading = {};   // a particle p1 to p4; as_printed, relative_to_p1, derived_gradients
     bool operator==(const CaseKey&) const = default;
+    auto operator<=>(const CaseKey&) const = default;  // by the fields in this order; a missing one comes first
 };
 
 // A field of the key, which is either a text or a number.
 struct CaseKeyField {
     const char* name;
-    bool is_named;  // text_of() writes the name before the value, which alone would not be understood
+    const char* words;  // in text_of(): "{}", "{} deg", "reference {}"; empty for the end of a range, which follows its first value
+    const char *unit, *meaning;
     std::string CaseKey::*text = nullptr;
     std::optional<double> CaseKey::*number = nullptr;
 
+    bool is_end_of_range() const { return *words == '\0'; }
     bool is_set(const CaseKey& key) const { return text ? !(key.*text).empty() : (key.*number).has_value(); }
 };
 const std::vector<CaseKeyField>& case_key_fields();           // in the order in which they are written
 const CaseKeyField* case_key_field(const std::string& name);  // null if no field has that name
 
 std::string value_text(const CaseKeyField& field, const CaseKey& key);  // without its unit; empty if the field is not set
-// The fields that are set: limb, bend, angle_deg 90, pbs, reference snh_p2. Sentences are composed by paper_figures/case_words.py.
+// The fields that are set, for readers of the terminal and of Markdown: limb, bend, 90 deg, pbs, reference snh_p2, 12 to 48 iterations.
+// Figures and the report describe a case by paper_figures/case_words.py.
 std::string text_of(const CaseKey& key);
 
 // True if every field that is set in `wanted` has the same value in `key`.
 bool matches(const CaseKey& key, const CaseKey& wanted);
 
-// used_fields: the fields that any of the keys sets. A key that is read back from the cells of these fields is the same.
-std::vector<const CaseKeyField*> used_fields(const std::vector<const CaseKey*>& keys);
-CsvTable::Cell cell_of(const CaseKeyField& field, const CaseKey& key);
-// Reads the columns that exist. InputError for a cell that is not a number where one is expected.
-CaseKey case_key(const CsvTable& table, int row);
+// One optional column per field, which used_columns() drops if no key sets it.
+const Columns<CaseKey>& case_key_columns();
 
 nlohmann::json to_json_of(const CaseKey& key);  // only the fields that are set
 // Reads what to_json_of() wrote. InputError for an unknown field, a text where a number is expected, or a number where a text is expected.

@@ -1,5 +1,6 @@
 #include "analysis/case_record.hpp"
 
+#include "analysis/records/optional_columns.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
@@ -7,45 +8,66 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 
 namespace analysis {
 namespace {
 
-std::string key_of(const CsvTable& metrics, int row)
+// What a row of metrics.csv states about its case and frame; the file has further columns.
+struct MetricsRow {
+    std::string scene, deformer, variant, order, precision;
+    std::optional<int> iterations;
+    std::string threads, outcome;
+    double frame = 0.0, time_s = 0.0, volume_change_pct = 0.0, volume_abs_change_pct = 0.0, inverted_tets = 0.0;
+    std::optional<double> angle_deg;
+};
+
+const Columns<MetricsRow>& metrics_columns()
 {
-    std::string key;
-    for (const char* column : {"scene", "deformer", "variant", "order", "precision", "iterations", "threads"})
-        key += metrics.text_at(row, column) + '\n';
-    return key;
+    static const Columns<MetricsRow> columns =
+        Columns<MetricsRow>{{"scene", &MetricsRow::scene, "", "name of the scene"},
+                            {"deformer", &MetricsRow::deformer, "", "name of the deformer"},
+                            {"variant", &MetricsRow::variant, "", "its variant"},
+                            {"order", &MetricsRow::order, "", "order of projection"},
+                            {"precision", &MetricsRow::precision, "", "f32 or f64"},
+                            {"iterations", &MetricsRow::iterations, "", "iterations per step"},
+                            {"threads", &MetricsRow::threads, "", "number of threads"},
+                            {"frame", &MetricsRow::frame, "", "number of the frame, from 0"},
+                            {"time_s", &MetricsRow::time_s, "s", "time in the motion"},
+                            {"volume_change_pct", &MetricsRow::volume_change_pct, "%", "signed change of the whole volume"},
+                            {"volume_abs_change_pct", &MetricsRow::volume_abs_change_pct, "%", "sum of the absolute changes of each tet"},
+                            {"inverted_tets", &MetricsRow::inverted_tets, "", "number of inverted tets"}} +
+        optional(Columns<MetricsRow>{{"angle_deg", &MetricsRow::angle_deg, "deg", "angle of the joint, in a sweep"},
+                                     {"outcome", &MetricsRow::outcome, "", "of the frame"}});
+    return columns;
 }
 
-CaseRecord empty_record(const CsvTable& metrics, int row, const std::string& run)
+auto case_of(const MetricsRow& row)
+{
+    return std::tie(row.scene, row.deformer, row.variant, row.order, row.precision, row.iterations, row.threads);
+}
+
+CaseRecord empty_record(const MetricsRow& row, const std::string& run)
 {
     CaseRecord record;
-    record.scene = metrics.text_at(row, "scene");
-    record.deformer = metrics.text_at(row, "deformer");
-    record.variant = metrics.text_at(row, "variant");
-    record.order = metrics.text_at(row, "order");
-    record.precision = metrics.text_at(row, "precision");
-    if (!metrics.text_at(row, "iterations").empty()) record.iterations = static_cast<int>(metrics.integer(row, "iterations"));
+    record.scene = row.scene;
+    record.deformer = row.deformer;
+    record.variant = row.variant;
+    record.order = row.order;
+    record.precision = row.precision;
+    record.iterations = row.iterations.value_or(0);
     record.run = run;
     return record;
 }
 
-void add_frame(CaseRecord& record, const CsvTable& metrics, int row)
+void add_frame(CaseRecord& record, const MetricsRow& row)
 {
-    record.frame.push_back(metrics.number(row, "frame"));
-    record.time_s.push_back(metrics.number(row, "time_s"));
-    record.volume_change_pct.push_back(metrics.number(row, "volume_change_pct"));
-    record.volume_abs_change_pct.push_back(metrics.number(row, "volume_abs_change_pct"));
-    record.inverted_tets.push_back(metrics.number(row, "inverted_tets"));
-    if (!metrics.has_column("angle_deg")) return;
-    if (const auto angle = metrics.number_or_nothing(row, "angle_deg")) record.angle_deg.push_back(*angle);
-}
-
-bool is_not_reached(const CaseRecord& record, const CsvTable& metrics, int row)
-{
-    return record.iterations == 0 && metrics.has_column("outcome") && metrics.text_at(row, "outcome") == "not_converged";
+    record.frame.push_back(row.frame);
+    record.time_s.push_back(row.time_s);
+    record.volume_change_pct.push_back(row.volume_change_pct);
+    record.volume_abs_change_pct.push_back(row.volume_abs_change_pct);
+    record.inverted_tets.push_back(row.inverted_tets);
+    if (row.angle_deg) record.angle_deg.push_back(*row.angle_deg);
 }
 
 void require_whole(const CaseRecord& record)
@@ -58,20 +80,34 @@ void require_whole(const CaseRecord& record)
                               fmt::format("expected {} values in every series", frames));
 }
 
+const Columns<PrintedValue>& printed_columns()
+{
+    static const Columns<PrintedValue> columns =
+        Columns<PrintedValue>{{"claim", &PrintedValue::claim, "", "id of the claim"},
+                              {"quantity", &PrintedValue::quantity, "", "what is printed"}} +
+        within(&PrintedValue::of, case_key_columns()) +
+        Columns<PrintedValue>{{"printed", &PrintedValue::printed, "", "the printed value"},
+                              {"least", &PrintedValue::least, "", "its lower bound"},
+                              column_with_empty(std::numeric_limits<double>::infinity(), "most", &PrintedValue::most, "",
+                                                "its upper bound; empty if there is none")};
+    return columns;
+}
+
 }  // namespace
 
 std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string& run)
 {
+    const std::vector<MetricsRow> rows = rows_of(metrics_columns(), metrics);
     std::vector<CaseRecord> records;
-    std::map<std::string, std::size_t> places;
-    for (int row = 0; row < metrics.rows(); ++row) {
-        const auto [place, is_new] = places.try_emplace(key_of(metrics, row), records.size());
-        if (is_new) records.push_back(empty_record(metrics, row, run));
+    std::map<decltype(case_of(rows.front())), std::size_t> places;
+    for (const MetricsRow& row : rows) {
+        const auto [place, is_new] = places.try_emplace(case_of(row), records.size());
+        if (is_new) records.push_back(empty_record(row, run));
         CaseRecord& record = records[place->second];
-        if (is_not_reached(record, metrics, row))
+        if (record.iterations == 0 && row.outcome == "not_converged")
             ++record.frames_not_converged;
         else
-            add_frame(record, metrics, row);
+            add_frame(record, row);
     }
     for (const CaseRecord& record : records) require_whole(record);
     return records;
@@ -79,32 +115,12 @@ std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string&
 
 std::vector<PrintedValue> printed_values(const std::string& csv)
 {
-    const CsvTable table = read_csv(csv);
-    std::vector<PrintedValue> values;
-    for (int row = 0; row < table.rows(); ++row)
-        values.push_back({table.text_at(row, "claim"), table.text_at(row, "quantity"), case_key(table, row), table.number(row, "printed"),
-                          table.number(row, "least"),
-                          table.number_or_nothing(row, "most").value_or(std::numeric_limits<double>::infinity())});
-    return values;
+    return rows_of(printed_columns(), read_csv(csv));
 }
 
 CsvTable printed_table(const std::vector<PrintedValue>& values)
 {
-    std::vector<const CaseKey*> keys;
-    for (const PrintedValue& value : values) keys.push_back(&value.of);
-    const auto fields = used_fields(keys);
-    std::vector<std::string> columns = {"claim", "quantity"};
-    for (const CaseKeyField* field : fields) columns.emplace_back(field->name);
-    columns.insert(columns.end(), {"printed", "least", "most"});
-    CsvTable table(columns);
-    for (const PrintedValue& value : values) {
-        std::vector<CsvTable::Cell> cells = {value.claim, value.quantity};
-        for (const CaseKeyField* field : fields) cells.push_back(cell_of(*field, value.of));
-        cells.insert(cells.end(), {CsvTable::Cell(value.printed), CsvTable::Cell(value.least),
-                                   std::isinf(value.most) ? CsvTable::Cell(std::nullopt) : CsvTable::Cell(value.most)});
-        table.add_row(cells);
-    }
-    return table;
+    return table_of(used_columns(printed_columns(), values), values);
 }
 
 std::vector<double> metric_series(const CaseRecord& record, const std::string& metric)

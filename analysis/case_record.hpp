@@ -2,7 +2,6 @@
 #pragma once
 
 #include "analysis/case_key.hpp"
-#include "analysis/records/csv_table.hpp"
 
 #include <string>
 #include <vector>
@@ -42,6 +41,11 @@ struct PrintedValue {
 
 // How a value limits the quantity where a tolerance was not reached: the quantity is at least, at most, or more than that value.
 enum class Limit { none, at_least, at_most, more_than };
+template <>
+struct EnumNames<Limit> {
+    static constexpr std::array<std::pair<Limit, const char*>, 3> table{
+        {{Limit::at_least, "at_least"}, {Limit::at_most, "at_most"}, {Limit::more_than, "more_than"}}};
+};
 
 // A value that a study measured for a claim: a row of measurements.csv.
 struct Measurement {

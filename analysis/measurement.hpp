@@ -3,7 +3,6 @@
 #pragma once
 
 #include "analysis/case_judgement.hpp"
-#include "analysis/records/csv_table.hpp"
 
 #include <string>
 #include <vector>

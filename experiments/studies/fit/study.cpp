@@ -8,6 +8,7 @@
 //
 // Writes DIR/fit/{sag,swing,poisson,poisson_poses,valley}.csv, fit.json and fit.md.
 #include "analysis/line_fit.hpp"
+#include "analysis/records/json_rows.hpp"
 #include "analysis/report_table.hpp"
 #include "experiments/studies/fit/poisson_run.hpp"
 #include "experiments/studies/study.hpp"
@@ -21,8 +22,6 @@
 
 namespace experiments {
 namespace {
-
-using analysis::CsvTable;
 
 StudyPlan plan(bool full)
 {
@@ -142,46 +141,28 @@ std::string swing_markdown(const std::vector<SwingRow>& rows)
                                                           {"expected", "expected_over_sag", "{:.4f}"}});
 }
 
-std::string poisson_markdown(const CsvTable& fits)
+std::string poisson_markdown(const std::vector<PoissonRow>& fits)
 {
     return "\n## Poisson's ratio\n\nThe nu of the finite elements nearest to PBS over all poses (error_joint, root mean square). The "
            "interval leaves out one pose at a time. Young's modulus cancels. The misfit is what no nu removes; *rise* is the share by "
            "which it rises when nu changes by 10 %. Where a fit is not identifiable (0), its nu has no meaning.\n\n" +
-           markdown_table(fits, {{"elements", "model"},
-                                 {"order", "element_order"},
-                                 {"formulation", "formulation"},
-                                 {"attachment", "attachment"},
-                                 {"body", "body"},
-                                 {"iterations", "iterations"},
-                                 {"k_stretch", "k_stretch"},
-                                 {"nu", "poisson", "{:.3f}"},
-                                 {"nu, low", "poisson_low", "{:.3f}"},
-                                 {"nu, high", "poisson_high", "{:.3f}"},
-                                 {"misfit [%]", "misfit_pct", "{:.3g}"},
-                                 {"misfit at nu 0", "misfit_at_0_pct", "{:.3g}"},
-                                 {"misfit at the highest nu", "misfit_at_highest_pct", "{:.3g}"},
-                                 {"highest nu that converged", "highest_poisson", "{:.4g}"},
-                                 {"outcome", "outcome"},
-                                 {"rise", "rise", "{:.2g}"},
-                                 {"identifiable", "identifiable"}});
-}
-
-// All numbers as doubles; what is no finite number stays text.
-nlohmann::json rows_json(const CsvTable& table)
-{
-    nlohmann::json json = nlohmann::json::array();
-    for (int r = 0; r < table.rows(); ++r) {
-        nlohmann::json row;
-        for (const std::string& column : table.columns()) {
-            const std::string& text = table.text_at(r, column);
-            char* end = nullptr;
-            const double value = std::strtod(text.c_str(), &end);
-            const bool is_number = !text.empty() && *end == '\0' && std::isfinite(value);
-            row[column] = is_number ? nlohmann::json(value) : nlohmann::json(text);
-        }
-        json.push_back(row);
-    }
-    return json;
+           markdown_table(table_of(poisson_columns, fits), {{"elements", "model"},
+                                                            {"order", "element_order"},
+                                                            {"formulation", "formulation"},
+                                                            {"attachment", "attachment"},
+                                                            {"body", "body"},
+                                                            {"iterations", "iterations"},
+                                                            {"k_stretch", "k_stretch"},
+                                                            {"nu", "poisson", "{:.3f}"},
+                                                            {"nu, low", "poisson_low", "{:.3f}"},
+                                                            {"nu, high", "poisson_high", "{:.3f}"},
+                                                            {"misfit [%]", "misfit_pct", "{:.3g}"},
+                                                            {"misfit at nu 0", "misfit_at_0_pct", "{:.3g}"},
+                                                            {"misfit at the highest nu", "misfit_at_highest_pct", "{:.3g}"},
+                                                            {"highest nu that converged", "highest_poisson", "{:.4g}"},
+                                                            {"outcome", "outcome"},
+                                                            {"rise", "rise", "{:.2g}"},
+                                                            {"identifiable", "identifiable"}});
 }
 
 std::string summary(std::vector<SagRow> sags, const std::vector<PoissonRow>& fits)
@@ -204,15 +185,14 @@ StudyConclusion conclude(const FinishedRuns& finished)
     finished.write("poisson.csv", poisson_columns, fits);
     finished.write("poisson_poses.csv", poisson_pose_columns, finished.rows(poisson_pose_columns, "poisson_poses.csv"));
     finished.write("valley.csv", valley_columns, finished.rows(valley_columns, "valley.csv"));
-    const CsvTable fit_table = table_of(poisson_columns, fits);
     const nlohmann::json json = {{"schema", 1},
-                                 {"young_by_sag", rows_json(table_of(sag_columns, sags))},
+                                 {"young_by_sag", json_of(sag_columns, sags)},
                                  {"young_exponents", exponents(sags)},
                                  {"volume_locking", volume_locking(sags)},
-                                 {"young_by_frequency", rows_json(table_of(swing_columns, swings))},
-                                 {"poisson", rows_json(fit_table)}};
+                                 {"young_by_frequency", json_of(swing_columns, swings)},
+                                 {"poisson", json_of(poisson_columns, fits)}};
     finished.write("fit.json", json.dump(2) + "\n");
-    finished.write("fit.md", "# The fit\n\n" + young_markdown(sags) + swing_markdown(swings) + poisson_markdown(fit_table));
+    finished.write("fit.md", "# The fit\n\n" + young_markdown(sags) + swing_markdown(swings) + poisson_markdown(fits));
     return {summary(sags, fits), true};
 }
 

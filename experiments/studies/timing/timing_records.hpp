@@ -51,15 +51,6 @@ std::vector<TimingRow> timing_rows(const TimedMesh& mesh, const std::vector<Fram
 // comparison: the other variants, processor time, the ratio to the paper's frame rate, and the milliseconds of each part.
 std::vector<analysis::Measurement> timing_measurements(const std::vector<TimingRow>& rows);
 
-// Vertices at which a frame takes 1 / 30 s, on the straight line through log total over log vertices between the two sizes around it, or
-// beyond the last two; and the exponent over all sizes. Needs two sizes or more, in any order.
-struct RealTimeEnd {
-    double vertices = 0.0;
-    bool beyond = false;  // all measured sizes are faster, or all are slower
-    double exponent = 0.0;
-};
-RealTimeEnd real_time_end(const std::vector<double>& vertices, const std::vector<double>& total_ms);
-
 // All meshes: a page, and a short table for the terminal, each with the size at which the ladder leaves real time.
 std::string timing_markdown(const std::vector<TimingRow>& rows);
 std::string timing_text(const std::vector<TimingRow>& rows);

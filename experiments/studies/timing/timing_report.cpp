@@ -1,14 +1,11 @@
-#include "analysis/line_fit.hpp"
+#include "analysis/power_law_end.hpp"
 #include "analysis/report_table.hpp"
 #include "experiments/studies/timing/timing_records.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
 #include <set>
-#include <stdexcept>
 #include <utility>
 
 namespace experiments {
@@ -40,40 +37,19 @@ std::string ends_text(const std::vector<TimingRow>& rows)
                 total_ms.push_back(row.timing.total_wall_ms.median);
             }
         if (vertices.size() < 2) continue;
-        const RealTimeEnd end = real_time_end(vertices, total_ms);
+        const analysis::PowerLawEnd end = analysis::power_law_end(vertices, total_ms, 1e3 / 30.0);
         text += fmt::format("  {:<8} {}: 30 frames per second up to {:.3g} vertices{}; ms per frame ~ vertices^{:.2f}\n", variant,
-                            precision, end.vertices, end.beyond ? " (beyond the measured sizes)" : "", end.exponent);
+                            precision, end.size, end.beyond ? " (beyond the measured sizes)" : "", end.exponent);
     }
     return text;
 }
 
 }  // namespace
 
-RealTimeEnd real_time_end(const std::vector<double>& vertices, const std::vector<double>& total_ms)
-{
-    constexpr double real_time_ms = 1e3 / 30.0;
-    std::vector<std::pair<double, double>> sizes;  // vertices, ms
-    for (std::size_t i = 0; i < vertices.size(); ++i) sizes.emplace_back(vertices[i], total_ms[i]);
-    if (sizes.size() < 2) throw std::invalid_argument("real_time_end: fewer than two sizes");
-    std::sort(sizes.begin(), sizes.end());
-    std::size_t next = 1;  // the line passes through sizes[next - 1] and sizes[next]
-    while (next + 1 < sizes.size() && sizes[next].second < real_time_ms) ++next;
-    const auto [below, below_ms] = sizes[next - 1];
-    const auto [above, above_ms] = sizes[next];
-    const double slope = std::log(above_ms / below_ms) / std::log(above / below);
-    RealTimeEnd end;
-    end.vertices = below * std::pow(real_time_ms / below_ms, 1.0 / slope);
-    end.beyond = end.vertices < sizes.front().first || end.vertices > sizes.back().first;
-    end.exponent = analysis::observed_order(vertices, total_ms).slope.estimate;
-    return end;
-}
-
 std::string timing_markdown(const std::vector<TimingRow>& rows)
 {
-    return fmt::format(
-        "Timed on {}. Times are per frame.\n\n{}\nAt most one of the paper's two columns of times can be right: its frame rate and its CT\n"
-        "of 100 steps differ by a factor of 20.\n\n```\n{}```\n",
-        machines(rows), markdown_table(table_of(timing_columns, rows), analysis::report_columns(all_columns)), ends_text(rows));
+    return fmt::format("Timed on {}. Times are per frame.\n\n{}\n```\n{}```\n", machines(rows),
+                       markdown_table(table_of(timing_columns, rows), analysis::report_columns(all_columns)), ends_text(rows));
 }
 
 std::string timing_text(const std::vector<TimingRow>& rows)

@@ -1,6 +1,7 @@
 // Reference: the definition. A key is recovered from its cells and from JSON, and every member has one field.
 #include "analysis/case_key.hpp"
 
+#include "analysis/records/optional_columns.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <gtest/gtest.h>
@@ -50,24 +51,16 @@ TEST(CaseKey, EachFieldHasANameAndAMemberOfItsOwn)
 TEST(CaseKey, ComesBackFromItsCells)
 {
     const CaseKey key = with_every_field();
-    std::vector<std::string> columns;
-    std::vector<CsvTable::Cell> cells;
-    for (const CaseKeyField* field : used_fields({&key})) {
-        columns.emplace_back(field->name);
-        cells.push_back(cell_of(*field, key));
-    }
-    CsvTable table(columns);
-    table.add_row(cells);
-    EXPECT_EQ(case_key(parse_csv(table.text(), "m.csv"), 0), key);
+    const CsvTable table = table_of(case_key_columns(), {key});
+    EXPECT_EQ(rows_of(case_key_columns(), parse_csv(table.text(), "m.csv")), std::vector{key});
 }
 
 TEST(CaseKey, HasColumnsForWhatIsSetAlone)
 {
     const CaseKey limb = bent_limb(), body = {.body = "man"};
-    std::vector<std::string> names;
-    for (const CaseKeyField* field : used_fields({&body, &limb})) names.emplace_back(field->name);
-    EXPECT_EQ(names, (std::vector<std::string>{"body", "motion", "joint", "angle_deg", "deformer", "k_stretch"}));
-    EXPECT_TRUE(used_fields({}).empty());
+    EXPECT_EQ(used_columns(case_key_columns(), {body, limb}).names(),
+              (std::vector<std::string>{"body", "motion", "joint", "angle_deg", "deformer", "k_stretch"}));
+    EXPECT_TRUE(used_columns(case_key_columns(), {}).empty());
 }
 
 TEST(CaseKey, ComesBackFromJson)
@@ -103,8 +96,9 @@ TEST(CaseKey, MatchesWhatAsksForNoMore)
 
 TEST(CaseKey, ItsTextNamesWhatIsSet)
 {
-    EXPECT_EQ(text_of(bent_limb()), "limb, bend, upper|forearm, angle_deg 90, pbs, k_stretch 0.2");
-    EXPECT_EQ(text_of({.reference = "snh_p2", .masses = "unit", .equation = "12"}), "reference snh_p2, masses unit, equation 12");
+    EXPECT_EQ(text_of(bent_limb()), "limb, bend, upper|forearm, 90 deg, pbs, k_stretch 0.2");
+    EXPECT_EQ(text_of({.reference = "snh_p2", .masses = "unit", .equation = "12"}), "reference snh_p2, unit masses, Eq. 12");
+    EXPECT_EQ(text_of({.iterations = 12.0, .iterations_to = 48.0, .time_step_s = 0.01}), "12 to 48 iterations, steps of 0.01 s");
     EXPECT_EQ(text_of({}), "");
 }
 

@@ -1,5 +1,5 @@
 // Expected values follow from timings that are a power of the size.
-#include "experiments/studies/timing/timing_records.hpp"
+#include "analysis/power_law_end.hpp"
 
 #include "tests/support/fit_rounding.hpp"
 
@@ -9,7 +9,9 @@
 
 namespace {
 
-using namespace experiments;
+using namespace analysis;
+
+constexpr double limit_ms = 1e3 / 30.0;
 
 // total = c V^1.2 is 1000 / 30 ms at 50,000 vertices. A time goes through six roundings: two quotients and a product, the power, and that
 // of V over 50,000 by the power.
@@ -17,7 +19,7 @@ constexpr double roundings_of_time = 6.0;
 
 double total_ms(double vertices)
 {
-    return 1e3 / 30.0 * std::pow(vertices / 50e3, 1.2);
+    return limit_ms * std::pow(vertices / 50e3, 1.2);
 }
 
 // V (real time / time)^(1 / slope) from V at least 1e3 on, between two sizes of ratio 10. The ratio of two times is in error by 13
@@ -29,24 +31,24 @@ double end_error()
     return 50e3 * (std::log(50e3 / 1e3) * of_slope + test_support::rounding_error(roundings_of_time + 1.0 + 2.0 + 1.0, 1.0));
 }
 
-TEST(RealTimeEnd, IsWhereAFrameTakesAThirtieth)
+TEST(PowerLawEnd, IsWhereTheCostIsAtTheLimit)
 {
     for (const std::vector<double>& sizes : {std::vector<double>{1e3, 1e4, 1e5}, {1e5, 1e3, 1e4}}) {
         std::vector<double> ms;
         for (const double vertices : sizes) ms.push_back(total_ms(vertices));
-        const RealTimeEnd end = real_time_end(sizes, ms);
-        EXPECT_NEAR(end.vertices, 50e3, end_error());
+        const PowerLawEnd end = power_law_end(sizes, ms, limit_ms);
+        EXPECT_NEAR(end.size, 50e3, end_error());
         EXPECT_NEAR(end.exponent, 1.2, test_support::exponent_error(sizes, ms, 1.2, roundings_of_time));
         EXPECT_FALSE(end.beyond);
     }
 }
 
-TEST(RealTimeEnd, BeyondTheMeasuredSizesIsMarked)
+TEST(PowerLawEnd, BeyondTheMeasuredSizesIsMarked)
 {
-    const RealTimeEnd above = real_time_end({1e3, 1e4}, {total_ms(1e3), total_ms(1e4)});
-    EXPECT_NEAR(above.vertices, 50e3, end_error());
+    const PowerLawEnd above = power_law_end({1e3, 1e4}, {total_ms(1e3), total_ms(1e4)}, limit_ms);
+    EXPECT_NEAR(above.size, 50e3, end_error());
     EXPECT_TRUE(above.beyond);
-    EXPECT_TRUE(real_time_end({1e5, 1e6}, {total_ms(1e5), total_ms(1e6)}).beyond);
+    EXPECT_TRUE(power_law_end({1e5, 1e6}, {total_ms(1e5), total_ms(1e6)}, limit_ms).beyond);
 }
 
 }  // namespace
