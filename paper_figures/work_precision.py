@@ -5,15 +5,14 @@ import entries
 import records
 import style
 
-looks = {"lbs": ("LBS", style.vermillion, "v"), "dqs": ("DQS", style.orange, "s"), "delta_mush": ("delta mush", style.green, "^"),
-         "pbs": ("PBS", style.blue, "o"), "pbs_exponent": ("PBS, exponent", style.sky, "p"), "xpbd": ("XPBD", style.purple, "D"),
-         "xpbd_small_steps": ("XPBD, small steps", "#8B5A2B", "<"), "fem_linear": ("linear FEM", "#999999", "x"),
-         "fem_corotational": ("corotational FEM", style.black, "+"), "fem_stable_neo_hookean": ("neo-Hookean FEM", style.black, "P")}
+looks = {"lbs": (style.vermillion, "v"), "dqs": (style.orange, "s"), "delta_mush": (style.green, "^"), "pbs": (style.blue, "o"),
+         "pbs_exponent": (style.sky, "p"), "xpbd": (style.purple, "D"), "xpbd_small_steps": ("#8B5A2B", "<"),
+         "fem_linear": ("#999999", "x"), "fem_corotational": (style.black, "+"), "fem_stable_neo_hookean": (style.black, "P")}
 case_columns = ("body", "motion", "pose", "angle_deg")
-point_columns = {*case_columns, "deformer", "setting", "outcome", "ms_median", "error_joint_pct", "reference_error_joint_pct",
-                 "error_joint_beside_pct"}
-front_columns = {"case", "measure", "front", "deformer", "setting", "ms_median", "error_joint_pct"}
-point_numbers = ("deformer", "setting", "ms_median", "error_joint_pct")
+setting_columns = ("iterations", "k_stretch", "order", "precision", "substeps", "element_order", "wanted_vertices", "refined")
+point_numbers = ("deformer", *setting_columns, "ms_median", "error_joint_pct")
+front_columns = {"case", "measure", "front", *point_numbers}
+point_columns = {*case_columns, *point_numbers, "outcome", "reference_error_joint_pct", "error_joint_beside_pct"}
 most_panels = 6
 
 
@@ -22,15 +21,15 @@ def measured(rows):
 
 
 def draw_deformers(axes, rows, fronts):
-    for deformer, (label, color, marker) in looks.items():
+    for deformer, (color, marker) in looks.items():
         chosen = [row for row in measured(rows) if row["deformer"] == deformer]
         if not chosen:
             continue
         axes.plot(records.numbers(chosen, "ms_median"), records.numbers(chosen, "error_joint_pct"), linestyle="none", marker=marker,
                   color=color, markersize=2.6, alpha=0.45, markeredgewidth=0.6)
         front = [row for row in fronts if row["front"] == deformer]
-        axes.plot(records.numbers(front, "ms_median"), records.numbers(front, "error_joint_pct"), color=color, marker=marker, label=label,
-                  linewidth=1.0)
+        axes.plot(records.numbers(front, "ms_median"), records.numbers(front, "error_joint_pct"), color=color, marker=marker,
+                  label=case_words.of_field("deformer", deformer), linewidth=1.0)
     front = [row for row in fronts if row["front"] == "all"]
     if front:
         axes.step(records.numbers(front, "ms_median"), records.numbers(front, "error_joint_pct"), where="post", color=style.yellow,

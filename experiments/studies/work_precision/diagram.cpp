@@ -23,14 +23,14 @@ Diagram diagram_of(const std::vector<PointRow>& rows)
     diagram.name = text_of(diagram.pose);
     for (const PointRow& row : rows) {
         if (row.outcome == "reference") {
-            diagram.reference = row.reference;
+            diagram.reference = name_of(row.key);
             diagram.reference_ms = row.ms_median;
             diagram.reference_error_pct = row.reference_error_joint_pct;
             diagram.reference_difference_pct = row.error_joint_beside_pct;
             diagram.self_intersecting = row.reference_self_intersects.value_or(false);
         }
         if (row.ms_median && row.error)
-            diagram.points.push_back({row.key, row.setting, *row.ms_median, row.ms_q1, row.ms_q3, row.error->joint_pct, row.error->l2_pct,
+            diagram.points.push_back({row.key, *row.ms_median, row.ms_q1, row.ms_q3, row.error->joint_pct, row.error->l2_pct,
                                       row.error->linf_m, row.metrics.volume_abs_change_pct, row.error_joint_beside_pct,
                                       row.below_reference_error.value_or(false)});
     }
@@ -53,7 +53,7 @@ std::optional<DiagramPoint> mean_of(const std::vector<Diagram>& poses, const Dia
     constexpr std::optional<double> DiagramPoint::*known_or_not[] = {&DiagramPoint::ms_q1,      &DiagramPoint::ms_q3,
                                                                      &DiagramPoint::l2_pct,     &DiagramPoint::linf_m,
                                                                      &DiagramPoint::beside_pct, &DiagramPoint::volume_abs_change_pct};
-    DiagramPoint mean{setting.key, setting.setting};
+    DiagramPoint mean{setting.key};
     for (const auto value : known_or_not) mean.*value = 0.0;
     const double share = 1.0 / double(poses.size());
     for (const Diagram& pose : poses) {
@@ -78,7 +78,7 @@ Diagram mean_diagram(const std::string& what, const std::string& over, const std
     mean.poses = static_cast<int>(poses.size());
     for (const Diagram& pose : poses) mean.self_intersecting += pose.self_intersecting;
     const bool same = std::all_of(poses.begin(), poses.end(), [&](const Diagram& pose) { return pose.reference == poses[0].reference; });
-    mean.reference = same ? poses[0].reference : "of each pose";
+    mean.reference = same ? poses[0].reference : "another one for each pose";
     mean.reference_ms = mean_of(poses, &Diagram::reference_ms);
     mean.reference_error_pct = mean_of(poses, &Diagram::reference_error_pct);
     mean.reference_difference_pct = mean_of(poses, &Diagram::reference_difference_pct);
@@ -100,20 +100,20 @@ void add_to(std::vector<Family>& families, const std::string& name, const Diagra
 
 }  // namespace
 
-const std::vector<std::string>& measures()
+const analysis::Columns<DiagramPoint>& measures()
 {
-    static const std::vector<std::string> names = {"error_joint_pct", "error_l2_pct", "error_linf_m", "volume_abs_change_pct"};
-    return names;
+    static const analysis::Columns<DiagramPoint> columns = {
+        {"error_joint_pct", &DiagramPoint::error_pct, "%", "error over the blended vertices"},
+        {"error_l2_pct", &DiagramPoint::l2_pct, "%", "error over all vertices"},
+        {"error_linf_m", &DiagramPoint::linf_m, "m", "largest distance to the reference"},
+        {"volume_abs_change_pct", &DiagramPoint::volume_abs_change_pct, "%", "sum of the absolute changes of each tet"}};
+    return columns;
 }
 
 double value_of(const DiagramPoint& point, const std::string& measure)
 {
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    if (measure == "error_joint_pct") return point.error_pct;
-    if (measure == "error_l2_pct") return point.l2_pct.value_or(none);
-    if (measure == "error_linf_m") return point.linf_m.value_or(none);
-    if (measure == "volume_abs_change_pct") return point.volume_abs_change_pct.value_or(none);
-    throw std::logic_error("no such measure: " + measure);
+    const analysis::CsvTable::Cell cell = measures().named(measure).cell(point);
+    return cell.kind == analysis::CsvTable::Cell::Kind::real ? cell.real : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::vector<analysis::WorkPrecision> Diagram::of(const std::vector<std::string>& deformers, std::vector<std::size_t>& indices,
@@ -151,7 +151,7 @@ std::vector<DiagramPoint> budgets_of(const Diagram& diagram)
 {
     std::vector<DiagramPoint> budgets;
     for (const int iterations : {1, 4, 24, 96}) {
-        PointSetting setting{"pbs", "", default_spec("pbs")};
+        PointSetting setting{"pbs", default_spec("pbs")};
         options_of<pbs::PbsOptions>(setting.spec).iterations = iterations;
         const SettingKey key = key_of(setting);
         for (const DiagramPoint& point : diagram.points)

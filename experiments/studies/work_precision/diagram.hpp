@@ -16,28 +16,25 @@ namespace experiments {
 
 struct DiagramPoint {
     SettingKey key;
-    std::string setting;  // in words
     double ms = 0.0;
     std::optional<double> ms_q1 = {}, ms_q3 = {};  // nothing where there were too few rounds
     double error_pct = 0.0;
     std::optional<double> l2_pct = {}, linf_m = {}, volume_abs_change_pct = {};
     std::optional<double> beside_pct = {};  // against the second solution
     bool below_reference_error = false;
-
-    std::string words() const { return setting.empty() ? key.deformer : key.deformer + ", " + setting; }
 };
 
 // The measures of fronts, named as the points' columns: error_joint_pct, which all sentences use, error_l2_pct, error_linf_m and
 // volume_abs_change_pct.
-const std::vector<std::string>& measures();
+const analysis::Columns<DiagramPoint>& measures();
 double value_of(const DiagramPoint& point, const std::string& measure);  // not a number where it is not recorded
 
 struct Diagram {
     analysis::CaseKey pose;            // of one case; a mean of several has none
     std::string key;                   // limb_twist_90, or limb_mean_of_4_poses
-    std::string name;                  // for readers: limb, twist, angle_deg 90
+    std::string name;                  // for readers: limb, twist, 90 deg
     std::vector<DiagramPoint> points;  // those with a time and an error; the reference has no error
-    std::string reference;             // name of its deformer; empty: none was reached
+    std::string reference;             // its name for readers; empty: none was reached
     std::optional<double> reference_ms;
     std::optional<double> reference_error_pct;
     std::optional<double> reference_difference_pct;  // of the second solution from it
@@ -46,7 +43,7 @@ struct Diagram {
 
     // The points of these deformers with their cost and measure. indices[k] is the place of the k-th in `points`.
     std::vector<analysis::WorkPrecision> of(const std::vector<std::string>& deformers, std::vector<std::size_t>& indices,
-                                            const std::string& measure = measures().front()) const;
+                                            const std::string& measure = "error_joint_pct") const;
 };
 
 // The times and errors of a mean are means over the poses. It has those settings that have an error in each pose.

@@ -14,12 +14,11 @@ using analysis::within;
 
 const Columns<SettingKey> point_deformer_columns = {{"deformer", &SettingKey::deformer, "", "name of the deformer"}};
 const Columns<DiagramPoint> timed_columns =
-    within(&DiagramPoint::key, point_deformer_columns) +
-    Columns<DiagramPoint>{{"setting", &DiagramPoint::setting, "", "its setting in words"},
-                          {"ms_median", &DiagramPoint::ms, "ms", "median of the processor time per frame"}};
+    within(&DiagramPoint::key, point_deformer_columns) + within(&DiagramPoint::key, setting_columns()) +
+    Columns<DiagramPoint>{{"ms_median", &DiagramPoint::ms, "ms", "median of the processor time per frame"}};
 const Columns<DiagramPoint> quartile_columns = {{"ms_q1", &DiagramPoint::ms_q1, "ms", "its lower quartile"},
                                                 {"ms_q3", &DiagramPoint::ms_q3, "ms", "its upper quartile"}};
-const Columns<DiagramPoint> point_error_columns = {{"error_joint_pct", &DiagramPoint::error_pct, "%", "error over the blended vertices"}};
+const Columns<DiagramPoint> point_error_columns = {measures().front()};
 const Columns<DiagramPoint> below_columns = {
     {"below_reference_error", &DiagramPoint::below_reference_error, "", "the error is not above the reference's own bound"}};
 
@@ -42,32 +41,35 @@ const Columns<FrontRow> front_columns =
 struct CrossingRow {
     std::string diagram, deformer, other, outcome = "never";
     std::optional<double> from_ms = {}, from_ms_q1 = {}, from_ms_q3 = {};
-    std::string setting = {};
+    std::optional<SettingKey> setting = {};
     std::optional<double> error_pct = {}, other_error_pct = {}, reference_error_pct = {};
     std::optional<bool> told_apart = {}, holds_beside = {};
 };
-const Columns<CrossingRow> crossing_columns = {
-    {"case", &CrossingRow::diagram, "", "name of the case's run, or of the mean over several"},
-    {"deformer", &CrossingRow::deformer, "", "key of a group of deformers"},
-    {"other", &CrossingRow::other, "", "another group"},
-    {"outcome", &CrossingRow::outcome, "", "whether the first group's best is nearer to the reference: always, from some time on, never"},
-    {"from_ms", &CrossingRow::from_ms, "ms", "time per frame from which on it is nearer"},
-    {"from_ms_q1", &CrossingRow::from_ms_q1, "ms", "lower quartile of the time of the point that is nearer"},
-    {"from_ms_q3", &CrossingRow::from_ms_q3, "ms", "its upper quartile"},
-    {"setting", &CrossingRow::setting, "", "setting of that point in words"},
-    {"error_joint_pct", &CrossingRow::error_pct, "%", "error of that point"},
-    {"other_error_joint_pct", &CrossingRow::other_error_pct, "%", "least error of the other group within that time"},
-    {"reference_error_joint_pct", &CrossingRow::reference_error_pct, "%", "bound of the reference's own error at the joints"},
-    {"told_apart", &CrossingRow::told_apart, "", "the two errors differ by more than twice that bound, from that time on"},
-    {"holds_beside", &CrossingRow::holds_beside, "", "the point is nearer to the second solution too, from that time on"}};
+const Columns<CrossingRow> crossing_columns =
+    Columns<CrossingRow>{{"case", &CrossingRow::diagram, "", "name of the case's run, or of the mean over several"},
+                         {"deformer", &CrossingRow::deformer, "", "key of a group of deformers"},
+                         {"other", &CrossingRow::other, "", "another group"},
+                         {"outcome", &CrossingRow::outcome, "",
+                          "whether the first group's best is nearer to the reference: always, from some time on, never"},
+                         {"from_ms", &CrossingRow::from_ms, "ms", "time per frame from which on it is nearer"},
+                         {"from_ms_q1", &CrossingRow::from_ms_q1, "ms", "lower quartile of the time of the point that is nearer"},
+                         {"from_ms_q3", &CrossingRow::from_ms_q3, "ms", "its upper quartile"}} +
+    within(&CrossingRow::setting, Columns<SettingKey>{{"point", &SettingKey::deformer, "", "deformer of that point"}} + setting_columns()) +
+    Columns<CrossingRow>{
+        {"error_joint_pct", &CrossingRow::error_pct, "%", "error of that point"},
+        {"other_error_joint_pct", &CrossingRow::other_error_pct, "%", "least error of the other group within that time"},
+        {"reference_error_joint_pct", &CrossingRow::reference_error_pct, "%", "bound of the reference's own error at the joints"},
+        {"told_apart", &CrossingRow::told_apart, "", "the two errors differ by more than twice that bound, from that time on"},
+        {"holds_beside", &CrossingRow::holds_beside, "", "the point is nearer to the second solution too, from that time on"}};
 
 }  // namespace
 
 const Columns<BudgetRow> budget_columns =
-    Columns<BudgetRow>{{"case", &BudgetRow::diagram, "", "name of the case's run, or of the mean over several"},
-                       {"budget_of", &BudgetRow::budget_of, "", "the setting of PBS whose time is the budget"},
-                       {"budget_ms", &BudgetRow::budget_ms, "ms", "that time per frame"},
-                       {"group", &BudgetRow::group, "", "key of a group of deformers"}} +
+    Columns<BudgetRow>{
+        {"case", &BudgetRow::diagram, "", "name of the case's run, or of the mean over several"},
+        {"budget_iterations", &BudgetRow::budget_iterations, "", "PBS with its defaults and these iterations has the budget"},
+        {"budget_ms", &BudgetRow::budget_ms, "ms", "that time per frame"},
+        {"group", &BudgetRow::group, "", "key of a group of deformers"}} +
     within(&BudgetRow::point, timed_columns + point_error_columns);
 
 namespace {
@@ -108,7 +110,7 @@ void add_crossing(std::vector<CrossingRow>& rows, const Diagram& diagram, const 
     row.from_ms = crossing->from;
     row.from_ms_q1 = point.ms_q1;
     row.from_ms_q3 = point.ms_q3;
-    row.setting = point.setting;
+    row.setting = point.key;
     row.error_pct = point.error_pct;
     row.other_error_pct = known(crossing->other_error);
     const std::optional<Certainty> certainty = certainty_from(diagram, one, other, crossing->from);
@@ -123,7 +125,7 @@ analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams)
 {
     std::vector<FrontRow> rows;
     for (const Diagram& diagram : diagrams)
-        for (const std::string& measure : measures()) {
+        for (const std::string& measure : measures().names()) {
             add_front(rows, diagram, measure, "all", all_deformers());
             for (const std::string& deformer : all_deformers()) add_front(rows, diagram, measure, deformer, {deformer});
         }
@@ -147,7 +149,7 @@ std::vector<BudgetRow> equal_cost(const std::vector<Diagram>& diagrams)
         for (const DiagramPoint& budget : budgets_of(diagram))
             for (const DeformerGroup& group : deformer_groups())
                 if (const DiagramPoint* point = best_of(diagram, group, budget.ms))
-                    rows.push_back({diagram.key, budget.words(), budget.ms, group.key, *point});
+                    rows.push_back({diagram.key, budget.key.iterations, budget.ms, group.key, *point});
     return rows;
 }
 

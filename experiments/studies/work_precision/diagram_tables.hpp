@@ -18,7 +18,8 @@ analysis::CsvTable crossings_table(const std::vector<Diagram>& diagrams);
 
 // equal_cost.csv: the best point of each group within the time of PBS with 1, 4, 24 and 96 iterations at the scene's k_stretch.
 struct BudgetRow {
-    std::string diagram, budget_of;
+    std::string diagram;
+    std::optional<int> budget_iterations;
     double budget_ms = 0.0;
     std::string group;
     DiagramPoint point;

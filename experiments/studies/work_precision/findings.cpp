@@ -41,26 +41,6 @@ std::string who_is_quickest(const Diagram& diagram)
                        first[2].second);
 }
 
-// Each stretch of the front that belongs to one group, compared with the nearest faster point.
-std::vector<std::string> who_is_nearest(const Diagram& diagram)
-{
-    const std::vector<const DiagramPoint*> front = front_of(diagram);
-    std::vector<std::string> lines;
-    for (std::size_t begin = 0; begin < front.size();) {
-        const DeformerGroup& group = group_of(front[begin]->key.deformer);
-        std::size_t end = begin;
-        while (end < front.size() && &group_of(front[end]->key.deformer) == &group) ++end;
-        const DiagramPoint &from = *front[begin], &to = *front[end - 1];
-        std::string error = fmt::format("{:.1f} %", from.error_pct);
-        if (end > begin + 1) error += fmt::format(" to {:.1f} % at {}", to.error_pct, ms_text(to.ms));
-        const std::string mark = begin > 0 ? words_of(certainty_of(diagram, from, *front[begin - 1]), diagram) : "";
-        lines.push_back(
-            fmt::format("from {} on {} is nearest, with an error of {} ({}){}", ms_text(from.ms), group.words, error, to.words(), mark));
-        begin = end;
-    }
-    return lines;
-}
-
 // The best points of both, at any time.
 std::string who_stays_behind(const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other)
 {
@@ -80,7 +60,7 @@ std::string who_passes(const Diagram& diagram, const DeformerGroup& one, const D
     const DiagramPoint& point = diagram.points[of_one[crossing->one]];
     const std::string when = crossing->from_the_start ? "at all times" : fmt::format("from {} on", ms_text(crossing->from));
     const std::optional<Certainty> certainty = certainty_from(diagram, one, other, crossing->from);
-    return fmt::format("{} is nearer than {} {} ({}: {:.1f} %){}", one.words, other.words, when, point.setting, point.error_pct,
+    return fmt::format("{} is nearer than {} {} ({}: {:.1f} %){}", one.words, other.words, when, words_of(point.key), point.error_pct,
                        certainty ? words_of(*certainty, diagram) : "");
 }
 
@@ -103,18 +83,24 @@ std::string is_physics_worth_it(const Diagram& diagram, double budget_ms, const 
     return text + words_of(certainty, diagram);
 }
 
+// The same within the time of delta mush at its best, a setting that is chosen in hindsight.
+std::string is_physics_worth_it(const Diagram& diagram)
+{
+    const DiagramPoint* mush = best_of(diagram, group_named("delta_mush"), std::numeric_limits<double>::infinity());
+    return mush ? is_physics_worth_it(diagram, mush->ms, "delta mush at its best, " + words_of(mush->key)) : "";
+}
+
 std::string what_is_undecided(const Diagram& diagram)
 {
     const std::string ms = diagram.reference_ms ? fmt::format(", which takes {},", ms_text(*diagram.reference_ms)) : "";
     if (!diagram.reference_error_pct || !diagram.reference_difference_pct)
-        return fmt::format("the reference {}{} has no second solution and therefore no error bar", diagram.reference, ms);
+        return fmt::format("the reference ({}){} has no second solution and therefore no error bar", diagram.reference, ms);
     const auto below = [&](double bar_pct) {
         return std::count_if(diagram.points.begin(), diagram.points.end(), [&](const auto& point) { return point.error_pct <= bar_pct; });
     };
     return fmt::format(
-        "the reference {}{} and the second solution differ by {:.1f} %, and {} of {} points lie within that; with an order of convergence "
-        "of "
-        "1, which is assumed and not observed, its error is up to {:.1f} %, and {} points lie within that",
+        "the reference ({}){} and the second solution differ by {:.1f} %, and {} of {} points lie within that; with an order of "
+        "convergence of 1, which is assumed and not observed, its error is up to {:.1f} %, and {} points lie within that",
         diagram.reference, ms, *diagram.reference_difference_pct, below(*diagram.reference_difference_pct), diagram.points.size(),
         *diagram.reference_error_pct, below(*diagram.reference_error_pct));
 }
@@ -129,16 +115,15 @@ std::string what_refinement_does(const Diagram& diagram)
     const auto own = with(false), refined = with(true);
     if (own == diagram.points.end() || refined == diagram.points.end()) return "";
     return fmt::format(
-        "one refinement: stable neo-Hookean flesh of order 1 has an error of {:.1f} % on the case's own tets and of {:.1f} % on tets cut "
-        "into "
-        "eight",
+        "one refinement: stable neo-Hookean flesh of order 1 has an error of {:.1f} % on the case's own tets and of {:.1f} % on tets "
+        "cut into eight",
         own->error_pct, refined->error_pct);
 }
 
 std::string whose_reference_intersects(const Diagram& diagram)
 {
     if (diagram.self_intersecting == 0) return "";
-    const std::string whose = diagram.poses == 1 ? fmt::format("the reference {} intersects itself", diagram.reference)
+    const std::string whose = diagram.poses == 1 ? fmt::format("the reference ({}) intersects itself", diagram.reference)
                                                  : fmt::format("the references of {} of the {} poses intersect themselves",
                                                                diagram.self_intersecting, diagram.poses);
     return whose + ": contact is not modelled, so where the flesh overlaps, the distance to it does not show which deformer is right";
@@ -150,12 +135,10 @@ std::vector<std::string> findings(const Diagram& diagram)
 {
     if (diagram.points.empty()) return {"no reference was reached: there is no error to show"};
     std::vector<std::string> lines = {who_is_quickest(diagram)};
-    for (const std::string& line : who_is_nearest(diagram)) lines.push_back(line);
     for (const auto& [one, other] : {std::pair{"pbs", "delta_mush"}, {"pbs", "xpbd"}, {"linear_fem", "pbs"}, {"nonlinear_fem", "pbs"}})
         lines.push_back(who_passes(diagram, group_named(one), group_named(other)));
-    for (const DiagramPoint& budget : budgets_of(diagram))
-        lines.push_back(is_physics_worth_it(diagram, budget.ms, "PBS, " + budget.setting));
-    lines.push_back(physics_text(diagram));
+    for (const DiagramPoint& budget : budgets_of(diagram)) lines.push_back(is_physics_worth_it(diagram, budget.ms, name_of(budget.key)));
+    lines.push_back(is_physics_worth_it(diagram));
     lines.push_back(what_is_undecided(diagram));
     lines.push_back(what_refinement_does(diagram));
     lines.push_back(whose_reference_intersects(diagram));
@@ -170,7 +153,7 @@ std::string front_text(const Diagram& diagram)
         fmt::format("     {}\n     {:>12} {:>21} {:>9}  {}\n", diagram.name, "ms per frame", "quartiles", "error [%]", "deformer");
     for (const DiagramPoint* point : front_of(diagram))
         text += fmt::format("     {:>12.4g} {:>10} {:>10} {:>8.2f}{} {}\n", point->ms, known(point->ms_q1), known(point->ms_q3),
-                            point->error_pct, point->below_reference_error ? "*" : " ", point->words());
+                            point->error_pct, point->below_reference_error ? "*" : " ", name_of(point->key));
     return text;
 }
 
@@ -194,12 +177,6 @@ std::string best_text(const std::vector<Diagram>& diagrams)
                             bar_pct ? fmt::format("up to {:.1f}", *bar_pct) : "not known", diagram.self_intersecting > 0 ? "#" : "");
     }
     return text;
-}
-
-std::string physics_text(const Diagram& diagram)
-{
-    const DiagramPoint* mush = best_of(diagram, group_named("delta_mush"), std::numeric_limits<double>::infinity());
-    return mush ? is_physics_worth_it(diagram, mush->ms, "delta mush at its best, " + mush->setting) : "";
 }
 
 }  // namespace experiments

@@ -15,8 +15,4 @@ std::string front_text(const Diagram& diagram);
 // All diagrams, one line each: the least error of each group of deformers, and its time in ms.
 std::string best_text(const std::vector<Diagram>& diagrams);
 
-// Whether the physics is worth its time: delta mush against PBS and XPBD within the time of delta mush at its best, a setting that is
-// chosen in hindsight.
-std::string physics_text(const Diagram& diagram);
-
 }  // namespace experiments

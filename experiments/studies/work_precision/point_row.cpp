@@ -19,15 +19,6 @@ const Columns<CaseKey> case_columns = {{"body", &CaseKey::body, "", "name of the
                                        {"angle_deg", &CaseKey::angle_deg, "deg", "angle of a joint that is twisted or bent"}};
 
 const Columns<SettingKey> deformer_columns = {{"deformer", &SettingKey::deformer, "", "name of the deformer"}};
-const Columns<SettingKey> setting_columns = {
-    {"iterations", &SettingKey::iterations, "", "iterations per step"},
-    {"k_stretch", &SettingKey::k_stretch, "", "PBS: stiffness of the stretch constraints"},
-    {"order", &SettingKey::order, "", "PBS: order of projection"},
-    {"precision", &SettingKey::precision, "", "PBS: f32 or f64"},
-    {"substeps", &SettingKey::substeps, "", "PBS and XPBD: substeps per frame"},
-    {"element_order", &SettingKey::element_order, "", "finite elements: 1 linear, 2 quadratic"},
-    {"wanted_vertices", &SettingKey::wanted_vertices, "", "wanted size of another mesh of the body; empty on the case's own"},
-    {"refined", &SettingKey::refined, "", "solved on the case's own tets, each cut into eight"}};
 
 const Columns<ErrorNorms> error_columns = {{"error_joint_pct", &ErrorNorms::joint_pct, "%", "error over the blended vertices"},
                                            {"error_l2_pct", &ErrorNorms::l2_pct, "%", "error over all vertices"},
@@ -68,7 +59,7 @@ void add_reference(PointRow& row, const ReachedReference& reference, const Point
     if (!reference.bar) return;
     row.reference_error_joint_pct = reference.bar->joint_pct;
     row.reference_error_l2_pct = reference.bar->l2_pct;
-    row.beside = reference.beside->setting->words;
+    row.beside = words_of(key_of(*reference.beside->setting));
     row.error_joint_beside_pct = values.beside_pct;
     if (values.error) row.below_reference_error = values.error->joint_pct <= reference.bar->joint_pct;
     if (values.parts) row.discretisation_pct = reference.bar->joint_pct;
@@ -79,7 +70,8 @@ void add_reference(PointRow& row, const ReachedReference& reference, const Point
 using Points = Columns<PointRow>;
 const Columns<PointRow> point_columns =
     within(&PointRow::of, case_columns) + within(&PointRow::key, deformer_columns) +
-    Points{{"setting", &PointRow::setting, "", "its setting in words"}} + within(&PointRow::key, setting_columns) +
+    Points{{"setting", &PointRow::setting, "", "its setting in words, which repeat the columns from iterations to refined"}} +
+    within(&PointRow::key, setting_columns()) +
     Points{{"vertices", &PointRow::vertices, "", "vertices of the mesh that it is solved on"},
            {"tets", &PointRow::tets, "", "tets of that mesh"},
            {"outcome", &PointRow::outcome, "", "reference, finished, not_converged or not_finite"},
@@ -117,7 +109,7 @@ FrameTime frame_time(std::vector<double> samples)
 PointRow point_row(const ReachedPoint& point, const ReachedReference& reference, const PointValues& values)
 {
     const pbs::TetMesh& mesh = point.mesh->character().mesh;
-    PointRow row{values.of, key_of(*point.setting), point.setting->words};
+    PointRow row{values.of, key_of(*point.setting), words_of(key_of(*point.setting))};
     row.vertices = int(mesh.rest.rows());
     row.tets = int(mesh.tets.rows());
     row.outcome = outcome_of(point, reference);

@@ -11,8 +11,9 @@
 #include "pbs/solver/xpbd_options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <algorithm>
+#include <map>
 
 namespace experiments {
 namespace {
@@ -26,11 +27,19 @@ const DeformerSpec& first_fem(const Scene& scene)
     return *fem;
 }
 
-// "24 iterations, k_stretch 0.2, ordered f32"
-std::string words_of(const pbs::PbsOptions& options)
+// Finite elements of the scene's own material, without mean dilatation. Quadratic elements do not need it at the scenes' Poisson's ratio of
+// 0.45, and with it Newton's method does not converge in a body's creases.
+DeformerSpec fem_spec(const Scene& scene, reference_fem::Model model, int element_order)
 {
-    return fmt::format("{} iterations, k_stretch {}, {} {}", options.iterations, options.k_stretch, name_of(options.order),
-                       name_of(options.precision));
+    DeformerSpec spec = first_fem(scene);
+    spec.name = spec.label = fmt::format("{}_p{}", name_of(model), element_order);
+    auto& options = options_of<FemOptions>(spec);
+    options.model = model;
+    options.element_order = element_order;
+    options.nested_start = element_order == 2 && model != reference_fem::Model::linear;
+    options.most_newton_steps = most_newton_steps;
+    options.formulation = reference_fem::Formulation::displacement;
+    return spec;
 }
 
 class SettingList {
@@ -43,9 +52,9 @@ public:
 
     void add_geometric()
     {
-        for (const char* kind : {"lbs", "dqs"}) add({.deformer = kind, .words = "", .spec = default_spec(kind)});
+        for (const char* kind : {"lbs", "dqs"}) add({.deformer = kind, .spec = default_spec(kind)});
         for (const int iterations : {0, 1, 2, 5, 10, 20, 50, 100, 200}) {
-            PointSetting setting{"delta_mush", fmt::format("{} iterations", iterations), default_spec("delta_mush")};
+            PointSetting setting{"delta_mush", default_spec("delta_mush")};
             options_of<pbs::DeltaMushOptions>(setting.spec).iterations = iterations;
             add(setting);
         }
@@ -78,13 +87,12 @@ public:
     void add_xpbd()
     {
         for (const int count : {1, 2, 4, 8, 16, 24, 48, 96, 384}) {
-            PointSetting setting{"xpbd", fmt::format("{} iterations", count), default_spec("xpbd")};
+            PointSetting setting{"xpbd", default_spec("xpbd")};
             const auto& flesh = options_of<FemOptions>(first_fem(scene_));
             pbs::XpbdOptions options = {.young_pa = flesh.young_pa, .poisson = flesh.poisson, .iterations = count};
             setting.spec.options = options;
             add(setting);
             setting.deformer = "xpbd_small_steps";
-            setting.words = fmt::format("{} substeps of 1 iteration", count);
             options.iterations = 1;
             options.substeps = count;
             setting.spec.options = options;
@@ -98,12 +106,12 @@ public:
         for (const Model model : {Model::linear, Model::corotational, Model::stable_neo_hookean})
             for (const int element_order : {1, 2}) {
                 const DeformerSpec spec = fem_spec(scene_, model, element_order);
-                const PointSetting setting{"fem_" + name_of(model), fmt::format("P{}", element_order), spec};
+                const PointSetting setting{"fem_" + name_of(model), spec};
                 const bool quadratic = model == Model::corotational ? range.quadratic_corotational : range.quadratic;
                 if (element_order == 1 || model == Model::linear || quadratic) add(setting);
             }
         if (!range.refined) return;
-        PointSetting setting{"fem_stable_neo_hookean", "P1, tets cut into eight", fem_spec(scene_, Model::stable_neo_hookean, 1)};
+        PointSetting setting{"fem_stable_neo_hookean", fem_spec(scene_, Model::stable_neo_hookean, 1)};
         setting.refined = options_of<FemOptions>(setting.spec).nested_start = true;
         add(setting);
     }
@@ -112,21 +120,19 @@ public:
     {
         const auto elsewhere = [&](PointSetting setting) {
             setting.vertices = vertices;
-            setting.words += (setting.words.empty() ? "" : ", ") + fmt::format("mesh of {} vertices", vertices);
             add(setting);
         };
-        elsewhere({"lbs", "", default_spec("lbs")});
+        elsewhere({"lbs", default_spec("lbs")});
         for (const int iterations : {4, 24, 96}) {
             DeformerSpec spec = base_;
-            const pbs::PbsOptions options = pbs_with(iterations, own_pbs().k_stretch);
-            spec.options = options;
-            elsewhere({"pbs", words_of(options), spec});
+            spec.options = pbs_with(iterations, own_pbs().k_stretch);
+            elsewhere({"pbs", spec});
         }
         using reference_fem::Model;
         for (const Model model : {Model::linear, Model::corotational, Model::stable_neo_hookean})
             for (const int element_order : {1, 2})
                 if (element_order == 1 || model == Model::linear || vertices <= quadratic_up_to)
-                    elsewhere({"fem_" + name_of(model), fmt::format("P{}", element_order), fem_spec(scene_, model, element_order)});
+                    elsewhere({"fem_" + name_of(model), fem_spec(scene_, model, element_order)});
     }
 
     std::vector<PointSetting> settings;
@@ -137,9 +143,8 @@ private:
     void add_pbs(const pbs::PbsOptions& options, int substeps = 1)
     {
         const bool has_exponent = options.stiffness_form == pbs::StiffnessForm::exponent;
-        PointSetting setting{has_exponent ? "pbs_exponent" : "pbs", words_of(options), base_, substeps};
+        PointSetting setting{has_exponent ? "pbs_exponent" : "pbs", base_, substeps};
         setting.spec.options = options;
-        if (substeps > 1) setting.words += fmt::format(", {} substeps", substeps);
         add(setting);
     }
 
@@ -178,11 +183,58 @@ SettingKey key_of(const PointSetting& setting)
     return key;
 }
 
+const analysis::Columns<SettingKey>& setting_columns()
+{
+    static const analysis::Columns<SettingKey> columns = {
+        {"iterations", &SettingKey::iterations, "", "iterations per step"},
+        {"k_stretch", &SettingKey::k_stretch, "", "PBS: stiffness of the stretch constraints"},
+        {"order", &SettingKey::order, "", "PBS: order of projection"},
+        {"precision", &SettingKey::precision, "", "PBS: f32 or f64"},
+        {"substeps", &SettingKey::substeps, "", "PBS and XPBD: substeps per frame"},
+        {"element_order", &SettingKey::element_order, "", "finite elements: 1 linear, 2 quadratic"},
+        {"wanted_vertices", &SettingKey::wanted_vertices, "", "wanted size of another mesh of the body; empty on the case's own"},
+        {"refined", &SettingKey::refined, "", "solved on the case's own tets, each cut into eight"}};
+    return columns;
+}
+
+std::string words_of(const SettingKey& key)
+{
+    std::vector<std::string> words;
+    const bool has_substeps = key.substeps.value_or(1) > 1;
+    if (key.deformer == "xpbd_small_steps") {
+        words.push_back(fmt::format("{} substeps of 1 iteration", *key.substeps));
+    } else {
+        if (key.iterations) words.push_back(fmt::format("{} iterations", *key.iterations));
+        if (key.k_stretch) words.push_back(fmt::format("k_stretch {}, {} {}", *key.k_stretch, key.order, key.precision));
+        if (has_substeps) words.push_back(fmt::format("{} substeps", *key.substeps));
+    }
+    if (key.element_order) words.push_back(fmt::format("P{}", *key.element_order));
+    if (key.refined) words.push_back("tets cut into eight");
+    if (key.wanted_vertices) words.push_back(fmt::format("mesh of {} vertices", *key.wanted_vertices));
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::string name_of(const SettingKey& key)
+{
+    static const std::map<std::string, std::string> names = {{"lbs", "LBS"},
+                                                             {"dqs", "DQS"},
+                                                             {"delta_mush", "delta mush"},
+                                                             {"pbs", "PBS"},
+                                                             {"pbs_exponent", "PBS with exponent"},
+                                                             {"xpbd", "XPBD"},
+                                                             {"xpbd_small_steps", "XPBD"},
+                                                             {"fem_linear", "linear FEM"},
+                                                             {"fem_corotational", "corotational FEM"},
+                                                             {"fem_stable_neo_hookean", "neo-Hookean FEM"}};
+    const std::string setting = words_of(key);
+    return names.at(key.deformer) + (setting.empty() ? "" : ", " + setting);
+}
+
 std::string digest_of(const std::vector<PointSetting>& settings)
 {
     nlohmann::json all = nlohmann::json::array();
     for (const PointSetting& setting : settings)
-        all.push_back({setting.deformer, setting.words, to_json(setting.spec), setting.substeps, setting.vertices, setting.refined});
+        all.push_back({setting.deformer, to_json(setting.spec), setting.substeps, setting.vertices, setting.refined});
     return pbs::content_hash(all.dump());
 }
 
@@ -197,19 +249,6 @@ nlohmann::json to_json(const SettingRange& range)
                                    .record("refined", &SettingRange::refined)
                                    .complete();
     return fields.json(range);
-}
-
-DeformerSpec fem_spec(const Scene& scene, reference_fem::Model model, int element_order)
-{
-    DeformerSpec spec = first_fem(scene);
-    spec.name = spec.label = fmt::format("{}_p{}", name_of(model), element_order);
-    auto& options = options_of<FemOptions>(spec);
-    options.model = model;
-    options.element_order = element_order;
-    options.nested_start = element_order == 2 && model != reference_fem::Model::linear;
-    options.most_newton_steps = most_newton_steps;
-    options.formulation = reference_fem::Formulation::displacement;
-    return spec;
 }
 
 std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange& range)

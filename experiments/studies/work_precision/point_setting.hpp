@@ -6,6 +6,7 @@
 // PBS also run on coarser and finer meshes of the body.
 #pragma once
 
+#include "analysis/records/typed_table.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/scene/scene.hpp"
 #include "pbs/solver/options.hpp"
@@ -18,7 +19,6 @@ namespace experiments {
 
 struct PointSetting {
     std::string deformer;  // its front: lbs, dqs, delta_mush, pbs, pbs_exponent, xpbd, xpbd_small_steps, fem_linear, ...
-    std::string words;     // the setting for readers: "24 iterations, k_stretch 0.2"
     DeformerSpec spec;
     int substeps = 1;      // steps per frame
     int vertices = 0;      // wanted size of another mesh of the body; 0: the case's own
@@ -45,6 +45,11 @@ struct SettingKey {
     bool operator==(const SettingKey&) const = default;
 };
 SettingKey key_of(const PointSetting& setting);
+const analysis::Columns<SettingKey>& setting_columns();  // all fields except the deformer
+
+// The setting for readers, without its deformer: "24 iterations, k_stretch 0.2, ordered f32". Empty if the deformer has no settings.
+std::string words_of(const SettingKey& key);
+std::string name_of(const SettingKey& key);  // with its deformer: "PBS, 24 iterations, k_stretch 0.2, ordered f32"
 
 struct SettingRange {
     bool quadratic = true;                   // stable neo-Hookean flesh on quadratic elements too: the reference
@@ -59,11 +64,7 @@ nlohmann::json to_json(const SettingRange& range);
 // The scene gives the options that are not varied: its pbs, and the material and attachment of its first [[fem]].
 std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange& range);
 
-// A digest in 32 hexadecimal digits of everything that the points depend on: their words, options, substeps and meshes.
+// A digest in 32 hexadecimal digits of everything that the points depend on: their options, substeps and meshes.
 std::string digest_of(const std::vector<PointSetting>& settings);
-
-// Finite elements of the scene's own material, by law and element order, without mean dilatation. Quadratic elements do not need it at the
-// scenes' Poisson's ratio of 0.45, and with it Newton's method does not converge in a body's creases.
-DeformerSpec fem_spec(const Scene& scene, reference_fem::Model model, int element_order);
 
 }  // namespace experiments

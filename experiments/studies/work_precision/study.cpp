@@ -112,7 +112,6 @@ StudyConclusion conclude(const FinishedRuns& finished)
                        "error (bound); #: the reference intersects itself\n";
     std::string page;
     for (const Diagram& diagram : diagrams) {
-        text += fmt::format("     {}: {}\n", diagram.name, physics_text(diagram));
         page += fmt::format("## {}\n\n```\n{}```\n\n", diagram.name, front_text(diagram));
         for (const std::string& line : findings(diagram)) page += "- " + line + "\n";
         page += "\n";

@@ -65,8 +65,8 @@ def write_regions(results):
                                  "second_bone": second, "rest_share_pct": 10.0, "change_pct": change, "own_change_pct": 10 * change})
 
 
-verification_columns = ["problem", "quantity", "description", "element_order", "formulation", "material", "poisson", "mesh", "h_m", "dofs",
-                        "value", "reference", "unit", "difference_pct", "source", "bound_from", "low", "high", "observed_order",
+verification_columns = ["problem", "quantity", "setting", "description", "element_order", "formulation", "material", "poisson", "mesh", "h_m",
+                        "dofs", "value", "reference", "unit", "difference_pct", "source", "bound_from", "low", "high", "observed_order",
                         "expected_order", "note", "holds"]
 
 
@@ -75,7 +75,7 @@ def write_verification(results):
     folder = results / "verification"
     (folder / "beam").mkdir(parents=True)
     (folder / "beam" / "run.json").write_text(json.dumps(origin))
-    of_all = {"formulation": "displacement", "material": "linear, nu = 0.3", "poisson": 0.3}
+    of_all = {"formulation": "displacement", "material": "linear", "poisson": 0.3}
     with open(folder / "verification.csv", "w", newline="") as stream:
         writer = csv.DictWriter(stream, verification_columns)
         writer.writeheader()
@@ -122,15 +122,16 @@ def write_work_precision(results):
     (folder / "limb_bend_90").mkdir(parents=True)
     (folder / "limb_bend_90" / "run.json").write_text(json.dumps(origin))
     case = {"body": "limb", "motion": "bend", "pose": "", "angle_deg": 90}
-    of_point = ["deformer", "setting", "ms_median", "error_joint_pct"]
-    points = [("lbs", "", 0.1, 50.0), *(("pbs", f"{n} iterations", float(n), 40.0 / n) for n in (1, 2, 4))]
+    unset = ["k_stretch", "order", "precision", "substeps", "element_order", "wanted_vertices", "refined"]
+    of_point = ["deformer", "iterations", "ms_median", "error_joint_pct", *unset]
+    points = [("lbs", "", 0.1, 50.0), *(("pbs", n, float(n), 40.0 / n) for n in (1, 2, 4))]
     with open(folder / "limb_bend_90" / "points.csv", "w", newline="") as stream:
         writer = csv.DictWriter(stream, [*case, *of_point, "outcome", "reference_error_joint_pct", "error_joint_beside_pct"])
         writer.writeheader()
         for point in points:
             writer.writerow({**case, **dict(zip(of_point, point)), "outcome": "finished", "reference_error_joint_pct": 15.0,
                              "error_joint_beside_pct": point[3]})
-        writer.writerow({**case, "deformer": "snh", "setting": "P2", "ms_median": 900.0, "outcome": "reference",
+        writer.writerow({**case, "deformer": "snh", "ms_median": 900.0, "outcome": "reference",
                          "reference_error_joint_pct": 15.0, "error_joint_beside_pct": 3.0})
     with open(folder / "fronts.csv", "w", newline="") as stream:
         writer = csv.DictWriter(stream, ["case", "measure", "front", *of_point])

@@ -70,7 +70,7 @@ class Choice : public testing::Test {
 protected:
     void add(int element_order, const BodyMesh& mesh, int vertices, bool refined, double moved_m, bool finished = true)
     {
-        PointSetting setting{"fem_stable_neo_hookean", "P" + std::to_string(element_order), {}};
+        PointSetting setting{"fem_stable_neo_hookean", {}};
         setting.spec = default_spec("fem");
         options_of<FemOptions>(setting.spec).model = reference_fem::Model::stable_neo_hookean;
         options_of<FemOptions>(setting.spec).element_order = element_order;
@@ -170,8 +170,8 @@ TEST(PointSettings, AreEachOnceInWordsAndKeysAndEightOrMoreOfEachDeformerWithSom
     std::vector<SettingKey> keys;
     std::map<std::string, int> of_deformer;
     for (const PointSetting& setting : settings) {
-        EXPECT_TRUE(words.insert(setting.deformer + ": " + setting.words).second) << setting.deformer << ": " << setting.words;
-        EXPECT_EQ(std::count(keys.begin(), keys.end(), key_of(setting)), 0) << setting.deformer << ": " << setting.words;
+        EXPECT_TRUE(words.insert(name_of(key_of(setting))).second) << name_of(key_of(setting));
+        EXPECT_EQ(std::count(keys.begin(), keys.end(), key_of(setting)), 0) << name_of(key_of(setting));
         keys.push_back(key_of(setting));
         ++of_deformer[setting.deformer];
     }
@@ -217,7 +217,7 @@ TEST_F(Choice, QuartilesAreOfThreeRoundsOrMore)
 TEST(PosedDeformers, TellARoundThatDoesNotArriveAndTheOneThatSetsOutFromThere)
 {
     const auto body = limb(300);
-    const PointSetting setting{"pbs", "", default_spec("pbs"), 2};
+    const PointSetting setting{"pbs", default_spec("pbs"), 2};
     pbs::Pose rest(body->skeleton.bones.size(), Eigen::Isometry3d::Identity()), nowhere = rest;
     for (Eigen::Isometry3d& bone : nowhere) bone.translation().setConstant(std::nan(""));
     const PosePair there_and_back{rest, rest}, there_and_nowhere{rest, nowhere}, nowhere_and_back{nowhere, rest};
