@@ -4,8 +4,10 @@ analysis/case_key.hpp declares.
     case_words.of({"body": "limb", "motion": "bend", "angle_deg": 90, "k_stretch": 0.2})  # limb, bend 90°, k_stretch 0.2
 """
 limbs = {"twist": "limb twisted", "bend": "limb bent"}  # whole sweeps
-bodies_by = {"lbs": "LBS", "dqs": "DQS", "pbs": "PBS", "reference": "reference", "pbs_exponent": "PBS, k by the exponent", "xpbd": "XPBD",
-             "xpbd_small_steps": "XPBD in small steps", "xpbd_forgetting_multipliers": "XPBD that forgets its multipliers"}
+bodies_by = {"lbs": "LBS", "dqs": "DQS", "delta_mush": "delta mush", "pbs": "PBS", "reference": "reference",
+             "pbs_exponent": "PBS, k by the exponent", "xpbd": "XPBD", "xpbd_small_steps": "XPBD in small steps",
+             "xpbd_forgetting_multipliers": "XPBD that forgets its multipliers", "fem_linear": "linear FEM",
+             "fem_corotational": "corotational FEM", "fem_stable_neo_hookean": "neo-Hookean FEM"}
 precisions = {"f32": "single precision", "f64": "double precision"}
 masses = {"equal": "equal masses", "unequal": "unequal masses", "unequal_by_eq_8_9": "unequal masses by Eq. 8\u20139, which are for m = 1",
           "unit": "unit masses", "lumped": "lumped masses"}
@@ -15,6 +17,11 @@ readings = {"as_printed": "as printed", "relative_to_p1": "read relative to p1",
 variants = {"jiggle": "jiggling flesh"}
 formulations = {"displacement": "", "mean_dilatation": "mean dilatation", "taylor_hood": "Taylor-Hood", "pbs": "PBS",
                 "volume_constraints": "PBS, every volume kept", "one_point": "one point", "three_grids": "three grids"}
+factors = {"poisson": "Poisson\u2019s ratio", "young": "Young\u2019s modulus", "slivers_height_kept": "slivers, height kept",
+           "needles_edge_kept": "needles, edge kept", "sign_k_bind": "sign, k_bind",
+           **{name: name for name in ("k_stretch", "k_volume", "k_bind")}}
+laws = {"stable_neo_hookean": "stable neo-Hookean", "neo_hookean": "neo-Hookean", "isochoric_neo_hookean": "isochoric neo-Hookean",
+        "st_venant_kirchhoff": "St Venant\u2013Kirchhoff"}
 limits = {"at_least": "at least ", "at_most": "at most ", "more_than": "more than "}
 
 
@@ -51,13 +58,18 @@ def in_plain(identifier):
 def of_field(field, value):
     """Describes one field: {deformer: lbs} becomes LBS."""
     known = {"deformer": bodies_by, "precision": precisions, "masses": masses, "tolerance": tolerances, "initial_guess": guesses,
-             "reading": readings, "variant": variants}
+             "reading": readings, "variant": variants, "factor": factors}
     return known.get(field, {}).get(value, in_plain(str(value)))
 
 
 def elements(order, formulation):
     """P2 Taylor-Hood. Where there are no finite elements, the order is empty and the formulation names what is in their place."""
     return " ".join(part for part in (f"P{order}" if order else "", formulations[formulation]) if part)
+
+
+def material(row):
+    """stable neo-Hookean, nu = 0.3: the law of a row of verification.csv."""
+    return laws.get(row["material"], row["material"]) + (f", nu = {row['poisson']}" if row["poisson"] else "")
 
 
 def posed(row):
@@ -77,7 +89,7 @@ def settings(case):
     of += [in_range(case, "iterations", "{} iterations")]
     step_ms = {name: case[name] * 1000 for name in ("time_step_s", "time_step_to_s") if name in case}
     of += [in_range(step_ms, "time_step_s", "steps of {} ms")]
-    of += [" and ".join(case[field] for field in ("factor", "second_factor") if field in case)]
+    of += [" and ".join(of_field("factor", case[field]) for field in ("factor", "second_factor") if field in case)]
     of += [f"Eq. {case['equation']}"] if "equation" in case else []
     of += [of_field(field, case[field]) for field in ("gradient_of", "reading", "model") if field in case]
     return [part for part in of if part]

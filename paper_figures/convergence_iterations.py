@@ -6,8 +6,8 @@ import entries
 import records
 import style
 
-cases = [("limb_twist", "twist 90", "limb, twist 90\u00b0"), ("limb_bend", "bend 90", "limb, bend 90\u00b0"),
-         ("human", "01_01 crouch", "human, crouch")]
+cases = [("limb_twist", "twist_90", "limb, twist 90\u00b0"), ("limb_bend", "bend_90", "limb, bend 90\u00b0"),
+         ("human", "01_01_crouch", "human, crouch")]
 starts = {"lbs": "from LBS (the paper)", "previous_frame": "from the previous frame", "rest_pose": "from the rest pose",
           "rigid_bind": "from the nearest bone, rigidly"}
 measures = [("residuals.csv", "combined", "combined residual [1]"), ("towards.csv", "error_joint_pct", "error at the joints [%]")]

@@ -1,5 +1,6 @@
 """The cost of each switch of a scene: the ratio of processor time with it to that without it, per frame and per step, on the limb and the
 human. Bars show the spread over the runs. A switch with a ratio above 1 costs time, one below 1 saves time, and one at 1 is free."""
+import case_words
 import entries
 import records
 import style
@@ -30,7 +31,7 @@ def draw(results, figures):
         panel.axvline(1, color=style.black, linewidth=0.6)
         style.log_scale(panel.xaxis)
         panel.set_xlabel(label)
-    axes[0][0].set_yticks(range(len(names)), names)
+    axes[0][0].set_yticks(range(len(names)), [case_words.in_plain(name) for name in names])
     axes[0][0].set_ylim(len(names) - 0.5, -0.5)
     style.legend_above(figure)
     behind = [{"scene": scene} | {name: row[name] for name in sorted(columns)} for scene, rows in found.items() for row in rows]

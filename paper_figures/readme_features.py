@@ -4,6 +4,7 @@
 """
 import sys
 
+import case_words
 import readme_part
 import records
 
@@ -19,7 +20,8 @@ def line(row):
     ratio = " ".join([f"{float(row['frame_cpu_ms_ratio']):.2f}",
                       f"[{float(row['frame_cpu_ms_ratio_lower']):.2f}, {float(row['frame_cpu_ms_ratio_upper']):.2f}]"])
     moves = f"{1e3 * float(row['largest_distance_m']):.2g} mm" if row["largest_distance_m"] else ""
-    return f"| {row['feature']} | {pair('frame_cpu_ms', 2)} | {ratio} | {pair('start_s', 2)} | {pair('peak_mb', 0)} | {moves} |"
+    name = case_words.in_plain(row["feature"])
+    return f"| {name} | {pair('frame_cpu_ms', 2)} | {ratio} | {pair('start_s', 2)} | {pair('peak_mb', 0)} | {moves} |"
 
 
 def lines_of(results):

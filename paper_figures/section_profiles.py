@@ -4,10 +4,10 @@ import entries
 import records
 import style
 
-cases = [("limb_twist", "twist 90 deg", "limb, twist 90\u00b0"), ("limb_twist", "twist 180 deg", "limb, twist 180\u00b0"),
-         ("limb_bend", "bend 60 deg", "limb, bend 60\u00b0"), ("limb_bend", "bend 90 deg", "limb, bend 90\u00b0"),
-         ("human_twist_forearm_upper.L", "twist 90 deg", "human, elbow twisted 90\u00b0"),
-         ("human_bend_shin.L", "bend 90 deg", "human, knee bent 90\u00b0")]
+cases = [("limb_twist", "twist_90_deg", "limb, twist 90\u00b0"), ("limb_twist", "twist_180_deg", "limb, twist 180\u00b0"),
+         ("limb_bend", "bend_60_deg", "limb, bend 60\u00b0"), ("limb_bend", "bend_90_deg", "limb, bend 90\u00b0"),
+         ("human_twist_forearm_upper.L", "twist_90_deg", "human, elbow twisted 90\u00b0"),
+         ("human_bend_shin.L", "bend_90_deg", "human, knee bent 90\u00b0")]
 columns = {"body", "vertices", "pose", "joint", "deformer", "order", "precision", "offset_m", "area_over_rest"}
 
 

@@ -1,6 +1,7 @@
 """Every disturbance of the limb with every method, and its outcome. Each row is a quantity that is varied to its extremes, with marks from
 the smallest to the largest value. The figure shows which methods come to rest as if undisturbed, which leave tets inverted, and whether any
 method except the printed form of PBS diverges."""
+import case_words
 import entries
 import outcomes
 import records
@@ -26,7 +27,7 @@ def shown_cells(rows):
 
 def range_of(rows):
     if all(row["named"] for row in rows):
-        return ", ".join(dict.fromkeys(row["named"].replace("_", " ") for row in rows))
+        return ", ".join(dict.fromkeys(case_words.in_plain(row["named"]) for row in rows))
     values = sorted(float(row["value"]) for row in rows)
     unit = {"1": "", "deg": "\u00b0"}.get(rows[0]["unit"], " " + rows[0]["unit"])
     return f"{values[0]:g}{unit}" + (f" to {values[-1]:g}{unit}" if values[-1] > values[0] else "")
@@ -46,7 +47,8 @@ def draw_factor(axes, rows, place):
 
 
 def factors_with(rows, model, outcome):
-    return list(dict.fromkeys(row["factor"] for row in rows if (row["model"], row["outcome"]) == (model, outcome)))
+    of = dict.fromkeys(row["factor"] for row in rows if (row["model"], row["outcome"]) == (model, outcome))
+    return [case_words.of_field("factor", factor) for factor in of]
 
 
 def facts(rows):
@@ -76,7 +78,7 @@ def draw(results, figures):
     for place, factor in enumerate(factors):
         cells = [row for row in rows if row["factor"] == factor]
         draw_factor(panel, cells, place)
-        labels.append(f"{factor}: {range_of(cells)}")
+        labels.append(f"{case_words.of_field('factor', factor)}: {range_of(cells)}")
     panel.set_xticks(range(len(ticks)), ticks.values())
     panel.set_yticks(range(len(factors)), labels)
     panel.set(xlim=(-0.5, len(models) - 0.5), ylim=(len(factors) - 0.5, -0.5))

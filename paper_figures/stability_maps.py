@@ -1,5 +1,6 @@
 """The outcome of jiggling PBS on the limb, disturbed and then held still, as two settings change together, cell by cell. The maps show
 which settings leave tets inverted, which prevent the body from coming to rest, and whether any lets the motion grow without bound."""
+import case_words
 import entries
 import outcomes
 import records
@@ -10,7 +11,8 @@ columns = {"factor", "value", "unit", "second_factor", "second_value", "second_u
 
 
 def named(factor, unit):
-    return f"{factor} [{'degrees' if unit == 'deg' else unit}]" if unit != "1" or factor == "k_stretch" else factor
+    words = case_words.of_field("factor", factor)
+    return f"{words} [{'degrees' if unit == 'deg' else unit}]" if unit != "1" or factor == "k_stretch" else words
 
 
 def draw_map(axes, rows, title):

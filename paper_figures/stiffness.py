@@ -8,8 +8,8 @@ import records
 import style
 from number_words import figure, listed
 
-bodies = [("bar", "cantilever", "bar, held at one end"), ("limb", "zone on held", "limb, flesh on a held core"),
-          ("human", "zone on held", "human, flesh on a held core")]
+bodies = [("bar", "cantilever", "bar, held at one end"), ("limb", "zone_on_held", "limb, flesh on a held core"),
+          ("human", "zone_on_held", "human, flesh on a held core")]
 factors = {"iterations": "iterations", "time_step_ms": "time step [ms]", "vertices": "vertices"}
 usual = {"iterations": 24.0, "time_step_ms": 10.0}
 young_pa = 30e3  # of XPBD; some sweeps also use stiffer values

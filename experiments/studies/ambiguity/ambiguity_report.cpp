@@ -79,7 +79,7 @@ std::string block_of(const std::string& body, const std::vector<ClaimChange>& ch
     std::string last_place;
     for (const auto& [place, reading] : readings) {
         std::vector<analysis::CsvTable::Cell> heading(columns.size(), std::string()), line = {shortened("  " + reading)};
-        heading.front() = shortened(place);
+        heading.front() = shortened(title_of_place(place));
         if (place != last_place) table.add_row(heading);
         last_place = place;
         for (const std::string& claim : claims) line.emplace_back(cell_text(cells[{place, reading, claim}]));
@@ -136,16 +136,16 @@ std::string volume_markdown(const std::vector<VolumeChange>& changes)
         "| scene | place | B | signed A -> B [%] | absolute A -> B [%] | within 0.5 % A -> B | distance of B from A [mm] | jiggle A -> B "
         "[mm] | verdict changed |\n|---|---|---|---|---|---|---|---|---|\n";
     for (const VolumeChange& first : changes) {
-        if (first.value != mean_change) continue;
-        const auto of = [&](const char* value) -> const VolumeChange& {
+        if (first.quantity != mean_change) continue;
+        const auto of = [&](const char* quantity) -> const VolumeChange& {
             return *std::ranges::find_if(changes, [&](const VolumeChange& other) {
-                return other.value == value && other.scene == first.scene && other.place == first.place &&
+                return other.quantity == quantity && other.scene == first.scene && other.place == first.place &&
                        other.reading_b == first.reading_b;
             });
         };
         text += fmt::format("| {} | {} | {} | {:.2f} -> {:.2f} | {:.2f} -> {:.2f} | {:.2f} -> {:.2f} | {:.3f} | {:.2f} -> {:.2f} | {} |\n",
-                            first.scene, first.place, first.reading_b, first.a, first.b, of(mean_abs_change).a, of(mean_abs_change).b,
-                            of(share_within_printed).a, of(share_within_printed).b, 1e3 * of(distance_from_a).b,
+                            first.scene, title_of_place(first.place), first.reading_b, first.a, first.b, of(mean_abs_change).a,
+                            of(mean_abs_change).b, of(share_within_printed).a, of(share_within_printed).b, 1e3 * of(distance_from_a).b,
                             1e3 * of(distance_by_jiggle).a, 1e3 * of(distance_by_jiggle).b, first.verdict_changed);
     }
     return text;

@@ -8,24 +8,33 @@
 
 namespace experiments {
 
-const analysis::Columns<ClaimChange> claim_change_columns = {
-    {"body", &ClaimChange::body, "", "name of the body"},
-    {"place", &ClaimChange::place, "", "place of the paper that can be read in two ways"},
-    {"reading_a", &ClaimChange::reading_a, "", "the baseline"},
-    {"reading_b", &ClaimChange::reading_b, "", "the other reading"},
-    {"claim", &ClaimChange::claim, "", "id of the claim"},
-    {"quantity", &ClaimChange::quantity, "", "quantity that the claim is judged by"},
-    {"of", &ClaimChange::of, "", "the fields of its case"},
-    {"unit", &ClaimChange::unit, "", "unit of a, b and change"},
-    {"bound", &ClaimChange::bound, "", "the claim's bound"},
-    {"a", &ClaimChange::a, "", "value by reading A"},
-    {"b", &ClaimChange::b, "", "value by reading B"},
-    {"change", &ClaimChange::change, "", "b less a"},
-    {"b_over_a", &ClaimChange::b_over_a, "", "b over a"},
-    {"holds_a", &ClaimChange::holds_a, "", "extent to which a lies within the bound"},
-    {"holds_b", &ClaimChange::holds_b, "", "extent to which b lies within the bound"},
-    {"verdict_flips", &ClaimChange::verdict_flips, "", "yes, no, not_touched or no_value"},
-    {"reason", &ClaimChange::reason, "", "why there is no value, or why it is only a limit"}};
+const analysis::Columns<ClaimChange>& claim_change_columns()
+{
+    using Changes = analysis::Columns<ClaimChange>;
+    static const Changes columns = [] {
+        analysis::Columns<analysis::CaseKey> of_case = analysis::case_key_columns();
+        of_case.front() = {"case_body", &analysis::CaseKey::body, "", "body of the value's case, or its scene"};
+        of_case.front().group = of_case.front().name;
+        return Changes{{"body", &ClaimChange::body, "", "name of the body"},
+                       {"place", &ClaimChange::place, "", "place of the paper that can be read in two ways"},
+                       {"reading_a", &ClaimChange::reading_a, "", "the baseline"},
+                       {"reading_b", &ClaimChange::reading_b, "", "the other reading"},
+                       {"claim", &ClaimChange::claim, "", "id of the claim"},
+                       {"quantity", &ClaimChange::quantity, "", "quantity that the claim is judged by"}} +
+               within(&ClaimChange::of, of_case) +
+               Changes{{"unit", &ClaimChange::unit, "", "unit of a, b and change"},
+                       {"bound", &ClaimChange::bound, "", "the claim's bound, in words"},
+                       {"a", &ClaimChange::a, "", "value by reading A"},
+                       {"b", &ClaimChange::b, "", "value by reading B"},
+                       {"change", &ClaimChange::change, "", "b less a"},
+                       {"b_over_a", &ClaimChange::b_over_a, "", "b over a"},
+                       {"holds_a", &ClaimChange::holds_a, "", "extent to which a lies within the bound: whole, part, none"},
+                       {"holds_b", &ClaimChange::holds_b, "", "extent to which b lies within the bound"},
+                       {"verdict_flips", &ClaimChange::verdict_flips, "", "yes, no, not_touched or no_value"},
+                       {"reason", &ClaimChange::reason, "", "why there is no value, or why it is only a limit, in words"}};
+    }();
+    return columns;
+}
 
 namespace {
 
@@ -40,7 +49,7 @@ const JudgedValue* find(const ReadingValues& of, const JudgedValue& wanted)
 std::string why(const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
 {
     if (b_broke_down) return "B breaks down";
-    if (!a || !b) return std::string(a ? "B" : "A") + " has no such figure";
+    if (!a || !b) return std::string(a ? "B" : "A") + " has no such value";
     const auto limit = [](const char* which, const JudgedValue& of) {
         return of.limit == analysis::Limit::none ? "" : std::string(which) + ": " + analysis::name_of(of.limit);
     };
@@ -57,15 +66,15 @@ std::string flips(const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
 
 ClaimChange named(ClaimChange row, const JudgedValue& one)
 {
-    row.quantity = one.quantity, row.of = text_of(one.of), row.unit = one.unit, row.bound = one.bound;
+    row.quantity = one.quantity, row.of = one.of, row.unit = one.unit, row.bound = one.bound;
     return row;
 }
 
 // row: named by one of them. Either may be null.
 ClaimChange compared(ClaimChange row, const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
 {
-    if (a) row.a = a->value, row.holds_a = word_for(a->extent);
-    if (b) row.b = b->value, row.holds_b = word_for(b->extent);
+    if (a) row.a = a->value, row.holds_a = analysis::name_of(a->extent);
+    if (b) row.b = b->value, row.holds_b = analysis::name_of(b->extent);
     if (a && b) row.change = b->value - a->value;
     if (a && b && a->value != 0.0) row.b_over_a = b->value / a->value;
     row.verdict_flips = flips(a, b, b_broke_down);
@@ -97,7 +106,7 @@ std::vector<ClaimChange> claim_changes(const std::string& body, const std::strin
         if (of_b.claim == claim && !find(a, of_b)) changes.push_back(compared(named(row, of_b), nullptr, &of_b, b.broke_down));
     for (const LeftOutQuantity& one : b.left_out)
         if (one.claim == claim) changes.push_back(without_value(row, "no_value", one.reason, one.quantity));
-    if (changes.empty()) changes.push_back(without_value(row, "no_value", b.broke_down ? "B breaks down" : "neither reading has a figure"));
+    if (changes.empty()) changes.push_back(without_value(row, "no_value", b.broke_down ? "B breaks down" : "neither reading has a value"));
     return changes;
 }
 

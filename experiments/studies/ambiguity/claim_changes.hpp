@@ -2,10 +2,11 @@
 // otherwise.
 //   ReadingComparison comparison("limb", readings);
 //   comparison.measure({"C03", "C12"}, [&](const auto& touching) { return values_of_starts(of, touching); });
-//   table_of(claim_change_columns, comparison.changes()).write("ambiguity.csv");
+//   table_of(used_columns(claim_change_columns(), changes), changes).write("ambiguity.csv");
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/optional_columns.hpp"
+#include "analysis/verdict.hpp"
 #include "experiments/studies/ambiguity/judged_value.hpp"
 
 #include <functional>
@@ -18,12 +19,14 @@ namespace experiments {
 // readings has a row with the reason.
 struct ClaimChange {
     std::string body, place, reading_a, reading_b, claim;
-    std::string quantity = {}, of = {}, unit = {}, bound = {};  // unit: of a, b and change
+    std::string quantity = {};
+    analysis::CaseKey of = {};
+    std::string unit = {}, bound = {};  // unit: of a, b and change
     std::optional<double> a = {}, b = {}, change = {}, b_over_a = {};
-    std::string holds_a = {}, holds_b = {};  // whole, in part, nowhere
+    std::string holds_a = {}, holds_b = {};  // whole, part, none
     std::string verdict_flips = {}, reason = {};
 };
-extern const analysis::Columns<ClaimChange> claim_change_columns;
+const analysis::Columns<ClaimChange>& claim_change_columns();  // case_body: of the value's case, or its scene
 
 std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const ReadingValues& a,
                                        const ReadingValues& b);

@@ -24,12 +24,6 @@ JudgedValue of_case(const analysis::Claim& claim, const analysis::CaseRecord& re
 
 }  // namespace
 
-const char* word_for(analysis::Extent extent)
-{
-    static constexpr const char* words[] = {"nowhere", "in part", "whole"};
-    return words[static_cast<int>(extent)];
-}
-
 std::string digest_of(const std::vector<analysis::Claim>& claims)
 {
     nlohmann::json all = nlohmann::json::array();

@@ -33,9 +33,6 @@ struct ReadingValues {
     std::vector<LeftOutQuantity> left_out = {};
 };
 
-// "nowhere", "in part", "whole".
-const char* word_for(analysis::Extent extent);
-
 // The quantities that the claim is judged by and that are not among those measured.
 std::vector<LeftOutQuantity> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason);
 

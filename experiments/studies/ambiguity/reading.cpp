@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <functional>
+#include <map>
 
 namespace experiments {
 namespace {
@@ -36,7 +37,7 @@ public:
     void add_values(const std::string& place, const std::string& key, double pbs::PbsOptions::*value, const std::vector<double>& values)
     {
         for (const double other : values)
-            add(place, fmt::format("{} {:g}", key, other), [&](Reading& reading) { reading.options.*value = other; });
+            add(place, fmt::format("{}_{:g}", key, other), [&](Reading& reading) { reading.options.*value = other; });
     }
 
     std::vector<Reading> all;
@@ -63,7 +64,7 @@ void add_class_orders(Readings& readings)
 {
     for (const auto& [order, name] : OptionNames<pbs::ClassOrder>::table)
         if (order != pbs::ClassOrder::bind_stretch_volume)
-            readings.add("Algorithm 1, lines 11-13: order of the classes", name, [&](Reading& r) { r.options.class_order = order; });
+            readings.add("class_order", name, [&](Reading& r) { r.options.class_order = order; });
 }
 
 // Apart from what `take_over` takes from the baseline.
@@ -85,7 +86,7 @@ std::string of_projections(const Reading& reading, const Reading& baseline)
         r.options.bind_on_bone = baseline.options.bind_on_bone;
         r.options.k_bind = baseline.options.k_bind;
     });
-    if (of_bones) return "bind is to a bone, which takes momentum: no part of the figure";
+    if (of_bones) return "bind is to a bone, which takes momentum and is no part of the value";
     const bool of_order = same_apart_from(reading, baseline, [&](Reading& r) { r.options.class_order = baseline.options.class_order; });
     return of_order ? "each class is taken by itself" : "";
 }
@@ -137,21 +138,39 @@ bool has_memory(const Reading& reading)
     return reading.options.jiggle || reading.options.lbs_entry == pbs::LbsEntry::increment;
 }
 
+std::string title_of_place(const std::string& place)
+{
+    static const std::map<std::string, std::string> titles = {{"nearest_bone", "Sec. 3.6: projection on the nearest bone"},
+                                                              {"vertex_on_bone", "Sec. 3.6: a vertex on the bone"},
+                                                              {"n_joints", "Eq. 2: n_joints"},
+                                                              {"stiffness_form", "Eq. 8-9: stiffness in each iteration"},
+                                                              {"masses", "Eq. 5: masses"},
+                                                              {"class_order", "Algorithm 1, lines 11-13: order of the classes"},
+                                                              {"k_stretch_outside_zone", "unstated: k_stretch outside the zone"},
+                                                              {"k_volume", "unstated: k_volume"},
+                                                              {"k_bind", "unstated: k_bind"},
+                                                              {"lbs_entry", "where LBS enters Algorithm 1"},
+                                                              {"jiggling_zone", "Sec. 4: jiggling zone"},
+                                                              {"bind_in_zone", "Table 1: bind in the zone"},
+                                                              {"jiggling", "Table 1: jiggling"},
+                                                              {"step_and_frame", "Sec. 4: step and frame"},
+                                                              {"gravity", "unstated: gravity"}};
+    const auto title = titles.find(place);
+    return title == titles.end() ? place : title->second;
+}
+
 std::vector<Reading> readings_of_a_step(const pbs::PbsOptions& own)
 {
     Readings readings(own_reading, not_jiggling(own));
-    readings.add("Sec. 3.6: projection on the nearest bone", "projected anew on the posed bone",
-                 [](Reading& r) { r.bind_point = BindPoint::reprojected; });
-    readings.add("Sec. 3.6: a vertex on the bone", "without a bind constraint",
-                 [](Reading& r) { r.options.bind_on_bone = pbs::BindOnBone::unbound; });
-    readings.add("Eq. 2: n_joints", "all bones touching either end", [](Reading& r) { r.blended_bones = BlendedBones::either_end; });
-    readings.add("Eq. 8-9: stiffness in each iteration", "exponent 1 / iterations",
-                 [](Reading& r) { r.options.stiffness_form = pbs::StiffnessForm::exponent; });
-    readings.add("Eq. 5: masses", "lumped", [](Reading& r) { r.options.masses = pbs::Masses::lumped; });
+    readings.add("nearest_bone", "reprojected", [](Reading& r) { r.bind_point = BindPoint::reprojected; });
+    readings.add("vertex_on_bone", "without_bind", [](Reading& r) { r.options.bind_on_bone = pbs::BindOnBone::unbound; });
+    readings.add("n_joints", "bones_at_either_end", [](Reading& r) { r.blended_bones = BlendedBones::either_end; });
+    readings.add("stiffness_form", "exponent", [](Reading& r) { r.options.stiffness_form = pbs::StiffnessForm::exponent; });
+    readings.add("masses", "lumped", [](Reading& r) { r.options.masses = pbs::Masses::lumped; });
     add_class_orders(readings);
-    readings.add_values("unstated: k_stretch outside the zone", "k_stretch", &pbs::PbsOptions::k_stretch, {0.05, 0.5, 0.9, 1.0});
-    readings.add_values("unstated: k_volume", "k_volume", &pbs::PbsOptions::k_volume, {0.5, 0.9});
-    readings.add_values("unstated: k_bind", "k_bind", &pbs::PbsOptions::k_bind, {0.1, 0.5});
+    readings.add_values("k_stretch_outside_zone", "k_stretch", &pbs::PbsOptions::k_stretch, {0.05, 0.5, 0.9, 1.0});
+    readings.add_values("k_volume", "k_volume", &pbs::PbsOptions::k_volume, {0.5, 0.9});
+    readings.add_values("k_bind", "k_bind", &pbs::PbsOptions::k_bind, {0.1, 0.5});
     return readings.all;
 }
 
@@ -159,23 +178,22 @@ std::vector<Reading> readings_of_motion(const pbs::PbsOptions& own)
 {
     const auto integrate_all = [](Reading& r) { r.options.lbs_entry = pbs::LbsEntry::increment; };
     Readings readings(own_reading, not_jiggling(own));
-    readings.add("where LBS enters Algorithm 1", "all integrated, moved by the LBS increment", integrate_all);
-    readings.add("where LBS enters Algorithm 1", "the same without gravity", [&](Reading& r) {
+    readings.add("lbs_entry", "increment", integrate_all);
+    readings.add("lbs_entry", "increment_without_gravity", [&](Reading& r) {
         integrate_all(r);
         r.options.gravity_m_s2.setZero();
     });
     readings.add_baseline(jiggling_reading, jiggling(own));
-    readings.add("Sec. 4: jiggling zone", "by bone", [](Reading& r) { r.zone_mean = ZoneMean::of_bone; });
+    readings.add("jiggling_zone", "by_bone", [](Reading& r) { r.zone_mean = ZoneMean::of_bone; });
     for (const double k_bind : {0.0, 0.1, 0.5})
-        readings.add("Table 1: bind in the zone", fmt::format("k_bind {:g} there", k_bind),
-                     [&](Reading& r) { r.options.jiggle->k_bind = k_bind; });
-    readings.add("Table 1: jiggling", "k_stretch 0.9 everywhere", [](Reading& r) { r.options.k_stretch = r.options.jiggle->k_stretch; });
+        readings.add("bind_in_zone", fmt::format("k_bind_{:g}_in_zone", k_bind), [&](Reading& r) { r.options.jiggle->k_bind = k_bind; });
+    readings.add("jiggling", "k_stretch_0.9_everywhere", [](Reading& r) { r.options.k_stretch = r.options.jiggle->k_stretch; });
     for (const double k_stretch : {0.6, 0.7})
-        readings.add("Table 1: jiggling", fmt::format("k_stretch {:g} in the zone", k_stretch),
+        readings.add("jiggling", fmt::format("k_stretch_{:g}_in_zone", k_stretch),
                      [&](Reading& r) { r.options.jiggle->k_stretch = k_stretch; });
     for (const int substeps : {2, 4})
-        readings.add("Sec. 4: step and frame", fmt::format("{} substeps", substeps), [&](Reading& r) { r.substeps = substeps; });
-    readings.add("unstated: gravity", "none", [](Reading& r) { r.options.gravity_m_s2.setZero(); });
+        readings.add("step_and_frame", fmt::format("substeps_{}", substeps), [&](Reading& r) { r.substeps = substeps; });
+    readings.add("gravity", "without_gravity", [](Reading& r) { r.options.gravity_m_s2.setZero(); });
     return readings.all;
 }
 

@@ -33,8 +33,8 @@ struct OptionNames<ZoneMean> {
 };
 
 struct Reading {
-    std::string place;  // of the paper; empty: a baseline
-    std::string name;   // of the reading
+    std::string place;  // of the paper, an identifier: title_of_place; empty: a baseline
+    std::string name;   // of the reading, an identifier
     std::string baseline;
     pbs::PbsOptions options;
     BindPoint bind_point = BindPoint::carried;
@@ -49,8 +49,10 @@ bool has_memory(const Reading& reading);         // its steps depend on the last
 // Why a reading cannot change a claim, from how the claim's values are measured and not from the results; empty where it can.
 std::string untouched_because(const std::string& claim, const Reading& reading, const Reading& baseline);
 
-inline constexpr const char* own_reading = "as the scene";  // baselines
-inline constexpr const char* jiggling_reading = "jiggling 0.9";
+inline constexpr const char* own_reading = "as_the_scene";  // baselines
+inline constexpr const char* jiggling_reading = "jiggling_0.9";
+
+std::string title_of_place(const std::string& place);  // for readers: "Eq. 2: n_joints"
 
 // Readings of a single step, in which nothing jiggles; the baseline comes first.
 std::vector<Reading> readings_of_a_step(const pbs::PbsOptions& own);

@@ -72,7 +72,8 @@ StudyRun claims_run(const std::string& name, const Case& of, double cost_s, cons
         ReadingComparison comparison(of.scene.character.body, all_readings(of.scene));
         for (const auto& [together, values] : parts)
             comparison.measure(together, [&](const std::vector<Reading>& readings) { return values(of, readings); });
-        table_of(claim_change_columns, comparison.changes()).write(analysis::path_in(folder, "ambiguity.csv"));
+        const std::vector<ClaimChange>& changes = comparison.changes();
+        table_of(used_columns(claim_change_columns(), changes), changes).write(analysis::path_in(folder, "ambiguity.csv"));
         return comparison.breakdown();
     };
     return run;
@@ -128,7 +129,7 @@ void plan_limb(bool full, StudyPlan& plan)
     plan.runs.push_back(claims_run("limb_joint_twist", turned("limb", joint, "twist", 30, 6), 1.4, twisted));
     plan.runs.push_back(claims_run("limb_joint_bend", turned("limb", joint, "bend", 30, 3), 3.5, bent));
     ReadingsCase of = {
-        .scene = bend, .frame = 18, .pose = "bend 90", .key = {.motion = "bend", .angle_deg = 90.0}, .jolt_direction = pbs::Vec3::UnitX()};
+        .scene = bend, .frame = 18, .pose = "bend_90", .key = {.motion = "bend", .angle_deg = 90.0}, .jolt_direction = pbs::Vec3::UnitX()};
     set_effort(of, full);
     plan.runs.push_back(claims_run("limb_starts", of, full ? 5.0 : 2.7, starts));
     plan.runs.push_back(claims_run("limb_step", of, full ? 24.0 : 10.0, step));
@@ -148,7 +149,7 @@ void plan_human(bool full, StudyPlan& plan)
     plan.runs.push_back(claims_run("human_joint_bend", turned("human", elbow, "bend", 45, 2), 2.0, bent));
     ReadingsCase of = {.scene = read_scene("human_01_01", {"output.frames=[]", "output.frame_names=[]"}),
                        .frame = 164,
-                       .pose = "01_01 crouch",
+                       .pose = "01_01_crouch",
                        .key = {.motion = "01_01", .pose = "crouch"}};
     set_effort(of, full);
     plan.runs.push_back(claims_run("human_starts", of, full ? 8.0 : 5.0, starts));
@@ -169,9 +170,9 @@ StudyPlan plan(bool full)
 
 StudyConclusion conclude(const FinishedRuns& finished)
 {
-    const auto changes = finished.rows(claim_change_columns, "ambiguity.csv");
+    const auto changes = finished.rows(claim_change_columns(), "ambiguity.csv");
     const auto volumes = finished.rows(volume_change_columns, "figures.csv");
-    finished.write("ambiguity.csv", claim_change_columns, changes);
+    finished.write("ambiguity.csv", used_columns(claim_change_columns(), changes), changes);
     finished.write("figures.csv", volume_change_columns, volumes);
     const std::string text = changes.empty() ? "" : claim_changes_text(changes);
     finished.write("ambiguity.txt", text);

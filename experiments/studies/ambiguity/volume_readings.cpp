@@ -20,7 +20,7 @@ const analysis::Columns<VolumeChange> volume_change_columns = {
     {"place", &VolumeChange::place, "", "place of the paper that can be read in two ways"},
     {"reading_a", &VolumeChange::reading_a, "", "the baseline"},
     {"reading_b", &VolumeChange::reading_b, "", "the other reading"},
-    {"figure", &VolumeChange::value, "", "the value, in words, with its unit"},
+    {"quantity", &VolumeChange::quantity, "", "what is compared; its name ends with its unit"},
     {"a", &VolumeChange::a, "", "value by reading A"},
     {"b", &VolumeChange::b, "", "value by reading B"},
     {"change", &VolumeChange::change, "", "b less a"},
@@ -40,7 +40,8 @@ std::string changed_verdicts(const ReadMotion& a, const ReadMotion& b)
         for (const std::string& metric : claim.metrics) {
             const analysis::Extent before = analysis::judge_case(claim, of_lbs ? a.lbs : a.pbs, metric).extent,
                                    after = analysis::judge_case(claim, of_lbs ? b.lbs : b.pbs, metric).extent;
-            if (before != after) changes.push_back(fmt::format("{} by {}: {} -> {}", claim.id, metric, word_for(before), word_for(after)));
+            if (before != after)
+                changes.push_back(fmt::format("{} by {}: {} -> {}", claim.id, metric, analysis::name_of(before), analysis::name_of(after)));
         }
     }
     return changes.empty() ? "no" : fmt::format("{}", fmt::join(changes, "; "));
@@ -101,19 +102,19 @@ std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading
     using analysis::mean;
     const std::string verdict = changed_verdicts(a, b);
     std::vector<VolumeChange> rows;
-    const auto add = [&](const std::string& value, double of_a, double of_b) {
-        rows.push_back({scene, reading.place, reading.baseline, reading.name, value, of_a, of_b, of_b - of_a, verdict});
+    const auto add = [&](const std::string& quantity, double of_a, double of_b) {
+        rows.push_back({scene, reading.place, reading.baseline, reading.name, quantity, of_a, of_b, of_b - of_a, verdict});
     };
     add(mean_change, mean(a.pbs.volume_change_pct), mean(b.pbs.volume_change_pct));
     add(mean_abs_change, mean(a.pbs.volume_abs_change_pct), mean(b.pbs.volume_abs_change_pct));
-    add("mean volume change of LBS [%]", mean(a.lbs.volume_change_pct), mean(b.lbs.volume_change_pct));
+    add("mean_volume_change_of_lbs_pct", mean(a.lbs.volume_change_pct), mean(b.lbs.volume_change_pct));
     add(share_within_printed, share_within(a.pbs.volume_change_pct), share_within(b.pbs.volume_change_pct));
-    add("mean number of inverted tets", mean(a.pbs.inverted_tets), mean(b.pbs.inverted_tets));
+    add("mean_inverted_tets", mean(a.pbs.inverted_tets), mean(b.pbs.inverted_tets));
     for (std::size_t frame = 0; frame < a.pbs.angle_deg.size(); ++frame) {
         const double angle = a.pbs.angle_deg[frame];
         if (std::abs(angle - 90.0) >= 1e-6 && std::abs(angle - 170.0) >= 1e-6) continue;
-        add(fmt::format("volume change at {:.0f} deg [%]", angle), a.pbs.volume_change_pct[frame], b.pbs.volume_change_pct[frame]);
-        add(fmt::format("absolute volume change at {:.0f} deg [%]", angle), a.pbs.volume_abs_change_pct[frame],
+        add(fmt::format("volume_change_at_{:.0f}_deg_pct", angle), a.pbs.volume_change_pct[frame], b.pbs.volume_change_pct[frame]);
+        add(fmt::format("volume_abs_change_at_{:.0f}_deg_pct", angle), a.pbs.volume_abs_change_pct[frame],
             b.pbs.volume_abs_change_pct[frame]);
     }
     add(distance_from_a, 0.0, distance_m(a, b, {}));
@@ -148,7 +149,7 @@ std::string record_volume(const VolumeReadings& of, const std::string& folder)
         compare_volume(changes, of.body, reading, baseline, moved);
     }
     table_of(volume_change_columns, volumes).write(analysis::path_in(folder, "figures.csv"));
-    table_of(claim_change_columns, changes).write(analysis::path_in(folder, "ambiguity.csv"));
+    table_of(used_columns(claim_change_columns(), changes), changes).write(analysis::path_in(folder, "ambiguity.csv"));
     return breakdown;
 }
 

@@ -33,7 +33,7 @@ const Columns<ProfileRow> profile_columns =
 
 const Columns<IntersectionRow> intersection_columns =
     within(&IntersectionRow::place, artefact_place_columns) + within(&IntersectionRow::deformer, artefact_deformer_columns) +
-    Columns<IntersectionRow>{{"surface", &IntersectionRow::surface, "", "rendered, or the tets' boundary"},
+    Columns<IntersectionRow>{{"surface", &IntersectionRow::surface, "", "rendered, or tets_boundary"},
                              {"triangles", &IntersectionRow::triangles, "", "number of its triangles"},
                              {"pairs", &IntersectionRow::pairs, "", "pairs of triangles that intersect in the pose"},
                              {"pairs_at_rest", &IntersectionRow::pairs_at_rest, "", "pairs of triangles that intersect at rest"}};
@@ -122,7 +122,7 @@ private:
     {
         const pbs::Character& character = body.posed.character();
         const pbs::Positions own = shape.positions.topRows(character.mesh.rest.rows());
-        add_count(body, spec, pose, "tets' boundary", body.posed.boundary(), own, character.mesh.rest);
+        add_count(body, spec, pose, "tets_boundary", body.posed.boundary(), own, character.mesh.rest);
         if (!character.surface) return;
         const auto embedded = [&](const pbs::Positions& x) { return pbs::embedded_positions(*character.surface, x, character.mesh.tets); };
         add_count(body, spec, pose, "rendered", character.surface->triangles, embedded(own), embedded(character.mesh.rest));

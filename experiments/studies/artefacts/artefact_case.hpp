@@ -19,7 +19,7 @@ namespace experiments {
 
 struct ArtefactPose {
     int frame = 0;
-    std::string name;            // "twist 90 deg", "01_01 crouch"
+    std::string name;            // twist_90_deg, 01_01_crouch
     analysis::CaseKey key = {};  // motion, angle or pose
 };
 

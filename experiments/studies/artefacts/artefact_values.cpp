@@ -123,8 +123,8 @@ std::vector<analysis::Measurement> bulge_values(const ArtefactCase& of, const Ar
 
 const char* name_of(SectionOutcome outcome)
 {
-    static constexpr const char* names[] = {"measured", "pbs did not finish", "reference not reached", "bent by more than 110 deg",
-                                            "inside another part"};
+    static constexpr const char* names[] = {"measured", "pbs_did_not_finish", "reference_not_reached", "bent_by_more_than_110_deg",
+                                            "inside_another_part"};
     return names[static_cast<int>(outcome)];
 }
 

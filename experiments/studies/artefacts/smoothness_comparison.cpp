@@ -69,8 +69,6 @@ Twin twin_of(ArtefactCase of, int vertices)
 struct Ratios {
     std::vector<double> values = {};
     analysis::Limit limit = analysis::Limit::none;  // of the first value
-    std::string quantity = {};
-    analysis::CaseKey of = {};
 };
 
 class Comparison {
@@ -111,10 +109,10 @@ public:
 
     WeightsComparison result() &&
     {
-        for (const auto& [text, ratios] : ratios_) {
+        for (const auto& [of, ratios] : ratios_) {
             const double own = ratios.values.front();
             if (!std::isfinite(own)) continue;
-            analysis::Measurement measurement{"C06", ratios.quantity, ratios.of, own, own, own, "1"};
+            analysis::Measurement measurement{"C06", of.first, of.second, own, own, own, "1"};
             measurement.limit = ratios.limit;
             for (const double ratio : ratios.values) {
                 measurement.low = std::fmin(measurement.low, ratio);
@@ -136,24 +134,16 @@ private:
         return key;
     }
 
-    Ratios& ratios_of(const std::string& quantity, const analysis::CaseKey& of)
-    {
-        Ratios& ratios = ratios_[{quantity, text_of(of)}];
-        ratios.quantity = quantity;
-        ratios.of = of;
-        return ratios;
-    }
-
     void add(const std::string& quantity, const analysis::CaseKey& at, double paper, double rigid)
     {
-        ratios_of(quantity, at).values.push_back(rigid > rounding ? paper / rigid : analysis::not_known);
+        ratios_[{quantity, at}].values.push_back(rigid > rounding ? paper / rigid : analysis::not_known);
     }
 
     // An initial guess within the tolerance counts as one iteration. Where neither path reaches it there is no ratio.
     void add_iterations(const Twin& twin, std::size_t pose, const Reached& paper, const Reached& rigid)
     {
         result_.iterations.push_back({place_of(of_, twin.paper, pose), paper, rigid});
-        Ratios& ratios = ratios_of("iterations_over_rigid_weights", key_of(twin, pose, of_.joint, "pbs"));
+        Ratios& ratios = ratios_[{"iterations_over_rigid_weights", key_of(twin, pose, of_.joint, "pbs")}];
         const bool some = paper.within || rigid.within;
         if (ratios.values.empty() && some && paper.within != rigid.within)
             ratios.limit = paper.within ? analysis::Limit::at_most : analysis::Limit::at_least;
@@ -171,7 +161,7 @@ private:
     {
         const pbs::Character& character = body.posed.character();
         const analysis::SmoothnessMetrics smoothness_metrics(character.mesh.rest, character.mesh.tets,
-                                                            near_joint(character, body.joints[joint]));
+                                                             near_joint(character, body.joints[joint]));
         const analysis::Smoothness smoothness = smoothness_metrics.measure(shape.positions);
         result_.smoothness.push_back({character.name, static_cast<int>(character.mesh.rest.rows()), weights, of_.poses[pose].name,
                                       body.joints[joint].name, recorded(spec), smoothness, volume_change_pct(body, shape)});
@@ -179,7 +169,7 @@ private:
     }
 
     const ArtefactCase& of_;
-    std::map<std::pair<std::string, std::string>, Ratios> ratios_;  // by quantity and the text of the key
+    std::map<std::pair<std::string, analysis::CaseKey>, Ratios> ratios_;  // by quantity and the key
     WeightsComparison result_;
 };
 

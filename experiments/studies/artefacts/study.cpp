@@ -63,7 +63,7 @@ ArtefactCase sweep(const std::string& scene, std::vector<std::string> overrides,
     of.scene = read_scene(scene, overrides);
     of.claim = what == "twist" ? ArtefactCase::Claim::candy_wrapper : ArtefactCase::Claim::bulge;
     for (int i = 1; i <= poses; ++i)
-        of.poses.push_back({i, fmt::format("{} {} deg", what, i * step_deg), {.motion = what, .angle_deg = double(i * step_deg)}});
+        of.poses.push_back({i, fmt::format("{}_{}_deg", what, i * step_deg), {.motion = what, .angle_deg = double(i * step_deg)}});
     return of;
 }
 
@@ -90,7 +90,7 @@ ArtefactCase crouch(const std::string& body)
 {
     ArtefactCase of;
     of.scene = read_scene("human_01_01", {all_deformers, "character.body=" + body, "reference.name=snh_p1"});
-    of.poses = {{164, "01_01 crouch", {.motion = "01_01", .pose = "crouch"}}};
+    of.poses = {{164, "01_01_crouch", {.motion = "01_01", .pose = "crouch"}}};
     return of;
 }
 

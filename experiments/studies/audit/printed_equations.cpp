@@ -116,7 +116,7 @@ std::vector<analysis::PrintedValue> equation_values(int tets, unsigned seed)
     correction("17-20", "derived_gradients", printed_projection<Printed::sign>());
     correction("12-20", "as_printed", printed_projection<Printed::as_printed>());
     correction("8", "derived_gradients", [](const Tet& tet, Corners& p) { pbs::project(tet, 1.0, 1.0, 1.0, 1.0, p[0], p[1], p[2], p[3]); });
-    values.back().claim = "control of C15";
+    values.back().claim = "control_of_C15";
     return values;
 }
 

@@ -40,9 +40,9 @@ public:
         if (of.truth.empty())
             reference_ = "none";
         else if (!own && !of.ladder)
-            reference_ = "the scene's own mesh alone";
+            reference_ = "own_mesh_alone";
         else if (vertices > of.truth_to)
-            reference_ = fmt::format("left out above {} vertices", of.truth_to);
+            reference_ = fmt::format("left_out_above_{}_vertices", of.truth_to);
         else
             truth_ = posed_.shapes(spec_of(scene, reference_ = of.truth));
     }
@@ -86,7 +86,7 @@ private:
                                setting,
                                !of_.scene.motion.clip.empty(),
                                of_.frames[frame].twist,
-                               truth_.empty() || has_truth ? reference_ : reference_ + " was not reached",
+                               truth_.empty() || has_truth ? reference_ : reference_ + "_was_not_reached",
                                has_truth && truth_[frame].self_intersects,
                                {},
                                {}};

@@ -14,7 +14,7 @@ namespace experiments {
 
 struct NamedFrame {
     int frame = 0;
-    std::string name;            // "twist 90", "01_01 crouch"
+    std::string name;            // twist_90, 01_01_crouch
     analysis::CaseKey key = {};  // motion, angle, time or pose
     bool twist = false;          // about a bone's own axis, which no constraint feels
 };

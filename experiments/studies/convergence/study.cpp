@@ -44,9 +44,9 @@ std::string measure_and_record(const ConvergenceCase& of, const std::string& fol
     return result.breakdown;
 }
 
-const std::vector<NamedFrame> twists = {{18, "twist 90", {.motion = "twist", .angle_deg = 90.0}, true},
-                                        {34, "twist 170", {.motion = "twist", .angle_deg = 170.0}, true}},
-                              bends = {{18, "bend 90", {.motion = "bend", .angle_deg = 90.0}}};  // 5 degrees per frame
+const std::vector<NamedFrame> twists = {{18, "twist_90", {.motion = "twist", .angle_deg = 90.0}, true},
+                                        {34, "twist_170", {.motion = "twist", .angle_deg = 170.0}, true}},
+                              bends = {{18, "bend_90", {.motion = "bend", .angle_deg = 90.0}}};  // 5 degrees per frame
 
 StudyRun limb_run(const std::string& scene, const std::vector<NamedFrame>& frames, bool full, double cost_s)
 {
@@ -84,15 +84,15 @@ StudyRun body_run(const std::string& body, int vertices, bool full, double cost_
     ConvergenceCase of;
     of.scene = read_scene("human_01_01", {"character.body=" + body, fmt::format("character.vertices={}", vertices),
                                           R"(deformers.use=["pbs","snh_p1"])", R"(reference.name="snh_p1")"});
-    of.frames = {{164, "01_01 crouch", {.motion = "01_01", .pose = "crouch"}},
-                 {708, "01_01 landing", {.motion = "01_01", .pose = "landing"}}};
+    of.frames = {{164, "01_01_crouch", {.motion = "01_01", .pose = "crouch"}},
+                 {708, "01_01_landing", {.motion = "01_01", .pose = "landing"}}};
     if (full)
-        of.frames = {{100, "01_01 at 1 s", {.motion = "01_01", .time_s = 1.0}},
-                     {164, "01_01 crouch", {.motion = "01_01", .pose = "crouch"}},
-                     {400, "01_01 at 4 s", {.motion = "01_01", .time_s = 4.0}},
-                     {672, "01_01 in the air", {.motion = "01_01", .pose = "in_the_air"}},
-                     {708, "01_01 landing", {.motion = "01_01", .pose = "landing"}},
-                     {1000, "01_01 at 10 s", {.motion = "01_01", .time_s = 10.0}}};
+        of.frames = {{100, "01_01_at_1_s", {.motion = "01_01", .time_s = 1.0}},
+                     {164, "01_01_crouch", {.motion = "01_01", .pose = "crouch"}},
+                     {400, "01_01_at_4_s", {.motion = "01_01", .time_s = 4.0}},
+                     {672, "01_01_in_the_air", {.motion = "01_01", .pose = "in_the_air"}},
+                     {708, "01_01_landing", {.motion = "01_01", .pose = "landing"}},
+                     {1000, "01_01_at_10_s", {.motion = "01_01", .time_s = 10.0}}};
     of.k_stretch = {0.2};
     of.settings = full ? few_settings : std::vector<ProjectionSetting>{every_setting[0], every_setting[2]};
     of.truth = "snh_p1";

@@ -75,7 +75,7 @@ std::vector<NamedPose> sweep_poses(const pbs::Skeleton& skeleton, const std::str
 {
     std::vector<NamedPose> poses;
     for (const double angle_deg : angles_deg)
-        poses.push_back({fmt::format("{} {:g}", name, angle_deg),
+        poses.push_back({fmt::format("{}_{:g}", name, angle_deg),
                          pbs::joint_sweep(skeleton, pbs::find_bone(skeleton, "forearm"), axis, angle_deg, 2, sweep_s).steps.back()});
     return poses;
 }

@@ -82,7 +82,8 @@ std::string why_left_out(const pbs::Character& character, const JointByHand& joi
 // Frankie's bones are short for his flesh. The rule asks for a limb longer than 3 times the mean distance of its vertices; his upper arm
 // reaches 1.2 times, the upper half of his forearm 2.5, and the first bones of his tail 2.3 and 2.8. But all planes across forearm, wrist
 // and tail cut one outline of the limb alone, and so do those at the elbow and at the tail's root. Farther up they cut the skin that hangs
-// from the arm to the flank and, once the tail is bent, the trunk.
+// from the arm to the flank and, once the tail is bent, the trunk. Frankie's leg is drawn into the belly: planes across the shin cut the
+// trunk.
 std::vector<JointByHand> joints_by_hand(const std::string& body)
 {
     if (body != "frankie") return {};
@@ -91,7 +92,7 @@ std::vector<JointByHand> joints_by_hand(const std::string& body)
             {"forearm_lower.L", "hand.L", 0.5, 0.5, ""},
             {"tail_1", "tail_2", 0.35, 0.5, ""},
             {"tail_2", "tail_3", 0.5, 0.5, ""},
-            {"thigh.L", "shin.L", 0.0, 0.0, "no limb's: the leg is drawn into the belly and planes across the shin cut the trunk"}};
+            {"thigh.L", "shin.L", 0.0, 0.0, "leg_drawn_into_the_belly"}};
 }
 
 std::vector<LimbJoint> limb_joints(const pbs::Character& character)

@@ -43,7 +43,7 @@ std::vector<bool> opposite(std::vector<bool> flags)
 LoadedBody jiggling_flesh(const pbs::Character& character, RestOfBody rest)
 {
     const bool is_held = rest == RestOfBody::held;
-    LoadedBody body = loaded(character.name, is_held ? "zone on held" : "zone", character.mesh);
+    LoadedBody body = loaded(character.name, is_held ? "zone_on_held" : "zone", character.mesh);
     body.bind_distance = character.binding.distance;
     body.bind_point = character.binding.rest_point;
     body.zone = pbs::jiggle_zone(character.binding);

@@ -22,7 +22,7 @@ enum class RestOfBody { projected, held };
 
 struct LoadedBody {
     std::string name;  // limb, human; bar
-    std::string load;  // zone, zone on held, cantilever
+    std::string load;  // zone, zone_on_held, cantilever
     pbs::TetMesh mesh;
     Eigen::VectorXd bind_distance;  // [m], #V; empty: nothing is bound
     pbs::Positions bind_point;      // [m], #V x 3

@@ -32,7 +32,7 @@ void jump(StabilityCell& cell, double angle_deg)
 
 void start(StabilityCell& cell, double value)
 {
-    static const char* const names[] = {"as posed", "flattened", "mirrored", "random", "a point"};
+    static const char* const names[] = {"as_posed", "flattened", "mirrored", "random", "point"};
     cell.disturbance.start = static_cast<Start>(std::lround(value));
     cell.named = names[std::lround(value)];
 }
@@ -54,14 +54,14 @@ std::vector<double> values_of(const Sweep& sweep, bool full)
 
 }  // namespace
 
-const Sweep time_steps{"time step", "s", {1e-4, 0.01, 0.1, 1.0}, {1e-3, 3e-3, 0.03, 0.3}, set_time_step};
+const Sweep time_steps{"time_step", "s", {1e-4, 0.01, 0.1, 1.0}, {1e-3, 3e-3, 0.03, 0.3}, set_time_step};
 const Sweep twists{"twist", "deg", {0.0, 90.0, 180.0, 360.0, 720.0}, {45.0, 135.0, 270.0, 540.0}, twist};
-const Sweep jumps{"bend in one step", "deg", {90.0, 180.0}, {45.0, 135.0}, jump};
+const Sweep jumps{"bend_in_one_step", "deg", {90.0, 180.0}, {45.0, 135.0}, jump};
 const Sweep teleports{
     "teleport", "m", {10.0, 1000.0}, {0.1, 1.0}, [](StabilityCell& cell, double value) { cell.disturbance.teleport_m = value; }};
 const Sweep starts{"start", "", {1.0, 2.0, 3.0, 4.0}, {}, start};
-const Sweep slivers{"slivers, height kept", "1", {1e-2, 1e-6}, {1e-1, 1e-3, 1e-4, 1e-5}, spoil<Defect::slivers>};
-const Sweep needles{"needles, edge kept", "1", {1e-2, 1e-6}, {1e-1, 1e-3, 1e-4, 1e-5}, spoil<Defect::needles>};
+const Sweep slivers{"slivers_height_kept", "1", {1e-2, 1e-6}, {1e-1, 1e-3, 1e-4, 1e-5}, spoil<Defect::slivers>};
+const Sweep needles{"needles_edge_kept", "1", {1e-2, 1e-6}, {1e-1, 1e-3, 1e-4, 1e-5}, spoil<Defect::needles>};
 
 std::vector<StabilityCell> cells_of(const Sweep& sweep, const StabilityCell& base, bool full)
 {

@@ -1,5 +1,5 @@
 // Cells in which one factor takes its values while everything else keeps its base value.
-//   const Sweep time_step{"time step", "s", {1e-4, 0.01, 1.0}, {0.001, 0.1}, [](StabilityCell& cell, double s) { cell.time_step_s = s; }};
+//   const Sweep time_step{"time_step", "s", {1e-4, 0.01, 1.0}, {0.001, 0.1}, [](StabilityCell& cell, double s) { cell.time_step_s = s; }};
 //   append(cells, cells_of(time_step, base, full));
 #pragma once
 

@@ -13,16 +13,14 @@ FemOptions& fem_of(StabilityCell& cell)
     return options_of<FemOptions>(cell.spec);
 }
 
-const Sweep youngs{
-    "Young's modulus", "Pa", {1e5, 1e12}, {1.0, 1e3, 1e7, 1e9}, [](StabilityCell& cell, double pa) { fem_of(cell).young_pa = pa; }};
-const Sweep poissons{"Poisson's ratio", "1", {0.3, 0.4999}, {0.0, 0.45, 0.49, 0.499, 0.499999}, [](StabilityCell& cell, double nu) {
-                         fem_of(cell).poisson = nu;
-                     }};
+const Sweep youngs{"young", "Pa", {1e5, 1e12}, {1.0, 1e3, 1e7, 1e9}, [](StabilityCell& cell, double pa) { fem_of(cell).young_pa = pa; }};
+const Sweep poissons{
+    "poisson", "1", {0.3, 0.4999}, {0.0, 0.45, 0.49, 0.499, 0.499999}, [](StabilityCell& cell, double nu) { fem_of(cell).poisson = nu; }};
 const Sweep gravities{
     "gravity", "g", {10.0}, {100.0, 1e3, 1e4}, [](StabilityCell& cell, double count) { fem_of(cell).gravity_m_s2.y() = -g_m_s2 * count; }};
 
 // The smallest time steps take a thousand steps and more.
-const Sweep timed{"time step", "s", {0.01, 0.1, 1.0}, {1e-4, 1e-3}, [](StabilityCell& cell, double s) { time_steps.set(cell, s); }};
+const Sweep timed{"time_step", "s", {0.01, 0.1, 1.0}, {1e-4, 1e-3}, [](StabilityCell& cell, double s) { time_steps.set(cell, s); }};
 
 // Linear elements on the same tets. In time: generalised-alpha with stiffness-proportional damping, so that the body can come to rest.
 StabilityCell base(Model model, Dynamics dynamics)

@@ -34,12 +34,12 @@ const Sweep iterations{"iterations", "1", {1.0, 24.0, 1000.0}, {2.0, 4.0, 8.0, 9
                        }};
 const Sweep iterations_of_maps{"iterations", "1", {1.0, 4.0, 24.0, 96.0}, {2.0, 8.0, 384.0}, iterations.set};
 const Sweep clip_time_steps{
-    "time step", "s", {1e-4, 0.1, 1.0}, {1e-3, 0.01}, [](StabilityCell& cell, double value) { cell.time_step_s = value; }};
+    "time_step", "s", {1e-4, 0.1, 1.0}, {1e-3, 0.01}, [](StabilityCell& cell, double value) { cell.time_step_s = value; }};
 const Sweep gravities{"gravity", "g", {1.0, 100.0, 1e4}, {10.0, 1e3}, [](StabilityCell& cell, double count) {
                           pbs_of(cell).gravity_m_s2.y() = -g_m_s2 * count;
                       }};
-const Sweep mass_ratios{"mass ratio", "1", {1e2, 1e8}, {1e4, 1e6}, set_mass_ratio, false};
-const Sweep held_ends{"held end", "1", {1.0}, {}, [](StabilityCell& cell, double) { cell.held_end = true; }, false};
+const Sweep mass_ratios{"mass_ratio", "1", {1e2, 1e8}, {1e4, 1e6}, set_mass_ratio, false};
+const Sweep held_ends{"held_end", "1", {1.0}, {}, [](StabilityCell& cell, double) { cell.held_end = true; }, false};
 const Sweep orders{"order", "", {1.0, 2.0}, {}, [](StabilityCell& cell, double value) {
                        pbs_of(cell).order = value == 1.0 ? pbs::Order::plain : pbs::Order::grouped;
                        cell.named = value == 1.0 ? "plain" : "grouped";
@@ -51,11 +51,11 @@ void set_form(StabilityCell& cell, double value)
     cell.named = name_of(pbs_of(cell).volume_form);
 }
 
-const Sweep printed_forms{"printed form", "", {1.0, 2.0, 3.0, 4.0}, {}, set_form, false};
-const Sweep without_bind{"sign, k_bind", "1", {0.0}, {}, [](StabilityCell& cell, double k) { pbs_of(cell).k_bind = k; }, false};
+const Sweep printed_forms{"printed_form", "", {1.0, 2.0, 3.0, 4.0}, {}, set_form, false};
+const Sweep without_bind{"sign_k_bind", "1", {0.0}, {}, [](StabilityCell& cell, double k) { pbs_of(cell).k_bind = k; }, false};
 // The square of the distance overflows in f32, and in f64. This is a limit of the numbers, not of the method.
 const Sweep beyond_numbers{
-    "teleport beyond numbers", "m", {1e25, 1e160}, {}, [](StabilityCell& cell, double m) { cell.disturbance.teleport_m = m; }, false};
+    "teleport_beyond_numbers", "m", {1e25, 1e160}, {}, [](StabilityCell& cell, double m) { cell.disturbance.teleport_m = m; }, false};
 
 StabilityCell base(const std::string& body, bool jiggle, pbs::Precision precision, bool full)
 {

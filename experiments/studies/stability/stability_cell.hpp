@@ -50,7 +50,7 @@ inline constexpr unsigned stability_seed = 20140528;
 
 struct StabilityCell {
     std::string body = "limb";  // or a character
-    std::string model, factor;  // e.g. pbs_jiggle, time step
+    std::string model, factor;  // e.g. pbs_jiggle, time_step
     double value = 0.0;
     std::string unit;
     std::string second_factor = {};  // of a map

@@ -113,7 +113,7 @@ StudyConclusion conclude(const FinishedRuns& finished)
 {
     const std::vector<CellRow> cells = finished.rows(cell_columns, "cells.csv");
     finished.write("cells.csv", cell_columns, cells);
-    finished.write("map_time_step_k_stretch.csv", map_csv(cells, "time step", "k_stretch"));
+    finished.write("map_time_step_k_stretch.csv", map_csv(cells, "time_step", "k_stretch"));
     finished.write("map_iterations_twist.csv", map_csv(cells, "iterations", "twist"));
     finished.write("outcomes.md", "```\n" + outcome_table(cells, true) + "```\n");
     finished.write("criteria.md", analysis::criteria_text() + endings_text());

@@ -10,11 +10,9 @@ pbs::XpbdOptions& xpbd_of(StabilityCell& cell)
     return options_of<pbs::XpbdOptions>(cell.spec);
 }
 
-const Sweep youngs{
-    "Young's modulus", "Pa", {1.0, 1e12}, {1e3, 1e7, 1e9}, [](StabilityCell& cell, double pa) { xpbd_of(cell).young_pa = pa; }};
-const Sweep poissons{"Poisson's ratio", "1", {0.25, 0.499999}, {0.45, 0.49, 0.499, 0.4999}, [](StabilityCell& cell, double nu) {
-                         xpbd_of(cell).poisson = nu;
-                     }};
+const Sweep youngs{"young", "Pa", {1.0, 1e12}, {1e3, 1e7, 1e9}, [](StabilityCell& cell, double pa) { xpbd_of(cell).young_pa = pa; }};
+const Sweep poissons{
+    "poisson", "1", {0.25, 0.499999}, {0.45, 0.49, 0.499, 0.4999}, [](StabilityCell& cell, double nu) { xpbd_of(cell).poisson = nu; }};
 const Sweep gravities{
     "gravity", "g", {1.0, 1e4}, {100.0}, [](StabilityCell& cell, double count) { xpbd_of(cell).gravity_m_s2.y() = -g_m_s2 * count; }};
 const Sweep iterations{"iterations", "1", {1.0, 96.0}, {4.0, 384.0}, [](StabilityCell& cell, double count) {

@@ -17,11 +17,11 @@ using Setting = StiffnessSetting;
 
 const Columns<Row> stiffness_columns =
     Columns<Row>{{"body", &Row::body, "", "name of the body"},
-                 {"load", &Row::load, "", "zone, zone on held or cantilever: what is loaded and what holds it"},
+                 {"load", &Row::load, "", "zone, zone_on_held or cantilever: what is loaded and what holds it"},
                  {"vertices", &Row::vertices, "", "number of vertices"},
                  {"edges", &Row::edges, "", "number of edges"},
                  {"tets", &Row::tets, "", "number of tets"},
-                 {"mesh", &Row::mesh, "", "size that was asked for: wanted, or wanted, a tenth finer"}} +
+                 {"mesh", &Row::mesh, "", "size that was asked for: wanted, or tenth_finer than that"}} +
     within(&Row::setting, Columns<Setting>{{"method", &Setting::method, "", "solver"},
                                            {"k_stretch", &Setting::k_stretch, "", "stiffness of PBS; of no meaning for XPBD"},
                                            {"young_pa", &Setting::young_pa, "Pa", "stiffness of XPBD; of no meaning for PBS"},

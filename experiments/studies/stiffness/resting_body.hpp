@@ -60,7 +60,7 @@ inline constexpr double still_gravity_m_s2 = 9.81;  // under which the solver it
 struct StiffnessRow {
     std::string body, load;
     int vertices = 0, edges = 0, tets = 0;
-    std::string mesh = "wanted";  // or "wanted, a tenth finer": of a second series of sizes
+    std::string mesh = "wanted";  // or tenth_finer: of a second series of sizes
     StiffnessSetting setting;
     std::string by = "linear";  // or "stepped": the solver itself, under still_gravity_m_s2
     double force_n = 0.0, stiffness_n_m = 0.0;

@@ -11,16 +11,21 @@
 
 namespace experiments {
 
-const analysis::Columns<StiffnessExponent> exponent_columns = {
-    {"varied", &StiffnessExponent::varied, "", "iterations, 1 / time step or vertices"},
-    {"case", &StiffnessExponent::what, "", "everything that is not varied, in words"},
-    {"first", &StiffnessExponent::first, "", "first value of what is varied; time steps in ms"},
-    {"last", &StiffnessExponent::last, "", "its last value"},
-    {"points", &StiffnessExponent::points, "", "settings that the line is fitted to"},
-    {"left_out", &StiffnessExponent::left_out, "", "settings that did not converge, or hang upwards"},
-    {"exponent", &StiffnessExponent::exponent, "", "slope of log stiffness over the log of what is varied"},
-    {"exponent_low", &StiffnessExponent::low, "", "lower end of its 95 % interval"},
-    {"exponent_high", &StiffnessExponent::high, "", "upper end of its 95 % interval"}};
+const analysis::Columns<StiffnessExponent>& exponent_columns()
+{
+    using Row = StiffnessExponent;
+    static const analysis::Columns<Row> columns =
+        analysis::Columns<Row>{{"varied", &Row::varied, "", "iterations, time_step or resolution"}} +
+        within(&Row::of, analysis::case_key_columns()) +
+        analysis::Columns<Row>{{"first", &Row::first, "", "first value of what is varied; time steps in ms"},
+                               {"last", &Row::last, "", "its last value"},
+                               {"points", &Row::points, "", "settings that the line is fitted to"},
+                               {"left_out", &Row::left_out, "", "settings that did not converge, or hang upwards"},
+                               {"exponent", &Row::exponent, "", "slope of log stiffness over the log of vertices, iterations or 1 / step"},
+                               {"exponent_low", &Row::low, "", "lower end of its 95 % interval"},
+                               {"exponent_high", &Row::high, "", "upper end of its 95 % interval"}};
+    return columns;
+}
 
 const VariedText& text_of(Varied varied)
 {
@@ -38,7 +43,6 @@ struct Point {
 };
 
 struct Case {
-    analysis::CaseKey key;
     std::map<std::string, std::vector<Point>> series;  // by order and mesh; file order on the wanted meshes comes first
     int left_out = 0;
 };
@@ -71,18 +75,16 @@ analysis::CaseKey key_of(const StiffnessRow& row, Varied varied)
     return key;
 }
 
-std::map<std::string, Case> cases_of(const std::vector<StiffnessRow>& rows, Varied varied)
+std::map<analysis::CaseKey, Case> cases_of(const std::vector<StiffnessRow>& rows, Varied varied)
 {
-    std::map<std::string, Case> cases;
+    std::map<analysis::CaseKey, Case> cases;
     for (const StiffnessRow& row : rows) {
-        const analysis::CaseKey key = key_of(row, varied);
-        Case& found = cases[text_of(key)];
-        found.key = key;
+        Case& found = cases[key_of(row, varied)];
         const bool usable = row.converged && std::isfinite(row.stiffness_n_m) && row.stiffness_n_m > 0.0;
         found.left_out += !usable;
         if (usable) found.series[fmt::format("{} {}", row.setting.order_seed, row.mesh)].push_back({x_of(row, varied), row.stiffness_n_m});
     }
-    for (auto& [name, found] : cases)
+    for (auto& [of, found] : cases)
         for (auto& [key, points] : found.series) std::ranges::sort(points, {}, &Point::x);
     return cases;
 }
@@ -104,7 +106,7 @@ analysis::CaseKey over_range(analysis::CaseKey key, Varied varied, double first,
     return key;
 }
 
-std::optional<analysis::Measurement> ratio_of(const Case& measured, Varied varied)
+std::optional<analysis::Measurement> ratio_of(const analysis::CaseKey& of, const Case& measured, Varied varied)
 {
     constexpr double rounding = 1e-9;
     const VariedText& text = text_of(varied);
@@ -117,8 +119,7 @@ std::optional<analysis::Measurement> ratio_of(const Case& measured, Varied varie
         if (points.size() < 2) continue;
         const double overall = for_one_doubling(points.front(), points.back());
         if (!result)
-            result = {"C11", text.quantity, over_range(measured.key, varied, points.front().x, points.back().x), overall, overall, overall,
-                      "1"};
+            result = {"C11", text.quantity, over_range(of, varied, points.front().x, points.back().x), overall, overall, overall, "1"};
         for (std::size_t i = 1; i < points.size(); ++i) {
             const double single = for_one_doubling(points[i - 1], points[i]);
             result->low = std::min(result->low, single);
@@ -134,7 +135,7 @@ std::vector<analysis::Measurement> stiffness_ratios(const std::vector<StiffnessR
 {
     std::vector<analysis::Measurement> measured;
     for (const auto& [of, found] : cases_of(rows, varied))
-        if (const auto ratio = ratio_of(found, varied)) measured.push_back(*ratio);
+        if (const auto ratio = ratio_of(of, found, varied)) measured.push_back(*ratio);
     return measured;
 }
 
@@ -147,8 +148,8 @@ std::vector<StiffnessExponent> stiffness_exponents(const std::vector<StiffnessRo
         std::vector<double> x, stiffness;
         for (const Point& point : found.series.begin()->second) x.push_back(point.x), stiffness.push_back(point.stiffness);
         const analysis::Interval slope = analysis::observed_order(x, stiffness).slope;
-        exponents.push_back({text_of(varied).factor, of, shown(x.front()), shown(x.back()), slope.n, found.left_out, slope.estimate,
-                             slope.low, slope.high});
+        exponents.push_back(
+            {varied, of, shown(x.front()), shown(x.back()), slope.n, found.left_out, slope.estimate, slope.low, slope.high});
     }
     return exponents;
 }

@@ -30,12 +30,17 @@ std::vector<analysis::Measurement> stiffness_ratios(const std::vector<StiffnessR
 
 // K = c x^exponent over all settings, in file order, by least squares: a row of exponents.csv.
 struct StiffnessExponent {
-    std::string varied, what;        // what: limb, zone, pbs k_stretch 0.2, 10 ms, 593 vertices
+    Varied varied = Varied::iterations;
+    analysis::CaseKey of;            // everything that is not varied
     double first = 0.0, last = 0.0;  // of what is varied; time steps in ms
     int points = 0, left_out = 0;    // left out: settings that did not converge, or hang upwards
     double exponent = 0.0, low = 0.0, high = 0.0;
 };
-extern const analysis::Columns<StiffnessExponent> exponent_columns;
+const analysis::Columns<StiffnessExponent>& exponent_columns();
 std::vector<StiffnessExponent> stiffness_exponents(const std::vector<StiffnessRow>& rows, Varied varied);
 
 }  // namespace experiments
+
+template <>
+struct analysis::EnumNames<experiments::Varied> : experiments::OptionNames<experiments::Varied> {
+};

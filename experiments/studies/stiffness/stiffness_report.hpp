@@ -19,7 +19,7 @@ std::string stiffness_text(const std::vector<SweptRows>& sweeps);
 
 // XPBD is a control. Its stiffness is a material's, so its values should stay within the bounds that the claim sets for PBS; those of XPBD
 // that forgets its multipliers should not, which shows that the study can tell the difference. The text has, for each thing doubled, how
-// many values stay and which one is farthest from 1; the page lists XPBD's values that do not stay.
+// many values stay; the page lists XPBD's values that do not stay.
 std::string control_text(const std::vector<SweptRows>& sweeps, const analysis::Claim& claim);
 std::string control_markdown(const std::vector<SweptRows>& sweeps, const analysis::Claim& claim);
 

@@ -21,7 +21,7 @@ std::vector<LoadedBody> bodies_of(const std::string& body, int vertices)
 // bar, whose slowest motion takes more of such steps than the linear solver's Krylov space has.
 bool suits(const LoadedBody& body, const StiffnessSetting& setting)
 {
-    return setting.method != Method::xpbd_small_steps || body.load == "zone on held";
+    return setting.method != Method::xpbd_small_steps || body.load == "zone_on_held";
 }
 
 std::vector<StiffnessSetting> materials(bool full)
@@ -91,7 +91,7 @@ std::vector<Size> sizes_of(const StiffnessSweep& sweep)
     std::vector<Size> sizes;
     for (const int vertices : sweep.vertices) {
         sizes.push_back({vertices, "wanted"});
-        if (sweep.full && sweep.varied == Varied::resolution) sizes.push_back({vertices * 11 / 10, "wanted, a tenth finer"});
+        if (sweep.full && sweep.varied == Varied::resolution) sizes.push_back({vertices * 11 / 10, "tenth_finer"});
     }
     return sizes;
 }

@@ -7,6 +7,7 @@
 // is judged by the zone on what the solver moves, as the paper runs it; bars and zones on what is held are for comparison ("flesh held").
 // Writes DIR/stiffness/{iterations,time_step,resolution}_BODY/stiffness.csv and measurements.csv; DIR/stiffness/stiffness.csv,
 // exponents.csv and stiffness.md.
+#include "analysis/records/optional_columns.hpp"
 #include "experiments/studies/shared/program_claims.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/stiffness/stiffness_report.hpp"
@@ -63,7 +64,7 @@ StudyConclusion conclude(const FinishedRuns& finished)
     }
     const analysis::Claim& claim = claim_named("C11");
     finished.write("stiffness.csv", stiffness_columns, all);
-    finished.write("exponents.csv", exponent_columns, exponents);
+    finished.write("exponents.csv", used_columns(exponent_columns(), exponents), exponents);
     finished.write("stiffness.md", stiffness_markdown(swept) + control_markdown(swept, claim));
     return {stiffness_text(swept) + control_text(swept, claim), !finished.none()};
 }

@@ -100,7 +100,7 @@ TEST_F(ArtefactsVerdict, WithoutAReferenceThereIsNoVerdict)
 
 TEST_F(ArtefactsVerdict, ARatioAboveOneIsNotSmoother)
 {
-    bent.poses = {{2, "bend 60 deg"}};
+    bent.poses = {{2, "bend_60_deg"}};
     std::vector<Measurement> measured = experiments::compare_weights(bent).measurements;
     expect_the_claims_quantities("C06", measured);
     const auto put = [&](const std::string& quantity, const analysis::CaseKey& of, double ratio) {

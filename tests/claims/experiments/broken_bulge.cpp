@@ -40,7 +40,7 @@ experiments::ArtefactCase small_bend()
     of.scene = experiments::read_scene("limb_bend", {"character.vertices=1200", "motion.angle_deg=60", "motion.frames=3",
                                                      R"(deformers.use=["lbs", "dqs", "pbs", "snh_p1"])"});
     of.claim = experiments::ArtefactCase::Claim::bulge;
-    of.poses = {{1, "bend 30 deg"}, {2, "bend 60 deg"}};
+    of.poses = {{1, "bend_30_deg"}, {2, "bend_60_deg"}};
     return of;
 }
 

@@ -40,7 +40,7 @@ WeightsComparison twisted(Broken how = Broken::nothing, const std::string& weigh
                                          R"(deformers.use=["lbs", "pbs"])", "reference.name=", "skinning.weights=\"" + weights + "\""}),
                       how);
     of.claim = experiments::ArtefactCase::Claim::candy_wrapper;
-    of.poses = {{1, "twist 90 deg"}};
+    of.poses = {{1, "twist_90_deg"}};
     return experiments::compare_weights(of);
 }
 

@@ -42,8 +42,8 @@ VerdictKind verdict_on(const std::vector<MeasuredCell>& cells)
     return VerdictKind::not_computable;
 }
 
-const std::vector<MeasuredCell> stable = {cell_of("time step", StabilityOutcome::converged),
-                                          cell_of("time step", StabilityOutcome::inverted),
+const std::vector<MeasuredCell> stable = {cell_of("time_step", StabilityOutcome::converged),
+                                          cell_of("time_step", StabilityOutcome::inverted),
                                           cell_of("k_stretch", StabilityOutcome::bounded)};
 
 std::vector<MeasuredCell> altered(std::size_t index, StabilityOutcome outcome)
@@ -74,7 +74,7 @@ TEST(StabilityVerdict, ACellInEverySweepIsNotReproduced)
 TEST(StabilityVerdict, CellsThatThePaperDoesNotClaimDoNotCount)
 {
     std::vector<MeasuredCell> cells = stable;
-    cells.push_back(cell_of("printed form", StabilityOutcome::not_finite, false));
+    cells.push_back(cell_of("printed_form", StabilityOutcome::not_finite, false));
     EXPECT_EQ(verdict_on(cells), VerdictKind::reproduced);
 }
 
@@ -91,8 +91,8 @@ TEST(StabilityVerdict, AMapThatCannotTellIsRefused)
     std::vector<MeasuredCell> cells;
     for (const StabilityOutcome outcome : {StabilityOutcome::converged, StabilityOutcome::bounded, StabilityOutcome::inverted,
                                            StabilityOutcome::diverged, StabilityOutcome::not_finite})
-        cells.push_back(cell_of("time step", outcome));
-    cells.push_back(cell_of("printed form", StabilityOutcome::diverged, false));
+        cells.push_back(cell_of("time_step", outcome));
+    cells.push_back(cell_of("printed_form", StabilityOutcome::diverged, false));
     cells.back().cell.named = "sign";
     EXPECT_EQ(blind_spots(rows_of_cells(cells)), "");
     cells.back().result.stability.outcome = StabilityOutcome::converged;
@@ -107,7 +107,7 @@ TEST(StabilityVerdict, SharesAreOfTheCellsOfTheirSweep)
 {
     const analysis::CsvTable shares = stability_measurements(altered(0, StabilityOutcome::diverged));
     ASSERT_EQ(shares.rows(), 8);
-    EXPECT_EQ(analysis::text_of(analysis::case_key(shares, 0)), "limb, pbs, f32, time step");
+    EXPECT_EQ(analysis::text_of(rows_of(analysis::case_key_columns(), shares).front()), "limb, pbs, f32, time_step");
     EXPECT_EQ(shares.integer(0, "n"), 2);
     EXPECT_EQ(shares.number(0, "value"), 0.5);  // one of two
     EXPECT_EQ(shares.number(1, "value"), 0.5);  // the inverted one
@@ -132,7 +132,7 @@ TEST(StabilityVerdict, ReportedSharesHaveAnIntervalAndTheJudgedOneHasNone)
 TEST(StabilityVerdict, WhatMovesToTheEndIsNotAtRest)
 {
     const auto moving = [](StabilityOutcome outcome, std::vector<double> motions) {
-        MeasuredCell cell = cell_of("time step", outcome);
+        MeasuredCell cell = cell_of("time_step", outcome);
         cell.result.steps.resize(motions.size());
         for (std::size_t i = 0; i < motions.size(); ++i) cell.result.steps[i].motion = motions[i];
         return cell;
@@ -159,12 +159,12 @@ TEST(StabilityVerdict, TimeStepsThatDoNotEnterAreNoFigure)
     for (const bool full : {false, true}) {
         int controls = 0;
         for (const StabilityCell& cell : pbs_cells(false, full)) {
-            EXPECT_FALSE(cell.factor == "time step" && cell.as_published);
+            EXPECT_FALSE(cell.factor == "time_step" && cell.as_published);
             controls += cell.model == "pbs_no_memory";
         }
         EXPECT_GT(controls, 0);
     }
-    for (const StabilityCell& cell : pbs_cells(true, false)) EXPECT_TRUE(cell.factor != "time step" || cell.as_published);
+    for (const StabilityCell& cell : pbs_cells(true, false)) EXPECT_TRUE(cell.factor != "time_step" || cell.as_published);
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ TEST(StiffnessVerdict, TurnsWithTheFigures)
 // Held flesh is not what the paper runs.
 TEST(StiffnessVerdict, FleshHeldIsAControl)
 {
-    for (const char* load : {"zone on held", "cantilever"}) {
+    for (const char* load : {"zone_on_held", "cantilever"}) {
         auto both = measured(Method::pbs, 0.0, 0.0, 0.0);
         for (const auto& held : measured(Method::pbs, 1.0, 2.0, -0.7, "bar", load)) both.push_back(held);
         const analysis::Verdict judged = verdict(both);

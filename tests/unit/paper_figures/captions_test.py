@@ -58,7 +58,7 @@ class Captions(unittest.TestCase):
     def test_cells_are_counted_by_method_and_their_ends_named(self):
         rows = [{"model": model, "factor": factor, "outcome": outcome} for model, factor, outcome in (
             ("pbs", "gravity", "converged"), ("pbs", "gravity", "inverted"), ("pbs", "twist", "converged"),
-            ("pbs_jiggle", "start", "bounded"), ("fem_linear", "gravity", "diverged"), ("fem_linear", "slivers, height kept", "diverged"))]
+            ("pbs_jiggle", "start", "bounded"), ("fem_linear", "gravity", "diverged"), ("fem_linear", "slivers_height_kept", "diverged"))]
         text = self.told("stability_cells", rows)
         self.assertIn("undisturbed: PBS in 2 of 3; PBS, jiggle in 0 of 1; linear FEM in 0 of 2 (", text)
         self.assertIn("PBS keeps inverted tets after: gravity; the jiggling PBS after: none. ", text)

@@ -65,9 +65,9 @@ def write_regions(results):
                                  "second_bone": second, "rest_share_pct": 10.0, "change_pct": change, "own_change_pct": 10 * change})
 
 
-verification_columns = ["problem", "quantity", "setting", "description", "element_order", "formulation", "material", "poisson", "mesh", "h_m",
-                        "dofs", "value", "reference", "unit", "difference_pct", "source", "bound_from", "low", "high", "observed_order",
-                        "expected_order", "note", "holds"]
+verification_columns = ["problem", "quantity", "setting", "description", "element_order", "formulation", "material", "poisson", "mesh",
+                        "h_m", "dofs", "value", "reference", "unit", "difference_pct", "source", "bound_from", "low", "high",
+                        "observed_order", "expected_order", "note", "holds"]
 
 
 def write_verification(results):

@@ -26,7 +26,7 @@ def write_runs(study, runs):
 
 def write_convergence(study):
     """Residuals 1 / (1 + i) and errors of 60 % / (1 + i) from LBS, twice that from the second initial guess and so on."""
-    paths = {"limb_twist": "twist 90", "limb_bend": "bend 90", "human": "01_01 crouch"}
+    paths = {"limb_twist": "twist_90", "limb_bend": "bend_90", "human": "01_01_crouch"}
     write_runs(study, [*paths, "ladder_twist", "ladder_bend"])
     starts = list(enumerate(("lbs", "previous_frame", "rest_pose", "rigid_bind"), 1))
     for run, pose in paths.items():
@@ -73,8 +73,8 @@ def write_error_split(study):
 def write_artefacts(study):
     """Sections every 10 cm: LBS leaves half of the area, DQS has a tenth more, PBS and the elements keep all; on another mesh the area is
     zero."""
-    cases = {"limb_twist": ("twist 90 deg", "twist 180 deg"), "limb_bend": ("bend 60 deg", "bend 90 deg"),
-             "human_twist_forearm_upper.L": ("twist 90 deg",), "human_bend_shin.L": ("bend 90 deg",)}
+    cases = {"limb_twist": ("twist_90_deg", "twist_180_deg"), "limb_bend": ("bend_60_deg", "bend_90_deg"),
+             "human_twist_forearm_upper.L": ("twist_90_deg",), "human_bend_shin.L": ("bend_90_deg",)}
     areas = {"lbs": 0.5, "dqs": 1.1, "pbs": 1.0, "snh_p1": 0.9, "snh_p2": 1.0, "delta_mush": 1.0}
     for case, poses in cases.items():
         write_origin(study / case)
@@ -89,7 +89,7 @@ def write_artefacts(study):
 def write_stability(study):
     """Every outcome once in the maps; in the cells one factor for two methods."""
     outcomes = ["converged", "bounded", "inverted", "diverged", "not_finite", "converged"]
-    maps = {"map_time_step_k_stretch": ("time step", "s", "k_stretch", "1"), "map_iterations_twist": ("iterations", "1", "twist", "deg")}
+    maps = {"map_time_step_k_stretch": ("time_step", "s", "k_stretch", "1"), "map_iterations_twist": ("iterations", "1", "twist", "deg")}
     write_origin(study / "pbs_maps")
     for name, (factor, unit, second, second_unit) in maps.items():
         write(study / f"{name}.csv",
@@ -118,7 +118,7 @@ def write_jiggle(study):
 def write_stiffness(study):
     """10 N/m per iteration over the time step squared; XPBD 50 N/m; rows that did not converge, have another order or a stiffer material
     are not part of the figure."""
-    for body, load in (("bar", "cantilever"), ("limb", "zone on held"), ("human", "zone on held")):
+    for body, load in (("bar", "cantilever"), ("limb", "zone_on_held"), ("human", "zone_on_held")):
         for run, values in (("iterations", (6, 24)), ("time_step", (5, 10)), ("resolution", (300, 600))):
             write_origin(study / f"{run}_{body}")
             rows = []

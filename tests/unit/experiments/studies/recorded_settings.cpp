@@ -76,13 +76,13 @@ TEST(RecordedSettings, OfWorkPrecision)
 TEST(RecordedSettings, OfConvergence)
 {
     ConvergenceCase of;
-    of.scene = limb(), of.frames = {{18, "bend 90"}}, of.k_stretch = {0.2}, of.settings = {{}}, of.other_vertices = {600};
+    of.scene = limb(), of.frames = {{18, "bend_90"}}, of.k_stretch = {0.2}, of.settings = {{}}, of.other_vertices = {600};
     EXPECT_GE(expect_each_change_repeats(of), 15);
 }
 
 TEST(RecordedSettings, OfArtefacts)
 {
-    const ArtefactCase of{.scene = limb(), .poses = {{18, "bend 90 deg"}}, .joint = "upper|forearm", .vertices = {1200}};
+    const ArtefactCase of{.scene = limb(), .poses = {{18, "bend_90_deg"}}, .joint = "upper|forearm", .vertices = {1200}};
     EXPECT_GE(expect_each_change_repeats(of), 10);
 }
 
@@ -101,7 +101,7 @@ TEST(RecordedSettings, OfStability)
 
 TEST(RecordedSettings, OfAmbiguity)
 {
-    EXPECT_GE(expect_each_change_repeats(ReadingsCase{.scene = limb(), .frame = 18, .pose = "bend 90"}), 8);
+    EXPECT_GE(expect_each_change_repeats(ReadingsCase{.scene = limb(), .frame = 18, .pose = "bend_90"}), 8);
     EXPECT_GE(expect_each_change_repeats(VolumeReadings{"limb", limb(), {}}), 4);
 }
 

@@ -15,7 +15,7 @@ using experiments::ReadingValues;
 
 Reading named(const std::string& name)
 {
-    return {.place = "Table 1: jiggling", .name = name, .baseline = "A", .options = {}};
+    return {.place = "jiggling", .name = name, .baseline = "A", .options = {}};
 }
 
 ReadingValues with(const std::string& claim, double value, Extent extent)

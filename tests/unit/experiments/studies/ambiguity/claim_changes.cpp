@@ -33,7 +33,7 @@ TEST(ClaimChanges, HoldBothValuesAndFlipWhereTheBoundJudgesThemOtherwise)
     EXPECT_EQ(table.at(0).change, 0.75);
     EXPECT_EQ(table.at(0).b_over_a, 2.5);
     EXPECT_EQ(table.at(0).holds_a, "whole");
-    EXPECT_EQ(table.at(0).holds_b, "nowhere");
+    EXPECT_EQ(table.at(0).holds_b, "none");
     EXPECT_EQ(table.at(0).verdict_flips, "yes");
     EXPECT_EQ(table.at(0).reason, "B: at_least");
 }
@@ -47,11 +47,11 @@ TEST(ClaimChanges, WithoutAFigureOfEitherSayWhoseIsMissing)
 {
     const auto of_a_alone = compared({{value(0.5, Extent::whole)}}, {});
     EXPECT_EQ(of_a_alone.at(0).verdict_flips, "no_value");
-    EXPECT_EQ(of_a_alone.at(0).reason, "B has no such figure");
+    EXPECT_EQ(of_a_alone.at(0).reason, "B has no such value");
     EXPECT_FALSE(of_a_alone.at(0).b.has_value());
     EXPECT_FALSE(of_a_alone.at(0).change.has_value());
     const auto of_b_alone = compared({}, {{value(0.5, Extent::whole)}});
-    EXPECT_EQ(of_b_alone.at(0).reason, "A has no such figure");
+    EXPECT_EQ(of_b_alone.at(0).reason, "A has no such value");
     EXPECT_EQ(of_b_alone.at(0).b, 0.5);
 }
 
@@ -60,7 +60,7 @@ TEST(ClaimChanges, OfAClaimWithoutAFigureHaveARowThatSaysSo)
     const auto table = compared({}, {});
     ASSERT_EQ(table.size(), 1u);
     EXPECT_EQ(table.at(0).verdict_flips, "no_value");
-    EXPECT_EQ(table.at(0).reason, "neither reading has a figure");
+    EXPECT_EQ(table.at(0).reason, "neither reading has a value");
 }
 
 TEST(ClaimChanges, OfAQuantityThatIsLeftOutHaveARowWithTheReason)

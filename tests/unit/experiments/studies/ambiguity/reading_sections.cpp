@@ -16,7 +16,7 @@ experiments::ArtefactCase twisted()
     of.scene = experiments::read_scene("limb_twist", {"character.vertices=400", R"(deformers.use=["lbs","pbs"])", R"(reference.name="")",
                                                       "motion.angle_deg=90", "motion.frames=3"});
     of.claim = experiments::ArtefactCase::Claim::candy_wrapper;
-    of.poses = {{1, "twist 45 deg"}, {2, "twist 90 deg"}};
+    of.poses = {{1, "twist_45_deg"}, {2, "twist_90_deg"}};
     return of;
 }
 

@@ -21,7 +21,7 @@ ReadingsCase small_limb()
 {
     return {.scene = experiments::read_scene("limb_bend", {"character.vertices=400"}),
             .frame = 18,
-            .pose = "bend 90",
+            .pose = "bend_90",
             .jolt_direction = pbs::Vec3::UnitX(),
             .most_iterations = 60,
             .jolt_steps = 60,

@@ -40,7 +40,7 @@ std::vector<VolumeChange> compared(const ReadMotion& a, const ReadMotion& b)
 
 const VolumeChange& value(const std::vector<VolumeChange>& rows, const std::string& name)
 {
-    const auto found = std::ranges::find(rows, name, &VolumeChange::value);
+    const auto found = std::ranges::find(rows, name, &VolumeChange::quantity);
     if (found == rows.end()) throw std::runtime_error("no " + name);
     return *found;
 }
@@ -48,19 +48,19 @@ const VolumeChange& value(const std::vector<VolumeChange>& rows, const std::stri
 TEST(VolumeChanges, HaveTheValuesOfBothAndTheirChange)
 {
     const auto rows = compared(motion_of(-0.25, 0.0), motion_of(-0.75, 0.5));
-    EXPECT_EQ(value(rows, "mean volume change [%]").a, -0.25);
-    EXPECT_EQ(value(rows, "mean volume change [%]").b, -0.75);
-    EXPECT_EQ(value(rows, "mean volume change [%]").change, -0.5);
-    EXPECT_EQ(value(rows, "mean absolute volume change [%]").b, 1.5);
-    EXPECT_EQ(value(rows, "share of frames within 0.5 %").a, 1.0);
-    EXPECT_EQ(value(rows, "share of frames within 0.5 %").b, 0.0);
-    EXPECT_EQ(value(rows, "distance of B from A, rms [m]").b, 0.5);
+    EXPECT_EQ(value(rows, "mean_volume_change_pct").a, -0.25);
+    EXPECT_EQ(value(rows, "mean_volume_change_pct").b, -0.75);
+    EXPECT_EQ(value(rows, "mean_volume_change_pct").change, -0.5);
+    EXPECT_EQ(value(rows, "mean_volume_abs_change_pct").b, 1.5);
+    EXPECT_EQ(value(rows, "share_of_frames_within_printed").a, 1.0);
+    EXPECT_EQ(value(rows, "share_of_frames_within_printed").b, 0.0);
+    EXPECT_EQ(value(rows, "distance_of_b_from_a_rms_m").b, 0.5);
 }
 
 TEST(VolumeChanges, StateWhereAVerdictChangesAndWhereNot)
 {
     const auto verdict = [](double a, double b) { return compared(motion_of(a, 0.0), motion_of(b, 0.0)).front().verdict_changed; };
-    EXPECT_EQ(verdict(-0.25, -0.75).substr(0, 44), "C02 by volume_change_pct: whole -> nowhere; ");
+    EXPECT_EQ(verdict(-0.25, -0.75).substr(0, 41), "C02 by volume_change_pct: whole -> none; ");
     EXPECT_EQ(verdict(-0.1, -0.2), "no");
     EXPECT_EQ(verdict(-11.0, -14.0).substr(0, 22), "C01 by volume_loss_pct");
 }

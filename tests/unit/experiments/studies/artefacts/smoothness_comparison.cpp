@@ -40,14 +40,14 @@ double strain_jump(const WeightsComparison& comparison, const std::string& weigh
 
 TEST(WeightsComparison, FiguresAreTheRatiosOfTheRecords)
 {
-    const WeightsComparison bent = compared({{2, "bend 60 deg", {.motion = "bend", .angle_deg = 60.0}}});
+    const WeightsComparison bent = compared({{2, "bend_60_deg", {.motion = "bend", .angle_deg = 60.0}}});
     for (const std::string deformer : {"lbs", "pbs"}) {
         const auto* jump = measurement(bent, "strain_jump_over_rigid_weights", deformer);
         ASSERT_NE(jump, nullptr);
         EXPECT_DOUBLE_EQ(jump->value, strain_jump(bent, "paper", deformer) / strain_jump(bent, "rigid", deformer));
         EXPECT_LE(jump->low, jump->value);
         EXPECT_GE(jump->high, jump->value);
-        EXPECT_EQ(text_of(jump->of), "limb, bend, upper|forearm, angle_deg 60, " + deformer);
+        EXPECT_EQ(text_of(jump->of), "limb, bend, upper|forearm, 60 deg, " + deformer);
     }
 }
 
@@ -57,7 +57,7 @@ TEST(WeightsComparison, RigidBlendingShearsOneLayerInATwistWhatEquation2SpreadsO
     auto of = test_support::small_limb(experiments::ArtefactCase::Claim::candy_wrapper);
     of.scene.character.vertices = 1200;
     of.scene.motion.axis = pbs::Vec3::UnitX();
-    of.poses = {{3, "twist 90 deg"}};
+    of.poses = {{3, "twist_90_deg"}};
     const WeightsComparison twisted = experiments::compare_weights(of);
     EXPECT_LT(measurement(twisted, "strain_jump_over_rigid_weights", "lbs")->value, 0.8);
 }
@@ -67,7 +67,7 @@ TEST(WeightsComparison, IterationsAreTheRatioOfTheirRecordAndRigidHalvesTakeMore
 {
     auto of = test_support::small_limb(experiments::ArtefactCase::Claim::bulge);
     of.scene.character.vertices = 1200;
-    of.poses = {{3, "bend 90 deg"}};
+    of.poses = {{3, "bend_90_deg"}};
     const WeightsComparison bent = experiments::compare_weights(of);
     ASSERT_EQ(bent.iterations.size(), 1u);
     const auto* ratio = measurement(bent, "iterations_over_rigid_weights");

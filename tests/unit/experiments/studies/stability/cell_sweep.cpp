@@ -29,7 +29,7 @@ Sweep iterations(bool as_published)
 
 Sweep mass_ratio(bool as_published)
 {
-    return {"mass ratio", "1", {10.0, 100.0}, {}, [](StabilityCell& cell, double ratio) { cell.mass_ratio = ratio; }, as_published};
+    return {"mass_ratio", "1", {10.0, 100.0}, {}, [](StabilityCell& cell, double ratio) { cell.mass_ratio = ratio; }, as_published};
 }
 
 TEST(CellSweep, HasItsValuesInOrder)

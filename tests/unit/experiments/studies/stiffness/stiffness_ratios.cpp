@@ -47,7 +47,7 @@ TEST(StiffnessRatios, OfASquareIsFourForADoubling)
     ASSERT_EQ(ratios.size(), 1u);
     EXPECT_EQ(ratios[0].claim, "C11");
     EXPECT_EQ(ratios[0].quantity, "stiffness_ratio_at_twice_iterations");
-    EXPECT_EQ(text_of(ratios[0].of), "limb, pbs, vertices 600, k_stretch 0.2, iterations 12, iterations_to 48, time_step_s 0.01, zone");
+    EXPECT_EQ(text_of(ratios[0].of), "limb, pbs, 600 vertices, k_stretch 0.2, 12 to 48 iterations, steps of 0.01 s, zone");
     for (const double value : {ratios[0].value, ratios[0].low, ratios[0].high}) EXPECT_NEAR(value, 4.0, doubling_error(4.0, 1, 0));
     const auto exponents = stiffness_exponents(squares(), Varied::iterations);
     std::vector<double> iterations, stiffnesses;
@@ -90,7 +90,7 @@ TEST(StiffnessRatios, HalvesTheTimeStep)
     const auto ratio = stiffness_ratios(rows, Varied::time_step).at(0);
     EXPECT_EQ(ratio.quantity, "stiffness_ratio_at_half_time_step");
     EXPECT_NEAR(ratio.value, 4.0, doubling_error(4.0, 2 * 2 + 1, 2 * 2 + 1));  // squares and quotients, quotients of milliseconds
-    EXPECT_EQ(text_of(ratio.of), "limb, pbs, vertices 600, k_stretch 0.2, iterations 24, time_step_s 0.02, time_step_to_s 0.005, zone");
+    EXPECT_EQ(text_of(ratio.of), "limb, pbs, 600 vertices, k_stretch 0.2, 24 iterations, steps of 0.02 to 0.005 s, zone");
 }
 
 TEST(StiffnessRatios, OfMeshesThatAreNotQuiteTwiceEachOther)
@@ -145,11 +145,9 @@ TEST(StiffnessReport, SaysWhetherTheControlIsOne)
     claim.low = 0.9;
     claim.high = 1.1;
     const std::string text = control_text({{Varied::iterations, rows}}, claim);
-    EXPECT_EQ(text,
-              "the control, XPBD, at twice the iterations: 1 of 2 values stay within 0.9 to 1.1; farthest 4, of limb, xpbd, vertices 600, "
-              "young_pa 30000, iterations 12, iterations_to 48, time_step_s 0.01, zone\n");
+    EXPECT_EQ(text, "the control, XPBD, at twice the iterations: 1 of 2 values within 0.9 to 1.1\n");
     const std::string page = control_markdown({{Varied::iterations, rows}}, claim);
-    EXPECT_NE(page.find("| twice the iterations | limb, xpbd, vertices 600, young_pa 30000"), std::string::npos);
+    EXPECT_NE(page.find("| twice the iterations | limb, xpbd, 600 vertices, 30000 Pa"), std::string::npos);
     EXPECT_EQ(page.find("human"), std::string::npos);
     claim.high = 5.0;
     EXPECT_NE(control_text({{Varied::iterations, rows}}, claim).find("2 of 2 values"), std::string::npos);
@@ -174,7 +172,7 @@ TEST(StiffnessReport, TellsForgottenMultipliersApart)
 TEST(StiffnessRow, ReadsBackWhatWasWritten)
 {
     std::vector<StiffnessRow> rows = squares();
-    rows[0].mesh = "wanted, a tenth finer";
+    rows[0].mesh = "tenth_finer";
     rows[1].setting.method = Method::xpbd_small_steps;
     rows[1].setting.time_step_ms = 1.25;
     const auto read = rows_of(stiffness_columns, table_of(stiffness_columns, rows));
