@@ -127,8 +127,9 @@ bool NewtonMinimiser::factorise(const Terms& terms, const Eigen::VectorXd& displ
 // The last of the iterations is the present state.
 bool NewtonMinimiser::may_reuse_factor(const NewtonSummary& summary, const NewtonOptions& options) const
 {
-    if (summary.iterations.size() < 2) return false;
-    const NewtonIteration &now = summary.iterations.back(), &last = summary.iterations.end()[-2];
+    const std::size_t states = summary.iterations.size();
+    if (states < 2) return false;
+    const NewtonIteration &now = summary.iterations[states - 1], &last = summary.iterations[states - 2];
     return last.step_length == 1.0 && now.residual_n <= options.reuse_contraction * last.residual_n;
 }
 
