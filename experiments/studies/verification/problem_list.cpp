@@ -28,7 +28,7 @@ const std::vector<VerificationProblem>& verification_problems()
         {"grid_convergence", 1.0, 1.0, grid_convergence_rows},
         {"dynamics", 2.0, 8.0, dynamics_rows},
         {"moving_skeleton", 2.0, 2.0, moving_skeleton_rows},
-        {"calculix", 40.0, 120.0, calculix_rows},
+        {"calculix", 90.0, 170.0, calculix_rows},
         {"distributed", 5.0, 5.0, distributed_rows},
     };
     return all;

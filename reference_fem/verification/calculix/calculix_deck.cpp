@@ -1,5 +1,8 @@
 #include "reference_fem/verification/calculix/calculix_deck.hpp"
 
+#include "reference_fem/verification/calculix/equivalent_springs.hpp"
+
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <ostream>
@@ -47,13 +50,43 @@ void write_material(std::ostream& deck, const NodalProblem& problem)
     deck << "*SOLID SECTION, ELSET=TETS, MATERIAL=FLESH\n";
 }
 
+void write_equation(std::ostream& deck, const NodalProblem& problem, const EquivalentSpring& spring, Eigen::Index end, int component)
+{
+    constexpr int terms_per_line = 4;
+    const Eigen::Index nodes = problem.tets.cols();
+    deck << "*EQUATION\n" << nodes + 1 << "\n" << end << ", " << component << ", 1";
+    for (Eigen::Index i = 0; i < nodes; ++i)
+        deck << ((i + 1) % terms_per_line == 0 ? "\n" : ", ") << problem.tets(spring.tet, i) + 1 << ", " << component << ", "
+             << calculix_number(-spring.coefficients(i));
+    deck << "\n";
+}
+
+void write_springs(std::ostream& deck, const NodalProblem& problem, const EquivalentSprings& few)
+{
+    if (few.springs.empty()) return;
+    const Eigen::Index first_end = problem.nodes.rows() + 1, springs = static_cast<Eigen::Index>(few.springs.size());
+    deck << "*NODE, NSET=ENDS\n";
+    for (Eigen::Index m = 0; m < springs; ++m) deck << first_end + m << ", 0, 0, 0\n";
+    for (int component = 1; component <= 3; ++component) {
+        const std::string set = "SPRINGS" + std::to_string(component);
+        deck << "*ELEMENT, TYPE=SPRING1, ELSET=" << set << "\n";
+        for (Eigen::Index m = 0; m < springs; ++m)
+            deck << problem.tets.rows() + (component - 1) * springs + m + 1 << ", " << first_end + m << "\n";
+        deck << "*SPRING, ELSET=" << set << "\n" << component << "\n" << calculix_number(few.stiffness_n_m) << "\n";
+    }
+    for (Eigen::Index m = 0; m < springs; ++m)
+        for (int component = 1; component <= 3; ++component) write_equation(deck, problem, few.springs[m], first_end + m, component);
+}
+
 void write_analysis(std::ostream& deck, const DeckOptions& options)
 {
     const bool large_strain = options.analysis == CalculixAnalysis::large_strain;
     deck << (large_strain ? "*STEP, NLGEOM, INC=10000\n" : "*STEP\n");
     deck << "*STATIC\n";
     // Newton's residual over the mean force, and the last correction over the largest increment: CalculiX asks for 5e-3 and 1e-2.
-    if (large_strain) deck << calculix_number(options.first_increment) << ", 1.\n*CONTROLS, PARAMETERS=FIELD\n1e-9, 1e-9\n";
+    if (large_strain)
+        deck << calculix_number(options.first_increment) << ", 1.\n*CONTROLS, PARAMETERS=FIELD\n"
+             << calculix_number(options.residual) << ", 1e-9\n";
 }
 
 void write_components(std::ostream& deck, Eigen::Index node, const Eigen::RowVector3d& values, bool with_range)
@@ -67,12 +100,13 @@ void write_components(std::ostream& deck, Eigen::Index node, const Eigen::RowVec
 
 void write_held_nodes(std::ostream& deck, const NodalProblem& problem)
 {
+    if (std::ranges::find(problem.held, true) == problem.held.end()) return;
     deck << "*BOUNDARY\n";
     for (Eigen::Index n = 0; n < problem.nodes.rows(); ++n)
         if (problem.held[n]) write_components(deck, n, problem.held_at.row(n), true);
 }
 
-void write_loads(std::ostream& deck, const NodalProblem& problem)
+void write_loads(std::ostream& deck, const NodalProblem& problem, const pbs::Positions& forces_n)
 {
     const double gravity = problem.gravity_m_s2.norm();
     if (gravity > 0.0 && problem.density_kg_m3 > 0.0) {
@@ -80,10 +114,10 @@ void write_loads(std::ostream& deck, const NodalProblem& problem)
         for (const double component : problem.gravity_m_s2) deck << ", " << calculix_number(component / gravity);
         deck << "\n";
     }
-    if (problem.forces_n.isZero(0.0)) return;
+    if (forces_n.isZero(0.0)) return;
     deck << "*CLOAD\n";
     for (Eigen::Index n = 0; n < problem.nodes.rows(); ++n)
-        if (!problem.forces_n.row(n).isZero(0.0)) write_components(deck, n, problem.forces_n.row(n), false);
+        if (!forces_n.row(n).isZero(0.0)) write_components(deck, n, forces_n.row(n), false);
 }
 
 }  // namespace
@@ -108,9 +142,11 @@ void write_calculix_deck(std::ostream& deck, const NodalProblem& problem, const 
     write_mesh(deck, problem);
     write_material(deck, problem);
     if (options.analysis == CalculixAnalysis::none) return;
+    const EquivalentSprings springs = equivalent_springs(problem);
+    write_springs(deck, problem, springs);
     write_analysis(deck, options);
     write_held_nodes(deck, problem);
-    write_loads(deck, problem);
+    write_loads(deck, problem, problem.forces_n + springs.forces_n);
     if (options.restart_file) deck << "*RESTART, WRITE\n";
     deck << "*NODE PRINT, NSET=NODES, FREQUENCY=100000\nU\n*END STEP\n";
 }

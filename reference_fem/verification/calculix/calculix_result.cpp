@@ -97,13 +97,13 @@ bool agrees(const pbs::Positions& record, const pbs::Positions& printed)
     return ((record - printed).array().abs() <= last_digit * printed.array().abs() + smallest_printed).all();
 }
 
-// A record of 1 + 3 numbers a node, the first one its temperature.
+// A record of 1 + 3 numbers a node, the first one its temperature: of the nodes, then of the ends of springs.
 std::optional<pbs::Positions> displacements_in(const std::string& restart, std::size_t begin, std::size_t length, Eigen::Index nodes)
 {
     using Record = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
-    if (length != sizeof(double) * 4 * nodes) return std::nullopt;
+    if (length % (sizeof(double) * 4) != 0 || length < sizeof(double) * 4 * nodes) return std::nullopt;
     Record record(nodes, 4);
-    std::memcpy(record.data(), restart.data() + begin, length);
+    std::memcpy(record.data(), restart.data() + begin, sizeof(double) * record.size());
     return pbs::Positions(record.rightCols<3>());
 }
 

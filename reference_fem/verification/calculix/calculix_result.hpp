@@ -1,6 +1,6 @@
 // Displacements from CalculiX's files. It prints 7 digits (deck.dat); its restart file (deck.rout, *RESTART, WRITE: Fortran records
 // of raw memory) holds them in double. Which record of it they are depends on CalculiX's version, so it is recognised: the one of the
-// right length that agrees with every printed number to its last digit.
+// right length that agrees with every printed number to its last digit. The ends of springs, which are not printed, are nodes behind them.
 #pragma once
 
 #include "pbs/geometry/types.hpp"

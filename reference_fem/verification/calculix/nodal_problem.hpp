@@ -5,6 +5,13 @@
 
 namespace reference_fem {
 
+// Springs between points of the flesh and fixed targets: an energy sum_s k_s / 2 |X_s + u(X_s) - t_s|^2.
+struct GroundSprings {
+    pbs::Positions points;          // X_s at rest [m], #S x 3; one outside the tets is left out
+    pbs::Positions targets;         // t_s [m], #S x 3
+    Eigen::VectorXd stiffness_n_m;  // k_s [N/m], #S
+};
+
 struct NodalProblem {
     pbs::Positions nodes;  // rest [m], #N x 3
     TetNodes tets;         // #T x 4 or #T x 10: corners, then the middles of the edges 01 12 20 03 13 23
@@ -14,6 +21,7 @@ struct NodalProblem {
     std::vector<bool> held;   // #N
     pbs::Positions held_at;   // displacement [m], #N x 3, read at held nodes only
     pbs::Positions forces_n;  // [N], #N x 3
+    GroundSprings springs = {};
 };
 
 struct AnsweredProblem {
@@ -29,7 +37,7 @@ pbs::Positions at_nodes(const Eigen::VectorXd& dofs);
 // Nodes and tets of the space; nothing held, no load.
 NodalProblem nodal_problem(const SimplexSpace& space, const ElasticMaterial& material);
 
-// The reference's linear answer [m], #N x 3, on the space that the problem was made of.
+// The reference's linear answer without springs [m], #N x 3, on the space that the problem was made of.
 pbs::Positions linear_displacements(const SimplexSpace& space, const NodalProblem& problem);
 
 }  // namespace reference_fem

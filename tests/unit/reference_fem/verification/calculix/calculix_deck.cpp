@@ -1,5 +1,6 @@
 // Reference: CalculiX's manual. A number has 20 characters at most; *BOUNDARY lists node, first and last component, value; *CLOAD node,
-// component, value; C3D10's middle nodes lie on the edges 12 23 31 14 24 34.
+// component, value; *EQUATION the number of terms, then node, component and coefficient of each, four on a line; *SPRING the component of
+// a SPRING1 and its stiffness; C3D10's middle nodes lie on the edges 12 23 31 14 24 34.
 #include "reference_fem/verification/calculix/calculix_deck.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/unit/reference_fem/verification/calculix/one_tet_problem.hpp"
@@ -109,6 +110,45 @@ TEST(CalculixDeck, HoldsAndLoadsWhatTheProblemSays)
     EXPECT_EQ(deck.find("*DENSITY"), std::string::npos);
 }
 
+// One spring at the middle of the tet: its end is a fifth node that moves by half the sum of the corners' displacements, at a quarter of
+// the stiffness.
+TEST(CalculixDeck, TiesTheEndOfASpringToItsTet)
+{
+    NodalProblem problem = test_support::one_tet_problem(1);
+    problem.held.assign(4, false);
+    problem.forces_n.setZero();
+    problem.springs = {pbs::Positions(1, 3), pbs::Positions(1, 3), Eigen::VectorXd::Constant(1, 8.0)};
+    problem.springs.points << 0.25, 0.25, 0.025;
+    problem.springs.targets << 0.75, 0.25, 0.025;
+    const std::string deck = deck_of(problem);
+    EXPECT_EQ(deck.find("*BOUNDARY"), std::string::npos);
+    EXPECT_EQ(lines_of(deck, "*NODE, NSET=ENDS"), std::vector<std::string>{"5, 0, 0, 0"});
+    EXPECT_EQ(lines_of(deck, "*ELEMENT, TYPE=SPRING1, ELSET=SPRINGS2"), std::vector<std::string>{"3, 5"});
+    const std::vector<std::string> spring = lines_of(deck, "*SPRING, ELSET=SPRINGS3");
+    ASSERT_EQ(spring.size(), 2u);
+    EXPECT_EQ(spring[0], "3");
+    EXPECT_NEAR(std::stod(spring[1]), 2.0, test_support::rounding_error(50, 2.0));
+
+    const std::vector<std::string> equations = lines_of(deck, "*EQUATION");
+    ASSERT_EQ(equations.size(), 9u);  // three lines in each direction
+    EXPECT_EQ(equations[3], "5");
+    std::istringstream terms(equations[4] + ", " + equations[5]);
+    std::vector<double> numbers;
+    for (std::string word; std::getline(terms, word, ',');) numbers.push_back(std::stod(word));
+    ASSERT_EQ(numbers.size(), 15u);
+    const double sign = -numbers[5] / std::abs(numbers[5]);  // of an eigenvector, which is arbitrary
+    for (int term = 0; term < 5; ++term) {
+        EXPECT_EQ(numbers[3 * term], term == 0 ? 5 : term);
+        EXPECT_EQ(numbers[3 * term + 1], 2);
+        EXPECT_NEAR(numbers[3 * term + 2], term == 0 ? 1.0 : -0.5 * sign, test_support::rounding_error(50, 1.0));
+    }
+
+    const std::vector<std::string> loads = lines_of(deck, "*CLOAD");
+    ASSERT_EQ(loads.size(), 12u);  // three at each corner: 8 N/m times 0.5 m along x over four corners
+    for (int corner = 0; corner < 4; ++corner)
+        EXPECT_NEAR(std::stod(loads[3 * corner].substr(loads[3 * corner].rfind(',') + 1)), 1.0, test_support::rounding_error(50, 1.0));
+}
+
 TEST(CalculixDeck, GravityHasItsSizeAndDirection)
 {
     NodalProblem problem = test_support::one_tet_problem(1);
@@ -126,6 +166,8 @@ TEST(CalculixDeck, AsksForTheAnalysis)
     EXPECT_NE(deck_of(problem).find("*RESTART, WRITE\n"), std::string::npos);
     EXPECT_EQ(deck_of(problem, {.analysis = CalculixAnalysis::none}).find("*STEP"), std::string::npos);
     EXPECT_NE(deck_of(problem, {.analysis = CalculixAnalysis::large_strain}).find("*STEP, NLGEOM"), std::string::npos);
+    const std::string tight = deck_of(problem, {.analysis = CalculixAnalysis::large_strain, .residual = 1e-12});
+    EXPECT_NE(tight.find("*CONTROLS, PARAMETERS=FIELD\n1e-12, 1e-9\n"), std::string::npos);
     EXPECT_EQ(deck_of(problem, {.restart_file = false}).find("*RESTART"), std::string::npos);
 }
 

@@ -76,6 +76,16 @@ TEST(RestartFile, GivesTheDisplacementsInDouble)
     EXPECT_EQ(read.displacements.row(1), Eigen::RowVector3d(exact[5], exact[6], exact[7]));
 }
 
+TEST(RestartFile, EndsOfSpringsAreBehindTheNodes)
+{
+    std::vector<double> with_an_end = exact;
+    with_an_end.insert(with_an_end.end(), {20.0, 5.0, 6.0, 7.0});
+    const CalculixDisplacements read = read_displacements(header + first + second, record(with_an_end), 2);
+    EXPECT_TRUE(read.in_double);
+    ASSERT_EQ(read.displacements.rows(), 2);
+    EXPECT_EQ(read.displacements.row(1), Eigen::RowVector3d(exact[5], exact[6], exact[7]));
+}
+
 TEST(RestartFile, WithoutTheRecordThePrintedDigitsStay)
 {
     std::vector<double> others = exact;
