@@ -22,6 +22,8 @@ factors = {"poisson": "Poisson\u2019s ratio", "young": "Young\u2019s modulus", "
            **{name: name for name in ("k_stretch", "k_volume", "k_bind")}}
 laws = {"stable_neo_hookean": "stable neo-Hookean", "neo_hookean": "neo-Hookean", "isochoric_neo_hookean": "isochoric neo-Hookean",
         "st_venant_kirchhoff": "St Venant\u2013Kirchhoff"}
+features = {"stop_residual_0.1": "stop_residual of 0.1",
+            "error_bar_of_the_reference_orders": "error bar of the reference from the other element order"}
 limits = {"at_least": "at least ", "at_most": "at most ", "more_than": "more than "}
 
 
@@ -58,7 +60,7 @@ def in_plain(identifier):
 def of_field(field, value):
     """Describes one field: {deformer: lbs} becomes LBS."""
     known = {"deformer": bodies_by, "precision": precisions, "masses": masses, "tolerance": tolerances, "initial_guess": guesses,
-             "reading": readings, "variant": variants, "factor": factors}
+             "reading": readings, "variant": variants, "factor": factors, "feature": features}
     return known.get(field, {}).get(value, in_plain(str(value)))
 
 
@@ -69,7 +71,7 @@ def elements(order, formulation):
 
 def material(row):
     """stable neo-Hookean, nu = 0.3: the law of a row of verification.csv."""
-    return laws.get(row["material"], row["material"]) + (f", nu = {row['poisson']}" if row["poisson"] else "")
+    return laws.get(row["material"], row["material"]) + (f", nu = {float(row['poisson']):.6g}" if row["poisson"] else "")
 
 
 def posed(row):

@@ -31,7 +31,7 @@ def draw(results, figures):
         panel.axvline(1, color=style.black, linewidth=0.6)
         style.log_scale(panel.xaxis)
         panel.set_xlabel(label)
-    axes[0][0].set_yticks(range(len(names)), [case_words.in_plain(name) for name in names])
+    axes[0][0].set_yticks(range(len(names)), [case_words.of_field("feature", name) for name in names])
     axes[0][0].set_ylim(len(names) - 0.5, -0.5)
     style.legend_above(figure)
     behind = [{"scene": scene} | {name: row[name] for name in sorted(columns)} for scene, rows in found.items() for row in rows]

@@ -20,7 +20,7 @@ def line(row):
     ratio = " ".join([f"{float(row['frame_cpu_ms_ratio']):.2f}",
                       f"[{float(row['frame_cpu_ms_ratio_lower']):.2f}, {float(row['frame_cpu_ms_ratio_upper']):.2f}]"])
     moves = f"{1e3 * float(row['largest_distance_m']):.2g} mm" if row["largest_distance_m"] else ""
-    name = case_words.in_plain(row["feature"])
+    name = case_words.of_field("feature", row["feature"])
     return f"| {name} | {pair('frame_cpu_ms', 2)} | {ratio} | {pair('start_s', 2)} | {pair('peak_mb', 0)} | {moves} |"
 
 

@@ -26,7 +26,7 @@ def shown_cells(rows):
 
 
 def range_of(rows):
-    if all(row["named"] for row in rows):
+    if all(row["named"] and not row["unit"] for row in rows):
         return ", ".join(dict.fromkeys(case_words.in_plain(row["named"]) for row in rows))
     values = sorted(float(row["value"]) for row in rows)
     unit = {"1": "", "deg": "\u00b0"}.get(rows[0]["unit"], " " + rows[0]["unit"])

@@ -22,10 +22,11 @@ const std::string newmark_source = "closed form: phi cos(omega t), phi and omega
 const std::string scheme_theory = "theory of the scheme: J. Chung, G. Hulbert, J. Appl. Mech. 60(2) (1993) 371-375";
 
 struct NamedScheme {
-    std::string name;
+    std::string name, key;
     TimeScheme scheme;
 };
-const std::vector<NamedScheme> schemes = {{"Newmark", newmark()}, {"generalised-alpha, rho = 0.8", generalized_alpha(0.8)}};
+const std::vector<NamedScheme> schemes = {{"Newmark", "newmark", newmark()},
+                                          {"generalised-alpha, rho = 0.8", "generalised-alpha_rho_0.8", generalized_alpha(0.8)}};
 
 VibratingBody cantilever(const Effort& effort, double nu, int element_order, const Divisions& divisions)
 {
@@ -63,7 +64,7 @@ void add_orders(const Effort& effort, VerificationRows& rows)
             VerificationRow row =
                 row_of(body, coarse,
                        {"first_mode_error", fmt::format("error of the first mode, {}, omega h = {:.3g}", scheme.name, 4.0 / steps),
-                        identifier_of(fmt::format("{}, omega h = {:.3g}", scheme.name, 4.0 / steps))});
+                        fmt::format("{}_omega_h_{:.3g}", scheme.key, 4.0 / steps)});
             row.value = (stepper.motion().displacement - std::cos(4.0) * mode.shape).norm() / mode.shape.norm();
             row.source = newmark_source;
             row.note = "order in the time step h";

@@ -13,8 +13,9 @@ const analysis::Columns<ClaimChange>& claim_change_columns()
     using Changes = analysis::Columns<ClaimChange>;
     static const Changes columns = [] {
         analysis::Columns<analysis::CaseKey> of_case = analysis::case_key_columns();
-        of_case.front() = {"case_body", &analysis::CaseKey::body, "", "body of the value's case, or its scene"};
-        of_case.front().group = of_case.front().name;
+        auto& body = *std::ranges::find(of_case, "body", &analysis::Column<analysis::CaseKey>::name);
+        body = {"case_body", &analysis::CaseKey::body, "", "body of the value's case, or its scene"};
+        body.group = body.name;
         return Changes{{"body", &ClaimChange::body, "", "name of the body"},
                        {"place", &ClaimChange::place, "", "place of the paper that can be read in two ways"},
                        {"reading_a", &ClaimChange::reading_a, "", "the baseline"},

@@ -74,9 +74,9 @@ std::string why_left_out(const pbs::Character& character, const JointByHand& joi
     if (!joint.no_section.empty()) return joint.no_section;
     const auto& bones = character.skeleton.bones;
     for (const std::string& bone : {joint.parent, joint.child})
-        if (pbs::find_bone(character.skeleton, bone) < 0) return "no bone " + bone;
+        if (pbs::find_bone(character.skeleton, bone) < 0) return "no_bone_" + bone;
     const int parent = pbs::find_bone(character.skeleton, joint.parent), child = pbs::find_bone(character.skeleton, joint.child);
-    return section_radius(character, bones[parent], bones[child]) > 0.0 ? "" : "no flesh round the joint";
+    return section_radius(character, bones[parent], bones[child]) > 0.0 ? "" : "no_flesh_round_the_joint";
 }
 
 // Frankie's bones are short for his flesh. The rule asks for a limb longer than 3 times the mean distance of its vertices; his upper arm

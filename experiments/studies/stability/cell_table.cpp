@@ -191,8 +191,7 @@ std::string blind_spots(const std::vector<CellRow>& cells)
     std::string missing;
     for (const CellRow& cell : cells) {
         ++counts[cell.outcome];
-        const bool control = cell.named == "sign" || cell.factor.starts_with("sign_");
-        if (control && cell.outcome != "diverged" && cell.outcome != "not_finite")
+        if (cell.named == "sign" && cell.outcome != "diverged" && cell.outcome != "not_finite")
             missing += fmt::format("the sign as printed does not run away: {}, {}\n", cell.model, cell.precision);
     }
     for (const StabilityOutcome outcome : outcomes)

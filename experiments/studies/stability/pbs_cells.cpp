@@ -52,7 +52,13 @@ void set_form(StabilityCell& cell, double value)
 }
 
 const Sweep printed_forms{"printed_form", "", {1.0, 2.0, 3.0, 4.0}, {}, set_form, false};
-const Sweep without_bind{"sign_k_bind", "1", {0.0}, {}, [](StabilityCell& cell, double k) { pbs_of(cell).k_bind = k; }, false};
+void set_bind_of_form(StabilityCell& cell, double k_bind)
+{
+    pbs_of(cell).k_bind = k_bind;
+    cell.named = name_of(pbs_of(cell).volume_form);
+}
+
+const Sweep without_bind{"sign_k_bind", "1", {0.0}, {}, set_bind_of_form, false};
 // The square of the distance overflows in f32, and in f64. This is a limit of the numbers, not of the method.
 const Sweep beyond_numbers{
     "teleport_beyond_numbers", "m", {1e25, 1e160}, {}, [](StabilityCell& cell, double m) { cell.disturbance.teleport_m = m; }, false};

@@ -114,9 +114,9 @@ VerificationRow bound_covers(const TwistedLimb& limb, const TwistedLimb& refined
     return row;
 }
 
-VerificationRow variant(const TwistedLimb& limb, const pbs::Positions& flesh, const FemOptions& options, const std::string& name)
+VerificationRow variant(const TwistedLimb& limb, const pbs::Positions& flesh, const FemOptions& options, const std::string& key)
 {
-    VerificationRow row = limb.row({"distance_of_variant", "distance from flesh on embedded bones of 0.35: " + name, identifier_of(name)},
+    VerificationRow row = limb.row({"distance_of_variant", "distance from flesh on embedded bones of 0.35: " + key, key},
                                    "% of the bone distance", limb.distance_pct(limb.flesh(options), flesh));
     row.source = "none: what the choice is worth";
     return row;
@@ -137,9 +137,9 @@ VerificationRows error_split_rows(const Effort& effort)
     return {whole_and_parts(limb, flesh, 1),
             whole_and_parts(limb, flesh, 24),
             bound_covers(limb, refined, flesh, options),
-            variant(limb, flesh, thin, "core_radius 0.2"),
-            variant(limb, flesh, thick, "core_radius 0.5"),
-            variant(limb, flesh, bound, "bind constraint of the paper")};
+            variant(limb, flesh, thin, "core_radius_0.2"),
+            variant(limb, flesh, thick, "core_radius_0.5"),
+            variant(limb, flesh, bound, "bind_constraint_of_the_paper")};
 }
 
 }  // namespace experiments

@@ -124,8 +124,8 @@ VerificationRows sag_rows(const Clamped& clamped, double k_stretch)
     VerificationRows rows;
     const double without = sag_over_dt2(clamped, k_stretch, 0.0);
     for (const double k_volume : {0.01, 0.1, 1.0}) {
-        const std::string setting = fmt::format("k_stretch {:g}, k_volume {:g}, {} iterations", k_stretch, k_volume, iterations);
-        VerificationRow row = row_on(clamped, {"sag_ratio", "sag over sag without volume constraints, " + setting, identifier_of(setting)});
+        const std::string setting = fmt::format("k_stretch_{:g}_k_volume_{:g}_{}_iterations", k_stretch, k_volume, iterations);
+        VerificationRow row = row_on(clamped, {"sag_ratio", "sag over sag without volume constraints, " + setting, setting});
         row.elements = {.formulation = "pbs"};
         row.value = sag_over_dt2(clamped, k_stretch, k_volume) / without;
         row.reference = 5.0 / 6.0;

@@ -27,7 +27,7 @@ experiments::ArtefactCase twist(Broken how, const std::string& angle_deg)
                                                              R"(deformers.use=["lbs", "pbs"])", R"(reference.name="")"}),
                       how);
     of.claim = experiments::ArtefactCase::Claim::candy_wrapper;
-    of.poses = {{1, "twist " + angle_deg + " deg"}};
+    of.poses = {{1, "twist_" + angle_deg + "_deg"}};
     return of;
 }
 

@@ -43,6 +43,10 @@ class CaseWords(unittest.TestCase):
                          "man, clip 01_01 at 4 s, 30 kPa")
         self.assertEqual(case_words.of({}), "")
 
+    def test_a_material_has_six_digits_of_poissons_ratio(self):
+        self.assertEqual(case_words.material({"material": "neo_hookean", "poisson": repr(1 / 3)}), "neo-Hookean, nu = 0.333333")
+        self.assertEqual(case_words.material({"material": "linear", "poisson": ""}), "linear")
+
 
 class Bounds(unittest.TestCase):
     def test_a_bound_of_two_ends_one_or_none(self):
