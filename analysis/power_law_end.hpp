@@ -13,7 +13,8 @@ struct PowerLawEnd {
 };
 
 // On the straight line through log cost over log size between the two sizes around the limit, or beyond the last two. The sizes may have
-// any order. std::invalid_argument for fewer than two sizes.
+// any order. InputError for fewer than two sizes, another number of costs, a size or cost that is not above 0, equal sizes, and equal costs
+// at the two sizes that the line passes through.
 PowerLawEnd power_law_end(const std::vector<double>& sizes, const std::vector<double>& costs, double limit);
 
 }  // namespace analysis

@@ -1,11 +1,15 @@
 // Expected values follow from timings that are a power of the size.
 #include "analysis/power_law_end.hpp"
 
+#include "pbs/geometry/input_error.hpp"
 #include "tests/support/fit_rounding.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <tuple>
+#include <vector>
 
 namespace {
 
@@ -49,6 +53,32 @@ TEST(PowerLawEnd, BeyondTheMeasuredSizesIsMarked)
     EXPECT_NEAR(above.size, 50e3, end_error());
     EXPECT_TRUE(above.beyond);
     EXPECT_TRUE(power_law_end({1e5, 1e6}, {total_ms(1e5), total_ms(1e6)}, limit_ms).beyond);
+}
+
+TEST(PowerLawEnd, WhatDeterminesNoLineIsRefused)
+{
+    using Values = std::vector<double>;
+    const auto message = [](const Values& sizes, const Values& costs) -> std::string {
+        try {
+            power_law_end(sizes, costs, limit_ms);
+        } catch (const pbs::InputError& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    EXPECT_EQ(message({1e3, 1e4}, {1.0, 2.0}), "accepted");
+    for (const auto& [sizes, costs, part] :
+         std::vector<std::tuple<Values, Values, std::string>>{{{}, {}, "sizes = 0: expected two or more"},
+                                                              {{1e3}, {1.0}, "sizes = 1: expected two or more"},
+                                                              {{1e3, 1e4}, {1.0}, "costs = 1: expected as many as sizes"},
+                                                              {{1e3, 1e4}, {1.0, 2.0, 3.0}, "costs = 3: expected as many as sizes"},
+                                                              {{1e3, 1e4, 1e3}, {1.0, 2.0, 3.0}, "sizes = 1000: expected different sizes"},
+                                                              {{0.0, 1e4}, {1.0, 2.0}, "sizes = 0: expected sizes above 0"},
+                                                              {{1e3, 1e4}, {-1.0, 2.0}, "costs = -1: expected costs above 0"},
+                                                              {{1e3, 1e4}, {1.0, std::nan("")}, "costs = nan: expected costs above 0"},
+                                                              {{1e3, 1e4}, {2.0, 2.0}, "costs = 2: expected different costs"},
+                                                              {{1e3, 1e4, 1e5}, {1.0, 2.0, 2.0}, "costs = 2: expected different costs"}})
+        EXPECT_NE(message(sizes, costs).find(part), std::string::npos) << message(sizes, costs);
 }
 
 }  // namespace
