@@ -97,12 +97,13 @@ def read(file, shape):
     return record
 
 
+second_schema = Rule("2", lambda value: value == 2)
 provenance = {"version?": text, "git_revision?": text, "git_dirty?": truth, "compiler?": text, "flags?": text, "build_type?": text,
               "cpu_model?": text, "logical_cpus?": whole, "threads?": whole, "libraries?": {"*": text}, "input_hashes?": {"*": text}}
 deformer = {"label": text, "name": text, "variant": text, "options?": {"k_stretch?": number, "jiggle?": {"k_stretch": number}}}
 scene = {"reference?": {"name?": text}, "fem?": [{"name": text, "model": text, "element_order": whole}],
          "character?": {"body?": text}, "motion?": {"clip?": text}, "runs?": [deformer]}
-run = {"provenance?": provenance, "scene?": scene, "work?": {},
+run = {"schema?": second_schema, "provenance?": provenance, "scene?": scene, "work?": {},
        "outcome?": {"frames?": whole, "self_intersecting_reference_frames?": whole}}
 shown_run = {"scene": {"character": {"body": text}, "motion": {}, "runs": [deformer]}}  # a run shown frame by frame
 judged_run = {"outcome": {"frames": whole}}  # a run compared with a reference
@@ -137,7 +138,7 @@ claim = {"id": text, "statement": text, "place": text, "study": text,
          "expected": figure, "subject": text, "subjects": [{"name": text, "within": whole, "n": whole, "holds": extent}], "each": [text],
          "of": key, "cases": [a_value], "controls": [a_value], "readings": [reading], "left_out": [{"scene": text, "reason": text}],
          "missing": [text], "runs": [text]}
-claims = {"schema": Rule("2", lambda value: value == 2 and value is not True), "quantities": {"*": {"title": text, "unit": text}},
+claims = {"schema": second_schema, "quantities": {"*": {"title": text, "unit": text}},
           "claims": [claim]}
 
 reliability = {"name": text, "count": number, "of": number, "command": text, "revision": text, "note?": text}

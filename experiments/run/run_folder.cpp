@@ -175,7 +175,7 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
     analysis::Provenance provenance = run_provenance(most_threads(scene_));
     provenance.input_hashes = pbs::hashes_by_name(character.inputs);
 
-    nlohmann::json run = {{"schema", 1}, {"scene", to_json(scene_)}, {"provenance", provenance}, {"outcome", outcome}};
+    nlohmann::json run = {{"schema", run_schema}, {"scene", to_json(scene_)}, {"provenance", provenance}, {"outcome", outcome}};
     for (const auto& [name, hash] : hashes_) run["state_hash"][name] = hash.hex();
     for (const auto& [name, record] : deformer_records) run["deformers"][name] = record;
     run["character"] = cost.time("records", [&] { return character_record(character); });

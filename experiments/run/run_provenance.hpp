@@ -8,6 +8,9 @@
 
 namespace experiments {
 
+// The version of run.json. Since 2, costs of metrics are named after them, and the order of the reference's error bar is called reliable.
+inline constexpr int run_schema = 2;
+
 // The provenance of this build and machine, with the BLAS in use and the versions of the libraries that make characters and frames (empty
 // for a library that the build left out). threads: that the run uses.
 analysis::Provenance run_provenance(int threads);

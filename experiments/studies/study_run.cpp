@@ -47,7 +47,7 @@ std::string carry_out_work(const StudyRun& run, const std::string& folder)
     const auto [key, value] = identity(run);
     nlohmann::json outcome = {{"finished", true}, {"breakdown", breakdown}, {"cpu_seconds", process_cpu_s() - cpu_start_s}};
     outcome.update(run_end(stopwatch.seconds()));
-    const nlohmann::json json = {{"schema", 1}, {key, value}, {"provenance", run_provenance(1)}, {"outcome", outcome}};
+    const nlohmann::json json = {{"schema", run_schema}, {key, value}, {"provenance", run_provenance(1)}, {"outcome", outcome}};
     analysis::write_text_atomically(record.string(), analysis::record_text(json));
     return breakdown;
 }
@@ -60,7 +60,8 @@ bool is_finished(const StudyRun& run, const std::string& folder)
     if (!fs::exists(record)) return false;
     const auto json = nlohmann::json::parse(analysis::read_text(record.string()), nullptr, false);
     const auto [key, value] = identity(run);
-    if (!json.is_object() || json.value(key, nlohmann::json()) != value) return false;
+    if (!json.is_object() || json.value("schema", nlohmann::json()) != run_schema) return false;
+    if (json.value(key, nlohmann::json()) != value) return false;
     const analysis::Provenance now = analysis::collect_provenance(1);
     const nlohmann::json then = json.value("provenance", nlohmann::json()), none;
     return then.is_object() && then.value("git_revision", none) == now.git_revision && then.value("git_dirty", none) == now.git_dirty;

@@ -2,7 +2,10 @@
 
 #include "analysis/measurement.hpp"
 #include "analysis/records/atomic_file.hpp"
+#include "experiments/run/run_provenance.hpp"
 #include "pbs/character/json_file.hpp"
+
+#include <fmt/format.h>
 
 #include <filesystem>
 
@@ -51,7 +54,8 @@ private:
 
 void require_record(const fs::path& run_json)
 {
-    pbs::JsonFile(run_json.string()).at("schema");
+    const nlohmann::json schema = pbs::JsonFile(run_json.string()).at("schema");
+    if (schema != run_schema) throw pbs::InputError(run_json.string(), 0, "schema", schema.dump(), fmt::format("expected {}", run_schema));
 }
 
 // The limb's bones lie along x.

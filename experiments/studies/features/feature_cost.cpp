@@ -37,8 +37,8 @@ const DeformerSpec& pbs_of(const Scene& scene)
 // Seconds before the first frame.
 double start_of(const nlohmann::json& seconds)
 {
-    double sum = 0.0;
-    for (const char* part : {"character", "motion", "set_up", "metrics_set_up", "error_bar_set_up"}) sum += seconds.value(part, 0.0);
+    double sum = seconds.value("error_bar_set_up", 0.0);  // only a reference with an error bar has it
+    for (const char* part : {"character", "motion", "set_up", "metrics_set_up"}) sum += seconds.at(part).get<double>();
     return sum;
 }
 

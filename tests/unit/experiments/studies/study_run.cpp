@@ -57,6 +57,11 @@ TEST_F(StudyRunTest, AnAlteredRecordIsNotFinished)
         altered["provenance"] = provenance;
         EXPECT_FALSE(finished_with(altered.dump())) << provenance;
     }
+    for (const nlohmann::json& schema : {nlohmann::json(1), nlohmann::json("2"), nlohmann::json()}) {
+        nlohmann::json altered = whole;
+        altered["schema"] = schema;
+        EXPECT_FALSE(finished_with(altered.dump())) << schema;
+    }
     for (const char* text : {"", "[]", "{}", "{\"settings\": "}) EXPECT_FALSE(finished_with(text)) << text;
     EXPECT_TRUE(finished_with(whole.dump()));
 }
