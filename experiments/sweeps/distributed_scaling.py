@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""How the distributed linear reference scales: cantilevers of growing size on 1, 2, ... ranks, CHOLMOD beside it where its factor fits.
+"""Measures how the distributed linear reference scales: cantilevers of growing size on 1, 2, ... ranks, compared with
+CHOLMOD where its factor fits.
 
     experiments/sweeps/distributed_scaling.py -o results/distributed_scaling.csv
     experiments/sweeps/distributed_scaling.py --tets 1000000 10000000 --ranks 16 64 --launch "srun -n {ranks}"     on a cluster
 
-One row a run: the fastest of `--repeats`. On a machine that others use, the columns of processor time (a waiting rank counts) tell more.
-Some 5 minutes for the default sizes (10,000, 100,000 and 1,000,000 tets, 2 ranks) on 2 cores."""
+Each row is the fastest of `--repeats` runs. On a machine that others use, the columns of processor time, in which a waiting rank counts,
+are more reliable. The default sizes take some 5 minutes (10,000, 100,000 and 1,000,000 tets, 2 ranks) on 2 cores."""
 import argparse
 import csv
 import json

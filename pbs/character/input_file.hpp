@@ -20,7 +20,8 @@ public:
     explicit InputFile(const std::string& path);  // what cannot be read is left to its reader, who says why; "": no file
 
     // Names and hashes, the file itself first. InputError if a file has another content, has been written since, or is gone. A file with
-    // the same content that has been written since may have been read in between.
+    // the same content that has been written since may have been read in between. Its time of change decides, which a change of its
+    // permissions or a new hard link also sets.
     std::vector<std::pair<std::string, std::string>> hashed() const;
 
 private:

@@ -152,8 +152,8 @@ double NewtonMinimiser::step_length(const Terms& terms, const State& state, cons
     return 0.0;
 }
 
-// With the factor at hand. The step that moves the data cannot be shortened: it is taken whole or the increment is too large. The step of a
-// quadratic energy ends in its minimum. Length 0: the direction is not finite, or no length lowers the energy enough.
+// `system_` must have been factorised. The step that moves the data cannot be shortened: it is taken whole or the increment is too large.
+// The step of a quadratic energy ends in its minimum. Length 0: the direction is not finite, or no length lowers the energy enough.
 NewtonMinimiser::Step NewtonMinimiser::step_from(const Terms& terms, const State& state, const Eigen::VectorXd& displacement,
                                                  const Eigen::VectorXd& increment, const NewtonOptions& options) const
 {

@@ -100,7 +100,7 @@ std::string control_text(const std::vector<SweptRows>& sweeps, const analysis::C
         for (const SweptRows& sweep : sweeps) {
             const auto measured = control_ratios(sweep, forgets);
             if (measured.empty()) continue;
-            text += fmt::format("the control, XPBD{}, at {}: {} of {} values within {}\n", forgets ? " without its multipliers" : "",
+            text += fmt::format("the control, XPBD{}, at {}: {} of {} values lie within {}\n", forgets ? " without its multipliers" : "",
                                 text_of(sweep.first).doubled,
                                 std::ranges::count_if(measured, [&](const Ratio& one) { return stays(claim, one); }), measured.size(),
                                 analysis::bound_text(analysis::bound_of(claim, measured.front().quantity)));
