@@ -15,46 +15,47 @@ const std::vector<CaseKeyField>& case_key_fields()
     using Key = CaseKey;
     using Text = std::string Key::*;
     using Number = std::optional<double> Key::*;
-    const auto text = [](const char* name, Text member, const char* words, const char* meaning) {
-        return CaseKeyField{name, words, "", meaning, member, nullptr};
+    using enum CaseKeyField::Shown;
+    const auto text = [](const char* name, Text member, const char* meaning, CaseKeyField::Shown shown = with_name) {
+        return CaseKeyField{name, "", meaning, shown, member, nullptr};
     };
-    const auto number = [](const char* name, Number member, const char* words, const char* unit, const char* meaning) {
-        return CaseKeyField{name, words, unit, meaning, nullptr, member};
+    const auto number = [](const char* name, Number member, const char* unit, const char* meaning, CaseKeyField::Shown shown = with_name) {
+        return CaseKeyField{name, unit, meaning, shown, nullptr, member};
     };
     static const std::vector<CaseKeyField> fields = {
-        text("body", &Key::body, "{}", "name of the body: limb, bar, ring, human, man, lady, frankie, or a character of the user's"),
-        text("motion", &Key::motion, "{}", "twist, bend, or the name of a clip such as 01_01"),
-        text("pose", &Key::pose, "{}", "pose in a clip: crouch, landing, in_the_air"),
-        text("joint", &Key::joint, "{}", "the names of the joint's two bones, as in upper|forearm"),
-        number("angle_deg", &Key::angle_deg, "{} deg", "deg", "angle of a joint that is twisted or bent"),
-        number("time_s", &Key::time_s, "at {} s", "s", "time in the clip"),
-        text("deformer", &Key::deformer, "{}", "the deformer that is measured"),
-        text("variant", &Key::variant, "{}", "its variant, as jiggle"),
-        text("reference", &Key::reference, "reference {}", "the deformer that the value is compared with"),
-        text("order", &Key::order, "{}", "order of projection"),
-        text("precision", &Key::precision, "{}", "f32 or f64"),
-        number("vertices", &Key::vertices, "{} vertices", "", "size of the mesh; of a ratio over a range, its first setting"),
-        number("vertices_to", &Key::vertices_to, "", "", "last setting of the range"),
-        number("k_stretch", &Key::k_stretch, "k_stretch {}", "", "stiffness of the stretch constraints; of a range, its first setting"),
-        number("k_stretch_to", &Key::k_stretch_to, "", "", "last setting of the range"),
-        number("k_bind", &Key::k_bind, "k_bind {}", "", "stiffness of the bind constraints"),
-        number("young_pa", &Key::young_pa, "{} Pa", "Pa", "Young's modulus"),
-        text("masses", &Key::masses, "{} masses", "how the particles' masses are set"),
-        number("iterations", &Key::iterations, "{} iterations", "", "iterations per step; of a range, its first setting"),
-        number("iterations_to", &Key::iterations_to, "", "", "last setting of the range"),
-        number("time_step_s", &Key::time_step_s, "steps of {} s", "s", "time step; of a range, its first setting"),
-        number("time_step_to_s", &Key::time_step_to_s, "", "s", "last setting of the range"),
-        text("constraint", &Key::constraint, "{} constraints", "stretch, volume, bind"),
-        text("initial_guess", &Key::initial_guess, "from {}", "previous_frame, rest_pose, rigid_bind"),
-        text("tolerance", &Key::tolerance, "tolerance {}", "residual: within 5 % of its floor; volume: absolute change within 0.5 %"),
-        text("load", &Key::load, "{}", "load of a stiffness test"),
-        text("ladder", &Key::ladder, "{}", "how its mesh sizes are made, if not as wanted"),
-        text("factor", &Key::factor, "{}", "the parameter that a sweep of the stability study varies"),
-        text("second_factor", &Key::second_factor, "and {}", "the second parameter that a map varies"),
-        text("model", &Key::model, "{}", "a row of Table 1 in the paper"),
-        text("equation", &Key::equation, "Eq. {}", "an equation of the paper"),
-        text("gradient_of", &Key::gradient_of, "{}", "a particle p1 to p4"),
-        text("reading", &Key::reading, "{}", "as_printed, relative_to_p1, derived_gradients")};
+        text("body", &Key::body, "name of the body: limb, bar, ring, human, man, lady, frankie, or a character of the user's", alone),
+        text("motion", &Key::motion, "twist, bend, or the name of a clip such as 01_01", alone),
+        text("pose", &Key::pose, "pose in a clip: crouch, landing, in_the_air", alone),
+        text("joint", &Key::joint, "the names of the joint's two bones, as in upper|forearm", alone),
+        number("angle_deg", &Key::angle_deg, "deg", "angle of a joint that is twisted or bent", alone),
+        number("time_s", &Key::time_s, "s", "time in the clip"),
+        text("deformer", &Key::deformer, "the deformer that is measured", alone),
+        text("variant", &Key::variant, "its variant, as jiggle", alone),
+        text("reference", &Key::reference, "the deformer that the value is compared with"),
+        text("order", &Key::order, "order of projection", alone),
+        text("precision", &Key::precision, "f32 or f64", alone),
+        number("vertices", &Key::vertices, "", "size of the mesh; of a ratio over a range, its first setting"),
+        number("vertices_to", &Key::vertices_to, "", "last setting of the range", as_end_of_range),
+        number("k_stretch", &Key::k_stretch, "", "stiffness of the stretch constraints; of a range, its first setting"),
+        number("k_stretch_to", &Key::k_stretch_to, "", "last setting of the range", as_end_of_range),
+        number("k_bind", &Key::k_bind, "", "stiffness of the bind constraints"),
+        number("young_pa", &Key::young_pa, "Pa", "Young's modulus"),
+        text("masses", &Key::masses, "how the particles' masses are set"),
+        number("iterations", &Key::iterations, "", "iterations per step; of a range, its first setting"),
+        number("iterations_to", &Key::iterations_to, "", "last setting of the range", as_end_of_range),
+        number("time_step_s", &Key::time_step_s, "s", "time step; of a range, its first setting"),
+        number("time_step_to_s", &Key::time_step_to_s, "s", "last setting of the range", as_end_of_range),
+        text("constraint", &Key::constraint, "stretch, volume, bind"),
+        text("initial_guess", &Key::initial_guess, "previous_frame, rest_pose, rigid_bind"),
+        text("tolerance", &Key::tolerance, "residual: within 5 % of its floor; volume: absolute change within 0.5 %"),
+        text("load", &Key::load, "load of a stiffness test"),
+        text("ladder", &Key::ladder, "how its mesh sizes are made, if not as wanted"),
+        text("factor", &Key::factor, "the parameter that a sweep of the stability study varies"),
+        text("second_factor", &Key::second_factor, "the second parameter that a map varies"),
+        text("model", &Key::model, "a row of Table 1 in the paper"),
+        text("equation", &Key::equation, "an equation of the paper"),
+        text("gradient_of", &Key::gradient_of, "a particle p1 to p4"),
+        text("reading", &Key::reading, "as_printed, relative_to_p1, derived_gradients")};
     return fields;
 }
 
@@ -76,10 +77,15 @@ std::string text_of(const CaseKey& key)
     std::vector<std::string> fields;
     const std::vector<CaseKeyField>& all = case_key_fields();
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (!all[i].is_set(key) || all[i].is_end_of_range()) continue;
-        const bool is_range = i + 1 < all.size() && all[i + 1].is_end_of_range() && all[i + 1].is_set(key);
-        const std::string value = value_text(all[i], key) + (is_range ? " to " + value_text(all[i + 1], key) : "");
-        fields.push_back(fmt::format(fmt::runtime(all[i].words), value));
+        const std::string name = all[i].name, unit = all[i].unit;
+        std::string value = value_text(all[i], key);
+        if (value.empty() || all[i].shown == CaseKeyField::Shown::as_end_of_range) continue;
+        if (i + 1 < all.size() && all[i + 1].shown == CaseKeyField::Shown::as_end_of_range && all[i + 1].is_set(key))
+            value += " to " + value_text(all[i + 1], key);
+        if (!unit.empty()) value += " " + unit;
+        if (all[i].shown == CaseKeyField::Shown::with_name)
+            value = name.substr(0, unit.empty() ? name.npos : name.rfind('_')) + " " + value;
+        fields.push_back(value);
     }
     return fmt::format("{}", fmt::join(fields, ", "));
 }

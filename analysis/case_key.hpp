@@ -44,20 +44,23 @@ struct CaseKey {
 // A field of the key, which is either a text or a number.
 struct CaseKeyField {
     const char* name;
-    const char* words;  // in text_of(): "{}", "{} deg", "reference {}"; empty for the end of a range, which follows its first value
     const char *unit, *meaning;
+    enum class Shown {
+        alone,
+        with_name,
+        as_end_of_range
+    } shown;  // in text_of(): limb, 90 deg; reference snh_p2; the 1 of k_stretch 0.2 to 1
     std::string CaseKey::*text = nullptr;
     std::optional<double> CaseKey::*number = nullptr;
 
-    bool is_end_of_range() const { return *words == '\0'; }
     bool is_set(const CaseKey& key) const { return text ? !(key.*text).empty() : (key.*number).has_value(); }
 };
 const std::vector<CaseKeyField>& case_key_fields();           // in the order in which they are written
 const CaseKeyField* case_key_field(const std::string& name);  // null if no field has that name
 
 std::string value_text(const CaseKeyField& field, const CaseKey& key);  // without its unit; empty if the field is not set
-// The fields that are set, for readers of the terminal and of Markdown: limb, bend, 90 deg, pbs, reference snh_p2, 12 to 48 iterations.
-// Figures and the report describe a case by paper_figures/case_words.py.
+// The fields that are set, as they are recorded: limb, bend, 90 deg, pbs, reference snh_p2, iterations 12 to 48, time_step 0.01 s.
+// paper_figures/case_words.py describes a case in words.
 std::string text_of(const CaseKey& key);
 
 // True if every field that is set in `wanted` has the same value in `key`.

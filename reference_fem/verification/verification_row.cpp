@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <map>
 
 namespace reference_fem {
 namespace {
@@ -35,12 +34,7 @@ std::string RowElements::text() const
 
 std::string RowMaterial::text() const
 {
-    static const std::map<std::string, std::string> names = {{"stable_neo_hookean", "stable neo-Hookean"},
-                                                             {"neo_hookean", "neo-Hookean"},
-                                                             {"isochoric_neo_hookean", "isochoric neo-Hookean"},
-                                                             {"st_venant_kirchhoff", "St Venant-Kirchhoff"}};
-    const auto name = names.find(law);
-    return (name == names.end() ? law : name->second) + (poisson ? fmt::format(", nu = {:.6g}", *poisson) : "");
+    return law + (poisson ? fmt::format(", poisson {:.6g}", *poisson) : "");
 }
 
 std::optional<double> difference_pct(const VerificationRow& row)

@@ -14,7 +14,7 @@ struct RowMaterial {
     std::string law = {};                // an identifier: stable_neo_hookean; empty without an elastic law
     std::optional<double> poisson = {};  // its Poisson's ratio
 
-    std::string text() const;  // stable neo-Hookean, nu = 0.3
+    std::string text() const;  // stable_neo_hookean, poisson 0.3
 };
 
 struct RowQuantity {

@@ -23,7 +23,7 @@ Diagram diagram_of(const std::vector<PointRow>& rows)
     diagram.name = text_of(diagram.pose);
     for (const PointRow& row : rows) {
         if (row.outcome == "reference") {
-            diagram.reference = name_of(row.key);
+            diagram.reference = text_of(row.key);
             diagram.reference_ms = row.ms_median;
             diagram.reference_error_pct = row.reference_error_joint_pct;
             diagram.reference_difference_pct = row.error_joint_beside_pct;

@@ -60,7 +60,7 @@ std::string who_passes(const Diagram& diagram, const DeformerGroup& one, const D
     const DiagramPoint& point = diagram.points[of_one[crossing->one]];
     const std::string when = crossing->from_the_start ? "at all times" : fmt::format("from {} on", ms_text(crossing->from));
     const std::optional<Certainty> certainty = certainty_from(diagram, one, other, crossing->from);
-    return fmt::format("{} is nearer than {} {} ({}: {:.1f} %){}", one.words, other.words, when, words_of(point.key), point.error_pct,
+    return fmt::format("{} is nearer than {} {} ({}: {:.1f} %){}", one.words, other.words, when, text_of(point.key), point.error_pct,
                        certainty ? words_of(*certainty, diagram) : "");
 }
 
@@ -87,7 +87,7 @@ std::string is_physics_worth_it(const Diagram& diagram, double budget_ms, const 
 std::string is_physics_worth_it(const Diagram& diagram)
 {
     const DiagramPoint* mush = best_of(diagram, group_named("delta_mush"), std::numeric_limits<double>::infinity());
-    return mush ? is_physics_worth_it(diagram, mush->ms, "delta mush at its best, " + words_of(mush->key)) : "";
+    return mush ? is_physics_worth_it(diagram, mush->ms, fmt::format("delta mush at its best ({})", text_of(mush->key))) : "";
 }
 
 std::string what_is_undecided(const Diagram& diagram)
@@ -137,7 +137,7 @@ std::vector<std::string> findings(const Diagram& diagram)
     std::vector<std::string> lines = {who_is_quickest(diagram)};
     for (const auto& [one, other] : {std::pair{"pbs", "delta_mush"}, {"pbs", "xpbd"}, {"linear_fem", "pbs"}, {"nonlinear_fem", "pbs"}})
         lines.push_back(who_passes(diagram, group_named(one), group_named(other)));
-    for (const DiagramPoint& budget : budgets_of(diagram)) lines.push_back(is_physics_worth_it(diagram, budget.ms, name_of(budget.key)));
+    for (const DiagramPoint& budget : budgets_of(diagram)) lines.push_back(is_physics_worth_it(diagram, budget.ms, text_of(budget.key)));
     lines.push_back(is_physics_worth_it(diagram));
     lines.push_back(what_is_undecided(diagram));
     lines.push_back(what_refinement_does(diagram));
@@ -153,7 +153,7 @@ std::string front_text(const Diagram& diagram)
         fmt::format("     {}\n     {:>12} {:>21} {:>9}  {}\n", diagram.name, "ms per frame", "quartiles", "error [%]", "deformer");
     for (const DiagramPoint* point : front_of(diagram))
         text += fmt::format("     {:>12.4g} {:>10} {:>10} {:>8.2f}{} {}\n", point->ms, known(point->ms_q1), known(point->ms_q3),
-                            point->error_pct, point->below_reference_error ? "*" : " ", name_of(point->key));
+                            point->error_pct, point->below_reference_error ? "*" : " ", text_of(point->key));
     return text;
 }
 

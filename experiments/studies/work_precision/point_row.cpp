@@ -59,7 +59,7 @@ void add_reference(PointRow& row, const ReachedReference& reference, const Point
     if (!reference.bar) return;
     row.reference_error_joint_pct = reference.bar->joint_pct;
     row.reference_error_l2_pct = reference.bar->l2_pct;
-    row.beside = words_of(key_of(*reference.beside->setting));
+    row.beside = text_of(key_of(*reference.beside->setting));
     row.error_joint_beside_pct = values.beside_pct;
     if (values.error) row.below_reference_error = values.error->joint_pct <= reference.bar->joint_pct;
     if (values.parts) row.discretisation_pct = reference.bar->joint_pct;
@@ -70,7 +70,8 @@ void add_reference(PointRow& row, const ReachedReference& reference, const Point
 using Points = Columns<PointRow>;
 const Columns<PointRow> point_columns =
     within(&PointRow::of, case_columns) + within(&PointRow::key, deformer_columns) +
-    Points{{"setting", &PointRow::setting, "", "its setting in words, which repeat the columns from iterations to refined"}} +
+    Points{{"setting", &PointRow::setting, "",
+            "the deformer and its setting as a text, which repeats the columns from iterations to refined"}} +
     within(&PointRow::key, setting_columns()) +
     Points{{"vertices", &PointRow::vertices, "", "vertices of the mesh that it is solved on"},
            {"tets", &PointRow::tets, "", "tets of that mesh"},
@@ -109,7 +110,7 @@ FrameTime frame_time(std::vector<double> samples)
 PointRow point_row(const ReachedPoint& point, const ReachedReference& reference, const PointValues& values)
 {
     const pbs::TetMesh& mesh = point.mesh->character().mesh;
-    PointRow row{values.of, key_of(*point.setting), words_of(key_of(*point.setting))};
+    PointRow row{values.of, key_of(*point.setting), text_of(key_of(*point.setting))};
     row.vertices = int(mesh.rest.rows());
     row.tets = int(mesh.tets.rows());
     row.outcome = outcome_of(point, reference);

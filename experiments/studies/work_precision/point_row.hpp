@@ -39,7 +39,7 @@ struct PointValues {
 struct PointRow {
     analysis::CaseKey of;  // body, motion, and the pose or the angle
     SettingKey key;
-    std::string setting;  // in words
+    std::string setting;  // as a text
     int vertices = 0, tets = 0;
     std::string outcome = {};
     double reach_ms = 0.0;

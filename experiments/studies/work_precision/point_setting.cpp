@@ -11,9 +11,6 @@
 #include "pbs/solver/xpbd_options.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <map>
 
 namespace experiments {
 namespace {
@@ -197,37 +194,14 @@ const analysis::Columns<SettingKey>& setting_columns()
     return columns;
 }
 
-std::string words_of(const SettingKey& key)
+std::string text_of(const SettingKey& key)
 {
-    std::vector<std::string> words;
-    const bool has_substeps = key.substeps.value_or(1) > 1;
-    if (key.deformer == "xpbd_small_steps") {
-        words.push_back(fmt::format("{} substeps of 1 iteration", *key.substeps));
-    } else {
-        if (key.iterations) words.push_back(fmt::format("{} iterations", *key.iterations));
-        if (key.k_stretch) words.push_back(fmt::format("k_stretch {}, {} {}", *key.k_stretch, key.order, key.precision));
-        if (has_substeps) words.push_back(fmt::format("{} substeps", *key.substeps));
-    }
-    if (key.element_order) words.push_back(fmt::format("P{}", *key.element_order));
-    if (key.refined) words.push_back("tets cut into eight");
-    if (key.wanted_vertices) words.push_back(fmt::format("mesh of {} vertices", *key.wanted_vertices));
-    return fmt::format("{}", fmt::join(words, ", "));
-}
-
-std::string name_of(const SettingKey& key)
-{
-    static const std::map<std::string, std::string> names = {{"lbs", "LBS"},
-                                                             {"dqs", "DQS"},
-                                                             {"delta_mush", "delta mush"},
-                                                             {"pbs", "PBS"},
-                                                             {"pbs_exponent", "PBS with exponent"},
-                                                             {"xpbd", "XPBD"},
-                                                             {"xpbd_small_steps", "XPBD"},
-                                                             {"fem_linear", "linear FEM"},
-                                                             {"fem_corotational", "corotational FEM"},
-                                                             {"fem_stable_neo_hookean", "neo-Hookean FEM"}};
-    const std::string setting = words_of(key);
-    return names.at(key.deformer) + (setting.empty() ? "" : ", " + setting);
+    std::string text = key.deformer;
+    const analysis::CsvTable cells = table_of(setting_columns(), {key});
+    for (const std::string& column : cells.columns())
+        if (const std::string& value = cells.text_at(0, column); !value.empty() && column != "refined")
+            text += fmt::format(", {} {}", column, value);
+    return text + (key.refined ? ", refined" : "");
 }
 
 std::string digest_of(const std::vector<PointSetting>& settings)

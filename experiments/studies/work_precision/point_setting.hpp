@@ -47,9 +47,7 @@ struct SettingKey {
 SettingKey key_of(const PointSetting& setting);
 const analysis::Columns<SettingKey>& setting_columns();  // all fields except the deformer
 
-// The setting for readers, without its deformer: "24 iterations, k_stretch 0.2, ordered f32". Empty if the deformer has no settings.
-std::string words_of(const SettingKey& key);
-std::string name_of(const SettingKey& key);  // with its deformer: "PBS, 24 iterations, k_stretch 0.2, ordered f32"
+std::string text_of(const SettingKey& key);  // as it is recorded: pbs, iterations 24, k_stretch 0.2, order ordered, precision f32, ...
 
 struct SettingRange {
     bool quadratic = true;                   // stable neo-Hookean flesh on quadratic elements too: the reference

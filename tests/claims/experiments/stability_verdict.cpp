@@ -107,7 +107,7 @@ TEST(StabilityVerdict, SharesAreOfTheCellsOfTheirSweep)
 {
     const analysis::CsvTable shares = stability_measurements(altered(0, StabilityOutcome::diverged));
     ASSERT_EQ(shares.rows(), 8);
-    EXPECT_EQ(analysis::text_of(rows_of(analysis::case_key_columns(), shares).front()), "limb, pbs, f32, time_step");
+    EXPECT_EQ(analysis::text_of(rows_of(analysis::case_key_columns(), shares).front()), "limb, pbs, f32, factor time_step");
     EXPECT_EQ(shares.integer(0, "n"), 2);
     EXPECT_EQ(shares.number(0, "value"), 0.5);  // one of two
     EXPECT_EQ(shares.number(1, "value"), 0.5);  // the inverted one

@@ -124,7 +124,8 @@ TEST(VerificationRecordTest, TheTableCountsWhatHoldsAndNamesWhatDoesNot)
     EXPECT_NE(table.find("+198 to +250"), std::string::npos) << table;
     EXPECT_NE(table.find("-0.25"), std::string::npos) << table;
     EXPECT_NE(
-        table.find("does not hold: deflection, \"mean\", P2 taylor_hood, linear, nu = 0.3, 4 x 1 x 1: 3 m, expected 1.95 to 2.05 1.75 (2)"),
+        table.find(
+            "does not hold: deflection, \"mean\", P2 taylor_hood, linear, poisson 0.3, 4 x 1 x 1: 3 m, expected 1.95 to 2.05 1.75 (2)"),
         std::string::npos)
         << table;
     EXPECT_NE(table.find("1 of 2 rows hold; 1 more"), std::string::npos) << table;

@@ -71,7 +71,7 @@ TEST(JiggleFigures, HalfTheStepIsOneFigureWithTheRangeOverAllHalvings)
     EXPECT_DOUBLE_EQ(ratios[0].value, 12.0 / 6.0);
     EXPECT_DOUBLE_EQ(ratios[0].low, 6.0 / 4.0);
     EXPECT_DOUBLE_EQ(ratios[0].high, 27.0 / 12.0);
-    EXPECT_EQ(text_of(ratios[0].of), "limb, k_stretch 0.1, unit masses, 24 iterations, steps of 0.01 s");
+    EXPECT_EQ(text_of(ratios[0].of), "limb, k_stretch 0.1, masses unit, iterations 24, time_step 0.01 s");
     EXPECT_EQ(ratios[0].n, 3);
 }
 

@@ -47,7 +47,7 @@ TEST(StiffnessRatios, OfASquareIsFourForADoubling)
     ASSERT_EQ(ratios.size(), 1u);
     EXPECT_EQ(ratios[0].claim, "C11");
     EXPECT_EQ(ratios[0].quantity, "stiffness_ratio_at_twice_iterations");
-    EXPECT_EQ(text_of(ratios[0].of), "limb, pbs, 600 vertices, k_stretch 0.2, 12 to 48 iterations, steps of 0.01 s, zone");
+    EXPECT_EQ(text_of(ratios[0].of), "limb, pbs, vertices 600, k_stretch 0.2, iterations 12 to 48, time_step 0.01 s, load zone");
     for (const double value : {ratios[0].value, ratios[0].low, ratios[0].high}) EXPECT_NEAR(value, 4.0, doubling_error(4.0, 1, 0));
     const auto exponents = stiffness_exponents(squares(), Varied::iterations);
     std::vector<double> iterations, stiffnesses;
@@ -90,7 +90,7 @@ TEST(StiffnessRatios, HalvesTheTimeStep)
     const auto ratio = stiffness_ratios(rows, Varied::time_step).at(0);
     EXPECT_EQ(ratio.quantity, "stiffness_ratio_at_half_time_step");
     EXPECT_NEAR(ratio.value, 4.0, doubling_error(4.0, 2 * 2 + 1, 2 * 2 + 1));  // squares and quotients, quotients of milliseconds
-    EXPECT_EQ(text_of(ratio.of), "limb, pbs, 600 vertices, k_stretch 0.2, 24 iterations, steps of 0.02 to 0.005 s, zone");
+    EXPECT_EQ(text_of(ratio.of), "limb, pbs, vertices 600, k_stretch 0.2, iterations 24, time_step 0.02 to 0.005 s, load zone");
 }
 
 TEST(StiffnessRatios, OfMeshesThatAreNotQuiteTwiceEachOther)
@@ -145,9 +145,9 @@ TEST(StiffnessReport, SaysWhetherTheControlIsOne)
     claim.low = 0.9;
     claim.high = 1.1;
     const std::string text = control_text({{Varied::iterations, rows}}, claim);
-    EXPECT_EQ(text, "the control, XPBD, at twice the iterations: 1 of 2 values within 0.9 to 1.1\n");
+    EXPECT_EQ(text, "the control, XPBD, at twice the iterations: 1 of 2 values lie within 0.9 to 1.1\n");
     const std::string page = control_markdown({{Varied::iterations, rows}}, claim);
-    EXPECT_NE(page.find("| twice the iterations | limb, xpbd, 600 vertices, 30000 Pa"), std::string::npos);
+    EXPECT_NE(page.find("| twice the iterations | limb, xpbd, vertices 600, young 30000 Pa"), std::string::npos);
     EXPECT_EQ(page.find("human"), std::string::npos);
     claim.high = 5.0;
     EXPECT_NE(control_text({{Varied::iterations, rows}}, claim).find("2 of 2 values"), std::string::npos);

@@ -80,7 +80,7 @@ TEST(TimingTable, ValuesOfTheClaim)
 {
     const auto measured = timing_measurements(man());
     EXPECT_EQ(measured[0].quantity, "frames_per_s");
-    EXPECT_EQ(text_of(measured[0].of), "man, 01_01, pbs, plain, f64, 1654 vertices, Man");
+    EXPECT_EQ(text_of(measured[0].of), "man, 01_01, pbs, plain, f64, vertices 1654, model Man");
     EXPECT_EQ(measured[0].value, 500.0);
     EXPECT_EQ(measured[0].low, 250.0);
     EXPECT_EQ(measured[0].high, 1000.0);

@@ -79,7 +79,7 @@ TEST(Diagram, HoldsThePointsWithTimeAndErrorAndTheReferenceBeside)
     EXPECT_EQ(read.name, "limb, bend, 90 deg");
     EXPECT_EQ(read.key, "limb_bend_90");
     EXPECT_EQ(read.points.size(), 7u);
-    EXPECT_EQ(read.reference, "neo-Hookean FEM, P2");
+    EXPECT_EQ(read.reference, "fem_stable_neo_hookean, element_order 2");
     EXPECT_EQ(read.reference_ms, 900.0);
     EXPECT_EQ(read.reference_error_pct, 6.0);
     EXPECT_EQ(read.reference_difference_pct, 2.0);
@@ -119,7 +119,7 @@ TEST(Diagram, AMeanThrowsNoBodyOfManyPosesTogetherWithOthersOfOne)
     EXPECT_EQ(diagrams[8].name, "crouch, mean of 3 bodies");
     EXPECT_NEAR(diagrams[8].points[2].error_pct, 50.0, mean_error(3, 50.0));
     EXPECT_TRUE(says(findings(diagrams[7]), "the references of 1 of the 3 poses intersect themselves"));
-    EXPECT_TRUE(says(findings(diagrams[2]), "the reference (neo-Hookean FEM, P2) intersects itself"));
+    EXPECT_TRUE(says(findings(diagrams[2]), "the reference (fem_stable_neo_hookean, element_order 2) intersects itself"));
     EXPECT_FALSE(says(findings(diagrams[8]), "intersect"));
 }
 
@@ -236,8 +236,9 @@ TEST(Findings, SayWhatTheFiguresSay)
     EXPECT_TRUE(says(lines, "its error is up to 6.0 %, and 1 points lie within that"));
     EXPECT_TRUE(says(lines, "linear FEM does not remain nearer than PBS at any time (30.0 and 20.0 % at best) [within"));
     const std::vector<std::string> other = findings(diagram(16.0));
-    EXPECT_TRUE(
-        says(lines, "within the 0.5 ms of delta mush at its best, 20 iterations the errors are: delta mush 30.0 %, PBS none as fast"));
+    EXPECT_TRUE(says(
+        lines,
+        "within the 0.5 ms of delta mush at its best (delta_mush, iterations 20) the errors are: delta mush 30.0 %, PBS none as fast"));
     EXPECT_TRUE(says(other, "PBS does not remain nearer than delta mush"));
     EXPECT_TRUE(says(other, "the physics increases the error of geometry alone by 25 %"));
 }
@@ -269,12 +270,13 @@ TEST(DiagramTables, AtEqualCostRowsHaveTheKeyOfTheirSetting)
 
 TEST(Settings, AreNamedByTheirKeysInOnePlace)
 {
-    EXPECT_EQ(name_of({"lbs"}), "LBS");
-    EXPECT_EQ(name_of(pbs_24), "PBS, 24 iterations, k_stretch 0.2, ordered f32");
-    EXPECT_EQ(words_of({.deformer = "xpbd_small_steps", .iterations = 1, .substeps = 8}), "8 substeps of 1 iteration");
-    EXPECT_EQ(words_of({.deformer = "pbs", .iterations = 4, .substeps = 2, .wanted_vertices = 300}),
-              "4 iterations, 2 substeps, mesh of 300 vertices");
-    EXPECT_EQ(words_of({.deformer = "fem_linear", .element_order = 1, .refined = true}), "P1, tets cut into eight");
+    EXPECT_EQ(text_of({"lbs"}), "lbs");
+    EXPECT_EQ(text_of({.deformer = "delta_mush", .iterations = 0}), "delta_mush, iterations 0");
+    EXPECT_EQ(text_of({.deformer = "pbs", .iterations = 4, .k_stretch = 0.2, .order = "ordered", .precision = "f32"}),
+              "pbs, iterations 4, k_stretch 0.2, order ordered, precision f32");
+    EXPECT_EQ(text_of({.deformer = "pbs", .iterations = 4, .substeps = 2, .wanted_vertices = 300}),
+              "pbs, iterations 4, substeps 2, wanted_vertices 300");
+    EXPECT_EQ(text_of({.deformer = "fem_linear", .element_order = 1, .refined = true}), "fem_linear, element_order 1, refined");
 }
 
 TEST(Findings, EveryDeformerOfTheStudyHasAGroup)

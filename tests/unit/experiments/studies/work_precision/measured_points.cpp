@@ -170,8 +170,8 @@ TEST(PointSettings, AreEachOnceInWordsAndKeysAndEightOrMoreOfEachDeformerWithSom
     std::vector<SettingKey> keys;
     std::map<std::string, int> of_deformer;
     for (const PointSetting& setting : settings) {
-        EXPECT_TRUE(words.insert(name_of(key_of(setting))).second) << name_of(key_of(setting));
-        EXPECT_EQ(std::count(keys.begin(), keys.end(), key_of(setting)), 0) << name_of(key_of(setting));
+        EXPECT_TRUE(words.insert(text_of(key_of(setting))).second) << text_of(key_of(setting));
+        EXPECT_EQ(std::count(keys.begin(), keys.end(), key_of(setting)), 0) << text_of(key_of(setting));
         keys.push_back(key_of(setting));
         ++of_deformer[setting.deformer];
     }
