@@ -61,7 +61,7 @@ def keep_run(source, target):
     record = json.loads((source / "run.json").read_text(encoding="utf-8"))
     provenance = {key: value for key, value in record.get("provenance", {}).items() if key in PROVENANCE}
     target.mkdir(parents=True)
-    (target / "run.json").write_text(json.dumps({"schema": 1, "provenance": provenance}, indent=1) + "\n", encoding="utf-8")
+    (target / "run.json").write_text(json.dumps({"schema": record["schema"], "provenance": provenance}, indent=1) + "\n", encoding="utf-8")
     for table in sorted(source.glob("*.csv")):
         if table.name == "metrics.csv":
             keep_metrics(table, target / table.name)
