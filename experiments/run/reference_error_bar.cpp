@@ -23,9 +23,8 @@ const char* why(FemAttachment attachment)
     if (attachment == FemAttachment::smooth)
         return "the density of the springs has no jump: the displacement converges in the L2 norm with order 2 for linear and 3 for "
                "quadratic elements, of which the lower one is used";
-    return "the capsules' surface is followed by no face of a tet and the displacement's gradient jumps across it: the displacement lies "
-           "in "
-           "H^(3/2 - eps), its energy error falls with h^(1/2) and, by duality, its own with h, whatever the element order";
+    return "the capsules' surface is followed by no face of a tet and the displacement's gradient jumps across it: the displacement "
+           "lies in H^(3/2 - eps), its energy error falls with h^(1/2) and, by duality, its own with h, whatever the element order";
 }
 
 // The inverse mesh size, up to a factor that is the same for all meshes of a body.
