@@ -1,6 +1,7 @@
 // Reference: the specified shape of the built-in limb (capsule of radius 0.15 m around (-1,0,0) -> 0 -> (1,0,0)), and refusals by field.
 #include "pbs/character/bodies.hpp"
 
+#include "tests/support/mesher_error.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
@@ -20,8 +21,7 @@ TEST(Bodies, TheLimbHasTwoBonesAndLiesInItsCapsule)
     EXPECT_EQ(limb().skeleton.bones[0].name, "upper");
     EXPECT_EQ(limb().skeleton.bones[1].name, "forearm");
     EXPECT_EQ(limb().skeleton.bones[1].parent, 0);
-    EXPECT_LE(limb().binding.distance.maxCoeff(),
-              0.15 + 1e-9 * 2.0);  // the bisection for the skin ends at 1e-9 of the radius of the domain, 2 m
+    EXPECT_LE(limb().binding.distance.maxCoeff(), 0.15 + test_support::on_skin_m);
 }
 
 TEST(Bodies, EqTwoBlendsWithinASixthOfTheJointAndNowhereElse)

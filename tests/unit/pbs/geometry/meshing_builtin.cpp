@@ -4,6 +4,7 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/quality.hpp"
 #include "pbs/geometry/tet_volume.hpp"
+#include "tests/support/mesher_error.hpp"
 #include "tests/support/volume_rounding.hpp"
 
 #include <gtest/gtest.h>
@@ -55,7 +56,7 @@ TEST(Limb, HasItsSkinOnTheCapsule)
     const std::vector<bool> on_skin = pbs::boundary_vertices(limb.tets, limb.rest.rows());
     for (Eigen::Index i = 0; i < limb.rest.rows(); ++i)
         if (on_skin[std::size_t(i)]) {
-            EXPECT_NEAR(depth(limb.rest.row(i)), 0.0, 1e-9 * 2.0);  // the bisection ends at 1e-9 of the radius of the domain, 2 m
+            EXPECT_NEAR(depth(limb.rest.row(i)), 0.0, test_support::on_skin_m);
         }
 }
 

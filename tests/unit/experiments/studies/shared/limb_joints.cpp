@@ -7,6 +7,7 @@
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
+#include "tests/support/mesher_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,9 +17,7 @@
 namespace {
 
 using pbs::Vec3;
-
-// The mesher finds the points of the skin to 1e-9 of its bounding sphere's diameter of 4 m.
-constexpr double on_skin_m = 1e-9 * 4.0;
+using test_support::on_skin_m;
 
 TEST(LimbJoints, LimbHasOneInItsMiddle)
 {
