@@ -1,7 +1,8 @@
 """The reference's error bar compared with a real error. Reference: a better solution of the same problem, order 2 on refined tets, from
 another run of the program; distances are recomputed with numpy from the written frames. A bar must cover the distance of the reference to
-it and have its size: the factors that the method applies to a difference are at most 6."""
+it, and be no larger than the largest difference of the compared solutions times the largest factor that the method can apply."""
 import csv
+import itertools
 import json
 import unittest
 
@@ -39,6 +40,25 @@ def lumped_volumes(rest, tets):
     return lumped
 
 
+def largest_factor(method):
+    """Two solutions with the ratio r of their mesh sizes and the presumed order p: 3 r^p / (r^p - 1), for the coarser one. Three: a fit
+    x_0 + e t_i with t_i = h_i^p leaves residuals. Where weights a_i add up to zero, |sum of a_i x_i| is at most half the sum of |a_i| times
+    the largest difference of the x_i; so are |e|, with the weights of a slope, and each residual r_i. A solution is at most |e| t_i + |r_i|
+    from x_0, and the bar is at most 3 times the sum of that, of |r_i| and of the deviation. Without an order it is 3 differences."""
+    sizes = numpy.cumprod([1.0, *method["ratios"]])
+    if len(sizes) == 2:
+        growth = sizes[1] ** method["order"]
+        return 3.0 * growth / (growth - 1.0)
+    if method["observed_order"] is None:
+        return 3.0
+    t = sizes ** min(method["observed_order"]["least"], method["order"])
+    from_mean = t - t.mean()
+    slope = from_mean / (from_mean ** 2).sum()
+    residual = numpy.abs(numpy.eye(3) - 1.0 / 3.0 - numpy.outer(from_mean, slope)).sum(axis=1) / 2.0
+    own = [solution["is_reference"] for solution in method["solutions"]].index(True)
+    return 3.0 * (numpy.abs(slope).sum() / 2.0 * t[own] + 2.0 * residual[own] + numpy.sqrt((residual ** 2).sum()))
+
+
 class ReferenceErrorBar(program.ProgramTest):
     def setUp(self):
         super().setUp()
@@ -58,8 +78,13 @@ class ReferenceErrorBar(program.ProgramTest):
         return points(self.path(name, "frames", "%s_%06d.vtu" % (deformer, number)))
 
     def test_covers_the_distance_to_a_better_solution(self):
-        self.run_scene("better", 'deformers.use=["p2"]', "character.refine=1")
-        better, _ = self.frame("better", "p2")
+        solutions = {}
+        for refine in (0, 1):
+            name = "refined_%d" % refine
+            self.run_scene(name, 'deformers.use=["p1", "p2"]', "character.refine=%d" % refine)
+            for order in (1, 2):
+                solutions[order, refine], _ = self.frame(name, "p%d" % order)
+        better = solutions[2, 1]
         for deformer in ("p1", "p2"):
             for bar in ("orders", "refined", "both"):
                 name = deformer + "_" + bar
@@ -67,18 +92,25 @@ class ReferenceErrorBar(program.ProgramTest):
                                               "reference.error_bar=" + bar)
                 found, tets = self.frame(name, deformer)
                 rest, _ = self.frame(name, deformer, 0)
-                squares = ((found - better[:len(found)]) ** 2).sum(axis=1)
                 mass = lumped_volumes(rest, tets)
                 diagonal = numpy.linalg.norm(rest.max(axis=0) - rest.min(axis=0))
-                truth = {"reference_error_l2_pct": 100.0 * numpy.sqrt((mass * squares).sum() / mass.sum()) / diagonal,
-                         "reference_error_linf_m": numpy.sqrt(squares.max())}
-                for column, error in truth.items():
-                    figure = float(rows[deformer][column])
-                    self.assertGreater(figure, error, name + " " + column)
-                    self.assertLess(figure, 20.0 * error, name + " " + column)
-                    self.assertEqual(figure, float(rows["lbs"][column]))  # a value of the frame, the same in every row
+
+                def distances(one, other):
+                    squares = ((one[:len(mass)] - other[:len(mass)]) ** 2).sum(axis=1)
+                    return {"reference_error_l2_pct": 100.0 * numpy.sqrt((mass * squares).sum() / mass.sum()) / diagonal,
+                            "reference_error_linf_m": numpy.sqrt(squares.max())}
+
+                method = record["reference_error_method"]
+                compared = [solutions[solution["element_order"], solution["refinements"]] for solution in method["solutions"]]
+                for column, error in distances(found, better).items():
+                    bound = float(rows[deformer][column])
+                    largest = max(distances(one, other)[column] for one, other in itertools.combinations(compared, 2))
+                    self.assertGreater(bound, error, name + " " + column)
+                    rounding = (len(mass) + 20) * numpy.finfo(float).eps  # of a sum of one sign and some twenty operations, on both sides
+                    self.assertLess(bound, (1.0 + rounding) * largest_factor(method) * largest, name + " " + column)
+                    self.assertEqual(bound, float(rows["lbs"][column]))  # a value of the frame, the same in every row
                 self.assertEqual(rows[deformer]["error_below_reference_error"], "")
-                self.assertEqual(len(record["reference_error_method"]["solutions"]), 3 if bar == "both" else 2)
+                self.assertEqual(len(compared), 3 if bar == "both" else 2)
 
     def test_marks_what_it_does_not_tell_apart(self):
         rows, record = self.run_scene("marked", 'deformers.use=["p1", "p2", "lbs"]', "reference.name=p2", "reference.error_bar=orders")
