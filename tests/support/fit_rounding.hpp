@@ -25,7 +25,8 @@ inline double slope_error(const std::vector<double>& x, const std::vector<double
     return of_points * std::sqrt(n / squares) + rounding_error(6 * n + 1, std::abs(slope));
 }
 
-// Of the exponent of a power law, the slope between logarithms of two roundings each, where y goes through so many roundings itself.
+// The rounding error of the exponent of a power law. It is the slope between logarithms of two roundings each; y goes through so many
+// roundings itself.
 inline double exponent_error(std::vector<double> x, std::vector<double> y, double exponent, double roundings_of_y)
 {
     double of_x = 0.0, of_y = rounding_error(roundings_of_y, 1.0);

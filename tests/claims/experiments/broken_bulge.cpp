@@ -139,7 +139,7 @@ TEST(BrokenBulge, AsItIsThereIsNone)
     for (std::size_t pose = 0; pose < own.size(); ++pose) EXPECT_EQ(again.at(pose).positions, own[pose].positions);
 }
 
-// A point at which a plane cuts an edge goes through six roundings, and the heights of the edge's ends through eight, here and there.
+// A point at which a plane cuts an edge goes through six roundings, and the heights of the edge's ends through eight, on both sides.
 template <typename Value>
 double of_cuts(const pbs::Positions& positions, Value value)
 {

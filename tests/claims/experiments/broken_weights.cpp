@@ -154,7 +154,7 @@ TEST(BrokenWeights, AsTheyAreTheResultIsSmoother)
 
 TEST(BrokenWeights, TheFigureOfLbsIsTheRatioOfStrainsByHand)
 {
-    // Positions go through 24 roundings of two motions, here and there, and edges and their squares through two. The strains here solve for
+    // Positions go through 24 roundings of two motions, on both sides, and edges and their squares through two. The strains here solve for
     // six components, in a dozen roundings of squared lengths.
     const pbs::Positions smooth = turned(by_eq_2);
     const double rounding_m = test_support::coordinate_rounding_m(smooth, 2 * (24 + 2) + 12);

@@ -40,8 +40,8 @@ FrameMetrics measure(const Sample& sample)
     return MeshMetrics(sample.mesh.rest, sample.mesh.tets).measure(sample.frame);
 }
 
-// Positions are off by e, at most the rounding of a motion within 2.2 m; a new unit of length rounds them, and those at rest, once. All
-// tets have the volume 0.1^3 / 6 at rest. An edge, of at most 0.1 sqrt 3 and another 0.1 sqrt 3 by the wobble, changes by 2 e, and a
+// Positions are in error by e, at most the rounding of a motion within 2.2 m; a new unit of length rounds them, and those at rest, once.
+// All tets have the volume 0.1^3 / 6 at rest. An edge, of at most 0.1 sqrt 3 and another 0.1 sqrt 3 by the wobble, changes by 2 e, and a
 // volume, a sixth of a product of three edges, by at most e times the square of the longest. It goes through ten roundings of products
 // whose magnitudes add up to a fifth of the cube, and a length through five; both sides contain two of them.
 void expect_same(const FrameMetrics& a, const FrameMetrics& b)

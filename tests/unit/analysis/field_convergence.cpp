@@ -42,8 +42,8 @@ double order_error(double formal_order)
     return analysis::MinimiseOptions().tolerance * 2.0 * formal_order;
 }
 
-// What a fit with an order that is off by so much makes of x_0 + e h^p, relative to |e| h_0^p: the error of its limit, the largest of its
-// residuals, their norm, and that over the norm of the differences from the mean.
+// A fit to x_0 + e h^p with an order in error by so much has these errors, relative to |e| h_0^p: the error of its limit, the largest of
+// its residuals, their norm, and that over the norm of the differences from the mean.
 struct FitError {
     double limit = 0.0, residual = 0.0, residuals = 0.0, unexplained = 0.0;
 };
@@ -65,8 +65,8 @@ FitError fit_error(const std::vector<double>& sizes, double order, double order_
     return worst;
 }
 
-// Of the root mean square of a difference of fields, whose coordinates go through two roundings each, on both sides, and the rounding of
-// its sum of 120 squares.
+// The rounding error of the root mean square of a difference of fields. Their coordinates go through two roundings each, on both sides, and
+// the sum has 120 squares.
 double rms_error(double value)
 {
     const double largest = exact_limit.cwiseAbs().maxCoeff() + 2.0 * error_field.cwiseAbs().maxCoeff();

@@ -77,7 +77,7 @@ TEST(FrameMetrics, ShearKeepsVolumeAndStretchesByTheClosedForm)
                  c = std::sqrt((g * g + 2.0) / 2.0) - 1.0;
     EXPECT_EQ(metrics.volume_change_pct, 0.0);
     EXPECT_EQ(metrics.volume_abs_change_pct, 0.0);
-    // Lengths of at most 1.3 and their ratios go through eight roundings here and there.
+    // Lengths of at most 1.3 and their ratios go through eight roundings on both sides.
     EXPECT_NEAR(metrics.stretch_rms, std::sqrt((a * a + b * b + c * c) / 6.0), rounding_error(8 + 8, 1.3));
 }
 

@@ -143,7 +143,7 @@ TEST(MadeUpSeries, WithATailOfHigherOrderIsCovered)
     EXPECT_LT(last_gap, 0.2);  // the last is asymptotic
 }
 
-// The norm of the difference of two fields limit + h e: the coarser one is as far from the limit as from the finer one, times 2.
+// The fields limit + h e and limit + 2 h e differ by h |e|. The coarser one is twice as far from the limit, and the safety factor is 3.
 TEST(MadeUpField, IsBoundedByThreeTimesItsDistance)
 {
     constexpr double difference = 0.3;

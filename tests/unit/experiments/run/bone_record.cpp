@@ -54,7 +54,7 @@ TEST(BoneRecord, AVertexBelongsToItsNearestBone)
     const pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 300});
     const std::vector<BoundVertex> vertices = bound_vertices(limb);
     ASSERT_EQ(std::ssize(vertices), limb.mesh.rest.rows());
-    // The foot of a vertex on a bone goes through two roundings of coordinates of at most 1, and its distance through six, here and there.
+    // The foot of a vertex on a bone goes through two roundings of coordinates of at most 1, and its distance through six, on both sides.
     const double rounding_m = test_support::rounding_error(2 + 6, 1.0);
     int blended = 0;
     for (const BoundVertex& bound : vertices) {

@@ -98,7 +98,7 @@ protected:
 };
 
 // The rounding error of 3 d / (ratio - 1), and of `ratio` times that. The difference d is that of coordinates below 0.2, of two roundings.
-// The ratios here and there are of two cube roots, of eight roundings each, or of one, and of two quotients; five more follow.
+// The ratios on both sides are of two cube roots, of eight roundings each, or of one, and of two quotients; five more follow.
 double bar_error_m(double bar_m, double ratio)
 {
     const double of_ratio = test_support::rounding_error(3 * 8 + 2, ratio);
