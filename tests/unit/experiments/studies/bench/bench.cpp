@@ -5,6 +5,7 @@
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/fit_rounding.hpp"
 #include "tests/support/motion_rounding.hpp"
+#include "tests/support/step_rounding.hpp"
 #include "tests/support/structured_bar.hpp"
 
 #include <gtest/gtest.h>
@@ -81,23 +82,43 @@ TEST(BenchBody, IsTwistedByNinetyDegreesFromTheHeldEnd)
     }
 }
 
-// Every variant projects the same problem. The native build differs from the library's only by rounding, here by a few 1e-6 in float, and
-// the other orders by 1 to 10 % of the residuals, which are 0.02 and 0.01. The bounds separate these, and both from another problem's.
+pbs::Residuals settled(const ProjectionVariant& variant, int iterations = iterations_per_step)
+{
+    variant.loops.load();
+    for (int i = 0; i < iterations; ++i) variant.loops.bind(), variant.loops.stretch(), variant.loops.volume();
+    return variant.loops.residuals();
+}
+
+// The rounding of a step in float on the body of the bench, on one side.
+test_support::ResidualRounding rounding_on(const BenchBody& body)
+{
+    test_support::TwoBoneLimb limb;
+    limb.mesh = body.mesh();
+    limb.binding = body.character.binding;
+    limb.lbs = body.twisted;
+    limb.bind_points = body.bind_points;
+    return test_support::residual_rounding(limb, {.order = pbs::Order::plain}, body.held);
+}
+
+// Every variant projects the same problem. The native build differs from the library's only by rounding, on both sides. Other orders settle
+// elsewhere: on a regular grid, file order lies 20 to 30 % below random orders of the same loops (properties/pbs/solver/orders.cpp). The
+// bound of 30 % separates them from a shape that was not projected, whose residuals must differ by more than twice as much.
 TEST(ProjectionVariants, SettleOnTheSameResiduals)
 {
     const BenchBody body = make_bench_body("bar", test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {8, 2, 2}));
-    std::vector<pbs::Residuals> residuals;
     const auto variants = projection_variants(body, {1, 2});
     ASSERT_EQ(variants.size(), 18u);  // for each precision three plain variants, and ordered, grouped and poses on one and on two threads
+    const pbs::Residuals plain = settled(variants[0]), twisted = settled(variants[0], 0);
+    EXPECT_GT(std::abs(twisted.stretch_rms - plain.stretch_rms), 2.0 * 0.3 * plain.stretch_rms);
+    EXPECT_GT(std::abs(twisted.volume_rms - plain.volume_rms), 2.0 * 0.3 * plain.volume_rms);
+    const auto rounding = rounding_on(body);
     for (const ProjectionVariant& variant : variants) {
-        variant.loops.load();
-        for (int i = 0; i < iterations_per_step; ++i) variant.loops.bind(), variant.loops.stretch(), variant.loops.volume();
-        residuals.push_back(variant.loops.residuals());
-    }
-    for (std::size_t i = 0; i < variants.size(); ++i) {
-        const double share = variants[i].variant == "plain_native" ? 1e-4 : 0.3;
-        EXPECT_NEAR(residuals[i].stretch_rms, residuals[0].stretch_rms, share * residuals[0].stretch_rms) << variants[i].variant;
-        EXPECT_NEAR(residuals[i].volume_rms, residuals[0].volume_rms, share * residuals[0].volume_rms) << variants[i].variant;
+        const bool same_order = variant.variant == "plain" || variant.variant == "plain_native";
+        const pbs::Residuals residuals = settled(variant);
+        EXPECT_NEAR(residuals.stretch_rms, plain.stretch_rms, same_order ? 2.0 * rounding.stretch_rms : 0.3 * plain.stretch_rms)
+            << variant.variant;
+        EXPECT_NEAR(residuals.volume_rms, plain.volume_rms, same_order ? 2.0 * rounding.volume_rms : 0.3 * plain.volume_rms)
+            << variant.variant;
     }
 }
 
