@@ -30,7 +30,7 @@ pbs_tests(unit experiments_fem BLAS FOLDERS experiments/deformers/fem
     EXCEPT experiments/deformers/fem/fem_module
     LIBRARIES fem_deformer pbs_character reference_fem_verification)
 pbs_tests(verification experiments_fem BLAS FOLDERS experiments/deformers/fem
-    FILES experiments/studies/verification/calculix experiments/verification_record
+    FILES experiments/studies/stability/broken_fem_starts experiments/studies/verification/calculix experiments/verification_record
     EXCEPT ${left_out}
     ALONE experiments/deformers/fem/elastic_bar experiments/deformers/fem/young_cancels
     LIBRARIES fem_verification experiments)
