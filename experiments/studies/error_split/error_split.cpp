@@ -4,6 +4,7 @@
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "experiments/run/reference_error_bar.hpp"
 #include "experiments/settings/option_fields.hpp"
 
 #include <fmt/format.h>
@@ -91,9 +92,9 @@ References solve_references(const ErrorSplitCase& of, const PosedCharacter& base
 // A bound of the reference's distance from its limit, as error_joint_pct, from two grids and the order that reference_error_bar.hpp
 // assumes. Where the reference itself is not refined, the bound is that of its twin on the refined mesh, which has the same nodes as the
 // reference.
-double discretisation_pct(const PosedCharacter& base, const References& references, std::size_t pose)
+double discretisation_pct(const PosedCharacter& base, const References& references, std::size_t pose, double order)
 {
-    constexpr double halved = 2.0, order = 1.0;
+    constexpr double halved = 2.0;
     if (pose >= references.truth_refined.size())
         return analysis::two_fields(base.distance(references.twin_refined[pose], references.twin[pose]).joint_pct, halved, order).bounds[0];
     return analysis::two_fields(base.distance(references.truth_refined[pose], references.truth[pose]).joint_pct, halved, order).bounds[1];
@@ -140,13 +141,14 @@ private:
         for (std::size_t pose = 0; pose < shapes.size(); ++pose) {
             const Shape& truth = references_.truth[pose];
             const analysis::ErrorNorms total = base_.distance(shapes[pose], truth);
-            split_.parts.push_back({of_.scene.name, of_.frames[pose], base_.angle_deg(pose), options.k_stretch, options.iterations,
-                                    total.joint_pct, base_.distance(shapes[pose], converged.shapes[pose]).joint_pct,
-                                    base_.distance(converged.shapes[pose], truth).joint_pct, discretisation_pct(base_, references_, pose),
-                                    pose >= references_.truth_refined.size() ? "twin" : "truth",
-                                    base_.distance(converged.shapes[pose], converged.half_way[pose]).joint_pct,
-                                    base_.distance(converged.shapes[pose], converged.refined[pose]).joint_pct, total.l2_pct, total.linf_m,
-                                    truth.self_intersects});
+            split_.parts.push_back(
+                {of_.scene.name, of_.frames[pose], base_.angle_deg(pose), options.k_stretch, options.iterations, total.joint_pct,
+                 base_.distance(shapes[pose], converged.shapes[pose]).joint_pct, base_.distance(converged.shapes[pose], truth).joint_pct,
+                 discretisation_pct(base_, references_, pose, convergence_order(options_of<FemOptions>(of_.truth).attachment)),
+                 pose >= references_.truth_refined.size() ? "twin" : "truth",
+                 base_.distance(converged.shapes[pose], converged.half_way[pose]).joint_pct,
+                 base_.distance(converged.shapes[pose], converged.refined[pose]).joint_pct, total.l2_pct, total.linf_m,
+                 truth.self_intersects});
         }
     }
 

@@ -99,8 +99,8 @@ std::string what_is_undecided(const Diagram& diagram)
         return std::count_if(diagram.points.begin(), diagram.points.end(), [&](const auto& point) { return point.error_pct <= bar_pct; });
     };
     return fmt::format(
-        "the reference ({}){} and the second solution differ by {:.1f} %, and {} of {} points lie within that; with an order of "
-        "convergence of 1, which is assumed and not observed, its error is up to {:.1f} %, and {} points lie within that",
+        "the reference ({}){} and the second solution differ by {:.1f} %, and {} of {} points lie within that; with the order of "
+        "convergence of the attachment, which is assumed and not observed, its error is up to {:.1f} %, and {} points lie within that",
         diagram.reference, ms, *diagram.reference_difference_pct, below(*diagram.reference_difference_pct), diagram.points.size(),
         *diagram.reference_error_pct, below(*diagram.reference_error_pct));
 }

@@ -2,6 +2,7 @@
 
 #include "analysis/grid_convergence.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/run/reference_error_bar.hpp"
 #include "pbs/character/refined_character.hpp"
 #include "pbs/geometry/topology.hpp"
 
@@ -88,7 +89,7 @@ ReachedReference choose_reference(const std::vector<ReachedPoint>& points, Eigen
         reference.beside = solution_beside(points, options_of<FemOptions>(reference.point->setting->spec).element_order, base_vertices);
     if (!reference.beside) return reference;
 
-    constexpr double assumed_order = 1.0;
+    const double assumed_order = convergence_order(options_of<FemOptions>(reference.point->setting->spec).attachment);
     const double nodes = nodes_along(*reference.point), nodes_beside = nodes_along(*reference.beside);
     const double ratio = std::max(nodes, nodes_beside) / std::min(nodes, nodes_beside);
     const int place = nodes > nodes_beside ? 0 : 1;  // the finer one comes first

@@ -54,7 +54,7 @@ struct ReachedReference {
 
 // The reference is stable neo-Hookean flesh on the case's own tets: quadratic, or linear if that was not reached. The second solution of a
 // quadratic one is the quadratic one on the finest coarser mesh, or else the linear one; of a linear one it is that on tets cut into eight,
-// or else on the finest coarser mesh. Order 1 is assumed for all elements (reference_error_bar.hpp states why).
+// or else on the finest coarser mesh. The assumed order of convergence depends on the attachment (reference_error_bar.hpp states why).
 ReachedReference choose_reference(const std::vector<ReachedPoint>& points, Eigen::Index base_vertices,
                                   const analysis::ErrorMetrics& error_metrics);
 
