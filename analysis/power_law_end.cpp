@@ -18,9 +18,9 @@ PowerLawEnd power_law_end(const std::vector<double>& sizes, const std::vector<do
         throw pbs::InputError("", 0, field, fmt::format("{}", value), rule);
     };
     if (costs.size() != sizes.size()) refuse("costs", double(costs.size()), "expected as many as sizes");
-    if (sizes.size() < 2) refuse("sizes", double(sizes.size()), "expected two or more");
     std::vector<std::pair<double, double>> points;  // size, cost
     for (std::size_t i = 0; i < sizes.size(); ++i) points.emplace_back(sizes[i], costs[i]);
+    if (points.size() < 2) throw pbs::InputError("", 0, "sizes", fmt::format("{}", points.size()), "expected two or more");
     std::sort(points.begin(), points.end());
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (!(points[i].first > 0.0)) refuse("sizes", points[i].first, "expected sizes above 0");
