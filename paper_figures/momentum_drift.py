@@ -7,7 +7,7 @@ import style
 
 quantities = {"linear_drift": "linear momentum", "angular_drift": "angular momentum", "linear_drift_taken_by_bones": "linear momentum",
               "angular_drift_taken_by_bones": "angular momentum"}
-masses = {"equal": "equal masses", "unequal": "unequal, weighted", "unequal_by_eq_8_9": "unequal, Eq. 8\u20139"}
+masses = {"equal": "equal masses", "unequal": "unequal masses, weighted", "unequal_by_eq_8_9": "unequal masses, Eq. 8\u20139"}
 bodies = ("limb", "human")
 looks = {("limb", "f32"): (style.vermillion, "v", "limb, f32"), ("limb", "f64"): (style.vermillion, "^", "limb, f64"),
          ("human", "f32"): (style.blue, "o", "human, f32"), ("human", "f64"): (style.blue, "s", "human, f64")}

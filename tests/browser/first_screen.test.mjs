@@ -38,7 +38,9 @@ function pose_on_record(run) {
     const own = rows.filter((row) => row.vertices === reference?.vertices);
     const pbs = own.find((row) => row.deformer === "pbs" && row.iterations === "24" && row.order === "ordered" && row.precision === "f32"
         && Number(row.k_stretch) === k_stretch && ["", "1"].includes(row.substeps));
-    return { name: `${rows[0].body}, ${rows[0].pose}`, reference, lbs: own.find((row) => row.deformer === "lbs"), pbs };
+    const { body, motion, pose, angle_deg } = rows[0];
+    const place = angle_deg ? `${motion} ${Number(angle_deg)}\u00b0` : `clip ${motion}, ${pose.replaceAll("_", " ")}`;
+    return { name: `${body}, ${place}`, reference, lbs: own.find((row) => row.deformer === "lbs"), pbs };
 }
 
 function poses_on_record() {

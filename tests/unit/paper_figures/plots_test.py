@@ -154,7 +154,7 @@ class Plots(unittest.TestCase):
         self.assertEqual(len(rows), 2 * 3 * 3 * 2 * 2)  # bodies, masses, classes, momenta, precisions, without the rows of a whole pass
         unweighted = [row for row in rows if row["constraints"] == "volume" and row["masses"] == "unequal_by_eq_8_9"]
         self.assertEqual({row["drift"] for row in unweighted}, {"0.25"})
-        self.assertIn("limb, f32: 0.25, stretch, unequal, Eq. 8\u20139", self.titles("change over the momentum exchanged [1]"))
+        self.assertIn("limb, f32: 0.25, stretch, unequal masses, Eq. 8\u20139", self.titles("change over the momentum exchanged [1]"))
 
     def test_regions(self):
         synthetic_records.write_study(self.results)
