@@ -88,5 +88,5 @@ def draw(results, figures):
         panel.set_visible(False)
     axes.flat[0].plot([], [], linestyle="none", marker="o", color="#777777", markersize=2.6, alpha=0.45,
                       label="small marks: all settings; lines: the front of each deformer")
-    style.legend_above(figure, columns=4)
+    style.legend_above(figure, columns=3)
     style.save(figure, figures / "work_precision", entries.origin_of(results, "work_precision"), style.aligned(behind))
