@@ -13,7 +13,7 @@
 namespace analysis {
 namespace {
 
-// What a row of metrics.csv states about its case and frame; the file has further columns.
+// The columns of metrics.csv that identify the case and the frame of a row, and those that are judged. The file has further columns.
 struct MetricsRow {
     std::string scene, deformer, variant, order, precision;
     std::optional<int> iterations;

@@ -19,8 +19,8 @@ function numbers_in(text) {
 }
 
 // Compares to three digits.
-function assert_told(told, recorded, what) {
-    assert.ok(Math.abs(told - recorded) <= 0.00501 * Math.abs(recorded), `${what}: ${told}, on record ${recorded}`);
+function assert_stated(stated, recorded, what) {
+    assert.ok(Math.abs(stated - recorded) <= 0.00501 * Math.abs(recorded), `${what}: ${stated}, on record ${recorded}`);
 }
 
 test("all four answers are seen before anything is scrolled", async () => {
@@ -54,9 +54,9 @@ test("how far from the finite elements is what points.csv says, pose by pose", a
     assert.deepEqual(rows.map(([name]) => name).sort(), poses.map(({ name }) => name).sort());
     for (const { name, lbs, pbs, reference } of poses) {
         const recorded = [lbs.error_joint_pct, pbs.error_joint_pct, reference.error_joint_beside_pct, pbs.reference_error_joint_pct];
-        const told = rows.find(([first]) => first === name).slice(1);
-        recorded.forEach((value, at) => assert_told(numbers_in(told[at])[0], Number(value), `${name}, column ${at + 1}`));
-        assert.equal(told[3].includes("intersects itself"), pbs.reference_self_intersects === "1", name);
+        const stated = rows.find(([first]) => first === name).slice(1);
+        recorded.forEach((value, at) => assert_stated(numbers_in(stated[at])[0], Number(value), `${name}, column ${at + 1}`));
+        assert.equal(stated[3].includes("intersects itself"), pbs.reference_self_intersects === "1", name);
     }
     const ends = ["pbs", "lbs"].flatMap((deformer) => {
         const errors = poses.map((pose) => Number(pose[deformer].error_joint_pct));
@@ -64,15 +64,15 @@ test("how far from the finite elements is what points.csv says, pose by pose", a
     });
     const sentence = await card.locator(".answer").textContent();
     assert.match(sentence, new RegExp(`in ${poses.length} poses`));
-    numbers_in(sentence.split("is ")[1]).forEach((told, at) => assert_told(told, ends[at], sentence));
+    numbers_in(sentence.split("is ")[1]).forEach((stated, at) => assert_stated(stated, ends[at], sentence));
 });
 
 test("planned poses that are not on record are named", async () => {
     const there = runs_with("work_precision", "points.csv");
     const absent = json("work_precision/plan.json").runs.map(({ name }) => name).filter((name) => !there.includes(name));
-    const told = await page.locator(".card.far .missing").allTextContents();
-    assert.equal(told.length, absent.length ? 1 : 0);
-    for (const name of absent) assert.ok(told[0].includes(name.replaceAll("_", " ")), name);
+    const stated = await page.locator(".card.far .missing").allTextContents();
+    assert.equal(stated.length, absent.length ? 1 : 0);
+    for (const name of absent) assert.ok(stated[0].includes(name.replaceAll("_", " ")), name);
 });
 
 test("the cost is what timing.csv and points.csv say", async () => {
@@ -84,14 +84,14 @@ test("the cost is what timing.csv and points.csv say", async () => {
         return [Math.min(...values), Math.max(...values)];
     };
     const quick = of("ordered", "f32"), plain = of("plain", "f64");
-    const told = numbers_in(frame.split("): ").slice(1).join("): ").replace("Table 1 prints", "prints"));
+    const stated = numbers_in(frame.split("): ").slice(1).join("): ").replace("Table 1 prints", "prints"));
     const recorded = [...ends(quick, "total_wall_ms"), ...ends(quick, "frames_per_s"), ...ends(plain, "total_wall_ms"),
                       ...ends(plain, "frames_per_s"), ...ends(plain, "paper_frames_per_s")];
-    assert.equal(told.length, recorded.length, frame);
-    told.forEach((value, at) => assert_told(value, recorded[at], frame));
+    assert.equal(stated.length, recorded.length, frame);
+    stated.forEach((value, at) => assert_stated(value, recorded[at], frame));
     const poses = poses_on_record();
     const times = ["lbs", "pbs", "reference"].flatMap((of_pose) => ends(poses.map((one) => one[of_pose]), "ms_median"));
-    const times_told = numbers_in(pose);
-    assert.equal(times_told.length, times.length, pose);
-    times_told.forEach((value, at) => assert_told(value, times[at], pose));
+    const times_stated = numbers_in(pose);
+    assert.equal(times_stated.length, times.length, pose);
+    times_stated.forEach((value, at) => assert_stated(value, times[at], pose));
 });

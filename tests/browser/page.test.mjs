@@ -25,13 +25,13 @@ test("the first screen answers four questions, as claims.json does", async () =>
     assert.ok(answer.startsWith(`There are ${claims.length} claims: `), answer);
     for (const [verdict, words] of Object.entries(named)) {
         const count = claims.filter((claim) => claim.verdict === verdict).length;
-        const told = answer.match(new RegExp(`(\\d+) (?:is |are )?${words}(?=[,.])`));
-        assert.equal(count, told ? Number(told[1]) : 0, `${verdict}: ${answer}`);
+        const stated = answer.match(new RegExp(`(\\d+) (?:is |are )?${words}(?=[,.])`));
+        assert.equal(count, stated ? Number(stated[1]) : 0, `${verdict}: ${answer}`);
     }
-    const is_told = ({ verdict, controls }) =>
+    const is_stated = ({ verdict, controls }) =>
         verdict === "reproduced" ? controls.some((control) => !("frames" in control)) : verdict !== "cannot_be_tested_here";
-    const told = claims.filter(is_told).map(({ id }) => id).sort();
-    assert.deepEqual((await page.locator(".card.not .when > li > a").allTextContents()).sort(), told);
+    const stated = claims.filter(is_stated).map(({ id }) => id).sort();
+    assert.deepEqual((await page.locator(".card.not .when > li > a").allTextContents()).sort(), stated);
 });
 
 test("every claim has its mark and its row, with the verdict on record", async () => {

@@ -100,9 +100,9 @@ test("a claim's link opens its pose", async () => {
             return { run: now.run, frame: window.viewer.viewer.run.frames[now.at], colour: now.colour };
         });
         assert.deepEqual({ run, frame, colour }, { run: pose.run, frame: pose.frame, colour: pose.colour });
-        const told = await page.locator("#frame-viewer .vw-claim").textContent();
-        assert.ok(told.startsWith(`${pose.claim}.`));
-        assert.match(told, new RegExp(`Colour: ${{ skin: "skin", ratio: "volume ratio", error: "distance to FEM" }[pose.colour]}\\.$`));
+        const stated = await page.locator("#frame-viewer .vw-claim").textContent();
+        assert.ok(stated.startsWith(`${pose.claim}.`));
+        assert.match(stated, new RegExp(`Colour: ${{ skin: "skin", ratio: "volume ratio", error: "distance to FEM" }[pose.colour]}\\.$`));
         const { drawn, known } = await page.evaluate(() => {
             const { viewer, state: { now } } = window.viewer;
             return { drawn: viewer.panels[0].body.tets.length, known: viewer.run.surface?.corners.length };

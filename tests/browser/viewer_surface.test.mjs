@@ -39,32 +39,32 @@ for (const sample of truth.skins) {
 test("k and the button show the rendered surface or the tets; legend and address follow", async () => {
     await show_sample(truth.skins[0], "ratio", { rendered: true });
     const button = rendered_button();
-    const told = async () => [await button.getAttribute("aria-pressed"), /surface=rendered/.test(page.url()),
+    const shown = async () => [await button.getAttribute("aria-pressed"), /surface=rendered/.test(page.url()),
                               /carries the skin/.test(await legend_words())];
-    assert.deepEqual(await told(), ["true", true, true]);
+    assert.deepEqual(await shown(), ["true", true, true]);
     await page.locator("#frame-viewer .vw-view").first().focus();
     await page.keyboard.press("k");
     await settle(page);
-    assert.deepEqual(await told(), ["false", false, false]);
+    assert.deepEqual(await shown(), ["false", false, false]);
     await button.click();
     await settle(page);
-    assert.deepEqual(await told(), ["true", true, true]);
+    assert.deepEqual(await shown(), ["true", true, true]);
 });
 
 test("the button is dead, looks dead and says why under a cut and on a body without a rendered surface", async () => {
     const button = rendered_button();
-    const told = async () => [await button.isDisabled(), await button.getAttribute("aria-pressed"), await button.getAttribute("title"),
+    const shown = async () => [await button.isDisabled(), await button.getAttribute("aria-pressed"), await button.getAttribute("title"),
                               await button.evaluate((one) => Number(getComputedStyle(one).opacity))];
     const [skin] = truth.skins, [limb] = truth.samples.filter(({ run }) => run.startsWith("limb"));
     await show_sample(skin, "skin", { rendered: true });
-    assert.deepEqual(await told(), [false, "true", "show the rendered surface in place of the tets' boundary", 1]);
+    assert.deepEqual(await shown(), [false, "true", "show the rendered surface in place of the tets' boundary", 1]);
     await show_sample(skin, "skin", { rendered: true, cut: "z" });
-    assert.deepEqual(await told(), [true, "false", "no rendered surface while the tets are cut", 0.45]);
+    assert.deepEqual(await shown(), [true, "false", "no rendered surface while the tets are cut", 0.45]);
     await page.locator("#frame-viewer .vw-view").first().focus();
     await page.keyboard.press("k");
     assert.equal(await page.evaluate(() => window.viewer.state.now.rendered), true);
     await show_sample(limb, "skin", { rendered: true });
-    assert.deepEqual(await told(), [true, "false", "this body has no rendered surface but its tets' boundary", 0.45]);
+    assert.deepEqual(await shown(), [true, "false", "this body has no rendered surface but its tets' boundary", 0.45]);
 });
 
 test("nothing was reported on the way", () => assert.deepEqual(opened.problems, []));

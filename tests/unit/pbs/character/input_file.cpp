@@ -34,7 +34,8 @@ TEST(InputFile, OneThatIsOverwrittenIsRefused)
     expect_input_error([&] { file.hashed(); }, path + ": ", changed);
 }
 
-// What was read in between may be the other content. The file system's clock counts in steps of a few milliseconds.
+// The content is that of before, but a reader may have read the other content in between. The pause is longer than a tick of the file
+// system's clock, which is a few milliseconds.
 TEST(InputFile, OneThatIsOverwrittenAndRestoredIsRefused)
 {
     const test_support::ScratchFolder folder;

@@ -29,10 +29,10 @@ pbs::PbsOptions options_of(int iterations)
     return options;
 }
 
-// What one step [m] neglects where it begins at a displacement of that size [m]. The projection of an edge of length l neglects k |u|^2 / l
-// times (sin^2 / 2, sin cos) of the angle between u and the edge, of its length and of its direction, at most 1 / sqrt 3. The matrix of a
-// sweep over the three edges reduces u before and the error after. Each projection also rounds positions of the order of 1 m, with four
-// more roundings in a step.
+// The second-order error [m] of one step that begins at a displacement of that size [m]. The projection of an edge of length l neglects
+// k |u|^2 / l times (sin^2 / 2, sin cos) of the angle between u and the edge, of its length and of its direction, at most 1 / sqrt 3. The
+// matrix of a sweep over the three edges reduces u before and the error after. Each projection also rounds positions of the order of 1 m,
+// with four more roundings in a step.
 double step_error_m(int iterations, double predicted_m)
 {
     std::vector<double> reduced = {1.0};

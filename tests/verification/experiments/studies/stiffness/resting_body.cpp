@@ -83,7 +83,8 @@ void expect_as_stepped(const LoadedBody& body, const StiffnessSetting& setting)
     const double edge_m = 0.05, gravity_m_s2 = 1e-5 * edge_m / rest.displacement.cwiseAbs().maxCoeff();
     const double once = stepped_stiffness(body, setting, gravity_m_s2), twice = stepped_stiffness(body, setting, 2.0 * gravity_m_s2);
     const double linear = effective_stiffness_n_m(body, rest.displacement, 1.0);
-    // What the second order changes between the loads is as much as it changes from none to the first, up to the errors of both.
+    // The second-order term grows with the load. It changes the sag per load as much from the first load to the second as from none to the
+    // first, up to the stopping errors of both.
     const double of_stopping = stopping_error(body, setting, rest), of_second_order = std::abs(twice / once - 1.0) + 2.0 * of_stopping;
     EXPECT_NEAR(once / linear, 1.0, of_second_order + of_stopping + solve_error(body, setting, rest));
 }
@@ -113,9 +114,9 @@ TEST(RestingBody, HalfTheStepIsFourTimesTheStiffness)
     EXPECT_DOUBLE_EQ(stiffness(body, setting) / whole, 4.0);
 }
 
-// What is held does not move with the step, so the state of rest solves K x = M g, whose K is proportional to Young's modulus. Tolerance:
-// that of two linear solves, and what more iterations change: if 200 of them leave at most half of the error of the 200 before, the error
-// is at most the last change.
+// The held vertices do not depend on the step. The state of rest therefore solves K x = M g, and K is proportional to Young's modulus. The
+// tolerance is that of two linear solves plus the error of stopping. If 200 iterations leave at most half of the error, this error is at
+// most the change by the last 200.
 TEST(RestingBody, XpbdIteratedToTheEndKnowsNeitherIterationsNorStep)
 {
     const LoadedBody body = limb(RestOfBody::held);
