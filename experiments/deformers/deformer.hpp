@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace experiments {
@@ -31,6 +32,14 @@ public:
 
     // The vertices whose positions are prescribed to this deformer (the attachment of the FEM), #V; empty: none.
     virtual std::vector<bool> prescribed() const { return {}; }
+    // The solution with fewer nodes from which the last one set out, and how it ended. Null: it set out from elsewhere.
+    struct FewerNodes {
+        const Deformer* deformer = nullptr;
+        pbs::StepSummary step;
+    };
+    virtual FewerNodes set_out_from() const { return {}; }
+    // The smallest det F at the quadrature points of the elements in the last pose. Nothing: no elements with quadrature points.
+    virtual std::optional<double> lowest_det_f() const { return {}; }
     // Further facts for run.json: the grip of each bone, the solver, sizes. Null: none.
     virtual nlohmann::json record() const { return nullptr; }
 };

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double armijo = 1e-4;  // share of the predicted decrease that a step must bring
 constexpr double energy_rounding = 1e-12;
+constexpr double truncation = 0.1;  // share of the first residual at which conjugate gradients end
+constexpr int most_gradients = 40;
 
 double energy_of(const Terms& terms, const Eigen::VectorXd& displacement)
 {
@@ -80,11 +82,16 @@ NewtonMinimiser::State NewtonMinimiser::state_at(const Terms& terms, const Eigen
         state.force_scale_n += gradient.norm();
         state.gradient += gradient;
     }
-    double squared = 0.0;
-    for (Eigen::Index i = 0; i < state.gradient.size(); ++i)
-        if (!prescribed_[i]) squared += state.gradient(i) * state.gradient(i);
-    state.residual_n = std::sqrt(squared);
+    state.residual_n = free_norm(state.gradient);
     return state;
+}
+
+double NewtonMinimiser::free_norm(const Eigen::VectorXd& force) const
+{
+    double squared = 0.0;
+    for (Eigen::Index i = 0; i < force.size(); ++i)
+        if (!prescribed_[i]) squared += force(i) * force(i);
+    return std::sqrt(squared);
 }
 
 Eigen::VectorXd NewtonMinimiser::increment_to(const Eigen::VectorXd& prescribed_values, const Eigen::VectorXd& displacement) const
@@ -100,10 +107,14 @@ bool NewtonMinimiser::is_converged(const State& state, const NewtonOptions& opti
     return state.residual_n <= std::max(options.relative_tolerance * state.force_scale_n, rounding_n_);
 }
 
-bool NewtonMinimiser::factorise(const Terms& terms, const Eigen::VectorXd& displacement, Definiteness definiteness, NewtonSummary& summary)
+void NewtonMinimiser::assemble(const Terms& terms, const Eigen::VectorXd& displacement, Definiteness definiteness)
 {
     hessian_.set_zero();
     for (const Potential* term : terms) term->add_hessian(displacement, definiteness, hessian_);
+}
+
+bool NewtonMinimiser::factorise_assembled(NewtonSummary& summary)
+{
     if (system_)
         system_->update(hessian_.matrix());
     else
@@ -116,12 +127,17 @@ bool NewtonMinimiser::factorise(const Terms& terms, const Eigen::VectorXd& displ
 bool NewtonMinimiser::factorise(const Terms& terms, const Eigen::VectorXd& displacement, NewtonSummary& summary)
 {
     if (factor_is_kept_) return true;
-    NewtonIteration& iteration = summary.iterations.back();
-    bool usable = factorise(terms, displacement, Definiteness::as_it_is, summary);
-    factor_is_kept_ = usable && all_quadratic(terms);
-    if (usable || all_quadratic(terms)) return usable;
-    iteration.projected = true;
-    return factorise(terms, displacement, Definiteness::projected, summary);
+    indefinite_ = SparseMatrix();
+    assemble(terms, displacement, Definiteness::as_it_is);
+    if (!has_negative_curvature_) {
+        const bool usable = factorise_assembled(summary);
+        factor_is_kept_ = usable && all_quadratic(terms);
+        if (usable || all_quadratic(terms)) return usable;
+    }
+    indefinite_ = hessian_.matrix();
+    summary.iterations.back().projected = true;
+    assemble(terms, displacement, Definiteness::projected);
+    return factorise_assembled(summary);
 }
 
 // The last of the iterations is the present state.
@@ -152,12 +168,40 @@ double NewtonMinimiser::step_length(const Terms& terms, const State& state, cons
     return 0.0;
 }
 
+// Conjugate gradients on H p = -g, where H is indefinite, preconditioned by the projected H. Without negative curvature they end at a
+// tenth of the first residual. Any of their iterates is a direction of descent.
+Eigen::VectorXd NewtonMinimiser::truncated_step(const State& state)
+{
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(state.gradient.size());
+    const auto preconditioned = [&](const Eigen::VectorXd& residual) { return system_->solve(residual, zero).displacement; };
+    Eigen::VectorXd step = zero, residual = -state.gradient, direction = preconditioned(residual);
+    double product = residual.dot(direction);
+    has_negative_curvature_ = false;
+    for (int k = 0; k < most_gradients; ++k) {
+        const Eigen::VectorXd image = indefinite_.selfadjointView<Eigen::Lower>() * direction;
+        const double curvature = direction.dot(image);
+        if (!(curvature > 0.0)) {
+            has_negative_curvature_ = true;
+            return k == 0 ? direction : step;
+        }
+        step += product / curvature * direction;
+        residual -= product / curvature * image;
+        if (free_norm(residual) <= truncation * state.residual_n) break;
+        const Eigen::VectorXd next = preconditioned(residual);
+        const double next_product = residual.dot(next);
+        direction = next + next_product / product * direction;
+        product = next_product;
+    }
+    return step;
+}
+
 // `system_` must have been factorised. The step that moves the data cannot be shortened: it is taken whole or the increment is too large.
 // The step of a quadratic energy ends in its minimum. Length 0: the direction is not finite, or no length lowers the energy enough.
 NewtonMinimiser::Step NewtonMinimiser::step_from(const Terms& terms, const State& state, const Eigen::VectorXd& displacement,
-                                                 const Eigen::VectorXd& increment, const NewtonOptions& options) const
+                                                 const Eigen::VectorXd& increment, const NewtonOptions& options)
 {
-    Step step{system_->solve(-state.gradient, increment).displacement, 0.0};
+    const bool truncates = indefinite_.size() > 0 && increment.isZero(0.0);
+    Step step{truncates ? truncated_step(state) : system_->solve(-state.gradient, increment).displacement, 0.0};
     if (!step.direction.allFinite()) return step;
     const bool is_whole = !increment.isZero(0.0) || all_quadratic(terms);
     step.length = is_whole ? 1.0 : step_length(terms, state, displacement, step.direction, options);
@@ -175,6 +219,7 @@ NewtonSummary NewtonMinimiser::minimise(const Terms& terms, const Eigen::VectorX
         return summary;
     };
     Eigen::VectorXd increment = increment_to(prescribed_values, displacement);
+    has_negative_curvature_ = false;
     for (int k = 0; k <= options.iterations; ++k) {
         const State state = state_at(terms, displacement);
         const bool carries_increment = !increment.isZero(0.0);

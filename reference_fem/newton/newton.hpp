@@ -1,10 +1,12 @@
 // Newton's method for the displacements that minimise a sum of potentials, some degrees of freedom prescribed.
 //   NewtonMinimiser newton(space, prescribed, LinearSolver::cholmod);
 //   const NewtonSummary summary = newton.minimise({&flesh, &springs}, prescribed_values, displacement, {});
-// The increment of the prescribed data goes into the first linear solve. Guards: where the Hessian is not positive definite it is
-// projected tet by tet; a step that does not lower the energy enough (Armijo) is halved. Every iteration is on record, and a step that
-// does not converge is an outcome. The symbolic analysis is kept; so is the factor where every term is quadratic, and on request where the
-// last step with it was good enough (V. E. Shamanskii, Ukrainian Mathematical Journal 19, 1967).
+// The increment of the prescribed data goes into the first linear solve. Where the Hessian is not positive definite, the step is that of
+// truncated conjugate gradients (T. Steihaug, SIAM Journal on Numerical Analysis 20, 1983): preconditioned by the factor of the Hessian
+// projected tet by tet, they end where they meet a direction of negative curvature. A step that does not lower the energy enough (Armijo)
+// is halved. Every iteration is recorded, and a step that does not converge is an outcome. The symbolic analysis is kept; so is the factor
+// where every term is quadratic, and on request where the last step with it was good enough (V. E. Shamanskii, Ukrainian Mathematical
+// Journal 19, 1967).
 #pragma once
 
 #include "reference_fem/eliminated_system.hpp"
@@ -33,7 +35,7 @@ struct NewtonIteration {
     double force_scale_n = 0.0;      // what it is measured against
     double energy_j = 0.0;           // before the step
     double step_length = 0.0;        // 1: a full Newton step; 0: none was taken
-    bool projected = false;          // the Hessian was not positive definite
+    bool projected = false;          // the Hessian was not positive definite, or a direction of negative curvature was met just before
     bool carries_increment = false;  // the linear solve that moves the prescribed data
     bool reuses_factor = false;      // of an earlier step, see NewtonOptions::reuse_contraction
 };
@@ -83,9 +85,12 @@ private:
     bool is_converged(const State& state, const NewtonOptions& options) const;
     bool may_reuse_factor(const NewtonSummary& summary, const NewtonOptions& options) const;
     bool factorise(const Terms& terms, const Eigen::VectorXd& displacement, NewtonSummary& summary);
-    bool factorise(const Terms& terms, const Eigen::VectorXd& displacement, Definiteness definiteness, NewtonSummary& summary);
+    void assemble(const Terms& terms, const Eigen::VectorXd& displacement, Definiteness definiteness);
+    bool factorise_assembled(NewtonSummary& summary);
+    Eigen::VectorXd truncated_step(const State& state);
+    double free_norm(const Eigen::VectorXd& force) const;  // without the prescribed degrees of freedom
     Step step_from(const Terms& terms, const State& state, const Eigen::VectorXd& displacement, const Eigen::VectorXd& increment,
-                   const NewtonOptions& options) const;
+                   const NewtonOptions& options);
     double step_length(const Terms& terms, const State& state, const Eigen::VectorXd& displacement, const Eigen::VectorXd& step,
                        const NewtonOptions& options) const;
 
@@ -95,6 +100,8 @@ private:
     double extent_m_;                  // diagonal of the bounding box
     NodalMatrix hessian_;
     std::unique_ptr<EliminatedSystem> system_;
+    SparseMatrix indefinite_;              // the Hessian where the factor is that of the projected one; else empty
+    bool has_negative_curvature_ = false;  // the last truncated step ended there: the next Hessian is projected without a trial
     bool factor_is_kept_ = false;
     double rounding_n_ = 0.0;  // residual that the rounding of positions alone makes
 };

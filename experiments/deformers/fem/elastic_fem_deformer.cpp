@@ -12,7 +12,15 @@ namespace experiments {
 namespace {
 
 constexpr double largest_turn_deg = 45.0;  // of a bone in one solve
-constexpr double far_turn_deg = 15.0;      // beyond it the solution with fewer nodes is a better initial guess than the last frame's
+constexpr double far_turn_deg = 15.0;      // beyond it the solution with fewer nodes is a better initial guess than the last pose's
+
+reference_fem::NewtonOptions newton_options(const FemOptions& options)
+{
+    reference_fem::NewtonOptions newton;
+    if (options.most_newton_steps > 0) newton.iterations = std::min(newton.iterations, options.most_newton_steps);
+    if (options.dynamics == reference_fem::Dynamics::quasi_static) newton.reuse_contraction = 0.1;
+    return newton;
+}
 
 reference_fem::ElasticOptions solver_options(const FemOptions& options)
 {
@@ -26,7 +34,7 @@ reference_fem::ElasticOptions solver_options(const FemOptions& options)
             .rayleigh_mass_1_s = options.rayleigh_mass_1_s,
             .rayleigh_stiffness_s = options.rayleigh_stiffness_s,
             .solver = options.solver,
-            .newton = {.reuse_contraction = options.dynamics == reference_fem::Dynamics::quasi_static ? 0.1 : 0.0},
+            .newton = newton_options(options),
             .path = {.most_newton_steps = options.most_newton_steps}};
 }
 
@@ -76,6 +84,8 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
     unspent_s_ = 0.0;
     start_ = {};
     is_started_ = false;
+    set_out_from_ = {};
+    lowest_det_f_.reset();
     failures_in_a_row_ = 0;
     record_ = FemRecord(character, options_, bones_, body_->setup().spring_tet);
     newton_record_ = NewtonRecord(pbs::tet_volumes(character.mesh.rest, character.mesh.tets).sum());
@@ -87,6 +97,7 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
     const pbs::Stopwatch stopwatch;
     const pbs::RootFrame frame(character_->skeleton, pose);
     FrameSolve solve;
+    set_out_from_ = {};
     if (!has_memory()) {
         if (start_.rows() > 0)
             solve = settle_from_start(frame);
@@ -97,13 +108,16 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
         solve = is_started_ ? move(pose, dt_s) : start_at(frame);
         positions_ = body_->positions();
     }
+    is_started_ = true;
     pbs::StepSummary summary;
     summary.outcome = solve.converged() ? pbs::Outcome::finished : pbs::Outcome::not_converged;
     for (const auto& stage : solve.stages) summary.iterations += stage.newton_steps();
     summary.seconds = stopwatch.seconds();
 
     record_.add_frame(frame.pose());
-    newton_record_.add_frame(solve, body_->jacobians());
+    const reference_fem::Jacobians jacobians = body_->jacobians();
+    lowest_det_f_ = jacobians.lowest;
+    newton_record_.add_frame(solve, jacobians);
     if (solve.converged()) record_grip();
     return summary;
 }
@@ -133,8 +147,11 @@ void ElasticFemDeformer::follow(const pbs::PosePath& way, const Eigen::Isometry3
 // Where this fails, the body returns to where it was.
 bool ElasticFemDeformer::settle_from_fewer_nodes(const pbs::Pose& pose, const pbs::RootFrame& frame, FrameSolve& solve)
 {
-    const bool far = pbs::PosePath(character_->skeleton, reached_pose_, frame.pose()).largest_turn_deg() > far_turn_deg;
-    if (!fewer_nodes_ || !far || fewer_nodes_->advance(pose, 0.0).outcome != pbs::Outcome::finished) return false;
+    if (!fewer_nodes_) return false;
+    const pbs::PosePath from_last_pose(character_->skeleton, reached_pose_, frame.pose());
+    if (is_started_ && from_last_pose.largest_turn_deg() <= far_turn_deg) return false;
+    set_out_from_ = {fewer_nodes_.get(), fewer_nodes_->advance(pose, 0.0)};
+    if (set_out_from_.step.outcome != pbs::Outcome::finished) return false;
     const pbs::Positions& rest = body_->nodes_at_rest();
     const pbs::Positions before = rest + Eigen::Map<const pbs::Positions>(body_->displacement().data(), rest.rows(), 3);
     const pbs::Pose pose_before = reached_pose_;
@@ -184,7 +201,6 @@ FrameSolve ElasticFemDeformer::start_at(const pbs::RootFrame& frame)
     FrameSolve solve;
     body_->start_from(frame.to_world(character_->mesh.rest));
     follow(pbs::PosePath(character_->skeleton, rest_pose(character_->skeleton), frame.pose()), frame.root(), options_.gravity_m_s2, solve);
-    is_started_ = true;
     return solve;
 }
 

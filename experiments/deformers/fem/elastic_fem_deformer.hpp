@@ -37,6 +37,8 @@ public:
     void start_from(const pbs::Positions& shape) override { start_ = shape; }
     bool has_memory() const override { return options_.dynamics != reference_fem::Dynamics::quasi_static; }
     std::vector<bool> prescribed() const override;
+    FewerNodes set_out_from() const override { return set_out_from_; }
+    std::optional<double> lowest_det_f() const override { return lowest_det_f_; }
     nlohmann::json record() const override;
 
 private:
@@ -57,9 +59,11 @@ private:
     pbs::Pose reached_pose_;   // of the body: relative to the root, or in the world where it moves in time
     double unspent_s_ = 0.0;   // time of the steps that were undone
     pbs::Positions start_;     // initial guess of the next frame, in the world [m], #V x 3; empty: the last state
-    bool is_started_ = false;  // in time: the first pose has been solved
+    bool is_started_ = false;  // a pose has been solved
     int failures_in_a_row_ = 0;
     std::unique_ptr<ElasticFemDeformer> fewer_nodes_;  // nested_start
+    FewerNodes set_out_from_;
+    std::optional<double> lowest_det_f_;
     FemRecord record_;
     NewtonRecord newton_record_;
     pbs::Positions positions_;  // [m], #V x 3
