@@ -43,7 +43,7 @@ GridConvergence two_grids(const std::array<double, 2>& values, double ratio, dou
 GridConvergence three_grids(const std::array<double, 3>& values, const std::array<double, 2>& ratios, double formal_order);
 
 // Like two_grids, for two fields that are known by the norm of their difference; the bounds use the same norm. Three or more fields are
-// fitted (field_convergence.hpp).
+// fitted (nested_convergence.hpp).
 GridConvergence two_fields(double difference, double ratio, double order);
 
 // The p of f + C h^p through three values, from R = (f3 - f2) / (f2 - f1). It is 0 or negative if they diverge; for R < 0 it is Celik's p.

@@ -1,10 +1,9 @@
 #include "experiments/run/reference_error_bar.hpp"
 
-#include "analysis/field_convergence.hpp"
 #include "analysis/grid_convergence.hpp"
+#include "analysis/nested_convergence.hpp"
 #include "pbs/character/refined_character.hpp"
 #include "pbs/geometry/stopwatch.hpp"
-#include "pbs/geometry/tet_volume.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>
@@ -41,17 +40,6 @@ nlohmann::json spread(std::vector<double> values)
     return {{"least", values.front()}, {"median", values[values.size() / 2]}, {"largest", values.back()}};
 }
 
-// The lumped volumes of the blended vertices; of all vertices where none is blended.
-Eigen::VectorXd weights_at_joints(const pbs::Character& character)
-{
-    Eigen::VectorXd weights = pbs::lumped_volumes(character.mesh.rest, character.mesh.tets);
-    const auto& blended = character.blended;
-    if (std::find(blended.begin(), blended.end(), true) == blended.end()) return weights;
-    for (Eigen::Index v = 0; v < weights.size(); ++v)
-        if (!blended[v]) weights(v) = 0.0;
-    return weights;
-}
-
 }  // namespace
 
 double convergence_order(FemAttachment attachment)
@@ -60,14 +48,13 @@ double convergence_order(FemAttachment attachment)
 }
 
 ReferenceErrorBar::ReferenceErrorBar(ErrorBar kind, const DeformerSpec& reference, const pbs::Character& character)
-    : kind_(kind), attachment_(options_of<FemOptions>(reference).attachment), character_(character), weights_(weights_at_joints(character))
+    : kind_(kind), attachment_(options_of<FemOptions>(reference).attachment), character_(character)
 {
     const int order = options_of<FemOptions>(reference).element_order, other_order = 3 - order;
-    const bool graded_by_orders = kind == ErrorBar::orders || (kind == ErrorBar::both && order == 2);
     add_solution(reference, order, 0);
-    if (graded_by_orders) add_solution(reference, other_order, 0);
+    if (kind != ErrorBar::refined) add_solution(reference, other_order, 0);
     if (kind != ErrorBar::orders) add_solution(reference, order, 1);
-    if (kind == ErrorBar::both && order == 1) add_solution(reference, other_order, 1);
+    if (kind == ErrorBar::both) add_solution(reference, other_order, 1);
     std::stable_sort(solutions_.begin(), solutions_.end(),
                      [](const Solution& a, const Solution& b) { return a.nodes_along > b.nodes_along; });
     while (solutions_[reference_].deformer) ++reference_;
@@ -111,7 +98,7 @@ std::optional<analysis::ErrorNorms> ReferenceErrorBar::bound(const pbs::Position
         }
         positions.push_back(solution.deformer ? solution.deformer->positions().topRows(reference.rows()) : reference);
     }
-    if (positions.size() == 3) return bound_of_three(positions, measurer);
+    if (positions.size() == 4) return bound_of_four(positions, measurer);
     const analysis::ErrorNorms difference = measurer.difference(positions[0], positions[1]);
     analysis::ErrorNorms bounds;
     for (const auto norm : norms)
@@ -119,20 +106,23 @@ std::optional<analysis::ErrorNorms> ReferenceErrorBar::bound(const pbs::Position
     return bounds;
 }
 
-analysis::ErrorNorms ReferenceErrorBar::bound_of_three(const std::vector<pbs::Positions>& positions, const FrameMeasurer& measurer)
+// positions: of the solutions, the finest first.
+analysis::ErrorNorms ReferenceErrorBar::bound_of_four(const std::vector<pbs::Positions>& positions, const FrameMeasurer& measurer)
 {
-    std::vector<double> sizes;
-    for (const Solution& solution : solutions_) sizes.push_back(1.0 / solution.nodes_along);
-    const analysis::FieldConvergence fit = analysis::fit_fields(positions, sizes, convergence_order(attachment_), weights_);
-    frames_reliable_ += fit.reliable;
-    if (measurer.difference(positions[0], positions[2]).l2_pct > smallest_difference_pct) {
-        if (!std::isnan(fit.observed_order)) observed_orders_.push_back(fit.observed_order);
-        unexplained_.push_back(fit.unexplained);
-    }
+    const auto from_finest = [&](std::size_t i) { return measurer.difference(positions[i], positions.front()); };
+    const auto place = [&](int element_order, int refinements) {
+        const auto found = std::ranges::find_if(
+            solutions_, [&](const Solution& one) { return one.element_order == element_order && one.refinements == refinements; });
+        return static_cast<std::size_t>(found - solutions_.begin());
+    };
+    const analysis::ErrorNorms quadratic = from_finest(place(2, 0)), linear_refined = from_finest(place(1, 1)),
+                               linear = from_finest(place(1, 0)), own = from_finest(reference_);
+    const analysis::NestedOrder order =
+        analysis::nested_order({linear.joint_pct, linear_refined.joint_pct, quadratic.joint_pct}, convergence_order(attachment_));
+    frames_reliable_ += order.reliable;
+    if (linear.l2_pct > smallest_difference_pct) observed_orders_.push_back(order.observed);
     analysis::ErrorNorms bounds;
-    for (const auto norm : norms)
-        bounds.*norm =
-            analysis::bound_of(fit, positions, reference_, [&](const auto& a, const auto& b) { return measurer.difference(a, b).*norm; });
+    for (const auto norm : norms) bounds.*norm = own.*norm + order.bound(quadratic.*norm);
     return bounds;
 }
 
@@ -145,13 +135,13 @@ std::vector<double> ReferenceErrorBar::ratios() const
 
 nlohmann::json ReferenceErrorBar::method() const
 {
-    const bool three = solutions_.size() == 3;
+    const bool four = solutions_.size() == 4;
     nlohmann::json method = {
         {"error_bar", name_of(kind_)},
-        {"source", three ? "least squares fit of fields: L. Eca, M. Hoekstra 2014; on the character's own vertices"
-                         : "grid convergence index: P. J. Roache 1994, I. B. Celik et al. 2008; on the character's own vertices"},
+        {"source", four ? "observed order of nested solutions, safety factors of L. Eca, M. Hoekstra 2014; on the character's own vertices"
+                        : "grid convergence index: P. J. Roache 1994, I. B. Celik et al. 2008; on the character's own vertices"},
         {"order", convergence_order(attachment_)},
-        {"order_note", three ? "observed, but no higher than this" : "presumed"},
+        {"order_note", four ? "observed, but no higher than this" : "presumed"},
         {"order_because", why(attachment_)},
         {"safety_factor", 3.0},
         {"ratios", ratios()},
@@ -167,11 +157,10 @@ nlohmann::json ReferenceErrorBar::method() const
         if (solution.deformer) entry.update({{"seconds", solution.seconds}, {"record", solution.deformer->record()}});
         method["solutions"].push_back(entry);
     }
-    if (!three) return method;
+    if (!four) return method;
     method["safety_factor_of_reliable_order"] = 1.25;
     method["observed_order"] = spread(observed_orders_);
     method["frames_of_reliable_order"] = frames_reliable_;
-    method["unexplained_share"] = spread(unexplained_);
     return method;
 }
 

@@ -5,8 +5,9 @@
 // of about 1.9, and a refinement halves the mesh size.
 //
 // With two solutions nothing is observed: the bar is the grid convergence index (analysis/grid_convergence.hpp) with the theoretical order
-// and the safety factor 3. With three solutions the order is observed at the joints, by least squares, and used up to the theoretical one;
-// the factor is 1.25 where the observed order is credible, and otherwise 3 (analysis/field_convergence.hpp).
+// and the safety factor 3. With four solutions, of both element orders on both meshes, the order of linear elements is observed at
+// the joints and used for all, between 0.5 and the theoretical one. The factor is 1.25 where the observed order is credible, and otherwise
+// 3 (analysis/nested_convergence.hpp).
 //
 // The theoretical order depends on the attachment. The density of smooth springs has no jump. The displacement in the L2 norm then
 // converges with order 2 for linear and 3 for quadratic elements, of which the lower one is used, since the solutions are of both. In any
@@ -52,15 +53,14 @@ private:
     };
     void add_solution(const DeformerSpec& reference, int element_order, int refinements);
     std::vector<double> ratios() const;  // of each mesh size to the next finer one
-    analysis::ErrorNorms bound_of_three(const std::vector<pbs::Positions>& positions, const FrameMeasurer& measurer);
+    analysis::ErrorNorms bound_of_four(const std::vector<pbs::Positions>& positions, const FrameMeasurer& measurer);
 
     ErrorBar kind_;
     FemAttachment attachment_;
     const pbs::Character& character_;
-    std::vector<Solution> solutions_;                    // the finest first
-    std::size_t reference_ = 0;                          // its place among them
-    Eigen::VectorXd weights_;                            // of the vertices in the observed order, #V
-    std::vector<double> observed_orders_, unexplained_;  // with three solutions, one value per frame in which they differ and show an order
+    std::vector<Solution> solutions_;      // the finest first
+    std::size_t reference_ = 0;            // its place among them
+    std::vector<double> observed_orders_;  // with four solutions, one value per frame in which they differ and show an order
     int frames_ = 0, frames_without_ = 0, frames_reliable_ = 0;
 };
 

@@ -33,8 +33,8 @@ struct OutputSpec {
 };
 
 // The further solutions that bound the distance of the reference from the limit of ever finer tets. none; orders: the other element order
-// on the same tets; refined: the same order on tets that are refined once; both: three solutions whose mesh sizes differ by factors of
-// about 2.
+// on the same tets; refined: the same order on tets that are refined once; both: both element orders on
+// both meshes.
 enum class ErrorBar { none, orders, refined, both };
 
 template <>

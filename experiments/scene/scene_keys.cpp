@@ -74,8 +74,8 @@ std::vector<SceneKey> output_keys()
         key("reference", "name", text, "\"\"", "", "the deformer that errors are measured against; empty: none"),
         one_of(key("reference", "error_bar", text, "\"none\"", "",
                    "also estimates the discretisation error of the reference: orders (solves it again with the other element order on the "
-                   "same tets; cheap for order 2), refined (on tets cut into eight), both (three solutions, from which the order of "
-                   "convergence is observed by least squares; with two it is presumed); the method is in run.json"),
+                   "same tets; cheap for order 2), refined (on tets cut into eight), both (four solutions, from which the order of "
+                   "convergence is observed; with two it is presumed); the method is in run.json"),
                names_of_options<ErrorBar>()),
         key("deformers", "use", texts, "[\"lbs\", \"pbs\"]", "",
             "what moves the character: names of `pbskin list deformers` and of the [[fem]] tables"),

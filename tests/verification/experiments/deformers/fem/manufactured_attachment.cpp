@@ -2,8 +2,8 @@
 // smooth attachment. The springs' targets lie a given offset c from the exact positions, so that the body force is f = -div P - k(x) c.
 // Order p elements converge with h^(p+1) (Brenner and Scott, ch. 5) down to the error of the sample points, which grows with c: a small c
 // serves the orders, and a large one shows whether the springs have the weight that the body force assumes. The tets are cut into eight
-// twice, as those of a reference are, so that the fields have points in common: their fit must find that order, and its bound must hold.
-#include "analysis/field_convergence.hpp"
+// as those of a reference are: the order that its four solutions show must be that of linear elements, and its bound must hold.
+#include "analysis/nested_convergence.hpp"
 #include "pbs/character/bone_capsules.hpp"
 #include "pbs/geometry/refinement.hpp"
 #include "pbs/geometry/topology.hpp"
@@ -125,32 +125,43 @@ double rms(const Positions& one, const Positions& other)
 
 // Errors C h^p (1 + c h) show an order that differs from p by c h / (2 ln 2), half as much on meshes twice as fine. The order of the finest
 // two is therefore within 0.1 (jittered meshes: their constants differ by a few per cent) or closer than that of the coarser two by
-// nearly a half. The fit uses vertices, where quadratic tets are more accurate than elsewhere, so that its order may be higher; below the
-// theory it is within 0.3, since between the coarsest meshes the order is still that of a coarse mesh.
+// nearly a half.
 void expect_order(int element_order, int coarsest)
 {
     const double order = element_order + 1;
     pbs::TetMesh mesh = test_support::jittered_cube(coarsest);
-    const Eigen::Index common = mesh.rest.rows();
-    std::vector<Positions> fields;
     std::vector<double> errors;
     for (int level = 0; level < 3; ++level) {
-        const Solution solution = solve(mesh, element_order);
-        fields.insert(fields.begin(), solution.positions.topRows(common));
-        errors.insert(errors.begin(), solution.error);
+        errors.insert(errors.begin(), solve(mesh, element_order).error);
         mesh = pbs::refine(mesh).mesh;
     }
     const double coarser = std::abs(std::log2(errors[2] / errors[1]) - order), finer = std::abs(std::log2(errors[1] / errors[0]) - order);
     testing::Test::RecordProperty("order_differs_by", std::to_string(finer));
     EXPECT_LT(finer, std::max(0.1, 0.6 * coarser));
+}
 
-    Positions truth = fields[0];
-    const pbs::TetMesh first = test_support::jittered_cube(coarsest);
-    for (Eigen::Index v = 0; v < common; ++v) truth.row(v) = first.rest.row(v) + exact(first.rest.row(v)).transpose();
-    const auto fit = analysis::fit_fields(fields, {1.0, 2.0, 4.0}, order);
-    testing::Test::RecordProperty("fitted_order", std::to_string(fit.observed_order));
-    EXPECT_GT(fit.observed_order, order - 0.3);
-    for (std::size_t i = 0; i < fields.size(); ++i) EXPECT_LT(rms(fields[i], truth), analysis::bound_of(fit, fields, i, rms)) << i;
+// The four solutions of a reference. The error of the finest, which stands for the limit, changes the two distances of the linear ones by
+// at most itself.
+TEST(ManufacturedAttachment, NestedSolutionsShowTheOrderAndBoundTheError)
+{
+    const pbs::TetMesh mesh = test_support::jittered_cube(4), fine = pbs::refine(mesh).mesh;
+    const Eigen::Index common = mesh.rest.rows();
+    const auto solved = [&](const pbs::TetMesh& on, int element_order) -> Positions {
+        return solve(on, element_order).positions.topRows(common);
+    };
+    const Positions finest = solved(fine, 2), quadratic = solved(mesh, 2), linear_refined = solved(fine, 1), linear = solved(mesh, 1);
+    Positions truth = mesh.rest;
+    for (Eigen::Index v = 0; v < common; ++v) truth.row(v) += exact(mesh.rest.row(v)).transpose();
+
+    const auto order = analysis::nested_order({rms(linear, finest), rms(linear_refined, finest), rms(quadratic, finest)}, 2.0);
+    const double true_order = std::log2(rms(linear, truth) / rms(linear_refined, truth)), error = rms(finest, truth);
+    const double uncertainty = std::log2((1.0 + error / rms(linear, truth)) / (1.0 - error / rms(linear_refined, truth)));
+    EXPECT_NEAR(order.observed, true_order, uncertainty);
+    EXPECT_TRUE(order.reliable);
+    EXPECT_LT(error, order.bound(rms(quadratic, finest)));
+    EXPECT_LT(order.bound(rms(quadratic, finest)), rms(linear_refined, truth));  // the bound is not met by being large
+    EXPECT_LT(rms(analysis::extrapolated(order, finest, quadratic), truth), rms(quadratic, truth));
+    testing::Test::RecordProperty("observed_order", std::to_string(order.observed));
 }
 
 TEST(ManufacturedAttachment, LinearTetsConvergeWithOrderTwo)

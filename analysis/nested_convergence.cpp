@@ -1,0 +1,35 @@
+#include "analysis/nested_convergence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace analysis {
+namespace {
+
+constexpr double lowest_order = 0.5, above_formal = 0.1;
+constexpr double reliable_factor = 1.25, other_factor = 3.0;
+
+}  // namespace
+
+NestedOrder nested_order(const NestedDistances& distances, double formal_order)
+{
+    NestedOrder order;
+    order.observed = std::log2(distances.linear / distances.linear_refined);
+    order.order =
+        std::isnan(order.observed) ? formal_order : std::clamp(order.observed, std::min(lowest_order, formal_order), formal_order);
+    order.reliable = order.observed >= lowest_order && order.observed <= formal_order + above_formal;
+    order.safety_factor = order.reliable ? reliable_factor : other_factor;
+    return order;
+}
+
+double NestedOrder::bound(double quadratic) const
+{
+    return safety_factor * quadratic / (std::exp2(order) - 1.0);
+}
+
+pbs::Positions extrapolated(const NestedOrder& order, const pbs::Positions& refined, const pbs::Positions& unrefined)
+{
+    return refined + (refined - unrefined) / (std::exp2(order.order) - 1.0);
+}
+
+}  // namespace analysis

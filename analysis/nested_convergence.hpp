@@ -1,0 +1,39 @@
+// The error of finite elements from four nested solutions: linear and quadratic elements on some tets and on the same tets cut into eight.
+// The quadratic solution on the refined tets stands for the limit in the observed order of the linear ones,
+//   2^p = |linear, unrefined - quadratic, refined| / |linear, refined - quadratic, refined|.
+// Quadratic elements converge at least as fast as linear ones on the same meshes, so that p is cautious for them, and the distance of the
+// finest solution from the limit is at most |quadratic, unrefined - quadratic, refined| / (2^p - 1), times a safety factor. Norms are
+// compared, not the fields point by point: nodal errors of finite elements are not proportional to each other.
+//   const NestedOrder order = nested_order({.linear = 2.0, .linear_refined = 0.6, .quadratic = 0.1}, 2.0);
+//   order.bound(0.1);         // of the quadratic solution on the refined tets
+//   2.0 + order.bound(0.1);   // of any other one, by the triangle inequality
+#pragma once
+
+#include "pbs/geometry/types.hpp"
+
+namespace analysis {
+
+// In any norm and unit, from the quadratic solution on the refined tets.
+struct NestedDistances {
+    double linear = 0.0;          // of linear elements on the unrefined tets
+    double linear_refined = 0.0;  // of linear elements on the refined tets
+    double quadratic = 0.0;       // of quadratic elements on the unrefined tets
+};
+
+struct NestedOrder {
+    double observed = 0.0;       // below 0 where the linear solutions move away from the finest one; NaN where all solutions are equal
+    double order = 0.0;          // in use: the observed one, but at least 0.5 and at most the formal one
+    bool reliable = false;       // 0.5 <= observed <= formal order + 0.1 (L. Eca, M. Hoekstra, Journal of Computational Physics 262, 2014)
+    double safety_factor = 0.0;  // 1.25 if reliable, otherwise 3
+
+    // Of the finest solution's distance from the limit, from NestedDistances::quadratic in the same or in another norm.
+    double bound(double quadratic) const;
+};
+
+// formal_order: of linear elements, > 0. Distances are >= 0.
+NestedOrder nested_order(const NestedDistances& distances, double formal_order);
+
+// Richardson's extrapolation from two nested solutions of one method, #V x 3.
+pbs::Positions extrapolated(const NestedOrder& order, const pbs::Positions& refined, const pbs::Positions& unrefined);
+
+}  // namespace analysis
