@@ -91,5 +91,6 @@ Study error_split_study();
 Study bench_study();
 Study features_study();
 Study scale_study();
+Study ensemble_study();
 
 }  // namespace experiments

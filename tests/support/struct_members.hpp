@@ -118,7 +118,7 @@ void for_each_other(const Value& value, const Visit& visit)
         visit(value ? Value() : Value(std::in_place), "");
     } else if constexpr (is_vector<Value>) {
         Value other = value;
-        other.emplace_back();
+        other.push_back(value.empty() ? typename Value::value_type() : value.front());
         visit(other, "one more");
         if (!value.empty())
             for_each_other(value.front(), [&](const auto& first, const std::string& what) {

@@ -6,6 +6,7 @@
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/bench/bench.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"
+#include "experiments/studies/ensemble/ensemble.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
 #include "experiments/studies/features/feature_cost.hpp"
 #include "experiments/studies/fit/poisson_run.hpp"
@@ -62,6 +63,14 @@ TEST(RecordedSettings, OfErrorSplit)
     of.scene = limb(), of.frames = {3}, of.k_stretch = {0.2}, of.iterations = {24}, of.core_radii = {0.2};
     of.pbs = default_spec("pbs");
     of.truth = of.twin = default_spec("fem");
+    EXPECT_GE(expect_each_change_repeats(of), 10);
+}
+
+TEST(RecordedSettings, OfEnsemble)
+{
+    EnsembleCase of;
+    of.of = {.body = "limb", .motion = "bend", .angle_deg = 60.0}, of.scene = limb(), of.frame = 1;
+    of.flesh = default_spec("fem"), of.members = {family().front()}, of.deformers = {default_spec("lbs")};
     EXPECT_GE(expect_each_change_repeats(of), 10);
 }
 

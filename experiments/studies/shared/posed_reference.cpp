@@ -1,0 +1,118 @@
+#include "experiments/studies/shared/posed_reference.hpp"
+
+#include "experiments/deformers/registry.hpp"
+#include "experiments/process/interruption.hpp"
+#include "experiments/run/frame_measurement.hpp"
+#include "experiments/run/reference_error_bar.hpp"
+#include "pbs/character/overlap_mask.hpp"
+#include "pbs/character/refined_character.hpp"
+#include "pbs/geometry/tet_volume.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace experiments {
+namespace {
+
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+// Of the tets, and marks the vertices of those that are inverted.
+void measure_volumes(const pbs::TetMesh& mesh, NestedSolution& solution, std::vector<bool>& masked)
+{
+    const Eigen::VectorXd ratios = pbs::tet_volumes(solution.positions, mesh.tets).cwiseQuotient(pbs::tet_volumes(mesh.rest, mesh.tets));
+    solution.j_min = ratios.minCoeff(&solution.worst_tet);
+    for (Eigen::Index t = 0; t < ratios.size(); ++t) {
+        if (ratios(t) > 0.0) continue;
+        ++solution.inverted_tets;
+        for (const int v : mesh.tets.row(t)) masked[v] = true;
+    }
+}
+
+}  // namespace
+
+PosedReference::PosedReference(const pbs::Character& character, const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s,
+                               bool refines)
+    : character_(character),
+      error_metrics_(error_domain(character, {})),
+      masked_(character.mesh.rest.rows(), false),
+      bound_{not_known, not_known, not_known}
+{
+    const pbs::Character fine = refines ? pbs::refined(character) : pbs::Character();
+    if (refines) {
+        solve(spec, pose, time_step_s, {{fine, 2}, {character, 2}, {character, 1}});
+        solve(spec, pose, time_step_s, {{fine, 1}});
+        std::swap(solutions_[2], solutions_[3]);  // linear elements on the refined tets come first
+    } else {
+        solve(spec, pose, time_step_s, {{character, 2}, {character, 1}});
+    }
+    for (std::size_t i = 0; i < solutions_.size() && !which_; ++i)
+        if (solutions_[i].finished && solutions_[i].lowest_det_f > 0.0) which_ = i;
+    if (which_ && refines) observe_order(convergence_order(options_of<FemOptions>(spec).attachment));
+}
+
+// levels: the finest first, each of which sets out from the next one.
+void PosedReference::solve(const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s, const std::vector<Level>& levels)
+{
+    stop_if_interrupted();
+    DeformerSpec nested = spec;
+    auto& options = options_of<FemOptions>(nested);
+    options.element_order = levels.front().element_order;
+    options.nested_start = true;
+    if (options.element_order == 1) options.formulation = reference_fem::Formulation::displacement;  // mean dilatation is the same there
+    const std::unique_ptr<Deformer> deformer = make_deformer(nested);
+    deformer->reset(levels.front().character);
+    Deformer::FewerNodes solution{deformer.get(), deformer->advance(pose, time_step_s)};
+    for (const Level& level : levels) {
+        if (!solution.deformer) break;
+        const Deformer::FewerNodes coarser = solution.deformer->set_out_from();
+        solution.step.seconds -= coarser.step.seconds;
+        add(solution, level);
+        solution = coarser;
+    }
+}
+
+void PosedReference::add(const Deformer::FewerNodes& of, const Level& level)
+{
+    NestedSolution solution;
+    solution.element_order = level.element_order;
+    solution.refinements = level.character.refinements;
+    solution.finished = of.step.outcome == pbs::Outcome::finished;
+    solution.seconds = of.step.seconds;
+    const pbs::Positions& positions = of.deformer->positions();
+    solution.positions = positions.topRows(character_.mesh.rest.rows());
+    if (solution.finished) {
+        solution.lowest_det_f = of.deformer->lowest_det_f().value();
+        measure_volumes(character_.mesh, solution, masked_);
+        const std::vector<bool> overlaps = pbs::OverlapMask(level.character).of(positions);
+        for (std::size_t v = 0; v < masked_.size(); ++v) masked_[v] = masked_[v] || overlaps[v];
+    }
+    solutions_.push_back(std::move(solution));
+}
+
+void PosedReference::observe_order(double formal_order)
+{
+    if (!std::ranges::all_of(solutions_, &NestedSolution::finished)) return;
+    const auto from_finest = [&](std::size_t i) { return distance(solutions_[i].positions, solutions_.front().positions); };
+    const analysis::ErrorNorms quadratic = from_finest(1), linear_refined = from_finest(2), linear = from_finest(3);
+    order_ = analysis::nested_order({linear.joint_pct, linear_refined.joint_pct, quadratic.joint_pct}, formal_order);
+    for (const auto norm : {&analysis::ErrorNorms::l2_pct, &analysis::ErrorNorms::joint_pct, &analysis::ErrorNorms::linf_m})
+        bound_.*norm = from_finest(*which_).*norm + order_->bound(quadratic.*norm);
+}
+
+pbs::Positions PosedReference::limit() const
+{
+    return analysis::extrapolated(order_.value(), solutions_[0].positions, solutions_[1].positions);
+}
+
+analysis::ErrorNorms PosedReference::error_on_whole_body(const pbs::Positions& positions) const
+{
+    return error_metrics_.measure(positions, reference().positions);
+}
+
+analysis::ErrorNorms PosedReference::distance(const pbs::Positions& one, const pbs::Positions& other) const
+{
+    return error_metrics_.measure(one, other, masked_);
+}
+
+}  // namespace experiments

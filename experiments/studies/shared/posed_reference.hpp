@@ -1,0 +1,79 @@
+// The finite element reference in one pose on nested meshes, with a bound on its own error: linear and quadratic elements on the
+// character's own tets and on these tets cut into eight. All have the same bones.
+//   const PosedReference reference(character, spec, pose, time_step_s);
+//   if (reference.is_reached()) reference.error_of(positions).joint_pct <= reference.bound().joint_pct ...
+// Errors are measured outside the part of the body that overlaps itself in one of the solutions (pbs::OverlapMask), since a fold without
+// contact has no limit under refinement. The bound is that of analysis/nested_convergence.hpp, with the order that is observed at the
+// joints outside that part.
+#pragma once
+
+#include "analysis/error_norms.hpp"
+#include "analysis/nested_convergence.hpp"
+#include "experiments/deformers/deformer.hpp"
+#include "experiments/deformers/deformer_spec.hpp"
+#include "pbs/character/character.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace experiments {
+
+// One of the solutions.
+struct NestedSolution {
+    int element_order = 1, refinements = 0;
+    bool finished = false;
+    double lowest_det_f = 1.0;  // at the quadrature points of its elements
+    int inverted_tets = 0;      // of the character's own tets, by their vertices alone
+    double j_min = 1.0;         // smallest volume ratio of such a tet
+    int worst_tet = -1;         // that tet
+    double seconds = 0.0;       // wall time without that of the solution with fewer nodes, where it set out
+    pbs::Positions positions;   // of the character's vertices [m], #V x 3
+};
+
+class PosedReference {
+public:
+    // spec: a [[fem]] deformer with a nonlinear model and attachment smooth or embedded; its element order does not matter. refines: also
+    // solve on the tets cut into eight, without which there is no bound. character: not refined itself.
+    PosedReference(const pbs::Character& character, const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s,
+                   bool refines = true);
+
+    // The reference is the finest solution that finished with det F > 0 at all quadrature points.
+    bool is_reached() const { return which_.has_value(); }
+    const NestedSolution& reference() const { return solutions_.at(which_.value()); }  // std::bad_optional_access if it is not reached
+    const std::vector<NestedSolution>& solutions() const { return solutions_; }        // the finest first, those that failed too
+
+    // The vertices that are left out, #V. They include those of the character's tets that a solution inverts by their vertices alone.
+    const std::vector<bool>& masked() const { return masked_; }
+    double masked_share_pct() const { return error_metrics_.share_pct(masked_); }
+
+    // Of positions of the character's vertices [m], #V x 3. distance: between two of them.
+    analysis::ErrorNorms error_of(const pbs::Positions& positions) const { return distance(positions, reference().positions); }
+    analysis::ErrorNorms error_on_whole_body(const pbs::Positions& positions) const;
+    analysis::ErrorNorms distance(const pbs::Positions& one, const pbs::Positions& other) const;
+
+    // Nothing unless all four solutions finished.
+    const std::optional<analysis::NestedOrder>& order() const { return order_; }
+    // On the reference's distance from the limit, outside the masked part. Not a number where there is no order.
+    analysis::ErrorNorms bound() const { return bound_; }
+    // Richardson's extrapolation of the quadratic solutions. std::bad_optional_access where there is no order.
+    pbs::Positions limit() const;
+
+private:
+    struct Level {
+        const pbs::Character& character;
+        int element_order;
+    };
+    void solve(const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s, const std::vector<Level>& levels);
+    void add(const Deformer::FewerNodes& of, const Level& level);
+    void observe_order(double formal_order);
+
+    const pbs::Character& character_;
+    analysis::ErrorMetrics error_metrics_;
+    std::vector<NestedSolution> solutions_;
+    std::optional<std::size_t> which_;
+    std::vector<bool> masked_;
+    std::optional<analysis::NestedOrder> order_;
+    analysis::ErrorNorms bound_;
+};
+
+}  // namespace experiments

@@ -1,0 +1,106 @@
+// Reference: the deformer on each mesh by itself, and a solution on tets cut into 64, which the bound must cover.
+#include "experiments/studies/shared/posed_reference.hpp"
+
+#include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "pbs/character/bodies.hpp"
+#include "pbs/character/refined_character.hpp"
+#include "tests/support/bar_character.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace {
+
+using namespace experiments;
+
+constexpr double time_step_s = 0.01;
+
+DeformerSpec flesh(int element_order = 2)
+{
+    DeformerSpec spec = default_spec("fem");
+    spec.options = FemOptions{.model = reference_fem::Model::neo_hookean,
+                              .element_order = element_order,
+                              .attachment = FemAttachment::smooth,
+                              .spring_factor = 10.0,
+                              .nested_start = element_order == 2};
+    return spec;
+}
+
+pbs::Pose bent(const pbs::Character& character, double angle_deg)
+{
+    return pbs::joint_sweep(character.skeleton, 1, pbs::Vec3::UnitZ(), angle_deg, 2, time_step_s).steps.back();
+}
+
+// Of the first vertices, which are those of the unrefined bar.
+pbs::Positions solved(const pbs::Character& character, const pbs::Pose& pose, Eigen::Index vertices)
+{
+    const auto deformer = make_deformer(flesh());
+    deformer->reset(character);
+    EXPECT_EQ(deformer->advance(pose, time_step_s).outcome, pbs::Outcome::finished);
+    return deformer->positions().topRows(vertices);
+}
+
+TEST(PosedReference, IsTheFinestOfFourSolutionsAndItsBoundCoversAFinerOne)
+{
+    const pbs::Character bar = test_support::bar_character({12, 2, 2});
+    const pbs::Pose pose = bent(bar, 40.0);
+    const PosedReference reference(bar, flesh(), pose, time_step_s);
+    const auto& solutions = reference.solutions();
+    ASSERT_EQ(solutions.size(), 4u);
+    const std::pair<int, int> expected[] = {{2, 1}, {2, 0}, {1, 1}, {1, 0}};
+    for (std::size_t i = 0; i < solutions.size(); ++i) {
+        EXPECT_EQ(std::pair(solutions[i].element_order, solutions[i].refinements), expected[i]);
+        EXPECT_TRUE(solutions[i].finished);
+        EXPECT_EQ(solutions[i].inverted_tets, 0);
+    }
+    ASSERT_TRUE(reference.is_reached());
+    EXPECT_EQ(&reference.reference(), &solutions.front());
+    const Eigen::Index vertices = bar.mesh.rest.rows();
+    const pbs::Character fine = pbs::refined(bar);
+    EXPECT_EQ(reference.reference().positions, solved(fine, pose, vertices));
+    EXPECT_EQ(reference.masked_share_pct(), 0.0);
+
+    ASSERT_TRUE(reference.order());
+    EXPECT_TRUE(reference.order()->reliable);
+    const double to_a_finer_one = reference.error_of(solved(pbs::refined(fine), pose, vertices)).joint_pct;
+    EXPECT_GT(reference.bound().joint_pct, to_a_finer_one);
+    EXPECT_LT(reference.bound().joint_pct, reference.error_of(solutions.back().positions).joint_pct);  // not by being meaningless
+    RecordProperty("bound_pct", std::to_string(reference.bound().joint_pct));
+    RecordProperty("to_a_finer_one_pct", std::to_string(to_a_finer_one));
+}
+
+// The ends of a bar that is bent this far lie inside each other.
+TEST(PosedReference, LeavesOutTheVerticesWhereTheBodyOverlapsItself)
+{
+    const pbs::Character bar = test_support::bar_character({12, 2, 2});
+    const PosedReference reference(bar, flesh(), bent(bar, 165.0), time_step_s, false);
+    ASSERT_TRUE(reference.is_reached());
+    const std::vector<bool>& masked = reference.masked();
+    ASSERT_GT(std::count(masked.begin(), masked.end(), true), 0);
+    ASSERT_GT(std::count(masked.begin(), masked.end(), false), 0);
+    EXPECT_GT(reference.masked_share_pct(), 0.0);
+    for (std::size_t v = 0; v < masked.size(); ++v) {
+        pbs::Positions moved = reference.reference().positions;
+        moved.row(static_cast<Eigen::Index>(v)).array() += 0.5;
+        EXPECT_EQ(reference.error_of(moved).linf_m > 0.0, !masked[v]) << v;
+        EXPECT_GT(reference.error_on_whole_body(moved).linf_m, 0.0);
+    }
+    EXPECT_FALSE(reference.order());  // of two solutions no order is observed
+    EXPECT_TRUE(std::isnan(reference.bound().joint_pct));
+}
+
+TEST(PosedReference, ThatDoesNotArriveIsNotReached)
+{
+    const pbs::Character bar = test_support::bar_character({12, 2, 2});
+    DeformerSpec hurried = flesh();
+    options_of<FemOptions>(hurried).most_newton_steps = 1;
+    const PosedReference reference(bar, hurried, bent(bar, 120.0), time_step_s, false);
+    EXPECT_FALSE(reference.is_reached());
+    EXPECT_THROW(reference.reference(), std::bad_optional_access);
+    for (const NestedSolution& solution : reference.solutions()) EXPECT_FALSE(solution.finished);
+}
+
+}  // namespace
