@@ -101,7 +101,7 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
     if (!has_memory()) {
         if (start_.rows() > 0)
             solve = settle_from_start(frame);
-        else if (!settle_from_fewer_nodes(pose, frame, solve))
+        else if (!settle_from_fewer_nodes(pose, frame, solve) && !has_spent_its_steps(solve))
             solve = settle(frame);
         positions_ = frame.to_world(body_->positions());
     } else {
@@ -144,6 +144,11 @@ void ElasticFemDeformer::follow(const pbs::PosePath& way, const Eigen::Isometry3
     reached_pose_ = placed(way.at(solve.reached), place);
 }
 
+bool ElasticFemDeformer::has_spent_its_steps(const FrameSolve& solve) const
+{
+    return options_.most_newton_steps > 0 && !solve.stages.empty() && solve.stages.back().newton_steps() >= options_.most_newton_steps;
+}
+
 // Where this fails, the body returns to where it was.
 bool ElasticFemDeformer::settle_from_fewer_nodes(const pbs::Pose& pose, const pbs::RootFrame& frame, FrameSolve& solve)
 {
@@ -164,7 +169,6 @@ bool ElasticFemDeformer::settle_from_fewer_nodes(const pbs::Pose& pose, const pb
     }
     body_->start_from_nodes(before);
     reached_pose_ = pose_before;
-    solve = {};
     return false;
 }
 

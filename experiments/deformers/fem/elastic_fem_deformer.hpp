@@ -46,6 +46,7 @@ private:
     FrameSolve settle(const pbs::RootFrame& frame);  // in the root's frame
     FrameSolve settle_from_start(const pbs::RootFrame& frame);
     bool settle_from_fewer_nodes(const pbs::Pose& pose, const pbs::RootFrame& frame, FrameSolve& solve);
+    bool has_spent_its_steps(const FrameSolve& solve) const;
     FrameSolve start_at(const pbs::RootFrame& frame);     // in the world, at rest
     FrameSolve move(const pbs::Pose& pose, double dt_s);  // in the world
     void follow(const pbs::PosePath& way, const Eigen::Isometry3d& place, const pbs::Vec3& gravity_m_s2, FrameSolve& solve);

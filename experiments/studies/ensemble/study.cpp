@@ -41,10 +41,7 @@ EnsembleCase ensemble_case(const analysis::CaseKey& key, const Scene& scene, int
     of.scene = scene;
     of.frame = frame;
     of.members = family();
-    of.flesh = *find_deformer_with<FemOptions>(scene);
-    auto& options = options_of<FemOptions>(of.flesh);
-    options.model = reference_fem::Model::neo_hookean;
-    options.most_newton_steps = 200;  // per 45 degrees of a joint's turn
+    of.flesh = reference_flesh(scene);
     for (const char* kind : {"lbs", "dqs", "delta_mush", "xpbd"}) of.deformers.push_back(default_spec(kind));
     DeformerSpec pbs = spec_of(scene, "pbs");
     options_of<pbs::PbsOptions>(pbs).jiggle.reset();

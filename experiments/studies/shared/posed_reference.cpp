@@ -6,6 +6,7 @@
 #include "experiments/run/reference_error_bar.hpp"
 #include "pbs/character/overlap_mask.hpp"
 #include "pbs/character/refined_character.hpp"
+#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 namespace experiments {
 namespace {
 
+constexpr int most_newton_steps = 25;  // about 20 s and 5 GB each on tets cut into eight; a fold without contact may take any number
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 // Of the tets, and marks the vertices of those that are inverted.
@@ -30,6 +32,23 @@ void measure_volumes(const pbs::TetMesh& mesh, NestedSolution& solution, std::ve
 }
 
 }  // namespace
+
+DeformerSpec reference_flesh(const Scene& scene)
+{
+    const DeformerSpec* fem = find_deformer_with<FemOptions>(scene);
+    if (!fem) throw pbs::InputError(scene.file, 0, "deformers.use", scene.name, "expected a [[fem]] deformer");
+    DeformerSpec flesh = *fem;
+    flesh.name = flesh.label = "neo_hookean";
+    const auto& own = options_of<FemOptions>(*fem);
+    flesh.options = FemOptions{.model = reference_fem::Model::neo_hookean,
+                               .young_pa = own.young_pa,
+                               .poisson = own.poisson,
+                               .density_kg_m3 = own.density_kg_m3,
+                               .attachment = FemAttachment::smooth,
+                               .spring_factor = 10.0,
+                               .most_newton_steps = most_newton_steps};
+    return flesh;
+}
 
 PosedReference::PosedReference(const pbs::Character& character, const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s,
                                bool refines)

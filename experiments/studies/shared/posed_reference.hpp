@@ -11,12 +11,18 @@
 #include "analysis/nested_convergence.hpp"
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/deformers/deformer_spec.hpp"
+#include "experiments/scene/scene.hpp"
 #include "pbs/character/character.hpp"
 
 #include <optional>
 #include <vector>
 
 namespace experiments {
+
+// The flesh that every study compares with: neo-Hookean, with the Young's modulus, Poisson's ratio and density of the scene's first [[fem]]
+// deformer, held by smooth springs. Its law is infinite at det F <= 0, so that no quadrature point is inverted. pbs::InputError without a
+// [[fem]] deformer.
+DeformerSpec reference_flesh(const Scene& scene);
 
 // One of the solutions.
 struct NestedSolution {
