@@ -26,7 +26,8 @@ struct NestedOrder {
     bool reliable = false;       // 0.5 <= observed <= formal order + 0.1 (L. Eca, M. Hoekstra, Journal of Computational Physics 262, 2014)
     double safety_factor = 0.0;  // 1.25 if reliable, otherwise 3
 
-    // Of the finest solution's distance from the limit, from NestedDistances::quadratic in the same or in another norm.
+    // Returns a bound on the distance of the finest solution from the limit, in the norm and unit of the argument. quadratic: as
+    // NestedDistances::quadratic, in any norm.
     double bound(double quadratic) const;
 };
 

@@ -91,7 +91,7 @@ MemberRow member_row(const EnsembleCase& of, const EnsembleMember& member, const
     return row;
 }
 
-// What one member says about each pair of shapes.
+// Collects, for each pair of shapes, how each reference of the family orders the pair.
 class Ordering {
 public:
     explicit Ordering(const std::vector<DeformedShape>& shapes) : shapes_(shapes), orders_(shapes.size() * shapes.size()) {}

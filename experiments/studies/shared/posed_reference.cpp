@@ -19,7 +19,7 @@ namespace {
 constexpr int most_newton_steps = 25;  // about 20 s and 5 GB each on tets cut into eight; a fold without contact may take any number
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-// Of the tets, and marks the vertices of those that are inverted.
+// Computes the volume ratios of the tets, counts the inverted ones and marks their vertices.
 void measure_volumes(const pbs::TetMesh& mesh, NestedSolution& solution, std::vector<bool>& masked)
 {
     const Eigen::VectorXd ratios = pbs::tet_volumes(solution.positions, mesh.tets).cwiseQuotient(pbs::tet_volumes(mesh.rest, mesh.tets));

@@ -52,14 +52,15 @@ public:
     const std::vector<bool>& masked() const { return masked_; }
     double masked_share_pct() const { return error_metrics_.share_pct(masked_); }
 
-    // Of positions of the character's vertices [m], #V x 3. distance: between two of them.
+    // Positions are those of the character's vertices [m], #V x 3. The error is the distance from the reference. Both are measured outside
+    // the masked part, except by error_on_whole_body.
+    analysis::ErrorNorms distance(const pbs::Positions& one, const pbs::Positions& other) const;
     analysis::ErrorNorms error_of(const pbs::Positions& positions) const { return distance(positions, reference().positions); }
     analysis::ErrorNorms error_on_whole_body(const pbs::Positions& positions) const;
-    analysis::ErrorNorms distance(const pbs::Positions& one, const pbs::Positions& other) const;
 
-    // Nothing unless all four solutions finished.
+    // The observed order is empty unless all four solutions finished.
     const std::optional<analysis::NestedOrder>& order() const { return order_; }
-    // On the reference's distance from the limit, outside the masked part. Not a number where there is no order.
+    // Bounds the distance of the reference from the limit, outside the masked part. The bound is NaN where there is no order.
     analysis::ErrorNorms bound() const { return bound_; }
     // Richardson's extrapolation of the quadratic solutions. std::bad_optional_access where there is no order.
     pbs::Positions limit() const;

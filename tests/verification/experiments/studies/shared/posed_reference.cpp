@@ -34,7 +34,7 @@ pbs::Pose bent(const pbs::Character& character, double angle_deg)
     return pbs::joint_sweep(character.skeleton, 1, pbs::Vec3::UnitZ(), angle_deg, 2, time_step_s).steps.back();
 }
 
-// Of the first vertices, which are those of the unrefined bar.
+// Returns the positions of the first vertices, which are those of the unrefined bar.
 pbs::Positions solved(const pbs::Character& character, const pbs::Pose& pose, Eigen::Index vertices)
 {
     const auto deformer = make_deformer(flesh());
