@@ -6,7 +6,7 @@ import entries
 import records
 import style
 
-cases = [("limb_twist", "twist_90", "limb, twist 90\u00b0"), ("limb_bend", "bend_90", "limb, bend 90\u00b0"),
+cases = [("limb_twist", "twist_90", "limb, twist 90\u00b0"), ("limb_bend", "bend_60", "limb, bend 60\u00b0"),
          ("human", "01_01_crouch", "human, crouch")]
 starts = {"lbs": "from LBS (the paper)", "previous_frame": "from the previous frame", "rest_pose": "from the rest pose",
           "rigid_bind": "from the nearest bone, rigidly"}

@@ -1,6 +1,6 @@
-"""The error of PBS against stable neo-Hookean flesh, split into three parts over the iterations: the solver's part, the part of the
-converged constraints, and the bound on the reference's own discretisation error. The lower panels show how other attachments and thicker or
-thinner bones change the model's part."""
+"""The error of PBS against the reference, split into three parts over the iterations: the solver's part, the part of the converged
+constraints, and the bound on the reference's own discretisation error. The lower panels show how flesh that the bones hold in other ways,
+and the linear model, change the model's part."""
 import math
 
 import entries
@@ -9,10 +9,10 @@ import style
 
 parts = [("error_joint_pct", "whole error", style.black, "x", "-"), ("solver_pct", "solver", style.vermillion, "v", (0, (4, 1.5))),
          ("model_pct", "model", style.blue, "o", "-"), ("discretisation_pct", "discretisation (bound)", style.green, "^", (0, (1, 1)))]
-# in a bend of 90 degrees the flesh collides with itself, and the refined reference does not converge
 poses = [("limb_twist", 90), ("limb_bend", 60)]
 part_columns = {"scene", "angle_deg", "k_stretch", "iterations", *(column for column, *_ in parts)}
-attachment_columns = {"scene", "angle_deg", "k_stretch", "reference", "attachment", "core_radius", "model_pct"}
+attachment_columns = {"scene", "angle_deg", "k_stretch", "reference", "model", "attachment", "spring_factor", "core_radius",
+                      "model_pct"}
 
 
 def of_pose(rows, angle_deg, k_stretch):
@@ -39,20 +39,25 @@ def draw_parts(axes, rows, angle_deg):
 
 
 def name_of(row):
+    """The flesh by its attachment; the linear model is named, the law of the reference is not."""
     if row["attachment"] == "bind":
-        return "bind constraint"
-    return f"bones, core {float(row['core_radius']):g}"
+        held = "bind constraint"
+    elif row["attachment"] == "smooth":
+        held = f"smooth, q {float(row['spring_factor']):g}, core {float(row['core_radius']):g}"
+    else:
+        held = row["attachment"]
+    return f"linear, {held}" if row["model"] == "linear" else held
 
 
 def draw_attachments(axes, rows, angle_deg):
-    chosen = of_pose(rows, angle_deg, 0.2)
-    chosen.sort(key=lambda row: (row["attachment"] == "bind", float(row["core_radius"])))
+    """The reference itself is the first row, at the top."""
+    chosen = of_pose(rows, angle_deg, 0.2)[::-1]
     axes.barh([name_of(row) for row in chosen], [float(row["model_pct"] or "nan") for row in chosen], color=style.sky, height=0.6)
     axes.set_ylim(-0.5, len(chosen) - 0.5)
     for place, row in enumerate(chosen):
         if not math.isfinite(float(row["model_pct"] or "nan")):
             axes.annotate("not reached", (0.01, place), xycoords=("axes fraction", "data"), va="center", fontsize=7)
-    axes.set_xlabel("model error against P1, k_stretch 0.2 [%]")
+    axes.set_xlabel("distance of converged PBS, k_stretch 0.2 [%]")
     axes.grid(axis="y", visible=False)
     return [{"scene": row["scene"], "angle_deg": row["angle_deg"], "k_stretch": row["k_stretch"], "shown": "model_pct",
              "at": row["reference"],

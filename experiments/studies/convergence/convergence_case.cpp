@@ -4,6 +4,7 @@
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
+#include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <fmt/format.h>
@@ -36,15 +37,7 @@ public:
           posed_(scene, frame_numbers(of.frames)),
           motion_(make_motion(scene.motion, posed_.character().skeleton, scene.file))
     {
-        const int vertices = int(posed_.character().mesh.rest.rows());
-        if (of.truth.empty())
-            reference_ = "none";
-        else if (!own && !of.ladder)
-            reference_ = "own_mesh_alone";
-        else if (vertices > of.truth_to)
-            reference_ = fmt::format("left_out_above_{}_vertices", of.truth_to);
-        else
-            truth_ = posed_.shapes(spec_of(scene, reference_ = of.truth));
+        for (std::size_t frame = 0; frame < of.frames.size(); ++frame) references_.push_back(reference_in(frame));
     }
 
     void add_to(ConvergenceResult& result) const
@@ -60,6 +53,31 @@ public:
     }
 
 private:
+    struct FrameReference {
+        std::string name;  // or why there is none
+        std::optional<PosedReference> solved = {};
+    };
+
+    FrameReference reference_in(std::size_t frame) const
+    {
+        const pbs::Character& character = posed_.character();
+        if (!of_.frames[frame].compared) return {"none"};
+        if (!own_ && !of_.ladder) return {"own_mesh_alone"};
+        if (character.mesh.rest.rows() > of_.reference_to) return {fmt::format("left_out_above_{}_vertices", of_.reference_to)};
+        PosedReference reference(character, of_.reference, posed_.pose(frame), of_.scene.motion.time_step_s);
+        if (!reference.is_reached()) return {of_.reference.label + "_was_not_reached"};
+        return {of_.reference.label, std::move(reference)};
+    }
+
+    static ReferenceQuality quality_of(const PosedReference& reference)
+    {
+        ReferenceQuality quality{.masked_share_pct = reference.masked_share_pct()};
+        if (!reference.order()) return quality;
+        quality.observed_order = reference.order()->observed;
+        quality.bound_pct = reference.bound().joint_pct;
+        return quality;
+    }
+
     static void add(ConvergencePaths paths, ConvergenceResult& result)
     {
         for (std::size_t start = 0; start < paths.paths.size(); ++start)
@@ -73,9 +91,8 @@ private:
         options.order = setting.order;
         options.precision = setting.precision;
         const pbs::Character& character = posed_.character();
-        const bool has_truth = frame < truth_.size() && truth_[frame].finished;
-        const auto error = [&](const pbs::Positions& shape) { return joint_pct(shape, truth_[frame]); };
-        const IterationMetrics iteration_metrics(character, starts.bind_points, has_truth ? error : IterationMetrics::ErrorPct{});
+        const FrameReference& reference = references_[frame];
+        const IterationMetrics iteration_metrics(character, starts.bind_points, reference.solved ? &*reference.solved : nullptr);
         ConvergencePaths paths{of_.scene.character.body,
                                of_.frames[frame].name,
                                of_.frames[frame].key,
@@ -86,8 +103,8 @@ private:
                                setting,
                                !of_.scene.motion.clip.empty(),
                                of_.frames[frame].twist,
-                               truth_.empty() || has_truth ? reference_ : reference_ + "_was_not_reached",
-                               has_truth && truth_[frame].self_intersects,
+                               reference.name,
+                               reference.solved ? quality_of(*reference.solved) : ReferenceQuality(),
                                {},
                                {}};
         paths.paths = iterate(character, options, starts.bind_points, {starts.shapes.begin(), starts.shapes.end()}, of_.most_iterations,
@@ -107,8 +124,7 @@ private:
     std::size_t settings_;  // the number of the case's settings that are run
     PosedCharacter posed_;
     pbs::Motion motion_;
-    Shapes truth_;           // one per frame; empty: no reference
-    std::string reference_;  // its name, or why there is none
+    std::vector<FrameReference> references_;  // one per frame
 };
 
 }  // namespace
@@ -120,6 +136,7 @@ nlohmann::json to_json(const NamedFrame& frame)
                                    .record("name", &NamedFrame::name)
                                    .record("key", &NamedFrame::key)
                                    .record("twist", &NamedFrame::twist)
+                                   .record("compared", &NamedFrame::compared)
                                    .complete();
     return fields.json(frame);
 }
@@ -145,8 +162,8 @@ nlohmann::json to_json(const ConvergenceCase& of)
             .record("every_setting_to", &ConvergenceCase::every_setting_to)
             .record("ladder", &ConvergenceCase::ladder)
             .record("iterations", &ConvergenceCase::most_iterations)
-            .record("truth", &ConvergenceCase::truth)
-            .record("truth_to", &ConvergenceCase::truth_to)
+            .record("reference", &ConvergenceCase::reference)
+            .record("reference_to", &ConvergenceCase::reference_to)
             .derived("looks", [](const ConvergenceCase& one) -> nlohmann::json { return looked_at(one.most_iterations); })
             .constant("residual_tolerance", residual_tolerance)
             .constant("satisfied_residual", satisfied_residual)

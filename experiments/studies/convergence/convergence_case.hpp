@@ -7,6 +7,7 @@
 #include "experiments/studies/convergence/starts.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct NamedFrame {
     std::string name;            // twist_90, 01_01_crouch
     analysis::CaseKey key = {};  // motion, angle, time or pose
     bool twist = false;          // about a bone's own axis, which no constraint feels
+    bool compared = false;       // with the reference
 };
 
 struct ProjectionSetting {
@@ -33,13 +35,18 @@ struct ConvergenceCase {
     int every_setting_to = 0;                 // further meshes up to this wanted size take all settings
     bool ladder = false;  // other_vertices are a ladder of sizes with values of their own; otherwise their spread is the uncertainty
     int most_iterations = 1000;
-    std::string truth;      // the reference: a deformer of the scene, solved on its own mesh and on those of a ladder; empty: none
-    int truth_to = 100000;  // vertices: larger meshes of a ladder have no reference, and rates.csv states why
+    DeformerSpec reference = {};  // as PosedReference takes it, solved on the scene's own mesh and on those of a ladder
+    int reference_to = 100000;    // vertices: larger meshes have no reference, and rates.csv states why
 };
 
 nlohmann::json to_json(const NamedFrame& frame);
 nlohmann::json to_json(const ProjectionSetting& setting);
 nlohmann::json to_json(const ConvergenceCase& of);  // everything that a run of the study depends on
+
+// Of the reference of a path; nothing where there is none. The order and the bound need all of its nested solutions.
+struct ReferenceQuality {
+    std::optional<double> masked_share_pct = {}, observed_order = {}, bound_pct = {};
+};
 
 struct ConvergencePaths {
     std::string body, pose;
@@ -49,8 +56,8 @@ struct ConvergencePaths {
     double k_stretch = 0.0;
     ProjectionSetting setting;
     bool character = false, twist = false;  // character: in a clip; twist: see NamedFrame
-    std::string reference;                  // its name, or why the mesh has none
-    bool reference_self_intersects = false;
+    std::string reference;                  // its name, or why there is none
+    ReferenceQuality quality = {};
     std::vector<IterationPath> paths;        // by SolverStart
     std::vector<double> limit_from_lbs_pct;  // between the last shapes of each path and of that from LBS, at the joints
 };

@@ -45,7 +45,7 @@ double six_digits(double value)
 Look rounded(Look look)
 {
     for (const auto member : {&Look::stretch_rms, &Look::volume_rms, &Look::bind_rms_m, &Look::combined, &Look::volume_change_pct,
-                              &Look::volume_abs_change_pct, &Look::error_joint_pct})
+                              &Look::volume_abs_change_pct, &Look::error_joint_pct, &Look::whole_joint_pct})
         look.*member = six_digits(look.*member);
     return look;
 }
@@ -83,7 +83,7 @@ RateRow rate_row(const ConvergencePaths& of, std::size_t start, double floor)
     if (row.residual.within) row.cpu_ms_to_residual = row.residual.iterations * path.iteration_ms;
     if (row.volume.within) row.cpu_ms_to_volume = row.volume.iterations * path.iteration_ms;
     row.reference = of.reference;
-    row.reference_self_intersects = of.reference_self_intersects;
+    row.quality = of.quality;
     row.limit_from_lbs_pct = of.limit_from_lbs_pct[start];
     return row;
 }
@@ -100,7 +100,8 @@ const Columns<Look> residual_look_columns = {
 
 const Columns<Look> error_look_columns = {
     {"iteration", &Look::iteration, "", "number of the iteration; 0: the initial guess"},
-    {"error_joint_pct", &Look::error_joint_pct, "%", "distance to the reference over the blended vertices"}};
+    {"error_joint_pct", &Look::error_joint_pct, "%", "distance to the reference over the blended vertices outside its mask"},
+    {"whole_joint_pct", &Look::whole_joint_pct, "%", "distance to the reference over all blended vertices"}};
 
 const Columns<Look> start_residual = {{"start_residual", &Look::combined, "", "combined residual of the initial guess"}};
 const Columns<Look> paper_residual = {{"residual_24", &Look::combined, "", "combined residual after 24 iterations"}};
@@ -127,11 +128,19 @@ const Columns<Look> last_volume = {
     {"last_volume_abs_change_pct", &Look::volume_abs_change_pct, "%", "sum of the tets' absolute changes at the end"},
     {"last_inverted_tets", &Look::inverted_tets, "", "inverted tets at the end"}};
 
-const Columns<Look> start_error = {{"start_error_pct", &Look::error_joint_pct, "%", "error of the initial guess at the joints"}};
+const Columns<Look> start_error = {
+    {"start_error_pct", &Look::error_joint_pct, "%", "error of the initial guess at the joints outside the mask"}};
 const Columns<Look> paper_error = {{"error_24_pct", &Look::error_joint_pct, "%", "error after 24 iterations"}};
+const Columns<Look> paper_whole_error = {
+    {"whole_error_24_pct", &Look::whole_joint_pct, "%", "error after 24 iterations with the joints that the mask leaves out"}};
 const Columns<Look> least_error = {{"least_error_pct", &Look::error_joint_pct, "%", "least error on the way"},
                                    {"least_error_iteration", &Look::iteration, "", "iteration of the least error"}};
 const Columns<Look> last_error = {{"last_error_pct", &Look::error_joint_pct, "%", "error at the end"}};
+
+const Columns<ReferenceQuality> quality_columns = {
+    {"masked_share_pct", &ReferenceQuality::masked_share_pct, "%", "share of the volume that is left out because the reference overlaps"},
+    {"observed_order", &ReferenceQuality::observed_order, "", "of convergence of the reference's linear elements"},
+    {"reference_bound_pct", &ReferenceQuality::bound_pct, "%", "bound of the reference's own error at the joints outside the mask"}};
 
 }  // namespace
 
@@ -153,8 +162,8 @@ const Columns<RateRow> rate_columns =
     within(&RateRow::paper, paper_volume) + within(&RateRow::last, last_volume) +
     Rates{{"reference", &RateRow::reference, "", "name of the reference, or why there is none"}} + within(&RateRow::first, start_error) +
     within(&RateRow::paper, paper_error) + within(&RateRow::nearest, least_error) + within(&RateRow::last, last_error) +
-    Rates{{"reference_self_intersects", &RateRow::reference_self_intersects, "", "boundary triangles of the reference intersect"},
-          {"limit_from_lbs_pct", &RateRow::limit_from_lbs_pct, "%", "distance of the last shape from the one that LBS leads to"}};
+    within(&RateRow::paper, paper_whole_error) + within(&RateRow::quality, quality_columns) +
+    Rates{{"limit_from_lbs_pct", &RateRow::limit_from_lbs_pct, "%", "distance of the last shape from the one that LBS leads to"}};
 
 std::vector<LookRow> look_rows(const ConvergenceResult& result)
 {

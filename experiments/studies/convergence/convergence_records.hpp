@@ -27,7 +27,7 @@ struct RateRow {
     std::optional<double> cpu_ms_to_residual, cpu_ms_to_volume;
     Look first, paper, nearest, last;  // the initial guess, after 24 iterations, with the least error, and the last one
     std::string reference;
-    bool reference_self_intersects = false;
+    ReferenceQuality quality;
     double limit_from_lbs_pct = 0.0;
 };
 extern const analysis::Columns<RateRow> rate_columns;

@@ -1,15 +1,15 @@
 #include "experiments/studies/error_split/error_split.hpp"
 
-#include "analysis/grid_convergence.hpp"
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/run/reference_error_bar.hpp"
 #include "experiments/settings/option_fields.hpp"
+#include "experiments/studies/shared/posed_reference.hpp"
+#include "pbs/geometry/tet_volume.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <limits>
 
 namespace experiments {
 
@@ -19,29 +19,32 @@ const analysis::Columns<ErrorParts> part_columns = {
     {"angle_deg", &ErrorParts::angle_deg, "deg", "angle of a sweep; nan for clips"},
     {"k_stretch", &ErrorParts::k_stretch, "", "stiffness of the stretch constraints"},
     {"iterations", &ErrorParts::iterations, "", "iterations of PBS"},
-    {"error_joint_pct", &ErrorParts::error_joint_pct, "%", "distance of PBS from the reference, at the joints"},
+    {"error_joint_pct", &ErrorParts::error_joint_pct, "%", "distance of PBS from the reference, at the joints outside the mask"},
     {"solver_pct", &ErrorParts::solver_pct, "%", "distance of PBS from its own converged shape"},
     {"model_pct", &ErrorParts::model_pct, "%", "distance of PBS's converged shape from the reference"},
-    {"discretisation_pct", &ErrorParts::discretisation_pct, "%", "bound of the reference's distance from its limit on ever finer tets"},
-    {"discretisation_of", &ErrorParts::discretisation_of, "", "what that bound was computed from: the truth or its linear twin"},
+    {"discretisation_pct", &ErrorParts::discretisation_pct, "%",
+     "bound of the reference's distance from its limit on ever finer tets; nan: a nested solution is missing"},
     {"not_converged_pct", &ErrorParts::not_converged_pct, "%", "distance of PBS's converged shape from that after half of the iterations"},
     {"pbs_refinement_pct", &ErrorParts::pbs_refinement_pct, "%", "distance of PBS's converged shape from that on refined tets"},
-    {"error_l2_pct", &ErrorParts::error_l2_pct, "%", "distance of PBS from the reference, over all vertices"},
-    {"error_linf_m", &ErrorParts::error_linf_m, "m", "largest distance of a vertex of PBS from the reference"},
-    {"truth_self_intersects", &ErrorParts::truth_self_intersects, "", "boundary triangles of the reference intersect"}};
+    {"error_l2_pct", &ErrorParts::error_l2_pct, "%", "distance of PBS from the reference, over all vertices outside the mask"},
+    {"error_linf_m", &ErrorParts::error_linf_m, "m", "largest distance of a vertex of PBS from the reference outside the mask"},
+    {"whole_joint_pct", &ErrorParts::whole_joint_pct, "%", "distance of PBS from the reference at the joints of the whole body"},
+    {"masked_share_pct", &ErrorParts::masked_share_pct, "%", "share of the volume that is left out because the reference overlaps itself"},
+    {"observed_order", &ErrorParts::observed_order, "", "of convergence of the reference's linear elements; empty: not known"}};
 
 const analysis::Columns<AttachmentShare> attachment_columns = {
     {"scene", &AttachmentShare::scene, "", "name of the scene"},
     {"frame", &AttachmentShare::frame, "", "frame of the scene's motion, from 0"},
     {"angle_deg", &AttachmentShare::angle_deg, "deg", "angle of a sweep; nan for clips"},
-    {"reference", &AttachmentShare::reference, "", "label of the reference"},
-    {"attachment", &AttachmentShare::attachment, "", "how its flesh is held by the bones"},
-    {"core_radius", &AttachmentShare::core_radius, "", "radius of the bones over the limb's"},
-    {"difference_pct", &AttachmentShare::difference_pct, "%", "its distance from the linear twin, at the joints"},
+    {"reference", &AttachmentShare::reference, "", "label of the flesh; the reference's own comes first"},
+    {"model", &AttachmentShare::model, "", "its law"},
+    {"attachment", &AttachmentShare::attachment, "", "how it is held by the bones"},
+    {"spring_factor", &AttachmentShare::spring_factor, "", "q of its springs; empty: it has none"},
+    {"core_radius", &AttachmentShare::core_radius, "", "radius of the bones' capsules over the limb's; empty: it has none"},
+    {"difference_pct", &AttachmentShare::difference_pct, "%", "its distance from the reference, at the joints outside the mask"},
     {"k_stretch", &AttachmentShare::k_stretch, "", "stiffness of the stretch constraints of PBS"},
-    {"model_pct", &AttachmentShare::model_pct, "%", "distance of PBS's converged shape from this reference"},
-    {"finished", &AttachmentShare::finished, "", "the reference reached its pose"},
-    {"self_intersects", &AttachmentShare::self_intersects, "", "its boundary triangles intersect"}};
+    {"model_pct", &AttachmentShare::model_pct, "%", "distance of PBS's converged shape from this flesh"},
+    {"finished", &AttachmentShare::finished, "", "the flesh reached its pose"}};
 
 namespace {
 
@@ -61,43 +64,13 @@ Scene refined(Scene scene)
     return scene;
 }
 
-struct NamedReference {
-    DeformerSpec spec;
-    Shapes shapes;
-};
-
-// The references of a case, each in every pose.
-struct References {
-    Shapes truth, twin, twin_refined, truth_refined;  // truth_refined: in the first poses only
-    std::vector<NamedReference> variants;             // the twin with other attachments
-};
-
-References solve_references(const ErrorSplitCase& of, const PosedCharacter& base, const PosedCharacter& fine)
+// Where the way to the pose ended: the tet of the finest solution that is closest to inversion, or the most inverted one.
+std::string worst_tet_of(const PosedReference& reference, const pbs::TetMesh& mesh)
 {
-    References references{base.shapes(of.truth), base.shapes(of.twin), fine.shapes(of.twin), {}, {}};
-    if (of.refined_poses > 0) references.truth_refined = fine.shapes(of.truth, of.refined_poses);
-    for (const double core_radius : of.core_radii) {
-        DeformerSpec other = of.twin;
-        options_of<FemOptions>(other).core_radius = core_radius;
-        other.label = fmt::format("{}_core_{}", of.twin.label, core_radius);
-        references.variants.push_back({other, base.shapes(other)});
-    }
-    DeformerSpec bound = of.twin;
-    options_of<FemOptions>(bound).attachment = FemAttachment::bind;
-    bound.label = of.twin.label + "_bind";
-    references.variants.push_back({bound, base.shapes(bound)});
-    return references;
-}
-
-// A bound of the reference's distance from its limit, as error_joint_pct, from two grids and the order that reference_error_bar.hpp
-// assumes. Where the reference itself is not refined, the bound is that of its twin on the refined mesh, which has the same nodes as the
-// reference.
-double discretisation_pct(const PosedCharacter& base, const References& references, std::size_t pose, double order)
-{
-    constexpr double halved = 2.0;
-    if (pose >= references.truth_refined.size())
-        return analysis::two_fields(base.distance(references.twin_refined[pose], references.twin[pose]).joint_pct, halved, order).bounds[0];
-    return analysis::two_fields(base.distance(references.truth_refined[pose], references.truth[pose]).joint_pct, halved, order).bounds[1];
+    const pbs::Positions& finest = reference.solutions().front().positions;
+    Eigen::Index worst = 0;
+    const double det_f = pbs::tet_volumes(finest, mesh.tets).cwiseQuotient(pbs::tet_volumes(mesh.rest, mesh.tets)).minCoeff(&worst);
+    return fmt::format("worst tet {} (det F {:.3g})", worst, det_f);
 }
 
 // PBS with its constraints converged, and after half of the iterations, which shows how far it still moves.
@@ -105,72 +78,114 @@ struct Converged {
     Shapes shapes, half_way, refined;
 };
 
-Converged converge(const ErrorSplitCase& of, double k_stretch, const PosedCharacter& base, const PosedCharacter& fine)
-{
-    const pbs::PbsOptions whole = in_double(of.pbs, k_stretch, of.converged_iterations),
-                          half = in_double(of.pbs, k_stretch, of.converged_iterations / 2);
-    std::vector<Shapes> shapes = base.shapes({whole, half});
-    return {std::move(shapes[0]), std::move(shapes[1]), fine.shapes({whole}).front()};
-}
-
 class Splitting {
 public:
-    explicit Splitting(const ErrorSplitCase& of)
-        : of_(of), base_(of.scene, of.frames), fine_(refined(of.scene), of.frames), references_(solve_references(of, base_, fine_))
+    explicit Splitting(const ErrorSplitCase& of) : of_(of), base_(of.scene, of.frames), fine_(refined(of.scene), of.frames)
     {
+        references_.reserve(of.frames.size());
+        for (std::size_t pose = 0; pose < of.frames.size(); ++pose) {
+            const PosedReference& reference =
+                references_.emplace_back(base_.character(), of.reference, base_.pose(pose), of.scene.motion.time_step_s);
+            if (!reference.is_reached())
+                split_.breakdown += fmt::format("{} in frame {}: not reached, {}. ", of.reference.label, of.frames[pose],
+                                                worst_tet_of(reference, base_.character().mesh));
+        }
+        for (const DeformerSpec& other : of.others) others_.push_back(base_.shapes(other));
     }
 
     ErrorSplit split()
     {
-        for (std::size_t pose = 0; pose < of_.frames.size(); ++pose)
-            if (!references_.truth[pose].finished) split_.breakdown += fmt::format("{} in frame {}. ", of_.truth.label, of_.frames[pose]);
         for (const double k_stretch : of_.k_stretch) {
-            const Converged converged = converge(of_, k_stretch, base_, fine_);
+            const Converged converged = converge(k_stretch);
             std::vector<pbs::PbsOptions> options;
             for (const int iterations : of_.iterations) options.push_back(in_double(of_.pbs, k_stretch, iterations));
             const std::vector<Shapes> stopped = base_.shapes(options);
-            for (std::size_t n = 0; n < stopped.size(); ++n) add_parts(options[n], stopped[n], converged);
-            add_attachments(k_stretch, converged);
+            for (std::size_t pose = 0; pose < references_.size(); ++pose) {
+                if (!references_[pose].is_reached()) continue;
+                for (std::size_t n = 0; n < stopped.size(); ++n) add_parts(options[n], pose, stopped[n][pose], converged);
+                add_attachments(k_stretch, pose, converged.shapes[pose]);
+            }
         }
         return split_;
     }
 
 private:
-    void add_parts(const pbs::PbsOptions& options, const Shapes& shapes, const Converged& converged)
+    Converged converge(double k_stretch) const
     {
-        for (std::size_t pose = 0; pose < shapes.size(); ++pose) {
-            const Shape& truth = references_.truth[pose];
-            const analysis::ErrorNorms total = base_.distance(shapes[pose], truth);
-            split_.parts.push_back(
-                {of_.scene.name, of_.frames[pose], base_.angle_deg(pose), options.k_stretch, options.iterations, total.joint_pct,
-                 base_.distance(shapes[pose], converged.shapes[pose]).joint_pct, base_.distance(converged.shapes[pose], truth).joint_pct,
-                 discretisation_pct(base_, references_, pose, convergence_order(options_of<FemOptions>(of_.truth).attachment)),
-                 pose >= references_.truth_refined.size() ? "twin" : "truth",
-                 base_.distance(converged.shapes[pose], converged.half_way[pose]).joint_pct,
-                 base_.distance(converged.shapes[pose], converged.refined[pose]).joint_pct, total.l2_pct, total.linf_m,
-                 truth.self_intersects});
+        const pbs::PbsOptions whole = in_double(of_.pbs, k_stretch, of_.converged_iterations),
+                              half = in_double(of_.pbs, k_stretch, of_.converged_iterations / 2);
+        std::vector<Shapes> shapes = base_.shapes({whole, half});
+        return {std::move(shapes[0]), std::move(shapes[1]), fine_.shapes({whole}).front()};
+    }
+
+    void add_parts(const pbs::PbsOptions& options, std::size_t pose, const Shape& shape, const Converged& converged)
+    {
+        const PosedReference& reference = references_[pose];
+        const Shape& limit = converged.shapes[pose];
+        const analysis::ErrorNorms total = distance(pose, shape, reference_shape(pose));
+        ErrorParts parts;
+        parts.scene = of_.scene.name;
+        parts.frame = of_.frames[pose];
+        parts.angle_deg = base_.angle_deg(pose);
+        parts.k_stretch = options.k_stretch;
+        parts.iterations = options.iterations;
+        parts.error_joint_pct = total.joint_pct;
+        parts.solver_pct = distance(pose, shape, limit).joint_pct;
+        parts.model_pct = distance(pose, limit, reference_shape(pose)).joint_pct;
+        parts.discretisation_pct = reference.bound().joint_pct;
+        parts.not_converged_pct = distance(pose, limit, converged.half_way[pose]).joint_pct;
+        parts.pbs_refinement_pct = distance(pose, limit, converged.refined[pose]).joint_pct;
+        parts.error_l2_pct = total.l2_pct;
+        parts.error_linf_m = total.linf_m;
+        parts.whole_joint_pct = base_.distance(shape, reference_shape(pose)).joint_pct;
+        parts.masked_share_pct = reference.masked_share_pct();
+        if (reference.order()) parts.observed_order = reference.order()->observed;
+        split_.parts.push_back(parts);
+    }
+
+    void add_attachments(double k_stretch, std::size_t pose, const Shape& converged)
+    {
+        add_attachment(k_stretch, pose, converged, of_.reference, reference_shape(pose));
+        for (std::size_t other = 0; other < others_.size(); ++other)
+            add_attachment(k_stretch, pose, converged, of_.others[other], others_[other][pose]);
+    }
+
+    void add_attachment(double k_stretch, std::size_t pose, const Shape& converged, const DeformerSpec& flesh, const Shape& shape)
+    {
+        const auto& fem = options_of<FemOptions>(flesh);
+        AttachmentShare share;
+        share.scene = of_.scene.name;
+        share.frame = of_.frames[pose];
+        share.angle_deg = base_.angle_deg(pose);
+        share.reference = flesh.label;
+        share.model = name_of(fem.model);
+        share.attachment = name_of(fem.attachment);
+        if (fem.attachment != FemAttachment::bind) {
+            share.spring_factor = spring_factor_of(fem);
+            share.core_radius = core_radius_of(fem);
         }
+        share.difference_pct = distance(pose, shape, reference_shape(pose)).joint_pct;
+        share.k_stretch = k_stretch;
+        share.model_pct = distance(pose, converged, shape).joint_pct;
+        share.finished = shape.finished;
+        split_.attachments.push_back(share);
     }
 
-    void add_attachments(double k_stretch, const Converged& converged)
-    {
-        add_attachment(k_stretch, converged, of_.twin, references_.twin);
-        for (const NamedReference& variant : references_.variants) add_attachment(k_stretch, converged, variant.spec, variant.shapes);
-    }
+    Shape reference_shape(std::size_t pose) const { return {references_[pose].reference().positions, true}; }
 
-    void add_attachment(double k_stretch, const Converged& converged, const DeformerSpec& spec, const Shapes& shapes)
+    // Outside the mask of the pose. Not a number where one of them did not finish.
+    analysis::ErrorNorms distance(std::size_t pose, const Shape& one, const Shape& other) const
     {
-        const auto& fem = options_of<FemOptions>(spec);
-        for (std::size_t pose = 0; pose < shapes.size(); ++pose)
-            split_.attachments.push_back({of_.scene.name, of_.frames[pose], base_.angle_deg(pose), spec.label, name_of(fem.attachment),
-                                          core_radius_of(fem), base_.distance(shapes[pose], references_.twin[pose]).joint_pct, k_stretch,
-                                          base_.distance(converged.shapes[pose], shapes[pose]).joint_pct, shapes[pose].finished,
-                                          shapes[pose].self_intersects});
+        constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+        if (!one.finished || !other.finished) return {nothing, nothing, nothing};
+        const Eigen::Index vertices = base_.character().mesh.rest.rows();
+        return references_[pose].distance(one.positions.topRows(vertices), other.positions.topRows(vertices));
     }
 
     const ErrorSplitCase& of_;
     PosedCharacter base_, fine_;
-    References references_;
+    std::vector<PosedReference> references_;  // one per pose
+    std::vector<Shapes> others_;              // one per deformer of others, in each pose
     ErrorSplit split_;
 };
 
@@ -182,15 +197,45 @@ nlohmann::json to_json(const ErrorSplitCase& of)
                                    .record("scene", &ErrorSplitCase::scene)
                                    .record("frames", &ErrorSplitCase::frames)
                                    .record("pbs", &ErrorSplitCase::pbs)
-                                   .record("truth", &ErrorSplitCase::truth)
-                                   .record("twin", &ErrorSplitCase::twin)
+                                   .record("reference", &ErrorSplitCase::reference)
+                                   .record("others", &ErrorSplitCase::others)
                                    .record("k_stretch", &ErrorSplitCase::k_stretch)
                                    .record("iterations", &ErrorSplitCase::iterations)
                                    .record("converged_iterations", &ErrorSplitCase::converged_iterations)
-                                   .record("core_radii", &ErrorSplitCase::core_radii)
-                                   .record("refined_poses", &ErrorSplitCase::refined_poses)
                                    .complete();
     return fields.json(of);
+}
+
+std::vector<DeformerSpec> other_attachments(const DeformerSpec& reference)
+{
+    FemOptions flesh = options_of<FemOptions>(reference);
+    flesh.element_order = 2;
+    flesh.nested_start = true;
+    flesh.attachment = FemAttachment::smooth;
+    FemOptions stiffer = flesh, thinner = flesh, embedded = flesh, bind = flesh;
+    stiffer.spring_factor = 100.0;
+    thinner.core_radius = 0.5;
+    embedded.attachment = FemAttachment::embedded;
+    embedded.spring_factor = embedded.core_radius = 0.0;  // the attachment's own
+    bind.attachment = FemAttachment::bind;
+    FemOptions linear = flesh, linear_embedded = embedded;
+    for (FemOptions* small_strain : {&linear, &linear_embedded}) {
+        small_strain->model = reference_fem::Model::linear;
+        small_strain->nested_start = false;
+        small_strain->most_newton_steps = 0;
+    }
+    std::vector<DeformerSpec> others;
+    for (const auto& [label, options] : std::initializer_list<std::pair<const char*, FemOptions>>{{"smooth_q_100", stiffer},
+                                                                                                  {"smooth_core_0.5", thinner},
+                                                                                                  {"embedded", embedded},
+                                                                                                  {"bind", bind},
+                                                                                                  {"linear_smooth", linear},
+                                                                                                  {"linear_embedded", linear_embedded}}) {
+        others.push_back(reference);
+        others.back().name = others.back().label = label;
+        others.back().options = options;
+    }
+    return others;
 }
 
 ErrorSplit split_error(const ErrorSplitCase& of)

@@ -1,29 +1,34 @@
 // The error of PBS against the reference, split three ways. With x_n the shape after n iterations, x_inf the same constraints converged,
-// x_h the reference on this mesh and x_0 its limit on ever finer ones,
+// x_h the reference and x_0 its limit on ever finer meshes,
 //   x_n - x_0 = (x_n - x_inf) + (x_inf - x_h) + (x_h - x_0)
 //               solver          model           discretisation
-// exactly, vertex by vertex; in the norm the parts bound the whole. The first two are measured. The third is the grid convergence index of
-// the reference over element order and refinement. Measured as well are the effect of refinement on PBS itself, that of the attachment
-// (flesh held by the paper's bind constraint instead of by embedded bones), and that of the bones' thickness (core_radius).
+// exactly, vertex by vertex; in the norm the parts bound the whole. The first two are measured, the third is bounded by PosedReference.
+// Measured as well are the effect of refinement on PBS itself, and that of the reference's own assumptions: flesh that the bones hold in
+// other ways, and the linear model. All distances are outside the part of the body that overlaps itself in the reference.
 #pragma once
 
 #include "analysis/records/typed_table.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 
+#include <optional>
+
 namespace experiments {
 
 struct ErrorSplitCase {
-    Scene scene;                    // its character and motion
-    std::vector<int> frames;        // of its motion
-    DeformerSpec pbs, truth, twin;  // truth: the reference; twin: its law with linear elements
+    Scene scene;                            // its character and motion
+    std::vector<int> frames;                // of its motion
+    DeformerSpec pbs, reference;            // reference: a [[fem]] deformer as PosedReference takes it
+    std::vector<DeformerSpec> others = {};  // other flesh, which is compared with the reference
     std::vector<double> k_stretch;
     std::vector<int> iterations;
     int converged_iterations = 8000;  // of x_inf; compared with the shape after half of them
-    std::vector<double> core_radii;   // in addition to the scene's own
-    int refined_poses = 0;            // so many poses have the reference on the refined mesh too, the others only its twin
 };
 
 nlohmann::json to_json(const ErrorSplitCase& of);
+
+// The reference's flesh with quadratic elements on the character's own tets, held in other ways: by stiffer springs, thinner bones,
+// embedded bones or the paper's bind constraint; and the linear model, held by smooth springs and by embedded bones.
+std::vector<DeformerSpec> other_attachments(const DeformerSpec& reference);
 
 struct ErrorParts {
     std::string scene;
@@ -32,25 +37,27 @@ struct ErrorParts {
     double k_stretch = 0.0;
     int iterations = 0;
     double error_joint_pct = 0.0, solver_pct = 0.0, model_pct = 0.0, discretisation_pct = 0.0;
-    std::string discretisation_of;
-    double not_converged_pct = 0.0, pbs_refinement_pct = 0.0, error_l2_pct = 0.0, error_linf_m = 0.0;
-    bool truth_self_intersects = false;
+    double not_converged_pct = 0.0, pbs_refinement_pct = 0.0, error_l2_pct = 0.0, error_linf_m = 0.0, whole_joint_pct = 0.0;
+    double masked_share_pct = 0.0;
+    std::optional<double> observed_order = {};
 };
 struct AttachmentShare {
     std::string scene;
     int frame = 0;
     double angle_deg = 0.0;
-    std::string reference, attachment;
-    double core_radius = 0.0, difference_pct = 0.0, k_stretch = 0.0, model_pct = 0.0;
-    bool finished = false, self_intersects = false;
+    std::string reference, model, attachment;
+    std::optional<double> spring_factor = {}, core_radius = {};  // the bind constraint has neither
+    double difference_pct = 0.0, k_stretch = 0.0, model_pct = 0.0;
+    bool finished = false;
 };
 extern const analysis::Columns<ErrorParts> part_columns;             // parts.csv
 extern const analysis::Columns<AttachmentShare> attachment_columns;  // attachments.csv
 
+// Poses whose reference is not reached have no rows.
 struct ErrorSplit {
     std::vector<ErrorParts> parts;             // one per pose, k_stretch and number of iterations
-    std::vector<AttachmentShare> attachments;  // one per pose, k_stretch and reference
-    std::string breakdown;                     // what did not finish
+    std::vector<AttachmentShare> attachments;  // one per pose, k_stretch and flesh, the reference's own first
+    std::string breakdown;                     // the references that are not reached
 };
 
 ErrorSplit split_error(const ErrorSplitCase& of);

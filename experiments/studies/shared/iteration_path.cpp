@@ -4,6 +4,7 @@
 #include "analysis/statistics.hpp"
 #include "experiments/process/cpu_clock.hpp"
 #include "experiments/process/interruption.hpp"
+#include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/solver/particles.hpp"
 #include "pbs/solver/projection.hpp"
 
@@ -72,11 +73,11 @@ Reached reached(const IterationPath& path, double Look::*value, double bound)
 
 }  // namespace
 
-IterationMetrics::IterationMetrics(const pbs::Character& character, const pbs::Positions& bind_points, ErrorPct error)
+IterationMetrics::IterationMetrics(const pbs::Character& character, const pbs::Positions& bind_points, const PosedReference* reference)
     : mesh_metrics_(character.mesh.rest, character.mesh.tets),
       bind_points_(bind_points),
       bind_distance_(character.binding.distance),
-      error_(std::move(error))
+      reference_(reference)
 {
 }
 
@@ -93,7 +94,11 @@ Look IterationMetrics::measure(int iteration, const pbs::Positions& positions) c
     look.volume_change_pct = metrics.volume_change_pct;
     look.volume_abs_change_pct = metrics.volume_abs_change_pct;
     look.inverted_tets = metrics.inverted_tets;
-    look.error_joint_pct = error_ ? error_(positions) : std::numeric_limits<double>::quiet_NaN();
+    look.error_joint_pct = look.whole_joint_pct = std::numeric_limits<double>::quiet_NaN();
+    if (reference_ && positions.allFinite()) {
+        look.error_joint_pct = reference_->error_of(positions).joint_pct;
+        look.whole_joint_pct = reference_->error_on_whole_body(positions).joint_pct;
+    }
     return look;
 }
 

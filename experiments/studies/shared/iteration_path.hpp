@@ -16,11 +16,12 @@
 #include "pbs/character/character.hpp"
 #include "pbs/solver/options.hpp"
 
-#include <functional>
 #include <optional>
 #include <vector>
 
 namespace experiments {
+
+class PosedReference;
 
 struct Look {
     int iteration = 0;         // 0: the initial guess
@@ -30,7 +31,8 @@ struct Look {
     double combined = 0.0;     // sqrt((stretch_rms^2 + volume_rms^2 + (bind_rms_m / mean d)^2) / 3): one number for all three classes
     double volume_change_pct = 0.0, volume_abs_change_pct = 0.0;
     int inverted_tets = 0;
-    double error_joint_pct = 0.0;  // to the reference, at the joints; not a number where there is no reference
+    // To the reference at the joints, outside its mask and on the whole body; not a number where there is no reference.
+    double error_joint_pct = 0.0, whole_joint_pct = 0.0;
 };
 
 struct IterationPath {
@@ -42,16 +44,15 @@ struct IterationPath {
 
 class IterationMetrics {
 public:
-    using ErrorPct = std::function<double(const pbs::Positions&)>;  // to the reference
-
-    IterationMetrics(const pbs::Character& character, const pbs::Positions& bind_points, ErrorPct error = {});
+    // reference: null where there is none.
+    IterationMetrics(const pbs::Character& character, const pbs::Positions& bind_points, const PosedReference* reference = nullptr);
     Look measure(int iteration, const pbs::Positions& positions) const;
 
 private:
     analysis::MeshMetrics mesh_metrics_;
     pbs::Positions bind_points_;
     Eigen::VectorXd bind_distance_;
-    ErrorPct error_;
+    const PosedReference* reference_;
 };
 
 // Every iteration up to the 64th, then steps of two per cent. 0 and `most` are among them.

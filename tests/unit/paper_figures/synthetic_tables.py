@@ -26,7 +26,7 @@ def write_runs(study, runs):
 
 def write_convergence(study):
     """Residuals 1 / (1 + i) and errors of 60 % / (1 + i) from LBS, twice that from the second initial guess and so on."""
-    paths = {"limb_twist": "twist_90", "limb_bend": "bend_90", "human": "01_01_crouch"}
+    paths = {"limb_twist": "twist_90", "limb_bend": "bend_60", "human": "01_01_crouch"}
     write_runs(study, [*paths, "ladder_twist", "ladder_bend"])
     starts = list(enumerate(("lbs", "previous_frame", "rest_pose", "rigid_bind"), 1))
     for run, pose in paths.items():
@@ -64,10 +64,11 @@ def write_error_split(study):
         write(study / scene / "parts.csv",
               [{**pose, "k_stretch": k, "iterations": n, "error_joint_pct": 25.0, "solver_pct": 30.0 / n, "model_pct": 20.0,
                 "discretisation_pct": 5.0} for k in (0.2, 0.9) for n in (1, 24)])
-        held = [("bind", 0.35, 80.0 if scene == "limb_twist" else "nan"), ("embedded", 0.35, 20.0), ("embedded", 0.2, 30.0)]
+        held = [("neo_hookean", "smooth", 10, 0.7, 20.0), ("neo_hookean", "embedded", 1e4, 0.35, 30.0),
+                ("neo_hookean", "bind", "", "", 80.0 if scene == "limb_twist" else "nan"), ("linear", "smooth", 10, 0.7, 40.0)]
         write(study / scene / "attachments.csv",
-              [{**pose, "k_stretch": 0.2, "reference": f"{attachment} {core}", "attachment": attachment, "core_radius": core,
-                "model_pct": model} for attachment, core, model in held])
+              [{**pose, "k_stretch": 0.2, "reference": f"{model}_{attachment}", "model": model, "attachment": attachment,
+                "spring_factor": factor, "core_radius": core, "model_pct": pct} for model, attachment, factor, core, pct in held])
 
 
 def write_artefacts(study):

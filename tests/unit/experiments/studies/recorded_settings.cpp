@@ -60,9 +60,9 @@ Scene limb()
 TEST(RecordedSettings, OfErrorSplit)
 {
     ErrorSplitCase of;
-    of.scene = limb(), of.frames = {3}, of.k_stretch = {0.2}, of.iterations = {24}, of.core_radii = {0.2};
+    of.scene = limb(), of.frames = {3}, of.k_stretch = {0.2}, of.iterations = {24};
     of.pbs = default_spec("pbs");
-    of.truth = of.twin = default_spec("fem");
+    of.reference = default_spec("fem"), of.others = {default_spec("fem")};
     EXPECT_GE(expect_each_change_repeats(of), 10);
 }
 
@@ -86,6 +86,7 @@ TEST(RecordedSettings, OfConvergence)
 {
     ConvergenceCase of;
     of.scene = limb(), of.frames = {{18, "bend_90"}}, of.k_stretch = {0.2}, of.settings = {{}}, of.other_vertices = {600};
+    of.reference = default_spec("fem");
     EXPECT_GE(expect_each_change_repeats(of), 15);
 }
 

@@ -1,8 +1,10 @@
-// Reference: the distance of LBS from the reference, measured here, and the list of the meshes that have one.
+// Reference: the distance of LBS from the reference, measured here, and the list of the meshes and poses that have one.
 #include "experiments/studies/convergence/convergence_case.hpp"
 
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
+#include "experiments/studies/shared/posed_reference.hpp"
 #include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
@@ -13,57 +15,63 @@ namespace {
 
 using namespace experiments;
 
-constexpr int fewer = 300, more = 700, between = 500;  // vertices
+constexpr int fewer = 300, more = 500, between = 400;  // vertices
 
 ConvergenceCase two_sizes(bool ladder)
 {
     ConvergenceCase of;
     of.scene = read_scene("limb_twist", {"character.vertices=" + std::to_string(fewer)});
-    of.frames = {{3, "twist 15", {}, true}};
+    of.frames = {{3, "twist 15", {}, true, true}};
     of.k_stretch = {0.2};
     of.settings = {{}};
     of.other_vertices = {more};
     of.ladder = ladder;
     of.most_iterations = 30;
-    of.truth = "snh_p1";
+    of.reference = reference_flesh(of.scene);
     return of;
 }
 
 TEST(ConvergenceCase, TheDistanceToTheReferenceBeginsWithThatOfLbs)
 {
-    const ConvergenceResult result = measure_convergence(two_sizes(true));
+    const ConvergenceCase of = two_sizes(true);
+    const ConvergenceResult result = measure_convergence(of);
     EXPECT_EQ(result.breakdown, "");
     ASSERT_EQ(result.all.size(), 2u);
     for (const ConvergencePaths& paths : result.all) {
         const Scene scene = read_scene("limb_twist", {"character.vertices=" + std::to_string(paths.own_mesh ? fewer : more)});
         const PosedCharacter limb(scene, {3});
         ASSERT_EQ(limb.character().mesh.rest.rows(), paths.vertices);
-        const double of_lbs =
-            limb.distance(limb.shapes(spec_of(scene, "snh_p1")).front(), limb.shapes(spec_of(scene, "lbs")).front()).joint_pct;
+        const PosedReference reference(limb.character(), of.reference, limb.pose(0), scene.motion.time_step_s);
+        const double of_lbs = reference.error_of(limb.shapes(spec_of(scene, "lbs")).front().positions).joint_pct;
         EXPECT_GT(of_lbs, 0.0);
         // The path's positions are relative to an origin: each coordinate goes through two more roundings. They are related to the mean
         // distance of the flesh from the bones, two thirds of the radius of 0.15 m; other sums and quotients have a different order at
         // most.
         const double rounding_pct = 100.0 * std::sqrt(3.0) * test_support::rounding_error(2, 1.15) / 0.1;
-        EXPECT_NEAR(paths.paths.front().looks.front().error_joint_pct, of_lbs, rounding_pct + test_support::rounding_error(20, of_lbs));
-        EXPECT_EQ(paths.reference, "snh_p1");
+        const Look& first = paths.paths.front().looks.front();
+        EXPECT_NEAR(first.error_joint_pct, of_lbs, rounding_pct + test_support::rounding_error(20, of_lbs));
+        EXPECT_EQ(first.whole_joint_pct, first.error_joint_pct);  // nothing overlaps
+        EXPECT_EQ(paths.reference, "neo_hookean");
+        EXPECT_EQ(paths.quality.masked_share_pct, 0.0);
+        EXPECT_EQ(paths.quality.observed_order, reference.order().value().observed);
+        EXPECT_EQ(paths.quality.bound_pct, reference.bound().joint_pct);
     }
 }
 
-TEST(ConvergenceCase, AboveTruthToThereIsNoReferenceAndTheRecordSaysSo)
+TEST(ConvergenceCase, AboveReferenceToThereIsNoneAndTheRecordSaysSo)
 {
     ConvergenceCase of = two_sizes(true);
-    of.truth_to = between;
+    of.reference_to = between;
     const ConvergenceResult result = measure_convergence(of);
     ASSERT_EQ(result.all.size(), 2u);
     ASSERT_LE(result.all.front().vertices, between);
     ASSERT_GT(result.all.back().vertices, between);
     EXPECT_TRUE(std::isfinite(result.all.front().paths.front().looks.back().error_joint_pct));
     EXPECT_TRUE(std::isnan(result.all.back().paths.front().looks.back().error_joint_pct));
-    EXPECT_EQ(result.all.back().reference, "left_out_above_500_vertices");
+    EXPECT_EQ(result.all.back().reference, "left_out_above_400_vertices");
 
     const analysis::CsvTable towards = table_of(experiments::towards_columns, towards_rows(look_rows(result)));
-    EXPECT_EQ(rate_rows(result).back().reference, "left_out_above_500_vertices");
+    EXPECT_EQ(rate_rows(result).back().reference, "left_out_above_400_vertices");
     ASSERT_GT(towards.rows(), 0);
     for (int row = 0; row < towards.rows(); ++row) EXPECT_EQ(towards.integer(row, "vertices"), result.all.front().vertices);
 }
@@ -71,8 +79,35 @@ TEST(ConvergenceCase, AboveTruthToThereIsNoReferenceAndTheRecordSaysSo)
 TEST(ConvergenceCase, OtherTessellationsOfASizeHaveNone)
 {
     const ConvergenceResult result = measure_convergence(two_sizes(false));
-    EXPECT_EQ(result.all.front().reference, "snh_p1");
+    EXPECT_EQ(result.all.front().reference, "neo_hookean");
     EXPECT_EQ(result.all.back().reference, "own_mesh_alone");
+}
+
+void expect_no_errors(const ConvergenceResult& result, const std::string& reason)
+{
+    ASSERT_EQ(result.all.size(), 1u);
+    EXPECT_EQ(result.all.front().reference, reason);
+    EXPECT_FALSE(result.all.front().quality.masked_share_pct);
+    EXPECT_FALSE(result.all.front().quality.bound_pct);
+    EXPECT_TRUE(towards_rows(look_rows(result)).empty());
+    for (const RateRow& row : rate_rows(result)) EXPECT_TRUE(std::isnan(row.paper.error_joint_pct));
+}
+
+TEST(ConvergenceCase, AReferenceThatIsNotReachedGivesNoErrors)
+{
+    ConvergenceCase of = two_sizes(false);
+    of.other_vertices.clear();
+    of.frames.front().frame = 18;
+    options_of<FemOptions>(of.reference).most_newton_steps = 1;
+    expect_no_errors(measure_convergence(of), "neo_hookean_was_not_reached");
+}
+
+TEST(ConvergenceCase, APoseThatIsNotComparedHasNoReference)
+{
+    ConvergenceCase of = two_sizes(false);
+    of.other_vertices.clear();
+    of.frames.front().compared = false;
+    expect_no_errors(measure_convergence(of), "none");
 }
 
 }  // namespace
