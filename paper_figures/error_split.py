@@ -39,14 +39,13 @@ def draw_parts(axes, rows, angle_deg):
 
 
 def name_of(row):
-    """The flesh by its attachment; the linear model is named, the law of the reference is not."""
-    if row["attachment"] == "bind":
-        held = "bind constraint"
-    elif row["attachment"] == "smooth":
-        held = f"smooth, q {float(row['spring_factor']):g}, core {float(row['core_radius']):g}"
-    else:
-        held = row["attachment"]
-    return f"linear, {held}" if row["model"] == "linear" else held
+    """The flesh by its attachment, smooth springs by their q and the radius of the core; the linear model is named, the law of the
+    reference is not."""
+    if row["model"] == "linear":
+        return f"linear, {row['attachment']}"
+    if row["attachment"] == "smooth":
+        return f"q {float(row['spring_factor']):g}, core {float(row['core_radius']):g}"
+    return "bind constraint" if row["attachment"] == "bind" else row["attachment"]
 
 
 def draw_attachments(axes, rows, angle_deg):
@@ -57,7 +56,7 @@ def draw_attachments(axes, rows, angle_deg):
     for place, row in enumerate(chosen):
         if not math.isfinite(float(row["model_pct"] or "nan")):
             axes.annotate("not reached", (0.01, place), xycoords=("axes fraction", "data"), va="center", fontsize=7)
-    axes.set_xlabel("distance of converged PBS, k_stretch 0.2 [%]")
+    axes.set_xlabel("converged PBS from flesh [%]")
     axes.grid(axis="y", visible=False)
     return [{"scene": row["scene"], "angle_deg": row["angle_deg"], "k_stretch": row["k_stretch"], "shown": "model_pct",
              "at": row["reference"],

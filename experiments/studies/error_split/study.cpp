@@ -50,9 +50,9 @@ StudyPlan plan(bool full)
                                    bend = {"motion.angle_deg=120", "motion.frames=13"};
     // 10 degrees per frame
     plan.runs.push_back(split_run("limb_twist", "limb_twist", twist, full ? std::vector<int>{3, 6, 9, 12, 15} : std::vector<int>{9}, full,
-                                  full ? 1800.0 : 200.0));
+                                  full ? 1800.0 : 190.0));
     plan.runs.push_back(
-        split_run("limb_bend", "limb_bend", bend, full ? std::vector<int>{3, 6, 9, 11} : std::vector<int>{6}, full, full ? 1800.0 : 200.0));
+        split_run("limb_bend", "limb_bend", bend, full ? std::vector<int>{3, 6, 9, 11} : std::vector<int>{6}, full, full ? 1800.0 : 215.0));
     if (!full) return plan;
     try {
         plan.runs.push_back(split_run("human_01_01", "human_01_01", {}, {164, 672}, full, 600.0));
