@@ -1,5 +1,5 @@
 """Error against run time, one panel per pose: every setting of every deformer, the front of each and the overall front, and the bound on
-the reference's own error, below which differences have no meaning. Dotted: the distance between the reference and the second solution."""
+the reference's own error, below which differences have no meaning."""
 import case_words
 import entries
 import records
@@ -7,12 +7,12 @@ import style
 
 looks = {"lbs": (style.vermillion, "v"), "dqs": (style.orange, "s"), "delta_mush": (style.green, "^"), "pbs": (style.blue, "o"),
          "pbs_exponent": (style.sky, "p"), "xpbd": (style.purple, "D"), "xpbd_small_steps": ("#8B5A2B", "<"),
-         "fem_linear": ("#999999", "x"), "fem_corotational": (style.black, "+"), "fem_stable_neo_hookean": (style.black, "P")}
+         "fem_linear": ("#999999", "x"), "fem_corotational": (style.black, "+"), "fem_neo_hookean": (style.black, "P")}
 case_columns = ("body", "motion", "pose", "angle_deg")
 setting_columns = ("iterations", "k_stretch", "order", "precision", "substeps", "element_order", "wanted_vertices", "refined")
 point_numbers = ("deformer", *setting_columns, "ms_median", "error_joint_pct")
 front_columns = {"case", "measure", "front", *point_numbers}
-point_columns = {*case_columns, *point_numbers, "outcome", "reference_error_joint_pct", "error_joint_beside_pct"}
+point_columns = {*case_columns, *point_numbers, "outcome", "reference_error_joint_pct"}
 most_panels = 6
 
 
@@ -38,30 +38,26 @@ def draw_deformers(axes, rows, fronts):
     axes.set_yscale("log")
 
 
-def draw_bounds(axes, bound, beside):
+def draw_bound(axes, bound):
     low, high = axes.get_ylim()
-    if beside:
-        axes.axhline(float(beside), color=style.vermillion, linewidth=0.8, linestyle=(0, (1, 1)), label="second solution")
-        low, high = min(low, 0.8 * float(beside)), max(high, 1.2 * float(beside))
-    if bound:
+    if bound and float(bound) > low:
         axes.axhspan(low, min(float(bound), high), color="#EFEFEF", linewidth=0, zorder=-1, label="below the reference's own error (bound)")
     axes.set_ylim(low, high)
 
 
 def draw_case(axes, case, rows, fronts):
-    """Returns the rows behind it: points, fronts, the bound on the reference's own error, and the distance of the second solution."""
+    """Returns the rows behind it: points, fronts, and the bound on the reference's own error."""
     fronts = [row for row in fronts if row["case"] == case]
     bound = rows[0]["reference_error_joint_pct"]
-    beside = next((row["error_joint_beside_pct"] for row in rows if row["outcome"] == "reference"), "")
     draw_deformers(axes, rows, fronts)
-    draw_bounds(axes, bound, beside)
+    draw_bound(axes, bound)
     style.log_scale(axes.yaxis)
     axes.set_title(case_words.posed(rows[0]) + (f"; bound {float(bound):.3g} %" if bound else ""))
     axes.set_xlabel("processor time per frame [ms]")
     axes.set_ylabel("error at the joints [%]")
     points = [{"shown": "point"} | {name: row[name] for name in point_numbers} for row in measured(rows)]
     of_fronts = [{"shown": f"front of {row['front']}"} | {name: row[name] for name in point_numbers} for row in fronts]
-    levels = [{"shown": shown, "error_joint_pct": value} for shown, value in (("bound", bound), ("second solution", beside)) if value]
+    levels = [{"shown": "bound", "error_joint_pct": bound}] if bound else []
     of_case = {name: rows[0][name] for name in case_columns}
     return [of_case | row for row in points + of_fronts + levels]
 

@@ -104,19 +104,19 @@ def errors(shown, deformer):
 
 
 def distance_sentence(shown):
-    return (f"At the joints, in {counted(len(shown), 'pose')}, PBS with 24 iterations is {span(errors(shown, 'pbs'))} % away from stable "
+    return (f"At the joints, in {counted(len(shown), 'pose')}, PBS with 24 iterations is {span(errors(shown, 'pbs'))} % away from "
             f"neo-Hookean finite elements, LBS {span(errors(shown, 'lbs'))} % (of the mean distance to the bone).")
 
 
 def bar_of(row):
     bar = number(row, "reference_error_joint_pct")
-    return "\u2013" if bar is None else f"\u2264 {figure(bar)}" + (", intersects itself" if row["reference_self_intersects"] == "1" else "")
+    return "\u2013" if bar is None else f"\u2264 {figure(bar)}"
 
 
 def pose_table(shown):
     rows = [[pose.name, *(figure(number(row, "error_joint_pct")) for row in (pose.lbs, pose.pbs)),
-             figure(number(pose.reference, "error_joint_beside_pct")), bar_of(pose.pbs)] for pose in shown]
-    header = ["pose", "LBS", "PBS", "other FEM solution", "reference's own error"]
+             bar_of(pose.pbs), figure(number(pose.reference, "masked_share_pct"))] for pose in shown]
+    header = ["pose", "LBS", "PBS", "reference's own error", "left out: overlaps [% of the volume]"]
     return table("Distance from the FEM reference at the joints [%]", header, rows)
 
 
@@ -126,7 +126,7 @@ def bar_sentence(shown):
     if not below:
         return "Each of these distances exceeds the bound on the reference's own error."
     return (f"In {below} of {counted(len(shown), 'pose')} PBS lies within the bound on the reference's own error, so that the distance "
-            "is not significant. The distance between two FEM solutions is another measure of that error.")
+            "is not significant.")
 
 
 def at_what_cost(found):
@@ -156,11 +156,12 @@ def frame_sentence(found):
 
 
 def beside_sentence(found):
-    shown = [pose for pose in poses(found)[0] if number(pose.reference, "ms_median") is not None]
+    shown = [pose for pose in poses(found)[0] if number(pose.reference, "reach_ms") is not None]
     if not shown:
         return ""
-    ms = {name: span([number(getattr(pose, name), "ms_median") for pose in shown]) for name in ("lbs", "pbs", "reference")}
-    return f"In the poses of the comparison: LBS {ms['lbs']} ms, PBS {ms['pbs']} ms, the FEM reference {ms['reference']} ms per pose."
+    ms = {name: span([number(getattr(pose, name), "ms_median") for pose in shown]) for name in ("lbs", "pbs")}
+    reference_s = span([number(pose.reference, "reach_ms") / 1e3 for pose in shown])
+    return f"In the poses of the comparison: LBS {ms['lbs']} ms, PBS {ms['pbs']} ms, the FEM reference {reference_s} s per pose."
 
 
 def first_screen(found):

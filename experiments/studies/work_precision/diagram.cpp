@@ -24,15 +24,13 @@ Diagram diagram_of(const std::vector<PointRow>& rows)
     for (const PointRow& row : rows) {
         if (row.outcome == "reference") {
             diagram.reference = text_of(row.key);
-            diagram.reference_ms = row.ms_median;
+            diagram.reference_ms = row.reach_ms;
             diagram.reference_error_pct = row.reference_error_joint_pct;
-            diagram.reference_difference_pct = row.error_joint_beside_pct;
-            diagram.self_intersecting = row.reference_self_intersects.value_or(false);
+            diagram.masked_share_pct = row.masked_share_pct.value_or(0.0);
         }
         if (row.ms_median && row.error)
             diagram.points.push_back({row.key, *row.ms_median, row.ms_q1, row.ms_q3, row.error->joint_pct, row.error->l2_pct,
-                                      row.error->linf_m, row.metrics.volume_abs_change_pct, row.error_joint_beside_pct,
-                                      row.below_reference_error.value_or(false)});
+                                      row.error->linf_m, row.metrics.volume_abs_change_pct, row.below_reference_error.value_or(false)});
     }
     return diagram;
 }
@@ -50,9 +48,8 @@ std::optional<double> mean_of(const std::vector<Diagram>& poses, std::optional<d
 // The same setting in every pose; nothing where it has no error in one of them.
 std::optional<DiagramPoint> mean_of(const std::vector<Diagram>& poses, const DiagramPoint& setting)
 {
-    constexpr std::optional<double> DiagramPoint::*known_or_not[] = {&DiagramPoint::ms_q1,      &DiagramPoint::ms_q3,
-                                                                     &DiagramPoint::l2_pct,     &DiagramPoint::linf_m,
-                                                                     &DiagramPoint::beside_pct, &DiagramPoint::volume_abs_change_pct};
+    constexpr std::optional<double> DiagramPoint::*known_or_not[] = {&DiagramPoint::ms_q1, &DiagramPoint::ms_q3, &DiagramPoint::l2_pct,
+                                                                     &DiagramPoint::linf_m, &DiagramPoint::volume_abs_change_pct};
     DiagramPoint mean{setting.key};
     for (const auto value : known_or_not) mean.*value = 0.0;
     const double share = 1.0 / double(poses.size());
@@ -76,12 +73,11 @@ Diagram mean_diagram(const std::string& what, const std::string& over, const std
     mean.key = fmt::format("{}_mean_of_{}_{}", what, poses.size(), over);
     mean.name = fmt::format("{}, mean of {} {}", what, poses.size(), over);
     mean.poses = static_cast<int>(poses.size());
-    for (const Diagram& pose : poses) mean.self_intersecting += pose.self_intersecting;
+    for (const Diagram& pose : poses) mean.masked_share_pct += pose.masked_share_pct / double(poses.size());
     const bool same = std::all_of(poses.begin(), poses.end(), [&](const Diagram& pose) { return pose.reference == poses[0].reference; });
     mean.reference = same ? poses[0].reference : "another one for each pose";
     mean.reference_ms = mean_of(poses, &Diagram::reference_ms);
     mean.reference_error_pct = mean_of(poses, &Diagram::reference_error_pct);
-    mean.reference_difference_pct = mean_of(poses, &Diagram::reference_difference_pct);
     for (const DiagramPoint& first : poses[0].points)
         if (auto point = mean_of(poses, first)) {
             point->below_reference_error = mean.reference_error_pct && point->error_pct <= *mean.reference_error_pct;
@@ -176,7 +172,7 @@ const std::vector<DeformerGroup>& deformer_groups()
                                                       {"pbs_exponent", "PBS with exponent", {"pbs_exponent"}},
                                                       {"xpbd", "XPBD", {"xpbd", "xpbd_small_steps"}},
                                                       {"linear_fem", "linear FEM", {"fem_linear"}},
-                                                      {"nonlinear_fem", "nonlinear FEM", {"fem_corotational", "fem_stable_neo_hookean"}}};
+                                                      {"nonlinear_fem", "nonlinear FEM", {"fem_corotational", "fem_neo_hookean"}}};
     return groups;
 }
 

@@ -20,7 +20,6 @@ struct DiagramPoint {
     std::optional<double> ms_q1 = {}, ms_q3 = {};  // nothing where there were too few rounds
     double error_pct = 0.0;
     std::optional<double> l2_pct = {}, linf_m = {}, volume_abs_change_pct = {};
-    std::optional<double> beside_pct = {};  // against the second solution
     bool below_reference_error = false;
 };
 
@@ -30,16 +29,15 @@ const analysis::Columns<DiagramPoint>& measures();
 double value_of(const DiagramPoint& point, const std::string& measure);  // not a number where it is not recorded
 
 struct Diagram {
-    analysis::CaseKey pose;            // of one case; a mean of several has none
-    std::string key;                   // limb_twist_90, or limb_mean_of_4_poses
-    std::string name;                  // for readers: limb, twist, 90 deg
-    std::vector<DiagramPoint> points;  // those with a time and an error; the reference has no error
-    std::string reference;             // its name for readers; empty: none was reached
-    std::optional<double> reference_ms;
-    std::optional<double> reference_error_pct;
-    std::optional<double> reference_difference_pct;  // of the second solution from it
+    analysis::CaseKey pose;                     // of one case; a mean of several has none
+    std::string key;                            // limb_twist_90, or limb_mean_of_4_poses
+    std::string name;                           // for readers: limb, twist, 90 deg
+    std::vector<DiagramPoint> points;           // those with a time and an error; the reference has no error
+    std::string reference;                      // its name for readers; empty: none was reached
+    std::optional<double> reference_ms;         // wall time of its solutions
+    std::optional<double> reference_error_pct;  // bound at the joints
+    double masked_share_pct = 0.0;              // of the volume, which overlaps itself and is left out
     int poses = 1;
-    int self_intersecting = 0;  // poses whose reference intersects itself
 
     // The points of these deformers with their cost and measure. indices[k] is the place of the k-th in `points`.
     std::vector<analysis::WorkPrecision> of(const std::vector<std::string>& deformers, std::vector<std::size_t>& indices,

@@ -43,7 +43,7 @@ struct CrossingRow {
     std::optional<double> from_ms = {}, from_ms_q1 = {}, from_ms_q3 = {};
     std::optional<SettingKey> setting = {};
     std::optional<double> error_pct = {}, other_error_pct = {}, reference_error_pct = {};
-    std::optional<bool> told_apart = {}, holds_beside = {};
+    std::optional<bool> decided = {};
 };
 const Columns<CrossingRow> crossing_columns =
     Columns<CrossingRow>{{"case", &CrossingRow::diagram, "", "name of the case's run, or of the mean over several"},
@@ -59,8 +59,7 @@ const Columns<CrossingRow> crossing_columns =
         {"error_joint_pct", &CrossingRow::error_pct, "%", "error of that point"},
         {"other_error_joint_pct", &CrossingRow::other_error_pct, "%", "least error of the other group within that time"},
         {"reference_error_joint_pct", &CrossingRow::reference_error_pct, "%", "bound of the reference's own error at the joints"},
-        {"told_apart", &CrossingRow::told_apart, "", "the two errors differ by more than twice that bound, from that time on"},
-        {"holds_beside", &CrossingRow::holds_beside, "", "the point is nearer to the second solution too, from that time on"}};
+        {"decided", &CrossingRow::decided, "", "the two errors differ by more than twice that bound, from that time on"}};
 
 }  // namespace
 
@@ -113,10 +112,7 @@ void add_crossing(std::vector<CrossingRow>& rows, const Diagram& diagram, const 
     row.setting = point.key;
     row.error_pct = point.error_pct;
     row.other_error_pct = known(crossing->other_error);
-    const std::optional<Certainty> certainty = certainty_from(diagram, one, other, crossing->from);
-    if (!certainty || *certainty == Certainty::not_known) return;
-    row.told_apart = *certainty >= Certainty::told_apart;
-    row.holds_beside = *certainty >= Certainty::both_solutions;
+    row.decided = is_certain_from(diagram, one, other, crossing->from);
 }
 
 }  // namespace

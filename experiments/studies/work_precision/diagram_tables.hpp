@@ -11,9 +11,9 @@ namespace experiments {
 analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams);
 
 // crossings.csv: for each group of deformers and each other one, the time per frame [ms] from which on its best point is nearer to the
-// reference, with the quartiles of the point at which this happens. The outcome is always, from or never. The last two columns hold for all
-// times from there on at which both have points: told_apart, the two errors differ by more than twice the reference's own error;
-// holds_beside, the group is also nearer to the second solution (certainty.hpp).
+// reference, with the quartiles of the point at which this happens. The outcome is always, from or never. The last column,
+// decided, holds for all times from there on at which both have points: the two errors differ by more than twice the bound of the
+// reference's own error (certainty.hpp).
 analysis::CsvTable crossings_table(const std::vector<Diagram>& diagrams);
 
 // equal_cost.csv: the best point of each group within the time of PBS with 1, 4, 24 and 96 iterations at the scene's k_stretch.

@@ -47,7 +47,7 @@ std::string who_stays_behind(const Diagram& diagram, const DeformerGroup& one, c
     const double any_ms = std::numeric_limits<double>::infinity();
     const DiagramPoint *behind = best_of(diagram, one, any_ms), *nearer = best_of(diagram, other, any_ms);
     return fmt::format("{} does not remain nearer than {} at any time ({:.1f} and {:.1f} % at best){}", one.words, other.words,
-                       behind->error_pct, nearer->error_pct, words_of(certainty_of(diagram, *nearer, *behind), diagram));
+                       behind->error_pct, nearer->error_pct, remark_on(is_certain(diagram, *nearer, *behind), diagram));
 }
 
 std::string who_passes(const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other)
@@ -59,9 +59,8 @@ std::string who_passes(const Diagram& diagram, const DeformerGroup& one, const D
     if (!crossing) return who_stays_behind(diagram, one, other);
     const DiagramPoint& point = diagram.points[of_one[crossing->one]];
     const std::string when = crossing->from_the_start ? "at all times" : fmt::format("from {} on", ms_text(crossing->from));
-    const std::optional<Certainty> certainty = certainty_from(diagram, one, other, crossing->from);
     return fmt::format("{} is nearer than {} {} ({}: {:.1f} %){}", one.words, other.words, when, text_of(point.key), point.error_pct,
-                       certainty ? words_of(*certainty, diagram) : "");
+                       remark_on(is_certain_from(diagram, one, other, crossing->from), diagram));
 }
 
 // Delta mush, which is pure geometry, against PBS and XPBD within the time of `whose`.
@@ -77,10 +76,7 @@ std::string is_physics_worth_it(const Diagram& diagram, double budget_ms, const 
     const double gain_pct = 100.0 * (1.0 - physics.error_pct / mush->error_pct);
     text += fmt::format("; the physics {} the error of geometry alone by {:.0f} %", gain_pct > 0.0 ? "reduces" : "increases",
                         std::abs(gain_pct));
-    if (mush->beside_pct && pbs && pbs->beside_pct)
-        text += fmt::format(" (against the second solution: delta mush {:.1f}, PBS {:.1f} %)", *mush->beside_pct, *pbs->beside_pct);
-    const auto certainty = gain_pct > 0.0 ? certainty_of(diagram, physics, *mush) : certainty_of(diagram, *mush, physics);
-    return text + words_of(certainty, diagram);
+    return text + remark_on(gain_pct > 0.0 ? is_certain(diagram, physics, *mush) : is_certain(diagram, *mush, physics), diagram);
 }
 
 // The same within the time of delta mush at its best, a setting that is chosen in hindsight.
@@ -90,43 +86,36 @@ std::string is_physics_worth_it(const Diagram& diagram)
     return mush ? is_physics_worth_it(diagram, mush->ms, fmt::format("delta mush at its best ({})", text_of(mush->key))) : "";
 }
 
-std::string what_is_undecided(const Diagram& diagram)
+std::string how_certain_the_reference_is(const Diagram& diagram)
 {
     const std::string ms = diagram.reference_ms ? fmt::format(", which takes {},", ms_text(*diagram.reference_ms)) : "";
-    if (!diagram.reference_error_pct || !diagram.reference_difference_pct)
-        return fmt::format("the reference ({}){} has no second solution and therefore no error bar", diagram.reference, ms);
-    const auto below = [&](double bar_pct) {
-        return std::count_if(diagram.points.begin(), diagram.points.end(), [&](const auto& point) { return point.error_pct <= bar_pct; });
-    };
-    return fmt::format(
-        "the reference ({}){} and the second solution differ by {:.1f} %, and {} of {} points lie within that; with the order of "
-        "convergence of the attachment, which is assumed and not observed, its error is up to {:.1f} %, and {} points lie within that",
-        diagram.reference, ms, *diagram.reference_difference_pct, below(*diagram.reference_difference_pct), diagram.points.size(),
-        *diagram.reference_error_pct, below(*diagram.reference_error_pct));
+    if (!diagram.reference_error_pct) return fmt::format("the own error of the reference ({}){} is not known", diagram.reference, ms);
+    const auto below =
+        std::ranges::count_if(diagram.points, [&](const auto& point) { return point.error_pct <= *diagram.reference_error_pct; });
+    return fmt::format("the reference ({}){} has an own error of up to {:.2g} %, and {} of {} points lie within that", diagram.reference,
+                       ms, *diagram.reference_error_pct, below, diagram.points.size());
 }
 
 // The law of the reference with order 1, on the case's own tets and on tets cut into eight.
 std::string what_refinement_does(const Diagram& diagram)
 {
     const auto with = [&](bool refined) {
-        const SettingKey key{.deformer = "fem_stable_neo_hookean", .element_order = 1, .refined = refined};
+        const SettingKey key{.deformer = "fem_neo_hookean", .element_order = 1, .refined = refined};
         return std::find_if(diagram.points.begin(), diagram.points.end(), [&](const auto& point) { return point.key == key; });
     };
     const auto own = with(false), refined = with(true);
     if (own == diagram.points.end() || refined == diagram.points.end()) return "";
     return fmt::format(
-        "one refinement: stable neo-Hookean flesh of order 1 has an error of {:.1f} % on the case's own tets and of {:.1f} % on tets "
+        "one refinement: neo-Hookean flesh of order 1 has an error of {:.1f} % on the case's own tets and of {:.1f} % on tets "
         "cut into eight",
         own->error_pct, refined->error_pct);
 }
 
-std::string whose_reference_intersects(const Diagram& diagram)
+std::string what_is_left_out(const Diagram& diagram)
 {
-    if (diagram.self_intersecting == 0) return "";
-    const std::string whose = diagram.poses == 1 ? fmt::format("the reference ({}) intersects itself", diagram.reference)
-                                                 : fmt::format("the references of {} of the {} poses intersect themselves",
-                                                               diagram.self_intersecting, diagram.poses);
-    return whose + ": contact is not modelled, so where the flesh overlaps, the distance to it does not show which deformer is right";
+    if (diagram.masked_share_pct == 0.0) return "";
+    return fmt::format("{:.2g} % of the volume, where the reference overlaps itself, is left out: contact is not modelled",
+                       diagram.masked_share_pct);
 }
 
 }  // namespace
@@ -139,9 +128,9 @@ std::vector<std::string> findings(const Diagram& diagram)
         lines.push_back(who_passes(diagram, group_named(one), group_named(other)));
     for (const DiagramPoint& budget : budgets_of(diagram)) lines.push_back(is_physics_worth_it(diagram, budget.ms, text_of(budget.key)));
     lines.push_back(is_physics_worth_it(diagram));
-    lines.push_back(what_is_undecided(diagram));
+    lines.push_back(how_certain_the_reference_is(diagram));
     lines.push_back(what_refinement_does(diagram));
-    lines.push_back(whose_reference_intersects(diagram));
+    lines.push_back(what_is_left_out(diagram));
     std::erase(lines, "");
     return lines;
 }
@@ -163,7 +152,7 @@ std::string best_text(const std::vector<Diagram>& diagrams)
     for (const Diagram& diagram : diagrams) width = std::max(width, diagram.name.size());
     std::string text = fmt::format("     {:<{}}", "least error [%], after ms", width);
     for (const DeformerGroup& group : deformer_groups()) text += fmt::format(" {:>17}", group.words);
-    text += fmt::format(" {:>17} {:>14}\n", "solutions differ", "reference bar");
+    text += fmt::format(" {:>14} {:>12}\n", "reference bar", "left out [%]");
     for (const Diagram& diagram : diagrams) {
         text += fmt::format("     {:<{}}", diagram.name, width);
         for (const DeformerGroup& group : deformer_groups()) {
@@ -172,9 +161,9 @@ std::string best_text(const std::vector<Diagram>& diagrams)
                 " {:>17}",
                 best ? fmt::format("{:.1f}{} {}", best->error_pct, best->below_reference_error ? "*" : "", ms_text(best->ms)) : "");
         }
-        const auto &bar_pct = diagram.reference_error_pct, &difference_pct = diagram.reference_difference_pct;
-        text += fmt::format(" {:>17} {:>13}{}\n", difference_pct ? fmt::format("{:.1f}", *difference_pct) : "",
-                            bar_pct ? fmt::format("up to {:.1f}", *bar_pct) : "not known", diagram.self_intersecting > 0 ? "#" : "");
+        text += fmt::format(" {:>14} {:>12.2g}\n",
+                            diagram.reference_error_pct ? fmt::format("{:.2g}", *diagram.reference_error_pct) : "not known",
+                            diagram.masked_share_pct);
     }
     return text;
 }

@@ -2,12 +2,9 @@
 
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/process/interruption.hpp"
-#include "experiments/run/frame_measurement.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
-#include "pbs/geometry/meshing.hpp"
-#include "pbs/geometry/topology.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <deque>
@@ -30,8 +27,8 @@ public:
         : of_(of),
           base_(std::make_shared<pbs::Character>(pbs::make_character(of.scene.character))),
           poses_(poses_of(of, base_->skeleton)),
-          error_metrics_(error_domain(*base_, {})),
-          settings_(point_settings(of.scene, of.range))
+          settings_(point_settings(of.scene, of.range)),
+          reference_(*base_, reference_flesh(of.scene), poses_.pose, poses_.time_step_s)
     {
         meshes_.emplace(0, BodyMesh(base_));
         if (of.range.refined) meshes_.emplace(refined, BodyMesh::refined(*base_));
@@ -42,11 +39,9 @@ public:
     MeasuredPoints measure()
     {
         for (const PointSetting& setting : settings_) reach(setting);
-        reference_ = choose_reference(points_, base_->mesh.rest.rows(), error_metrics_);
-        reference_self_intersects_ =
-            reference_.point && pbs::self_intersects(reference_.point->on_base, pbs::boundary_of(base_->mesh.tets));
         const std::vector<FrameTime> times = time_all();
         for (std::size_t i = 0; i < points_.size(); ++i) measured_.rows.push_back(row_of(points_[i], times[i]));
+        measured_.rows.push_back(reference_row(of_.of, base_->mesh, reference_));
         return measured_;
     }
 
@@ -85,21 +80,20 @@ private:
 
     PointRow row_of(const ReachedPoint& point, const FrameTime& time)
     {
-        PointValues values{of_.of, time, {}, {}, {}, reference_self_intersects_};
-        const auto error_to = [&](const ReachedPoint& other) { return error_metrics_.measure(point.on_base, other.on_base); };
-        if (point.shape.finished && reference_.point) {
-            if (&point != reference_.point) values.error = error_to(*reference_.point);
-            if (reference_.beside && &point != reference_.beside) values.beside_pct = error_to(*reference_.beside).joint_pct;
+        PointValues values{.of = of_.of, .time = time};
+        if (point.shape.finished && reference_.is_reached()) {
+            values.error = reference_.error_of(point.on_base);
+            values.whole_joint_pct = reference_.error_on_whole_body(point.on_base).joint_pct;
             if (point.setting->deformer == "pbs" && point.setting->on_own_mesh()) values.parts = parts_of(point);
         }
-        return point_row(point, reference_, values);
+        return point_row(point, &reference_, values);
     }
 
     PbsParts parts_of(const ReachedPoint& point)
     {
         const auto& [whole, half] = converged(*point.setting);
-        const auto joint_pct = [&](const pbs::Positions& a, const pbs::Positions& b) { return error_metrics_.measure(a, b).joint_pct; };
-        return {joint_pct(point.on_base, whole), joint_pct(whole, reference_.point->on_base), joint_pct(whole, half)};
+        return {reference_.distance(point.on_base, whole).joint_pct, reference_.error_of(whole).joint_pct,
+                reference_.distance(whole, half).joint_pct};
     }
 
     // After all of the iterations and after half of them.
@@ -123,14 +117,12 @@ private:
     const WorkPrecisionCase& of_;
     std::shared_ptr<const pbs::Character> base_;
     PosePair poses_;
-    analysis::ErrorMetrics error_metrics_;
     std::vector<PointSetting> settings_;
+    PosedReference reference_;
     static constexpr int refined = -1;
     std::map<int, BodyMesh> meshes_;  // by wanted size; 0: the case's own
     std::deque<PosedDeformer> deformers_;
     std::vector<ReachedPoint> points_;
-    ReachedReference reference_;
-    bool reference_self_intersects_ = false;
     std::map<double, std::pair<pbs::Positions, pbs::Positions>> converged_;  // by k_stretch
     MeasuredPoints measured_;
 };
@@ -150,6 +142,7 @@ nlohmann::json to_json(const WorkPrecisionCase& of)
             .record("converged_iterations", &WorkPrecisionCase::converged_iterations)
             .derived("points",
                      [](const WorkPrecisionCase& one) -> nlohmann::json { return digest_of(point_settings(one.scene, one.range)); })
+            .derived("reference", [](const WorkPrecisionCase& one) { return to_json(reference_flesh(one.scene)); })
             .complete();
     return fields.json(of);
 }

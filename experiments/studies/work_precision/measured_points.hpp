@@ -1,9 +1,8 @@
 // The points of one case of the work-precision study: the time per frame and the error of every setting in one pose.
 //   table_of(point_columns, measure_points(of).rows).write("points.csv");
-// The reference is stable neo-Hookean flesh on the case's own tets, quadratic where that is asked for and reached, and linear otherwise. A
-// second solution gives its error bound (reached_reference.hpp). A point whose error is not above the bound may be as good as the reference
-// and is marked. Every error is also measured against the second solution: what holds against both does not depend on the mesh. The error
-// of PBS is split into solver, model and discretisation (error_split/error_split.hpp).
+// The reference is that of every study (shared/posed_reference.hpp), with its bound. Errors are measured outside the part of the body that
+// overlaps itself and, as one more column, on the whole body. A point whose error is not above the bound may be as good as the reference
+// and is marked. The error of PBS is split into solver, model and discretisation (error_split/error_split.hpp).
 #pragma once
 
 #include "experiments/studies/shared/timed_rounds.hpp"

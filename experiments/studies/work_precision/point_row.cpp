@@ -1,5 +1,7 @@
 #include "experiments/studies/work_precision/point_row.hpp"
 
+#include "pbs/geometry/topology.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -20,9 +22,10 @@ const Columns<CaseKey> case_columns = {{"body", &CaseKey::body, "", "name of the
 
 const Columns<SettingKey> deformer_columns = {{"deformer", &SettingKey::deformer, "", "name of the deformer"}};
 
-const Columns<ErrorNorms> error_columns = {{"error_joint_pct", &ErrorNorms::joint_pct, "%", "error over the blended vertices"},
-                                           {"error_l2_pct", &ErrorNorms::l2_pct, "%", "error over all vertices"},
-                                           {"error_linf_m", &ErrorNorms::linf_m, "m", "largest distance to the reference"}};
+const Columns<ErrorNorms> error_columns = {
+    {"error_joint_pct", &ErrorNorms::joint_pct, "%", "error over the blended vertices outside the overlap"},
+    {"error_l2_pct", &ErrorNorms::l2_pct, "%", "error over all vertices outside the overlap"},
+    {"error_linf_m", &ErrorNorms::linf_m, "m", "largest distance to the reference"}};
 
 const Columns<FrameMetrics> volume_columns = {
     {"volume_change_pct", &FrameMetrics::volume_change_pct, "%", "signed change of the whole volume"},
@@ -35,9 +38,8 @@ const Columns<PbsParts> before_discretisation = {
 const Columns<PbsParts> after_discretisation = {{"not_converged_pct", &PbsParts::not_converged_pct, "%",
                                                  "PBS: distance of its converged shape from that after half of the iterations"}};
 
-std::string outcome_of(const ReachedPoint& point, const ReachedReference& reference)
+std::string outcome_of(const ReachedPoint& point)
 {
-    if (&point == reference.point) return "reference";
     if (point.shape.finished) return "finished";
     return point.shape.positions.allFinite() ? "not_converged" : "not_finite";
 }
@@ -51,18 +53,15 @@ void add_time(PointRow& row, const FrameTime& time)
     if (time.ms->rounds >= fewest_for_quartiles) row.ms_q1 = time.ms->lower, row.ms_q3 = time.ms->upper;
 }
 
-void add_reference(PointRow& row, const ReachedReference& reference, const PointValues& values)
+void add_reference(PointRow& row, const PosedReference& reference)
 {
-    if (!reference.point) return;
-    row.reference = reference.point->setting->spec.name;
-    row.reference_self_intersects = values.reference_self_intersects;
-    if (!reference.bar) return;
-    row.reference_error_joint_pct = reference.bar->joint_pct;
-    row.reference_error_l2_pct = reference.bar->l2_pct;
-    row.beside = text_of(key_of(*reference.beside->setting));
-    row.error_joint_beside_pct = values.beside_pct;
-    if (values.error) row.below_reference_error = values.error->joint_pct <= reference.bar->joint_pct;
-    if (values.parts) row.discretisation_pct = reference.bar->joint_pct;
+    row.masked_share_pct = reference.masked_share_pct();
+    if (!reference.is_reached()) return;
+    row.reference = "neo_hookean";
+    if (!reference.order()) return;
+    row.reference_error_joint_pct = reference.bound().joint_pct;
+    row.reference_error_l2_pct = reference.bound().l2_pct;
+    row.reference_order = reference.order()->observed;
 }
 
 }  // namespace
@@ -75,7 +74,7 @@ const Columns<PointRow> point_columns =
     within(&PointRow::key, setting_columns()) +
     Points{{"vertices", &PointRow::vertices, "", "vertices of the mesh that it is solved on"},
            {"tets", &PointRow::tets, "", "tets of that mesh"},
-           {"outcome", &PointRow::outcome, "", "reference, finished, not_converged or not_finite"},
+           {"outcome", &PointRow::outcome, "", "finished, not_converged or not_finite; reference, or not_reached"},
            {"reach_ms", &PointRow::reach_ms, "ms", "wall time from rest to the pose"},
            {"rounds", &PointRow::rounds, "", "number of timed frames"},
            {"failed_rounds", &PointRow::failed_rounds, "", "frames that did not reach their pose and are left out"},
@@ -86,10 +85,11 @@ const Columns<PointRow> point_columns =
     Points{{"reference", &PointRow::reference, "", "name of the reference; empty where none was reached"},
            {"reference_error_joint_pct", &PointRow::reference_error_joint_pct, "%", "bound of the reference's own error at the joints"},
            {"reference_error_l2_pct", &PointRow::reference_error_l2_pct, "%", "bound of the reference's own error over all vertices"},
-           {"beside", &PointRow::beside, "", "setting of the second solution, which gives that bound"},
-           {"error_joint_beside_pct", &PointRow::error_joint_beside_pct, "%", "error at the joints against the second solution"},
+           {"reference_order", &PointRow::reference_order, "", "order of convergence that is observed"},
            {"below_reference_error", &PointRow::below_reference_error, "", "the error is not above the reference's own bound"},
-           {"reference_self_intersects", &PointRow::reference_self_intersects, "", "boundary triangles of the reference intersect"}} +
+           {"error_whole_joint_pct", &PointRow::error_whole_joint_pct, "%", "error over the blended vertices, those that overlap included"},
+           {"masked_share_pct", &PointRow::masked_share_pct, "%",
+            "share of the volume that the other errors leave out, as it overlaps itself"}} +
     within(&PointRow::parts, before_discretisation) +
     Points{{"discretisation_pct", &PointRow::discretisation_pct, "%", "PBS: bound of the reference's distance from its limit"}} +
     within(&PointRow::parts, after_discretisation);
@@ -107,19 +107,37 @@ FrameTime frame_time(std::vector<double> samples)
     return time;
 }
 
-PointRow point_row(const ReachedPoint& point, const ReachedReference& reference, const PointValues& values)
+PointRow point_row(const ReachedPoint& point, const PosedReference* reference, const PointValues& values)
 {
     const pbs::TetMesh& mesh = point.mesh->character().mesh;
     PointRow row{values.of, key_of(*point.setting), text_of(key_of(*point.setting))};
     row.vertices = int(mesh.rest.rows());
     row.tets = int(mesh.tets.rows());
-    row.outcome = outcome_of(point, reference);
+    row.outcome = outcome_of(point);
     row.reach_ms = 1e3 * point.shape.seconds;
     add_time(row, values.time);
     row.error = values.error;
+    row.error_whole_joint_pct = values.whole_joint_pct;
     row.metrics = analysis::MeshMetrics(mesh.rest, mesh.tets).measure(point.shape.positions);
-    add_reference(row, reference, values);
     row.parts = values.parts;
+    if (reference) add_reference(row, *reference);
+    if (values.error && row.reference_error_joint_pct)
+        row.below_reference_error = values.error->joint_pct <= *row.reference_error_joint_pct;
+    if (values.parts) row.discretisation_pct = row.reference_error_joint_pct;
+    return row;
+}
+
+PointRow reference_row(const CaseKey& of, const pbs::TetMesh& mesh, const PosedReference& reference)
+{
+    const NestedSolution& solution = reference.is_reached() ? reference.reference() : reference.solutions().front();
+    const SettingKey key{.deformer = "reference", .element_order = solution.element_order, .refined = solution.refinements > 0};
+    PointRow row{of, key, text_of(key)};
+    row.vertices = int(mesh.rest.rows() + (key.refined ? pbs::edges_of(mesh.tets).rows() : 0));
+    row.tets = int(mesh.tets.rows()) * (key.refined ? 8 : 1);
+    row.outcome = reference.is_reached() ? "reference" : "not_reached";
+    for (const NestedSolution& one : reference.solutions()) row.reach_ms += 1e3 * one.seconds;
+    row.metrics = analysis::MeshMetrics(mesh.rest, mesh.tets).measure(solution.positions);
+    add_reference(row, reference);
     return row;
 }
 

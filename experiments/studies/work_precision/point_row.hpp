@@ -5,7 +5,8 @@
 #include "analysis/frame_metrics.hpp"
 #include "analysis/records/typed_table.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
-#include "experiments/studies/work_precision/reached_reference.hpp"
+#include "experiments/studies/shared/posed_reference.hpp"
+#include "experiments/studies/work_precision/body_mesh.hpp"
 
 namespace experiments {
 
@@ -29,11 +30,10 @@ constexpr int fewest_for_quartiles = 3;  // rounds
 
 struct PointValues {
     analysis::CaseKey of;
-    FrameTime time;
-    std::optional<analysis::ErrorNorms> error;  // nothing for the reference, and where there is no reference
-    std::optional<double> beside_pct;           // error at the joints against the second solution
-    std::optional<PbsParts> parts;
-    bool reference_self_intersects = false;
+    FrameTime time = {};
+    std::optional<analysis::ErrorNorms> error = {};  // outside the part that overlaps; nothing where there is no reference
+    std::optional<double> whole_joint_pct = {};      // error at the joints, with the part where the body overlaps itself
+    std::optional<PbsParts> parts = {};
 };
 
 struct PointRow {
@@ -49,14 +49,17 @@ struct PointRow {
     analysis::FrameMetrics metrics = {};
     std::string reference = {};
     std::optional<double> reference_error_joint_pct = {}, reference_error_l2_pct = {};
-    std::string beside = {};
-    std::optional<double> error_joint_beside_pct = {};
-    std::optional<bool> below_reference_error = {}, reference_self_intersects = {};
+    std::optional<double> reference_order = {};
+    std::optional<bool> below_reference_error = {};
+    std::optional<double> error_whole_joint_pct = {}, masked_share_pct = {};
     std::optional<PbsParts> parts = {};
     std::optional<double> discretisation_pct = {};
 };
 extern const analysis::Columns<PointRow> point_columns;
 
-PointRow point_row(const ReachedPoint& point, const ReachedReference& reference, const PointValues& values);
+// reference: null where none is compared with.
+PointRow point_row(const ReachedPoint& point, const PosedReference* reference, const PointValues& values);
+// The row of the reference itself. Its outcome is reference, or not_reached.
+PointRow reference_row(const analysis::CaseKey& of, const pbs::TetMesh& mesh, const PosedReference& reference);
 
 }  // namespace experiments

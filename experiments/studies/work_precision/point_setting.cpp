@@ -5,8 +5,8 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
+#include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/character/body_cache.hpp"
-#include "pbs/geometry/input_error.hpp"
 #include "pbs/skinning/delta_mush.hpp"
 #include "pbs/solver/xpbd_options.hpp"
 
@@ -15,27 +15,15 @@
 namespace experiments {
 namespace {
 
-constexpr int most_newton_steps = 120;  // per 45 degrees of a joint's turn; a folded crease may need any number, of minutes each
-
-const DeformerSpec& first_fem(const Scene& scene)
-{
-    const DeformerSpec* fem = find_deformer_with<FemOptions>(scene);
-    if (!fem) throw pbs::InputError(scene.file, 0, "deformers.use", scene.name, "expected a [[fem]] deformer");
-    return *fem;
-}
-
-// Finite elements of the scene's own material, without mean dilatation. Quadratic elements do not need it at the scenes' Poisson's ratio of
-// 0.45, and with it Newton's method does not converge in a body's creases.
+// Finite elements with the reference's material and attachment.
 DeformerSpec fem_spec(const Scene& scene, reference_fem::Model model, int element_order)
 {
-    DeformerSpec spec = first_fem(scene);
+    DeformerSpec spec = reference_flesh(scene);
     spec.name = spec.label = fmt::format("{}_p{}", name_of(model), element_order);
     auto& options = options_of<FemOptions>(spec);
     options.model = model;
     options.element_order = element_order;
     options.nested_start = element_order == 2 && model != reference_fem::Model::linear;
-    options.most_newton_steps = most_newton_steps;
-    options.formulation = reference_fem::Formulation::displacement;
     return spec;
 }
 
@@ -85,7 +73,8 @@ public:
     {
         for (const int count : {1, 2, 4, 8, 16, 24, 48, 96, 384}) {
             PointSetting setting{"xpbd", default_spec("xpbd")};
-            const auto& flesh = options_of<FemOptions>(first_fem(scene_));
+            const DeformerSpec reference = reference_flesh(scene_);
+            const auto& flesh = options_of<FemOptions>(reference);
             pbs::XpbdOptions options = {.young_pa = flesh.young_pa, .poisson = flesh.poisson, .iterations = count};
             setting.spec.options = options;
             add(setting);
@@ -100,7 +89,7 @@ public:
     void add_fem(const SettingRange& range)
     {
         using reference_fem::Model;
-        for (const Model model : {Model::linear, Model::corotational, Model::stable_neo_hookean})
+        for (const Model model : {Model::linear, Model::corotational, Model::neo_hookean})
             for (const int element_order : {1, 2}) {
                 const DeformerSpec spec = fem_spec(scene_, model, element_order);
                 const PointSetting setting{"fem_" + name_of(model), spec};
@@ -108,7 +97,7 @@ public:
                 if (element_order == 1 || model == Model::linear || quadratic) add(setting);
             }
         if (!range.refined) return;
-        PointSetting setting{"fem_stable_neo_hookean", fem_spec(scene_, Model::stable_neo_hookean, 1)};
+        PointSetting setting{"fem_neo_hookean", fem_spec(scene_, Model::neo_hookean, 1)};
         setting.refined = options_of<FemOptions>(setting.spec).nested_start = true;
         add(setting);
     }
@@ -126,7 +115,7 @@ public:
             elsewhere({"pbs", spec});
         }
         using reference_fem::Model;
-        for (const Model model : {Model::linear, Model::corotational, Model::stable_neo_hookean})
+        for (const Model model : {Model::linear, Model::corotational, Model::neo_hookean})
             for (const int element_order : {1, 2})
                 if (element_order == 1 || model == Model::linear || vertices <= quadratic_up_to)
                     elsewhere({"fem_" + name_of(model), fem_spec(scene_, model, element_order)});

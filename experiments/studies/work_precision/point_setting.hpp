@@ -50,16 +50,16 @@ const analysis::Columns<SettingKey>& setting_columns();  // all fields except th
 std::string text_of(const SettingKey& key);  // as it is recorded: pbs, iterations 24, k_stretch 0.2, order ordered, precision f32, ...
 
 struct SettingRange {
-    bool quadratic = true;                   // stable neo-Hookean flesh on quadratic elements too: the reference
+    bool quadratic = true;                   // neo-Hookean flesh on quadratic elements too
     bool quadratic_corotational = true;      // corotational too
     std::vector<int> coarser_vertices = {};  // sizes of other meshes of the body
     std::vector<int> finer_vertices = {};
     int quadratic_up_to = 1000;  // sizes of other meshes on which the nonlinear laws have quadratic elements too
-    bool refined = false;        // stable neo-Hookean flesh on the case's own tets, each cut into eight
+    bool refined = false;        // neo-Hookean flesh on the case's own tets, each cut into eight
 };
 nlohmann::json to_json(const SettingRange& range);
 
-// The scene gives the options that are not varied: its pbs, and the material and attachment of its first [[fem]].
+// The scene gives the options that are not varied: its pbs, and the material of its first [[fem]].
 std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange& range);
 
 // A digest in 32 hexadecimal digits of everything that the points depend on: their options, substeps and meshes.

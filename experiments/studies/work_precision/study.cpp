@@ -1,4 +1,4 @@
-// Error against run time: which deformer is nearest to the stable neo-Hookean reference for the time that a frame may take.
+// Error against run time: which deformer is nearest to the reference for the time that a frame may take.
 //
 //   limb twist  90 deg (--full: and 150)     o=======o~~~~~~~o)
 //   limb bend   60 deg (--full: and 90)      o=======o
@@ -107,9 +107,10 @@ StudyConclusion conclude(const FinishedRuns& finished)
     finished.write("fronts.csv", fronts_table(diagrams));
     finished.write("crossings.csv", crossings_table(diagrams));
     finished.write("equal_cost.csv", budget_columns, equal_cost(diagrams));
-    std::string text = best_text(diagrams) +
-                       "     error: distance to the reference at the joints, % of the mean bone distance; *: not above the reference's own "
-                       "error (bound); #: the reference intersects itself\n";
+    std::string text =
+        best_text(diagrams) +
+        "     error: distance to the reference at the joints, outside the overlap, % of the mean bone distance; *: not above "
+        "the reference's own error (bound)\n";
     std::string page;
     for (const Diagram& diagram : diagrams) {
         page += fmt::format("## {}\n\n```\n{}```\n\n", diagram.name, front_text(diagram));

@@ -149,7 +149,7 @@ class Figures(unittest.TestCase):
             found = {shown: [(row["deformer"], float(row["ms_median"] or 0), float(row["error_joint_pct"])) for row in rows
                              if row["shown"] == shown] for shown in {row["shown"]: 0 for row in rows}}
             self.assertEqual(found, {"point": points, "front of all": points, "front of lbs": points[:1], "front of pbs": points[1:],
-                                     "bound": [("", 0.0, 15.0)], "second solution": [("", 0.0, 3.0)]})
+                                     "bound": [("", 0.0, 15.0)]})
             (results / "work_precision" / "fronts.csv").unlink()
             with contextlib.redirect_stderr(io.StringIO()) as said:
                 with contextlib.redirect_stdout(io.StringIO()):

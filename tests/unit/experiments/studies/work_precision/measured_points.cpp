@@ -1,14 +1,11 @@
-// Where errors are measured and against which reference. Reference: barycentric coordinates reproduce a rigid motion and an affine field
-// exactly; the grid convergence index evaluated by hand; the rule for the choice of the reference in the header. Tolerances: the rounding
-// of barycentric coordinates, and that of ratios of mesh sizes less one.
+// Where errors are measured. Reference: barycentric coordinates reproduce a rigid motion and an affine field exactly. Tolerance: the
+// rounding of barycentric coordinates.
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/studies/work_precision/reached_reference.hpp"
+#include "experiments/studies/work_precision/body_mesh.hpp"
 
-#include "experiments/run/frame_measurement.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
-#include "pbs/geometry/topology.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/tet_rounding.hpp"
 
@@ -66,98 +63,6 @@ TEST(BodyMesh, OfTheBaseItselfAndCutIntoEightKeepsTheBasesVertices)
     for (const BodyMesh* mesh : {&own, &fine}) EXPECT_EQ(mesh->on_base(mesh->character().mesh.rest), base->mesh.rest);
 }
 
-class Choice : public testing::Test {
-protected:
-    void add(int element_order, const BodyMesh& mesh, int vertices, bool refined, double moved_m, bool finished = true)
-    {
-        PointSetting setting{"fem_stable_neo_hookean", {}};
-        setting.spec = default_spec("fem");
-        options_of<FemOptions>(setting.spec).model = reference_fem::Model::stable_neo_hookean;
-        options_of<FemOptions>(setting.spec).element_order = element_order;
-        setting.vertices = vertices;
-        setting.refined = refined;
-        settings_.push_back(std::make_unique<PointSetting>(setting));
-        pbs::Positions moved = base_->mesh.rest;
-        moved.col(1).array() += moved_m;
-        ReachedPoint point;
-        point.setting = settings_.back().get();
-        point.mesh = &mesh;
-        point.shape.finished = finished;
-        point.on_base = moved;
-        points_.push_back(point);
-    }
-    ReachedReference choose() const
-    {
-        return choose_reference(points_, base_->mesh.rest.rows(), analysis::ErrorMetrics(error_domain(*base_, {})));
-    }
-
-    std::shared_ptr<const pbs::Character> base_ = limb(400);
-    BodyMesh own_{base_}, coarse_{{.body = "limb"}, 300, *base_}, finer_{{.body = "limb"}, 900, *base_};
-    std::vector<std::unique_ptr<PointSetting>> settings_;
-    std::vector<ReachedPoint> points_;
-};
-
-// The rounding error of 3 d / (ratio - 1), and of `ratio` times that. The difference d is that of coordinates below 0.2, of two roundings.
-// The ratios on both sides are of two cube roots, of eight roundings each, or of one, and of two quotients; five more follow.
-double bar_error_m(double bar_m, double ratio)
-{
-    const double of_ratio = test_support::rounding_error(3 * 8 + 2, ratio);
-    return bar_m *
-           (of_ratio / (ratio - 1.0) + of_ratio + test_support::rounding_error(2, 0.2) / 0.01 + test_support::rounding_error(5, 1.0));
-}
-
-TEST_F(Choice, AQuadraticSolutionIsTheReferenceTheCoarserQuadraticOneStandsBeside)
-{
-    add(1, own_, 0, false, 0.0);
-    add(2, own_, 0, false, 0.0);
-    add(2, finer_, 900, false, 0.0);
-    add(2, coarse_, 300, false, 0.01);
-    const ReachedReference reference = choose();
-    EXPECT_EQ(reference.point, &points_[1]);
-    EXPECT_EQ(reference.beside, &points_[3]);
-    const auto nodes = [](const BodyMesh& mesh) {
-        return double(mesh.character().mesh.rest.rows() + pbs::edges_of(mesh.character().mesh.tets).rows());
-    };
-    const double ratio = std::cbrt(nodes(own_) / nodes(coarse_));
-    ASSERT_TRUE(reference.bar);
-    const double bar_m = 3.0 * 0.01 / (ratio - 1.0);
-    EXPECT_NEAR(reference.bar->linf_m, bar_m, bar_error_m(bar_m, ratio));
-}
-
-TEST_F(Choice, OneThatIsNotReachedGivesWayToTheLinearOne)
-{
-    add(1, own_, 0, false, 0.0);
-    add(2, own_, 0, false, 0.0, false);
-    add(2, coarse_, 300, false, 0.01);
-    const ReachedReference reference = choose();
-    EXPECT_EQ(reference.point, &points_[0]);
-    EXPECT_EQ(reference.beside, nullptr);  // has another element order on another mesh
-    EXPECT_FALSE(reference.bar);
-}
-
-TEST_F(Choice, BesideALinearOneStandsThatOnTetsCutIntoEight)
-{
-    const BodyMesh fine = BodyMesh::refined(*base_);
-    add(1, own_, 0, false, 0.0);
-    add(1, coarse_, 300, false, 0.02);
-    add(1, fine, 0, true, 0.01);
-    const ReachedReference reference = choose();
-    EXPECT_EQ(reference.point, &points_[0]);
-    EXPECT_EQ(reference.beside, &points_[2]);
-    const double ratio = std::cbrt(double(fine.character().mesh.rest.rows()) / double(base_->mesh.rest.rows()));
-    ASSERT_TRUE(reference.bar);
-    const double bar_m = 3.0 * 0.01 * ratio / (ratio - 1.0);  // for the coarser of the two
-    EXPECT_NEAR(reference.bar->linf_m, bar_m, bar_error_m(bar_m, ratio));
-}
-
-TEST_F(Choice, WithoutASolutionThereIsNone)
-{
-    add(1, own_, 0, false, 0.0, false);
-    EXPECT_EQ(choose().point, nullptr);
-    points_.clear();
-    EXPECT_EQ(choose().point, nullptr);
-}
-
 TEST(PointSettings, AreEachOnceInWordsAndKeysAndEightOrMoreOfEachDeformerWithSomethingToSet)
 {
     SettingRange range;
@@ -200,14 +105,13 @@ TEST(FrameTimes, DropAndCountTheRoundsThatFailed)
     EXPECT_FALSE(frame_time({failed, failed}).ms);
 }
 
-TEST_F(Choice, QuartilesAreOfThreeRoundsOrMore)
+TEST(PointRows, QuartilesAreOfThreeRoundsOrMore)
 {
-    add(1, own_, 0, false, 0.0);
-    points_[0].shape.positions = base_->mesh.rest;
+    const BodyMesh own(limb(300));
+    const PointSetting setting{"lbs", default_spec("lbs")};
+    const ReachedPoint point{&setting, &own, {own.character().mesh.rest, true}, own.character().mesh.rest};
     for (const std::vector<double>& samples : {std::vector{1.0, 2.0}, {1.0, 2.0, 4.0}}) {
-        PointValues values;
-        values.time = frame_time(samples);
-        const PointRow row = point_row(points_[0], {}, values);
+        const PointRow row = point_row(point, nullptr, {.of = {}, .time = frame_time(samples)});
         EXPECT_EQ(row.ms_q1.has_value(), samples.size() == 3u);
         EXPECT_EQ(row.ms_q3.has_value(), samples.size() == 3u);
         EXPECT_EQ(row.rounds, static_cast<int>(samples.size()));

@@ -1,7 +1,6 @@
-// The shapes that the settings reach on the meshes of a case's body, which of them is the reference, and the bound of its error.
+// The meshes of a case's body, and the shapes that the settings reach on them.
 #pragma once
 
-#include "analysis/error_norms.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/work_precision/point_setting.hpp"
 #include "pbs/character/bodies.hpp"
@@ -45,17 +44,5 @@ struct ReachedPoint {
     Shape shape;             // on its own mesh
     pbs::Positions on_base;  // on the case's own vertices
 };
-
-struct ReachedReference {
-    const ReachedPoint* point = nullptr;      // null: none was reached
-    const ReachedPoint* beside = nullptr;     // the second solution; null: none, and no error bound
-    std::optional<analysis::ErrorNorms> bar;  // bound of the reference's distance from its limit on ever finer tets
-};
-
-// The reference is stable neo-Hookean flesh on the case's own tets: quadratic, or linear if that was not reached. The second solution of a
-// quadratic one is the quadratic one on the finest coarser mesh, or else the linear one; of a linear one it is that on tets cut into eight,
-// or else on the finest coarser mesh. The assumed order of convergence depends on the attachment (reference_error_bar.hpp states why).
-ReachedReference choose_reference(const std::vector<ReachedPoint>& points, Eigen::Index base_vertices,
-                                  const analysis::ErrorMetrics& error_metrics);
 
 }  // namespace experiments
