@@ -104,7 +104,7 @@ deformer = {"label": text, "name": text, "variant": text, "options?": {"k_stretc
 scene = {"reference?": {"name?": text}, "fem?": [{"name": text, "model": text, "element_order": whole}],
          "character?": {"body?": text}, "motion?": {"clip?": text}, "runs?": [deformer]}
 run = {"schema?": second_schema, "provenance?": provenance, "scene?": scene, "work?": {},
-       "outcome?": {"frames?": whole, "self_intersecting_reference_frames?": whole}}
+       "outcome?": {"frames?": whole, "frames_with_overlap?": whole}}
 shown_run = {"scene": {"character": {"body": text}, "motion": {}, "runs": [deformer]}}  # a run shown frame by frame
 judged_run = {"outcome": {"frames": whole}}  # a run compared with a reference
 posed_run = {"work?": {"settings?": {"scene?": {"pbs?": {"k_stretch?": number}}}}}  # a pose of the study of error against run time

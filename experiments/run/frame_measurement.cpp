@@ -1,8 +1,5 @@
 #include "experiments/run/frame_measurement.hpp"
 
-#include "pbs/geometry/meshing.hpp"
-#include "pbs/geometry/topology.hpp"
-
 #include <cmath>
 #include <numbers>
 
@@ -39,7 +36,8 @@ FrameMeasurer::FrameMeasurer(const pbs::Character& character, const OutputSpec& 
 {
     if (output.errors) {
         error_metrics_.emplace(error_domain(character, prescribed));
-        boundary_ = pbs::boundary_of(character.mesh.tets);
+        overlap_.emplace(character);
+        masked_.assign(character.mesh.rest.rows(), false);
     }
     if (output.sections) stations_ = limb_stations(character);
     for (const LimbStation& station : stations_) {
@@ -61,8 +59,9 @@ FrameMeasurement FrameMeasurer::measure(const pbs::Positions& positions, const F
     measured.angle_deg = context.angle_deg;
     measured.rotation_deg = largest_rotation_deg(*context.pose);
     if (error_metrics_ && context.reference) {
-        measured.errors = error_metrics_->measure(positions, *context.reference);
-        measured.reference_self_intersects = context.reference_self_intersects;
+        measured.errors = difference(positions, *context.reference);
+        measured.errors_on_whole_body = error_metrics_->measure(positions, *context.reference);
+        measured.masked_share_pct = error_metrics_->share_pct(masked_);
         measured.reference_error = context.reference_error;
     }
     if (!positions.allFinite()) return measured;
@@ -73,9 +72,10 @@ FrameMeasurement FrameMeasurer::measure(const pbs::Positions& positions, const F
     return measured;
 }
 
-bool FrameMeasurer::self_intersects(const pbs::Positions& positions) const
+double FrameMeasurer::leave_out_overlap(const pbs::Positions& reference)
 {
-    return pbs::self_intersects(positions, boundary_);
+    masked_ = overlap_.value().of(reference);
+    return error_metrics_->share_pct(masked_);
 }
 
 double FrameMeasurer::min_section_pct(const pbs::Positions& positions, const pbs::Pose& pose)

@@ -8,6 +8,7 @@
 #include "analysis/surface_volume.hpp"
 #include "experiments/run/limb_stations.hpp"
 #include "experiments/scene/scene.hpp"
+#include "pbs/character/overlap_mask.hpp"
 
 #include <optional>
 
@@ -16,9 +17,10 @@ namespace experiments {
 struct FrameMeasurement {
     analysis::FrameMetrics metrics;
     double bind_rms_m = 0.0;
-    std::optional<analysis::ErrorNorms> errors;
-    bool reference_self_intersects = false;
-    std::optional<analysis::ErrorNorms> reference_error;  // bound of the reference's distance from the limit of ever finer tets
+    std::optional<analysis::ErrorNorms> errors;                // outside the part of the body where the reference overlaps itself
+    std::optional<analysis::ErrorNorms> errors_on_whole_body;  // with it
+    std::optional<double> masked_share_pct;                    // share of the volume of that part
+    std::optional<analysis::ErrorNorms> reference_error;       // bound of the reference's distance from the limit of ever finer tets
     std::optional<double> min_section_pct;
     std::optional<double> surface_volume_change_pct;
     std::optional<double> angle_deg;
@@ -33,7 +35,6 @@ struct FrameContext {
     const pbs::Pose* pose = nullptr;
     std::optional<double> angle_deg;
     const pbs::Positions* reference = nullptr;  // null: there is no reference, or it is not finite
-    bool reference_self_intersects = false;
     std::optional<analysis::ErrorNorms> reference_error;
 };
 
@@ -45,10 +46,15 @@ public:
     // prescribed: as in error_domain.
     FrameMeasurer(const pbs::Character& character, const OutputSpec& output, const std::vector<bool>& prescribed);
     FrameMeasurement measure(const pbs::Positions& positions, const FrameContext& context);
+    // Finds the part of the body where the reference overlaps itself in the coming frame; errors and differences leave it out. The share
+    // of its volume [%]. The scene must have asked for errors.
+    double leave_out_overlap(const pbs::Positions& reference);
     // The difference in the norms of the errors. The scene must have asked for errors.
-    analysis::ErrorNorms difference(const pbs::Positions& a, const pbs::Positions& b) const { return error_metrics_.value().measure(a, b); }
+    analysis::ErrorNorms difference(const pbs::Positions& a, const pbs::Positions& b) const
+    {
+        return error_metrics_.value().measure(a, b, masked_);
+    }
     Eigen::VectorXd volume_ratios(const pbs::Positions& positions) const { return metrics_.volume_ratios(positions); }
-    bool self_intersects(const pbs::Positions& positions) const;  // of the reference; the scene must have asked for errors
 
 private:
     double min_section_pct(const pbs::Positions& positions, const pbs::Pose& pose);
@@ -56,7 +62,8 @@ private:
     const pbs::Character& character_;
     analysis::MeshMetrics metrics_;
     std::optional<analysis::ErrorMetrics> error_metrics_;
-    pbs::Triangles boundary_;  // of the tets, if errors are measured
+    std::optional<pbs::OverlapMask> overlap_;  // if errors are measured
+    std::vector<bool> masked_;                 // in this frame, #V
     std::vector<LimbStation> stations_;
     std::vector<analysis::SectionStation> sections_;  // one per station, in the pose that is being measured
     std::optional<analysis::SurfaceVolume> surface_volume_;

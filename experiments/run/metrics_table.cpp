@@ -41,6 +41,14 @@ const Columns<ErrorNorms> error_columns = {
      "distance to the reference over the vertices that Eq. 2 blends: this number distinguishes deformers"},
     {"error_linf_m", &ErrorNorms::linf_m, "m", "largest distance to the reference"}};
 
+const Columns<ErrorNorms> whole_error_columns = {
+    {"error_whole_l2_pct", &ErrorNorms::l2_pct, "%", "error_l2_pct with the part of the body where the reference overlaps itself"},
+    {"error_whole_joint_pct", &ErrorNorms::joint_pct, "%", "error_joint_pct with that part"}};
+
+const Columns<FrameMeasurement> masked_columns = {
+    {"masked_share_pct", &FrameMeasurement::masked_share_pct, "%",
+     "share of the volume that the errors leave out because the reference overlaps itself there; no deformer has contact"}};
+
 const Columns<ErrorNorms> error_bar_columns = {
     {"reference_error_l2_pct", &ErrorNorms::l2_pct, "%",
      "bound of the reference's distance from the limit of ever finer tets over free vertices, by the method of reference.error_bar"},
@@ -75,9 +83,8 @@ const Rows all_columns =
          {"time_s", &MetricRow::time_s, "s", "time since the motion began"}} +
     within(&MetricRow::measured, measured_columns) +
     Rows{{"step_ms", &MetricRow::step_ms, "ms", "wall time of the deformer for this frame, without measuring and writing"}} +
-    (within(&MetricRow::measured, within(&FrameMeasurement::errors, error_columns)) +
-     Rows{{"reference_self_intersects", &MetricRow::reference_self_intersects, "",
-           "the reference intersects itself in this frame; such frames are marked, because no deformer has contact"}})
+    within(&MetricRow::measured, within(&FrameMeasurement::errors, error_columns) +
+                                     within(&FrameMeasurement::errors_on_whole_body, whole_error_columns) + masked_columns)
         .in_group(with_reference) +
     within(&MetricRow::measured, pose_columns) +
     Rows{{"fictitious_strain", &MetricRow::fictitious_strain, "",
@@ -97,7 +104,8 @@ const Rows all_columns =
 const std::string volume = "V: signed volume of all tets; V0: at rest", tet_volume = "V_t: signed volume of tet t; V0_t: at rest";
 const std::string of_all = "V0: volume of all tets at rest", ratio = "J_t = V_t / V0_t: volume of tet t over its volume at rest";
 const std::string positions = "x_i: position of vertex i; xref_i: in the reference", masses = "m_i: rest volume lumped to vertex i";
-const std::string free_vertices = "i: vertices that nothing prescribes", blended = "i: vertices that Eq. 2 blends between bones";
+const std::string free_vertices = "i: vertices that nothing prescribes, outside the overlap (masked_share_pct)",
+                  blended = "i: vertices that Eq. 2 blends between bones, outside the overlap (masked_share_pct)";
 
 struct Formula {
     std::string formula, source, cost;
@@ -129,7 +137,14 @@ const std::map<std::string, Formula> formulae = {
       "with error_l2_pct",
       {positions, masses, blended, "d_i: distance of vertex i to its bone at rest"}}},
     {"error_linf_m", {"max_i |x_i - xref_i|", "", "with error_l2_pct", {positions, free_vertices}}},
-    {"reference_self_intersects", {"boundary triangles of the reference intersect", "", "CGAL, about 10 ms per frame"}},
+    {"error_whole_l2_pct", {"as error_l2_pct, over all vertices that nothing prescribes", "", "with error_l2_pct"}},
+    {"error_whole_joint_pct", {"as error_joint_pct, over all vertices that Eq. 2 blends", "", "with error_l2_pct"}},
+    {"masked_share_pct",
+     {"100 sum_i m_i / sum_j m_j",
+      "",
+      "a point location per vertex of the skin",
+      {masses, "i: skin vertices inside another part of the body or at an inverted tet, and vertices within one limb radius of them",
+       "j: all vertices"}}},
     {"reference_error_l2_pct",
      {"grid convergence index of the reference in the norm of error_l2_pct", "P. J. Roache 1994, I. B. Celik et al. 2008",
       "the reference solved once or twice more; seconds in run.json"}},
@@ -184,7 +199,6 @@ MetricRow metric_row(const Scene& scene, const DeformerSpec& spec, int frame, do
     row.time_s = time_s;
     row.measured = measured;
     row.step_ms = 1e3 * step.seconds;
-    if (measured.errors) row.reference_self_intersects = measured.reference_self_intersects;
     if (traits.has_small_strain) row.fictitious_strain = fictitious_strain(measured.rotation_deg);
     row.outcome = to_string(step.outcome);
     if (measured.reference_error && spec.name != scene.reference)  // the reference's own row has no difference that could be below

@@ -18,7 +18,7 @@ struct MetricRow {
     double time_s = 0.0;
     FrameMeasurement measured = {};
     double step_ms = 0.0;
-    std::optional<bool> reference_self_intersects = {}, error_below_reference_error = {};
+    std::optional<bool> error_below_reference_error = {};
     std::optional<double> fictitious_strain = {};
     std::string outcome = {};
     double sleeping_share = 0.0;

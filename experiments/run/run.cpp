@@ -165,8 +165,9 @@ private:
         const Runner& first = runners_.front();
         if (scene_.output.errors && first.spec.name == scene_.reference && first.steps.summary().outcome == pbs::Outcome::finished) {
             context.reference = &first.deformer->positions();
-            cost_.time("metrics", [&] { context.reference_self_intersects = measurer_.self_intersects(*context.reference); });
-            self_intersecting_frames_ += context.reference_self_intersects;
+            const double masked_pct = cost_.time("metrics", [&] { return measurer_.leave_out_overlap(*context.reference); });
+            frames_with_overlap_ += masked_pct > 0.0;
+            largest_masked_share_pct_ = std::max(largest_masked_share_pct_, masked_pct);
             if (error_bar_) cost_.time("error_bar", [&] { context.reference_error = error_bar_->bound(*context.reference, measurer_); });
         }
         for (Runner& runner : runners_) record_deformer(runner, frame, time_s, context);
@@ -236,7 +237,10 @@ private:
         outcome["broken_frames"] = broken_frames_;
         outcome["breakdown"] = breakdown_;
         outcome["bad_frame"] = bad_frame_;
-        if (!scene_.reference.empty()) outcome["self_intersecting_reference_frames"] = self_intersecting_frames_;
+        if (!scene_.reference.empty()) {
+            outcome["frames_with_overlap"] = frames_with_overlap_;
+            outcome["largest_masked_share_pct"] = largest_masked_share_pct_;
+        }
         if (error_bar_) outcome["frames_below_reference_error"] = frames_below_reference_error_;
         outcome.update(run_end(stopwatch_.seconds()));
         folder_.finish(character_, records, outcome, cost_, error_bar_ ? error_bar_->method() : nlohmann::json());
@@ -260,7 +264,8 @@ private:
     FrameMeasurer measurer_;
     std::optional<ReferenceErrorBar> error_bar_;
     RunFolder folder_;  // made last, for it removes the records of an earlier run
-    int frames_ = 0, self_intersecting_frames_ = 0;
+    int frames_ = 0, frames_with_overlap_ = 0;
+    double largest_masked_share_pct_ = 0.0;
     std::string breakdown_, bad_frame_, bad_label_;                       // bad_label_: of the deformer of bad_frame_
     std::map<std::string, std::vector<int>> breakdowns_, not_converged_;  // label -> frames
     std::map<std::string, std::vector<BrokenFrame>> broken_frames_;       // label -> frames with their worst elements

@@ -28,9 +28,9 @@ def error_of(folder, deformer):
 def row_of(found, name, fem):
     outcome = found.run(name, record_shapes.judged_run)["outcome"]
     cells = ["\u2013" if deformer == fem["name"] else error_of(found.results / name, deformer) for deformer, _ in shown]
-    meets = outcome.get("self_intersecting_reference_frames", 0)
+    overlaps = outcome.get("frames_with_overlap", 0)
     model = f"{fem['model'].replace('_', ' ')}, P{fem['element_order']}"
-    return [folder_link(found.results, name), escaped(model), *cells, f"{meets} of {outcome['frames']}"]
+    return [folder_link(found.results, name), escaped(model), *cells, f"{overlaps} of {outcome['frames']}"]
 
 
 def section(found):
@@ -47,7 +47,7 @@ def section(found):
         reason = "not on record:" if missing else f"{not_run(found, 'volume')}."
         told = element("p", f"The distance over whole sweeps and clips is {reason}", class_="missing")
         return joined([told, left_out], "\n"), missing
-    header = ["run", "reference", *(label for _, label in shown), "frames in which the reference intersects itself"]
+    header = ["run", "reference", *(label for _, label in shown), "frames in which the reference overlaps itself"]
     caption = "Error at the joints [% of the mean distance to the bone]: median over the frames (least to most)"
     where = element("p", f"The runs are {beside_the_page('folders')}.", class_="lead")
     return joined([table(caption, header, rows), where, left_out], "\n"), missing

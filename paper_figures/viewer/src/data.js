@@ -91,9 +91,9 @@ export class Run {
         return this.labels.includes(this.reference) && this.reached(label, at) && this.reached(this.reference, at);
     }
 
-    // Whether the record states that the reference intersects itself, which makes distances from it less meaningful.
-    reference_intersects(at) {
-        return this.deformers.some((deformer) => deformer.figures.reference_self_intersects[at] === 1);
+    // The share of the volume [%] that distances from the reference leave out, because it overlaps itself there.
+    masked_share_pct(at) {
+        return Math.max(0, ...this.deformers.map((deformer) => deformer.figures.masked_share_pct[at] ?? 0));
     }
 
     // The index of the frame nearest to this number.

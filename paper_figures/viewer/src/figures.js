@@ -15,7 +15,7 @@ export function draw_figures(element, run, label, at) {
         const value = run.figure(label, column, at);
         const term = document.createElement("dt"), number = document.createElement("dd");
         term.textContent = name;
-        const mark = column.startsWith("error") && run.reference_intersects(at) ? " *" : "";
+        const mark = column.startsWith("error") && run.masked_share_pct(at) > 0 ? " *" : "";
         const recorded = text(value) + (unit && value !== null ? `\u202f${unit}` : "") + mark;
         number.textContent = is_reference && column.startsWith("error") ? "reference" : recorded;
         number.dataset.column = column;

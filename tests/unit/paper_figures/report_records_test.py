@@ -99,7 +99,7 @@ class ReportRecords(unittest.TestCase):
         synthetic_records.write_study(self.results)
         synthetic_records.write_claims(self.results)
         synthetic_records.write_poses(self.results)
-        run = {**json.loads((self.results / RUN).read_text()), "outcome": {"frames": 37, "self_intersecting_reference_frames": 0},
+        run = {**json.loads((self.results / RUN).read_text()), "outcome": {"frames": 37, "frames_with_overlap": 0},
                "scene": {"reference": {"name": "snh"}, "fem": [{"name": "snh", "model": "stable_neo_hookean", "element_order": 1}]},
                "work": {"settings": {}}}
         run["provenance"] |= {"libraries": {"Eigen": "3.4.0"}, "input_hashes": {"limb": "0123"}, "threads": 1}

@@ -43,28 +43,28 @@ TEST_F(MarkedFrames, EachDeformersFirstBrokenFrameIsNamed)
         "812 of volume ratio -0.04, 3 inverted\n");
 }
 
-TEST_F(MarkedFrames, SelfIntersectionsAndErrorsBelowTheReferences)
+TEST_F(MarkedFrames, OverlapsAndErrorsBelowTheReferences)
 {
-    EXPECT_EQ(marks_of(R"({"outcome": {"frames": 31, "self_intersecting_reference_frames": 4,
+    EXPECT_EQ(marks_of(R"({"outcome": {"frames": 31, "frames_with_overlap": 4, "largest_masked_share_pct": 6.25,
                                        "frames_below_reference_error": {"pbs": 2}}})"),
-              "     limb_bend: the reference intersects itself in 4 of 31 frames; their errors are marked\n"
+              "     limb_bend: the reference overlaps itself in 4 of 31 frames; errors leave out up to 6.2 % of the volume\n"
               "     limb_bend: the error of pbs at the joints is not above the reference's own in 2 of 31 frames\n");
 }
 
 TEST_F(MarkedFrames, WorkAndSoundRunsHaveNone)
 {
     EXPECT_EQ(marks_of(R"({"outcome": {"finished": true, "breakdown": ""}})"), "");
-    EXPECT_EQ(marks_of(R"({"outcome": {"frames": 31, "broken_frames": {}, "self_intersecting_reference_frames": 0}})"), "");
+    EXPECT_EQ(marks_of(R"({"outcome": {"frames": 31, "broken_frames": {}, "frames_with_overlap": 0}})"), "");
 }
 
 TEST_F(MarkedFrames, WhatSomebodyElseMadeOfARecordIsRefusedWithItsFile)
 {
     const std::string refusal =
         scratch / "limb_bend/run.json" + ": expected a record as this program writes it: it was changed, or cut short";
-    for (const char* text : {"", "{\"outcome\": ", "[]", R"({"outcome": 3})", R"({"outcome": {"self_intersecting_reference_frames": 4}})",
-                             R"({"outcome": {"self_intersecting_reference_frames": "four", "frames": 31}})",
-                             R"({"outcome": {"broken_frames": {"pbs": []}, "frames": 31}})",
-                             R"({"outcome": {"broken_frames": {"pbs": [{"frame": "two"}]}, "frames": 31}})"})
+    for (const char* text :
+         {"", "{\"outcome\": ", "[]", R"({"outcome": 3})", R"({"outcome": {"frames_with_overlap": 4}})",
+          R"({"outcome": {"frames_with_overlap": "four", "frames": 31}})", R"({"outcome": {"broken_frames": {"pbs": []}, "frames": 31}})",
+          R"({"outcome": {"broken_frames": {"pbs": [{"frame": "two"}]}, "frames": 31}})"})
         EXPECT_EQ(refusal_of(text), refusal) << text;
 }
 
