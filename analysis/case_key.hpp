@@ -49,7 +49,7 @@ struct CaseKeyField {
         alone,
         with_name,
         as_end_of_range
-    } shown;  // in text_of(): limb, 90 deg; reference snh_p2; the 1 of k_stretch 0.2 to 1
+    } shown;  // in text_of(): limb, 90 deg; reference nh_p2; the 1 of k_stretch 0.2 to 1
     std::string CaseKey::*text = nullptr;
     std::optional<double> CaseKey::*number = nullptr;
 
@@ -59,7 +59,7 @@ const std::vector<CaseKeyField>& case_key_fields();           // in the order in
 const CaseKeyField* case_key_field(const std::string& name);  // null if no field has that name
 
 std::string value_text(const CaseKeyField& field, const CaseKey& key);  // without its unit; empty if the field is not set
-// The fields that are set, as they are recorded: limb, bend, 90 deg, pbs, reference snh_p2, iterations 12 to 48, time_step 0.01 s.
+// The fields that are set, as they are recorded: limb, bend, 90 deg, pbs, reference nh_p2, iterations 12 to 48, time_step 0.01 s.
 // paper_figures/case_words.py describes a case in words.
 std::string text_of(const CaseKey& key);
 

@@ -10,7 +10,7 @@ import rendering
 import style
 import whole_file
 
-scene, deformers, still = "human_jump", ("lbs", "pbs", "snh_p1"), 8
+scene, deformers, still = "human_jump", ("lbs", "pbs", "nh_p1"), 8
 pixels, direction, half_height_m, floor_to_middle_m, margin_px = (300, 440), (0.9, 0.15, 1.0), 1.0, 0.96, 40
 xmp = ('<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#"><rdf:Description '
        'xmlns:dc="http://purl.org/dc/elements/1.1/"><dc:source>{source}</dc:source><dc:rights>{rights}</dc:rights></rdf:Description>'
@@ -18,7 +18,7 @@ xmp = ('<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf="http://www.w3.or
 
 
 def camera(frames, frame):
-    low, high = rendering.bounds_of(frames.skin("snh_p1", frame))
+    low, high = rendering.bounds_of(frames.skin("nh_p1", frame))
     middle = (low + high) / 2
     return rendering.Camera((middle[0], floor_to_middle_m, middle[2]), half_height_m, direction)
 
@@ -53,7 +53,7 @@ def draw_clip(file, frames, origin):
 
 def draw_still(frames):
     stage = rendering.Stage(700, 800, background=rendering.paper)
-    low, high = rendering.bounds_of(frames.skin("snh_p1", still))
+    low, high = rendering.bounds_of(frames.skin("nh_p1", still))
     view = rendering.Camera((low + high) / 2, 0.78, direction)
     figure, axes = style.panels(1, len(deformers), height_in=3.0)
     for panel, label in zip(axes[0], deformers):
@@ -65,7 +65,7 @@ def draw_still(frames):
 def facts(rows):
     """The largest number of inverted tets of each deformer over the clip, and whether the finite elements have some in every frame."""
     inverted = {label: [int(row["inverted_tets"]) for row in rows if row["deformer"] == label] for label in deformers}
-    fem = inverted["snh_p1"]
+    fem = inverted["nh_p1"]
     return {label: max(found) for label, found in inverted.items()} | {"fem_frames": f"{sum(map(bool, fem))} of {len(fem)}"}
 
 

@@ -8,7 +8,7 @@ import style
 poses = {"limb_twist": (180, 170), "limb_bend": (110,)}
 views = {"limb_twist": rendering.Camera((0, 0, 0), 0.24, (0.0, 0.35, 1.0)),
          "limb_bend": rendering.Camera((0, 0.14, 0), 0.36, (0.0, 0.1, 1.0))}
-deformers = ("lbs", "dqs", "pbs", "snh_p1")
+deformers = ("lbs", "dqs", "pbs", "nh_p1")
 
 
 def facts(row):

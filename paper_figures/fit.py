@@ -32,8 +32,8 @@ def draw_young(axes, rows):
 
 
 def draw_valley(axes, rows):
-    """Stable neo-Hookean P2 held by embedded bones; if that is not on record, the first reference."""
-    wanted = [row for row in rows if (row["model"], row["element_order"], row["attachment"]) == ("stable_neo_hookean", "2", "embedded")]
+    """Neo-Hookean P2 held by the smooth attachment; if that is not on record, the first reference."""
+    wanted = [row for row in rows if (row["model"], row["element_order"], row["attachment"]) == ("neo_hookean", "2", "smooth")]
     first = rows[0]
     chosen = wanted or [row for row in rows if all(row[key] == first[key] for key in ("model", "element_order", "attachment"))]
     for body, line in lines.items():

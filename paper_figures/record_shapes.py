@@ -97,13 +97,13 @@ def read(file, shape):
     return record
 
 
-second_schema = Rule("2", lambda value: value == 2)
+second_schema, third_schema = Rule("2", lambda value: value == 2), Rule("3", lambda value: value == 3)
 provenance = {"version?": text, "git_revision?": text, "git_dirty?": truth, "compiler?": text, "flags?": text, "build_type?": text,
               "cpu_model?": text, "logical_cpus?": whole, "threads?": whole, "libraries?": {"*": text}, "input_hashes?": {"*": text}}
 deformer = {"label": text, "name": text, "variant": text, "options?": {"k_stretch?": number, "jiggle?": {"k_stretch": number}}}
 scene = {"reference?": {"name?": text}, "fem?": [{"name": text, "model": text, "element_order": whole}],
          "character?": {"body?": text}, "motion?": {"clip?": text}, "runs?": [deformer]}
-run = {"schema?": second_schema, "provenance?": provenance, "scene?": scene, "work?": {},
+run = {"schema?": third_schema, "provenance?": provenance, "scene?": scene, "work?": {},
        "outcome?": {"frames?": whole, "frames_with_overlap?": whole}}
 shown_run = {"scene": {"character": {"body": text}, "motion": {}, "runs": [deformer]}}  # a run shown frame by frame
 judged_run = {"outcome": {"frames": whole}}  # a run compared with a reference

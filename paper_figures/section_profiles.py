@@ -17,7 +17,7 @@ def profiles(rows, pose):
     rows = [row for row in rows if row["pose"] == pose and (row["order"], row["precision"]) in (("", ""), ("ordered", "f32"))]
     meshes = [row["vertices"] for row in rows if row["deformer"] == "delta_mush"] or [row["vertices"] for row in rows]
     rows = [row for row in rows if row["vertices"] == meshes[0]] if meshes else []
-    best = next((name for name in ("snh_p2", "snh_p1") if any(row["deformer"] == name for row in rows)), None)
+    best = next((name for name in ("nh_p2", "nh_p1") if any(row["deformer"] == name for row in rows)), None)
     shown = ["lbs", "dqs", "pbs", *([best] if best else [])]
     return {name: sorted((row for row in rows if row["deformer"] == name), key=lambda row: float(row["offset_m"])) for name in shown}
 

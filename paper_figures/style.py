@@ -46,8 +46,8 @@ looks = {
     "pbs_jiggle": Look("PBS, jiggling", sky, (0, (2, 1)), "p"),
     "fem_p1": Look("linear FEM, P1 (control)", green, (0, (1, 1)), "^"),
     "fem_p2": Look("linear FEM, P2 (control)", black, (0, (1, 1)), "x"),
-    "snh_p1": Look("neo-Hookean FEM, P1", sky, (0, (3, 1)), "P"),
-    "snh_p2": Look("neo-Hookean FEM, P2 (reference)", purple, "-", "D"),
+    "nh_p1": Look("neo-Hookean FEM, P1", sky, (0, (3, 1)), "P"),
+    "nh_p2": Look("neo-Hookean FEM, P2 (reference)", purple, "-", "D"),
 }
 sequence = [(vermillion, "v"), (blue, "o"), (green, "^"), (purple, "D"), (orange, "s"), (sky, "P"), (black, "x")]
 lines = ["-", (0, (4, 1.5)), (0, (5, 1.2, 1, 1.2)), (0, (1, 1)), (0, (3, 1)), "-", (0, (4, 1.5))]

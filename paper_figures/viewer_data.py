@@ -21,7 +21,7 @@ import records
 import rendering
 
 titles = {"limb_twist": "limb, twist", "limb_bend": "limb, bend", "human_jump": "human, jumping", "human_walk": "human, walking"}
-deformers = {"lbs": "LBS", "dqs": "DQS", "pbs": "PBS", "snh_p1": "FEM, neo-Hookean P1", "pbs_jiggle": "PBS, jiggling flesh",
+deformers = {"lbs": "LBS", "dqs": "DQS", "pbs": "PBS", "nh_p1": "FEM, neo-Hookean P1", "pbs_jiggle": "PBS, jiggling flesh",
              "pbs_no_zone": "PBS, no zone", "pbs_increment": "PBS, no start from LBS"}
 figures = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "error_linf_m", "min_section_pct", "angle_deg",
            "masked_share_pct")

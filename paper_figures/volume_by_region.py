@@ -4,9 +4,9 @@ import entries
 import records
 import style
 
-deformers = ("lbs", "dqs", "pbs", "snh_p1")
+deformers = ("lbs", "dqs", "pbs", "nh_p1")
 columns = {"run", "deformer", "kind", "bone", "second_bone", "rest_share_pct", "change_pct", "own_change_pct"}
-run_shown = "human_01_01_truth"
+run_shown = "human_01_01"
 most_regions = 10
 
 

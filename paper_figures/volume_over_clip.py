@@ -7,7 +7,7 @@ measures = [("volume_change_pct", "signed volume\nchange [%]"), ("volume_abs_cha
 
 
 def draw(results, figures):
-    run = records.Run(results / "volume" / "human_01_01_truth")
+    run = records.Run(results / "volume" / "human_01_01")
     figure, axes = style.panels(2, 1, height_in=1.7, width_in=style.page_in, sharex=True)
     behind = []
     for deformer, iterations in {"lbs": None, "dqs": None, "pbs": 24, run.reference(): None}.items():

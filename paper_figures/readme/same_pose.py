@@ -1,7 +1,7 @@
 """Draws the picture of the README: the limb twisted and bent under LBS, DQS, PBS and the finite element reference, from two runs.
 
-    pbskin run limb_twist -o TWIST --set 'deformers.use=["lbs","dqs","pbs","snh_p2"]' --set output.frames_every=6
-    pbskin run limb_bend -o BEND --set 'deformers.use=["lbs","dqs","pbs","snh_p1"]' --set output.frames_every=4
+    pbskin run limb_twist -o TWIST --set 'deformers.use=["lbs","dqs","pbs","nh_p2"]' --set output.frames_every=6
+    pbskin run limb_bend -o BEND --set 'deformers.use=["lbs","dqs","pbs","nh_p1"]' --set output.frames_every=4
     xvfb-run -a python3 paper_figures/readme/same_pose.py TWIST BEND     # writes same_pose.png and same_pose.csv, the numbers in it
 
 The kept records have no frames, and of these deformers they hold only LBS and PBS. The runs' rows of those two must agree with the records.
@@ -38,8 +38,8 @@ class Pose:
     height: float  # height of a panel, relative to its width
 
 
-poses = (Pose("limb_twist", 150.0, "snh_p2", "twisted by 150\u00b0", rendering.Camera((0, 0, 0), 0.19, (0.0, 0.35, 1.0)), 0.5),
-         Pose("limb_bend", 100.0, "snh_p1", "bent by 100\u00b0", rendering.Camera((-0.02, 0.11, 0), 0.33, (0.0, 0.1, 1.0)), 0.8))
+poses = (Pose("limb_twist", 150.0, "nh_p2", "twisted by 150\u00b0", rendering.Camera((0, 0, 0), 0.19, (0.0, 0.35, 1.0)), 0.5),
+         Pose("limb_bend", 100.0, "nh_p1", "bent by 100\u00b0", rendering.Camera((-0.02, 0.11, 0), 0.33, (0.0, 0.1, 1.0)), 0.8))
 
 
 def row_of(folder, pose, deformer):

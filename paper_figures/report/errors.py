@@ -5,7 +5,7 @@ from number_words import figure, span_of_thousandths
 from report.markup import beside_the_page, element, escaped, folder_link, items, joined, table
 from report.record_set import not_run, number
 
-shown = (("lbs", "LBS"), ("dqs", "DQS"), ("pbs", "PBS, 24 iterations"), ("snh_p1", "neo-Hookean FEM, P1"))
+shown = (("lbs", "LBS"), ("dqs", "DQS"), ("pbs", "PBS, 24 iterations"), ("nh_p1", "neo-Hookean FEM, P1"))
 
 
 def reference_of(run):

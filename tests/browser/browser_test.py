@@ -27,7 +27,7 @@ import viewer_poses  # noqa: E402
 
 skipped = 77
 bound_missed = figure_missed = 1  # exit statuses for a bound that does not hold, and for a figure that was not drawn
-sampled = {"limb_twist": ["lbs", "snh_p1"], "limb_bend": ["dqs"], "human_jump": ["pbs", "dqs"], "human_walk": ["pbs_jiggle"]}
+sampled = {"limb_twist": ["lbs", "nh_p1"], "limb_bend": ["dqs"], "human_jump": ["pbs", "dqs"], "human_walk": ["pbs_jiggle"]}
 with_bones = "limb_bend"  # the whole limb is visible, and its skeleton moves
 # The kept records contain the verdicts, but not all tables.
 not_of_these_records = {"convergence_iterations", "fit", "roofline", "scaling", "section_profiles", "stability_cells", "volume_by_region",

@@ -6,7 +6,7 @@ from bad_tets import NOISE
 
 PLAN = {"schema": 1, "extent": "quick", "runs": [{"name": "limb", "cost_s": 1}, {"name": "human", "cost_s": 1}], "left_out": []}
 MEASUREMENTS = "claim,quantity,body,value,low,high,unit\nC07,linear_drift,limb,1e-6,1e-6,1e-6,1\nC07,linear_drift,bar,2e-6,2e-6,2e-6,1\n"
-RUN = json.dumps({"schema": 2, "provenance": {}})
+RUN = json.dumps({"schema": 3, "provenance": {}})
 FILES = {"plan.json": json.dumps(PLAN), "limb/run.json": RUN, "limb/measurements.csv": MEASUREMENTS,
          "human/run.json": RUN, "human/measurements.csv": MEASUREMENTS}
 
@@ -40,7 +40,7 @@ def damaged():
     yield "noise_run", run, NOISE, "no JSON, or cut short", "not JSON"
     yield "truncated_run", run, RUN[:20], "no JSON, or cut short", "not JSON"
     yield "run_without_a_schema", run, "{}", "schema: missing", None
-    yield "run_of_an_older_schema", run, RUN.replace("2", "1"), "schema = 1: expected 2", "schema = 1: expected 2"
+    yield "run_of_an_older_schema", run, RUN.replace("3", "2"), "schema = 2: expected 3", "schema = 2: expected 3"
     yield "run_that_is_a_list", run, "[]", "schema: missing", "expected an object"
     numbered = json.dumps({"provenance": {"git_revision": 7}})
     yield "revision_that_is_a_number", run, numbered, "schema: missing", "provenance.git_revision = 7: expected a text"

@@ -27,9 +27,9 @@ struct FemOptions {
     reference_fem::Dynamics dynamics = reference_fem::Dynamics::quasi_static;
     double rayleigh_mass_1_s = 0.0;  // damping C = rayleigh_mass M + rayleigh_stiffness K(rest)
     double rayleigh_stiffness_s = 0.0;
-    FemAttachment attachment = FemAttachment::embedded;
+    FemAttachment attachment = FemAttachment::smooth;
     double core_radius = 0.0;    // capsule radius over local limb radius; 0: 0.7 with smooth, otherwise 0.35
-    double spring_factor = 0.0;  // q: springs of density q E / r^2, r the capsule's radius (on its axis, if smooth); 0: 100 with smooth,
+    double spring_factor = 0.0;  // q: springs of density q E / r^2, r the capsule's radius (on its axis, if smooth); 0: 10 with smooth,
                                  // otherwise 1e4. Doubling 1e4 changes no reported value
     pbs::AttachmentKernel attachment_kernel = pbs::AttachmentKernel::biweight;  // of smooth: how the density decreases
     double attachment_ends = 1.0;                                               // of smooth: over so many capsule radii at each end
@@ -48,7 +48,7 @@ inline double core_radius_of(const FemOptions& options)
 inline double spring_factor_of(const FemOptions& options)
 {
     if (options.spring_factor > 0.0) return options.spring_factor;
-    return options.attachment == FemAttachment::smooth ? 100.0 : 1e4;
+    return options.attachment == FemAttachment::smooth ? 10.0 : 1e4;
 }
 
 }  // namespace experiments

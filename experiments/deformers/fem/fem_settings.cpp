@@ -79,7 +79,7 @@ void add_attachment_keys(OptionFields<FemOptions>& fields)
         {.lowest = 0,
          .highest = 1e9,
          .meaning = "q: the attachment's density is q E / r^2, r the capsule's radius (smooth: the density on the axis) or the local limb "
-                    "radius (bind); 0: 100 with attachment smooth, otherwise 1e4"});
+                    "radius (bind); 0: 10 with attachment smooth, otherwise 1e4"});
     fields
         .add("attachment_kernel", &FemOptions::attachment_kernel,
              {.meaning =

@@ -104,7 +104,7 @@ ArtefactCase turned(const std::string& body, const std::string& joint, const std
                                            fmt::format("motion.axis=[{:.9f},{:.9f},{:.9f}]", axis.x(), axis.y(), axis.z()),
                                            fmt::format("motion.angle_deg={}", look_deg * looks),
                                            fmt::format("motion.frames={}", look_deg * looks / frame_deg + 1),
-                                           R"(deformers.use=["lbs","pbs","snh_p1"])", "reference.name=snh_p1"});
+                                           R"(deformers.use=["lbs","pbs","nh_p1"])", "reference.name=nh_p1"});
     of.joint = joint;
     of.claim = what == "twist" ? ArtefactCase::Claim::candy_wrapper : ArtefactCase::Claim::bulge;
     for (int i = 1; i <= looks; ++i)

@@ -65,9 +65,11 @@ std::vector<int> frames_of(const ArtefactCase& of)
     return frames;
 }
 
-std::string group_of(const DeformerSpec& spec)
+std::string group_of(const Scene& scene, const DeformerSpec& spec)
 {
-    return options_if<FemOptions>(spec) ? "reference" : spec.kind;
+    const FemOptions* fem = options_if<FemOptions>(spec);
+    if (!fem) return spec.kind;
+    return fem->poisson == options_of<FemOptions>(spec_of(scene, scene.reference)).poisson ? "reference" : spec.label;
 }
 
 // The order of finite elements; 0 for other deformers.
@@ -113,7 +115,7 @@ private:
     void add_profile(const ArtefactBody& body, const DeformerSpec& spec, const Shape& shape, std::size_t pose, std::size_t joint)
     {
         const JointProfile profile = body.sections[joint].measure(shape.positions, body.posed.pose(pose));
-        records_.samples.push_back({group_of(spec), pose, joint, extremes_of(profile), element_order_of(spec)});
+        records_.samples.push_back({group_of(of_.scene, spec), pose, joint, extremes_of(profile), element_order_of(spec)});
         for (const JointSection& section : profile)
             records_.profiles.push_back({place_of(of_, body, pose), body.joints[joint].name, recorded(spec), section});
     }

@@ -26,12 +26,12 @@ struct ArtefactPose {
 struct ArtefactCase {
     enum class Claim { candy_wrapper, bulge };  // C04, C05
 
-    Scene scene;  // with lbs, dqs, pbs, snh_p1 and others; with snh_p2 if second_order_poses > 0
+    Scene scene;  // with lbs, dqs, pbs, nh_p1 and others; its reference is nh_p1
     std::vector<ArtefactPose> poses;
     std::string joint;           // LimbJoint::name; empty: all of them
     Claim claim = Claim::bulge;  // for which the sections are measured
     std::vector<int> vertices;   // wanted sizes of the other meshes
-    int second_order_poses = 0;  // so many poses also have a reference with quadratic elements, snh_p2
+    int second_order_poses = 0;  // the first poses, in which quadratic elements are solved too, if the scene has them
 };
 
 template <>
@@ -51,7 +51,7 @@ struct ArtefactBody {
 
 // The extremes of one deformer's sections in one pose at one joint.
 struct ArtefactSample {
-    std::string group;  // pbs, in any order and precision; reference, for snh_p1 and snh_p2; otherwise the deformer
+    std::string group;  // pbs, in any order and precision; reference, for flesh with the reference's Poisson's ratio; otherwise the label
     std::size_t pose = 0, joint = 0;
     SectionExtremesOverRest extremes;
     int element_order = 0;  // of the reference

@@ -1,6 +1,6 @@
 // The values of C04 and C05 from the sections of all deformers: the narrowest and the widest section near a joint, with the spread over
-// meshes, orders and the reference's element orders. The reference is snh_p2 where it was run and reached, and snh_p1 otherwise; the key
-// states which.
+// meshes, orders and the reference's element orders. The reference is nh_p2 where it was run and reached, and nh_p1 otherwise; the key
+// states which. Nearly incompressible flesh (nu = 0.49) has values of its own for comparison.
 //   const auto measurements = bulge_values(of, body, records.samples);
 //   section_outcomes(of, body, records.samples)   // which poses and joints have a value, and why the others have none
 #pragma once
@@ -17,7 +17,7 @@ nlohmann::json to_json(const ArtefactCase& of);
 // With keys such as "limb, twist 90 deg, upper|forearm". A group without samples has no value.
 std::vector<analysis::Measurement> candy_wrapper_values(const ArtefactCase& of, const ArtefactBody& body,
                                                         const std::vector<ArtefactSample>& samples);
-// With keys such as "limb, bend 60 deg, upper|forearm, reference snh_p2". A value requires that flesh has a section there.
+// With keys such as "limb, bend 60 deg, upper|forearm, reference nh_p2". A value requires that flesh has a section there.
 std::vector<analysis::Measurement> bulge_values(const ArtefactCase& of, const ArtefactBody& body,
                                                 const std::vector<ArtefactSample>& samples);
 
@@ -34,7 +34,7 @@ const char* name_of(SectionOutcome outcome);
 
 struct JudgedSection {
     std::size_t pose = 0, joint = 0;
-    std::string reference;  // "snh_p2"; empty: none was reached
+    std::string reference;  // "nh_p2"; empty: none was reached
     SectionOutcome outcome = SectionOutcome::measured;
     std::string remark =
         {};  // for C05, unless bent too far: which deformers are wider than widest_over_rest, and whose skin their outline is

@@ -2,13 +2,14 @@
 // the candy wrapper of LBS) or bent (C05, the bulge of DQS), the weights of Eq. 2 against rigid ones (C06), and the number of
 // self-intersections of the skin.
 //
-//   limb_twist     30 ... 180 deg    o=======o~~~~~~~o      every deformer, and stable neo-Hookean finite elements:
-//   limb_bend      30 ... 150 deg    o=======o              linear elements, in the first poses quadratic ones too
+//   limb_twist     30 ... 180 deg    o=======o~~~~~~~o      every deformer, and neo-Hookean finite elements:
+//   limb_bend      30 ... 150 deg    o=======o              linear elements, in the first poses also quadratic ones
 //   BODY_twist_*   45, 90 deg about the bone: elbow, mid-forearm, knee; the tail of frankie, whose knee lies in the belly
 //   BODY_bend_*    45, 90 deg in the direction in which the joint bends
 //   BODY_crouch    frame 164 of CMU's clip 01_01, all joints of the left side
 //
-// The quick form has the limb, the human, and the elbow of the others.
+// The quick form has the limb, the human, and the elbow of the others. Quadratic elements have Poisson's ratios 0.45 and 0.49; with --full
+// the human has them too.
 //
 // Writes DIR/artefacts/CASE/{profiles,sections,intersections,smoothness,iterations,measurements}.csv, intersections.md and sections.md.
 // The paper states that it does not handle self-intersections; they are counted. sections.md states where C04 and C05 have a value, and why
@@ -50,8 +51,8 @@ std::string look_and_record(const ArtefactCase& of, const std::string& folder)
     return records.breakdown;
 }
 
-const char* const all_deformers = R"(deformers.use=["lbs","dqs","pbs","delta_mush","xpbd","snh_p1"])";
-const char* const with_second_order = R"(deformers.use=["lbs","dqs","pbs","delta_mush","xpbd","snh_p1","snh_p2"])";
+const char* const all_deformers = R"(deformers.use=["lbs","dqs","pbs","delta_mush","xpbd","nh_p1"])";
+const char* const with_second_order = R"(deformers.use=["lbs","dqs","pbs","delta_mush","xpbd","nh_p1","nh_p2","nh_p2_nu_049"])";
 
 // A sweep in equal steps, without the rest pose.
 ArtefactCase sweep(const std::string& scene, std::vector<std::string> overrides, const std::string& what, int step_deg, int poses)
@@ -59,7 +60,7 @@ ArtefactCase sweep(const std::string& scene, std::vector<std::string> overrides,
     ArtefactCase of;
     overrides.push_back(fmt::format("motion.angle_deg={}", step_deg * poses));
     overrides.push_back(fmt::format("motion.frames={}", poses + 1));
-    overrides.push_back("reference.name=snh_p1");
+    overrides.push_back("reference.name=nh_p1");
     of.scene = read_scene(scene, overrides);
     of.claim = what == "twist" ? ArtefactCase::Claim::candy_wrapper : ArtefactCase::Claim::bulge;
     for (int i = 1; i <= poses; ++i)
@@ -71,26 +72,34 @@ ArtefactCase limb_sweep(const std::string& what, int poses, bool full)
 {
     ArtefactCase of = sweep("limb_" + what, {with_second_order}, what, 30, poses);
     of.vertices = full ? std::vector<int>{1200, 2600} : std::vector<int>{1200};
-    of.second_order_poses = what == "twist" && full ? poses : 2;  // beyond a bend of about 70 degrees a frame takes minutes
+    of.second_order_poses = full ? (what == "twist" ? poses : 3) : 2;  // beyond a bend of 90 degrees a pose takes minutes
     return of;
 }
 
-ArtefactCase body_sweep(const std::string& body, const pbs::Skeleton& skeleton, const LimbJoint& joint, const std::string& what)
+// The human alone has quadratic elements.
+const char* deformers_of(const std::string& body, bool full)
+{
+    return full && body == "human" ? with_second_order : all_deformers;
+}
+
+ArtefactCase body_sweep(const std::string& body, const pbs::Skeleton& skeleton, const LimbJoint& joint, const std::string& what, bool full)
 {
     const pbs::Vec3 axis = what == "twist" ? twist_axis(skeleton, joint) : hinge_axis(skeleton, joint);
     ArtefactCase of = sweep("limb_bend",
-                            {all_deformers, "character.body=" + body, "motion.joint=" + skeleton.bones[joint.child].name,
+                            {deformers_of(body, full), "character.body=" + body, "motion.joint=" + skeleton.bones[joint.child].name,
                              fmt::format("motion.axis=[{:.9f},{:.9f},{:.9f}]", axis.x(), axis.y(), axis.z())},
                             what, 45, 2);
     of.joint = joint.name;
+    of.second_order_poses = 2;
     return of;
 }
 
-ArtefactCase crouch(const std::string& body)
+ArtefactCase crouch(const std::string& body, bool full)
 {
     ArtefactCase of;
-    of.scene = read_scene("human_01_01", {all_deformers, "character.body=" + body, "reference.name=snh_p1"});
+    of.scene = read_scene("human_01_01", {deformers_of(body, full), "character.body=" + body, "reference.name=nh_p1"});
     of.poses = {{164, "01_01_crouch", {.motion = "01_01", .pose = "crouch"}}};
+    of.second_order_poses = 1;
     return of;
 }
 
@@ -136,10 +145,10 @@ void plan_body(const std::string& body, bool full, StudyPlan& plan)
         for (const LimbJoint& joint : joints) {
             if (joint.name != turned.name || !turned.is_turned(body, full)) continue;
             const std::string& bone = character.skeleton.bones[joint.child].name;
-            if (turned.twisted) add(body + "_twist_" + bone, body_sweep(body, character.skeleton, joint, "twist"), 4.0);
-            if (turned.bent) add(body + "_bend_" + bone, body_sweep(body, character.skeleton, joint, "bend"), 4.0);
+            if (turned.twisted) add(body + "_twist_" + bone, body_sweep(body, character.skeleton, joint, "twist", full), 4.0);
+            if (turned.bent) add(body + "_bend_" + bone, body_sweep(body, character.skeleton, joint, "bend", full), 4.0);
         }
-    if (full || body == "human") add(body + "_crouch", crouch(body), body == "frankie" ? 8.0 : 4.0);
+    if (full || body == "human") add(body + "_crouch", crouch(body, full), body == "frankie" ? 8.0 : 4.0);
 }
 
 struct RunIntersection {

@@ -64,7 +64,7 @@ private:
         if (!of_.frames[frame].compared) return {"none"};
         if (!own_ && !of_.ladder) return {"own_mesh_alone"};
         if (character.mesh.rest.rows() > of_.reference_to) return {fmt::format("left_out_above_{}_vertices", of_.reference_to)};
-        PosedReference reference(character, of_.reference, posed_.pose(frame), of_.scene.motion.time_step_s);
+        PosedReference reference(character, of_.reference, posed_.pose(frame), of_.scene.motion.time_step_s, of_.refines_reference);
         if (!reference.is_reached()) return {of_.reference.label + "_was_not_reached"};
         return {of_.reference.label, std::move(reference)};
     }
@@ -163,6 +163,7 @@ nlohmann::json to_json(const ConvergenceCase& of)
             .record("ladder", &ConvergenceCase::ladder)
             .record("iterations", &ConvergenceCase::most_iterations)
             .record("reference", &ConvergenceCase::reference)
+            .record("refines_reference", &ConvergenceCase::refines_reference)
             .record("reference_to", &ConvergenceCase::reference_to)
             .derived("looks", [](const ConvergenceCase& one) -> nlohmann::json { return looked_at(one.most_iterations); })
             .constant("residual_tolerance", residual_tolerance)

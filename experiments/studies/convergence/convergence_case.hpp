@@ -35,8 +35,9 @@ struct ConvergenceCase {
     int every_setting_to = 0;                 // further meshes up to this wanted size take all settings
     bool ladder = false;  // other_vertices are a ladder of sizes with values of their own; otherwise their spread is the uncertainty
     int most_iterations = 1000;
-    DeformerSpec reference = {};  // as PosedReference takes it, solved on the scene's own mesh and on those of a ladder
-    int reference_to = 100000;    // vertices: larger meshes have no reference, and rates.csv states why
+    DeformerSpec reference = {};    // as PosedReference takes it, solved on the scene's own mesh and on those of a ladder
+    bool refines_reference = true;  // also solves it on tets cut into eight, without which it has no bound
+    int reference_to = 100000;      // vertices: larger meshes have no reference, and rates.csv states why
 };
 
 nlohmann::json to_json(const NamedFrame& frame);

@@ -7,8 +7,8 @@
 
 namespace experiments {
 
-// The elastic bodies are held by embedded bones. The paper's bind constraint as attachment is left out: Newton's method did not converge
-// with it on this limb, bent by 30 deg. Quadratic tets take mean dilatation, which does not lock near nu = 1/2.
+// The elastic bodies are held by the smooth attachment. The paper's bind constraint as attachment is left out: Newton's method did not
+// converge with it on this limb, bent by 30 deg. Quadratic tets take mean dilatation, which does not lock near nu = 1/2.
 struct ElasticBody {
     reference_fem::Model model = reference_fem::Model::linear;
     int element_order = 2;

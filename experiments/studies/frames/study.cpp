@@ -1,6 +1,6 @@
 // The frames that figures and the report's viewer show. No claim is judged by them.
 //
-//   limb_twist   0 - 180 deg by 10    o=======o~~~~~~~o)   LBS, DQS, PBS and stable neo-Hookean finite elements on the same tets
+//   limb_twist   0 - 180 deg by 10    o=======o~~~~~~~o)   LBS, DQS, PBS and neo-Hookean finite elements on the same tets
 //   limb_bend    0 - 110 deg by 10    o=======o            (--full: to 150, where the finite elements take longest)
 //   limb_bend_rigid                                        LBS and PBS with rigid weights in place of Eq. 2
 //   human_jump   1.6 s of 01_01 from 6.0 s on, 25 frames per second: the four; PBS with increments of LBS, and with the jiggling zone
@@ -17,7 +17,7 @@
 namespace experiments {
 namespace {
 
-const std::string the_four = R"(deformers.use=["lbs","dqs","pbs","snh_p1"])", blend_and_pbs = R"(deformers.use=["lbs","pbs"])";
+const std::string the_four = R"(deformers.use=["lbs","dqs","pbs","nh_p1"])", blend_and_pbs = R"(deformers.use=["lbs","pbs"])";
 
 StudyRun shown(const std::string& name, const std::string& scene, std::vector<std::string> overrides, double cost_s)
 {
@@ -65,7 +65,7 @@ void add_limb(StudyPlan& plan, bool full)
 {
     const int steps = full ? 15 : 11;
     const std::string angle = fmt::format("motion.angle_deg={}", 10 * steps), frames = fmt::format("motion.frames={}", steps + 1);
-    const std::string reference = R"(reference.name="snh_p1")", none = R"(reference.name="")";
+    const std::string reference = R"(reference.name="nh_p1")", none = R"(reference.name="")";
     plan.runs.push_back(shown("limb_twist", "limb_twist", {the_four, reference, "motion.frames=19"}, 3.5));
     plan.runs.push_back(shown("limb_bend", "limb_bend", {the_four, reference, angle, frames}, full ? 17.0 : 5.0));
     plan.runs.push_back(shown("limb_bend_rigid", "limb_bend", {blend_and_pbs, none, angle, frames, R"(skinning.weights="rigid")"}, 0.5));
@@ -73,7 +73,7 @@ void add_limb(StudyPlan& plan, bool full)
 
 void add_human(StudyPlan& plan)
 {
-    const std::string reference = R"(reference.name="snh_p1")", rate = "motion.rate_hz=25.0";
+    const std::string reference = R"(reference.name="nh_p1")", rate = "motion.rate_hz=25.0";
     const StudyRun jumping =
         shown("human_jump", "human_01_01", {the_four, reference, rate, "motion.start_s=6.0", "motion.duration_s=1.6"}, 16.0);
     plan.runs.push_back(with_jiggle(without_the_start_from_lbs(jumping), 0.9));

@@ -53,7 +53,7 @@ const Columns<JoltResponse> jolt_columns =
 }  // namespace
 
 const Columns<ResponseRow> response_columns =
-    Columns<ResponseRow>{{"deformer", &ResponseRow::deformer, "", "pbs, or snh_p1: finite elements in time that swing as fast"}} +
+    Columns<ResponseRow>{{"deformer", &ResponseRow::deformer, "", "pbs, or nh_p1: finite elements in time that swing as fast"}} +
     within(&ResponseRow::setting, stiffness_columns) +
     Columns<ResponseRow>{{"time_step_ms", &ResponseRow::time_step_ms, "ms", "time step"}} + within(&ResponseRow::setting, solver_columns) +
     Columns<ResponseRow>{{"young_pa", &ResponseRow::young_pa, "Pa", "Young's modulus of the reference; nan for pbs"},
@@ -105,7 +105,7 @@ constexpr double first_young_pa = 1e5;  // of the reference, before its frequenc
 
 ResponseRow response_row(const JiggleSetting& setting, double young_pa, double time_step_s, const JoltResponse& response)
 {
-    return {std::isnan(young_pa) ? "pbs" : "snh_p1", setting, 1e3 * time_step_s, young_pa, name_of(response.swing.outcome), response};
+    return {std::isnan(young_pa) ? "pbs" : "nh_p1", setting, 1e3 * time_step_s, young_pa, name_of(response.swing.outcome), response};
 }
 
 void add_series(std::vector<SeriesRow>& series, const std::string& name, double time_step_s, const std::vector<double>& excursion_m,
@@ -147,10 +147,10 @@ void add_reference(const JoltCase& of, const pbs::Character& character, const st
     if (!reference) return;
     const auto& swing = reference->response.swing;
     records.responses.push_back(response_row(measured.setting, reference->young_pa, reference->time_step_s, reference->response));
-    add_series(records.series, "snh_p1 beside " + text_of(measured.setting), reference->time_step_s, reference->response.excursion_m,
+    add_series(records.series, "nh_p1 beside " + text_of(measured.setting), reference->time_step_s, reference->response.excursion_m,
                reference->response.speed_rms_m_s);
     analysis::CaseKey at = key_of(character.name, measured.setting);
-    at.reference = "snh_p1";
+    at.reference = "nh_p1";
     at.young_pa = reference->young_pa;
     const double pace = hz / swing.frequency_hz.estimate, reach = own.overshoot_over_jolt / reference->response.overshoot_over_jolt;
     records.measurements.push_back({"C09", "frequency_over_reference", at, pace, own.swing.frequency_hz.low / swing.frequency_hz.high,
@@ -176,7 +176,7 @@ nlohmann::json to_json(const Jolt& jolt)
 
 nlohmann::json to_json(const JoltCase& of)
 {
-    static const nlohmann::json reference = {{"deformer", "stable neo-Hookean, linear elements, generalised alpha"},
+    static const nlohmann::json reference = {{"deformer", "neo-Hookean, linear elements, generalised alpha"},
                                              {"first_young_pa", first_young_pa},
                                              {"steps_a_period", reference_steps_a_period},
                                              {"periods", reference_periods}};

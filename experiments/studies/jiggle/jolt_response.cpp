@@ -100,7 +100,7 @@ DeformerSpec dynamic_reference(double young_pa)
 {
     DeformerSpec spec = default_spec("fem");
     auto& options = options_of<FemOptions>(spec);
-    options.model = reference_fem::Model::stable_neo_hookean;
+    options.model = reference_fem::Model::neo_hookean;
     options.element_order = 1;
     options.dynamics = reference_fem::Dynamics::generalized_alpha;
     options.young_pa = young_pa;

@@ -48,7 +48,7 @@ inline constexpr int reference_steps_a_period = 24, reference_periods = 4;  // o
 std::optional<JiggleReference> match_reference(const pbs::Character& character, DeformerSpec fem, const std::vector<int>& probe,
                                                const Jolt& jolt, double frequency_hz);
 
-// Stable neo-Hookean, linear elements, generalised alpha.
+// Neo-Hookean, linear elements, generalised alpha.
 DeformerSpec dynamic_reference(double young_pa);
 
 }  // namespace experiments

@@ -4,7 +4,6 @@
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/poses_solver.hpp"
@@ -44,8 +43,7 @@ Shapes PosedCharacter::shapes(const DeformerSpec& spec, std::optional<std::size_
         stop_if_interrupted();
         const pbs::StepSummary step = deformer->advance(poses_[pose], time_step_s_);
         const bool finished = step.outcome == pbs::Outcome::finished;
-        shapes.push_back(
-            {deformer->positions(), finished, finished && pbs::self_intersects(deformer->positions(), boundary_), step.seconds});
+        shapes.push_back({deformer->positions(), finished, step.seconds});
     }
     return shapes;
 }
@@ -67,8 +65,7 @@ std::vector<Shapes> PosedCharacter::shapes(const std::vector<pbs::PbsOptions>& o
     for (std::size_t lane = 0; lane < steps.size(); ++lane) {
         const bool finished = steps[lane].outcome == pbs::Outcome::finished;
         const pbs::Positions& positions = solver.positions(static_cast<int>(lane));
-        all[lane / poses_.size()].push_back(
-            {positions, finished, finished && pbs::self_intersects(positions, boundary_), steps[lane].seconds});
+        all[lane / poses_.size()].push_back({positions, finished, steps[lane].seconds});
     }
     return all;
 }

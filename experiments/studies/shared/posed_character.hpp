@@ -1,6 +1,6 @@
 // One character in a few poses of a scene, and the shapes that deformers give it there.
 //   const PosedCharacter limb(scene, {3, 6, 9});
-//   const Shapes reference = limb.shapes(spec_of(scene, "snh_p2"));
+//   const Shapes reference = limb.shapes(spec_of(scene, "nh_p2"));
 //   limb.distance(reference[0], other[0]).joint_pct;
 #pragma once
 
@@ -20,7 +20,6 @@ pbs::Positions blended(const pbs::Character& character, const pbs::Pose& pose);
 struct Shape {
     pbs::Positions positions;  // vertices [m], #V x 3
     bool finished = false;     // false: not finite or not converged; nothing is measured against it
-    bool self_intersects = false;
     double seconds = 0.0;
 };
 using Shapes = std::vector<Shape>;  // one per pose

@@ -45,7 +45,6 @@ DeformerSpec reference_flesh(const Scene& scene)
                                .poisson = own.poisson,
                                .density_kg_m3 = own.density_kg_m3,
                                .attachment = FemAttachment::smooth,
-                               .spring_factor = 10.0,
                                .most_newton_steps = most_newton_steps};
     return flesh;
 }

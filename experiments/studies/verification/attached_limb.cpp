@@ -22,7 +22,7 @@ using namespace reference_fem;
 namespace {
 
 constexpr int coarse = 500;  // vertices
-const FemOptions stable = {.model = reference_fem::Model::stable_neo_hookean, .element_order = 1};
+const FemOptions limb_flesh = {.model = reference_fem::Model::neo_hookean, .element_order = 1};
 
 pbs::Pose twisted(const pbs::Character& limb, double angle_deg)
 {
@@ -56,7 +56,7 @@ VerificationRow row_of(const pbs::Character& limb, const RowQuantity& quantity, 
     return {.problem = "attached_limb",
             .quantity = quantity,
             .elements = elements_of(1),
-            .material = material_of("stable_neo_hookean", 0.45),
+            .material = material_of("neo_hookean", 0.45),
             .mesh = "limb, " + std::to_string(limb.mesh.rest.rows()) + " vertices",
             .dofs = static_cast<int>(3 * limb.mesh.rest.rows()),
             .value = value,
@@ -70,7 +70,7 @@ VerificationRow row_of(const pbs::Character& limb, const RowQuantity& quantity, 
 
 VerificationRow young_cancels(const pbs::Character& limb)
 {
-    FemOptions soft = stable, hard = stable;
+    FemOptions soft = limb_flesh, hard = limb_flesh;
     soft.young_pa = 1e3;
     hard.young_pa = 1e7;
     const pbs::Pose pose = twisted(limb, 40.0);
@@ -82,7 +82,7 @@ VerificationRow young_cancels(const pbs::Character& limb)
 
 VerificationRow rigid_motion(const pbs::Character& limb, FemAttachment attachment, const std::string& name)
 {
-    FemOptions options = stable;
+    FemOptions options = limb_flesh;
     options.attachment = attachment;
     const pbs::Pose pose = turned_whole(limb, 120.0);
     pbs::Positions turned = limb.mesh.rest;
@@ -96,7 +96,7 @@ VerificationRow found_poisson(const Effort& effort, const pbs::Character& limb)
 {
     const pbs::Pose pose = twisted(limb, 30.0);
     const auto of = [&](double poisson) {
-        FemOptions options = stable;
+        FemOptions options = limb_flesh;
         options.poisson = poisson;
         return shape(limb, options, pose);
     };
@@ -135,8 +135,12 @@ VerificationRows attached_limb_rows(const Effort& effort)
 {
     if (!effort.limb) return {};
     const pbs::Character limb = effort.limb(coarse, 0);
-    return {young_cancels(limb), rigid_motion(limb, FemAttachment::embedded, "embedded"), rigid_motion(limb, FemAttachment::bind, "bind"),
-            found_poisson(effort, limb), kept_factor(effort.limb(0, 0))};
+    return {young_cancels(limb),
+            rigid_motion(limb, FemAttachment::smooth, "smooth"),
+            rigid_motion(limb, FemAttachment::embedded, "embedded"),
+            rigid_motion(limb, FemAttachment::bind, "bind"),
+            found_poisson(effort, limb),
+            kept_factor(effort.limb(0, 0))};
 }
 
 }  // namespace experiments

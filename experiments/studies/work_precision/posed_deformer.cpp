@@ -18,7 +18,7 @@ Shape PosedDeformer::reach()
     const pbs::StepSummary step = advance(poses_.pose);
     is_there_ = true;
     has_arrived_ = step.outcome == pbs::Outcome::finished;
-    return {deformer_->positions(), has_arrived_ && deformer_->positions().allFinite(), false, process_cpu_s() - start_s};
+    return {deformer_->positions(), has_arrived_ && deformer_->positions().allFinite(), process_cpu_s() - start_s};
 }
 
 std::vector<double> PosedDeformer::turn()

@@ -1,5 +1,5 @@
 // A pose as text in the address:
-// #run=human_jump&frame=12&colour=error&panels=lbs,dqs,pbs,snh_p1&surface=rendered&cut=x,0.1,below&bones=1&claim=C02
+// #run=human_jump&frame=12&colour=error&panels=lbs,dqs,pbs,nh_p1&surface=rendered&cut=x,0.1,below&bones=1&claim=C02
 
 export const colourings = ["skin", "ratio", "error", "inverted"];
 

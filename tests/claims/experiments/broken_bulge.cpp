@@ -38,7 +38,7 @@ experiments::ArtefactCase small_bend()
 {
     experiments::ArtefactCase of;
     of.scene = experiments::read_scene("limb_bend", {"character.vertices=1200", "motion.angle_deg=60", "motion.frames=3",
-                                                     R"(deformers.use=["lbs", "dqs", "pbs", "snh_p1"])"});
+                                                     R"(deformers.use=["lbs", "dqs", "pbs", "nh_p1"])"});
     of.claim = experiments::ArtefactCase::Claim::bulge;
     of.poses = {{1, "bend_30_deg"}, {2, "bend_60_deg"}};
     return of;
@@ -47,7 +47,7 @@ experiments::ArtefactCase small_bend()
 struct BentLimb {
     experiments::ArtefactCase of = small_bend();
     experiments::ArtefactBody body{of};
-    Shapes reference = shapes("snh_p1");
+    Shapes reference = shapes("nh_p1");
 
     Shapes shapes(const std::string& deformer) const { return body.posed.shapes(spec_of(of.scene, deformer)); }
 };

@@ -49,7 +49,7 @@ scene = "limb_bend"
 motion.frames = 2
 character.vertices = 300
 reference.name = ""
-deformers.use = ["snh_p1"]
+deformers.use = ["nh_p1"]
 output.frames_every = 0
 [grid]
 motion.angle_deg = [20.0, 150.0]

@@ -97,7 +97,7 @@ TEST(CaseKey, MatchesWhatAsksForNoMore)
 TEST(CaseKey, ItsTextNamesWhatIsSet)
 {
     EXPECT_EQ(text_of(bent_limb()), "limb, bend, upper|forearm, 90 deg, pbs, k_stretch 0.2");
-    EXPECT_EQ(text_of({.reference = "snh_p2", .masses = "unit", .equation = "12"}), "reference snh_p2, masses unit, equation 12");
+    EXPECT_EQ(text_of({.reference = "nh_p2", .masses = "unit", .equation = "12"}), "reference nh_p2, masses unit, equation 12");
     EXPECT_EQ(text_of({.iterations = 12.0, .iterations_to = 48.0, .time_step_s = 0.01}), "iterations 12 to 48, time_step 0.01 s");
     EXPECT_EQ(text_of({.time_step_s = 0.02, .time_step_to_s = 0.005}), "time_step 0.02 to 0.005 s");
     EXPECT_EQ(text_of({}), "");

@@ -74,7 +74,7 @@ class Captions(unittest.TestCase):
         self.assertIn("The longest took 611 steps", text)
 
     def test_folds_of_frequency_are_largest_over_smallest(self):
-        rows = [{"body": body, "varied": varied, "frequency_hz": hz, "deformer": "snh_p1" if pa else "pbs", "young_pa": pa or "nan"}
+        rows = [{"body": body, "varied": varied, "frequency_hz": hz, "deformer": "nh_p1" if pa else "pbs", "young_pa": pa or "nan"}
                 for body, varied, hz, pa in (
                     ("limb", "k_stretch", 10, ""), ("limb", "k_stretch", 5, ""), ("limb", "k_stretch", 8, ""), ("man", "k_stretch", 7, ""),
                     ("limb", "iterations", 4, ""), ("limb", "iterations", 6, ""), ("limb_reference", "", 99, ""),
@@ -136,7 +136,7 @@ class Captions(unittest.TestCase):
 
     def test_inverted_tets_of_stills_and_clip(self):
         rows = [{"deformer": deformer, "inverted_tets": count} for deformer, count in (
-            ("lbs", 73), ("lbs", 109), ("pbs", 0), ("pbs", 1), ("snh_p1", 0), ("snh_p1", 12))]
+            ("lbs", 73), ("lbs", 109), ("pbs", 0), ("pbs", 1), ("nh_p1", 0), ("nh_p1", 12))]
         self.assertIn("LBS inverts 73 to 109 tets and PBS 0 to 1; the finite elements, which are the reference, invert 0 to 12",
                       self.told("frames_skin", rows))
         self.assertIn("1 of 2 frames have inverted tets, up to 12; LBS has up to 109, PBS up to 1.", self.told("clip_jump", rows))

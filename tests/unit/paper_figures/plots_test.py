@@ -107,7 +107,7 @@ class Plots(unittest.TestCase):
         rows = self.drawn("section_profiles")
         self.assertEqual(len(rows), 6 * 4 * 3)  # panels, deformers, sections
         self.assertEqual({(row["deformer"], round(float(row["area_over_rest_pct"]), 6)) for row in rows},
-                         {("lbs", 50.0), ("dqs", 110.0), ("pbs", 100.0), ("snh_p2", 100.0)})
+                         {("lbs", 50.0), ("dqs", 110.0), ("pbs", 100.0), ("nh_p2", 100.0)})
         self.assertEqual([float(row["offset_cm"]) for row in rows[:3]], [-10.0, 0.0, 10.0])
 
     def test_stability(self):

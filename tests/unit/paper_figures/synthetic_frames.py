@@ -4,7 +4,7 @@ import json
 
 rest = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 1.0, 1.0)]
 tets = [(0, 1, 2, 3), (1, 2, 3, 4)]
-labels = {"snh_p1": 1.0, "lbs": 1.1, "dqs": 1.2, "pbs": 1.05}  # the rate at which each grows
+labels = {"nh_p1": 1.0, "lbs": 1.1, "dqs": 1.2, "pbs": 1.05}  # the rate at which each grows
 vtu = """<?xml version="1.0"?>
 <VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian"><UnstructuredGrid>
 <Piece NumberOfPoints="5" NumberOfCells="2">
@@ -53,7 +53,7 @@ def write_frame(file, label, frame):
 
 
 def error_m(label, frame):
-    return max(sum((a - b) ** 2 for a, b in zip(p, q)) ** 0.5 for p, q in zip(positions_of(label, frame), positions_of("snh_p1", frame)))
+    return max(sum((a - b) ** 2 for a, b in zip(p, q)) ** 0.5 for p, q in zip(positions_of(label, frame), positions_of("nh_p1", frame)))
 
 
 def write_skin(folder):
@@ -84,7 +84,7 @@ def write_frames(results, scene="limb_twist", frames=4, body="limb", not_reached
     folder = results / "frames" / scene
     (folder / "frames").mkdir(parents=True)
     (folder / "run.json").write_text(json.dumps({"scene": {
-        "character": {"body": body}, "motion": {}, "reference": {"name": "snh_p1"},
+        "character": {"body": body}, "motion": {}, "reference": {"name": "nh_p1"},
         "runs": [{"label": label, "name": label, "variant": "default"} for label in labels]}}))
     columns = ["scene", "deformer", "variant", "iterations", "frame", "time_s", "volume_change_pct", "inverted_tets", "j_min",
                "error_joint_pct", "error_linf_m", "min_section_pct", "angle_deg", "outcome"]

@@ -47,7 +47,6 @@ def write_study(results):
     write_run(results / "volume" / "limb_twist")
     write_run(results / "volume" / "limb_bend", frames=31, last_angle_deg=150.0)
     write_run(results / "volume" / "human_01_01", frames=50, last_angle_deg=None)
-    write_run(results / "volume" / "human_01_01_truth", frames=50, last_angle_deg=None)
     for iterations in (1, 24, 96):
         write_frame_statistics(results / "volume" / "human_01_01", "pbs", iterations)
     write_regions(results)
@@ -59,9 +58,9 @@ def write_regions(results):
         writer = csv.DictWriter(stream, ["run", "deformer", "kind", "bone", "second_bone", "rest_share_pct", "change_pct",
                                          "own_change_pct"])
         writer.writeheader()
-        for deformer, change in (("lbs", -1.0), ("dqs", -0.75), ("pbs", -0.125), ("snh_p1", -0.25)):
+        for deformer, change in (("lbs", -1.0), ("dqs", -0.75), ("pbs", -0.125), ("nh_p1", -0.25)):
             for kind, second in (("bone", ""), ("joint", "chest")):
-                writer.writerow({"run": "human_01_01_truth", "deformer": deformer, "kind": kind, "bone": "spine",
+                writer.writerow({"run": "human_01_01", "deformer": deformer, "kind": kind, "bone": "spine",
                                  "second_bone": second, "rest_share_pct": 10.0, "change_pct": change, "own_change_pct": 10 * change})
 
 
@@ -111,7 +110,7 @@ def write_fit(results):
         writer.writeheader()
         for body in ("pbs", "pbs_converged"):
             for poisson in (0.0, 0.3, 0.49):
-                writer.writerow({"model": "stable_neo_hookean", "element_order": 2, "attachment": "embedded", "body": body,
+                writer.writerow({"model": "neo_hookean", "element_order": 2, "attachment": "smooth", "body": body,
                                  "k_stretch": 0.2, "poisson": poisson, "misfit_pct": 20 + abs(poisson - 0.3)})
 
 

@@ -76,7 +76,7 @@ def write_artefacts(study):
     zero."""
     cases = {"limb_twist": ("twist_90_deg", "twist_180_deg"), "limb_bend": ("bend_60_deg", "bend_90_deg"),
              "human_twist_forearm_upper.L": ("twist_90_deg",), "human_bend_shin.L": ("bend_90_deg",)}
-    areas = {"lbs": 0.5, "dqs": 1.1, "pbs": 1.0, "snh_p1": 0.9, "snh_p2": 1.0, "delta_mush": 1.0}
+    areas = {"lbs": 0.5, "dqs": 1.1, "pbs": 1.0, "nh_p1": 0.9, "nh_p2": 1.0, "delta_mush": 1.0}
     for case, poses in cases.items():
         write_origin(study / case)
         write(study / case / "profiles.csv",
@@ -113,7 +113,7 @@ def write_jiggle(study):
 
     write_runs(study, ["limb_jolt", "limb_reference"])
     write(study / "limb_jolt" / "responses.csv", [row(), row(k=0.4), row(k=1), row(step=20), row(iterations=6)])
-    write(study / "limb_reference" / "responses.csv", [row(), row("snh_p1", step=3.4), row("snh_p1", iterations=6)])
+    write(study / "limb_reference" / "responses.csv", [row(), row("nh_p1", step=3.4), row("nh_p1", iterations=6)])
 
 
 def write_stiffness(study):

@@ -81,7 +81,7 @@ class Viewer(unittest.TestCase):
     def test_pbs_of_another_stiffness_says_which_and_which_its_zone(self):
         plain = {"k_stretch": 0.2}
         options = {"pbs": plain, "pbs_jiggle": {"k_stretch": 1.0, "jiggle": {"k_stretch": 0.1}}, "pbs_no_zone": {"k_stretch": 1.0},
-                   "pbs_increment": {**plain, "lbs_entry": "increment"}, "snh_p1": {"poisson": 0.45}}
+                   "pbs_increment": {**plain, "lbs_entry": "increment"}, "nh_p1": {"poisson": 0.45}}
         runs = [{"label": label, "options": set_to} for label, set_to in options.items()] + [{"label": "lbs"}]
         recorded = types.SimpleNamespace(run=types.SimpleNamespace(record={"scene": {"runs": runs}}))
         self.assertEqual([viewer_data.title_of(recorded, label) for label in ("lbs", *options)],
@@ -111,10 +111,10 @@ class Viewer(unittest.TestCase):
 
     def test_frames_whose_pose_was_not_reached_are_packed_as_such(self):
         with tempfile.TemporaryDirectory() as folder:
-            synthetic_frames.write_frames(pathlib.Path(folder), not_reached=[("snh_p1", 2), ("snh_p1", 3), ("pbs", 0)])
+            synthetic_frames.write_frames(pathlib.Path(folder), not_reached=[("nh_p1", 2), ("nh_p1", 3), ("pbs", 0)])
             runs = [viewer_data.pack(pathlib.Path(folder), every)[0]["runs"][0] for every in (1, 2)]
         found = [{deformer["label"]: deformer["not_reached"] for deformer in run["deformers"]} for run in runs]
-        self.assertEqual(found, [{"lbs": [], "dqs": [], "pbs": [0], "snh_p1": [2, 3]}, {"lbs": [], "dqs": [], "pbs": [0], "snh_p1": [1]}])
+        self.assertEqual(found, [{"lbs": [], "dqs": [], "pbs": [0], "nh_p1": [2, 3]}, {"lbs": [], "dqs": [], "pbs": [0], "nh_p1": [1]}])
 
     def test_stills_say_under_a_pose_that_it_was_not_reached(self):
         row = {"inverted_tets": "1", "min_section_pct": "40", "volume_change_pct": "-2"}
@@ -133,10 +133,10 @@ class Viewer(unittest.TestCase):
     def test_panels_of_a_claim_are_those_on_record(self):
         figures = {column: [0.0, 1.0] for column in viewer_data.figures}
         run = {"name": "human_walk", "frames": [0, 1], "deformers": [{"label": label, "figures": figures}
-                                                                      for label in ("lbs", "pbs_jiggle", "snh_p1")]}
-        self.assertEqual([(pose["claim"], pose["panels"]) for pose in viewer_poses.poses_of([run])], [("C09", "lbs,pbs_jiggle,snh_p1")])
+                                                                      for label in ("lbs", "pbs_jiggle", "nh_p1")]}
+        self.assertEqual([(pose["claim"], pose["panels"]) for pose in viewer_poses.poses_of([run])], [("C09", "lbs,pbs_jiggle,nh_p1")])
         run["deformers"].append({"label": "pbs_no_zone", "figures": figures})
-        self.assertEqual(viewer_poses.poses_of([run])[0]["panels"], "lbs,pbs_no_zone,pbs_jiggle,snh_p1")
+        self.assertEqual(viewer_poses.poses_of([run])[0]["panels"], "lbs,pbs_no_zone,pbs_jiggle,nh_p1")
 
     def test_a_claim_opens_at_the_recorded_extreme(self):
         links = viewer_html.claim_links(self.results)

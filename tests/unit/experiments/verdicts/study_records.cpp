@@ -28,7 +28,7 @@ void finish(const std::string& study, const std::string& run, double value)
     std::filesystem::create_directories(folder);
     analysis::measurement_table({{"C07", "linear_drift", {.body = run}, value, value, value, "1"}})
         .write((folder / "measurements.csv").string());
-    analysis::write_text_atomically((folder / "run.json").string(), "{\"schema\": 2}\n");
+    analysis::write_text_atomically((folder / "run.json").string(), "{\"schema\": 3}\n");
 }
 
 TEST(StudyRecords, ComeFromRunsThatEnded)
@@ -82,7 +82,7 @@ TEST(StudyRecords, ARecordIsOfTheBodyAndMotionThatThePlanGives)
     analysis::write_text_atomically(run + "/metrics.csv",
                                     "scene,deformer,variant,order,precision,iterations,threads,frame,time_s,volume_change_pct,"
                                     "volume_abs_change_pct,inverted_tets\nwalk,pbs,default,plain,f64,24,1,0,0,0,0,0\n");
-    analysis::write_text_atomically(run + "/run.json", "{\"schema\": 2}\n");
+    analysis::write_text_atomically(run + "/run.json", "{\"schema\": 3}\n");
     const analysis::Records records = read_study_records(study, root.path().string());
     ASSERT_EQ(records.cases.size(), 1u);
     EXPECT_EQ(records.cases[0].place.body, "man");
@@ -116,9 +116,9 @@ TEST(StudyRecords, WhatSomebodyElseMadeOfThemIsRefusedByFileAndField)
     EXPECT_EQ(message_with(plan, R"({"runs": [{"name": "limb", "scene": "limb", "of": {"body": 3}}], "left_out": []})"),
               plan + ": of.body = 3: expected a text");
     EXPECT_EQ(message_with(run, "{}"), run + ": schema: missing");
-    EXPECT_EQ(message_with(run, "{\"schema\": 2"), run + ":1: no JSON, or cut short, at byte 13");
-    EXPECT_EQ(message_with(run, "{\"schema\": 2}"), "accepted");
-    EXPECT_EQ(message_with(run, "{\"schema\": 1}"), run + ": schema = 1: expected 2");
+    EXPECT_EQ(message_with(run, "{\"schema\": 3"), run + ":1: no JSON, or cut short, at byte 13");
+    EXPECT_EQ(message_with(run, "{\"schema\": 3}"), "accepted");
+    EXPECT_EQ(message_with(run, "{\"schema\": 1}"), run + ": schema = 1: expected 3");
 }
 
 }  // namespace

@@ -4,7 +4,7 @@ import { test } from "node:test";
 import { hash_of, pose_of } from "../../../../paper_figures/viewer/src/link.js";
 
 test("there and back", () => {
-    const pose = { run: "human_jump", frame: 12, colour: "error", panels: ["lbs", "snh_p1"], rendered: true,
+    const pose = { run: "human_jump", frame: 12, colour: "error", panels: ["lbs", "nh_p1"], rendered: true,
                    cut: { axis: "x", at_m: -0.25, above: true }, bones: true, claim: "C02" };
     assert.deepEqual(pose_of(hash_of(pose)), pose);
 });

@@ -25,8 +25,8 @@ test("numbers have three digits and a dash where none is on record", () => {
 });
 
 test("a run shows four panels, those asked for first", () => {
-    const run = { reference: "snh_p1", labels: ["lbs", "dqs", "pbs", "snh_p1", "pbs_jiggle"] };
-    assert.deepEqual(panels_for(run), ["lbs", "dqs", "pbs", "snh_p1"]);
+    const run = { reference: "nh_p1", labels: ["lbs", "dqs", "pbs", "nh_p1", "pbs_jiggle"] };
+    assert.deepEqual(panels_for(run), ["lbs", "dqs", "pbs", "nh_p1"]);
     assert.deepEqual(panels_for(run, ["pbs_jiggle", "unheard_of"]), ["pbs_jiggle", "lbs", "dqs", "pbs"]);
 });
 
@@ -41,11 +41,11 @@ test("the rendered surface is drawn where the body has one and nothing is cut", 
 });
 
 test("no distance where the deformer or the reference did not reach the frame's pose", () => {
-    const deformers = [{ label: "pbs", not_reached: [1] }, { label: "snh_p1", not_reached: [2] }];
-    const run = Object.assign(Object.create(Run.prototype), { reference: "snh_p1", labels: ["pbs", "snh_p1"], deformers });
+    const deformers = [{ label: "pbs", not_reached: [1] }, { label: "nh_p1", not_reached: [2] }];
+    const run = Object.assign(Object.create(Run.prototype), { reference: "nh_p1", labels: ["pbs", "nh_p1"], deformers });
     assert.deepEqual([0, 1, 2].map((at) => run.reached("pbs", at)), [true, false, true]);
     assert.deepEqual([0, 1, 2].map((at) => run.has_errors("pbs", at)), [true, false, false]);
-    assert.deepEqual([0, 1, 2].map((at) => run.has_errors("snh_p1", at)), [true, true, false]);
+    assert.deepEqual([0, 1, 2].map((at) => run.has_errors("nh_p1", at)), [true, true, false]);
 });
 
 test("listeners hear what changed, and nothing when nothing did", () => {

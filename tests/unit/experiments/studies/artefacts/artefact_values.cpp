@@ -42,7 +42,7 @@ TEST_F(BulgeFigures, AreOverQuadraticElementsWhereverTheyComeAmongTheSamples)
     EXPECT_DOUBLE_EQ(measurements()[0].value, 1.2 / 1.5);
     EXPECT_DOUBLE_EQ(measurements()[0].low, 1.2 / 1.5);   // relative to the largest reference
     EXPECT_DOUBLE_EQ(measurements()[0].high, 1.2 / 0.8);  // relative to the smallest
-    EXPECT_EQ(text_of(measurements()[0].of), "limb, bend, upper|forearm, 30 deg, pbs, reference snh_p2");
+    EXPECT_EQ(text_of(measurements()[0].of), "limb, bend, upper|forearm, 30 deg, pbs, reference nh_p2");
 }
 
 TEST_F(BulgeFigures, AreOverLinearElementsWhereThereAreNoOthers)
@@ -51,7 +51,7 @@ TEST_F(BulgeFigures, AreOverLinearElementsWhereThereAreNoOthers)
     ASSERT_EQ(measurements().size(), 1u);
     EXPECT_DOUBLE_EQ(measurements()[0].value, 1.1);
     EXPECT_DOUBLE_EQ(measurements()[0].high, 1.3);
-    EXPECT_EQ(measurements()[0].of.reference, "snh_p1");
+    EXPECT_EQ(measurements()[0].of.reference, "nh_p1");
 }
 
 TEST_F(BulgeFigures, PosesWithoutAReferenceAreCountedAndHaveNone)
@@ -110,7 +110,7 @@ TEST_F(BulgeFigures, TableHasALineASectionWithItsOutcome)
     samples = {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 2), sample("pbs", 1, 1.0)};
     const auto rows = section_rows(of, body, experiments::section_outcomes(of, body, samples));
     ASSERT_EQ(rows.size(), 3u);
-    EXPECT_EQ(rows[0].reference, "snh_p2");
+    EXPECT_EQ(rows[0].reference, "nh_p2");
     EXPECT_EQ(rows[0].outcome, "measured");
     EXPECT_EQ(rows[1].outcome, "reference_not_reached");
     EXPECT_EQ(rows[2].outcome, "bent_by_more_than_110_deg");
