@@ -4,10 +4,19 @@
 
 namespace experiments {
 
-BodyMesh::BodyMesh(pbs::CharacterSource source, int vertices, const pbs::Character& base) : base_vertices_(base.mesh.rest.rows())
+namespace {
+
+std::shared_ptr<pbs::Character> character_with(pbs::CharacterSource source, int vertices)
 {
     source.vertices = vertices;
-    character_ = std::make_shared<pbs::Character>(pbs::make_character(source));
+    return std::make_shared<pbs::Character>(pbs::make_character(source));
+}
+
+}  // namespace
+
+BodyMesh::BodyMesh(const pbs::CharacterSource& source, int vertices, const pbs::Character& base)
+    : character_(character_with(source, vertices)), base_vertices_(base.mesh.rest.rows())
+{
     points_ = pbs::embed(base.mesh.rest, pbs::Triangles(0, 3), character_->mesh);
 }
 

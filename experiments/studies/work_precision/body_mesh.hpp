@@ -21,7 +21,7 @@ public:
     {
     }
     // Another mesh of about so many vertices. Where it ends slightly inside the base's surface, its tets are extended.
-    BodyMesh(pbs::CharacterSource source, int vertices, const pbs::Character& base);
+    BodyMesh(const pbs::CharacterSource& source, int vertices, const pbs::Character& base);
     // Every tet of the base cut into eight. The first vertices are those of the base.
     static BodyMesh refined(const pbs::Character& base);
 

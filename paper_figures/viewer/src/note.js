@@ -6,8 +6,8 @@ const locking = "The FEM shown has linear elements (P1), which lock: they are st
 
 export function note_of(run, every, at) {
     const masked_pct = run.masked_share_pct(at);
-    const mark = masked_pct > 0 ? `* In this frame the FEM reference overlaps itself: distances leave out ${masked_pct.toPrecision(2)} % of `
-        + "the volume. " : "";
+    const mark = masked_pct > 0 ? "* In this frame the FEM reference overlaps itself: distances leave out "
+        + `${masked_pct.toPrecision(2)} % of the volume. ` : "";
     const kept = every === 1 ? "every recorded frame" : `one of ${every} recorded frames`;
     const step_um = (1e6 * run.step_m).toFixed(1);
     return `${mark}${locking}${run.vertices} vertices, ${run.tets} tets${carried_by(run)}; ${kept}. Positions are rounded to steps of `

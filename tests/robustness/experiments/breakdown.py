@@ -7,8 +7,8 @@ import unittest
 import foreign_arm
 import program
 
-SOLID = '[[fem]]\nname = "snh"\nmodel = "stable_neo_hookean"\n'
-LINEAR = '[[fem]]\nname = "linear"\nmodel = "linear"\n'
+SOLID = '[[fem]]\nname = "snh"\nmodel = "stable_neo_hookean"\nelement_order = 1\nattachment = "embedded"\n'
+LINEAR = '[[fem]]\nname = "linear"\nmodel = "linear"\nattachment = "embedded"\n'
 
 
 def volume(points, tet):

@@ -44,7 +44,7 @@ experiments::DeformerSpec spec_of(const std::string& kind, int element_order = 2
         return true;
     }();
     EXPECT_TRUE(registered);
-    experiments::FemOptions options;
+    experiments::FemOptions options{.attachment = experiments::FemAttachment::embedded};  // whose order is 1
     options.element_order = element_order;
     return {.name = kind, .kind = "stand_in_" + kind, .label = kind, .options = options};
 }

@@ -36,10 +36,10 @@ TEST_F(MarkedFrames, EachDeformersFirstBrokenFrameIsNamed)
                   "pbs": [{"frame": 2, "what": "not_finite", "step": 7, "first_vertex": 17, "vertices_not_finite": 120}],
                   "nh_p1": [{"frame": 18, "what": "inverted", "worst_tet": 812, "volume_ratio": -0.04, "inverted_tets": 3},
                              {"frame": 19, "what": "not_converged", "worst_tet": 5, "volume_ratio": 0.5, "inverted_tets": 0}]}}})"),
-              "     limb_bend: pbs broke down in 1 of 31 frames (1 not finite), the first not finite in frame 2 (in step 7, before it): "
-              "first at vertex 17, 120 not finite\n"
               "     limb_bend: nh_p1 broke down in 2 of 31 frames (1 inverted, 1 not converged), the first inverted in frame 18: worst tet "
-              "812 of volume ratio -0.04, 3 inverted\n");
+              "812 of volume ratio -0.04, 3 inverted\n"
+              "     limb_bend: pbs broke down in 1 of 31 frames (1 not finite), the first not finite in frame 2 (in step 7, before it): "
+              "first at vertex 17, 120 not finite\n");
 }
 
 TEST_F(MarkedFrames, OverlapsAndErrorsBelowTheReferences)
