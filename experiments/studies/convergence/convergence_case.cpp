@@ -65,7 +65,7 @@ private:
         if (!own_ && !of_.ladder) return {"own_mesh_alone"};
         if (character.mesh.rest.rows() > of_.reference_to) return {fmt::format("left_out_above_{}_vertices", of_.reference_to)};
         PosedReference reference(character, of_.reference, posed_.pose(frame), of_.scene.motion.time_step_s, of_.refines_reference);
-        if (!reference.is_reached()) return {of_.reference.label + "_was_not_reached"};
+        if (!reference.is_reached()) return {fmt::format("{} was not reached: {}", of_.reference.label, reference.why_not_reached())};
         return {of_.reference.label, std::move(reference)};
     }
 

@@ -78,6 +78,8 @@ MemberRow member_row(const EnsembleCase& of, const EnsembleMember& member, const
     row.inverted_tets = finest.inverted_tets;
     row.j_min = finest.j_min;
     row.worst_tet = finest.worst_tet;
+    row.newton_steps = finest.newton_steps;
+    row.projected = finest.projected;
     for (const NestedSolution& solution : reference.solutions()) row.solve_s += solution.seconds;
     if (!reference.is_reached()) return row;
     row.element_order = reference.reference().element_order;
@@ -158,6 +160,8 @@ const Columns<MemberRow> member_columns =
         {"inverted", &MemberRow::inverted_tets, "", "the body's tets that it inverts by their vertices alone; they are left out"},
         {"j_min", &MemberRow::j_min, "", "the smallest volume ratio of such a tet"},
         {"worst_tet", &MemberRow::worst_tet, "", "that tet"},
+        {"newton_steps", &MemberRow::newton_steps, "", "of the finest solution, from the one with fewer nodes"},
+        {"projected", &MemberRow::projected, "", "how many of their Hessians were not positive definite"},
         {"solve_s", &MemberRow::solve_s, "s", "wall time of all solutions"}};
 
 const Columns<ErrorRow> error_columns =

@@ -48,6 +48,7 @@ struct MemberRow {
     int inverted_tets = 0;
     double j_min = 0.0;
     int worst_tet = -1;
+    int newton_steps = 0, projected = 0;
     double solve_s = 0.0;
 };
 struct ErrorRow {

@@ -64,15 +64,6 @@ Scene refined(Scene scene)
     return scene;
 }
 
-// Where the way to the pose ended: the tet of the finest solution that is closest to inversion, or the most inverted one.
-std::string worst_tet_of(const PosedReference& reference, const pbs::TetMesh& mesh)
-{
-    const pbs::Positions& finest = reference.solutions().front().positions;
-    Eigen::Index worst = 0;
-    const double det_f = pbs::tet_volumes(finest, mesh.tets).cwiseQuotient(pbs::tet_volumes(mesh.rest, mesh.tets)).minCoeff(&worst);
-    return fmt::format("worst tet {} (det F {:.3g})", worst, det_f);
-}
-
 // PBS with its constraints converged, and after half of the iterations, which shows how far it still moves.
 struct Converged {
     Shapes shapes, half_way, refined;
@@ -88,7 +79,7 @@ public:
                 references_.emplace_back(base_.character(), of.reference, base_.pose(pose), of.scene.motion.time_step_s);
             if (!reference.is_reached())
                 split_.breakdown += fmt::format("{} in frame {}: not reached, {}. ", of.reference.label, of.frames[pose],
-                                                worst_tet_of(reference, base_.character().mesh));
+                                                reference.why_not_reached());
         }
         for (const DeformerSpec& other : of.others) others_.push_back(base_.shapes(other));
     }

@@ -9,6 +9,9 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,19 +22,24 @@ namespace {
 constexpr int most_newton_steps = 25;  // about 20 s and 5 GB each on tets cut into eight; a fold without contact may take any number
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-// Computes the volume ratios of the tets, counts the inverted ones and marks their vertices.
-void measure_volumes(const pbs::TetMesh& mesh, NestedSolution& solution, std::vector<bool>& masked)
+// Computes the volume ratios of the tets, counts the inverted ones and returns them.
+std::vector<Eigen::Index> measure_volumes(const pbs::TetMesh& mesh, NestedSolution& solution)
 {
     const Eigen::VectorXd ratios = pbs::tet_volumes(solution.positions, mesh.tets).cwiseQuotient(pbs::tet_volumes(mesh.rest, mesh.tets));
     solution.j_min = ratios.minCoeff(&solution.worst_tet);
-    for (Eigen::Index t = 0; t < ratios.size(); ++t) {
-        if (ratios(t) > 0.0) continue;
-        ++solution.inverted_tets;
-        for (const int v : mesh.tets.row(t)) masked[v] = true;
-    }
+    std::vector<Eigen::Index> inverted;
+    for (Eigen::Index t = 0; t < ratios.size(); ++t)
+        if (ratios(t) <= 0.0) inverted.push_back(t);
+    solution.inverted_tets = static_cast<int>(inverted.size());
+    return inverted;
 }
 
 }  // namespace
+
+std::string worst_tet_of(const NestedSolution& solution)
+{
+    return fmt::format("worst tet {} of volume ratio {:.3g}, {} inverted", solution.worst_tet, solution.j_min, solution.inverted_tets);
+}
 
 DeformerSpec reference_flesh(const Scene& scene)
 {
@@ -99,9 +107,14 @@ void PosedReference::add(const Deformer::FewerNodes& of, const Level& level)
     solution.seconds = of.step.seconds;
     const pbs::Positions& positions = of.deformer->positions();
     solution.positions = positions.topRows(character_.mesh.rest.rows());
+    const nlohmann::json newton = of.deformer->record().at("newton");
+    solution.newton_steps = newton.at("newton_steps").at("most");
+    solution.projected = newton.at("projected_hessians");
+    const std::vector<Eigen::Index> inverted = measure_volumes(character_.mesh, solution);
     if (solution.finished) {
         solution.lowest_det_f = of.deformer->lowest_det_f().value();
-        measure_volumes(character_.mesh, solution, masked_);
+        for (const Eigen::Index tet : inverted)
+            for (const int v : character_.mesh.tets.row(tet)) masked_[v] = true;
         const std::vector<bool> overlaps = pbs::OverlapMask(level.character).of(positions);
         for (std::size_t v = 0; v < masked_.size(); ++v) masked_[v] = masked_[v] || overlaps[v];
     }

@@ -15,6 +15,7 @@
 #include "pbs/character/character.hpp"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace experiments {
@@ -32,9 +33,13 @@ struct NestedSolution {
     int inverted_tets = 0;      // of the character's own tets, by their vertices alone
     double j_min = 1.0;         // smallest volume ratio of such a tet
     int worst_tet = -1;         // that tet
+    int newton_steps = 0;       // linear solves, on all of the way to the pose
+    int projected = 0;          // how many of their Hessians were not positive definite
     double seconds = 0.0;       // wall time without that of the solution with fewer nodes, where it set out
     pbs::Positions positions;   // of the character's vertices [m], #V x 3
 };
+// "worst tet 812 of volume ratio -0.04, 3 inverted"
+std::string worst_tet_of(const NestedSolution& solution);
 
 class PosedReference {
 public:
@@ -47,6 +52,8 @@ public:
     bool is_reached() const { return which_.has_value(); }
     const NestedSolution& reference() const { return solutions_.at(which_.value()); }  // std::bad_optional_access if it is not reached
     const std::vector<NestedSolution>& solutions() const { return solutions_; }        // the finest first, those that failed too
+    // Empty if the reference is reached; otherwise where the way of the finest solution ended.
+    std::string why_not_reached() const { return is_reached() ? "" : worst_tet_of(solutions_.front()); }
 
     // The vertices that are left out, #V. They include those of the character's tets that a solution inverts by their vertices alone.
     const std::vector<bool>& masked() const { return masked_; }
