@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Keeps what the verdicts rest on: from the records of `pbskin reproduce --full -o DIR` the figures that claims are judged by, studies' own
-tables and the provenance, below 5 MB, in experiments/records/full. `pbskin reproduce --judge -o experiments/records/full` judges them
-again.
+"""Keeps what the verdicts rest on: from the records of `pbskin reproduce --full -o DIR` the values by which claims are judged, those that
+they show for comparison, the studies' own tables and the provenance, below 6 MB, in experiments/records/full. `pbskin reproduce --judge -o
+experiments/records/full` judges them again.
 
     python3 experiments/records/keep.py results/full [FOLDER]
 """
@@ -16,7 +16,7 @@ JUDGED = ["scene", "deformer", "variant", "order", "precision", "iterations", "t
           "volume_change_pct", "volume_abs_change_pct", "inverted_tets"]
 PROVENANCE = ["version", "git_revision", "git_dirty", "compiler", "flags", "build_type", "cpu_model", "logical_cpus"]
 DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # beside frames, which are not kept
-MOST_BYTES = 5_000_000
+MOST_BYTES = 6_000_000
 TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run
 SUMMARY_BYTES = 100_000  # of a study's own files, which sum up its runs'
 
@@ -29,22 +29,23 @@ def rounded(text):
         return text
 
 
-def judged_deformers():
-    """Each deformer that claims judge from metrics.csv -> its iterations, None for any."""
+def shown_deformers():
+    """Each deformer that claims judge, or show for comparison, from metrics.csv -> its iterations, None for any."""
     claims = tomllib.loads((pathlib.Path(__file__).resolve().parents[1] / "verdicts" / "claims.toml").read_text(encoding="utf-8"))["claim"]
-    return {claim[key]: claim.get("iterations") for claim in claims for key in ("deformer", "orders") if key in claim}
+    compared = {deformer: None for claim in claims for deformer in claim.get("compared", [])}
+    return compared | {claim[key]: claim.get("iterations") for claim in claims for key in ("deformer", "orders") if key in claim}
 
 
-def is_judged(row, deformers):
+def is_shown(row, deformers):
     iterations = deformers.get(row["deformer"])
     return row["deformer"] in deformers and (iterations is None or int(float(row["iterations"])) == iterations)
 
 
 def keep_metrics(source, target):
-    """The rows and columns of metrics.csv that claims are judged by."""
-    deformers = judged_deformers()
+    """The rows and columns of metrics.csv that claims are judged by, or show for comparison."""
+    deformers = shown_deformers()
     with source.open(newline="", encoding="utf-8") as file:
-        rows = [row for row in csv.DictReader(file) if is_judged(row, deformers)]
+        rows = [row for row in csv.DictReader(file) if is_shown(row, deformers)]
     columns = [column for column in JUDGED if rows and column in rows[0]]
     with target.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
