@@ -1,4 +1,5 @@
-"""Writes the findings of the README: five statements with one key number each, from the facts in DIR/claims.json.
+"""Writes the findings of the README: one statement with its key numbers per line, from the facts in DIR/claims.json and, for the distance
+from flesh, from DIR/ensemble.
 
     python3 paper_figures/readme_findings.py results/reproduce
 """
@@ -8,6 +9,8 @@ import case_words
 import readme_part
 import records
 import sentences
+
+notable_points = 2  # of difference between the errors of two methods
 
 
 def only(rows, what, **wanted):
@@ -78,9 +81,30 @@ def speed(claims):
             f"per second on one core. The bound is {bound:.0f}; the paper reports 66 to 91 on a processor of its time.")
 
 
+def distance(results):
+    """The errors against the family's first reference, and how many of the pairs that differ notably the whole family orders alike."""
+    columns = {"body", "pose", "angle_deg", "member", "deformer", "error_joint_pct"}
+    rows = [row for file in sorted((results / "ensemble").glob("*/errors.csv")) for row in records.table(file, columns)]
+    errors = {}
+    for row in rows:
+        if row["member"] == rows[0]["member"]:
+            errors.setdefault(row["deformer"], []).append(float(row["error_joint_pct"]))
+    pairs = records.table(results / "ensemble" / "pairs.csv", {"difference_pct", "members", "decision"})
+    notable = [pair for pair in pairs if pair["difference_pct"] and abs(float(pair["difference_pct"])) > notable_points]
+    if not notable or not {"lbs", "dqs", "delta_mush", "pbs"} <= set(errors):
+        raise records.RecordsMissing(f"{results / 'ensemble'}: no errors of LBS, DQS, delta mush and PBS, or no pair of them")
+    spans = {name: f"{min(errors[name]):.1f} to {max(errors[name]):.1f} %" for name in errors}
+    decided = sum(pair["decision"] == "decided" for pair in notable)
+    return (f"**Distance from flesh.** In {len(errors['pbs'])} poses of the limb and the human, PBS with 24 iterations is {spans['pbs']} of "
+            f"the mean bone distance away from neo-Hookean flesh at the joints (LBS {spans['lbs']}, DQS {spans['dqs']}, delta mush "
+            f"{spans['delta_mush']}). {notable[0]['members']} references with other attachments and Poisson's ratios agree on which of two "
+            f"methods is closer in {decided} of the {len(notable)} pairs that differ by more than {notable_points} percentage points.")
+
+
 def lines_of(results):
     claims = sentences.claims_of(results / "claims.json")
-    return [f"{number}. {finding(claims)}" for number, finding in enumerate((volume, artefacts, convergence, stiffness, speed), 1)]
+    of_claims = [finding(claims) for finding in (volume, artefacts, convergence, stiffness, speed)]
+    return [f"{number}. {finding}" for number, finding in enumerate([*of_claims, distance(results)], 1)]
 
 
 if __name__ == "__main__":

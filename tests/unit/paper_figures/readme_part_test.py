@@ -106,6 +106,30 @@ class Tables(ReadmeTest):
         self.assertEqual(status, 2)
         self.assertRegex(said, r"claims.json: claims: 0 with .*C04.*: expected one")
 
+    def write_ensemble(self, difference_pct="3"):
+        """Two poses, two references, of which the first is reported; LBS is 4 and 6 % away, PBS 1 and 3 %."""
+        for pose, far in (("crouch", 0), ("landing", 2)):
+            lines = [f"human,{pose},,{member},{name},{error + far + more}" for member, more in (("smooth", 0), ("stiffer", 10))
+                     for name, error in (("lbs", 4), ("dqs", 3), ("delta_mush", 2), ("pbs", 1))]
+            (self.results / "ensemble" / pose).mkdir(parents=True)
+            (self.results / "ensemble" / pose / "errors.csv").write_text(
+                "\n".join(["body,pose,angle_deg,member,deformer,error_joint_pct", *lines, ""]))
+        (self.results / "ensemble" / "pairs.csv").write_text(
+            "difference_pct,members,decision\n" + f"{difference_pct},2,decided\n-{difference_pct},2,reference_error\n1,2,decided\n,2,decided\n")
+
+    def test_the_distance_from_flesh_is_that_of_the_first_reference(self):
+        self.write_ensemble()
+        text = readme_findings.distance(self.results)
+        self.assertIn("In 2 poses of the limb and the human, PBS with 24 iterations is 1.0 to 3.0 % of", text)
+        self.assertIn("(LBS 4.0 to 6.0 %, DQS 3.0 to 5.0 %, delta mush 2.0 to 4.0 %)", text)
+        self.assertIn("2 references with", text)
+        self.assertIn("in 1 of the 2 pairs that differ by more than 2 percentage points", text)
+
+    def test_the_distance_needs_pairs_that_differ(self):
+        self.write_ensemble(difference_pct="1.9")
+        with self.assertRaisesRegex(records.RecordsMissing, "or no pair of them"):
+            readme_findings.distance(self.results)
+
     def test_features(self):
         synthetic_records.write_study(self.results)
         folder = self.results / "features" / "human"
