@@ -17,7 +17,8 @@ NestedOrder nested_order(const NestedDistances& distances, double formal_order)
     order.observed = std::log2(distances.linear / distances.linear_refined);
     order.order =
         std::isnan(order.observed) ? formal_order : std::clamp(order.observed, std::min(lowest_order, formal_order), formal_order);
-    order.reliable = order.observed >= lowest_order && order.observed <= formal_order + above_formal;
+    order.reliable =
+        order.observed >= lowest_order && order.observed <= formal_order + above_formal && distances.quadratic < distances.linear_refined;
     order.safety_factor = order.reliable ? reliable_factor : other_factor;
     return order;
 }
@@ -27,9 +28,9 @@ double NestedOrder::bound(double quadratic) const
     return safety_factor * quadratic / (std::exp2(order) - 1.0);
 }
 
-pbs::Positions extrapolated(const NestedOrder& order, const pbs::Positions& refined, const pbs::Positions& unrefined)
+pbs::Positions extrapolated(const pbs::Positions& refined, const pbs::Positions& unrefined, double order)
 {
-    return refined + (refined - unrefined) / (std::exp2(order.order) - 1.0);
+    return refined + (refined - unrefined) / (std::exp2(order) - 1.0);
 }
 
 }  // namespace analysis

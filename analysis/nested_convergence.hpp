@@ -1,9 +1,10 @@
 // The error of finite elements from four nested solutions: linear and quadratic elements on some tets and on the same tets cut into eight.
 // The quadratic solution on the refined tets stands for the limit in the observed order of the linear ones,
 //   2^p = |linear, unrefined - quadratic, refined| / |linear, refined - quadratic, refined|.
-// Quadratic elements converge at least as fast as linear ones on the same meshes, so that p is cautious for them, and the distance of the
-// finest solution from the limit is at most |quadratic, unrefined - quadratic, refined| / (2^p - 1), times a safety factor. Norms are
-// compared, not the fields point by point: nodal errors of finite elements are not proportional to each other.
+// Quadratic elements converge at least as fast as linear ones on the same meshes. Where the finest solution is much closer to the limit
+// than the linear ones, p is therefore cautious for it, and its distance from the limit is at most
+// |quadratic, unrefined - quadratic, refined| / (2^p - 1), times a safety factor. Norms are compared, not the fields point by point: nodal
+// errors of finite elements are not proportional to each other.
 //   const NestedOrder order = nested_order({.linear = 2.0, .linear_refined = 0.6, .quadratic = 0.1}, 2.0);
 //   order.bound(0.1);         // of the quadratic solution on the refined tets
 //   2.0 + order.bound(0.1);   // of any other one, by the triangle inequality
@@ -13,17 +14,19 @@
 
 namespace analysis {
 
-// In any norm and unit, from the quadratic solution on the refined tets.
+// The distances of the other solutions from the quadratic one on the refined tets, in any norm and unit.
 struct NestedDistances {
-    double linear = 0.0;          // of linear elements on the unrefined tets
-    double linear_refined = 0.0;  // of linear elements on the refined tets
-    double quadratic = 0.0;       // of quadratic elements on the unrefined tets
+    double linear = 0.0;          // linear elements, unrefined tets
+    double linear_refined = 0.0;  // linear elements, refined tets
+    double quadratic = 0.0;       // quadratic elements, unrefined tets
 };
 
 struct NestedOrder {
-    double observed = 0.0;       // below 0 where the linear solutions move away from the finest one; NaN where all solutions are equal
-    double order = 0.0;          // in use: the observed one, but at least 0.5 and at most the formal one
-    bool reliable = false;       // 0.5 <= observed <= formal order + 0.1 (L. Eca, M. Hoekstra, Journal of Computational Physics 262, 2014)
+    double observed = 0.0;  // below 0 where the linear solutions move away from the finest one; NaN where all solutions are equal
+    double order = 0.0;     // the order that is used: the observed one, at least 0.5 and at most the formal one
+    // 0.5 <= observed <= formal order + 0.1 (L. Eca, M. Hoekstra, Journal of Computational Physics 262, 2014), and the unrefined quadratic
+    // solution is closer to the finest one than the refined linear one is.
+    bool reliable = false;
     double safety_factor = 0.0;  // 1.25 if reliable, otherwise 3
 
     // Returns a bound on the distance of the finest solution from the limit, in the norm and unit of the argument. quadratic: as
@@ -34,7 +37,7 @@ struct NestedOrder {
 // formal_order: of linear elements, > 0. Distances are >= 0.
 NestedOrder nested_order(const NestedDistances& distances, double formal_order);
 
-// Richardson's extrapolation from two nested solutions of one method, #V x 3.
-pbs::Positions extrapolated(const NestedOrder& order, const pbs::Positions& refined, const pbs::Positions& unrefined);
+// Richardson's extrapolation from two nested solutions of one method that converges with this order > 0, #V x 3.
+pbs::Positions extrapolated(const pbs::Positions& refined, const pbs::Positions& unrefined, double order);
 
 }  // namespace analysis

@@ -12,19 +12,6 @@ PairOrder order_of(const PairDistances& pair)
     return gap < 0.0 ? PairOrder::first_is_closer : PairOrder::second_is_closer;
 }
 
-const char* name_of(PairDecision decision)
-{
-    switch (decision) {
-        case PairDecision::decided:
-            return "decided";
-        case PairDecision::reference_error:
-            return "reference_error";
-        case PairDecision::models_disagree:
-            return "models_disagree";
-    }
-    return "";
-}
-
 PairDecision decide(const std::vector<PairOrder>& members)
 {
     const auto any = [&](PairOrder order) { return std::find(members.begin(), members.end(), order) != members.end(); };

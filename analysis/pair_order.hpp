@@ -30,7 +30,6 @@ enum class PairDecision {
     reference_error,  // no two members contradict each other, but a member does not decide
     models_disagree,  // two members decide for different results
 };
-const char* name_of(PairDecision decision);  // as it is spelt in the enum
 
 // One order per member of the ensemble; reference_error if there is none.
 PairDecision decide(const std::vector<PairOrder>& members);

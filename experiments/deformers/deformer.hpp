@@ -32,7 +32,7 @@ public:
 
     // The vertices whose positions are prescribed to this deformer (the attachment of the FEM), #V; empty: none.
     virtual std::vector<bool> prescribed() const { return {}; }
-    // The solution with fewer nodes from which the last one set out, and how it ended. Null: it set out from elsewhere.
+    // The solution with fewer nodes that was tried as the initial guess of the last one, and how it ended. Null: none was tried.
     struct FewerNodes {
         const Deformer* deformer = nullptr;
         pbs::StepSummary step;

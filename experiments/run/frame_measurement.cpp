@@ -75,6 +75,10 @@ FrameMeasurement FrameMeasurer::measure(const pbs::Positions& positions, const F
 double FrameMeasurer::leave_out_overlap(const pbs::Positions& reference)
 {
     masked_ = overlap_.value().of(reference);
+    const Eigen::VectorXd ratios = metrics_.volume_ratios(reference);
+    for (Eigen::Index t = 0; t < ratios.size(); ++t)
+        if (!(ratios(t) > 0.0))
+            for (const int v : character_.mesh.tets.row(t)) masked_[v] = true;
     return error_metrics_->share_pct(masked_);
 }
 

@@ -46,8 +46,8 @@ public:
     // prescribed: as in error_domain.
     FrameMeasurer(const pbs::Character& character, const OutputSpec& output, const std::vector<bool>& prescribed);
     FrameMeasurement measure(const pbs::Positions& positions, const FrameContext& context);
-    // Finds the part of the body where the reference overlaps itself in the coming frame; errors and differences leave it out. The share
-    // of its volume [%]. The scene must have asked for errors.
+    // Finds the part of the body where the reference overlaps itself in the coming frame, and the vertices of the tets that it inverts by
+    // their vertices alone; errors and differences leave them out. The share of their volume [%]. The scene must have asked for errors.
     double leave_out_overlap(const pbs::Positions& reference);
     // The difference in the norms of the errors. The scene must have asked for errors.
     analysis::ErrorNorms difference(const pbs::Positions& a, const pbs::Positions& b) const

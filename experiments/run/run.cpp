@@ -163,9 +163,7 @@ private:
         context.pose = &motion_.steps[step];
         if (!motion_.angle_deg.empty()) context.angle_deg = motion_.angle_deg[frame];
         const Runner& first = runners_.front();
-        const bool is_reached =
-            first.steps.summary().outcome == pbs::Outcome::finished && first.deformer->lowest_det_f().value_or(1.0) > 0.0;
-        if (scene_.output.errors && first.spec.name == scene_.reference && is_reached) {
+        if (scene_.output.errors && first.spec.name == scene_.reference && can_be_compared_with(first)) {
             context.reference = &first.deformer->positions();
             const double masked_pct = cost_.time("metrics", [&] { return measurer_.leave_out_overlap(*context.reference); });
             frames_with_overlap_ += masked_pct > 0.0;
@@ -194,7 +192,7 @@ private:
             ++frames_below_reference_error_[runner.spec.label];
         if (step.outcome == pbs::Outcome::not_converged) not_converged_[runner.spec.label].push_back(frame);
         if (step.outcome == pbs::Outcome::not_finite) breakdowns_[runner.spec.label].push_back(frame);
-        if (step.outcome != pbs::Outcome::finished || has_inverted_flesh(runner, measured.metrics)) record_breakdown(runner, frame);
+        if (step.outcome != pbs::Outcome::finished || has_inverted_flesh(runner)) record_breakdown(runner, frame);
         if (scene_.output.writes(frame))
             cost_.time("frames", [&] {
                 folder_.write_frame(runner.spec, frame, time_s, character_, positions, measurer_.volume_ratios(positions),
@@ -204,11 +202,18 @@ private:
     }
 
     // Curved elements are judged at their quadrature points, since their vertices alone may form an inverted tet.
-    static bool has_inverted_flesh(const Runner& runner, const analysis::FrameMetrics& metrics)
+    bool has_inverted_flesh(const Runner& runner) const
     {
         if (!runner.traits.solves_equations) return false;
         const std::optional<double> lowest_det_f = runner.deformer->lowest_det_f();
-        return lowest_det_f ? *lowest_det_f <= 0.0 : metrics.inverted_tets > 0;
+        return lowest_det_f.value_or(measurer_.volume_ratios(runner.deformer->positions()).minCoeff()) <= 0.0;
+    }
+
+    // No deformer is compared with inverted flesh. The linear model is a negative control, which inverts tets at large rotations.
+    bool can_be_compared_with(const Runner& reference) const
+    {
+        return reference.steps.summary().outcome == pbs::Outcome::finished &&
+               (reference.traits.is_negative_control || !has_inverted_flesh(reference));
     }
 
     void record_breakdown(const Runner& runner, int frame)

@@ -33,8 +33,7 @@ struct OutputSpec {
 };
 
 // The further solutions that bound the distance of the reference from the limit of ever finer tets. none; orders: the other element order
-// on the same tets; refined: the same order on tets that are refined once; both: both element orders on
-// both meshes.
+// on the same tets; refined: the same order on tets that are refined once; both: both element orders on both meshes.
 enum class ErrorBar { none, orders, refined, both };
 
 template <>

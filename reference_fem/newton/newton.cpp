@@ -169,7 +169,7 @@ double NewtonMinimiser::step_length(const Terms& terms, const State& state, cons
 }
 
 // Conjugate gradients on H p = -g, where H is indefinite, preconditioned by the projected H. Without negative curvature they end at a
-// tenth of the first residual. Any of their iterates is a direction of descent.
+// tenth of the first residual or after `most_gradients` products. Any of their iterates is a direction of descent.
 Eigen::VectorXd NewtonMinimiser::truncated_step(const State& state)
 {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(state.gradient.size());

@@ -116,9 +116,8 @@ void add_solution_keys(OptionFields<FemOptions>& fields)
         .add("nested_start", &FemOptions::nested_start,
              {.meaning =
                   "nonlinear model, with element_order 2 or a refined character: in the first pose and where a bone turns by more than 15 "
-                  "degrees from the last "
-                  "pose, Newton's iterations start from the solution with order 1 or of the unrefined character: a shorter way to the "
-                  "same solution"});
+                  "degrees from the last pose, Newton's iterations start from the solution with order 1 or of the unrefined character. "
+                  "This leads to the same solution in fewer steps"});
 }
 
 // The rules that involve more than one key.

@@ -42,6 +42,10 @@ public:
 
     void add_to(ConvergenceResult& result) const
     {
+        for (std::size_t frame = 0; frame < references_.size(); ++frame)
+            if (!references_[frame].why.empty())
+                result.breakdown +=
+                    fmt::format("{} in {}: not reached, {}. ", of_.reference.label, of_.frames[frame].name, references_[frame].why);
         for (const double k_stretch : of_.k_stretch) {
             pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec_of(of_.scene, "pbs"));
             options.k_stretch = k_stretch;
@@ -54,7 +58,8 @@ public:
 
 private:
     struct FrameReference {
-        std::string name;  // or why there is none
+        std::string name;      // or why there is none
+        std::string why = {};  // if it was not reached: its worst tet
         std::optional<PosedReference> solved = {};
     };
 
@@ -65,8 +70,8 @@ private:
         if (!own_ && !of_.ladder) return {"own_mesh_alone"};
         if (character.mesh.rest.rows() > of_.reference_to) return {fmt::format("left_out_above_{}_vertices", of_.reference_to)};
         PosedReference reference(character, of_.reference, posed_.pose(frame), of_.scene.motion.time_step_s, of_.refines_reference);
-        if (!reference.is_reached()) return {fmt::format("{} was not reached: {}", of_.reference.label, reference.why_not_reached())};
-        return {of_.reference.label, std::move(reference)};
+        if (!reference.is_reached()) return {.name = of_.reference.label + "_was_not_reached", .why = reference.why_not_reached()};
+        return {.name = of_.reference.label, .solved = std::move(reference)};
     }
 
     static ReferenceQuality quality_of(const PosedReference& reference)
@@ -74,6 +79,7 @@ private:
         ReferenceQuality quality{.masked_share_pct = reference.masked_share_pct()};
         if (!reference.order()) return quality;
         quality.observed_order = reference.order()->observed;
+        quality.order_is_reliable = reference.order()->reliable;
         quality.bound_pct = reference.bound().joint_pct;
         return quality;
     }

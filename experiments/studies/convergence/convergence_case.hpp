@@ -44,9 +44,10 @@ nlohmann::json to_json(const NamedFrame& frame);
 nlohmann::json to_json(const ProjectionSetting& setting);
 nlohmann::json to_json(const ConvergenceCase& of);  // everything that a run of the study depends on
 
-// Of the reference of a path; nothing where there is none. The order and the bound need all of its nested solutions.
+// The quality of a path's reference. Empty where there is none. The order and the bound need all of its nested solutions.
 struct ReferenceQuality {
     std::optional<double> masked_share_pct = {}, observed_order = {}, bound_pct = {};
+    std::optional<bool> order_is_reliable = {};
 };
 
 struct ConvergencePaths {

@@ -140,6 +140,7 @@ const Columns<Look> last_error = {{"last_error_pct", &Look::error_joint_pct, "%"
 const Columns<ReferenceQuality> quality_columns = {
     {"masked_share_pct", &ReferenceQuality::masked_share_pct, "%", "share of the volume that is left out because the reference overlaps"},
     {"observed_order", &ReferenceQuality::observed_order, "", "of convergence of the reference's linear elements"},
+    {"order_is_reliable", &ReferenceQuality::order_is_reliable, "", "the order is credible, and the safety factor 1.25 instead of 3"},
     {"reference_bound_pct", &ReferenceQuality::bound_pct, "%", "bound of the reference's own error at the joints outside the mask"}};
 
 }  // namespace

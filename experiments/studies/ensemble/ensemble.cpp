@@ -108,8 +108,12 @@ public:
                               {reference.error_of(shapes_[a].positions).joint_pct, reference.error_of(shapes_[b].positions).joint_pct,
                                reference.distance(shapes_[a].positions, shapes_[b].positions).joint_pct, reference.bound().joint_pct})
                         : analysis::PairOrder::undecided);
-        if (errors_pct_.empty() && reference.is_reached())
-            for (const DeformedShape& shape : shapes_) errors_pct_.push_back(reference.error_of(shape.positions).joint_pct);
+        if (!reference.is_reached()) {
+            ++not_reached_;
+            return;
+        }
+        errors_pct_.emplace_back();
+        for (const DeformedShape& shape : shapes_) errors_pct_.back().push_back(reference.error_of(shape.positions).joint_pct);
     }
 
     std::vector<PairRow> pairs(const CaseKey& of) const
@@ -119,8 +123,11 @@ public:
             for (std::size_t b = a + 1; b < shapes_.size(); ++b) {
                 const std::vector<analysis::PairOrder>& orders = orders_[place(a, b)];
                 PairRow row{.of = of, .first = shapes_[a].deformer, .second = shapes_[b].deformer};
-                if (!errors_pct_.empty()) row.difference_pct = errors_pct_[b] - errors_pct_[a];
+                if (!errors_pct_.empty()) row.difference_pct = errors_pct_.front()[b] - errors_pct_.front()[a];
+                for (const std::vector<double>& errors : errors_pct_)
+                    row.largest_difference_pct = std::max(row.largest_difference_pct, std::abs(errors[b] - errors[a]));
                 row.members = static_cast<int>(orders.size());
+                row.not_reached = not_reached_;
                 row.first_is_closer = static_cast<int>(std::ranges::count(orders, analysis::PairOrder::first_is_closer));
                 row.second_is_closer = static_cast<int>(std::ranges::count(orders, analysis::PairOrder::second_is_closer));
                 row.decision = analysis::decide(orders);
@@ -134,7 +141,8 @@ private:
 
     const std::vector<DeformedShape>& shapes_;
     std::vector<std::vector<analysis::PairOrder>> orders_;  // of each pair, one per member
-    std::vector<double> errors_pct_;                        // relative to the first member that was reached
+    std::vector<std::vector<double>> errors_pct_;           // of the shapes, one list per member that was reached
+    int not_reached_ = 0;                                   // members
 };
 
 }  // namespace
@@ -161,7 +169,8 @@ const Columns<MemberRow> member_columns =
         {"j_min", &MemberRow::j_min, "", "the smallest volume ratio of such a tet"},
         {"worst_tet", &MemberRow::worst_tet, "", "that tet"},
         {"newton_steps", &MemberRow::newton_steps, "", "of the finest solution, from the one with fewer nodes"},
-        {"projected", &MemberRow::projected, "", "how many of their Hessians were not positive definite"},
+        {"projected", &MemberRow::projected, "",
+         "those with a projected Hessian, as it was not positive definite or the step before met negative curvature"},
         {"solve_s", &MemberRow::solve_s, "s", "wall time of all solutions"}};
 
 const Columns<ErrorRow> error_columns =
@@ -179,10 +188,12 @@ const Columns<PairRow> pair_columns =
         {"first", &PairRow::first, "", "name of a deformer"},
         {"second", &PairRow::second, "", "name of the other one"},
         {"difference_pct", &PairRow::difference_pct, "%", "error of the second minus that of the first, against the first member reached"},
+        {"largest_difference_pct", &PairRow::largest_difference_pct, "%", "the largest difference of any member, without its sign"},
         {"members", &PairRow::members, "", "number of members"},
+        {"not_reached", &PairRow::not_reached, "", "members that were not reached, which decide nothing"},
         {"first_is_closer", &PairRow::first_is_closer, "", "members for which the first is closer by more than their own error allows"},
         {"second_is_closer", &PairRow::second_is_closer, "", "members for which the second is"},
-        {"decision", &PairRow::decision, "", "decided, reference_error (a member does not decide) or models_disagree"}};
+        {"decision", &PairRow::decision, "", "decided, reference_error (a member does not decide or was not reached) or models_disagree"}};
 
 std::vector<EnsembleMember> family()
 {

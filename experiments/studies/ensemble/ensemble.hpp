@@ -16,7 +16,7 @@
 namespace experiments {
 
 struct EnsembleMember {
-    std::string name;  // smooth_q10, ...
+    std::string name;  // smooth, stiffer_springs, ...
     double spring_factor = 10.0, core_radius = 0.7, poisson = 0.45;
     reference_fem::Formulation formulation = reference_fem::Formulation::displacement;
 };
@@ -32,7 +32,7 @@ struct EnsembleCase {
 };
 nlohmann::json to_json(const EnsembleCase& of);
 
-// The family: q 10 and 100, core radius 0.5 and 0.7, Poisson's ratio 0.3, 0.45 and (with mean dilatation) 0.49.
+// The family: q 10 and 100 with a core radius of 0.5 and 0.7; and, with 10 and 0.7, Poisson's ratio 0.3 and (with mean dilatation) 0.49.
 std::vector<EnsembleMember> family();
 
 struct MemberRow {
@@ -44,7 +44,7 @@ struct MemberRow {
     std::optional<bool> reliable = {};
     double masked_share_pct = 0.0;
     std::optional<double> volume_change_pct = {};
-    double lowest_det_f = 1.0;  // of the finest solution, as the following
+    std::optional<double> lowest_det_f = {};  // of the finest solution, as the following
     int inverted_tets = 0;
     double j_min = 0.0;
     int worst_tet = -1;
@@ -59,8 +59,9 @@ struct ErrorRow {
 struct PairRow {
     analysis::CaseKey of;
     std::string first, second;
-    std::optional<double> difference_pct = {};  // of the first member's errors, second minus first
-    int members = 0, first_is_closer = 0, second_is_closer = 0;
+    std::optional<double> difference_pct = {};  // of the errors against the first member reached, second minus first
+    double largest_difference_pct = 0.0;        // of all members, without sign
+    int members = 0, not_reached = 0, first_is_closer = 0, second_is_closer = 0;
     analysis::PairDecision decision = analysis::PairDecision::reference_error;
 };
 extern const analysis::Columns<MemberRow> member_columns;  // members.csv

@@ -30,7 +30,9 @@ const analysis::Columns<ErrorParts> part_columns = {
     {"error_linf_m", &ErrorParts::error_linf_m, "m", "largest distance of a vertex of PBS from the reference outside the mask"},
     {"whole_joint_pct", &ErrorParts::whole_joint_pct, "%", "distance of PBS from the reference at the joints of the whole body"},
     {"masked_share_pct", &ErrorParts::masked_share_pct, "%", "share of the volume that is left out because the reference overlaps itself"},
-    {"observed_order", &ErrorParts::observed_order, "", "of convergence of the reference's linear elements; empty: not known"}};
+    {"observed_order", &ErrorParts::observed_order, "", "of convergence of the reference's linear elements; empty: not known"},
+    {"order_is_reliable", &ErrorParts::order_is_reliable, "",
+     "the order is credible, and the bound has the safety factor 1.25 instead of 3"}};
 
 const analysis::Columns<AttachmentShare> attachment_columns = {
     {"scene", &AttachmentShare::scene, "", "name of the scene"},
@@ -78,8 +80,8 @@ public:
             const PosedReference& reference =
                 references_.emplace_back(base_.character(), of.reference, base_.pose(pose), of.scene.motion.time_step_s);
             if (!reference.is_reached())
-                split_.breakdown += fmt::format("{} in frame {}: not reached, {}. ", of.reference.label, of.frames[pose],
-                                                reference.why_not_reached());
+                split_.breakdown +=
+                    fmt::format("{} in frame {}: not reached, {}. ", of.reference.label, of.frames[pose], reference.why_not_reached());
         }
         for (const DeformerSpec& other : of.others) others_.push_back(base_.shapes(other));
     }
@@ -130,7 +132,10 @@ private:
         parts.error_linf_m = total.linf_m;
         parts.whole_joint_pct = base_.distance(shape, reference_shape(pose)).joint_pct;
         parts.masked_share_pct = reference.masked_share_pct();
-        if (reference.order()) parts.observed_order = reference.order()->observed;
+        if (reference.order()) {
+            parts.observed_order = reference.order()->observed;
+            parts.order_is_reliable = reference.order()->reliable;
+        }
         split_.parts.push_back(parts);
     }
 

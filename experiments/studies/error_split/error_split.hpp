@@ -40,6 +40,7 @@ struct ErrorParts {
     double not_converged_pct = 0.0, pbs_refinement_pct = 0.0, error_l2_pct = 0.0, error_linf_m = 0.0, whole_joint_pct = 0.0;
     double masked_share_pct = 0.0;
     std::optional<double> observed_order = {};
+    std::optional<bool> order_is_reliable = {};
 };
 struct AttachmentShare {
     std::string scene;

@@ -24,7 +24,7 @@ StudyRun shown(const std::string& name, const std::string& scene, std::vector<st
     overrides.insert(overrides.end(), {"output.frames=[]", "output.frame_names=[]", "output.frames_every=1"});
     StudyRun run{.name = name, .scene = read_scene(scene, overrides), .cost_s = cost_s};
     run.scene.name = name;
-    run.bad_frames_are_results = !run.scene.reference.empty();  // the sweeps and jumps go beyond the pose in which flesh inverts tets
+    run.bad_frames_are_results = !run.scene.reference.empty();  // the sweeps go beyond the last pose that flesh reaches
     return run;
 }
 

@@ -147,7 +147,7 @@ void add_reference(const JoltCase& of, const pbs::Character& character, const st
     if (!reference) return;
     const auto& swing = reference->response.swing;
     records.responses.push_back(response_row(measured.setting, reference->young_pa, reference->time_step_s, reference->response));
-    add_series(records.series, "nh_p1 beside " + text_of(measured.setting), reference->time_step_s, reference->response.excursion_m,
+    add_series(records.series, "nh_p1 for " + text_of(measured.setting), reference->time_step_s, reference->response.excursion_m,
                reference->response.speed_rms_m_s);
     analysis::CaseKey at = key_of(character.name, measured.setting);
     at.reference = "nh_p1";

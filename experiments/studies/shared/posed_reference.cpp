@@ -60,6 +60,7 @@ DeformerSpec reference_flesh(const Scene& scene)
 PosedReference::PosedReference(const pbs::Character& character, const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s,
                                bool refines)
     : character_(character),
+      label_(spec.label),
       error_metrics_(error_domain(character, {})),
       masked_(character.mesh.rest.rows(), false),
       bound_{not_known, not_known, not_known}
@@ -73,7 +74,7 @@ PosedReference::PosedReference(const pbs::Character& character, const DeformerSp
         solve(spec, pose, time_step_s, {{character, 2}, {character, 1}});
     }
     for (std::size_t i = 0; i < solutions_.size() && !which_; ++i)
-        if (solutions_[i].finished && solutions_[i].lowest_det_f > 0.0) which_ = i;
+        if (solutions_[i].lowest_det_f > 0.0) which_ = i;
     if (which_ && refines) observe_order(convergence_order(options_of<FemOptions>(spec).attachment));
 }
 
@@ -133,7 +134,7 @@ void PosedReference::observe_order(double formal_order)
 
 pbs::Positions PosedReference::limit() const
 {
-    return analysis::extrapolated(order_.value(), solutions_[0].positions, solutions_[1].positions);
+    return analysis::extrapolated(solutions_[0].positions, solutions_[1].positions, order_.value().order + 1.0);
 }
 
 analysis::ErrorNorms PosedReference::error_on_whole_body(const pbs::Positions& positions) const

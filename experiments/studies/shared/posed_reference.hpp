@@ -20,23 +20,23 @@
 
 namespace experiments {
 
-// The flesh that every study compares with: neo-Hookean, with the Young's modulus, Poisson's ratio and density of the scene's first [[fem]]
-// deformer, held by smooth springs. Its law is infinite at det F <= 0, so that no quadrature point is inverted. pbs::InputError without a
-// [[fem]] deformer.
+// The flesh that convergence, ensemble, error_split and work_precision compare with: neo-Hookean, with the Young's modulus, Poisson's ratio
+// and density of the scene's first [[fem]] deformer, held by smooth springs. Its energy is infinite at det F <= 0, so that no quadrature
+// point of a converged solution is inverted. pbs::InputError without a [[fem]] deformer.
 DeformerSpec reference_flesh(const Scene& scene);
 
 // One of the solutions.
 struct NestedSolution {
     int element_order = 1, refinements = 0;
     bool finished = false;
-    double lowest_det_f = 1.0;  // at the quadrature points of its elements
-    int inverted_tets = 0;      // of the character's own tets, by their vertices alone
-    double j_min = 1.0;         // smallest volume ratio of such a tet
-    int worst_tet = -1;         // that tet
-    int newton_steps = 0;       // linear solves, on all of the way to the pose
-    int projected = 0;          // how many of their Hessians were not positive definite
-    double seconds = 0.0;       // wall time without that of the solution with fewer nodes, where it set out
-    pbs::Positions positions;   // of the character's vertices [m], #V x 3
+    std::optional<double> lowest_det_f = {};  // at the quadrature points of its elements; nothing if it did not finish
+    int inverted_tets = 0;                    // of the character's own tets, by their vertices alone
+    double j_min = 1.0;                       // smallest volume ratio of such a tet
+    int worst_tet = -1;                       // that tet
+    int newton_steps = 0;                     // on all of the way to the pose
+    int projected = 0;         // those with a projected Hessian: it was not positive definite, or the last step met negative curvature
+    double seconds = 0.0;      // wall time, without that of the solution with fewer nodes
+    pbs::Positions positions;  // of the character's vertices [m], #V x 3
 };
 // "worst tet 812 of volume ratio -0.04, 3 inverted"
 std::string worst_tet_of(const NestedSolution& solution);
@@ -48,11 +48,12 @@ public:
     PosedReference(const pbs::Character& character, const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s,
                    bool refines = true);
 
+    const std::string& label() const { return label_; }  // of spec
     // The reference is the finest solution that finished with det F > 0 at all quadrature points.
     bool is_reached() const { return which_.has_value(); }
     const NestedSolution& reference() const { return solutions_.at(which_.value()); }  // std::bad_optional_access if it is not reached
     const std::vector<NestedSolution>& solutions() const { return solutions_; }        // the finest first, those that failed too
-    // Empty if the reference is reached; otherwise where the way of the finest solution ended.
+    // Empty if the reference is reached; otherwise the worst tet of the finest solution's last state.
     std::string why_not_reached() const { return is_reached() ? "" : worst_tet_of(solutions_.front()); }
 
     // The vertices that are left out, #V. They include those of the character's tets that a solution inverts by their vertices alone.
@@ -69,7 +70,8 @@ public:
     const std::optional<analysis::NestedOrder>& order() const { return order_; }
     // Bounds the distance of the reference from the limit, outside the masked part. The bound is NaN where there is no order.
     analysis::ErrorNorms bound() const { return bound_; }
-    // Richardson's extrapolation of the quadratic solutions. std::bad_optional_access where there is no order.
+    // Richardson's extrapolation of the quadratic solutions. Their order is taken as one more than that of the linear ones; where they
+    // converge more slowly, the limit is farther away in the same direction. std::bad_optional_access where there is no order.
     pbs::Positions limit() const;
 
 private:
@@ -82,6 +84,7 @@ private:
     void observe_order(double formal_order);
 
     const pbs::Character& character_;
+    std::string label_;
     analysis::ErrorMetrics error_metrics_;
     std::vector<NestedSolution> solutions_;
     std::optional<std::size_t> which_;

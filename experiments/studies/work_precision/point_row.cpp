@@ -25,7 +25,7 @@ const Columns<SettingKey> deformer_columns = {{"deformer", &SettingKey::deformer
 const Columns<ErrorNorms> error_columns = {
     {"error_joint_pct", &ErrorNorms::joint_pct, "%", "error over the blended vertices outside the overlap"},
     {"error_l2_pct", &ErrorNorms::l2_pct, "%", "error over all vertices outside the overlap"},
-    {"error_linf_m", &ErrorNorms::linf_m, "m", "largest distance to the reference"}};
+    {"error_linf_m", &ErrorNorms::linf_m, "m", "largest distance from the reference outside the overlap"}};
 
 const Columns<FrameMetrics> volume_columns = {
     {"volume_change_pct", &FrameMetrics::volume_change_pct, "%", "signed change of the whole volume"},
@@ -57,11 +57,12 @@ void add_reference(PointRow& row, const PosedReference& reference)
 {
     row.masked_share_pct = reference.masked_share_pct();
     if (!reference.is_reached()) return;
-    row.reference = "neo_hookean";
+    row.reference = reference.label();
     if (!reference.order()) return;
     row.reference_error_joint_pct = reference.bound().joint_pct;
     row.reference_error_l2_pct = reference.bound().l2_pct;
     row.reference_order = reference.order()->observed;
+    row.reference_order_is_reliable = reference.order()->reliable;
 }
 
 }  // namespace
@@ -75,7 +76,7 @@ const Columns<PointRow> point_columns =
     Points{{"vertices", &PointRow::vertices, "", "vertices of the mesh that it is solved on"},
            {"tets", &PointRow::tets, "", "tets of that mesh"},
            {"outcome", &PointRow::outcome, "", "finished, not_converged or not_finite; reference, or not_reached"},
-           {"reach_ms", &PointRow::reach_ms, "ms", "wall time from rest to the pose"},
+           {"reach_ms", &PointRow::reach_ms, "ms", "wall time from rest to the pose; of the reference: that of all its solutions"},
            {"rounds", &PointRow::rounds, "", "number of timed frames"},
            {"failed_rounds", &PointRow::failed_rounds, "", "frames that did not reach their pose and are left out"},
            {"ms_median", &PointRow::ms_median, "ms", "median of the processor time per frame"},
@@ -86,10 +87,12 @@ const Columns<PointRow> point_columns =
            {"reference_error_joint_pct", &PointRow::reference_error_joint_pct, "%", "bound of the reference's own error at the joints"},
            {"reference_error_l2_pct", &PointRow::reference_error_l2_pct, "%", "bound of the reference's own error over all vertices"},
            {"reference_order", &PointRow::reference_order, "", "order of convergence that is observed"},
+           {"reference_order_is_reliable", &PointRow::reference_order_is_reliable, "",
+            "that order is credible, and the bound has the safety factor 1.25 instead of 3"},
            {"below_reference_error", &PointRow::below_reference_error, "", "the error is not above the reference's own bound"},
            {"error_whole_joint_pct", &PointRow::error_whole_joint_pct, "%", "error over the blended vertices, those that overlap included"},
            {"masked_share_pct", &PointRow::masked_share_pct, "%",
-            "share of the volume that the other errors leave out, as it overlaps itself"}} +
+            "share of the volume that the other errors leave out because the reference overlaps itself there"}} +
     within(&PointRow::parts, before_discretisation) +
     Points{{"discretisation_pct", &PointRow::discretisation_pct, "%", "PBS: bound of the reference's distance from its limit"}} +
     within(&PointRow::parts, after_discretisation);

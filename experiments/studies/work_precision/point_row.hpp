@@ -50,6 +50,7 @@ struct PointRow {
     std::string reference = {};
     std::optional<double> reference_error_joint_pct = {}, reference_error_l2_pct = {};
     std::optional<double> reference_order = {};
+    std::optional<bool> reference_order_is_reliable = {};
     std::optional<bool> below_reference_error = {};
     std::optional<double> error_whole_joint_pct = {}, masked_share_pct = {};
     std::optional<PbsParts> parts = {};

@@ -1,4 +1,4 @@
-// C05 from a limb bent by 30 and 60 degrees, compared with stable neo-Hookean elements, with the correct solver, with broken ones and with
+// C05 from a limb bent by 30 and 60 degrees, compared with neo-Hookean elements, with the correct solver, with broken ones and with
 // a blend in its place. Reference:
 // - nothing projected: LBS remains, whose crease bulges to the sides: wider than the reference.
 // - DQS in its place: the bulge of the claim, a ridge across the joint, which the radius detects. Its sections are hardly larger than those

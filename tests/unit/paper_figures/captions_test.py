@@ -139,7 +139,7 @@ class Captions(unittest.TestCase):
             ("lbs", 73), ("lbs", 109), ("pbs", 0), ("pbs", 1), ("nh_p1", 0), ("nh_p1", 12))]
         self.assertIn("LBS inverts 73 to 109 tets and PBS 0 to 1; the finite elements, which are the reference, invert 0 to 12",
                       self.told("frames_skin", rows))
-        self.assertIn("1 of 2 frames have inverted tets, up to 12; LBS has up to 109, PBS up to 1.", self.told("clip_jump", rows))
+        self.assertIn("inverted tets in 1 of 2 frames. LBS has up to 109 inverted tets, PBS up to 1.", self.told("clip_jump", rows))
 
     def test_where_the_jiggling_skin_is_farthest(self):
         rows = [{"largest_mm": mm, "farthest_bone": bone, "time_s": time_s} for mm, bone, time_s in (

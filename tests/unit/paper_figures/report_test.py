@@ -215,7 +215,7 @@ class Report(unittest.TestCase):
     def test_errors_over_whole_runs_are_the_recorded_order_statistics(self):
         synthetic_records.write_study(self.results)
         run = self.results / "volume" / "limb_twist"
-        fem = {"name": "nh_p2", "model": "stable_neo_hookean", "element_order": 2}
+        fem = {"name": "nh_p2", "model": "neo_hookean", "element_order": 2}
         record = json.loads((run / "run.json").read_text()) | {"outcome": {"frames": 37}}
         record["scene"] = {"reference": {"name": "nh_p2"}, "fem": [fem]}
         (run / "run.json").write_text(json.dumps(record))

@@ -3,7 +3,10 @@
 #include "experiments/run/frame_measurement.hpp"
 
 #include "pbs/character/bodies.hpp"
+#include "pbs/character/overlap_mask.hpp"
+#include "tests/support/bar_character.hpp"
 #include "tests/support/motion_rounding.hpp"
+#include "tests/support/wound_bar.hpp"
 
 #include <gtest/gtest.h>
 
@@ -57,6 +60,31 @@ TEST(FrameMeasurement, AThinnedLimbHasAQuarterOfItsSection)
     EXPECT_NEAR(*measured.min_section_pct, 25.0, test_support::rounding_error(6, 25.0));
     EXPECT_NEAR(measured.metrics.volume_change_pct, -75.0, test_support::rounding_error(6, 75.0));
     EXPECT_FALSE(measured.errors);
+}
+
+TEST(FrameMeasurement, LeavesOutTheOverlapOfTheReferenceButForTheErrorOnTheWholeBody)
+{
+    const pbs::Character bar = test_support::bar_character({24, 2, 2});
+    const pbs::Pose pose = rest_pose(bar);
+    const pbs::Positions reference = test_support::wound(bar.mesh.rest);
+    experiments::OutputSpec output;
+    output.sections = output.surface = false;
+    FrameMeasurer measurer(bar, output, {});
+    const double share_pct = measurer.leave_out_overlap(reference);
+    EXPECT_GT(share_pct, 0.0);
+    EXPECT_LT(share_pct, 100.0);
+    const std::vector<bool> overlap = pbs::OverlapMask(bar).of(reference);
+    FrameContext context;
+    context.pose = &pose;
+    context.reference = &reference;
+    for (std::size_t v = 0; v < overlap.size(); ++v) {
+        pbs::Positions moved = reference;
+        moved(static_cast<Eigen::Index>(v), 0) += 0.01;
+        const auto measured = measurer.measure(moved, context);
+        EXPECT_EQ(measured.masked_share_pct, share_pct);
+        EXPECT_EQ(measured.errors->linf_m > 0.0, !overlap[v]) << v;
+        EXPECT_GT(measured.errors_on_whole_body->linf_m, 0.0) << v;
+    }
 }
 
 TEST(FrameMeasurement, LeavesOutWhatIsNotAsked)

@@ -2,6 +2,7 @@
 #include "pbs/character/overlap_mask.hpp"
 
 #include "tests/support/bar_character.hpp"
+#include "tests/support/wound_bar.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,18 +18,6 @@ const pbs::Character& bar()
     return character;
 }
 
-// The bar of length 2 wound to a helix of 8 radians, whose windings are a fifth of the width apart: an angle a and a - 2 pi are both on the
-// bar for a > 2 pi - 4, so that the parts with |x| > pi / 2 - 1 overlap.
-pbs::Positions wound()
-{
-    pbs::Positions positions = bar().mesh.rest;
-    for (auto point : positions.rowwise()) {
-        const double angle = 4.0 * point(0), radius = 0.3 + point(1);
-        point << radius * std::sin(angle), radius * std::cos(angle), point(2) + 0.01 * angle;
-    }
-    return positions;
-}
-
 TEST(OverlapMask, IsEmptyForABodyThatDoesNotOverlap)
 {
     const std::vector<bool> mask = pbs::OverlapMask(bar()).of(bar().mesh.rest);
@@ -39,7 +28,7 @@ TEST(OverlapMask, IsEmptyForABodyThatDoesNotOverlap)
 // masked. At the axis of the overlapping ends everything is, for there is skin inside the other winding on one side.
 TEST(OverlapMask, CoversWhatLiesInsideAnotherPartAndTheFleshWithinALimbRadius)
 {
-    const std::vector<bool> mask = pbs::OverlapMask(bar()).of(wound());
+    const std::vector<bool> mask = pbs::OverlapMask(bar()).of(test_support::wound(bar().mesh.rest));
     const double overlap = std::numbers::pi / 2.0 - 1.0, limb_radius = 0.15 * std::numbers::sqrt2;
     for (Eigen::Index v = 0; v < bar().mesh.rest.rows(); ++v) {
         const pbs::Vec3 rest = bar().mesh.rest.row(v);

@@ -31,16 +31,18 @@ TEST(EmbeddedAttachment, SpringsAddUpToTheirDensityTimesTheCapsule)
     EXPECT_NEAR(of_forearm, 1e3 * 2e5 * std::numbers::pi * 4.0 / 6.0, test_support::rounding_error(roundings, of_forearm));
 }
 
-TEST(EmbeddedAttachment, TargetsFollowTheirBones)
+TEST(SpringTargets, FollowTheirBones)
 {
     const auto character = test_support::bar_character({24, 2, 2});
-    const BoneAttachment bones = embedded_attachment(character, options);
     pbs::Pose pose(2, Eigen::Isometry3d::Identity());
     pose[1].translation() = pbs::Vec3(1, 2, 3);
-    const pbs::Positions moved = spring_targets(bones, pose) - bones.attachment.spring_points;
-    for (Eigen::Index s = 0; s < moved.rows(); ++s)
-        EXPECT_LT((moved.row(s) - (bones.spring_bone[s] == 1 ? Eigen::RowVector3d(1, 2, 3) : Eigen::RowVector3d(0, 0, 0))).norm(), of_sums);
-    EXPECT_EQ(vertex_targets(bones, character.mesh.rest, pose), character.mesh.rest);
+    for (const BoneAttachment& bones : {embedded_attachment(character, options), smooth_attachment(character, options)}) {
+        const pbs::Positions moved = spring_targets(bones, pose) - bones.attachment.spring_points;
+        for (Eigen::Index s = 0; s < moved.rows(); ++s)
+            EXPECT_LT((moved.row(s) - (bones.spring_bone[s] == 1 ? Eigen::RowVector3d(1, 2, 3) : Eigen::RowVector3d(0, 0, 0))).norm(),
+                      of_sums);
+        EXPECT_EQ(vertex_targets(bones, character.mesh.rest, pose), character.mesh.rest);
+    }
 }
 
 TEST(NodesAttachment, WholeTetsInsideTheCapsulesAndNoVertexOfTwoBones)

@@ -86,7 +86,7 @@ TEST(ConvergenceCase, OtherTessellationsOfASizeHaveNone)
 void expect_no_errors(const ConvergenceResult& result, const std::string& reason)
 {
     ASSERT_EQ(result.all.size(), 1u);
-    EXPECT_TRUE(result.all.front().reference.starts_with(reason)) << result.all.front().reference;
+    EXPECT_EQ(result.all.front().reference, reason);
     EXPECT_FALSE(result.all.front().quality.masked_share_pct);
     EXPECT_FALSE(result.all.front().quality.bound_pct);
     EXPECT_TRUE(towards_rows(look_rows(result)).empty());
@@ -99,7 +99,7 @@ TEST(ConvergenceCase, AReferenceThatIsNotReachedGivesNoErrors)
     of.other_vertices.clear();
     of.frames.front().frame = 18;
     options_of<FemOptions>(of.reference).most_newton_steps = 1;
-    expect_no_errors(measure_convergence(of), "neo_hookean was not reached: worst tet ");
+    expect_no_errors(measure_convergence(of), "neo_hookean_was_not_reached");
 }
 
 TEST(ConvergenceCase, APoseThatIsNotComparedHasNoReference)

@@ -1,9 +1,10 @@
-// References: the study of convergence, which measures the same 24 iterations with another solver; and the definitions of the parts, which
-// are distances and fulfil the triangle inequality.
+// References: the studies convergence and ensemble, which measure the same 24 iterations, convergence with another solver; and the
+// definitions of the parts, which are distances and fulfil the triangle inequality.
 #include "experiments/studies/error_split/error_split.hpp"
 
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
+#include "experiments/studies/ensemble/ensemble.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 
 #include <gtest/gtest.h>
@@ -40,8 +41,20 @@ RateRow row_of_convergence(const ErrorSplitCase& as)
     return rate_rows(measure_convergence(of)).front();
 }
 
-void expect_same_error_in_both_studies(const ErrorSplitCase& of, const ErrorParts& parts)
+// PBS in double against the one reference of error_split.
+ErrorRow row_of_ensemble(const ErrorSplitCase& as)
 {
+    EnsembleCase of{.scene = as.scene, .frame = as.frames.front(), .flesh = as.reference, .members = {{.name = "reference"}}};
+    of.deformers = {as.pbs};
+    options_of<pbs::PbsOptions>(of.deformers.front()).precision = pbs::Precision::f64;
+    return measure_ensemble(of).errors.front();
+}
+
+void expect_same_error_in_all_studies(const ErrorSplitCase& of, const ErrorParts& parts)
+{
+    const ErrorRow other = row_of_ensemble(of);
+    EXPECT_DOUBLE_EQ(other.error_joint_pct, parts.error_joint_pct);
+    EXPECT_DOUBLE_EQ(other.whole_joint_pct, parts.whole_joint_pct);
     const RateRow row = row_of_convergence(of);
     EXPECT_GT(parts.error_joint_pct, 0.0);
     EXPECT_DOUBLE_EQ(row.paper.error_joint_pct, parts.error_joint_pct);
@@ -59,21 +72,21 @@ ErrorParts only_parts(const ErrorSplitCase& of)
     return split.parts.at(0);
 }
 
-TEST(ErrorSplit, HasTheSameErrorAsConvergence)
+TEST(ErrorSplit, HasTheSameErrorAsConvergenceAndEnsemble)
 {
     const ErrorSplitCase twist = small_limb("limb_twist", 18);  // 90 degrees
     const ErrorParts parts = only_parts(twist);
-    expect_same_error_in_both_studies(twist, parts);
+    expect_same_error_in_all_studies(twist, parts);
     EXPECT_EQ(parts.masked_share_pct, 0.0);
     EXPECT_EQ(parts.error_joint_pct, parts.whole_joint_pct);
 }
 
 // Where the limb overlaps itself, the error outside the mask is not that of the whole body.
-TEST(ErrorSplit, LeavesOutTheOverlapAsConvergenceDoes)
+TEST(ErrorSplit, LeavesOutTheOverlapAsTheyDo)
 {
     const ErrorSplitCase fold = small_limb("limb_bend", 24);  // 120 degrees
     const ErrorParts parts = only_parts(fold);
-    expect_same_error_in_both_studies(fold, parts);
+    expect_same_error_in_all_studies(fold, parts);
     EXPECT_GT(parts.masked_share_pct, 0.0);
     EXPECT_LT(parts.masked_share_pct, 100.0);
     EXPECT_NE(parts.error_joint_pct, parts.whole_joint_pct);
