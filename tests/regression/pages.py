@@ -19,7 +19,7 @@ import readme_part  # noqa: E402
 
 STUDY_SECTIONS = ["Cases", "Records", "Claims, figures, cost", "What it cannot show"]
 CLAIM_SECTIONS = ["What is measured", "Formula", "Bound", "What would make it fail", "How the paper can be read", "Result"]
-WITHOUT_KEPT_TABLES = {"bench", "ensemble", "frames", "scale"}  # their records are large or not kept yet, and no verdict needs them
+WITHOUT_KEPT_TABLES = {"bench", "frames", "scale"}  # their records are large, and no verdict needs them
 
 
 def sections(text):
