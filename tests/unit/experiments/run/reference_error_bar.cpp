@@ -110,6 +110,50 @@ TEST(ReferenceErrorBar, OfSolutionsThatShowNoCredibleOrderHasTheLargerFactor)
     EXPECT_EQ(bar.method()["frames_of_reliable_order"], 0);
 }
 
+// Moves the rest shape along x by an error that depends on the elements: 16 mm and 4 mm for linear ones on the limb's tets and on the
+// refined ones, 1 mm and 0 for quadratic ones.
+class KnownError : public experiments::Deformer {
+public:
+    explicit KnownError(int element_order) : element_order_(element_order) {}
+    void reset(const pbs::Character& character) override
+    {
+        positions_ = character.mesh.rest;
+        const bool refined = character.refinements > 0;
+        positions_.col(0).array() += element_order_ == 1 ? (refined ? 4e-3 : 16e-3) : (refined ? 0.0 : 1e-3);
+    }
+    pbs::StepSummary advance(const pbs::Pose&, double) override { return {}; }
+    const pbs::Positions& positions() const override { return positions_; }
+
+private:
+    int element_order_;
+    pbs::Positions positions_;
+};
+
+std::unique_ptr<experiments::Deformer> make_known_error(const experiments::DeformerSpec& spec)
+{
+    return std::make_unique<KnownError>(experiments::options_of<experiments::FemOptions>(spec).element_order);
+}
+
+// By hand: order 2, credible with the smooth attachment. The finest is 1.25 x 1 mm / 3 from the limit, and the reference is 1 mm or 16 mm
+// farther away.
+TEST(ReferenceErrorBar, OfFourSolutionsTakesTheOrderOfTheLinearOnesAndTheDifferenceOfTheQuadraticOnes)
+{
+    experiments::add_deformer_kind({.name = "known_error", .meaning = "rest and an error", .make = make_known_error});
+    const pbs::Character limb = small_limb();
+    const FrameMeasurer measurer(limb, {}, {});
+    for (const int element_order : {1, 2}) {
+        const experiments::FemOptions options{.element_order = element_order, .attachment = experiments::FemAttachment::smooth};
+        const experiments::DeformerSpec spec{.name = "known", .kind = "known_error", .label = "known", .options = options};
+        KnownError reference(element_order);
+        reference.reset(limb);
+        ReferenceErrorBar bar(ErrorBar::both, spec, limb);
+        bar.advance(bent(limb), 0.01);
+        const double own_m = element_order == 1 ? 16e-3 : 1e-3, bound_m = bar.bound(reference.positions(), measurer)->linf_m;
+        EXPECT_NEAR(bound_m, own_m + 1.25 * 1e-3 / 3.0, test_support::rounding_error(8, 1.0));
+        EXPECT_EQ(bar.method()["frames_of_reliable_order"], 1);
+    }
+}
+
 // Orders 1, 2 on the same tets: nodes are V and V + E. Three cube roots, of at most eight roundings each in the C library's manual, and two
 // quotients.
 TEST(ReferenceErrorBar, SaysWhichSolutionsAndRatios)
