@@ -76,10 +76,11 @@ private:
     fs::path path_;
 };
 
-VerificationRow row_of(int element_order, const std::string& processes)
+// setting: the identifier of these processes.
+VerificationRow row_of(int element_order, const std::string& processes, const std::string& setting)
 {
     return {.problem = "distributed",
-            .quantity = {"node_difference", "node differences over displacements, root mean square, " + processes},
+            .quantity = {"node_difference", "node differences over displacements, root mean square, " + processes, setting},
             .elements = elements_of(element_order),
             .material = linear_material(0.3),
             .unit = "1",
@@ -99,7 +100,7 @@ VerificationRow multigrid_row(const Effort& effort, int element_order)
     const BoundaryValueSolution direct = solve(mesh, {1e5, 0.3}, problem);
     problem.solver = LinearSolver::cg_ml;
     const BoundaryValueSolution iterative = solve(mesh, solver_material(effort, {1e5, 0.3}), problem);
-    VerificationRow row = row_of(element_order, "cg_ml in one process");
+    VerificationRow row = row_of(element_order, "cg_ml in one process", "cg_ml");
     row.mesh = text_of(divisions);
     row.h_m = 1.0 / divisions[1];
     row.dofs = direct.space->dofs();
@@ -110,7 +111,8 @@ VerificationRow multigrid_row(const Effort& effort, int element_order)
 
 VerificationRow distributed_row(int element_order, int ranks, const std::optional<Answer>& direct, const std::optional<Answer>& distributed)
 {
-    VerificationRow row = row_of(element_order, std::to_string(ranks) + (ranks == 1 ? " rank" : " ranks"));
+    VerificationRow row =
+        row_of(element_order, std::to_string(ranks) + (ranks == 1 ? " rank" : " ranks"), "ranks_" + std::to_string(ranks));
     row.mesh = "31 x 4 x 4";
     row.h_m = 0.25;
     row.high = 0.0;

@@ -118,7 +118,8 @@ TEST(ElasticFemDeformer, WhereOrder1DoesNotArriveANestedStartGoesTheWayItself)
 
 TEST(ElasticFemDeformer, AFrameThatIsNotReachedIsReportedAndTheNextSetsOutFromThere)
 {
-    ElasticFemDeformer fem({.model = Model::neo_hookean, .element_order = 1, .attachment = FemAttachment::embedded});
+    const FemOptions options{.model = Model::neo_hookean, .element_order = 1, .attachment = FemAttachment::embedded};
+    ElasticFemDeformer fem(options);
     fem.reset(bar());
     EXPECT_EQ(fem.advance(crushed(), 0.01).outcome, pbs::Outcome::not_converged);
     const nlohmann::json failure = fem.record()["newton"]["not_converged"][0];
@@ -133,7 +134,7 @@ TEST(ElasticFemDeformer, AFrameThatIsNotReachedIsReportedAndTheNextSetsOutFromTh
 
     EXPECT_EQ(fem.advance(bent(0.0), 0.01).outcome, pbs::Outcome::finished);
     EXPECT_LT(largest_distance(fem.positions(), bar().mesh.rest),
-              test_support::newton_error_m(bar(), {.model = Model::neo_hookean, .element_order = 1}, bent(0.0), bar().mesh.rest));
+              test_support::newton_error_m(bar(), options, bent(0.0), bar().mesh.rest));
 }
 
 TEST(ElasticFemDeformer, TheSecondFailureInARowIsTriedAgainFromRestOnce)
