@@ -96,7 +96,7 @@ int measure(const MeasureArguments& arguments)
     const std::vector<std::string> paths = frame_files(arguments.frames), names = frame_names(paths);
     const pbs::MeshReading reading = pbs::read_tet_mesh(arguments.rest);
     warn(pbs::remarks_on(arguments.rest, reading));
-    const RestMesh rest(reading.mesh);
+    const RestMesh rest(reading);
     const analysis::MeshMetrics mesh_metrics(rest.mesh().rest, rest.mesh().tets);
     std::vector<analysis::MeasuredFrame> frames;
     std::vector<analysis::RefusedFrame> refused;
@@ -130,7 +130,7 @@ void add_measure_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
         add_verb(app, common, "measure",
                  "applies the metrics to frames of any program: a rest tet mesh and deformed frames; exit 1 if a bound does not hold");
     auto arguments = std::make_shared<MeasureArguments>();
-    verb->add_option("rest", arguments->rest, "rest tet mesh: .msh .vtu .vtk .mesh .ele")->required();
+    verb->add_option("rest", arguments->rest, "rest tet mesh: .msh .vtu .vtk .mesh .tobj .ele")->required();
     verb->add_option(
             "frames", arguments->frames,
             "deformed frames with the same vertices in the same order: files, 'frame_%04d.vtu', 'frame_*.vtu' or a folder with one "

@@ -15,6 +15,8 @@ namespace {
 struct MeshArguments {
     std::string surface, tets;
     pbs::SurfaceMeshing meshing;
+    int boundary_euler = 2;
+    double scale = 1.0;
 };
 
 // The mesher does not know the name of the file.
@@ -30,7 +32,8 @@ pbs::TetMesh meshed(const MeshArguments& arguments, const pbs::SurfaceMesh& surf
 int mesh(const MeshArguments& arguments)
 {
     std::vector<std::string> remarks;
-    const pbs::SurfaceMesh surface = pbs::read_surface(arguments.surface, remarks);
+    pbs::SurfaceMesh surface = pbs::read_surface(arguments.surface, remarks);
+    surface.points *= arguments.scale;
     warn(remarks);
     pbs::require_tet_mesh_format(arguments.tets);
     analysis::require_writable(arguments.tets);
@@ -53,12 +56,15 @@ void add_mesh_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
         ->capture_default_str();
     verb->add_option("--wrap-alpha", arguments->meshing.wrap_alpha_m, "alpha of the wrap [m]; 0: computed from the size of the body")
         ->check(CLI::NonNegativeNumber);
-    verb->add_option("--euler", arguments->meshing.boundary_euler,
-                     "Euler number of the boundary: 2 for a ball, 0 for a body with one handle")
+    verb->add_option("--euler", arguments->boundary_euler, "Euler number of the boundary: 2 for a ball, 0 for a body with one handle")
         ->capture_default_str();
     verb->add_option("--wrap-offset", arguments->meshing.wrap_offset_m, "offset of the wrap [m]; 0: a third of alpha")
         ->check(CLI::NonNegativeNumber);
-    verb->callback([&action, arguments] { action = [arguments] { return mesh(*arguments); }; });
+    verb->add_option("--scale", arguments->scale, "enlarges the surface, for files that state a wrong unit")->check(CLI::PositiveNumber);
+    verb->callback([&action, arguments] {
+        arguments->meshing.boundary_euler = arguments->boundary_euler;
+        action = [arguments] { return mesh(*arguments); };
+    });
 }
 
 }  // namespace experiments

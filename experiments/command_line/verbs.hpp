@@ -21,6 +21,7 @@ using VerbAction = std::function<int()>;
 // Each sets `action` when the command line names its verb.
 void add_list_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 void add_explain_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
+void add_try_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 void add_run_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
 void add_check_verb(CLI::App& app, CommonOptions& common, VerbAction& action);

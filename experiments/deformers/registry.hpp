@@ -41,6 +41,7 @@ struct DeformerKind {
     std::any options = {};            // the defaults
     std::vector<SceneKey> keys = {};  // of its tables in a scene
     bool has_list = false;            // each [[kind]] table of a scene is a deformer, named by the table's key `name`
+    bool needs_list = false;          // and there is none without a table
     // Sets options and variant from a table of a scene (pbs, fem.0). InputError for keys that contradict each other.
     void (*read)(const SceneValues& values, const std::string& table, DeformerSpec& spec) = nullptr;
     nlohmann::json (*options_json)(const DeformerSpec& spec) = nullptr;

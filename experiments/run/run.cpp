@@ -85,30 +85,48 @@ pbs::CharacterSource needed_character(const Scene& scene)
     return source;
 }
 
-pbs::Character character_with_warnings(const Scene& scene)
+// Warnings of a run reach the terminal at once and run.json at its end.
+void add_warnings(const std::vector<std::string>& remarks, std::vector<std::string>& warnings)
+{
+    warn(remarks);
+    warnings.insert(warnings.end(), remarks.begin(), remarks.end());
+}
+
+pbs::Character character_with_warnings(const Scene& scene, std::vector<std::string>& warnings)
 {
     std::vector<std::string> remarks;
     pbs::Character character = pbs::make_character(needed_character(scene), remarks);
-    warn(remarks);
+    add_warnings(remarks, warnings);
     return character;
 }
 
-// Reads the motion, and adds the hashes of its clip to the character's inputs; a sweep has no clip.
-pbs::Motion read_motion(const Scene& scene, pbs::Character& character)
+// Reads the motion, and adds the hashes of its clip to the character's inputs; a sweep has no clip. A clip whose names partly match is
+// expected for the bodies by name, which are made for other clips too.
+CaseMotion read_motion(const Scene& scene, pbs::Character& character, std::vector<std::string>& warnings)
 {
     const pbs::InputFile clip(scene.motion.clip);
-    pbs::Motion motion = make_motion(scene.motion, character.skeleton, scene.file);
+    CaseMotion motion = make_case_motion(scene.motion, character, scene.file);
+    if (!motion.partial_match.empty() && scene.character.body.empty()) motion.remarks.push_back(motion.partial_match);
+    add_warnings(motion.remarks, warnings);
     if (scene.motion.clip.empty()) return motion;
     for (const auto& hashed : clip.hashed()) character.inputs.push_back(hashed);
     return motion;
+}
+
+nlohmann::json motion_record(const CaseMotion& motion)
+{
+    nlohmann::json record = {{"largest_rotation_deg", motion.largest_rotation_deg}};
+    if (motion.clip_joints > 0) record.update({{"clip_joints", motion.clip_joints}, {"matched_joints", motion.matched_joints}});
+    return record;
 }
 
 class SceneRun {
 public:
     SceneRun(const Scene& scene, const std::string& folder)
         : scene_(scene),
-          character_(cost_.time("character", [&] { return character_with_warnings(scene); })),
-          motion_(cost_.time("motion", [&] { return read_motion(scene, character_); })),
+          character_(cost_.time("character", [&] { return character_with_warnings(scene, warnings_); })),
+          motion_case_(cost_.time("motion", [&] { return read_motion(scene, character_, warnings_); })),
+          motion_(motion_case_.motion),
           runners_(make_runners(scene, character_, cost_)),
           measurer_(
               cost_.time("metrics_set_up", [&] { return FrameMeasurer(character_, measured_output(scene), prescribed_by_any(runners_)); })),
@@ -171,8 +189,23 @@ private:
             if (error_bar_) cost_.time("error_bar", [&] { context.reference_error = error_bar_->bound(*context.reference, measurer_); });
         }
         for (Runner& runner : runners_) record_deformer(runner, frame, time_s, context);
-        if (scene_.output.writes(frame)) folder_.write_pose(frame, time_s, character_.skeleton, motion_.steps[step]);
+        if (frame == 0) warn_of_inverted_start();
+        if (scene_.output.writes(frame)) {
+            folder_.write_pose(frame, time_s, character_.skeleton, motion_.steps[step]);
+            folder_.write_artist_skin(frame, time_s, character_, scene_.motion);
+        }
         ++frames_;
+    }
+
+    // Blending that inverts tets in the first frame, before anything has moved far, points to a rest pose that is not the model's.
+    void warn_of_inverted_start()
+    {
+        for (const Runner& runner : runners_)
+            if (runner.spec.kind == "lbs" && runner.most_inverted > 0)
+                add_warnings(
+                    {fmt::format("{}: {} has {} inverted tets in the first frame: a bind pose far from it, or weights that contradict it",
+                                 scene_.file, runner.spec.label, runner.most_inverted)},
+                    warnings_);
     }
 
     void record_deformer(Runner& runner, int frame, double time_s, const FrameContext& context)
@@ -256,6 +289,8 @@ private:
             outcome["largest_masked_share_pct"] = largest_masked_share_pct_;
         }
         if (error_bar_) outcome["frames_below_reference_error"] = frames_below_reference_error_;
+        outcome["warnings"] = warnings_;
+        outcome["motion"] = motion_record(motion_case_);
         outcome.update(run_end(stopwatch_.seconds()));
         folder_.finish(character_, records, outcome, cost_, error_bar_ ? error_bar_->method() : nlohmann::json());
 
@@ -272,8 +307,10 @@ private:
     const Scene& scene_;
     CostRecord cost_;
     pbs::Stopwatch stopwatch_;
+    std::vector<std::string> warnings_;
     pbs::Character character_;
-    pbs::Motion motion_;
+    CaseMotion motion_case_;
+    const pbs::Motion& motion_;
     std::vector<Runner> runners_;
     FrameMeasurer measurer_;
     std::optional<ReferenceErrorBar> error_bar_;

@@ -5,12 +5,16 @@
 #include "analysis/records/folder_files.hpp"
 #include "analysis/records/record_text.hpp"
 #include "experiments/run/metrics_table.hpp"
+#include "experiments/run/model_record.hpp"
 #include "experiments/run/run_provenance.hpp"
 #include "experiments/run/surface_record.hpp"
+#include "experiments/scene/motion_case.hpp"
 #include "pbs/character/input_file.hpp"
+#include "pbs/character/model_character.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/quality.hpp"
+#include "pbs/rig/glb_writer.hpp"
 
 #include <fmt/format.h>
 
@@ -70,14 +74,15 @@ nlohmann::json character_record(const pbs::Character& character)
                              {"bones", character.skeleton.bones.size()},
                              {"quality", quality_record(character.mesh)}};
     if (character.refinements > 0) record["refinements"] = character.refinements;
+    if (character.artist) record["model"] = model_record(character);
     if (character.surface) record["surface_outside_m"] = character.surface->largest_distance_outside_m;
     return record;
 }
 
-// The files that RunFolder writes into frames/: LABEL_000123.vtu, LABEL_surface_000123.vtp, LABEL.pvd.
+// The files that RunFolder writes into frames/: LABEL_000123.vtu, LABEL_surface_000123.vtp, LABEL.pvd, LABEL.glb.
 bool is_own_frame(const fs::path& file)
 {
-    static const std::regex own("[A-Za-z0-9_]+_[0-9]{6}\\.vt[up]|[A-Za-z0-9_]+\\.pvd");
+    static const std::regex own("[A-Za-z0-9_]+_[0-9]{6}\\.vt[up]|[A-Za-z0-9_]+\\.(pvd|glb)");
     return std::regex_match(file.filename().string(), own);
 }
 
@@ -100,6 +105,10 @@ RunFolder::RunFolder(const Scene& scene, const pbs::Character& character, const 
     analysis::remove_abandoned_files((fs::path(folder) / "frames").string(), false);
     for (const fs::path& file : analysis::files_in(fs::path(folder) / "frames"))
         if (is_own_frame(file)) analysis::remove_record(file);
+    if (fs::is_directory(fs::path(folder) / "skin"))
+        for (const fs::path& file : analysis::files_in(fs::path(folder) / "skin"))
+            if (is_own_frame(file)) analysis::remove_record(file);
+    if (character.artist && scene.motion.of_model) fs::create_directories(fs::path(folder) / "skin", error);
 }
 
 void RunFolder::add_frame(const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured,
@@ -129,6 +138,12 @@ void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, 
         const pbs::Positions rendered = pbs::embedded_positions(*character.surface, positions, character.mesh.tets);
         pbs::write_vtp((frames / frame_file(name + "_surface", frame, ".vtp")).string(), rendered, character.surface->triangles);
         distances_.add(frame, time_s, name, "rendered surface", rendered);
+        if (scene_.output.glb) {
+            MovingSurface& moving = surfaces_[name];
+            moving.triangles = character.surface->triangles;
+            moving.times_s.push_back(time_s);
+            moving.frames.push_back(rendered);
+        }
     } else {
         distances_.add(frame, time_s, name, "mesh", positions);
     }
@@ -138,6 +153,16 @@ void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, 
 void RunFolder::write_pose(int frame, double time_s, const pbs::Skeleton& skeleton, const pbs::Pose& pose)
 {
     add_bones(bones_, frame, time_s, skeleton, pose);
+}
+
+void RunFolder::write_artist_skin(int frame, double time_s, const pbs::Character& character, const MotionSpec& motion)
+{
+    if (!motion.of_model || !character.artist || !character.artist->model->animation) return;
+    const pbs::RiggedModel& model = *character.artist->model;
+    const pbs::Positions points = pbs::artist_frame(model.rig, model.body, *model.animation, sampling_of(motion), frame);
+    const std::string file = frame_file("artist", frame, ".vtp");
+    pbs::write_vtp((fs::path(folder_) / "skin" / file).string(), points, model.body.triangles);
+    artist_frames_.emplace_back(time_s, file);
 }
 
 void RunFolder::add_state(const DeformerSpec& spec, const pbs::Positions& positions)
@@ -155,6 +180,9 @@ void RunFolder::write_tables() const
     if (distances_.table().rows() > 0) distances_.table().write((folder / "distances.csv").string());
     if (!bones_.empty()) table_of(posed_bone_columns, bones_).write((folder / "bones.csv").string());
     for (const auto& [name, frames] : collections_) pbs::write_pvd((folder / "frames" / (name + ".pvd")).string(), frames);
+    if (!artist_frames_.empty()) pbs::write_pvd((folder / "skin" / "artist.pvd").string(), artist_frames_);
+    for (const auto& [name, moving] : surfaces_)
+        pbs::write_glb((folder / "frames" / (name + ".glb")).string(), name, moving.triangles, moving.times_s, moving.frames);
 }
 
 void RunFolder::write_what_frames_depend_on(const pbs::Character& character) const

@@ -1,6 +1,7 @@
 // The folder of a run: metrics.csv, frame_statistics.csv, iterations.csv, regions.csv and run.json. If frames are written, it also has
 // frames/, distances.csv, bones.csv, bones_rest.csv, binding.csv and, for a body with a rendered surface, surface_rest.vtp and
-// embedding.csv. Each file is written whole or not at all. run.json comes last, so that a folder with run.json is a finished run.
+// embedding.csv; of a model's animation skin/. Each file is written whole or not at all. run.json comes last, so that a folder with
+// run.json is a finished run.
 #pragma once
 
 #include "analysis/records/csv_table.hpp"
@@ -27,7 +28,9 @@ public:
     void write_frame(const DeformerSpec& spec, int frame, double time_s, const pbs::Character& character, const pbs::Positions& positions,
                      const Eigen::VectorXd& volume_ratios, const std::vector<bool>& prescribed);
     void write_pose(int frame, double time_s, const pbs::Skeleton& skeleton, const pbs::Pose& pose);  // for a frame that is written
-    void add_state(const DeformerSpec& spec, const pbs::Positions& positions);                        // into the deformer's state hash
+    // skin/artist_000123.vtp: the model's surface by the skinning formula of its file; nothing without an animation of a model.
+    void write_artist_skin(int frame, double time_s, const pbs::Character& character, const MotionSpec& motion);
+    void add_state(const DeformerSpec& spec, const pbs::Positions& positions);  // into the deformer's state hash
 
     void add_regions(const std::string& label, const pbs::Positions& positions) { regions_.add(label, positions); }
 
@@ -40,6 +43,12 @@ public:
 private:
     void write_what_frames_depend_on(const pbs::Character& character) const;
 
+    struct MovingSurface {
+        pbs::Triangles triangles;
+        std::vector<double> times_s;
+        std::vector<pbs::Positions> frames;
+    };
+
     const Scene& scene_;
     std::string folder_;
     analysis::CsvTable metrics_, iterations_;
@@ -48,6 +57,8 @@ private:
     DistanceRecord distances_;
     std::map<std::string, analysis::StateHash> hashes_;
     std::map<std::string, std::vector<std::pair<double, std::string>>> collections_;  // label -> time and file of each frame, for its .pvd
+    std::vector<std::pair<double, std::string>> artist_frames_;
+    std::map<std::string, MovingSurface> surfaces_;  // by label, for output.glb
 };
 
 }  // namespace experiments

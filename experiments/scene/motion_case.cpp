@@ -1,6 +1,7 @@
 #include "experiments/scene/motion_case.hpp"
 
-#include "pbs/character/clip.hpp"
+#include "pbs/character/clip_match.hpp"
+#include "pbs/character/model_character.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
@@ -9,11 +10,63 @@
 namespace experiments {
 namespace {
 
+constexpr double still_deg = 0.1;       // no one sees less
+constexpr double rigid_stretch = 1e-3;  // rounding of exporters
+
 std::string bone_names(const pbs::Skeleton& skeleton)
 {
     std::vector<std::string> names;
     for (const auto& bone : skeleton.bones) names.push_back(bone.name);
     return fmt::format("{}", fmt::join(names, ", "));
+}
+
+pbs::ClipSampling clip_sampling(const MotionSpec& spec)
+{
+    pbs::ClipSampling sampling;
+    static_cast<pbs::MotionSampling&>(sampling) = sampling_of(spec);
+    return sampling;
+}
+
+std::string a_few(const std::vector<std::string>& names)
+{
+    constexpr std::size_t most = 6;
+    if (names.size() <= most) return fmt::format("{}", fmt::join(names, ", "));
+    return fmt::format("{} and {} others", fmt::join(names.begin(), names.begin() + most, ", "), names.size() - most);
+}
+
+CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& character)
+{
+    const pbs::Clip clip = pbs::read_clip(spec.clip);
+    CaseMotion made;
+    made.motion = pbs::retarget(clip, character.skeleton, clip_sampling(spec));
+    const pbs::ClipMatch match = pbs::match_of(clip, character.skeleton);
+    made.clip_joints = match.moving;
+    made.matched_joints = match.matched;
+    const std::string share = fmt::format("{} of {} moving joints", match.matched, match.moving);
+    if (2 * match.matched < match.moving && !spec.allow_partial)
+        throw pbs::InputError(
+            spec.clip, 0, "joints", share,
+            "expected at least one half to match a bone of the character (--allow-partial accepts fewer); without a bone: " +
+                a_few(match.unmatched));
+    if (match.matched < match.moving)
+        made.remarks.push_back(
+            fmt::format("{}: {} of the clip match a bone; without a bone: {}", spec.clip, share, a_few(match.unmatched)));
+    return made;
+}
+
+CaseMotion motion_of_model(const MotionSpec& spec, const pbs::Character& character, const std::string& scene_file)
+{
+    const pbs::RiggedModel& model = *character.artist->model;
+    if (!model.animation)
+        throw pbs::InputError(scene_file, 0, "motion.animation", spec.animation, "the model has no animation: expected a joint or a clip");
+    pbs::RigMotion rig = pbs::rig_motion(model.rig, model.body, *model.animation, sampling_of(spec));
+    CaseMotion made;
+    made.motion = std::move(rig.motion);
+    if (rig.stretch > rigid_stretch)
+        made.remarks.push_back(
+            fmt::format("{}: the animation {} scales or shears bones by up to {:.1f} %; the deformers move bones rigidly", model.rig.file,
+                        model.animation->name, 100.0 * rig.stretch));
+    return made;
 }
 
 }  // namespace
@@ -25,12 +78,28 @@ pbs::Motion make_motion(const MotionSpec& spec, const pbs::Skeleton& skeleton, c
         if (joint < 0) throw pbs::InputError(scene_file, 0, "motion.joint", spec.joint, "expected one of " + bone_names(skeleton));
         return pbs::joint_sweep(skeleton, joint, spec.axis.normalized(), spec.angle_deg, spec.frames, spec.time_step_s);
     }
-    pbs::ClipSampling sampling;
-    sampling.start_s = spec.start_s;
-    sampling.duration_s = spec.duration_s;
-    sampling.rate_hz = spec.rate_hz;
-    sampling.time_step_s = spec.time_step_s;
-    return pbs::retarget(pbs::read_clip(spec.clip), skeleton, sampling);
+    return pbs::retarget(pbs::read_clip(spec.clip), skeleton, clip_sampling(spec));
+}
+
+CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& character, const std::string& scene_file)
+{
+    CaseMotion made;
+    if (spec.of_model)
+        made = motion_of_model(spec, character, scene_file);
+    else if (!spec.clip.empty())
+        made = motion_of_clip(spec, character);
+    else
+        made.motion = make_motion(spec, character.skeleton, scene_file);
+    made.largest_rotation_deg = pbs::largest_rotation_deg(made.motion);
+    if (made.largest_rotation_deg < still_deg)
+        made.remarks.push_back(
+            fmt::format("{}: no joint moves: the bones turn by at most {:.2g} degrees", scene_file, made.largest_rotation_deg));
+    return made;
+}
+
+pbs::MotionSampling sampling_of(const MotionSpec& spec)
+{
+    return {.start_s = spec.start_s, .duration_s = spec.duration_s, .rate_hz = spec.rate_hz, .time_step_s = spec.time_step_s};
 }
 
 }  // namespace experiments

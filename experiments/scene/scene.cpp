@@ -7,10 +7,14 @@
 #include "experiments/settings/scene_values.hpp"
 #include "generated/scenes_texts.hpp"
 #include "pbs/character/clip.hpp"
+#include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/text_file.hpp"
+#include "pbs/rig/rig_reader.hpp"
+#include "pbs/skinning/motion_sampling.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 
@@ -29,23 +33,39 @@ std::string in_folder(const std::string& folder, const std::string& path)
     return path.empty() || fs::path(path).is_absolute() ? path : (fs::path(folder) / path).string();
 }
 
+// One of the three: a body, a model, mesh and skeleton files.
+void check_character(const SceneValues& values, const pbs::CharacterSource& source)
+{
+    const int sources = !source.body.empty() + !source.model_file.empty() + !source.mesh_file.empty();
+    if (sources == 0) values.refuse("character.body", "expected a body, a model, or mesh and skeleton files");
+    if (sources > 1)
+        values.refuse(source.mesh_file.empty() ? "character.model" : "character.mesh", "expected either a body, a model or files");
+    if (!source.mesh_file.empty() && source.skeleton_file.empty()) values.refuse("character.skeleton", "expected the skeleton of the mesh");
+    if (values.given("character.scale") && source.model_file.empty())
+        values.refuse("character.scale", "expected a character.model, which is the only thing that it enlarges");
+}
+
 pbs::CharacterSource read_character(const SceneValues& values, const std::string& folder)
 {
     pbs::CharacterSource source;
     source.body = values.text("character.body");
+    source.model_file = in_folder(folder, values.text("character.model"));
+    source.model_scale = values.number("character.scale");
+    source.animation = values.text("motion.animation");
     source.mesh_file = in_folder(folder, values.text("character.mesh"));
-    source.skeleton_file = in_folder(folder, values.text("character.skeleton"));
+    const std::string skeleton = values.text("character.skeleton");
+    const bool is_named = !source.model_file.empty() && skeleton == "human";
+    source.skeleton_file = is_named ? skeleton : in_folder(folder, skeleton);
     source.skeleton_scale = values.number("character.skeleton_scale");
     source.vertices = values.integer("character.vertices");
     source.refinements = values.integer("character.refine");
-    if (source.body.empty() && source.mesh_file.empty()) values.refuse("character.body", "expected a body, or mesh and skeleton files");
-    if (!source.body.empty() && !source.mesh_file.empty()) values.refuse("character.mesh", "expected either a body or files, not both");
-    if (source.body.empty() && source.skeleton_file.empty()) values.refuse("character.skeleton", "expected the skeleton of the mesh");
+    check_character(values, source);
     const std::string weights = values.text("skinning.weights");
-    if (weights == "rigid")
-        source.weights = pbs::WeightKind::rigid;
-    else if (weights != "paper")
-        source.weights_file = in_folder(folder, weights);
+    for (const pbs::WeightKind kind : {pbs::WeightKind::paper, pbs::WeightKind::rigid, pbs::WeightKind::smooth, pbs::WeightKind::artist})
+        if (weights == pbs::name_of(kind)) source.weights = kind;
+    if (source.weights == pbs::WeightKind::artist && source.model_file.empty())
+        values.refuse("skinning.weights", "expected a character.model, which brings the artist's weights");
+    if (!weights.empty() && !source.weights) source.weights_file = in_folder(folder, weights);
     return source;
 }
 
@@ -56,6 +76,15 @@ std::string found_clip(const SceneValues& values, const std::string& folder)
     } catch (const pbs::InputError&) {
         values.refuse("motion.clip", "expected a file in the folder of the scene, or a clip of Debian's package assimp-testmodels");
     }
+}
+
+// A frame is a whole number of steps.
+void fit_time_step(const SceneValues& values, MotionSpec& motion)
+{
+    if (!values.given("pbs.time_step_s")) motion.time_step_s = pbs::time_step_for(motion.rate_hz);
+    const double steps = 1.0 / (motion.rate_hz * motion.time_step_s);
+    if (steps < 1.0 - 1e-9 || std::abs(steps - std::round(steps)) > 1e-6 * steps)
+        values.refuse("motion.rate_hz", "expected rate_hz * pbs.time_step_s = 1/n with a whole number n of steps per frame");
 }
 
 MotionSpec read_motion(const SceneValues& values, const std::string& folder)
@@ -70,14 +99,17 @@ MotionSpec read_motion(const SceneValues& values, const std::string& folder)
     motion.duration_s = values.number("motion.duration_s");
     motion.rate_hz = values.number("motion.rate_hz");
     motion.time_step_s = values.number("pbs.time_step_s");
-    if (motion.joint.empty() == motion.clip.empty()) values.refuse("motion.joint", "expected either a joint (a sweep) or a clip");
+    motion.animation = values.text("motion.animation");
+    motion.allow_partial = values.boolean("motion.allow_partial");
+    const bool has_model = !values.text("character.model").empty();
+    if (!motion.animation.empty() && !has_model) values.refuse("motion.animation", "expected a character.model, which has animations");
+    const int motions = !motion.joint.empty() + !motion.clip.empty() + !motion.animation.empty();
+    if (motions > 1 || (motions == 0 && !has_model))
+        values.refuse("motion.joint", "expected either a joint (a sweep), a clip, or an animation of character.model");
+    motion.of_model = has_model && motion.joint.empty() && motion.clip.empty();
     if (!motion.joint.empty() && motion.axis.norm() == 0.0) values.refuse("motion.axis", "expected an axis of non-zero length");
-    if (!motion.clip.empty()) {
-        motion.clip = found_clip(values, folder);
-        const double steps = 1.0 / (motion.rate_hz * motion.time_step_s);
-        if (steps < 1.0 - 1e-9 || std::abs(steps - std::round(steps)) > 1e-6 * steps)
-            values.refuse("motion.rate_hz", "expected rate_hz * pbs.time_step_s = 1/n with a whole number n of steps per frame");
-    }
+    if (!motion.clip.empty()) motion.clip = found_clip(values, folder);
+    if (motion.joint.empty()) fit_time_step(values, motion);
     return motion;
 }
 
@@ -90,6 +122,12 @@ DeformerSpec read_spec(const SceneValues& values, const DeformerKind& kind, cons
     return spec;
 }
 
+bool names_a_file(const std::string& name)
+{
+    const auto is_plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
+    return !name.empty() && std::all_of(name.begin(), name.end(), is_plain) && !name.starts_with("pbs");
+}
+
 // The deformers of all [[kind]] tables, including those that the scene does not use.
 std::vector<DeformerSpec> read_listed_deformers(const SceneValues& values)
 {
@@ -97,8 +135,11 @@ std::vector<DeformerSpec> read_listed_deformers(const SceneValues& values)
     for (const DeformerKind& kind : deformer_kinds())
         for (int i = 0; kind.has_list && i < values.tables(kind.name); ++i) {
             const std::string table = kind.name + "." + std::to_string(i), name = values.text(table + ".name");
+            if (!names_a_file(name))
+                values.refuse(table + ".name", "expected letters, digits and underscores, not beginning with pbs: it names files");
             const DeformerSpec spec = read_spec(values, kind, table, name);
-            if (name != kind.name && find_deformer_kind(name)) values.refuse(table + ".name", "is the name of another deformer");
+            const bool is_own_name = kind.needs_list && name == kind.name;
+            if (!is_own_name && find_deformer_kind(name)) values.refuse(table + ".name", "is the name of another deformer");
             for (const DeformerSpec& earlier : listed)
                 if (earlier.name == name) values.refuse(table + ".name", "is used twice");
             listed.push_back(spec);
@@ -117,7 +158,7 @@ std::vector<DeformerSpec> read_deformers(const SceneValues& values)
         const DeformerKind* kind = find_deformer_kind(name);
         if (of_list != listed.end())
             used.push_back(*of_list);
-        else if (kind && !kind->has_list)
+        else if (kind && !kind->needs_list)
             used.push_back(read_spec(values, *kind, name, name));
         else
             values.refuse("deformers.use", "expected a deformer of `pbskin list deformers` or the name of a [[fem]] table, not " + name);
@@ -151,6 +192,7 @@ OutputSpec read_output(const SceneValues& values)
     output.errors = asked("errors");
     output.sections = asked("sections");
     output.surface = asked("surface");
+    output.glb = values.boolean("output.glb");
     return output;
 }
 
@@ -176,6 +218,10 @@ std::string read_scene_text(const std::string& path)
     std::error_code code;
     if (!fs::is_regular_file(path, code))
         throw pbs::InputError(path, 0, "", "", "cannot be read: expected a scene file, or a name of `pbskin list scenes`");
+    if (pbs::is_rig_file(path))
+        throw pbs::InputError(path, 0, "", "",
+                              "is a model; a scene is a TOML file that names a model, a motion and deformers: `pbskin try " + path +
+                                  "` runs the model and writes such a scene");
     return pbs::read_text_file(path, pbs::most_settings_bytes);
 }
 
@@ -241,6 +287,7 @@ Scene read_scene(const std::string& file_or_name, const std::vector<std::string>
     scene.output = read_output(values);
     scene.error_bar = read_error_bar(values, scene.reference, scene.deformers, scene.output);
     scene.resolved = values.resolved();
+    scene.resolved["pbs"]["time_step_s"] = scene.motion.time_step_s;
     return scene;
 }
 

@@ -19,7 +19,10 @@ struct MotionSpec {
     pbs::Vec3 axis = pbs::Vec3::UnitX();  // in rest world axes, of any length
     double angle_deg = 0.0;               // of the last frame
     int frames = 0;
-    std::string clip;  // or a clip: its path
+    std::string clip;            // or a clip: its path
+    bool of_model = false;       // or an animation of the character's model, which may have none
+    std::string animation;       // its name; empty: the first one
+    bool allow_partial = false;  // of a clip: fewer than half of its moving joints may match
     double start_s = 0.0, duration_s = 0.0, rate_hz = 100.0;
     double time_step_s = 0.01;
 };
@@ -28,6 +31,7 @@ struct OutputSpec {
     int frames_every = 1;                                 // every n-th frame is written; 0: only `frames`
     std::vector<int> frames;                              // further frames, by number
     bool errors = true, sections = true, surface = true;  // groups of metrics
+    bool glb = false;                                     // the surface of each deformer in the written frames, as one .glb file
 
     bool writes(int frame) const;
 };

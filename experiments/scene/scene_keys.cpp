@@ -38,13 +38,19 @@ std::vector<SceneKey> character_and_motion_keys()
                    "built-in limb, bar or ring (with a handle), human (MakeHuman's body from Debian's assimp-testmodels), or man, lady, "
                    "frankie (`pbskin fetch`); empty: from files"),
                {"", "limb", "bar", "ring", "human", "man", "lady", "frankie"}),
+        key("character", "model", text, "\"\"", "",
+            "rigged model, relative to the scene: .glb .gltf .fbx .dae .zae; its surface is meshed, and its joints are the skeleton"),
+        within(key("character", "scale", number, "1.0", "", "factor by which a model is enlarged, for files that state a wrong unit"),
+               above_zero, 1e6),
         key("character", "mesh", text, "\"\"", "", "tet mesh file, relative to the scene: .msh .vtu .vtk .mesh .ele"),
         key("character", "skeleton", text, "\"\"", "",
-            "skeleton file, relative to the scene: .toml with [[joint]] tables, or a clip's zero pose (.bvh .gltf .glb .fbx)"),
+            "skeleton file, relative to the scene: .toml with [[joint]] tables, or the joints of a clip or a rig "
+            "(.bvh .gltf .glb .fbx .dae); with a model, only for one without joints: such a file, or human, the skeleton of that body"),
         within(
             key("character", "skeleton_scale", number, "1.0", "m", "metres per unit of the skeleton file; for CMU's clips 0.0254 / 0.45"),
             above_zero, 1e6),
-        within(key("character", "vertices", integer, "0", "", "wanted number of vertices of a named body; 0: its own default"), 0, 1e7),
+        within(key("character", "vertices", integer, "0", "", "wanted number of vertices of a named body or a model; 0: its own default"),
+               0, 1e7),
         within(key("character", "refine", integer, "0", "",
                    "number of times that every tet is cut into eight (8 or 64 times as many tets); the sizes of the bones stay, and the "
                    "metrics "
@@ -57,14 +63,20 @@ std::vector<SceneKey> character_and_motion_keys()
         within(key("motion", "frames", integer, "18", "", "number of frames of a sweep, including the rest pose"), 2, 1e6),
         key("motion", "clip", text, "\"\"", "",
             "motion capture clip: relative to the scene, or by name from Debian's assimp-testmodels (01_01.bvh)"),
+        key("motion", "animation", text, "\"\"", "",
+            "an animation of character.model by name; without this key, a joint or a clip the model's first one"),
+        key("motion", "allow_partial", boolean, "false", "", "accepts a clip of which fewer than half of the moving joints match a bone"),
         within(key("motion", "start_s", number, "0.0", "s", "start of the motion in the clip, without the T-pose of its first frame"), 0,
                1e6),
         within(key("motion", "duration_s", number, "0.0", "s", "duration of the motion; 0: to the end of the clip"), 0, 1e6),
-        within(key("motion", "rate_hz", number, "100.0", "1/s",
-                   "frames per second; rate_hz * pbs.time_step_s must be 1/n with a whole number n of steps per frame"),
+        within(key("motion", "rate_hz", number, "100.0", "1/s", "frames per second; a frame is a whole number of steps pbs.time_step_s"),
                1e-3, 1e5),
-        within(key("pbs", "time_step_s", number, "0.01", "s", "time step of Algorithm 1"), 1e-9, 1e3),
-        key("skinning", "weights", text, "\"paper\"", "", "paper (Eq. 2), rigid (nearest bone), or a CSV file vertex,joint,weight"),
+        within(key("pbs", "time_step_s", number, "0.01", "s",
+                   "time step of Algorithm 1; by default the longest one of at most 10 ms that divides a frame of a clip or an animation"),
+               1e-9, 1e3),
+        key("skinning", "weights", text, "\"\"", "",
+            "paper (Eq. 2), rigid (nearest bone), smooth (Eq. 2 with smooth transitions, a control), artist (of character.model), or a CSV "
+            "file vertex,joint,weight; empty: artist for a model with joints, paper for all others"),
     };
 }
 
@@ -82,6 +94,9 @@ std::vector<SceneKey> output_keys()
         within(key("output", "frames_every", integer, "1", "", "write every n-th frame as VTU; 0: none"), 0, 1e9),
         within(key("output", "frames", integers, "[]", "", "further frames to write, by number"), 0, 1e9),
         key("output", "frame_names", texts, "[]", "", "titles of `frames`, in the same order"),
+        key("output", "glb", boolean, "false", "",
+            "also writes the surface of each deformer over the written frames as frames/LABEL.glb, which Blender opens; the character needs a "
+            "rendered surface"),
         key("output", "metrics", texts, "[\"all\"]", "",
             "groups of metrics beyond the volume columns: errors, sections, surface, all; [] leaves them out"),
     };

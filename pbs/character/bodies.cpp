@@ -6,10 +6,12 @@
 #include "pbs/character/human.hpp"
 #include "pbs/character/input_file.hpp"
 #include "pbs/character/makehuman.hpp"
+#include "pbs/character/model_character.hpp"
 #include "pbs/character/refined_character.hpp"
 #include "pbs/character/ring.hpp"
 #include "pbs/character/skeleton_file.hpp"
 #include "pbs/character/skeleton_from_clip.hpp"
+#include "pbs/character/skinning_weights.hpp"
 #include "pbs/character/weights_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_remarks.hpp"
@@ -112,9 +114,23 @@ Character make_from_files(const CharacterSource& source, std::vector<std::string
     return character;
 }
 
+Character make_from_model(const CharacterSource& source, std::vector<std::string>& remarks)
+{
+    ModelSource model{.file = source.model_file, .animation = source.animation, .scale = source.model_scale, .vertices = source.vertices};
+    Character skeleton_only;
+    if (source.skeleton_file == "human")
+        model.skeleton = human_skeleton();
+    else if (!source.skeleton_file.empty())
+        model.skeleton = read_skeleton_of(source, skeleton_only);
+    Character character = make_model_character(model, remarks);
+    add(skeleton_only.inputs, character);
+    return character;
+}
+
 Character make_body(const CharacterSource& source, std::vector<std::string>& remarks)
 {
     const auto wanted = [&](int otherwise) { return source.vertices > 0 ? source.vertices : otherwise; };
+    if (!source.model_file.empty()) return make_from_model(source, remarks);
     if (source.body.empty()) return make_from_files(source, remarks);
     if (source.body == "limb") return make_beam("limb", wanted(limb_vertices), mesh_limb);
     if (source.body == "bar") return make_beam("bar", wanted(bar_vertices), mesh_bar);
@@ -167,9 +183,10 @@ Character make_character(const CharacterSource& source, std::vector<std::string>
     character.binding = bind_to_nearest_bone(character.mesh.rest, character.skeleton);
     const Weights paper = paper_weights(character.binding, character.skeleton);
     for (int vertex = 0; vertex < paper.vertices(); ++vertex) character.blended.push_back(paper.blended(vertex));
-    character.weights = source.weights == WeightKind::rigid ? rigid_weights(character.binding) : paper;
-    character.weight_kind = source.weights;
-    if (!source.weights_file.empty()) {
+    character.weight_kind = source.weights.value_or(has_artist_weights(character) ? WeightKind::artist : WeightKind::paper);
+    if (source.weights_file.empty()) {
+        character.weights = weights_by(character.weight_kind, character);
+    } else {
         character.weights = weights_of_file(source.weights_file, character);
         character.weight_kind = WeightKind::file;
     }

@@ -13,8 +13,17 @@
 
 namespace pbs {
 
-// The rule that weights come from: Eq. 2, the nearest bone alone, a file.
-enum class WeightKind { paper, rigid, file };
+// The rule that weights come from: Eq. 2, the nearest bone alone, Eq. 2 with smooth transitions, the artist of a rigged file, a file of
+// weights (skinning_weights.hpp).
+enum class WeightKind { paper, rigid, smooth, artist, file };
+
+struct RiggedModel;
+
+// What a rigged file brings along.
+struct ArtistSkin {
+    Weights weights;                           // the artist's weights in the tets, #V; none of a file without joints
+    std::shared_ptr<const RiggedModel> model;  // the file with its animations (model_character.hpp)
+};
 
 // make_character returns a whole one; whoever fills one in directly is responsible for matching sizes.
 struct Character {
@@ -25,6 +34,7 @@ struct Character {
     Weights weights;                                          // what LBS and DQS blend with
     std::vector<bool> blended;                                // vertices that Eq. 2 blends between bones, whatever `weights` is, #V
     std::optional<EmbeddedSurface> surface;                   // the surface people see, carried by the tets
+    std::optional<ArtistSkin> artist;                         // of a character from a rigged file
     std::vector<std::pair<std::string, std::string>> inputs;  // what it is made from, its clip with a run's -> content hash
     WeightKind weight_kind = WeightKind::paper;               // the rule that `weights` obey, on finer tets too
     int refinements = 0;                                      // how often its tets were cut into eight; see refined_character.hpp

@@ -1,6 +1,7 @@
 // Motion capture clips (BVH, glTF, FBX, by assimp) and how they reach our skeletons.
 #pragma once
 
+#include "pbs/skinning/motion_sampling.hpp"
 #include "pbs/skinning/pose.hpp"
 
 #include <string>
@@ -26,13 +27,9 @@ struct Clip {
 // files over 256 MiB, and every clip in a build without rig import (PBS_WITH_RIG_IMPORT).
 Clip read_clip(const std::string& path);
 
-// The stretch of a clip that is taken, and at which rate.
-struct ClipSampling {
+// The stretch of a clip that is taken; start_s is after the dropped frame.
+struct ClipSampling : MotionSampling {
     bool drop_first_frame = true;  // cgspeed's conversions begin with a T pose
-    double start_s = 0.0;          // after the dropped frame
-    double duration_s = 0.0;       // 0: to the end
-    double rate_hz = 100.0;        // frames of the motion that is made, whatever the clip's own
-    double time_step_s = 0.01;     // of Algorithm 1; rate_hz * time_step_s = 1 / n: n steps a frame
 };
 
 // The clip's motion on a skeleton: R_bone(t) = R_joint(t) A, A the least rotation from the bone's rest direction to the joint's limb in the

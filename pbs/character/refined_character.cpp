@@ -1,5 +1,6 @@
 #include "pbs/character/refined_character.hpp"
 
+#include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/refinement.hpp"
 
 #include <map>
@@ -40,17 +41,11 @@ Character refined(const Character& character)
     const Weights paper = paper_weights(result.binding, character.skeleton);
     result.blended.clear();
     for (int vertex = 0; vertex < paper.vertices(); ++vertex) result.blended.push_back(paper.blended(vertex));
-    switch (character.weight_kind) {
-        case WeightKind::paper:
-            result.weights = paper;
-            break;
-        case WeightKind::rigid:
-            result.weights = rigid_weights(result.binding);
-            break;
-        case WeightKind::file:
-            result.weights = mean_of_parents(character.weights, fine.parents);
-            break;
-    }
+    if (character.artist) result.artist->weights = mean_of_parents(character.artist->weights, fine.parents);
+    if (character.weight_kind == WeightKind::paper || character.weight_kind == WeightKind::rigid)
+        result.weights = weights_by(character.weight_kind, result);
+    else
+        result.weights = mean_of_parents(character.weights, fine.parents);
     if (character.surface) result.surface = embed_in_children(*character.surface, character.mesh, fine.mesh);
     if (!character.unrefined) result.unrefined = std::make_shared<const Character>(character);
     ++result.refinements;

@@ -9,8 +9,7 @@ namespace {
 
 using Rotations = std::vector<Eigen::Quaterniond>;
 
-constexpr double most_steps_per_frame = 1e5;
-constexpr double rounding = 1e-6;  // of a step or frame: times given in decimal are not refused for their last digit
+constexpr double rounding = 1e-6;  // of a frame: times given in decimal are not refused for their last digit
 
 // Local rotations and root position of the clip at `frame`, which may lie between two.
 struct ClipPose {
@@ -58,32 +57,6 @@ Pose pose_of(const RetargetPlan& plan, const Skeleton& skeleton, const Rotations
     return pose_from_joints(skeleton, local, root_translation);
 }
 
-int steps_per_frame(const ClipSampling& sampling)
-{
-    if (!(sampling.rate_hz > 0.0)) throw InputError("", 0, "rate_hz", std::to_string(sampling.rate_hz), "expected a rate > 0");
-    if (!(sampling.time_step_s > 0.0)) throw InputError("", 0, "time_step_s", std::to_string(sampling.time_step_s), "expected a time > 0");
-    const double steps = 1.0 / (sampling.rate_hz * sampling.time_step_s);
-    if (!(std::round(steps) >= 1.0 && std::abs(steps - std::round(steps)) <= rounding * steps))
-        throw InputError("", 0, "rate_hz * time_step_s", std::to_string(1.0 / steps), "expected 1 / n: n steps a frame");
-    if (steps > most_steps_per_frame)
-        throw InputError("", 0, "rate_hz * time_step_s", std::to_string(1.0 / steps), "expected at most 100000 steps a frame");
-    return static_cast<int>(std::round(steps));
-}
-
-// Number of output frames after the first.
-int frames_to_make(const Clip& clip, int first, const ClipSampling& sampling)
-{
-    const double length_s = (clip.frames() - 1 - first) * clip.frame_time_s;
-    const double slack_s = rounding * clip.frame_time_s;
-    if (!(sampling.start_s >= 0.0 && sampling.start_s <= length_s + slack_s))
-        throw InputError(clip.name, 0, "start_s", std::to_string(sampling.start_s), "the clip lasts " + std::to_string(length_s) + " s");
-    if (!(sampling.duration_s >= 0.0 && sampling.start_s + sampling.duration_s <= length_s + slack_s))
-        throw InputError(clip.name, 0, "duration_s", std::to_string(sampling.duration_s),
-                         "the clip ends at " + std::to_string(length_s) + " s, " + std::to_string(length_s - sampling.start_s) + " s on");
-    const double duration_s = sampling.duration_s > 0.0 ? sampling.duration_s : length_s - sampling.start_s;
-    return static_cast<int>(std::floor(duration_s * sampling.rate_hz + rounding));
-}
-
 }  // namespace
 
 Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& sampling)
@@ -95,7 +68,9 @@ Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& 
     Motion motion;
     motion.time_step_s = sampling.time_step_s;
     motion.steps_per_frame = steps_per_frame(sampling);
-    const int steps = frames_to_make(clip, first, sampling) * motion.steps_per_frame;
+    const double length_s = (clip.frames() - 1 - first) * clip.frame_time_s;
+    const int frames = frames_after_the_first(sampling, length_s, rounding * clip.frame_time_s, clip.name);
+    const int steps = frames * motion.steps_per_frame;
     for (int step = 0; step <= steps; ++step) {
         const double time_s = sampling.start_s + step * sampling.time_step_s;
         const ClipPose source = sample(clip, first + time_s / clip.frame_time_s);

@@ -12,6 +12,11 @@ SurfaceMeshing meshing_of(const SurfaceBody& body, int vertices)
 {
     SurfaceMeshing options;
     options.vertices = vertices;
+    if (body.is_foreign) {
+        options.boundary_euler.reset();
+        options.is_closed = options.is_one_piece = false;
+        return options;
+    }
     options.boundary_euler = body.boundary_euler;
     options.inside = body.inside;
     if (options.inside.empty())

@@ -17,6 +17,7 @@ struct SurfaceBody {
     std::function<SurfaceMesh()> surface = {};  // [m]; called only where it is needed
     int boundary_euler = 2;                     // 0: a body with one handle
     std::vector<Vec3> inside = {};              // must lie inside the tets; where empty: the heads of all bones
+    bool is_foreign = false;                    // of a file that nobody here made: any handles and parts, joints may be outside
 };
 
 // vertices: wanted, as of mesh_surface, whose InputErrors reach the caller. Binding and weights are left empty, for make_character to fill.

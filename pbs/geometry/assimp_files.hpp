@@ -1,23 +1,21 @@
-// The files that assimp may open to read one file: that file, and those below its folder that it refers to (a glTF's buffers, an OBJ's
-// materials). Another is not there for it: a pipe would be waited for, and no file names what lies elsewhere on somebody else's machine.
+// assimp opens only the files that may_be_opened_for the file that it reads.
 //   Assimp::Importer importer;
 //   const OwnFolder& files = only_own_folder(importer, path);
 //   if (!importer.ReadFile(path, 0)) files.refuse_what_was_referred_to();
 #pragma once
 
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/own_folder.hpp"
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 
-#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <system_error>
 
 namespace pbs {
 
-// Links are followed before the folder of a file is checked.
 class OwnFolder : public Assimp::DefaultIOSystem {
 public:
     // path: the file that is read; it may lie anywhere.
@@ -43,20 +41,7 @@ public:
     }
 
 private:
-    bool allows(const std::string& file) const
-    {
-        namespace fs = std::filesystem;
-        std::error_code code;
-        const fs::path target = fs::canonical(file, code);  // links followed
-        if (code || !fs::is_regular_file(target, code)) return false;
-        const fs::path own = fs::canonical(path_, code), named = fs::weakly_canonical(fs::absolute(path_).parent_path(), code);
-        return target == own || lies_below(target, own.parent_path()) || lies_below(target, named);
-    }
-
-    static bool lies_below(const std::filesystem::path& file, const std::filesystem::path& folder)
-    {
-        return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
-    }
+    bool allows(const std::string& file) const { return may_be_opened_for(path_, file); }
 
     std::string path_, refused_;
 };

@@ -7,18 +7,34 @@
 namespace pbs {
 namespace {
 
-TetMesh read_by_extension(const std::string& path)
+enum class TetFormat { vtk, gmsh, tetgen, tobj };
+
+// By what the file holds; TetGen's files, which begin with plain numbers, by their extension. Gmsh chooses its own reader by the extension.
+TetFormat format_of(const std::string& path)
 {
-    const std::string extension = lower_extension(path);
-    const bool vtk = extension == ".vtu" || extension == ".vtk";
-    const bool gmsh = extension == ".msh" || extension == ".mesh";
-    const bool tetgen = extension == ".node" || extension == ".ele";
-    if (!vtk && !gmsh && !tetgen)
-        throw InputError(path, 0, "extension", extension, "expected a tet mesh: .msh, .vtu, .vtk, .mesh, .node or .ele");
-    require_readable(path, vtk ? most_mesh_bytes : most_text_bytes);
-    if (tetgen) return read_tetgen(path);
-    const long long named = gmsh ? check_gmsh_file(path) : -1;
-    const IndexedPoints read = read_guarded(path, vtk ? read_vtk : read_gmsh);
+    const std::string beginning = beginning_of(path), extension = lower_extension(path);
+    const auto holds = [&](const char* text) { return beginning.find(text) != std::string::npos; };
+    const bool is_gmsh = extension == ".msh" || extension == ".mesh";
+    if (holds("# vtk DataFile") || holds("<VTKFile")) return TetFormat::vtk;
+    if (!is_gmsh && (holds("$MeshFormat") || holds("MeshVersionFormatted")))
+        throw InputError(path, 0, "extension", extension,
+                         holds("$MeshFormat") ? "the file is a Gmsh mesh: rename it to .msh" : "the file is a MEDIT mesh: rename it to .mesh");
+    if (extension == ".vtu" || extension == ".vtk") return TetFormat::vtk;
+    if (is_gmsh) return TetFormat::gmsh;
+    if (extension == ".node" || extension == ".ele") return TetFormat::tetgen;
+    if (extension == ".tobj") return TetFormat::tobj;
+    throw InputError(path, 0, "extension", extension, "expected a tet mesh: .msh, .vtu, .vtk, .mesh, .tobj, .node or .ele");
+}
+
+TetMesh read_by_content(const std::string& path)
+{
+    const TetFormat format = format_of(path);
+    require_readable(path, format == TetFormat::vtk ? most_mesh_bytes : most_text_bytes);
+    if (format == TetFormat::tetgen) return read_tetgen(path);
+    if (format == TetFormat::tobj) return read_tobj(path);
+    const bool is_gmsh = format == TetFormat::gmsh;
+    const long long named = is_gmsh ? check_gmsh_file(path) : -1;
+    const IndexedPoints read = read_guarded(path, is_gmsh ? read_gmsh : read_vtk);
     if (read.cells.rows() > 0 && named >= 0 && named != read.points.rows())  // it leaves out vertices that no element uses
         throw InputError(path, 0, "vertices", std::to_string(named),
                          "expected all in elements; Gmsh reads " + std::to_string(read.points.rows()));
@@ -29,14 +45,14 @@ TetMesh read_by_extension(const std::string& path)
 
 TetMesh read_tet_frame(const std::string& path)
 {
-    TetMesh mesh = read_by_extension(path);
+    TetMesh mesh = read_by_content(path);
     check_frame(path, mesh);
     return mesh;
 }
 
 MeshReading read_tet_mesh(const std::string& path)
 {
-    return check_rest(path, read_by_extension(path));
+    return check_rest(path, read_by_content(path));
 }
 
 void require_tet_mesh_format(const std::string& path)

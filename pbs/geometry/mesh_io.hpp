@@ -13,13 +13,17 @@ namespace pbs {
 
 // The result of read_tet_mesh.
 struct MeshReading {
-    TetMesh mesh;          // positively oriented, in the file's order [m]
-    int flipped_tets = 0;  // number of tets whose orientation was normalised
+    TetMesh mesh;                      // positively oriented, in the file's order [m]
+    int flipped_tets = 0;              // number of tets whose orientation was normalised
+    int file_vertices = 0;             // of the file
+    std::vector<int> file_vertex;      // the file's number of each vertex, from 0, #V
+    std::vector<int> unused_vertices;  // of the file, left out because no tet uses them
+    std::vector<int> split_vertices;   // of the file, at which parts touch without a common face: each part got a vertex of its own
 };
 
 // A tet mesh to compute on: finite, not empty, indices in range, no tet without volume, no face in three tets, no neighbours that
-// overlap, boundary manifold and not self-intersecting (checked in builds with CGAL), every vertex used and given once. Orientation is
-// normalised.
+// overlap, boundary manifold and not self-intersecting (checked in builds with CGAL), no two vertices in one place. Unused vertices are left
+// out, parts that touch in a vertex are separated there, and the orientation is normalised.
 MeshReading read_tet_mesh(const std::string& path);
 
 // Points and tets as they are in the file, including inverted tets: the metrics of deformed frames need them.

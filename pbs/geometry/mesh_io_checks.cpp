@@ -2,6 +2,7 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
+#include "pbs/geometry/mesh_repair.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/geometry/topology.hpp"
@@ -62,24 +63,21 @@ int normalise_orientation(const std::string& path, TetMesh& mesh)
     return flipped;
 }
 
-void check_used(const std::string& path, const TetMesh& mesh)
+// Vertices of the file, of which an unused one may be anywhere.
+void check_distinct(const std::string& path, const MeshReading& reading)
 {
-    std::vector<bool> used(static_cast<std::size_t>(mesh.rest.rows()));
-    for (const int vertex : mesh.tets.reshaped()) used[static_cast<std::size_t>(vertex)] = true;
-    const auto unused = std::find(used.begin(), used.end(), false);
-    if (unused != used.end()) throw InputError(path, 0, numbered("vertex", unused - used.begin()), "", "expected in a tet; no tet uses it");
-}
-
-void check_distinct(const std::string& path, const Positions& points)
-{
+    const Positions& points = reading.mesh.rest;
     std::vector<Eigen::Index> order(static_cast<std::size_t>(points.rows()));
     std::iota(order.begin(), order.end(), Eigen::Index(0));
     const auto key = [&](Eigen::Index i) { return std::array{points(i, 0), points(i, 1), points(i, 2)}; };
     std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return std::pair(key(a), a) < std::pair(key(b), b); });
-    for (std::size_t i = 1; i < order.size(); ++i)
-        if (key(order[i - 1]) == key(order[i]))
-            throw InputError(path, 0, numbered("vertex", order[i]), listed(points.row(order[i])),
-                             "expected a point of its own; " + numbered("vertex", order[i - 1]) + " is there already");
+    for (std::size_t i = 1; i < order.size(); ++i) {
+        const int vertex = reading.file_vertex[static_cast<std::size_t>(order[i])];
+        const int before = reading.file_vertex[static_cast<std::size_t>(order[i - 1])];
+        if (vertex != before && key(order[i - 1]) == key(order[i]))
+            throw InputError(path, 0, numbered("vertex", vertex), listed(points.row(order[i])),
+                             "expected a point of its own; " + numbered("vertex", before) + " is there already: merge the two");
+    }
 }
 
 struct Face {
@@ -134,13 +132,28 @@ void check_faces(const std::string& path, const TetMesh& mesh)
     }
 }
 
-void check_boundary(const std::string& path, const TetMesh& mesh)
+// Parts that touch in a vertex of the file are split there, so that their triangles share a place but no vertex.
+void check_boundary(const std::string& path, const MeshReading& reading)
 {
-    if (!topology_of(mesh.tets, mesh.rest.rows()).boundary_manifold)
-        throw InputError(path, 0, "boundary", "", "expected a manifold; tets touch in a single edge or vertex");
+    if (!topology_of(reading.mesh.tets, reading.mesh.rest.rows()).boundary_manifold) {
+        const auto edge = edge_that_is_not_manifold(reading.mesh.tets);
+        const std::string where = edge ? "vertices " + std::to_string(reading.file_vertex[(*edge)[0]]) + " and " +
+                                             std::to_string(reading.file_vertex[(*edge)[1]])
+                                       : "";
+        throw InputError(path, 0, "boundary", where,
+                         "expected a manifold; tets that share no face touch in the edge of these vertices: join them by a face or give them "
+                         "vertices of their own");
+    }
 #ifdef PBS_WITH_CGAL
-    if (self_intersects(mesh.rest, boundary_of(mesh.tets)))
-        throw InputError(path, 0, "boundary", "", "expected a surface that does not intersect itself");
+    const Triangles boundary = boundary_of(reading.mesh.tets);
+    for (const auto& [a, b] : self_intersections(reading.mesh.rest, boundary)) {
+        bool touch = false;
+        for (const int of_a : boundary.row(a))
+            for (const int of_b : boundary.row(b)) touch = touch || reading.file_vertex[of_a] == reading.file_vertex[of_b];
+        if (touch && !reading.split_vertices.empty()) continue;
+        throw InputError(path, 0, "boundary", "vertex " + std::to_string(reading.file_vertex[boundary(a, 0)]),
+                         "expected a surface that does not intersect itself; it does near this vertex: mesh the body anew (pbskin mesh)");
+    }
 #endif
 }
 
@@ -158,12 +171,18 @@ MeshReading check_rest(const std::string& path, TetMesh mesh)
 {
     check_frame(path, mesh);
     require_extent(path, mesh.rest);
-    const int flipped = normalise_orientation(path, mesh);
-    check_used(path, mesh);
-    check_distinct(path, mesh.rest);
+    MeshReading reading;
+    reading.flipped_tets = normalise_orientation(path, mesh);
+    reading.file_vertices = static_cast<int>(mesh.rest.rows());
     check_faces(path, mesh);
-    check_boundary(path, mesh);
-    return {std::move(mesh), flipped};
+    RepairedMesh repair = repaired(mesh);
+    reading.mesh = std::move(repair.mesh);
+    reading.file_vertex = std::move(repair.file_vertex);
+    reading.unused_vertices = std::move(repair.unused);
+    reading.split_vertices = std::move(repair.split);
+    check_distinct(path, reading);
+    check_boundary(path, reading);
+    return reading;
 }
 
 }  // namespace pbs

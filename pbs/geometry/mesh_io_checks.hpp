@@ -9,9 +9,9 @@ namespace pbs {
 // At least one tet, indices in range, coordinates finite and within 1e9 m, so that volumes are finite too.
 void check_frame(const std::string& path, const TetMesh& mesh);
 
-// check_frame, and: not smaller than 1e-9 m, no tet without volume, no vertex unused or given twice, no face in three
-// tets, no overlap of neighbours, boundary manifold and, in a build with CGAL, free of self-intersections. Orientation is normalised by
-// swapping the last two vertices.
+// check_frame, and: not smaller than 1e-9 m, no tet without volume, no two vertices in one place, no face in three tets,
+// no overlap of neighbours, boundary manifold and, in a build with CGAL, free of self-intersections. Repaired by mesh_repair.hpp; the
+// orientation is normalised by swapping the last two vertices.
 MeshReading check_rest(const std::string& path, TetMesh mesh);
 
 }  // namespace pbs

@@ -27,6 +27,17 @@ std::string lower_extension(const std::string& path)
     return extension;
 }
 
+std::string beginning_of(const std::string& path)
+{
+    std::error_code code;
+    if (!fs::is_regular_file(path, code)) return "";
+    std::ifstream file(path, std::ios::binary);
+    std::string beginning(4096, '\0');
+    file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+    beginning.resize(static_cast<std::size_t>(file.gcount()));
+    return beginning;
+}
+
 void require_readable(const std::string& path, std::uintmax_t most_bytes)
 {
     std::error_code code;

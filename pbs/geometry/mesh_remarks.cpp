@@ -24,6 +24,18 @@ std::string remark(const std::string& path, const std::string& field, const Valu
     return text.str();
 }
 
+// The first few by number.
+void add_vertices(const std::string& path, const std::string& field, const std::vector<int>& vertices, const std::string& treatment,
+                  std::vector<std::string>& remarks)
+{
+    if (vertices.empty()) return;
+    constexpr std::size_t most = 20;
+    std::string list;
+    for (std::size_t v = 0; v < vertices.size() && v < most; ++v) list += (v ? ", " : "") + std::to_string(vertices[v]);
+    if (vertices.size() > most) list += ", ...";
+    remarks.push_back(remark(path, field, std::to_string(vertices.size()) + " (" + list + ")", treatment));
+}
+
 void add_size(const std::string& path, const Positions& points, std::vector<std::string>& remarks)
 {
     const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
@@ -71,6 +83,8 @@ std::vector<std::string> remarks_on(const std::string& path, const MeshReading& 
     std::vector<std::string> remarks;
     if (reading.flipped_tets > 0)
         remarks.push_back(remark(path, "inverted tets", reading.flipped_tets, "turned, so that every rest volume is positive"));
+    add_vertices(path, "unused vertices", reading.unused_vertices, "left out; no tet uses them", remarks);
+    add_vertices(path, "vertices at which parts touch", reading.split_vertices, "split, so that each part has its own", remarks);
     const int parts = topology_of(reading.mesh.tets, reading.mesh.rest.rows()).components;
     if (parts > 1) remarks.push_back(remark(path, "parts", parts, "kept; no face joins them"));
     add_size(path, reading.mesh.rest, remarks);

@@ -7,6 +7,7 @@
 #include "pbs/geometry/mesh_io.hpp"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace pbs {
@@ -20,12 +21,14 @@ TetMesh mesh_bar(int vertices);  // InputError, as of the limb, for fewer vertic
 // size proportional to the local thickness, perturbed and exuded, checked, tried again with another facet distance where the check fails.
 // The tets' boundary lies up to about wrap_offset_m + wrap_alpha_m from the surface.
 struct SurfaceMeshing {
-    int vertices = 2000;            // wanted, 150 or more
-    double wrap_alpha_m = 0.0;      // smallest gap the wrap enters; 0: the bounding box's diagonal / 170
-    double wrap_offset_m = 0.0;     // 0: alpha / 3
-    double min_dihedral_deg = 5.0;  // required of every tet
-    int boundary_euler = 2;         // required of the boundary; 2: a ball, 0: a body with one handle
-    std::vector<Vec3> inside;       // points that must lie inside, e.g. joints
+    int vertices = 2000;                    // wanted, 150 or more
+    double wrap_alpha_m = 0.0;              // smallest gap the wrap enters; 0: the bounding box's diagonal / 170
+    double wrap_offset_m = 0.0;             // 0: alpha / 3
+    double min_dihedral_deg = 5.0;          // required of every tet
+    std::optional<int> boundary_euler = 2;  // required of the boundary; 2: a ball, 0: a body with one handle; null: any
+    bool is_closed = true;                  // required of the surface: its wrap holds about what it encloses
+    bool is_one_piece = true;               // required of the tets
+    std::vector<Vec3> inside;               // points that must lie inside, e.g. joints
 };
 // InputError where fewer than 150 vertices are requested; the surface has fewer than 4 triangles, a point that is not finite, an index
 // out of range or no volume; its wrap holds less than half or more than twice what it encloses (an open sheet, triangles turned both ways),

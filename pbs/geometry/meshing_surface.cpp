@@ -194,9 +194,9 @@ void check_closed(const SurfaceMesh& surface, const Body& body)
 // A defect of the wrap remains at every cell size.
 void check_wrap(const Body& body, const SurfaceMeshing& options)
 {
-    if (body.euler() != options.boundary_euler)
+    if (options.boundary_euler && body.euler() != *options.boundary_euler)
         throw InputError("", 0, "Euler number of the wrapped surface", std::to_string(body.euler()),
-                         "expected " + std::to_string(options.boundary_euler) + ": another wrap_alpha_m, or ask for this number");
+                         "expected " + std::to_string(*options.boundary_euler) + ": another wrap_alpha_m, or ask for this number");
     for (std::size_t i = 0; i < options.inside.size(); ++i)
         if (!body.contains(options.inside[i]))
             throw InputError("", 0, "point " + std::to_string(i) + " asked inside", "", "expected inside the surface");
@@ -233,7 +233,7 @@ TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
     const double alpha = options.wrap_alpha_m > 0.0 ? options.wrap_alpha_m : diagonal_of(surface.points) / 170.0;
     const double offset = options.wrap_offset_m > 0.0 ? options.wrap_offset_m : alpha / 3.0;
     const Body body(surface, alpha, offset);
-    check_closed(surface, body);
+    if (options.is_closed) check_closed(surface, body);
     check_wrap(body, options);
 
     std::string breach;

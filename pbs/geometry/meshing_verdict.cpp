@@ -46,10 +46,10 @@ std::string breach_of(const TetMesh& mesh, const SurfaceMeshing& options)
     if (mesh.tets.rows() == 0) return "no tets";
     const Quality quality = quality_of(mesh);
     if (!quality.topology.boundary_manifold) return "the boundary is not manifold";
-    if (quality.topology.components != 1) return std::to_string(quality.topology.components) + " pieces";
-    if (quality.topology.boundary_euler != options.boundary_euler)
+    if (options.is_one_piece && quality.topology.components != 1) return std::to_string(quality.topology.components) + " pieces";
+    if (options.boundary_euler && quality.topology.boundary_euler != *options.boundary_euler)
         return "Euler number of the boundary " + std::to_string(quality.topology.boundary_euler) + ", expected " +
-               std::to_string(options.boundary_euler);
+               std::to_string(*options.boundary_euler);
     if (quality.min_dihedral_deg < options.min_dihedral_deg)
         return "smallest dihedral angle " + std::to_string(quality.min_dihedral_deg) + " deg";
 

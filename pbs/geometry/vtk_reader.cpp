@@ -30,7 +30,7 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const std::string& path, Reader& re
 
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& path)
 {
-    if (lower_extension(path) == ".vtk") {
+    if (beginning_of(path).starts_with("# vtk DataFile")) {  // either format may have either extension
         vtkNew<vtkUnstructuredGridReader> reader;
         return grid_of(path, *reader.Get());
     }

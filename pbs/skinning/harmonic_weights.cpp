@@ -23,22 +23,26 @@ Gradients barycentric_gradients(const TetMesh& mesh, Eigen::Index tet, double& v
     return gradients;
 }
 
-// The rows of gripped vertices are those of the identity; their couplings go to the right-hand side.
-Laplacian held_laplacian(const TetMesh& mesh, const std::vector<int>& gripping_bone, Eigen::MatrixXd& right_hand_sides)
+// The rows of known vertices are those of the identity; their couplings go to the right-hand side.
+Laplacian held_laplacian(const TetMesh& mesh, const std::vector<bool>& known, const Eigen::MatrixXd& weights,
+                         Eigen::MatrixXd& right_hand_sides)
 {
     std::vector<Eigen::Triplet<double>> entries;
-    for (std::size_t v = 0; v < gripping_bone.size(); ++v)
-        if (gripping_bone[v] >= 0) entries.emplace_back(v, v, 1.0);
+    for (std::size_t v = 0; v < known.size(); ++v) {
+        if (!known[v]) continue;
+        entries.emplace_back(v, v, 1.0);
+        right_hand_sides.row(static_cast<Eigen::Index>(v)) = weights.row(static_cast<Eigen::Index>(v));
+    }
     for (Eigen::Index tet = 0; tet < mesh.tets.rows(); ++tet) {
         double volume_m3 = 0.0;
         const Gradients gradients = barycentric_gradients(mesh, tet, volume_m3);
         for (int a = 0; a < 4; ++a)
             for (int b = 0; b < 4; ++b) {
                 const int row = mesh.tets(tet, a), column = mesh.tets(tet, b);
-                if (gripping_bone[row] >= 0) continue;
+                if (known[row]) continue;
                 const double entry = volume_m3 * gradients.col(a).dot(gradients.col(b));
-                if (gripping_bone[column] >= 0)
-                    right_hand_sides(row, gripping_bone[column]) -= entry;
+                if (known[column])
+                    right_hand_sides.row(row) -= entry * weights.row(column);
                 else
                     entries.emplace_back(row, column, row == column ? (1.0 + regular) * entry : entry);
             }
@@ -70,14 +74,23 @@ Weights sparse(const Eigen::MatrixXd& weights)
 
 }  // namespace
 
-Weights harmonic_weights(const TetMesh& mesh, const std::vector<int>& gripping_bone, int bones)
+Weights harmonic_extension(const TetMesh& mesh, const std::vector<bool>& known, const Eigen::MatrixXd& weights)
 {
-    Eigen::MatrixXd right_hand_sides = Eigen::MatrixXd::Zero(mesh.rest.rows(), bones);
-    for (std::size_t v = 0; v < gripping_bone.size(); ++v)
-        if (gripping_bone[v] >= 0) right_hand_sides(v, gripping_bone[v]) = 1.0;
-    const Laplacian laplacian = held_laplacian(mesh, gripping_bone, right_hand_sides);
+    Eigen::MatrixXd right_hand_sides = Eigen::MatrixXd::Zero(weights.rows(), weights.cols());
+    const Laplacian laplacian = held_laplacian(mesh, known, weights, right_hand_sides);
     const Eigen::SimplicialLDLT<Laplacian> factor(laplacian);
     return sparse(factor.solve(right_hand_sides));
+}
+
+Weights harmonic_weights(const TetMesh& mesh, const std::vector<int>& gripping_bone, int bones)
+{
+    std::vector<bool> gripped;
+    Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(mesh.rest.rows(), bones);
+    for (std::size_t v = 0; v < gripping_bone.size(); ++v) {
+        gripped.push_back(gripping_bone[v] >= 0);
+        if (gripped.back()) weights(static_cast<Eigen::Index>(v), gripping_bone[v]) = 1.0;
+    }
+    return harmonic_extension(mesh, gripped, weights);
 }
 
 }  // namespace pbs

@@ -1,9 +1,9 @@
 // Frames that another program has written. They must have the vertices of the rest mesh, in the same order and in the same unit.
-//   const RestMesh rest(pbs::read_tet_mesh("rest.msh").mesh);
+//   const RestMesh rest(pbs::read_tet_mesh("rest.msh"));
 //   const pbs::Positions positions = rest.read_frame("frame_0001.vtu");
 #pragma once
 
-#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/geometry/mesh_io.hpp"
 
 #include <string>
 
@@ -11,7 +11,7 @@ namespace experiments {
 
 class RestMesh {
 public:
-    explicit RestMesh(pbs::TetMesh mesh);
+    explicit RestMesh(pbs::MeshReading reading);
 
     // [m], #V x 3. InputError for another number of vertices, for other tets, and for positions in another unit. The order of the tets and
     // of their corners may differ, for readers and exporters change it; the metrics take that of the rest mesh.
@@ -25,8 +25,10 @@ private:
     void require_same_units(const std::string& path, const pbs::Positions& positions) const;
 
     pbs::TetMesh mesh_;
+    std::vector<int> file_vertex_;  // of the rest mesh's file, #V
+    int file_vertices_ = 0;
     pbs::Edges edges_;
-    pbs::Tets corners_;  // each tet's in ascending order, and the tets sorted
+    pbs::Tets corners_;  // each tet's in ascending order as the file numbers them, and the tets sorted
 };
 
 }  // namespace experiments

@@ -33,6 +33,7 @@ DeformerKind fem_kind()
             .options = FemOptions{},
             .keys = fem_fields().keys(),
             .has_list = true,
+            .needs_list = true,
             .read = read_fem,
             .options_json = [](const DeformerSpec& spec) { return fem_fields().json(options_of<FemOptions>(spec)); },
             .traits = fem_traits};

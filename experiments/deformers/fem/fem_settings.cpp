@@ -169,9 +169,6 @@ const OptionFields<FemOptions>& fem_fields()
 
 void read_fem(const SceneValues& values, const std::string& table, DeformerSpec& spec)
 {
-    const auto is_plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
-    if (spec.name.empty() || !std::all_of(spec.name.begin(), spec.name.end(), is_plain) || spec.name.starts_with("pbs"))
-        values.refuse(table + ".name", "expected letters, digits and underscores, not beginning with pbs: it names files");
     const FemOptions options = fem_fields().read(values, table);
     check(values, table, options);
     spec.options = options;

@@ -1,0 +1,73 @@
+// pbskin try MODEL [--animation NAME] [-o DIR]: a rigged model through its own motion, without a scene: runs it with all methods, and
+// writes a summary, the scene to go on with, and a page with the moving model.
+#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/record_text.hpp"
+#include "experiments/command_line/report_page.hpp"
+#include "experiments/command_line/verbs.hpp"
+#include "experiments/process/progress.hpp"
+#include "experiments/process/warnings.hpp"
+#include "experiments/run/run.hpp"
+#include "experiments/trial/trial_scene.hpp"
+#include "experiments/trial/trial_summary.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+int try_model(TrialOptions options, const CommonOptions& common)
+{
+    if (common.quiet) hide_progress();
+    if (options.folder.empty()) options.folder = "results/" + fs::path(options.model).stem().string();
+    const TrialScene made = trial_scene(options);
+    warn(made.remarks);
+    std::error_code code;
+    fs::create_directories(options.folder, code);
+    if (code) throw pbs::InputError(options.folder, 0, "", "", "the output folder cannot be made: " + code.message());
+    const std::string scene_file = (fs::path(options.folder) / "scene.toml").string();
+    analysis::write_text_atomically(scene_file, made.text);
+
+    Scene scene = read_scene(scene_file, {});
+    for (DeformerSpec& spec : scene.deformers) spec.threads = common.threads;
+    const RunResult result = run_scene(scene, options.folder);
+    for (const auto& line : result.lines) spdlog::info("{}", line);
+    nlohmann::json facts = trial_facts(options.folder);
+    for (auto remark = made.remarks.rbegin(); remark != made.remarks.rend(); ++remark)
+        facts["warnings"].insert(facts["warnings"].begin(), *remark);
+    facts["summary"] = trial_sentence(facts);
+    analysis::write_text_atomically((fs::path(options.folder) / "try.json").string(), analysis::record_text(facts));
+    spdlog::info("{}", facts["summary"].get<std::string>());
+    spdlog::info("To go on, change {} and run it with `pbskin run`.", scene_file);
+    if (!result.failure().empty()) spdlog::error("pbskin: {}", result.failure());
+    return write_report_page(options.folder, common.quiet);
+}
+
+}  // namespace
+
+void add_try_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+{
+    CLI::App* verb = add_verb(app, common, "try", "runs a rigged model through its own motion and shows the result on a page");
+    auto options = std::make_shared<TrialOptions>();
+    verb->add_option("model", options->model, ".glb .gltf .fbx .dae .zae")->required();
+    verb->add_option("--animation", options->animation,
+                     "an animation of the model by name, or a clip (.bvh .gltf .glb .fbx); by default the model's first one");
+    verb->add_option("-o,--output", options->folder, "folder of the records; by default results/NAME");
+    verb->add_option("--frames", options->frames, "largest number of frames, distributed over the motion")
+        ->check(CLI::Range(2, 100'000))
+        ->capture_default_str();
+    verb->add_option("--vertices", options->vertices, "wanted number of vertices of the tets; by default 2000")
+        ->check(CLI::Range(150, 10'000'000));
+    verb->add_option("--skeleton", options->skeleton, "skeleton of a model without joints: a file, or human");
+    verb->add_option("--scale", options->scale, "enlarges the model, for files that state a wrong unit")->check(CLI::PositiveNumber);
+    verb->add_flag("--allow-partial", options->allow_partial, "accepts a clip of which fewer than half of the moving joints match a bone");
+    verb->add_flag("!--no-reference", options->reference, "leaves out the finite elements, which take most of the time");
+    verb->callback([&action, &common, options] { action = [&common, options] { return try_model(*options, common); }; });
+}
+
+}  // namespace experiments

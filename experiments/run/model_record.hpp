@@ -1,0 +1,15 @@
+// What a run took from a rigged model and what it left out, for run.json and try.json.
+#pragma once
+
+#include "pbs/character/character.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace experiments {
+
+// file, joints (the bones), joints_dropped with reasons, containers, meshes, bind_pose_deg, metres_per_unit, extent_m, animations,
+// animation (the one that determined the size), weights_transferred_pct (the share of the artist's weight whose joints move a tet vertex by
+// more than all others together). The character has a model.
+nlohmann::json model_record(const pbs::Character& character);
+
+}  // namespace experiments

@@ -1,0 +1,150 @@
+#include "experiments/trial/trial_scene.hpp"
+
+#include "pbs/character/clip.hpp"
+#include "pbs/character/model_character.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double highest_rate_hz = 30.0;  // of a motion that is shorter than its frames
+constexpr double bend_deg = 60.0;         // of the joint of a model without a motion
+
+// A TOML string: JSON's escapes are TOML's.
+std::string quoted(const std::string& text)
+{
+    return nlohmann::json(text).dump();
+}
+
+// As scene.toml names a file: relative to its folder.
+std::string from_folder(const std::string& file, const std::string& folder)
+{
+    return fs::proximate(fs::absolute(file), fs::absolute(folder)).string();
+}
+
+std::string sampled(double duration_s, int frames)
+{
+    const double rate_hz = duration_s > 0.0 ? std::min(highest_rate_hz, (frames - 1) / duration_s) : highest_rate_hz;
+    return fmt::format("rate_hz = {}\n", nlohmann::json(rate_hz).dump());
+}
+
+std::string clip_motion(const TrialOptions& options, const std::string& clip_file)
+{
+    const pbs::Clip clip = pbs::read_clip(clip_file);
+    const bool is_here = fs::exists(options.animation);
+    std::string text = fmt::format("clip = {}\n", quoted(is_here ? from_folder(clip_file, options.folder) : options.animation));
+    if (options.allow_partial) text += "allow_partial = true\n";
+    return text + sampled((clip.frames() - 2) * clip.frame_time_s, options.frames);  // without the first frame, which is a T pose
+}
+
+// The bone with a parent that moves most of the skin together with all bones below it.
+int bone_to_bend(const pbs::RiggedBody& body)
+{
+    std::vector<double> weight(body.skeleton.bones.size(), 0.0);
+    for (std::size_t e = 0; e < body.skin.bone.size(); ++e) weight[body.skin.bone[e]] += body.skin.weight[e];
+    int most = -1;
+    for (int b = static_cast<int>(weight.size()) - 1; b >= 0; --b) {
+        const int parent = body.skeleton.bones[b].parent;
+        if (parent < 0) continue;
+        weight[parent] += weight[b];
+        if (most < 0 || weight[b] >= weight[most]) most = b;
+    }
+    return most;
+}
+
+std::string bending(const TrialOptions& options, const pbs::RiggedBody& body, std::vector<std::string>& remarks)
+{
+    const int bone = bone_to_bend(body);
+    if (bone < 0)
+        throw pbs::InputError(options.model, 0, "animation", "", "the model has no motion and a single bone: expected --animation CLIP");
+    const pbs::Bone& bent = body.skeleton.bones[bone];
+    const pbs::Vec3 axis = (bent.tail - bent.head).unitOrthogonal();
+    remarks.push_back(fmt::format("{}: it has no animation: the joint {} is bent by {} degrees (--animation CLIP takes a motion)",
+                                  options.model, bent.name, bend_deg));
+    return fmt::format("joint = {}\naxis = [{}, {}, {}]\nangle_deg = {:.1f}\nframes = {}\n", quoted(bent.name), axis.x(), axis.y(),
+                       axis.z(), bend_deg, options.frames);
+}
+
+std::string motion(const TrialOptions& options, std::vector<std::string>& remarks)
+{
+    const auto model = pbs::read_model(options.model, "", options.scale);
+    const auto& animations = model->rig.animations;
+    const auto named = std::find_if(animations.begin(), animations.end(),
+                                    [&](const pbs::RigAnimation& animation) { return animation.name == options.animation; });
+    if (named != animations.end())
+        return fmt::format("animation = {}\n", quoted(named->name)) + sampled(named->end_s - named->start_s, options.frames);
+    if (!options.animation.empty()) {
+        try {
+            return clip_motion(options, pbs::find_clip(options.animation, ""));
+        } catch (const pbs::InputError&) {
+            if (fs::exists(options.animation)) throw;
+            pbs::find_animation(model->rig, options.animation);  // lists those that the model has
+            throw;
+        }
+    }
+    if (animations.empty()) {
+        if (model->body.skeleton.bones.empty())
+            throw pbs::InputError(options.model, 0, "animation", "", "the model has no joints and no animation: expected --animation CLIP");
+        return bending(options, model->body, remarks);
+    }
+    if (animations.size() > 1) {
+        std::string names;
+        for (const pbs::RigAnimation& animation : animations) names += (names.empty() ? "" : ", ") + animation.name;
+        remarks.push_back(fmt::format("{}: it has {} animations; {} is taken (--animation NAME takes another one): {}", options.model,
+                                      animations.size(), animations.front().name, names));
+    }
+    const pbs::RigAnimation& first = animations.front();
+    return fmt::format("animation = {}\n", quoted(first.name)) + sampled(first.end_s - first.start_s, options.frames);
+}
+
+// The settings of the built-in scenes.
+constexpr const char* pbs_table = R"([pbs]
+iterations = 24
+k_stretch = 0.2
+k_volume = 1.0
+k_bind = 1.0
+)";
+
+constexpr const char* reference_tables = R"([[fem]]
+name = "nh_p1"                   # the reference: a neo-Hookean body on the same tets
+model = "neo_hookean"
+element_order = 1
+[reference]
+name = "nh_p1"
+)";
+
+}  // namespace
+
+TrialScene trial_scene(const TrialOptions& options)
+{
+    if (options.frames < 2) throw pbs::InputError("", 0, "--frames", std::to_string(options.frames), "expected at least 2");
+    TrialScene made;
+    const std::string moved = motion(options, made.remarks);
+    std::string character = fmt::format("model = {}\n", quoted(from_folder(options.model, options.folder)));
+    if (options.scale != 1.0) character += fmt::format("scale = {}\n", nlohmann::json(options.scale).dump());
+    if (options.vertices > 0) character += fmt::format("vertices = {}\n", options.vertices);
+    if (!options.skeleton.empty())
+        character +=
+            fmt::format("skeleton = {}\n", quoted(options.skeleton == "human" ? "human" : from_folder(options.skeleton, options.folder)));
+    const bool has_artist = options.skeleton.empty();
+    made.text =
+        fmt::format("# {} through its motion. Change this file and run it: pbskin run {} -o DIR\nschema = 1\n[character]\n{}[motion]\n{}",
+                    options.model, (fs::path(options.folder) / "scene.toml").string(), character, moved);
+    made.text += pbs_table;
+    if (has_artist)
+        made.text += "[[lbs]]\nname = \"lbs_paper\"               # linear blend skinning with the weights of Eq. 2\nweights = \"paper\"\n";
+    if (options.reference) made.text += reference_tables;
+    made.text += fmt::format("[deformers]\nuse = [\"lbs\", \"dqs\", {}\"delta_mush\", \"pbs\"{}]\n", has_artist ? "\"lbs_paper\", " : "",
+                             options.reference ? ", \"nh_p1\"" : "");
+    made.text += "[output]\nframes_every = 1\nglb = true                       # also the moving surface of each deformer\n";
+    return made;
+}
+
+}  // namespace experiments

@@ -1,0 +1,23 @@
+// How much of a clip reaches a skeleton.
+#pragma once
+
+#include "pbs/character/clip.hpp"
+
+#include <string>
+#include <vector>
+
+namespace pbs {
+
+struct ClipMatch {
+    int moving = 0;                      // joints of the clip whose rotation changes
+    int matched = 0;                     // of these, joints that a bone follows
+    std::vector<std::string> unmatched;  // names of the others
+};
+
+// By the same names as retarget().
+ClipMatch match_of(const Clip& clip, const Skeleton& skeleton);
+
+// The largest rotation of a bone from the first pose to another one [deg]; 0 where no bone moves relative to the root's own translation.
+double largest_rotation_deg(const Motion& motion);
+
+}  // namespace pbs

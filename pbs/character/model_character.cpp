@@ -1,0 +1,96 @@
+#include "pbs/character/model_character.hpp"
+
+#include "pbs/character/body_cache.hpp"
+#include "pbs/character/input_file.hpp"
+#include "pbs/character/model_remarks.hpp"
+#include "pbs/character/surface_body.hpp"
+#include "pbs/character/transferred_weights.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/meshing.hpp"
+#include "pbs/geometry/number_text.hpp"
+#include "pbs/geometry/parts.hpp"
+#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/topology.hpp"
+#include "pbs/rig/rig_reader.hpp"
+
+#include <set>
+
+namespace pbs {
+namespace {
+
+constexpr int model_version = 1;  // raised whenever something else is made of the same file, so that the cache knows
+
+// Parts of the tets through which no bone passes would be held by nothing.
+void leave_out_parts_without_bone(Character& character, const std::string& file, std::vector<std::string>& remarks)
+{
+    const std::vector<int> part = parts_of(character.mesh.tets);
+    std::set<int> with_bone;
+    const BoneBinding binding = bind_to_nearest_bone(character.mesh.rest, character.skeleton);
+    const int parts = part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end());
+    if (parts <= 1) return;
+    for (int p = 0; p < parts; ++p) {
+        std::vector<bool> own(part.size());
+        for (std::size_t t = 0; t < part.size(); ++t) own[t] = part[t] == p;
+        const TetMesh mesh = kept_tets(character.mesh, own);
+        std::vector<Vec3> middles;
+        for (const Bone& bone : character.skeleton.bones)
+            for (const double along : {0.25, 0.5, 0.75}) middles.emplace_back(bone.head + along * (bone.tail - bone.head));
+        const std::vector<bool> inside = points_inside(mesh.rest, boundary_of(mesh.tets), middles);
+        if (std::find(inside.begin(), inside.end(), true) != inside.end()) with_bone.insert(p);
+    }
+    if (with_bone.empty() || static_cast<int>(with_bone.size()) == parts) return;
+    std::vector<bool> kept(part.size());
+    for (std::size_t t = 0; t < part.size(); ++t) kept[t] = with_bone.count(part[t]) > 0;
+    const double whole_m3 = tet_volumes(character.mesh.rest, character.mesh.tets).sum();
+    character.mesh = kept_tets(character.mesh, kept);
+    const double lost_pct = 100.0 * (1.0 - tet_volumes(character.mesh.rest, character.mesh.tets).sum() / whole_m3);
+    remarks.push_back(file + ": " + std::to_string(parts - static_cast<int>(with_bone.size())) + " of " + std::to_string(parts) +
+                      " separate parts have no bone inside; they are left out, with " + number_text(lost_pct, 3) + " % of the volume");
+}
+
+}  // namespace
+
+std::shared_ptr<const RiggedModel> read_model(const std::string& file, const std::string& animation, double scale)
+{
+    auto model = std::make_shared<RiggedModel>();
+    model->rig = read_rig(file);
+    model->animation = find_animation(model->rig, animation);
+    model->body = make_rigged_body(model->rig, model->animation, scale);
+    return model;
+}
+
+Character make_model_character(const ModelSource& source, std::vector<std::string>& remarks)
+{
+    const InputFile input(source.file);
+    const std::shared_ptr<const RiggedModel> model = read_model(source.file, source.animation, source.scale);
+    const RiggedBody& body = model->body;
+    const bool rigged = !body.skeleton.bones.empty();
+    if (!rigged && source.skeleton.bones.empty())
+        throw InputError(source.file, 0, "skins", "0", "the file has no joints: expected a skeleton beside it");
+
+    const auto hashed = input.hashed();
+    std::string made_from = std::to_string(model_version) + number_text(source.scale, 17) + source.animation;
+    for (const auto& [name, hash] : hashed) made_from += hash;
+    const SurfaceBody surface{.name = file_name(source.file),
+                              .made_from = made_from,
+                              .skeleton = rigged ? body.skeleton : source.skeleton,
+                              .surface =
+                                  [&] {
+                                      return SurfaceMesh{body.surface, body.triangles};
+                                  },
+                              .is_foreign = true};
+    Character character = make_surface_body(surface, source.vertices > 0 ? source.vertices : default_model_vertices, false);
+    leave_out_parts_without_bone(character, source.file, remarks);
+    character.surface = embed(body.surface, body.triangles, character.mesh);
+    character.inputs = hashed;
+    character.artist.emplace();
+    character.artist->model = model;
+    if (rigged)
+        character.artist->weights =
+            transfer_weights(character.mesh, body.surface, body.triangles, body.skin, static_cast<int>(body.skeleton.bones.size())).weights;
+    const auto found = remarks_on_model(body, character.mesh, character.artist->weights, source.file);
+    remarks.insert(remarks.end(), found.begin(), found.end());
+    return character;
+}
+
+}  // namespace pbs

@@ -1,0 +1,36 @@
+// A character from a rigged model: tets from its surface, the skeleton of its joints, the artist's weights, and the surface itself carried
+// along.
+#pragma once
+
+#include "pbs/character/character.hpp"
+#include "pbs/rig/rig_motion.hpp"
+
+#include <string>
+#include <vector>
+
+namespace pbs {
+
+// A rigged file as a character keeps it, for its animations and for the artist's own skinning.
+struct RiggedModel {
+    Rig rig;
+    RiggedBody body;
+    const RigAnimation* animation = nullptr;  // of `rig`; null: it has none
+};
+
+// What is made of a model file.
+struct ModelSource {
+    std::string file;
+    std::string animation;   // by name; empty: the first one
+    double scale = 1.0;      // further metres per metre of the file
+    int vertices = 0;        // wanted of the tets; 0: default_model_vertices
+    Skeleton skeleton = {};  // of a file without joints; of no use otherwise
+};
+constexpr int default_model_vertices = 2000;
+
+std::shared_ptr<const RiggedModel> read_model(const std::string& file, const std::string& animation, double scale);
+
+// Binding and `weights` are left for make_character. `remarks` gets everything that was dropped, guessed or looks wrong. InputErrors are
+// those of read_rig and mesh_surface, and a file without joints if there is no other skeleton.
+Character make_model_character(const ModelSource& source, std::vector<std::string>& remarks);
+
+}  // namespace pbs

@@ -1,0 +1,72 @@
+#include "pbs/character/model_remarks.hpp"
+
+#include "pbs/geometry/meshing.hpp"
+#include "pbs/geometry/number_text.hpp"
+#include "pbs/geometry/topology.hpp"
+
+namespace pbs {
+namespace {
+
+constexpr double smallest_m = 0.05, largest_m = 20.0;  // of a body whose unit is believed
+constexpr int samples_per_bone = 5;                    // on its middle, the part that Eq. 2 gives to it alone
+
+std::string listed(const std::vector<std::string>& names)
+{
+    constexpr std::size_t most = 8;
+    std::string text;
+    for (std::size_t n = 0; n < names.size() && n < most; ++n) text += (n ? ", " : "") + names[n];
+    return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " others" : text;
+}
+
+void add_size(const RiggedBody& body, const std::string& file, std::vector<std::string>& remarks)
+{
+    const double size_m = (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).maxCoeff();
+    if (size_m >= smallest_m && size_m <= largest_m) return;
+    remarks.push_back(file + ": unlikely units: the body's largest extent is " + number_text(size_m, 4) +
+                      " m; --scale (character.scale in a scene) corrects it");
+}
+
+void add_bones_outside(const RiggedBody& body, const TetMesh& mesh, const std::string& file, std::vector<std::string>& remarks)
+{
+    std::vector<Vec3> samples;
+    for (const Bone& bone : body.skeleton.bones)
+        for (int s = 0; s < samples_per_bone; ++s)
+            samples.emplace_back(bone.head + (1.0 / 6.0 + 4.0 / 6.0 * (s + 0.5) / samples_per_bone) * (bone.tail - bone.head));
+    const std::vector<bool> inside = points_inside(mesh.rest, boundary_of(mesh.tets), samples);
+    std::vector<std::string> outside;
+    for (std::size_t b = 0; b < body.skeleton.bones.size(); ++b) {
+        int count = 0;
+        for (int s = 0; s < samples_per_bone; ++s) count += inside[b * samples_per_bone + static_cast<std::size_t>(s)];
+        if (count == 0) outside.push_back(body.skeleton.bones[b].name);
+    }
+    if (!outside.empty())
+        remarks.push_back(file + ": " + std::to_string(outside.size()) + " of " + std::to_string(body.skeleton.bones.size()) +
+                          " bones lie outside the body: " + listed(outside));
+}
+
+void add_joints_without_flesh(const RiggedBody& body, const Weights& artist, const std::string& file, std::vector<std::string>& remarks)
+{
+    std::vector<double> weight(body.skeleton.bones.size(), 0.0);
+    for (std::size_t e = 0; e < artist.bone.size(); ++e) weight[artist.bone[e]] += artist.weight[e];
+    std::vector<std::string> without;
+    for (std::size_t b = 0; b < weight.size(); ++b)
+        if (weight[b] < 0.5) without.push_back(body.skeleton.bones[b].name);  // less than half a vertex
+    if (!without.empty())
+        remarks.push_back(file + ": " + std::to_string(without.size()) + " of " + std::to_string(weight.size()) +
+                          " joints are without flesh: the tets are too coarse for what they move: " + listed(without));
+}
+
+}  // namespace
+
+std::vector<std::string> remarks_on_model(const RiggedBody& body, const TetMesh& mesh, const Weights& artist, const std::string& file)
+{
+    std::vector<std::string> remarks;
+    for (const std::string& remark : body.remarks) remarks.push_back(file + ": " + remark);
+    add_size(body, file, remarks);
+    if (body.skeleton.bones.empty()) return remarks;
+    add_bones_outside(body, mesh, file, remarks);
+    add_joints_without_flesh(body, artist, file, remarks);
+    return remarks;
+}
+
+}  // namespace pbs

@@ -1,0 +1,20 @@
+// An artist's skin weights in the flesh.
+#pragma once
+
+#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/skinning/weights.hpp"
+
+namespace pbs {
+
+struct TransferredWeights {
+    Weights weights;                  // of the tets' vertices, #V
+    double largest_distance_m = 0.0;  // from a vertex of the tets' boundary to the surface
+};
+
+// A vertex on the boundary of the tets gets the weights of the surface's nearest point (linear in its triangle), a vertex inside their
+// harmonic extension. surface [m], #S x 3; triangles #F x 3 with #F > 0; skin: weights of the surface's points, #S. Small weights (1e-6)
+// are removed and the others normalised.
+TransferredWeights transfer_weights(const TetMesh& mesh, const Positions& surface, const Triangles& triangles, const Weights& skin,
+                                    int bones);
+
+}  // namespace pbs

@@ -1,0 +1,144 @@
+#include "pbs/rig/assimp_rig.hpp"
+
+#include "pbs/geometry/assimp_files.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/rig/assimp_animations.hpp"
+#include "pbs/rig/skin_weights.hpp"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <assimp/Importer.hpp>
+
+#include <new>
+
+namespace pbs {
+namespace {
+
+constexpr double metres_per_centimetre = 0.01;  // FBX states its unit in centimetres
+
+using Nodes = std::vector<const aiNode*>;  // in the order of the rig
+
+Eigen::Affine3d to_eigen(const aiMatrix4x4& matrix)
+{
+    Eigen::Affine3d affine;
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column)
+            affine.affine()(row, column) = matrix[static_cast<unsigned>(row)][static_cast<unsigned>(column)];
+    return affine;
+}
+
+// Animations replace a node's whole transform, so that its parts are needed only where an animation has no keys for them.
+NodeTransform transform_of(const aiNode& node)
+{
+    NodeTransform transform;
+    aiVector3D scale, translation;
+    aiQuaternion rotation;
+    node.mTransformation.Decompose(scale, rotation, translation);
+    transform.translation = {translation.x, translation.y, translation.z};
+    transform.rotation = Eigen::Quaterniond(rotation.w, rotation.x, rotation.y, rotation.z);
+    transform.scale = {scale.x, scale.y, scale.z};
+    transform.matrix = to_eigen(node.mTransformation);
+    return transform;
+}
+
+void add_node(const aiNode& node, int parent, Nodes& nodes, Rig& rig)
+{
+    const int index = static_cast<int>(rig.nodes.size());
+    nodes.push_back(&node);
+    rig.nodes.push_back({node.mName.C_Str(), parent, transform_of(node)});
+    if (!rig.nodes.back().rest.matrix->matrix().allFinite())
+        throw InputError(rig.file, 0, "node " + rig.nodes.back().name, "", "expected finite numbers");
+    for (unsigned child = 0; child < node.mNumChildren; ++child) add_node(*node.mChildren[child], index, nodes, rig);
+}
+
+// The node of a joint. A node with a mesh may have the same name; the joint is the one without.
+int joint_named(const std::string& name, const Nodes& nodes, const Rig& rig)
+{
+    int with_mesh = -1;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+        if (name != nodes[n]->mName.C_Str()) continue;
+        if (nodes[n]->mNumMeshes == 0) return static_cast<int>(n);
+        with_mesh = static_cast<int>(n);
+    }
+    if (with_mesh < 0) throw InputError(rig.file, 0, "joint", name, "the skin names a joint that is no node of the file");
+    return with_mesh;
+}
+
+Weights skin_of(const aiMesh& mesh, Rig& rig)
+{
+    std::vector<std::vector<JointShare>> points(mesh.mNumVertices);
+    for (unsigned joint = 0; joint < mesh.mNumBones; ++joint)
+        for (unsigned w = 0; w < mesh.mBones[joint]->mNumWeights; ++w) {
+            const aiVertexWeight& weight = mesh.mBones[joint]->mWeights[w];
+            if (weight.mVertexId >= mesh.mNumVertices)
+                throw InputError(rig.file, 0, "mesh " + std::string(mesh.mName.C_Str()) + ", vertex of a weight",
+                                 std::to_string(weight.mVertexId), "expected a vertex of the mesh");
+            points[weight.mVertexId].push_back({static_cast<int>(joint), weight.mWeight});
+        }
+    SkinWeights skin;
+    for (const auto& point : points) skin.add_point(point);
+    return skin.normalised(rig.file, mesh.mName.C_Str(), rig.remarks);
+}
+
+RigMesh mesh_of(const aiMesh& source, int node, const Nodes& nodes, Rig& rig)
+{
+    RigMesh mesh;
+    mesh.name = source.mName.C_Str();
+    mesh.node = node;
+    mesh.points.resize(source.mNumVertices, 3);
+    for (unsigned p = 0; p < source.mNumVertices; ++p)
+        mesh.points.row(p) << source.mVertices[p].x, source.mVertices[p].y, source.mVertices[p].z;
+    std::vector<int> corners;
+    for (unsigned f = 0; f < source.mNumFaces; ++f) {
+        if (source.mFaces[f].mNumIndices != 3) continue;  // points and lines
+        for (unsigned c = 0; c < 3; ++c) corners.push_back(static_cast<int>(source.mFaces[f].mIndices[c]));
+    }
+    mesh.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
+    for (unsigned joint = 0; joint < source.mNumBones; ++joint)
+        mesh.joints.push_back(
+            {joint_named(source.mBones[joint]->mName.C_Str(), nodes, rig), to_eigen(source.mBones[joint]->mOffsetMatrix)});
+    if (!mesh.joints.empty()) mesh.skin = skin_of(source, rig);
+    if (source.mNumAnimMeshes > 0)
+        rig.remarks.push_back("mesh " + mesh.name + ": " + std::to_string(source.mNumAnimMeshes) + " morph targets are left out");
+    return mesh;
+}
+
+double unit_m(const aiScene& scene)
+{
+    double centimetres = 0.0;
+    float single = 0.0F;
+    if (!scene.mMetaData) return 1.0;
+    if (scene.mMetaData->Get("UnitScaleFactor", centimetres)) return metres_per_centimetre * centimetres;
+    if (scene.mMetaData->Get("UnitScaleFactor", single)) return metres_per_centimetre * static_cast<double>(single);
+    return 1.0;  // COLLADA's unit is in the root's transform
+}
+
+}  // namespace
+
+Rig read_assimp_rig(const std::string& path)
+{
+    Assimp::Importer importer;
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+    const OwnFolder& files = only_own_folder(importer, path);
+    const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
+    if (!scene) files.refuse_what_was_referred_to();
+    if (importer.GetErrorString() == std::string("std::bad_alloc")) throw std::bad_alloc();  // which assimp catches
+    if (!scene || !scene->mRootNode) throw InputError(path, 0, "", "", std::string("assimp: ") + importer.GetErrorString());
+
+    Rig rig;
+    rig.file = path;
+    rig.unit_m = unit_m(*scene);
+    Nodes nodes;
+    add_node(*scene->mRootNode, -1, nodes, rig);
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+        for (unsigned m = 0; m < nodes[n]->mNumMeshes; ++m) {
+            RigMesh mesh = mesh_of(*scene->mMeshes[nodes[n]->mMeshes[m]], static_cast<int>(n), nodes, rig);
+            if (mesh.triangles.rows() > 0) rig.meshes.push_back(std::move(mesh));
+        }
+    add_assimp_animations(*scene, rig);
+    return rig;
+}
+
+}  // namespace pbs

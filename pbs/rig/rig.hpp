@@ -1,0 +1,85 @@
+// A rig as its file defines it (glTF 2.0, FBX, COLLADA): a tree of nodes, meshes with skin weights and inverse bind matrices, animations.
+//   const Rig rig = read_rig("hero.glb");                       // rig_reader.hpp
+//   const auto nodes = node_transforms(rig, nullptr, 0.0);      // rig_pose.hpp
+#pragma once
+
+#include "pbs/skinning/weights.hpp"
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pbs {
+
+// The transform of a node in its parent: translation * rotation * scale, or a matrix, which no animation may change.
+struct NodeTransform {
+    Vec3 translation = Vec3::Zero();
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+    Vec3 scale = Vec3::Ones();
+    std::optional<Eigen::Affine3d> matrix;
+
+    Eigen::Affine3d affine() const;
+};
+
+// Names need not be unique, and may be empty.
+struct RigNode {
+    std::string name;
+    int parent = -1;     // index into Rig::nodes, -1 for a root; parents precede their children
+    NodeTransform rest;  // where no animation says otherwise
+};
+
+// How a property changes between two keys (glTF 2.0, Appendix C).
+enum class Interpolation { step, linear, cubic_spline };
+
+// The keys of one property of one node.
+struct KeyTrack {
+    Interpolation interpolation = Interpolation::linear;
+    std::vector<double> times_s;          // they never go back, #keys, 1 or more
+    std::vector<Eigen::Vector4d> values;  // a vector and 0, or a quaternion x, y, z, w, #keys; cubic_spline: in-tangent, value and
+                                          // out-tangent of each key, 3 #keys
+};
+
+// A property without keys keeps the value that it has at rest.
+struct NodeTracks {
+    int node = -1;
+    std::optional<KeyTrack> translation, rotation, scale;
+};
+
+struct RigAnimation {
+    std::string name;
+    double start_s = 0.0, end_s = 0.0;  // of its keys
+    std::vector<NodeTracks> nodes;      // each node once
+};
+
+// A joint of a skin. inverse_bind: from the mesh's coordinates to the frame of the joint, in the pose in which the mesh was bound.
+struct SkinJoint {
+    int node = -1;
+    Eigen::Affine3d inverse_bind = Eigen::Affine3d::Identity();
+};
+
+// A mesh of a node with all its primitives. Points are those of the bind pose, in the mesh's own coordinates and the file's unit.
+struct RigMesh {
+    std::string name;
+    int node = -1;
+    Positions points;               // #P x 3
+    Triangles triangles;            // #F x 3
+    std::vector<SkinJoint> joints;  // of its skin, weighted or not; empty: it is moved by its node
+    Weights skin;                   // of the points; `bone` is an index into `joints`; not read where there are no joints
+};
+
+struct Rig {
+    std::string file;
+    double unit_m = 1.0;  // metres per unit of the file
+    std::vector<RigNode> nodes;
+    std::vector<RigMesh> meshes;
+    std::vector<RigAnimation> animations;
+    std::vector<std::string> remarks;  // what the reader left out or corrected
+};
+
+// The animation of this name; the first one where the name is empty, null where the file has none. An InputError lists the names.
+const RigAnimation* find_animation(const Rig& rig, const std::string& name);
+
+}  // namespace pbs

@@ -1,0 +1,48 @@
+#include "pbs/rig/rig_reader.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/isolated_reader.hpp"
+#include "pbs/geometry/mesh_io_formats.hpp"
+#include "pbs/rig/assimp_rig.hpp"
+#include "pbs/rig/gltf_rig.hpp"
+#include "pbs/rig/rig_bytes.hpp"
+
+namespace pbs {
+namespace {
+
+enum class RigFormat { none, gltf, fbx, collada };
+
+// A zip archive is taken for COLLADA's .zae: the only one of these formats that is packed.
+RigFormat format_of(const std::string& beginning)
+{
+    const auto begins = [&](const char* text) { return beginning.rfind(text, 0) == 0; };
+    const auto contains = [&](const char* text) { return beginning.find(text) != std::string::npos; };
+    if (begins("glTF")) return RigFormat::gltf;
+    if (begins("Kaydara FBX Binary") || contains("; FBX ") || contains("FBXHeaderExtension")) return RigFormat::fbx;
+    if (contains("<COLLADA") || begins("PK\x03\x04")) return RigFormat::collada;
+    const std::size_t first = beginning.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+    return first != std::string::npos && beginning[first] == '{' ? RigFormat::gltf : RigFormat::none;
+}
+
+}  // namespace
+
+bool is_rig_file(const std::string& path)
+{
+    return format_of(beginning_of(path)) != RigFormat::none;
+}
+
+Rig read_rig(const std::string& path)
+{
+    require_readable(path, most_mesh_bytes);
+    const RigFormat format = format_of(beginning_of(path));
+    if (format == RigFormat::none)
+        throw InputError(path, 0, "", "", "no rig: expected glTF 2.0 (.glb, .gltf), FBX (.fbx) or COLLADA (.dae, .zae)");
+    Rig rig = unpacked_rig(
+        read_isolated(
+            path, [&](const std::string& file) { return packed(format == RigFormat::gltf ? read_gltf_rig(file) : read_assimp_rig(file)); }),
+        path);
+    if (rig.meshes.empty()) throw InputError(path, 0, "meshes", "0", "expected a mesh with triangles");
+    return rig;
+}
+
+}  // namespace pbs

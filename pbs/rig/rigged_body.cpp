@@ -1,0 +1,164 @@
+#include "pbs/rig/rigged_body.hpp"
+
+#include "pbs/rig/bone_tails.hpp"
+#include "pbs/rig/rig_pose.hpp"
+
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace pbs {
+namespace {
+
+std::string name_of(const Rig& rig, int node)
+{
+    return rig.nodes[node].name.empty() ? "node " + std::to_string(node) : rig.nodes[node].name;
+}
+
+// The sum of the weights of each node's points.
+std::map<int, double> weight_of_nodes(const RigBinding& binding)
+{
+    std::map<int, double> weights;
+    for (const auto& [node, bind] : binding.bind) weights[node] = 0.0;
+    for (const RigMesh& mesh : binding.meshes)
+        for (std::size_t e = 0; e < mesh.skin.bone.size(); ++e) weights[mesh.joints[mesh.skin.bone[e]].node] += mesh.skin.weight[e];
+    return weights;
+}
+
+int bone_above(int node, const Rig& rig, const std::map<int, int>& bone_of_node)
+{
+    for (node = rig.nodes[node].parent; node >= 0; node = rig.nodes[node].parent)
+        if (const auto bone = bone_of_node.find(node); bone != bone_of_node.end()) return bone->second;
+    return -1;
+}
+
+std::string unused_name(const std::string& name, const Skeleton& skeleton)
+{
+    if (find_bone(skeleton, name) < 0) return name;
+    for (int number = 2;; ++number)
+        if (const std::string other = name + " " + std::to_string(number); find_bone(skeleton, other) < 0) return other;
+}
+
+// Bones with their heads; returns the bone of each node. Nodes are in the order of the tree, so that parents come first.
+std::map<int, int> add_bones(const Rig& rig, RiggedBody& body)
+{
+    std::map<int, int> bone_of_node;
+    for (const auto& [node, weight] : weight_of_nodes(body.binding)) {
+        if (!(weight > 0.0)) {
+            body.dropped.push_back({name_of(rig, node), "moves no point"});
+            continue;
+        }
+        const std::string name = unused_name(name_of(rig, node), body.skeleton);
+        if (name != name_of(rig, node)) body.remarks.push_back("two joints are named " + name_of(rig, node) + "; one is called " + name);
+        const Vec3 head = body.binding.bind.at(node).translation();
+        const int parent = bone_above(node, rig, bone_of_node);
+        bone_of_node[node] = static_cast<int>(body.skeleton.bones.size());
+        body.skeleton.bones.push_back({name, parent, head, head});
+        body.node.push_back(node);
+    }
+    return bone_of_node;
+}
+
+void add_surface(const std::map<int, int>& bone_of_node, RiggedBody& body)
+{
+    Eigen::Index points = 0, triangles = 0;
+    for (const RigMesh& mesh : body.binding.meshes) {
+        points += mesh.points.rows();
+        triangles += mesh.triangles.rows();
+    }
+    body.surface.resize(points, 3);
+    body.triangles.resize(triangles, 3);
+    body.skin.first = {0};
+    points = triangles = 0;
+    for (const RigMesh& mesh : body.binding.meshes) {
+        body.surface.middleRows(points, mesh.points.rows()) = rest_points(mesh, body.binding);
+        body.triangles.middleRows(triangles, mesh.triangles.rows()) = mesh.triangles.array() + static_cast<int>(points);
+        points += mesh.points.rows();
+        triangles += mesh.triangles.rows();
+        const int first = static_cast<int>(body.skin.bone.size());
+        for (std::size_t p = 1; p < mesh.skin.first.size(); ++p) body.skin.first.push_back(first + mesh.skin.first[p]);
+        for (const int joint : mesh.skin.bone) body.skin.bone.push_back(bone_of_node.at(mesh.joints[joint].node));
+        body.skin.weight.insert(body.skin.weight.end(), mesh.skin.weight.begin(), mesh.skin.weight.end());
+    }
+}
+
+std::vector<std::string> containers_of(const Rig& rig, const RigBinding& binding)
+{
+    std::set<int> containers;
+    for (const auto& [node, bind] : binding.bind)
+        for (int above = rig.nodes[node].parent; above >= 0; above = rig.nodes[above].parent)
+            if (binding.bind.count(above) == 0) containers.insert(above);
+    std::vector<std::string> names;
+    for (const int node : containers) names.push_back(name_of(rig, node));
+    return names;
+}
+
+bool is_rigged(const Rig& rig)
+{
+    return !rig.animations.empty() ||
+           std::any_of(rig.meshes.begin(), rig.meshes.end(), [](const RigMesh& mesh) { return !mesh.joints.empty(); });
+}
+
+// From rest space to the posed scene [m].
+std::vector<Eigen::Affine3d> bone_transforms(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms)
+{
+    std::vector<Eigen::Affine3d> transforms;
+    for (const int node : body.node)
+        transforms.push_back(Eigen::Scaling(body.binding.metres_per_unit) * node_transforms[node] * body.binding.bind.at(node).inverse());
+    return transforms;
+}
+
+}  // namespace
+
+RiggedBody make_rigged_body(const Rig& rig, const RigAnimation* animation, double scale)
+{
+    RiggedBody body;
+    body.binding = bind_rig(rig, animation, scale);
+    body.remarks = rig.remarks;
+    body.remarks.insert(body.remarks.end(), body.binding.remarks.begin(), body.binding.remarks.end());
+    const std::map<int, int> bone_of_node = add_bones(rig, body);
+    add_surface(bone_of_node, body);
+    if (!is_rigged(rig)) {
+        body.skeleton.bones.clear();
+        body.node.clear();
+        return body;
+    }
+    body.containers = containers_of(rig, body.binding);
+    set_tails(rig, body);
+    for (const Eigen::Isometry3d& bone : rigid_pose(body, node_transforms(rig, nullptr, 0.0)))
+        body.bind_pose_deg = std::max(body.bind_pose_deg, Eigen::AngleAxisd(bone.linear()).angle() * 180.0 / M_PI);
+    return body;
+}
+
+Positions artist_points(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms)
+{
+    Positions points(body.surface.rows(), 3);
+    Eigen::Index first = 0;
+    for (const RigMesh& mesh : body.binding.meshes) {
+        points.middleRows(first, mesh.points.rows()) = body.binding.metres_per_unit * skinned_points(mesh, node_transforms);
+        first += mesh.points.rows();
+    }
+    return points;
+}
+
+Pose rigid_pose(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms, double* stretch)
+{
+    Pose pose;
+    const std::vector<Eigen::Affine3d> transforms = bone_transforms(body, node_transforms);
+    for (std::size_t b = 0; b < transforms.size(); ++b) {
+        const Eigen::JacobiSVD<Eigen::Matrix3d> svd(transforms[b].linear(), Eigen::ComputeFullU | Eigen::ComputeFullV);
+        Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
+        if (rotation.determinant() < 0.0) rotation = svd.matrixU() * Vec3(1.0, 1.0, -1.0).asDiagonal() * svd.matrixV().transpose();
+        if (stretch) *stretch = std::max(*stretch, (svd.singularValues().array() - 1.0).abs().maxCoeff());
+        const Vec3& head = body.skeleton.bones[b].head;
+        Eigen::Isometry3d rigid = Eigen::Isometry3d::Identity();
+        rigid.linear() = rotation;
+        rigid.translation() = transforms[b] * head - rotation * head;
+        pose.push_back(rigid);
+    }
+    return pose;
+}
+
+}  // namespace pbs

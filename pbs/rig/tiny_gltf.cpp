@@ -1,0 +1,2 @@
+#define TINYGLTF_IMPLEMENTATION
+#include "pbs/rig/tiny_gltf.hpp"
