@@ -78,8 +78,9 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
     reached_pose_ = rest_pose(character.skeleton);
     fewer_nodes_.reset();
     if (options_.nested_start && (options_.element_order == 2 || character.unrefined)) {
-        fewer_nodes_ = std::make_unique<ElasticFemDeformer>(character.unrefined ? options_ : with_order_1(options_));
-        fewer_nodes_->reset(character.unrefined ? *character.unrefined : character);
+        const bool same_tets = options_.element_order == 2;
+        fewer_nodes_ = std::make_unique<ElasticFemDeformer>(same_tets ? with_order_1(options_) : options_);
+        fewer_nodes_->reset(same_tets ? character : *character.unrefined);
     }
     unspent_s_ = 0.0;
     start_ = {};
@@ -101,7 +102,7 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
     if (!has_memory()) {
         if (start_.rows() > 0)
             solve = settle_from_start(frame);
-        else if (!settle_from_fewer_nodes(pose, frame, solve) && !has_spent_its_steps(solve))
+        else if (!settle_from_fewer_nodes(pose, frame, solve) && may_go_the_way(solve))
             solve = settle(frame);
         positions_ = frame.to_world(body_->positions());
     } else {
@@ -144,9 +145,13 @@ void ElasticFemDeformer::follow(const pbs::PosePath& way, const Eigen::Isometry3
     reached_pose_ = placed(way.at(solve.reached), place);
 }
 
-bool ElasticFemDeformer::has_spent_its_steps(const FrameSolve& solve) const
+// With a limit on Newton's steps, a body whose solution with fewer nodes was not reached is not reached either: it would take longer.
+bool ElasticFemDeformer::may_go_the_way(const FrameSolve& solve) const
 {
-    return options_.most_newton_steps > 0 && !solve.stages.empty() && solve.stages.back().newton_steps() >= options_.most_newton_steps;
+    if (options_.most_newton_steps == 0) return true;
+    const bool has_spent_its_steps = !solve.stages.empty() && solve.stages.back().newton_steps() >= options_.most_newton_steps;
+    const bool fewer_nodes_failed = set_out_from_.deformer && set_out_from_.step.outcome != pbs::Outcome::finished;
+    return !has_spent_its_steps && !fewer_nodes_failed;
 }
 
 // Where this fails, the body returns to where it was.

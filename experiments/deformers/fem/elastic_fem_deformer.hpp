@@ -5,9 +5,9 @@
 // stage, and each stage is halved until its parts converge. Where a frame is not reached, the positions are those of the last equilibrium
 // on the path, the outcome is not_converged, and the next frame begins there. The second such frame in a row is tried again from rest,
 // once. nested_start: a body with fewer nodes follows the path to a pose far from the last one, and its solution, interpolated by its own
-// elements, is the initial guess of this body, which follows the path itself only where that fails. For a refined character that body is
-// the unrefined one with the same elements, and otherwise the same tets with order 1: from order 1 to order 2 to the refined tets, each
-// space contains the one before. start_from(): the next frame is Newton's method alone, in the frame's own pose, from that shape. Where it
+// elements, is the initial guess of this body, which follows the path itself only where that fails. It has order 1 on the same tets if this
+// body has order 2, and otherwise the unrefined tets. F is constant in a tet of order 1 and thus the same at all quadrature points of the
+// finer elements, so that an energy which is infinite at det F <= 0 is finite in every initial guess. start_from(): the next frame is Newton's method alone, in the frame's own pose, from that shape. Where it
 // does not converge, the positions are its last iterate, and the following frame continues from there.
 //
 // In time: the body rests in equilibrium in the first pose; then every step is a time step. A step that does not converge is undone, and
@@ -46,7 +46,7 @@ private:
     FrameSolve settle(const pbs::RootFrame& frame);  // in the root's frame
     FrameSolve settle_from_start(const pbs::RootFrame& frame);
     bool settle_from_fewer_nodes(const pbs::Pose& pose, const pbs::RootFrame& frame, FrameSolve& solve);
-    bool has_spent_its_steps(const FrameSolve& solve) const;
+    bool may_go_the_way(const FrameSolve& solve) const;
     FrameSolve start_at(const pbs::RootFrame& frame);     // in the world, at rest
     FrameSolve move(const pbs::Pose& pose, double dt_s);  // in the world
     void follow(const pbs::PosePath& way, const Eigen::Isometry3d& place, const pbs::Vec3& gravity_m_s2, FrameSolve& solve);

@@ -67,9 +67,9 @@ PosedReference::PosedReference(const pbs::Character& character, const DeformerSp
 {
     const pbs::Character fine = refines ? pbs::refined(character) : pbs::Character();
     if (refines) {
-        solve(spec, pose, time_step_s, {{fine, 2}, {character, 2}, {character, 1}});
-        solve(spec, pose, time_step_s, {{fine, 1}});
-        std::swap(solutions_[2], solutions_[3]);  // linear elements on the refined tets come first
+        solve(spec, pose, time_step_s, {{fine, 2}, {fine, 1}, {character, 1}});
+        solve(spec, pose, time_step_s, {{character, 2}});
+        std::rotate(solutions_.begin() + 1, solutions_.end() - 1, solutions_.end());  // the finest first
     } else {
         solve(spec, pose, time_step_s, {{character, 2}, {character, 1}});
     }
