@@ -16,16 +16,21 @@ void NewtonRecord::add_stage(const reference_fem::LoadPathSummary& stage)
 
 void NewtonRecord::add_failure(const FrameSolve& solve, const reference_fem::Jacobians& flesh)
 {
-    const reference_fem::NewtonSummary& last = solve.stages.back().steps.back().newton;
-    not_converged_.push_back({{"frame", frames_},
+    nlohmann::json failure = {{"frame", frames_},
                               {"reached", solve.reached},
                               {"restarted_from_rest", solve.restarted},
-                              {"newton", reference_fem::name_of(last.outcome)},
-                              {"last_residual_n", last.iterations.back().residual_n},
-                              {"force_scale_n", last.iterations.back().force_scale_n},
                               {"worst_tet", flesh.lowest_tet},
                               {"lowest_det_f", flesh.lowest},
-                              {"inverted_points", flesh.inverted}});
+                              {"inverted_points", flesh.inverted}};
+    if (solve.stages.empty()) {
+        failure["newton"] = "the solution with fewer nodes was not reached";
+    } else {
+        const reference_fem::NewtonSummary& last = solve.stages.back().steps.back().newton;
+        failure["newton"] = reference_fem::name_of(last.outcome);
+        failure["last_residual_n"] = last.iterations.back().residual_n;
+        failure["force_scale_n"] = last.iterations.back().force_scale_n;
+    }
+    not_converged_.push_back(failure);
 }
 
 void NewtonRecord::add_frame(const FrameSolve& solve, const reference_fem::Jacobians& flesh)
