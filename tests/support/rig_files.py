@@ -1,0 +1,219 @@
+"""Rigged glTF files with the difficulties that rigs from outside have, made of one tube with three joints: root, elbow and tip. Each tells what
+the file format makes of it through skin_formula.py, which knows nothing of pbskin.
+
+    rig_files.write("scaled_container", path)      # PATH.glb
+"""
+import json
+import math
+import struct
+
+import numpy
+
+LENGTH, RADIUS, RINGS, SIDES = 1.0, 0.12, 25, 16  # of the tube along x [m]
+JOINTS = ("root", "elbow", "tip")
+PLACES = ((0.0, 0.0, 0.0), (0.45, 0.0, 0.0), (0.8, 0.0, 0.0))
+FLOAT, UNSIGNED_BYTE, UNSIGNED_SHORT, UNSIGNED_INT = 5126, 5121, 5123, 5125
+
+
+def tube(begin=0.0, end=LENGTH):
+    """Points, #P x 3, and outward triangles, #F x 3, of a closed tube."""
+    points = [(begin - 0.3 * RADIUS, 0.0, 0.0)]
+    for ring in range(RINGS):
+        x = begin + (end - begin) * ring / (RINGS - 1)
+        points += [(x, RADIUS * math.cos(a), RADIUS * math.sin(a)) for a in (2 * math.pi * s / SIDES for s in range(SIDES))]
+    points.append((end + 0.3 * RADIUS, 0.0, 0.0))
+
+    def at(ring, side):
+        return 1 + ring * SIDES + side % SIDES
+
+    triangles = []
+    for side in range(SIDES):
+        triangles.append((0, at(0, side + 1), at(0, side)))
+        triangles.append((len(points) - 1, at(RINGS - 1, side), at(RINGS - 1, side + 1)))
+        for ring in range(RINGS - 1):
+            triangles += [(at(ring, side), at(ring, side + 1), at(ring + 1, side)), (at(ring + 1, side), at(ring, side + 1), at(ring + 1, side + 1))]
+    return numpy.array(points), numpy.array(triangles)
+
+
+def weights_of(points):
+    """Smooth weights of the joints, #P x 3; the leaf joint `tip` moves the end of the tube."""
+    x = points[:, 0]
+
+    def step(at, width):
+        return numpy.clip((x - at) / width + 0.5, 0.0, 1.0)
+
+    elbow, tip = step(PLACES[1][0], 0.2), step(PLACES[2][0], 0.15)
+    return numpy.stack([1.0 - elbow, elbow * (1.0 - tip), elbow * tip], axis=1)
+
+
+def turn(axis, degrees):
+    """A quaternion x, y, z, w."""
+    half = math.radians(degrees) / 2
+    return [*(math.sin(half) * numpy.array(axis, dtype=float) / numpy.linalg.norm(axis)), math.cos(half)]
+
+
+def rotation_matrix(q):
+    x, y, z, w = q
+    return numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+
+
+def transform(translation=(0, 0, 0), rotation=(0, 0, 0, 1), scale=(1, 1, 1)):
+    matrix = numpy.eye(4)
+    matrix[:3, :3] = rotation_matrix(rotation) * numpy.array(scale)
+    matrix[:3, 3] = translation
+    return matrix
+
+
+class Gltf:
+    """A glTF document whose numbers are in one buffer."""
+
+    def __init__(self):
+        self.bytes = bytearray()
+        self.document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "meshes": [], "skins": [],
+                         "animations": [], "accessors": [], "bufferViews": []}
+
+    def put(self, numbers, kind, component, normalized=False):
+        """The index of a new accessor."""
+        types = {FLOAT: "<f4", UNSIGNED_BYTE: "u1", UNSIGNED_SHORT: "<u2", UNSIGNED_INT: "<u4"}
+        array = numpy.ascontiguousarray(numpy.asarray(numbers).astype(types[component]))
+        self.bytes += bytes(-len(self.bytes) % 4)
+        self.document["bufferViews"].append({"buffer": 0, "byteOffset": len(self.bytes), "byteLength": array.nbytes})
+        self.bytes += array.tobytes()
+        accessor = {"bufferView": len(self.document["bufferViews"]) - 1, "componentType": component, "count": len(array), "type": kind}
+        if normalized:
+            accessor["normalized"] = True
+        if kind == "VEC3" and component == FLOAT:
+            accessor.update(min=array.min(axis=0).tolist(), max=array.max(axis=0).tolist())
+        if kind == "SCALAR" and component == FLOAT:
+            accessor.update(min=[float(array.min())], max=[float(array.max())])
+        self.document["accessors"].append(accessor)
+        return len(self.document["accessors"]) - 1
+
+    def node(self, **members):
+        self.document["nodes"].append(members)
+        return len(self.document["nodes"]) - 1
+
+    def glb(self):
+        document = {key: value for key, value in self.document.items() if value or key == "nodes"}
+        document["buffers"] = [{"byteLength": len(self.bytes)}]
+        text = json.dumps(document).encode()
+        text += b" " * (-len(text) % 4)
+        binary = bytes(self.bytes) + bytes(-len(self.bytes) % 4)
+        chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(binary), 0x004E4942) + binary
+        return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+def quantised(weights):
+    """Weights as bytes that sum to 255."""
+    codes = numpy.rint(weights * 255).astype(int)
+    codes[numpy.arange(len(codes)), codes.argmax(axis=1)] += 255 - codes.sum(axis=1)
+    return codes
+
+
+def add_mesh(gltf, points, triangles, unit, compact):
+    """A mesh with its skin weights; compact: as bytes and shorts. unit: of the file, in metres."""
+    weights = numpy.pad(weights_of(points), ((0, 0), (0, 1)))
+    joints = numpy.tile([0, 1, 2, 0], (len(points), 1))
+    attributes = {"POSITION": gltf.put(points / unit, "VEC3", FLOAT)}
+    if compact:
+        attributes["WEIGHTS_0"] = gltf.put(quantised(weights), "VEC4", UNSIGNED_BYTE, normalized=True)
+        attributes["JOINTS_0"] = gltf.put(joints, "VEC4", UNSIGNED_SHORT)
+    else:
+        attributes["WEIGHTS_0"] = gltf.put(weights, "VEC4", FLOAT)
+        attributes["JOINTS_0"] = gltf.put(joints, "VEC4", UNSIGNED_BYTE)
+    indices = gltf.put(triangles.reshape(-1, 1), "SCALAR", UNSIGNED_SHORT if compact else UNSIGNED_INT)
+    gltf.document["meshes"].append({"name": "tube", "primitives": [{"attributes": attributes, "indices": indices}]})
+    return len(gltf.document["meshes"]) - 1
+
+
+def add_animation(gltf, name, channels):
+    """channels: (node, path, times, values, interpolation)."""
+    samplers, targets = [], []
+    for node, path, times, values, interpolation in channels:
+        kind = "VEC4" if path == "rotation" else "VEC3"
+        samplers.append({"input": gltf.put(numpy.array(times).reshape(-1, 1), "SCALAR", FLOAT), "output": gltf.put(values, kind, FLOAT),
+                         "interpolation": interpolation})
+        targets.append({"sampler": len(samplers) - 1, "target": {"node": node, "path": path}})
+    gltf.document["animations"].append({"name": name, "samplers": samplers, "channels": targets})
+
+
+def bend(gltf, joints, first_deg=0.0):
+    """An animation that bends the elbow by 70 degrees and the tip by 40, and moves the root."""
+    times = [0.0, 0.5, 1.0]
+    add_animation(gltf, "Bend", [
+        (joints[1], "rotation", times, [turn((0, 0, 1), first_deg), turn((0, 0, 1), 35), turn((0, 0, 1), 70)], "LINEAR"),
+        (joints[2], "rotation", times, [turn((0, 1, 0), 0), turn((0, 1, 0), -20), turn((0, 1, 0), -40)], "LINEAR")])
+
+
+def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_name="body", animations=("Bend",), mirrored=False,
+        weighted_tip=True, rest_scale=1.0):
+    """containers: transforms of the nodes above the root joint, outermost first. unit: of the file's points, whose scene is in metres through
+    the scale 1 / unit of the containers, if any. rest_deg: of the elbow in the file's rest pose, which then is not the bind pose."""
+    gltf = Gltf()
+    above = numpy.eye(4)
+    parents = []
+    for name, members in containers:
+        node = gltf.node(name=name, **members)
+        if parents:
+            gltf.document["nodes"][parents[-1]]["children"] = [node]
+        else:
+            gltf.document["scenes"][0]["nodes"].append(node)
+        parents.append(node)
+        above = above @ transform(members.get("translation", (0, 0, 0)), members.get("rotation", (0, 0, 0, 1)), members.get("scale", (1, 1, 1)))
+    joints = []
+    for number, (name, place) in enumerate(zip(JOINTS, PLACES)):
+        offset = numpy.array(place) - (PLACES[number - 1] if number else (0.0, 0.0, 0.0))
+        members = {"name": name, "translation": (offset / unit).tolist()}
+        if name == "elbow" and rest_deg:
+            members["rotation"] = turn((0, 0, 1), rest_deg)
+        joints.append(gltf.node(**members))
+        if number:
+            gltf.document["nodes"][joints[-2]].setdefault("children", []).append(joints[-1])
+    if parents:
+        gltf.document["nodes"][parents[-1]].setdefault("children", []).append(joints[0])
+    else:
+        gltf.document["scenes"][0]["nodes"].append(joints[0])
+    bind = [numpy.linalg.inv(transform(numpy.array(place) / unit)) for place in PLACES]
+    gltf.document["skins"].append({"joints": joints, "inverseBindMatrices": gltf.put([m.T.reshape(16) for m in bind], "MAT4", FLOAT)})
+    for half in range(halves):
+        begin, end = LENGTH * half / halves, LENGTH * (half + 1) / halves
+        overlap = 0.05 if halves > 1 else 0.0
+        points, triangles = tube(begin - overlap * (half > 0), end)
+        mesh = add_mesh(gltf, points, triangles, unit, compact)
+        gltf.document["scenes"][0]["nodes"].append(gltf.node(name=mesh_name, mesh=mesh, skin=0))
+    for name in animations:
+        if name == "Bend":
+            bend(gltf, joints, rest_deg)
+        if name == "Twist":
+            add_animation(gltf, "Twist", [(joints[1], "rotation", [0.0, 1.0], [turn((1, 0, 0), 0), turn((1, 0, 0), 90)], "LINEAR")])
+        if name == "Spline":
+            still = [0.0, 0.0, 0.0, 0.0]
+            add_animation(gltf, "Spline", [
+                (joints[1], "rotation", [0.0, 1.0], [still, turn((0, 0, 1), 0), still, still, turn((0, 0, 1), 60), still], "CUBICSPLINE"),
+                (joints[0], "translation", [0.0, 0.6], [[0, 0, 0], [0, 0.3 / unit, 0]], "STEP")])
+    return gltf.glb()
+
+
+quarter = turn((1, 0, 0), -90)
+VARIANTS = {
+    "plain": {},
+    "scaled_container": {"containers": (("RootNode", {"rotation": quarter}), ("Armature", {"scale": [0.01] * 3, "translation": [0.1, 0.2, 0.3]})),
+                         "unit": 0.01},
+    "doubled_container": {"containers": (("Armature", {"scale": [2.0] * 3}),)},
+    "bind_pose_is_not_rest": {"rest_deg": 40.0},
+    "two_animations": {"animations": ("Bend", "Twist")},
+    "spline": {"animations": ("Spline",)},
+    "mesh_named_like_a_joint": {"mesh_name": "elbow"},
+    "two_meshes": {"halves": 2},
+    "compact_weights": {"compact": True},
+    "centimetres": {"unit": 0.01},
+    "no_animation": {"animations": ()},
+}
+
+
+def write(variant, path):
+    with open(path, "wb") as file:
+        file.write(rig(**VARIANTS[variant]))
+    return path

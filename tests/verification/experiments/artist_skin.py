@@ -1,0 +1,79 @@
+"""The artist's surface of a rigged model in every frame. Reference: the file format's own skinning formula, computed by skin_formula.py from
+the bytes of the file. The tolerance of 1e-6 of the model's size covers the single precision in which glTF stores its numbers."""
+import glob
+import os
+import unittest
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+import program
+import rig_files
+import skin_formula
+
+SCENE = """schema = 1
+[character]
+model = "%s"
+vertices = 400
+[motion]
+animation = "%s"
+rate_hz = %.17g
+[pbs]
+k_stretch = 0.2
+k_volume = 1.0
+k_bind = 1.0
+[deformers]
+use = ["lbs"]
+[output]
+frames_every = 1
+metrics = []
+"""
+FRAMES, SIMPLE_SKIN = 5, "/usr/share/assimp/models/glTF2/simple_skin/simple_skin.gltf"
+
+
+def points_of(file):
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(file)
+    reader.Update()
+    return vtk_to_numpy(reader.GetOutput().GetPoints().GetData())
+
+
+class SkinTest(program.ProgramTest):
+    def compare(self, model_file, animation=None, unit_m=1.0):
+        model = skin_formula.Model(model_file)
+        begin, end = model.span_s(animation)
+        rate_hz = (FRAMES - 1) / (end - begin)
+        name = animation if animation is not None else model.animation(None).get("name", "animation 0")
+        self.succeeds("run", self.write("scene.toml", SCENE % (model_file, name, rate_hz)), "-o", self.path("run"))
+        for frame in range(FRAMES):
+            expected = unit_m * model.points(animation, begin + frame / rate_hz)
+            size = numpy.linalg.norm(expected.max(axis=0) - expected.min(axis=0))
+            artist = points_of(self.path("run", "skin", f"artist_{frame:06}.vtp"))
+            self.assertEqual(artist.shape, expected.shape)
+            self.assertLess(abs(artist - expected).max(), 1e-6 * size, f"frame {frame}")
+            carried = points_of(self.path("run", "frames", f"lbs_surface_{frame:06}.vtp"))
+            self.assertLess(numpy.linalg.norm(carried - expected, axis=1).max(), 0.03 * size, f"frame {frame}")
+        self.assertEqual(len(glob.glob(self.path("run", "skin", "artist_*.vtp"))), FRAMES)
+
+
+class ArtistSkin(SkinTest):
+    def test_the_second_animation(self):
+        self.compare(rig_files.write("two_animations", self.path("two.glb")), "Twist")
+
+    @unittest.skipUnless(os.path.exists(SIMPLE_SKIN), "assimp-testmodels is not installed")
+    def test_simple_skin(self):
+        self.compare(SIMPLE_SKIN)
+
+
+def add_variant(variant):
+    setattr(ArtistSkin, f"test_{variant}", lambda self: self.compare(rig_files.write(variant, self.path(f"{variant}.glb"))))
+
+
+for chosen, options in rig_files.VARIANTS.items():
+    if options.get("animations", ("Bend",)):
+        add_variant(chosen)
+
+
+if __name__ == "__main__":
+    unittest.main()
