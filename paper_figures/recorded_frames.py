@@ -20,11 +20,24 @@ class Bone:
 
 class Frames:
     def __init__(self, results, scene):
-        self.folder = results / "frames" / scene
+        self._open(results / "frames" / scene)
+
+    @classmethod
+    def of_run(cls, folder):
+        """The frames of any run, by its folder."""
+        frames = cls.__new__(cls)
+        frames._open(folder)
+        return frames
+
+    def _open(self, folder):
+        self.folder = folder
         self.run = records.Run(self.folder)
         record_shapes.check(self.folder / "run.json", self.run.record, record_shapes.shown_run)
         self.body = self.run.record["scene"]["character"]["body"]
         self.deformers = {run["label"]: (run["name"], run["variant"]) for run in self.run.record["scene"]["runs"]}
+
+    def is_written(self, label, frame):
+        return (self.folder / "frames" / f"{label}_{frame:06}.vtu").is_file()
 
     def tets(self, label, frame):
         return self._file(f"{label}_{frame:06}.vtu")
@@ -34,8 +47,9 @@ class Frames:
         return self.tets(label, frame) if self.body in built_in else self._file(f"{label}_surface_{frame:06}.vtp")
 
     def skin_at_rest(self):
-        """The rendered surface at rest; None for the built-in bodies, which have none."""
-        return None if self.body in built_in else self._file("surface_rest.vtp", "")
+        """The rendered surface at rest; None for the built-in bodies and for tets from a file, which have none."""
+        has_none = self.body in built_in or (not self.body and not (self.folder / "surface_rest.vtp").is_file())
+        return None if has_none else self._file("surface_rest.vtp", "")
 
     def embedding(self):
         """For each point of the rendered surface, the tet that carries it, #S, and the weight of each of the tet's corners, #S x 4."""

@@ -87,11 +87,14 @@ class Block:
 
 
 def rows_of(recorded):
-    """For each label its rows of metrics.csv, for the deformers of the scene in the order of the panels."""
+    """For each label its rows of metrics.csv whose frames were written, in the order of the panels: deformers known here first."""
     labels = [label for label in deformers if label in recorded.deformers]
-    if not labels:
-        raise records.RecordsMissing(f"{recorded.folder / 'run.json'}: none of the deformers {', '.join(deformers)}")
-    return {label: recorded.run.select(recorded.deformers[label][0], variant=recorded.deformers[label][1]) for label in labels}
+    labels += [label for label in recorded.deformers if label not in deformers]
+    rows = {label: recorded.run.select(recorded.deformers[label][0], variant=recorded.deformers[label][1]) for label in labels}
+    rows = {label: [row for row in of if recorded.is_written(label, int(row["frame"]))] for label, of in rows.items()}
+    if not labels or not rows[labels[0]]:
+        raise records.RecordsMissing(f"{recorded.folder / 'frames'}: no frames were written")
+    return rows
 
 
 def figures_of(rows):
@@ -110,7 +113,7 @@ def title_of(recorded, label):
     options = {run["label"]: run.get("options", {}) for run in recorded.run.record["scene"]["runs"]}
     own, plain = options[label], options.get("pbs", {})
     if "k_stretch" not in own or own["k_stretch"] == plain.get("k_stretch"):
-        return deformers[label]
+        return deformers.get(label, label)
     zone = f"zone {own['jiggle']['k_stretch']:g}" if own.get("jiggle") else "no zone"
     return f"PBS, k_stretch {own['k_stretch']:g}, {zone}"
 
@@ -148,7 +151,7 @@ def facts_of(recorded, every):
     first = next(iter(rows.values()))
     shown = [{"label": label, "title": title_of(recorded, label), "figures": figures_of(rows[label]),
               "not_reached": not_reached(rows[label])} for label in rows]
-    return {"name": recorded.run.name, "title": titles[recorded.run.name], "reference": recorded.run.reference(),
+    return {"name": recorded.run.name, "title": titles.get(recorded.run.name, recorded.run.name), "reference": recorded.run.reference(),
             "rights": "; ".join(recorded_frames.licences_of(recorded)), "frames": [int(row["frame"]) for row in first],
             "times_s": [float(row["time_s"]) for row in first], "deformers": shown}
 
@@ -185,8 +188,8 @@ def recorded_runs(results):
     return found
 
 
-def pack(results, every=1):
-    """The header and the compressed block of all runs on record, with every n-th frame."""
+def pack(recorded, every=1):
+    """The header and the compressed block of these runs, with every n-th frame."""
     block = Block()
-    runs = [pack_run(recorded, every, block) for recorded in recorded_runs(results)]
+    runs = [pack_run(one, every, block) for one in recorded]
     return {"schema": 1, "every": every, "ratio_steps": ratio_steps, "runs": runs}, gzip.compress(bytes(block.bytes), 9, mtime=0)

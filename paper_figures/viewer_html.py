@@ -50,22 +50,28 @@ def statements(results):
     return {claim["id"]: claim["statement"] for claim in records.read_json(file)["claims"]} if file.is_file() else {}
 
 
-def pack(results):
+def pack(recorded):
     """Packs every frame, or every second, third, ... one if all are too many for a page. Returns the header and base64 text."""
     for every in range(1, 100):
-        header, block = viewer_data.pack(results, every)
+        header, block = viewer_data.pack(recorded, every)
         text = base64.b64encode(block).decode()
         if len(text) <= most_bytes:
             return header, text
-    raise records.RecordsMissing(f"{results / 'frames'}: too large for a page")
+    raise records.RecordsMissing(f"{recorded[0].folder / 'frames'}: too large for a page")
 
 
 def fragment(results):
-    """The HTML of the viewer. RecordsMissing if frames are missing or the program is not built; the message states how to get it."""
+    """The HTML of the viewer for the study `frames`. RecordsMissing if frames are missing or the program is not built; the message states how
+    to get it."""
+    return fragment_of(viewer_data.recorded_runs(results), statements(results))
+
+
+def fragment_of(recorded, claims=None):
+    """The HTML of the viewer for these runs."""
     if not bundle_file().is_file():
         raise records.RecordsMissing(f"{bundle_file().name} is not built: {how_to_build}")
-    header, block = pack(results)
-    header.update(colours=colours(), poses=viewer_poses.poses_of(header["runs"]), claims=statements(results))
+    header, block = pack(recorded)
+    header.update(colours=colours(), poses=viewer_poses.poses_of(header["runs"]), claims=claims or {})
     words = json.dumps(header, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
     program = bundle_file().read_text().replace("</script", "<\\/script")
     return "\n".join((

@@ -7,7 +7,7 @@ import sys
 
 import records
 import whole_file
-from report import page, record_set
+from report import page, record_set, run_page
 
 most_mb = 25
 
@@ -15,7 +15,8 @@ most_mb = 25
 def main(results, quiet=False):
     """Returns the exit status: 2 if there are no records, damaged ones, or the page cannot be written; 1 if the page is too large."""
     try:
-        text, missing = page.page(record_set.RecordSet(results))
+        is_run = (results / "run.json").is_file()
+        text, missing = run_page.page(results) if is_run else page.page(record_set.RecordSet(results))
     except records.RecordsMissing as error:
         print(f"pbskin: {error}", file=sys.stderr)
         return 2

@@ -18,7 +18,7 @@ template = """<!DOCTYPE html>
 </style>
 </head>
 <body>
-<a class="skip" href="#verdicts">Skip to the verdicts</a>
+<a class="skip" href="#{first}">Skip to the content</a>
 <header>
 <h1>{title}</h1>
 {lead}
@@ -63,8 +63,15 @@ def page(found):
                 ("reference", "Is the reference right?", reference.section(found)), ("costs", "What it cost", costs.section(found)),
                 ("origin", "Where the records come from", origin.section(found, with_viewer=not not_shown)),
                 ("cite", "How to cite", citation.section(found))]
-    body = [element("div", answers.first_screen(found), class_="first-screen"), navigation(sections)]
-    body += [element("section", joined([element("h2", name), content], "\n"), id=anchor) for anchor, name, content in sections]
-    text = template.format(title=escaped(title), lead=lead(found), style=(here / "page.css").read_text(),
+    body = [element("div", answers.first_screen(found), class_="first-screen"), navigation(sections), *written(sections)]
+    return whole(title, lead(found), body), missing
+
+
+def written(sections):
+    return [element("section", joined([element("h2", name), content], "\n"), id=anchor) for anchor, name, content in sections]
+
+
+def whole(title, lead, body, first="verdicts"):
+    """The text of a page; `first` is the anchor of its first section."""
+    return template.format(title=escaped(title), lead=lead, first=first, style=(here / "page.css").read_text(),
                            script=Markup((here / "page.js").read_text()), body=joined(body, "\n"))
-    return text, missing

@@ -34,7 +34,7 @@ class Viewer(unittest.TestCase):
         self.run = self.results / "frames" / "limb_twist"
 
     def unpacked(self, every=1):
-        header, block = viewer_data.pack(self.results, every)
+        header, block = viewer_data.pack(viewer_data.recorded_runs(self.results), every)
         return header["runs"][0], gzip.decompress(block)
 
     def test_positions_are_those_recorded_within_half_a_step(self):
@@ -62,7 +62,7 @@ class Viewer(unittest.TestCase):
     def test_the_rendered_surface_is_carried_within_the_rounding_of_the_tets(self):
         with tempfile.TemporaryDirectory() as folder:
             synthetic_frames.write_frames(pathlib.Path(folder), "human_jump", body="human")
-            header, block = viewer_data.pack(pathlib.Path(folder))
+            header, block = viewer_data.pack(viewer_data.recorded_runs(pathlib.Path(folder)))
         run, block = header["runs"][0], gzip.decompress(block)
         surface = run["surface"]
         self.assertEqual((surface["points"], surface["triangles"]), (3, 1))
@@ -96,10 +96,10 @@ class Viewer(unittest.TestCase):
         file = self.results / "frames" / "human_jump" / "embedding.csv"
         file.write_text("".join(file.read_text().splitlines(keepends=True)[:-1]))
         with self.assertRaisesRegex(records.RecordsMissing, "embedding.csv: 2 points, but surface_rest.vtp has more"):
-            viewer_data.pack(self.results)
+            viewer_data.pack(viewer_data.recorded_runs(self.results))
         file.unlink()
         with self.assertRaisesRegex(records.RecordsMissing, "embedding.csv: does not exist"):
-            viewer_data.pack(self.results)
+            viewer_data.pack(viewer_data.recorded_runs(self.results))
 
     def test_numbers_are_the_records_own(self):
         run, _ = self.unpacked(every=2)
@@ -112,7 +112,7 @@ class Viewer(unittest.TestCase):
     def test_frames_whose_pose_was_not_reached_are_packed_as_such(self):
         with tempfile.TemporaryDirectory() as folder:
             synthetic_frames.write_frames(pathlib.Path(folder), not_reached=[("nh_p1", 2), ("nh_p1", 3), ("pbs", 0)])
-            runs = [viewer_data.pack(pathlib.Path(folder), every)[0]["runs"][0] for every in (1, 2)]
+            runs = [viewer_data.pack(viewer_data.recorded_runs(pathlib.Path(folder)), every)[0]["runs"][0] for every in (1, 2)]
         found = [{deformer["label"]: deformer["not_reached"] for deformer in run["deformers"]} for run in runs]
         self.assertEqual(found, [{"lbs": [], "dqs": [], "pbs": [0], "nh_p1": [2, 3]}, {"lbs": [], "dqs": [], "pbs": [0], "nh_p1": [1]}])
 
@@ -128,7 +128,7 @@ class Viewer(unittest.TestCase):
         first = " ".join(map(str, synthetic_frames.positions_of("pbs", 1)[1]))
         file.write_text(file.read_text().replace(first, "nan nan nan", 1))
         with self.assertRaisesRegex(records.RecordsMissing, "pbs_000001.vtu: a position is not finite"):
-            viewer_data.pack(self.results)
+            viewer_data.pack(viewer_data.recorded_runs(self.results))
 
     def test_panels_of_a_claim_are_those_on_record(self):
         figures = {column: [0.0, 1.0] for column in viewer_data.figures}
@@ -148,7 +148,7 @@ class Viewer(unittest.TestCase):
     def test_what_is_missing_is_named(self):
         def assert_missing(expected):
             with self.assertRaises(records.RecordsMissing) as caught:
-                viewer_data.pack(self.results)
+                viewer_data.pack(viewer_data.recorded_runs(self.results))
             self.assertIn(expected, str(caught.exception))
 
         (self.run / "frames" / "pbs_000001.vtu").unlink()
@@ -176,7 +176,7 @@ class Viewer(unittest.TestCase):
             viewer_html.claim_links(self.results)
         (self.results / "frames" / "plan.json").write_text(json.dumps({"runs": [{"name": "limb_bend"}]}))
         with self.assertRaisesRegex(records.RecordsMissing, "no run of its study"):
-            viewer_data.pack(self.results)
+            viewer_data.pack(viewer_data.recorded_runs(self.results))
 
     def test_the_bundle_carries_the_licence_of_three_js(self):
         build = (root / "paper_figures" / "viewer" / "build.mjs").read_text()
