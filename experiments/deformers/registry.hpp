@@ -59,6 +59,7 @@ DeformerKind xpbd_kind();
 DeformerKind xpbd_small_steps_kind();
 DeformerKind delta_mush_kind();
 DeformerKind fem_kind();
+DeformerKind external_kind();
 
 const DeformerKind* find_deformer_kind(const std::string& name);  // null: there is no such kind
 

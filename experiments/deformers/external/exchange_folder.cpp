@@ -1,0 +1,96 @@
+#include "experiments/deformers/external/exchange_folder.hpp"
+
+#include "analysis/records/record_text.hpp"
+#include "pbs/geometry/atomic_file.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/text_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <bit>
+#include <cstring>
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+template <typename Number>
+void write_numbers(const std::string& file, const Number* numbers, std::size_t count)
+{
+    pbs::write_atomically(file, std::string(reinterpret_cast<const char*>(numbers), count * sizeof(Number)));
+}
+
+std::vector<double> read_numbers(const std::string& file, std::size_t count)
+{
+    const std::string bytes = pbs::read_text_file(file, pbs::most_mesh_bytes);
+    if (bytes.size() != count * sizeof(double))
+        throw pbs::InputError(file, 0, "bytes", std::to_string(bytes.size()),
+                              "expected " + std::to_string(count * sizeof(double)) + ": " + std::to_string(count) + " numbers of 8 bytes");
+    std::vector<double> numbers(count);
+    if (count > 0) std::memcpy(numbers.data(), bytes.data(), bytes.size());
+    return numbers;
+}
+
+nlohmann::json character_json(const pbs::Character& character, std::size_t poses, double time_step_s)
+{
+    nlohmann::json bones = nlohmann::json::array();
+    const auto point = [](const pbs::Vec3& p) { return nlohmann::json{p.x(), p.y(), p.z()}; };
+    for (const pbs::Bone& bone : character.skeleton.bones)
+        bones.push_back({{"name", bone.name}, {"parent", bone.parent}, {"head_m", point(bone.head)}, {"tail_m", point(bone.tail)}});
+    return {{"schema", 1},
+            {"name", character.name},
+            {"vertices", character.mesh.rest.rows()},
+            {"tets", character.mesh.tets.rows()},
+            {"poses", poses},
+            {"time_step_s", time_step_s},
+            {"bones", bones}};
+}
+
+// Dense, #V x #bones.
+std::vector<double> dense(const pbs::Weights& weights, std::size_t bones)
+{
+    std::vector<double> rows(static_cast<std::size_t>(weights.vertices()) * bones, 0.0);
+    for (int v = 0; v < weights.vertices(); ++v)
+        for (int e = weights.first[v]; e < weights.first[v + 1]; ++e)
+            rows[static_cast<std::size_t>(v) * bones + static_cast<std::size_t>(weights.bone[e])] += weights.weight[e];
+    return rows;
+}
+
+// The upper three rows of each bone's transform.
+std::vector<double> flat(const std::vector<pbs::Pose>& poses)
+{
+    std::vector<double> numbers;
+    for (const pbs::Pose& pose : poses)
+        for (const Eigen::Isometry3d& bone : pose)
+            for (int row = 0; row < 3; ++row)
+                for (int column = 0; column < 4; ++column) numbers.push_back(bone.matrix()(row, column));
+    return numbers;
+}
+
+}  // namespace
+
+void write_exchange(const std::string& folder, const pbs::Character& character, const std::vector<pbs::Pose>& poses, double time_step_s)
+{
+    const pbs::TetMesh& mesh = character.mesh;
+    write_numbers(folder + "/rest.f64", mesh.rest.data(), static_cast<std::size_t>(mesh.rest.size()));
+    write_numbers(folder + "/tets.i32", mesh.tets.data(), static_cast<std::size_t>(mesh.tets.size()));
+    const std::vector<double> weights = dense(character.weights, character.skeleton.bones.size()), transforms = flat(poses);
+    write_numbers(folder + "/weights.f64", weights.data(), weights.size());
+    write_numbers(folder + "/poses.f64", transforms.data(), transforms.size());
+    pbs::write_atomically(folder + "/character.json", analysis::record_text(character_json(character, poses.size(), time_step_s)));
+}
+
+ExchangedPositions read_exchange(const std::string& folder, Eigen::Index vertices, std::size_t poses)
+{
+    const std::size_t per_pose = static_cast<std::size_t>(3 * vertices);
+    const std::vector<double> numbers = read_numbers(folder + "/positions.f64", poses * per_pose);
+    ExchangedPositions read;
+    for (std::size_t pose = 0; pose < poses; ++pose)
+        read.positions.emplace_back(Eigen::Map<const pbs::Positions>(numbers.data() + pose * per_pose, vertices, 3));
+    if (std::filesystem::exists(folder + "/seconds.f64")) read.seconds = read_numbers(folder + "/seconds.f64", poses);
+    return read;
+}
+
+}  // namespace experiments

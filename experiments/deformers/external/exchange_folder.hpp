@@ -1,0 +1,24 @@
+// The files by which pbskin and an external program talk. README.md of this folder specifies them.
+#pragma once
+
+#include "pbs/character/character.hpp"
+#include "pbs/skinning/pose.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+// character.json, rest.f64, tets.i32, weights.f64 and poses.f64. Numbers are little-endian, arrays by rows.
+void write_exchange(const std::string& folder, const pbs::Character& character, const std::vector<pbs::Pose>& poses, double time_step_s);
+
+// positions.f64 of so many poses, and seconds.f64 if the program wrote it. A pbs::InputError if positions.f64 is missing or has another
+// size, or seconds.f64 has.
+struct ExchangedPositions {
+    std::vector<pbs::Positions> positions;       // [m], #poses of #V x 3
+    std::optional<std::vector<double>> seconds;  // of each pose
+};
+ExchangedPositions read_exchange(const std::string& folder, Eigen::Index vertices, std::size_t poses);
+
+}  // namespace experiments

@@ -1,0 +1,73 @@
+// The registration of external deformers.
+#include "experiments/deformers/external/external_deformers.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/settings/scene_values.hpp"
+
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+SceneKey key(std::string name, KeyType type, std::string default_json, std::string meaning)
+{
+    return {.table = "external",
+            .name = std::move(name),
+            .type = type,
+            .default_json = std::move(default_json),
+            .meaning = std::move(meaning),
+            .in_list = true};
+}
+
+// Files of the scene's folder by their absolute paths; other words stay.
+std::string word_of(const std::string& word, const fs::path& folder)
+{
+    std::error_code code;
+    const fs::path file = folder / word;
+    return !word.empty() && fs::is_regular_file(file, code) ? fs::absolute(file).string() : word;
+}
+
+void read_external(const SceneValues& values, const std::string& table, DeformerSpec& spec)
+{
+    const fs::path folder = fs::path(values.file()).parent_path();
+    ExternalOptions options;
+    for (const std::string& word : values.texts(table + ".command")) options.command.push_back(word_of(word, folder));
+    options.library = values.text(table + ".library");
+    options.has_memory = values.boolean(table + ".has_memory");
+    if (options.command.empty() == options.library.empty()) values.refuse(table + ".command", "expected either a command or a library");
+    if (!options.library.empty()) options.library = fs::absolute(folder / options.library).string();
+    spec.options = options;
+}
+
+nlohmann::json external_json(const DeformerSpec& spec)
+{
+    const auto& options = options_of<ExternalOptions>(spec);
+    return {{"command", options.command}, {"library", options.library}, {"has_memory", options.has_memory}};
+}
+
+}  // namespace
+
+DeformerKind external_kind()
+{
+    return {
+        .name = "external",
+        .meaning = "a deformer of the user's own: a program that reads poses and writes positions, or a shared library",
+        .make = [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
+            const auto& options = options_of<ExternalOptions>(spec);
+            return options.library.empty() ? make_program_deformer(options) : make_library_deformer(options);
+        },
+        .options = ExternalOptions{},
+        .keys = {key("name", KeyType::text, "", "the name of this deformer in deformers.use and in the records"),
+                 key("command", KeyType::texts, "[]",
+                     "the program and its arguments; files are relative to the scene; the folder of the exchanged files is added as the "
+                     "last argument"),
+                 key("library", KeyType::text, "\"\"", "a shared library with the functions of pbskin_deformer.h, relative to the scene"),
+                 key("has_memory", KeyType::boolean, "false", "it gets every time step in order, not only the frames")},
+        .has_list = true,
+        .needs_list = true,
+        .read = read_external,
+        .options_json = external_json};
+}
+
+}  // namespace experiments

@@ -1,0 +1,106 @@
+#include "experiments/deformers/external/external_deformers.hpp"
+
+#include "experiments/deformers/external/pbskin_deformer.h"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/stopwatch.hpp"
+
+#include <dlfcn.h>
+
+namespace experiments {
+namespace {
+
+class LibraryDeformer : public Deformer {
+public:
+    explicit LibraryDeformer(const ExternalOptions& options) : options_(options)
+    {
+        handle_ = dlopen(options.library.c_str(), RTLD_NOW | RTLD_LOCAL);
+        if (!handle_) throw pbs::InputError("", 0, "external.library", options.library, dlerror());
+        create_ = function<decltype(pbskin_deformer_create)>("pbskin_deformer_create");
+        advance_ = function<decltype(pbskin_deformer_advance)>("pbskin_deformer_advance");
+        destroy_ = function<decltype(pbskin_deformer_destroy)>("pbskin_deformer_destroy");
+    }
+    ~LibraryDeformer() override { release(); }  // the library itself stays loaded: its threads and statics may be in use
+    LibraryDeformer(const LibraryDeformer&) = delete;
+    LibraryDeformer& operator=(const LibraryDeformer&) = delete;
+
+    void reset(const pbs::Character& character) override
+    {
+        release();
+        const std::size_t bones = character.skeleton.bones.size();
+        std::vector<double> weights(static_cast<std::size_t>(character.mesh.rest.rows()) * bones, 0.0), ends;
+        for (int v = 0; v < character.weights.vertices(); ++v)
+            for (int e = character.weights.first[v]; e < character.weights.first[v + 1]; ++e)
+                weights[static_cast<std::size_t>(v) * bones + static_cast<std::size_t>(character.weights.bone[e])] +=
+                    character.weights.weight[e];
+        std::vector<int> parents;
+        for (const pbs::Bone& bone : character.skeleton.bones) {
+            ends.insert(ends.end(), bone.head.begin(), bone.head.end());
+            ends.insert(ends.end(), bone.tail.begin(), bone.tail.end());
+            parents.push_back(bone.parent);
+        }
+        const pbskin_character given = {static_cast<int>(character.mesh.rest.rows()),
+                                        static_cast<int>(character.mesh.tets.rows()),
+                                        static_cast<int>(bones),
+                                        character.mesh.rest.data(),
+                                        character.mesh.tets.data(),
+                                        weights.data(),
+                                        ends.data(),
+                                        parents.data()};
+        deformer_ = create_(&given);
+        if (!deformer_) throw pbs::InputError("", 0, "external.library", options_.library, "its pbskin_deformer_create returned null");
+        positions_ = character.mesh.rest;
+    }
+
+    bool has_memory() const override { return options_.has_memory; }
+    const pbs::Positions& positions() const override { return positions_; }
+
+    pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override
+    {
+        std::vector<double> transforms;
+        for (const Eigen::Isometry3d& bone : pose)
+            for (int row = 0; row < 3; ++row)
+                for (int column = 0; column < 4; ++column) transforms.push_back(bone.matrix()(row, column));
+        const pbs::Stopwatch stopwatch;
+        const int status = advance_(deformer_, transforms.data(), dt_s, positions_.data());
+        pbs::StepSummary summary;
+        summary.seconds = stopwatch.seconds();
+        if (status != 0)
+            throw pbs::InputError("", 0, "external.library", options_.library,
+                                  "its pbskin_deformer_advance returned " + std::to_string(status));
+        if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
+        return summary;
+    }
+
+    nlohmann::json record() const override { return {{"library", options_.library}}; }
+
+private:
+    template <typename Function>
+    Function* function(const char* name) const
+    {
+        void* address = dlsym(handle_, name);
+        if (!address) throw pbs::InputError("", 0, "external.library", options_.library, std::string("has no function ") + name);
+        return reinterpret_cast<Function*>(address);
+    }
+
+    void release()
+    {
+        if (deformer_) destroy_(deformer_);
+        deformer_ = nullptr;
+    }
+
+    ExternalOptions options_;
+    void *handle_ = nullptr, *deformer_ = nullptr;
+    decltype(pbskin_deformer_create)* create_ = nullptr;
+    decltype(pbskin_deformer_advance)* advance_ = nullptr;
+    decltype(pbskin_deformer_destroy)* destroy_ = nullptr;
+    pbs::Positions positions_;
+};
+
+}  // namespace
+
+std::unique_ptr<Deformer> make_library_deformer(const ExternalOptions& options)
+{
+    return std::make_unique<LibraryDeformer>(options);
+}
+
+}  // namespace experiments
