@@ -49,7 +49,7 @@ void add_mesh_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
 {
     CLI::App* verb = add_verb(app, common, "mesh", "turns a closed or nearly closed surface into tets and prints their quality");
     auto arguments = std::make_shared<MeshArguments>();
-    verb->add_option("surface", arguments->surface, ".obj .ply .off .stl .gltf .glb .dae .zae, in metres")->required();
+    verb->add_option("surface", arguments->surface, ".obj .ply .off .stl .gltf .glb .dae .zae .fbx, in metres")->required();
     verb->add_option("-o,--output", arguments->tets, ".msh .vtu .mesh")->required();
     verb->add_option("--vertices", arguments->meshing.vertices, "wanted number of vertices")
         ->check(CLI::Range(150, 10'000'000))

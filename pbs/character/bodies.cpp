@@ -17,6 +17,7 @@
 #include "pbs/geometry/mesh_remarks.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/text_file.hpp"
+#include "pbs/rig/rig_reader.hpp"
 
 #include <filesystem>
 #include <utility>
@@ -56,10 +57,20 @@ Skeleton skeleton_of_clip(const CharacterSource& source, Character& character)
     return skeleton;
 }
 
+// The joints of a rig that has a mesh: containers are none, and leaves are.
+Skeleton skeleton_of_rig(const CharacterSource& source, Character& character)
+{
+    const InputFile file(source.skeleton_file);
+    Skeleton skeleton = read_model(source.skeleton_file, "", source.skeleton_scale)->body.skeleton;
+    add(file.hashed(), character);
+    return skeleton;
+}
+
 // And its hash into the character's inputs.
 Skeleton read_skeleton_of(const CharacterSource& source, Character& character)
 {
     const std::string extension = std::filesystem::path(source.skeleton_file).extension().string();
+    if (is_rig_file(source.skeleton_file) && rig_has_skin(source.skeleton_file)) return skeleton_of_rig(source, character);
     for (const char* clip : {".bvh", ".gltf", ".glb", ".fbx"})
         if (extension == clip) return skeleton_of_clip(source, character);
     const std::string text = read_text_file(source.skeleton_file, most_settings_bytes);
@@ -107,6 +118,8 @@ Character make_from_files(const CharacterSource& source, std::vector<std::string
     MeshReading reading = read_tet_mesh(source.mesh_file);
     remarks = remarks_on(source.mesh_file, reading);
     character.mesh = std::move(reading.mesh);
+    character.file_vertex = std::move(reading.file_vertex);
+    character.file_vertices = reading.file_vertices;
     add(mesh_file.hashed(), character);
     character.skeleton = read_skeleton_of(source, character);
     require_bones_at_the_mesh(character, source.skeleton_file);
@@ -141,13 +154,13 @@ Character make_body(const CharacterSource& source, std::vector<std::string>& rem
     throw InputError("", 0, "character.body", source.body, "expected limb, bar, ring, human, man, lady or frankie");
 }
 
-// And the hash of their file into the character's inputs.
+// And the hash of their file into the character's inputs. The file numbers vertices as that of the mesh does.
 Weights weights_of_file(const std::string& file, Character& character)
 {
     const std::string text = read_text_file(file);
-    Weights weights = parse_weights(text, file, character.skeleton, static_cast<int>(character.mesh.rest.rows()));
     add({{file_name(file), content_hash(text)}}, character);
-    return weights;
+    if (character.file_vertex.empty()) return parse_weights(text, file, character.skeleton, static_cast<int>(character.mesh.rest.rows()));
+    return parse_weights(text, file, character.skeleton, character.file_vertices, character.file_vertex);
 }
 
 }  // namespace

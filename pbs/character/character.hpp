@@ -34,6 +34,8 @@ struct Character {
     Weights weights;                                          // what LBS and DQS blend with
     std::vector<bool> blended;                                // vertices that Eq. 2 blends between bones, whatever `weights` is, #V
     std::optional<EmbeddedSurface> surface;                   // the surface people see, carried by the tets
+    std::vector<int> file_vertex;                             // of tets from a file: its number of each vertex, #V; empty: the same
+    int file_vertices = 0;                                    // of that file
     std::optional<ArtistSkin> artist;                         // of a character from a rigged file
     std::vector<std::pair<std::string, std::string>> inputs;  // what it is made from, its clip with a run's -> content hash
     WeightKind weight_kind = WeightKind::paper;               // the rule that `weights` obey, on finer tets too

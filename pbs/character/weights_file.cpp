@@ -7,6 +7,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace pbs {
@@ -98,10 +99,19 @@ void check_sum(const std::vector<Entry>& entries, std::size_t vertex, int line, 
 
 Weights parse_weights(const std::string& text, const std::string& name, const Skeleton& skeleton, int vertices)
 {
-    const auto [entries, line] = read_rows(text, name, skeleton, vertices);
+    std::vector<int> all(static_cast<std::size_t>(vertices));
+    std::iota(all.begin(), all.end(), 0);
+    return parse_weights(text, name, skeleton, vertices, all);
+}
+
+Weights parse_weights(const std::string& text, const std::string& name, const Skeleton& skeleton, int file_vertices,
+                      const std::vector<int>& file_vertex)
+{
+    const auto [entries, line] = read_rows(text, name, skeleton, file_vertices);
     Weights weights;
     weights.first.push_back(0);
-    for (std::size_t vertex = 0; vertex < entries.size(); ++vertex) {
+    for (const int number : file_vertex) {
+        const auto vertex = static_cast<std::size_t>(number);
         check_sum(entries[vertex], vertex, line[vertex], name);
         for (const Entry& entry : entries[vertex]) {
             if (entry.weight == 0.0) continue;

@@ -15,4 +15,9 @@ Weights read_weights(const std::string& path, const Skeleton& skeleton, int vert
 // `name` stands for the file in errors.
 Weights parse_weights(const std::string& text, const std::string& name, const Skeleton& skeleton, int vertices);
 
+// The same for tets of whose file vertices were left out or split: file_vertex is the file's number of each vertex, #V, below
+// file_vertices. Only vertices that are in it need weights.
+Weights parse_weights(const std::string& text, const std::string& name, const Skeleton& skeleton, int file_vertices,
+                      const std::vector<int>& file_vertex);
+
 }  // namespace pbs

@@ -17,8 +17,9 @@ TetFormat format_of(const std::string& path)
     const bool is_gmsh = extension == ".msh" || extension == ".mesh";
     if (holds("# vtk DataFile") || holds("<VTKFile")) return TetFormat::vtk;
     if (!is_gmsh && (holds("$MeshFormat") || holds("MeshVersionFormatted")))
-        throw InputError(path, 0, "extension", extension,
-                         holds("$MeshFormat") ? "the file is a Gmsh mesh: rename it to .msh" : "the file is a MEDIT mesh: rename it to .mesh");
+        throw InputError(
+            path, 0, "extension", extension,
+            holds("$MeshFormat") ? "the file is a Gmsh mesh: rename it to .msh" : "the file is a MEDIT mesh: rename it to .mesh");
     if (extension == ".vtu" || extension == ".vtk") return TetFormat::vtk;
     if (is_gmsh) return TetFormat::gmsh;
     if (extension == ".node" || extension == ".ele") return TetFormat::tetgen;

@@ -22,8 +22,8 @@ struct MeshReading {
 };
 
 // A tet mesh to compute on: finite, not empty, indices in range, no tet without volume, no face in three tets, no neighbours that
-// overlap, boundary manifold and not self-intersecting (checked in builds with CGAL), no two vertices in one place. Unused vertices are left
-// out, parts that touch in a vertex are separated there, and the orientation is normalised.
+// overlap, boundary manifold and not self-intersecting (checked in builds with CGAL), no two vertices in one place. Unused vertices are
+// left out, parts that touch in a vertex are separated there, and the orientation is normalised.
 MeshReading read_tet_mesh(const std::string& path);
 
 // Points and tets as they are in the file, including inverted tets: the metrics of deformed frames need them.
@@ -42,7 +42,7 @@ struct SurfaceMesh {
     Triangles triangles;  // #F x 3
 };
 
-// .obj, .ply, .off, .stl, .gltf, .glb, .dae, .zae. Polygons are triangulated, points split at texture seams are joined (equal
+// .obj, .ply, .off, .stl, .gltf, .glb, .dae, .zae, .fbx. Polygons are triangulated, points split at texture seams are joined (equal
 // coordinates, to the bit), nodes' transforms and the file's unit applied. mesh_name: the mesh or node of that name alone.
 // InputError where there is none of that name, no triangle, or a coordinate that is not finite or beyond 1e9 m; a surface may be open.
 SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name = "");

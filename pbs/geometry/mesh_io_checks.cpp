@@ -137,12 +137,13 @@ void check_boundary(const std::string& path, const MeshReading& reading)
 {
     if (!topology_of(reading.mesh.tets, reading.mesh.rest.rows()).boundary_manifold) {
         const auto edge = edge_that_is_not_manifold(reading.mesh.tets);
-        const std::string where = edge ? "vertices " + std::to_string(reading.file_vertex[(*edge)[0]]) + " and " +
-                                             std::to_string(reading.file_vertex[(*edge)[1]])
-                                       : "";
-        throw InputError(path, 0, "boundary", where,
-                         "expected a manifold; tets that share no face touch in the edge of these vertices: join them by a face or give them "
-                         "vertices of their own");
+        const std::string where =
+            edge ? "vertices " + std::to_string(reading.file_vertex[(*edge)[0]]) + " and " + std::to_string(reading.file_vertex[(*edge)[1]])
+                 : "";
+        throw InputError(
+            path, 0, "boundary", where,
+            "expected a manifold; tets that share no face touch in the edge of these vertices: join them by a face or give them "
+            "vertices of their own");
     }
 #ifdef PBS_WITH_CGAL
     const Triangles boundary = boundary_of(reading.mesh.tets);

@@ -43,13 +43,20 @@ void add_size(const std::string& path, const Positions& points, std::vector<std:
         remarks.push_back(remark(path, "extent [m]", size, "taken as it is; are the coordinates in metres?"));
 }
 
-void add_holes(const std::string& path, const Triangles& triangles, std::vector<std::string>& remarks)
+// Edges that are not in two triangles: what the mesher wraps.
+void add_open_and_joined_edges(const std::string& path, const SurfaceMesh& surface, std::vector<std::string>& remarks)
 {
     std::map<std::pair<int, int>, int> triangles_at;
-    for (const auto& triangle : triangles.rowwise())
+    for (const auto& triangle : surface.triangles.rowwise())
         for (int k = 0; k < 3; ++k) ++triangles_at[std::minmax({triangle(k), triangle((k + 1) % 3)})];
     if (const auto holes = std::count_if(triangles_at.begin(), triangles_at.end(), [](const auto& edge) { return edge.second == 1; }))
         remarks.push_back(remark(path, "edges of one triangle", holes, "its holes are wrapped over"));
+    const auto is_joint = [](const auto& edge) { return edge.second > 2; };
+    const auto first = std::find_if(triangles_at.begin(), triangles_at.end(), is_joint);
+    if (first == triangles_at.end()) return;
+    remarks.push_back(remark(path, "edges of three or more triangles", std::count_if(triangles_at.begin(), triangles_at.end(), is_joint),
+                             "not manifold there, first from " + place_text(surface.points.row(first->first.first)) + " to " +
+                                 place_text(surface.points.row(first->first.second)) + "; the surface is wrapped"));
 }
 
 // Skins of characters do so: MakeHuman's at lips and lids. Without CGAL this is not checked, and never for tet meshes.
@@ -96,7 +103,7 @@ std::vector<std::string> remarks_on(const std::string& path, const SurfaceMesh& 
     std::vector<std::string> remarks;
     if (unused_points > 0) remarks.push_back(remark(path, "unused points", unused_points, "left out; no triangle uses them"));
     if (triangles_without_area > 0) remarks.push_back(remark(path, "triangles without area", triangles_without_area, "left out"));
-    add_holes(path, surface.triangles, remarks);
+    add_open_and_joined_edges(path, surface, remarks);
     add_crossings(path, surface, remarks);
     if (const double volume = signed_volume(surface); volume < 0.0)
         remarks.push_back(remark(path, "enclosed volume [m^3]", volume, "inside out; taken as the body that it encloses"));

@@ -6,12 +6,12 @@
 
 namespace pbs {
 
-// Turned tets, parts that no face joins, and a size that speaks for other units than metres (under 1 mm or above 100 m).
+// Turned tets, vertices that were left out or split, parts that no face joins, and a size that speaks for other units than metres (under 1
+// mm or above 100 m).
 std::vector<std::string> remarks_on(const std::string& path, const MeshReading& reading);
 
 // read_surface of a file that a user names, with its remarks: points that no triangle uses, triangles that are a line or a point, holes,
-// triangles that cross (checked in builds with CGAL), a surface inside out, and the size as above. An edge in three triangles is an
-// InputError.
+// edges in three triangles or more, triangles that cross (checked in builds with CGAL), a surface inside out, and the size as above.
 SurfaceMesh read_surface(const std::string& path, std::vector<std::string>& remarks);
 
 // For readers: remarks on a surface after its points were joined, and on what was left out of it.

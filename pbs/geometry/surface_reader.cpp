@@ -16,7 +16,7 @@
 namespace pbs {
 namespace {
 
-constexpr std::array<std::string_view, 8> extensions = {".obj", ".ply", ".off", ".stl", ".gltf", ".glb", ".dae", ".zae"};
+constexpr std::array<std::string_view, 9> extensions = {".obj", ".ply", ".off", ".stl", ".gltf", ".glb", ".dae", ".zae", ".fbx"};
 
 IndexedPoints read_by_library(const std::string& path, const std::string& mesh_name)
 {
@@ -65,7 +65,7 @@ IndexedPoints checked_points(const std::string& path, const std::string& mesh_na
     require_readable(path, most_mesh_bytes);
     const std::string extension = lower_extension(path);
     if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
-        throw InputError(path, 0, "extension", extension, "expected a surface: .obj, .ply, .off, .stl, .gltf, .glb, .dae or .zae");
+        throw InputError(path, 0, "extension", extension, "expected a surface: .obj, .ply, .off, .stl, .gltf, .glb, .dae, .zae or .fbx");
     IndexedPoints read = read_guarded(path, [&](const std::string& file) { return read_by_library(file, mesh_name); });
     check_raw_surface(path, read);
     return read;
@@ -82,7 +82,6 @@ SurfaceMesh read_surface(const std::string& path, std::vector<std::string>& rema
 {
     const IndexedPoints read = checked_points(path, "");
     const SurfaceMesh surface = joined(path, read);
-    check_surface_edges(path, surface);
     remarks = remarks_on(path, surface, unused_points(read), static_cast<int>(read.cells.rows() - surface.triangles.rows()));
     return surface;
 }

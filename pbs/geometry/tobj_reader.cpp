@@ -1,5 +1,5 @@
-// .tobj, the tet meshes of HOBAK: lines "v x y z" and "t a b c d", vertices counted from 0; '#' begins a comment, other lines (the triangles
-// of the surface) are left out.
+// .tobj, the tet meshes of HOBAK: lines "v x y z" and "t a b c d", vertices counted from 0; '#' begins a comment, other lines (the
+// triangles of the surface) are left out.
 #include "pbs/geometry/mesh_io_formats.hpp"
 
 #include "pbs/geometry/input_error.hpp"

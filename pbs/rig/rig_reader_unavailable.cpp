@@ -9,6 +9,11 @@ bool is_rig_file(const std::string&)
     return false;
 }
 
+bool rig_has_skin(const std::string&)
+{
+    return false;
+}
+
 Rig read_rig(const std::string& path)
 {
     throw InputError(path, 0, "", "", "rigs are left out of this build (PBS_WITH_RIG_IMPORT is off)");
