@@ -112,9 +112,14 @@ def quantised(weights):
     return codes
 
 
-def add_mesh(gltf, points, triangles, unit, compact):
-    """A mesh with its skin weights; compact: as bytes and shorts. unit: of the file, in metres."""
-    weights = numpy.pad(weights_of(points), ((0, 0), (0, 1)))
+def add_mesh(gltf, points, triangles, unit, compact, tiny_tip):
+    """A mesh with its skin weights; compact: as bytes and shorts."""
+    weights = weights_of(points)
+    if tiny_tip:
+        weights[:, 1] += weights[:, 2]
+        weights[:, 2] = 0.0
+        weights[points[:, 0].argmax()] = (0.0, 0.7, 0.3)
+    weights = numpy.pad(weights, ((0, 0), (0, 1)))
     joints = numpy.tile([0, 1, 2, 0], (len(points), 1))
     attributes = {"POSITION": gltf.put(points / unit, "VEC3", FLOAT)}
     if compact:
@@ -147,12 +152,12 @@ def bend(gltf, joints, first_deg=0.0):
         (joints[2], "rotation", times, [turn((0, 1, 0), 0), turn((0, 1, 0), -20), turn((0, 1, 0), -40)], "LINEAR")])
 
 
-def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_name="body", animations=("Bend",), mirrored=False,
-        weighted_tip=True, rest_scale=1.0):
-    """containers: transforms of the nodes above the root joint, outermost first. unit: of the file's points, whose scene is in metres through
-    the scale 1 / unit of the containers, if any. rest_deg: of the elbow in the file's rest pose, which then is not the bind pose."""
+def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_name="body", animations=("Bend",), extra=(),
+        shifted_m=(0.0, 0.0, 0.0), first_deg=None, tiny_tip=False):
+    """containers: transforms of the nodes above the root joint, outermost first. unit: metres per unit of the points and joints. rest_deg: of
+    the elbow in the file's rest pose, which then is not the bind pose. extra: further animations, as add_animation takes them. shifted_m: of
+    the joints, away from the tube. first_deg: of the elbow in the first frame. tiny_tip: the tip moves a single point, and that by a third."""
     gltf = Gltf()
-    above = numpy.eye(4)
     parents = []
     for name, members in containers:
         node = gltf.node(name=name, **members)
@@ -161,10 +166,10 @@ def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_nam
         else:
             gltf.document["scenes"][0]["nodes"].append(node)
         parents.append(node)
-        above = above @ transform(members.get("translation", (0, 0, 0)), members.get("rotation", (0, 0, 0, 1)), members.get("scale", (1, 1, 1)))
     joints = []
-    for number, (name, place) in enumerate(zip(JOINTS, PLACES)):
-        offset = numpy.array(place) - (PLACES[number - 1] if number else (0.0, 0.0, 0.0))
+    places = numpy.array(PLACES) + shifted_m
+    for number, (name, place) in enumerate(zip(JOINTS, places)):
+        offset = place - (places[number - 1] if number else 0.0)
         members = {"name": name, "translation": (offset / unit).tolist()}
         if name == "elbow" and rest_deg:
             members["rotation"] = turn((0, 0, 1), rest_deg)
@@ -175,17 +180,17 @@ def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_nam
         gltf.document["nodes"][parents[-1]].setdefault("children", []).append(joints[0])
     else:
         gltf.document["scenes"][0]["nodes"].append(joints[0])
-    bind = [numpy.linalg.inv(transform(numpy.array(place) / unit)) for place in PLACES]
+    bind = [numpy.linalg.inv(transform(place / unit)) for place in places]
     gltf.document["skins"].append({"joints": joints, "inverseBindMatrices": gltf.put([m.T.reshape(16) for m in bind], "MAT4", FLOAT)})
     for half in range(halves):
         begin, end = LENGTH * half / halves, LENGTH * (half + 1) / halves
         overlap = 0.05 if halves > 1 else 0.0
         points, triangles = tube(begin - overlap * (half > 0), end)
-        mesh = add_mesh(gltf, points, triangles, unit, compact)
+        mesh = add_mesh(gltf, points, triangles, unit, compact, tiny_tip)
         gltf.document["scenes"][0]["nodes"].append(gltf.node(name=mesh_name, mesh=mesh, skin=0))
     for name in animations:
         if name == "Bend":
-            bend(gltf, joints, rest_deg)
+            bend(gltf, joints, rest_deg if first_deg is None else first_deg)
         if name == "Twist":
             add_animation(gltf, "Twist", [(joints[1], "rotation", [0.0, 1.0], [turn((1, 0, 0), 0), turn((1, 0, 0), 90)], "LINEAR")])
         if name == "Spline":
@@ -193,6 +198,8 @@ def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_nam
             add_animation(gltf, "Spline", [
                 (joints[1], "rotation", [0.0, 1.0], [still, turn((0, 0, 1), 0), still, still, turn((0, 0, 1), 60), still], "CUBICSPLINE"),
                 (joints[0], "translation", [0.0, 0.6], [[0, 0, 0], [0, 0.3 / unit, 0]], "STEP")])
+    for name, channels in extra:
+        add_animation(gltf, name, [(joints[joint], *channel) for joint, *channel in channels])
     return gltf.glb()
 
 

@@ -1,0 +1,151 @@
+"""Rigs from outside: each error that once passed without a message has a test here, and each warning is provoked. The rigs are those of
+rig_files.py."""
+import json
+import os
+import unittest
+
+import program
+import rig_files
+
+CLIP = """HIERARCHY
+ROOT %s
+{
+  OFFSET 0 0 0
+  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
+%s}
+MOTION
+Frames: 4
+Frame Time: 0.1
+%s"""
+
+
+def clip(names):
+    """A BVH chain of these joints, all of which turn."""
+    inner = "  End Site\n  {\n    OFFSET 0.2 0 0\n  }\n"
+    for name in reversed(names[1:]):
+        inner = f"  JOINT {name}\n  {{\n    OFFSET 0.3 0 0\n    CHANNELS 3 Zrotation Xrotation Yrotation\n{inner}  }}\n"
+    frames = "".join(" ".join(["0 0 0", *([f"{20 * frame} 0 0"] * len(names))]) + "\n" for frame in range(4))
+    return CLIP % (names[0], inner, frames)
+
+
+class OwnCharacter(program.ProgramTest):
+    def rig(self, variant="plain", **options):
+        if not options:
+            return rig_files.write(variant, self.path(f"{variant}.glb"))
+        path = self.path("rig.glb")
+        with open(path, "wb") as file:
+            file.write(rig_files.rig(**{**rig_files.VARIANTS[variant], **options}))
+        return path
+
+    def tried(self, model, *arguments):
+        """try.json and what was printed."""
+        process = self.succeeds("try", model, "-o", self.path("out"), "--no-reference", "--frames", "3", "--vertices", "300", *arguments)
+        return json.loads(self.read("out", "try.json")), process.stderr
+
+    def refused(self, *arguments):
+        process = program.run(*arguments)
+        self.assertEqual(process.returncode, 2, process.stderr)
+        return process.stderr
+
+    def warned(self, facts, printed, words):
+        """In the terminal, in try.json and in the page; those of the run itself in run.json too."""
+        self.assertIn(words, printed)
+        self.assertTrue(any(words in warning for warning in facts["warnings"]), facts["warnings"])
+        self.assertIn(words, self.read("out", "report.html"))
+
+    # Errors that once had no message.
+
+    def test_a_container_is_no_bone(self):
+        facts, _ = self.tried(self.rig("scaled_container"))
+        self.assertEqual(facts["model"]["joints"], list(rig_files.JOINTS))
+        self.assertEqual(facts["model"]["containers"], ["RootNode", "Armature"])
+
+    def test_a_leaf_joint_is_a_bone_and_keeps_its_weight(self):
+        facts, _ = self.tried(self.rig())
+        self.assertIn("tip", facts["model"]["joints"])
+        self.assertEqual(facts["model"]["weights_transferred_pct"], 100.0)
+
+    def test_the_artists_weights_are_the_default(self):
+        self.tried(self.rig())
+        run = json.loads(self.read("out", "run.json"))
+        self.assertNotEqual(run["state_hash"]["lbs"], run["state_hash"]["lbs_paper"])
+
+    def test_the_bind_pose_is_the_rest_pose(self):
+        facts, _ = self.tried(self.rig("bind_pose_is_not_rest"))
+        self.assertAlmostEqual(facts["model"]["bind_pose_deg"], 40.0, delta=1e-3)
+        self.assertEqual(facts["volume"]["lbs"]["most_inverted_tets"], 0)
+
+    def test_the_scale_of_nodes_is_that_of_the_skeleton_too(self):
+        small, _ = self.tried(self.rig())
+        large, _ = self.tried(self.rig("doubled_container"))
+        self.assertAlmostEqual(large["model"]["extent_m"], 2.0 * small["model"]["extent_m"], places=5)
+        self.assertEqual(large["volume"]["lbs"]["most_inverted_tets"], 0)
+
+    def test_every_animation_can_be_chosen_and_an_unknown_one_lists_them(self):
+        facts, printed = self.tried(self.rig("two_animations"), "--animation", "Twist")
+        self.assertEqual(facts["model"]["animations"], ["Bend", "Twist"])
+        self.assertNotIn("2 animations", printed)
+        self.assertIn("expected one of Bend, Twist", self.refused("try", self.rig("two_animations"), "--animation", "Walk"))
+
+    def test_a_clip_that_matches_too_few_joints_is_refused(self):
+        walk = self.write("walk.bvh", clip(["root", "a", "b", "c", "d"]))
+        message = self.refused("try", self.rig(), "--animation", walk, "-o", self.path("out"), "--no-reference")
+        self.assertIn("1 of 5 moving joints", message)
+        self.assertIn("a, b, c, d", message)
+        self.tried(self.rig(), "--animation", walk, "--allow-partial")
+
+    # Warnings.
+
+    def test_no_joint_moves(self):
+        still = [(1, "rotation", [0.0, 1.0], [rig_files.turn((0, 0, 1), 0)] * 2, "LINEAR")]
+        gltf = rig_files.rig(animations=(), extra=[("Still", still)])
+        with open(self.path("still.glb"), "wb") as file:
+            file.write(gltf)
+        self.warned(*self.tried(self.path("still.glb")), "no joint moves")
+
+    def test_some_joints_of_a_clip_do_not_match(self):
+        walk = self.write("walk.bvh", clip(["root", "elbow", "wrist"]))
+        self.warned(*self.tried(self.rig(), "--animation", walk), "2 of 3 moving joints of the clip match a bone; without a bone: wrist")
+
+    def test_unlikely_units(self):
+        self.warned(*self.tried(self.rig("centimetres")), "unlikely units")
+        facts, printed = self.tried(self.rig("centimetres"), "--scale", "0.01")
+        self.assertNotIn("unlikely units", printed)
+        self.assertAlmostEqual(facts["model"]["extent_m"], 1.072, places=3)
+
+    def test_a_bone_outside_the_body(self):
+        self.warned(*self.tried(self.rig(shifted_m=(0.0, 3.0, 0.0))), "bones lie outside the body")
+
+    def test_a_joint_without_flesh(self):
+        self.warned(*self.tried(self.rig(tiny_tip=True)), "are without flesh")
+
+    def test_inverted_tets_in_the_first_frame(self):
+        self.warned(*self.tried(self.rig(first_deg=170.0)), "inverted tets in the first frame")
+
+    def test_a_model_without_animation_is_bent(self):
+        self.warned(*self.tried(self.rig("no_animation")), "it has no animation: the joint elbow is bent")
+
+    def test_the_first_of_several_animations(self):
+        self.warned(*self.tried(self.rig("two_animations")), "it has 2 animations; Bend is taken")
+
+    # What the files are for.
+
+    def test_run_explains_what_a_scene_is(self):
+        message = self.refused("run", self.rig())
+        self.assertIn("is a model", message)
+        self.assertIn("pbskin try", message)
+
+    def test_the_scene_that_try_writes_can_be_run(self):
+        self.tried(self.rig())
+        self.succeeds("run", self.path("out", "scene.toml"), "-o", self.path("again"))
+        first, again = (json.loads(self.read(folder, "run.json"))["state_hash"] for folder in ("out", "again"))
+        self.assertEqual(first, again)
+
+    def test_the_surface_is_written_as_a_file_that_others_open(self):
+        facts, _ = self.tried(self.rig())
+        self.assertGreater(os.path.getsize(self.path("out", "frames", "pbs.glb")), 1000)
+        self.assertEqual(facts["frames"], 3)
+
+
+if __name__ == "__main__":
+    unittest.main()
