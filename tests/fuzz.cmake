@@ -46,6 +46,11 @@ fuzz_target(fuzz/skeleton.cpp pbs_character
 fuzz_target(fuzz/clip.cpp pbs_character
     pbs/character/clip_bytes.cpp pbs/character/retarget.cpp pbs/character/retarget_plan.cpp pbs/character/joint_map.cpp
     pbs/skinning/pose.cpp pbs/skinning/skeleton.cpp pbs/geometry/input_error.cpp)
+fuzz_target(fuzz/rig.cpp pbs_rig
+    pbs/rig/bone_tails.cpp pbs/rig/gltf_animations.cpp pbs/rig/gltf_meshes.cpp pbs/rig/gltf_model.cpp pbs/rig/gltf_numbers.cpp
+    pbs/rig/gltf_rig.cpp pbs/rig/rig_binding.cpp pbs/rig/rig_bytes.cpp pbs/rig/rig_motion.cpp pbs/rig/rig_pose.cpp pbs/rig/rigged_body.cpp
+    pbs/rig/skin_weights.cpp pbs/rig/tiny_gltf.cpp pbs/skinning/motion_sampling.cpp pbs/skinning/skeleton.cpp pbs/geometry/own_folder.cpp
+    pbs/geometry/text_file.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/texts.cpp experiments
     analysis/records/csv_reader.cpp analysis/records/csv_table.cpp analysis/records/atomic_file.cpp
     experiments/settings/scene_values.cpp experiments/settings/scene_schema.cpp experiments/scene/scene_keys.cpp
@@ -53,12 +58,12 @@ fuzz_target(fuzz/texts.cpp experiments
     pbs/character/bvh_header.cpp pbs/geometry/atomic_file.cpp
     pbs/geometry/text_file.cpp pbs/geometry/toml_text.cpp pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/files.cpp pbs_character
-    pbs/character/iqm.cpp pbs/character/weights_file.cpp pbs/skinning/skeleton.cpp pbs/geometry/tetgen_reader.cpp
+    pbs/character/iqm.cpp pbs/character/weights_file.cpp pbs/skinning/skeleton.cpp pbs/geometry/tetgen_reader.cpp pbs/geometry/tobj_reader.cpp
     pbs/geometry/msh_reader.cpp pbs/geometry/mesh_io_files.cpp pbs/geometry/text_file.cpp pbs/geometry/nearest_name.cpp
     pbs/geometry/input_error.cpp)
 if(PBS_WITH_FUZZ)
     set(settings PBS_SOURCE=${PROJECT_SOURCE_DIR} PBS_FUZZ_PROGRAMS=${CMAKE_BINARY_DIR}/tests PBS_FUZZ_FOLDER=${CMAKE_BINARY_DIR}/fuzz
         PYTHONPATH=${CMAKE_CURRENT_SOURCE_DIR}/support)
     add_test(NAME fuzz/targets COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/targets.py)
-    set_tests_properties(fuzz/targets PROPERTIES LABELS fuzz TIMEOUT 400 ENVIRONMENT "${settings}")
+    set_tests_properties(fuzz/targets PROPERTIES LABELS fuzz TIMEOUT 460 ENVIRONMENT "${settings}")
 endif()

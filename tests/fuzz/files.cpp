@@ -1,4 +1,4 @@
-// Any bytes as a file that the program itself reads, selected by their first byte: TetGen's pair (separated by a zero byte), weights, IQM,
+// Any bytes as a file that the program itself reads, selected by their first byte: TetGen's pair (separated by a zero byte), .tobj, weights, IQM,
 // and the checks before Gmsh reads .mesh and .msh. The result is valid, or an InputError.
 #include "pbs/character/iqm.hpp"
 #include "pbs/character/weights_file.hpp"
@@ -54,6 +54,12 @@ void try_tetgen(const std::string& bytes)
     if (mesh.tets.size() > 0) expect(mesh.tets.minCoeff() >= 0 && mesh.tets.maxCoeff() < mesh.rest.rows());
 }
 
+void try_tobj(const std::string& bytes)
+{
+    const pbs::TetMesh mesh = pbs::read_tobj(written("fuzz.tobj", bytes));
+    if (mesh.tets.size() > 0) expect(mesh.tets.minCoeff() >= 0 && mesh.tets.maxCoeff() < mesh.rest.rows());
+}
+
 void try_weights(const std::string& bytes)
 {
     const pbs::Weights weights = pbs::read_weights(written("fuzz.csv", bytes), arm, vertices);
@@ -80,6 +86,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
     try {
         if (data[0] == 't') try_tetgen(bytes);
+        if (data[0] == 'o') try_tobj(bytes);
         if (data[0] == 'w') try_weights(bytes);
         if (data[0] == 'i') try_iqm(bytes);
         if (data[0] == 'm') pbs::check_gmsh_file(written("fuzz.mesh", bytes));

@@ -13,7 +13,7 @@ import reliability
 SECONDS = int(os.environ.get("PBS_FUZZ_SECONDS", "60"))
 PROGRAMS, FOLDER = pathlib.Path(os.environ["PBS_FUZZ_PROGRAMS"]), pathlib.Path(os.environ["PBS_FUZZ_FOLDER"])
 SOURCE = pathlib.Path(os.environ["PBS_SOURCE"], "tests", "fuzz")
-NAMES = ["scene", "mesh", "skeleton", "clip", "texts", "files"]
+NAMES = ["scene", "mesh", "skeleton", "clip", "rig", "texts", "files"]
 
 
 def fuzz(name):
