@@ -15,7 +15,9 @@ else()
         pbs/geometry/self_intersection pbs/character/bodies pbs/character/jiggle_zone_contents pbs/character/overlap_mask)
 endif()
 if(NOT PBS_WITH_RIG_IMPORT)
-    list(APPEND left_out pbs/character/skeleton_file pbs/character/bvh_header pbs/character/retarget_plan pbs/character/bodies_from_files)
+    list(APPEND left_out pbs/character/skeleton_file pbs/character/bvh_header pbs/character/retarget_plan pbs/character/bodies_from_files
+        pbs/rig/assimp_rig pbs/rig/glb_writer pbs/rig/gltf_animations pbs/rig/gltf_meshes pbs/rig/gltf_numbers pbs/rig/gltf_rig
+        pbs/rig/rig_bytes pbs/rig/rig_reader pbs/rig/skin_weights)
 endif()
 
 pbs_tests(unit pbs_files
@@ -25,6 +27,7 @@ pbs_tests(unit pbs_files
     EXCEPT ${left_out}
     ALONE pbs/geometry/surface_reader
     LIBRARIES pbs_mesh_io pbs_meshing pbs_module)
+pbs_tests(unit pbs_rig FOLDERS pbs/rig EXCEPT ${left_out} LIBRARIES pbs_rig pbs_mesh_io)
 pbs_tests(unit pbs_character FOLDERS pbs/character EXCEPT ${left_out}
     ALONE pbs/character/overlap_mask pbs/character/refined_character pbs/character/retarget
     LIBRARIES pbs_character pbs_mesh_io)

@@ -1,0 +1,58 @@
+// A rig whose poses can be computed by hand: a root joint at (1, 0, 0), an elbow at (1, 2, 0) and a mesh of four points. Its animation
+// turns the elbow half round about z within 1 s.
+#pragma once
+
+#include "pbs/rig/rig.hpp"
+
+namespace test_support {
+
+inline pbs::RigNode rig_node(const std::string& name, int parent, const pbs::Vec3& translation)
+{
+    pbs::RigNode node{name, parent, {}};
+    node.rest.translation = translation;
+    return node;
+}
+
+inline pbs::SkinJoint joint_bound_at(int node, const pbs::Vec3& place)
+{
+    return {node, Eigen::Affine3d(Eigen::Translation3d(-place))};
+}
+
+// Every point follows one joint; `bone` is an index into the joints of the mesh.
+inline pbs::Weights one_joint_each(const std::vector<int>& bone)
+{
+    pbs::Weights skin;
+    for (int p = 0; p <= static_cast<int>(bone.size()); ++p) skin.first.push_back(p);
+    skin.bone = bone;
+    skin.weight.assign(bone.size(), 1.0);
+    return skin;
+}
+
+inline pbs::Rig two_joint_rig()
+{
+    pbs::Rig rig;
+    rig.file = "arm.gltf";
+    rig.nodes = {rig_node("root", -1, {1, 0, 0}), rig_node("elbow", 0, {0, 2, 0}), rig_node("body", -1, {0, 0, 0})};
+    pbs::RigMesh mesh;
+    mesh.name = "arm";
+    mesh.node = 2;
+    mesh.points.resize(4, 3);
+    mesh.points << 1, 0, 0, 1, 2, 0, 1, 4, 0, 2, 2, 0;
+    mesh.triangles.resize(2, 3);
+    mesh.triangles << 0, 1, 3, 1, 2, 3;
+    mesh.joints = {joint_bound_at(0, {1, 0, 0}), joint_bound_at(1, {1, 2, 0})};
+    mesh.skin.first = {0, 1, 3, 4, 6};
+    mesh.skin.bone = {0, 0, 1, 1, 0, 1};
+    mesh.skin.weight = {1.0, 0.5, 0.5, 1.0, 0.25, 0.75};
+    rig.meshes = {mesh};
+    pbs::KeyTrack turn;
+    turn.times_s = {0.0, 1.0};
+    turn.values = {{0, 0, 0, 1}, {0, 0, 1, 0}};
+    pbs::NodeTracks tracks;
+    tracks.node = 1;
+    tracks.rotation = turn;
+    rig.animations = {{"Bend", 0.0, 1.0, {tracks}}};
+    return rig;
+}
+
+}  // namespace test_support

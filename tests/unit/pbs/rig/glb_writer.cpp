@@ -1,0 +1,102 @@
+// Reference: the container of glTF 2.0, Sec. 4.4, parsed here, and morph targets, which are differences from the mesh's points.
+#include "pbs/rig/glb_writer.hpp"
+
+#include "pbs/geometry/text_file.hpp"
+#include "pbs/rig/gltf_rig.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/unit/pbs/character/expect_input_error.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+
+namespace {
+
+using namespace pbs;
+using nlohmann::json;
+
+const Triangles one_triangle = (Triangles(1, 3) << 0, 1, 2).finished();
+const Positions first_frame = (Positions(3, 3) << 0, 0, 0, 1, 0, 0, 0, 1, 0).finished();
+
+template <typename Number>
+Number number_in(const std::string& bytes, std::size_t offset)
+{
+    Number number{};
+    std::memcpy(&number, bytes.data() + offset, sizeof number);
+    return number;
+}
+
+struct WrittenGlb {
+    json document;
+    std::string bytes;  // of its buffer
+
+    std::vector<float> floats(int accessor) const
+    {
+        const json& info = document["accessors"][std::size_t(accessor)];
+        const std::size_t offset = document["bufferViews"][info["bufferView"].get<std::size_t>()].value("byteOffset", 0);
+        std::vector<float> numbers(info["count"].get<std::size_t>() * (info["type"] == "VEC3" ? 3 : 1));
+        for (std::size_t n = 0; n < numbers.size(); ++n) numbers[n] = number_in<float>(bytes, offset + 4 * n);
+        return numbers;
+    }
+};
+
+WrittenGlb written_glb(const std::vector<double>& times_s, const std::vector<Positions>& frames)
+{
+    const test_support::ScratchFolder folder;
+    write_glb(folder / "a.glb", "hero", one_triangle, times_s, frames);
+    const std::string file = read_text_file(folder / "a.glb");
+    EXPECT_EQ(file.substr(0, 4), "glTF");
+    EXPECT_EQ(number_in<std::uint32_t>(file, 4), 2u);
+    EXPECT_EQ(number_in<std::uint32_t>(file, 8), file.size());
+    const std::size_t length = number_in<std::uint32_t>(file, 12);
+    EXPECT_EQ(length % 4, 0u);
+    EXPECT_EQ(file.substr(16, 4), "JSON");
+    EXPECT_EQ(file.substr(20 + length + 4, 4), std::string("BIN\0", 4));
+    return {json::parse(file.substr(20, length)), file.substr(28 + length)};
+}
+
+TEST(GlbWriter, TheFirstFrameIsTheMeshWithItsBoundingBox)
+{
+    const WrittenGlb glb = written_glb({0.0}, {first_frame.array() + 0.5});
+    const json& primitive = glb.document["meshes"][0]["primitives"][0];
+    const json& points = glb.document["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
+    EXPECT_EQ(points["min"].get<std::vector<double>>(), (std::vector<double>{0.5, 0.5, 0.5}));
+    EXPECT_EQ(points["max"].get<std::vector<double>>(), (std::vector<double>{1.5, 1.5, 0.5}));
+    EXPECT_EQ(glb.floats(primitive["attributes"]["POSITION"]), (std::vector<float>{.5, .5, .5, 1.5, .5, .5, .5, 1.5, .5}));
+    EXPECT_EQ(glb.document["nodes"][0]["name"], "hero");
+    EXPECT_FALSE(glb.document.contains("animations")) << "a single frame does not move";
+}
+
+TEST(GlbWriter, EveryOtherFrameIsAMorphTargetWithWeightOneAtItsTime)
+{
+    const Positions second = first_frame.array() + 2.0;
+    const Positions third = -first_frame;
+    const WrittenGlb glb = written_glb({0.0, 0.5, 2.0}, {first_frame, second, third});
+    const json& targets = glb.document["meshes"][0]["primitives"][0]["targets"];
+    ASSERT_EQ(targets.size(), 2u);
+    EXPECT_EQ(glb.floats(targets[0]["POSITION"]), std::vector<float>(9, 2.0F));
+    EXPECT_EQ(glb.floats(targets[1]["POSITION"]), (std::vector<float>{0, 0, 0, -2, 0, 0, 0, -2, 0}));
+    const json& animation = glb.document["animations"][0];
+    EXPECT_EQ(animation["channels"][0]["target"]["path"], "weights");
+    EXPECT_EQ(glb.floats(animation["samplers"][0]["input"]), (std::vector<float>{0.0, 0.5, 2.0}));
+    EXPECT_EQ(glb.floats(animation["samplers"][0]["output"]), (std::vector<float>{0, 0, 1, 0, 0, 1}));
+}
+
+TEST(GlbWriter, ItsMeshIsReadAgain)
+{
+    const test_support::ScratchFolder folder;
+    write_glb(folder / "a.glb", "hero", one_triangle, {0.0}, {first_frame});
+    const Rig rig = read_gltf_rig(folder / "a.glb");
+    EXPECT_EQ(rig.meshes.at(0).points, first_frame);
+    EXPECT_EQ(rig.meshes.at(0).triangles, one_triangle);
+}
+
+TEST(GlbWriter, AFolderThatDoesNotExistIsRefusedByName)
+{
+    expect_input_error([] { write_glb("/no/such/folder/a.glb", "hero", one_triangle, {0.0}, {first_frame}); }, "/no/such/folder/a.glb", "");
+}
+
+}  // namespace

@@ -1,0 +1,138 @@
+// Reference: bind poses of one or two joints, computed by hand. Tolerances: at most 64 roundings of numbers of at most 8.
+#include "pbs/rig/rig_binding.hpp"
+
+#include "tests/support/rounding_error.hpp"
+#include "tests/support/two_joint_rig.hpp"
+#include "tests/unit/pbs/character/expect_input_error.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace pbs;
+using test_support::joint_bound_at;
+using test_support::two_joint_rig;
+
+const double bind_rounding = test_support::rounding_error(64, 8.0);
+
+// Three points that follow the first of the given joints.
+RigMesh small_mesh(const std::string& name, int node, const std::vector<SkinJoint>& joints)
+{
+    RigMesh mesh;
+    mesh.name = name;
+    mesh.node = node;
+    mesh.points = Positions(Positions::Identity(3, 3));
+    mesh.triangles = (Triangles(1, 3) << 0, 1, 2).finished();
+    mesh.joints = joints;
+    if (!joints.empty()) mesh.skin = test_support::one_joint_each({0, 0, 0});
+    return mesh;
+}
+
+double largest_difference(const Positions& a, const Positions& b)
+{
+    return a.rows() == b.rows() ? (a - b).cwiseAbs().maxCoeff() : 1e300;
+}
+
+TEST(RigBinding, RestPointsAreThoseOfTheMeshInMetres)
+{
+    Rig rig = two_joint_rig();
+    rig.unit_m = 0.01;
+    const RigBinding binding = bind_rig(rig, nullptr, 50.0);
+    EXPECT_EQ(binding.metres_per_unit, 0.5);
+    EXPECT_LE(largest_difference(rest_points(binding.meshes[0], binding), 0.5 * rig.meshes[0].points), bind_rounding);
+    EXPECT_LE((binding.bind.at(1).translation() - Vec3(0.5, 1, 0)).norm(), bind_rounding);
+    EXPECT_TRUE(binding.remarks.empty());
+}
+
+TEST(RigBinding, TheBindPoseCountsWhereTheFileRestsInAnother)
+{
+    Rig rig = two_joint_rig();
+    rig.nodes[1].rest.rotation = Eigen::Quaterniond(0, 0, 0, 1);  // the elbow rests half round
+    const RigBinding binding = bind_rig(rig, nullptr, 1.0);
+    EXPECT_LE(largest_difference(rest_points(binding.meshes[0], binding), rig.meshes[0].points), bind_rounding);
+}
+
+TEST(RigBinding, TheBindPoseIsAttachedWhereTheRootJointRests)
+{
+    Rig rig = two_joint_rig();
+    rig.nodes[0].rest.translation = Vec3(1, 0, 7);
+    Positions expected = rig.meshes[0].points;
+    expected.col(2).array() += 7.0;
+    const RigBinding binding = bind_rig(rig, nullptr, 1.0);
+    EXPECT_LE(largest_difference(rest_points(binding.meshes[0], binding), expected), bind_rounding);
+}
+
+TEST(RigBinding, IdentitiesAsInverseBindMatricesMeanPointsInTheJointsFrames)
+{
+    Rig rig = two_joint_rig();
+    for (SkinJoint& joint : rig.meshes[0].joints) joint.inverse_bind.setIdentity();
+    const RigBinding binding = bind_rig(rig, nullptr, 1.0);
+    Positions expected = rig.meshes[0].points;
+    expected.col(0).array() += 1.0;  // all frames are where the root joint is
+    EXPECT_LE(largest_difference(rest_points(binding.meshes[0], binding), expected), bind_rounding);
+}
+
+TEST(RigBinding, TheLargestMeshComesFirstAndDeterminesTheBindPose)
+{
+    Rig rig = two_joint_rig();  // 4 points
+    rig.meshes.insert(rig.meshes.begin(), small_mesh("cuff", 2, {joint_bound_at(1, {1, 2, 3})}));
+    const RigBinding binding = bind_rig(rig, nullptr, 1.0);
+    EXPECT_EQ(binding.meshes[0].name, "arm");
+    EXPECT_LE((binding.bind.at(1).translation() - Vec3(1, 2, 0)).norm(), bind_rounding);
+    Positions expected = rig.meshes[0].points;
+    expected.col(2).array() -= 3.0;  // brought to where the larger mesh was bound
+    EXPECT_LE(largest_difference(rest_points(binding.meshes[1], binding), expected), bind_rounding);
+}
+
+TEST(RigBinding, BindPosesThatContradictEachOtherAreARemark)
+{
+    Rig rig = two_joint_rig();
+    rig.meshes.push_back(small_mesh("cuff", 2, {joint_bound_at(0, {1, 0, 0}), joint_bound_at(1, {1, 3, 0})}));
+    const RigBinding binding = bind_rig(rig, nullptr, 1.0);
+    ASSERT_EQ(binding.remarks.size(), 1u);
+    EXPECT_NE(binding.remarks[0].find("mesh cuff was bound to 1 of 2 joints in another pose"), std::string::npos) << binding.remarks[0];
+}
+
+TEST(RigBinding, AMeshWithoutASkinHangsOnTheJointAboveIt)
+{
+    Rig rig = two_joint_rig();
+    rig.nodes.push_back(test_support::rig_node("hand", 1, {0, 1, 0}));
+    rig.meshes.push_back(small_mesh("glove", 3, {}));
+    const RigBinding binding = bind_rig(rig, nullptr, 1.0);
+    ASSERT_EQ(binding.meshes.size(), 2u);
+    ASSERT_EQ(binding.meshes[1].joints.size(), 1u);
+    EXPECT_EQ(binding.meshes[1].joints[0].node, 1);
+    Positions expected = rig.meshes[1].points;
+    expected.rowwise() += Eigen::RowVector3d(1, 3, 0);
+    EXPECT_LE(largest_difference(rest_points(binding.meshes[1], binding), expected), bind_rounding);
+}
+
+TEST(RigBinding, AMeshThatNoJointMovesIsLeftOutWithARemark)
+{
+    Rig rig = two_joint_rig();
+    rig.meshes.push_back(small_mesh("floor", 2, {}));
+    const RigBinding binding = bind_rig(rig, nullptr, 1.0);
+    EXPECT_EQ(binding.meshes.size(), 1u);
+    EXPECT_EQ(binding.remarks, std::vector<std::string>{"mesh floor is moved by no joint; it is left out"});
+}
+
+TEST(RigBinding, OfAFileWithoutAnyJointKeepsItsMeshesAtRest)
+{
+    Rig rig = two_joint_rig();
+    rig.animations.clear();
+    rig.meshes = {small_mesh("statue", 1, {})};
+    const RigBinding binding = bind_rig(rig, nullptr, 1.0);
+    Positions expected = rig.meshes[0].points;
+    expected.rowwise() += Eigen::RowVector3d(1, 2, 0);
+    ASSERT_EQ(binding.meshes.size(), 1u);
+    EXPECT_LE(largest_difference(rest_points(binding.meshes[0], binding), expected), bind_rounding);
+}
+
+TEST(RigBinding, WhereNoJointMovesAnyMeshTheRigIsRefused)
+{
+    Rig rig = two_joint_rig();  // its animation moves a node, but no mesh
+    rig.meshes = {small_mesh("floor", 2, {})};
+    expect_input_error([&] { bind_rig(rig, nullptr, 1.0); }, "arm.gltf: meshes: ", "expected a mesh that a joint moves");
+}
+
+}  // namespace

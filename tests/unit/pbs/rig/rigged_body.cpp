@@ -1,0 +1,103 @@
+// Reference: the bones, weights and poses of a rig of two joints, by hand. Tolerances: at most 64 roundings of numbers of at most 8; a
+// rotation from a singular value decomposition is in error by some hundred of them.
+#include "pbs/rig/rigged_body.hpp"
+
+#include "pbs/rig/rig_pose.hpp"
+#include "tests/support/rounding_error.hpp"
+#include "tests/support/two_joint_rig.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace pbs;
+using test_support::two_joint_rig;
+
+const double body_rounding = test_support::rounding_error(256, 8.0);
+
+TEST(RiggedBody, HasABonePerJointThatMovesPoints)
+{
+    const RiggedBody body = make_rigged_body(two_joint_rig(), nullptr, 1.0);
+    ASSERT_EQ(body.skeleton.bones.size(), 2u);
+    EXPECT_EQ(body.skeleton.bones[0].name, "root");
+    EXPECT_EQ(body.skeleton.bones[0].parent, -1);
+    EXPECT_LE((body.skeleton.bones[0].head - Vec3(1, 0, 0)).norm(), body_rounding);
+    EXPECT_EQ(body.skeleton.bones[1].name, "elbow");
+    EXPECT_EQ(body.skeleton.bones[1].parent, 0);
+    EXPECT_LE((body.skeleton.bones[1].head - Vec3(1, 2, 0)).norm(), body_rounding);
+    EXPECT_EQ(body.node, (std::vector<int>{0, 1}));
+    EXPECT_TRUE(body.dropped.empty());
+    EXPECT_TRUE(body.remarks.empty());
+}
+
+TEST(RiggedBody, HasTheSurfaceAndTheWeightsOfAllItsMeshes)
+{
+    Rig rig = two_joint_rig();
+    RigMesh second = rig.meshes[0];
+    std::swap(second.joints[0], second.joints[1]);  // its joint 0 is the elbow
+    second.points.conservativeResize(3, 3);
+    second.triangles = (Triangles(1, 3) << 0, 2, 1).finished();
+    second.skin = test_support::one_joint_each({0, 0, 1});
+    rig.meshes.push_back(second);
+    const RiggedBody body = make_rigged_body(rig, nullptr, 1.0);
+    ASSERT_EQ(body.surface.rows(), 7);
+    EXPECT_LE((body.surface.bottomRows(3) - second.points).cwiseAbs().maxCoeff(), body_rounding);
+    EXPECT_EQ(body.triangles, (Triangles(3, 3) << 0, 1, 3, 1, 2, 3, 4, 6, 5).finished());
+    EXPECT_EQ(body.skin.first, (std::vector<int>{0, 1, 3, 4, 6, 7, 8, 9}));
+    EXPECT_EQ(body.skin.bone, (std::vector<int>{0, 0, 1, 1, 0, 1, 1, 1, 0}));
+}
+
+TEST(RiggedBody, AJointWithoutWeightIsNoBoneAndReported)
+{
+    Rig rig = two_joint_rig();
+    rig.nodes.push_back(test_support::rig_node("", 1, {0, 1, 0}));
+    rig.meshes[0].joints.push_back(test_support::joint_bound_at(3, {1, 3, 0}));
+    const RiggedBody body = make_rigged_body(rig, nullptr, 1.0);
+    EXPECT_EQ(body.skeleton.bones.size(), 2u);
+    ASSERT_EQ(body.dropped.size(), 1u);
+    EXPECT_EQ(body.dropped[0].name, "node 3");
+    EXPECT_EQ(body.dropped[0].reason, "moves no point");
+}
+
+TEST(RiggedBody, TheParentOfABoneIsTheNextBoneAbove)
+{
+    Rig rig = two_joint_rig();  // an unweighted node between the joints
+    rig.nodes = {test_support::rig_node("root", -1, {1, 0, 0}), test_support::rig_node("between", 0, {0, 1, 0}),
+                 test_support::rig_node("elbow", 1, {0, 1, 0}), test_support::rig_node("body", -1, {0, 0, 0})};
+    rig.meshes[0].joints[1].node = 2;
+    rig.meshes[0].node = 3;
+    rig.animations.clear();
+    const RiggedBody body = make_rigged_body(rig, nullptr, 1.0);
+    ASSERT_EQ(body.skeleton.bones.size(), 2u);
+    EXPECT_EQ(body.skeleton.bones[1].parent, 0);
+    EXPECT_EQ(body.containers, std::vector<std::string>{"between"});
+}
+
+TEST(RiggedBody, TwoJointsOfOneNameGetNumbersAndARemark)
+{
+    Rig rig = two_joint_rig();
+    rig.nodes[1].name = "root";
+    const RiggedBody body = make_rigged_body(rig, nullptr, 1.0);
+    EXPECT_EQ(body.skeleton.bones[1].name, "root 2");
+    EXPECT_EQ(body.remarks, std::vector<std::string>{"two joints are named root; one is called root 2"});
+}
+
+TEST(RiggedBody, OfAFileWithoutJointsAndAnimationsHasNoBones)
+{
+    Rig rig = two_joint_rig();
+    rig.animations.clear();
+    rig.meshes[0].joints.clear();
+    const RiggedBody body = make_rigged_body(rig, nullptr, 1.0);
+    EXPECT_TRUE(body.skeleton.bones.empty());
+    EXPECT_EQ(body.surface, rig.meshes[0].points);
+}
+
+TEST(RiggedBody, TheAngleFromTheBindPoseToTheRestPoseIsReported)
+{
+    Rig rig = two_joint_rig();
+    EXPECT_NEAR(make_rigged_body(rig, nullptr, 1.0).bind_pose_deg, 0.0, 1e-6);  // the angle of a small rotation: the root of eps
+    rig.nodes[1].rest.rotation = Eigen::AngleAxisd(M_PI / 5.0, Vec3(1, 1, 0).normalized());
+    EXPECT_NEAR(make_rigged_body(rig, nullptr, 1.0).bind_pose_deg, 36.0, 1e-9);
+}
+
+}  // namespace
