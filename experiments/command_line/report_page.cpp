@@ -35,7 +35,7 @@ std::string python_that_draws()
 int write_report_page(const std::string& folder, bool quiet)
 {
     if (!fs::is_directory(folder))
-        throw pbs::InputError(folder, 0, "", "", "no such folder: expected one that `pbskin reproduce -o` wrote");
+        throw pbs::InputError(folder, 0, "", "", "no such folder: expected one that `pbskin try`, `run` or `reproduce` wrote");
     if (!fs::is_regular_file(page_maker()))
         throw pbs::InputError(page_maker().string(), 0, "", "",
                               "not found: the page is made by scripts that are installed with the program");

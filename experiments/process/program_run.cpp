@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <filesystem>
 
 #include <fcntl.h>
@@ -39,9 +40,13 @@ ProgramRun run_program(const std::vector<std::string>& program_and_arguments, co
     posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
     pid_t child = 0;
     ProgramRun run;
-    run.started = posix_spawnp(&child, arguments.front(), &actions, nullptr, arguments.data(), environ) == 0;
+    const int failure = posix_spawnp(&child, arguments.front(), &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
-    if (!run.started) return run;
+    run.started = failure == 0;
+    if (!run.started) {
+        run.last_words = std::strerror(failure);
+        return run;
+    }
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }

@@ -10,7 +10,7 @@ namespace experiments {
 struct ProgramRun {
     bool started = false;
     int status = -1;         // its exit status; -1: it ended by a signal or did not start
-    std::string last_words;  // the end of its output
+    std::string last_words;  // the end of its output; the reason if it did not start
 
     bool succeeded() const { return started && status == 0; }
 };

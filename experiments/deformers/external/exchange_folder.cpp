@@ -5,14 +5,18 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/text_file.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 
 namespace experiments {
 namespace {
+
+namespace fs = std::filesystem;
 
 static_assert(std::endian::native == std::endian::little);
 
@@ -22,12 +26,13 @@ void write_numbers(const std::string& file, const Number* numbers, std::size_t c
     pbs::write_atomically(file, std::string(reinterpret_cast<const char*>(numbers), count * sizeof(Number)));
 }
 
-std::vector<double> read_numbers(const std::string& file, std::size_t count)
+std::vector<double> read_numbers(const fs::path& folder, const std::string& file, std::size_t count, const std::string& shape)
 {
-    const std::string bytes = pbs::read_text_file(file, pbs::most_mesh_bytes);
-    if (bytes.size() != count * sizeof(double))
-        throw pbs::InputError(file, 0, "bytes", std::to_string(bytes.size()),
-                              "expected " + std::to_string(count * sizeof(double)) + ": " + std::to_string(count) + " numbers of 8 bytes");
+    if (!fs::is_regular_file(folder / file)) throw pbs::InputError(file, 0, "", "", "missing: expected the program to write it");
+    if (const auto bytes = fs::file_size(folder / file); bytes != count * sizeof(double))
+        throw pbs::InputError(file, 0, "bytes", std::to_string(bytes),
+                              fmt::format("expected {}: {} numbers of 8 bytes", count * sizeof(double), shape));
+    const std::string bytes = pbs::read_text_file(folder / file, pbs::most_mesh_bytes);
     std::vector<double> numbers(count);
     if (count > 0) std::memcpy(numbers.data(), bytes.data(), bytes.size());
     return numbers;
@@ -85,11 +90,16 @@ void write_exchange(const std::string& folder, const pbs::Character& character, 
 ExchangedPositions read_exchange(const std::string& folder, Eigen::Index vertices, std::size_t poses)
 {
     const std::size_t per_pose = static_cast<std::size_t>(3 * vertices);
-    const std::vector<double> numbers = read_numbers(folder + "/positions.f64", poses * per_pose);
+    const std::vector<double> numbers =
+        read_numbers(folder, "positions.f64", poses * per_pose, fmt::format("{} poses x {} vertices x 3", poses, vertices));
     ExchangedPositions read;
     for (std::size_t pose = 0; pose < poses; ++pose)
         read.positions.emplace_back(Eigen::Map<const pbs::Positions>(numbers.data() + pose * per_pose, vertices, 3));
-    if (std::filesystem::exists(folder + "/seconds.f64")) read.seconds = read_numbers(folder + "/seconds.f64", poses);
+    if (!fs::exists(folder + "/seconds.f64")) return read;
+    read.seconds = read_numbers(folder, "seconds.f64", poses, fmt::format("{} poses x 1", poses));
+    for (const double seconds : *read.seconds)
+        if (!(seconds >= 0.0 && std::isfinite(seconds)))
+            throw pbs::InputError("seconds.f64", 0, "time", fmt::format("{}", seconds), "expected a finite time of at least 0 s");
     return read;
 }
 

@@ -13,8 +13,8 @@ namespace experiments {
 // character.json, rest.f64, tets.i32, weights.f64 and poses.f64. Numbers are little-endian, arrays by rows.
 void write_exchange(const std::string& folder, const pbs::Character& character, const std::vector<pbs::Pose>& poses, double time_step_s);
 
-// positions.f64 of so many poses, and seconds.f64 if the program wrote it. A pbs::InputError if positions.f64 is missing or has another
-// size, or seconds.f64 has.
+// positions.f64 of so many poses, and seconds.f64 if the program wrote it. An InputError, which names the file without its folder, if
+// positions.f64 is missing, a file has another size, or a time is negative or not finite. Positions may be not finite.
 struct ExchangedPositions {
     std::vector<pbs::Positions> positions;       // [m], #poses of #V x 3
     std::optional<std::vector<double>> seconds;  // of each pose

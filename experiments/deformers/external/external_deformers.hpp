@@ -11,16 +11,21 @@ namespace experiments {
 
 // Of an [[external]] table: either a command or a library.
 struct ExternalOptions {
-    std::vector<std::string> command;  // the program and its arguments, files with their absolute paths
-    std::string library;               // path
-    bool has_memory = false;           // it gets every time step, not only the frames
+    std::vector<std::string> command = {};  // the program and its arguments, files with their absolute paths
+    std::string library = {};               // path
+    bool has_memory = false;                // it gets every time step, not only the frames
+    std::string scene = {}, name = {};      // the scene file with the table, and the deformer's name there, for messages
 };
 
-// A program runs once for all poses that the run foresees, and again where a pose was not foreseen. pbs::InputErrors tell what is wrong
-// with the program, with its end if it fails, or with the files that it wrote.
+// Throws the InputError `SCENE: NAME.KEY = VALUE: RULE`; the key is command or library.
+[[noreturn]] void refuse_external(const ExternalOptions& options, const std::string& rule);
+
+// A program runs once for all poses that the run foresees, and again where a pose was not foreseen. An InputError if it cannot be started,
+// does not end with status 0, or writes files of another size.
 std::unique_ptr<Deformer> make_program_deformer(const ExternalOptions& options);
 
-// pbs::InputErrors: a library that cannot be loaded or lacks a function, and one that reports a failure.
+// An InputError if the library cannot be loaded, lacks a function, was compiled for another version of pbskin_deformer.h, or reports a
+// failure.
 std::unique_ptr<Deformer> make_library_deformer(const ExternalOptions& options);
 
 }  // namespace experiments

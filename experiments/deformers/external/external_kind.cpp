@@ -2,6 +2,9 @@
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/scene_values.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/ranges.h>
 
 #include <filesystem>
 
@@ -35,6 +38,8 @@ void read_external(const SceneValues& values, const std::string& table, Deformer
     for (const std::string& word : values.texts(table + ".command")) options.command.push_back(word_of(word, folder));
     options.library = values.text(table + ".library");
     options.has_memory = values.boolean(table + ".has_memory");
+    options.scene = values.file();
+    options.name = spec.name;
     if (options.command.empty() == options.library.empty()) values.refuse(table + ".command", "expected either a command or a library");
     if (!options.library.empty()) options.library = fs::absolute(folder / options.library).string();
     spec.options = options;
@@ -47,6 +52,13 @@ nlohmann::json external_json(const DeformerSpec& spec)
 }
 
 }  // namespace
+
+void refuse_external(const ExternalOptions& options, const std::string& rule)
+{
+    const bool is_library = !options.library.empty();
+    throw pbs::InputError(options.scene, 0, options.name + (is_library ? ".library" : ".command"),
+                          is_library ? options.library : fmt::format("{}", fmt::join(options.command, " ")), rule);
+}
 
 DeformerKind external_kind()
 {

@@ -1,8 +1,9 @@
 #include "experiments/deformers/external/external_deformers.hpp"
 
 #include "experiments/deformers/external/pbskin_deformer.h"
-#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
+
+#include <fmt/format.h>
 
 #include <dlfcn.h>
 
@@ -14,7 +15,11 @@ public:
     explicit LibraryDeformer(const ExternalOptions& options) : options_(options)
     {
         handle_ = dlopen(options.library.c_str(), RTLD_NOW | RTLD_LOCAL);
-        if (!handle_) throw pbs::InputError("", 0, "external.library", options.library, dlerror());
+        if (!handle_) refuse_external(options, std::string("cannot be loaded: ") + dlerror());
+        const int version = function<decltype(pbskin_deformer_version)>("pbskin_deformer_version")();
+        if (version != PBSKIN_DEFORMER_VERSION)
+            refuse_external(options, fmt::format("was compiled for version {} of pbskin_deformer.h: expected version {}", version,
+                                                 PBSKIN_DEFORMER_VERSION));
         create_ = function<decltype(pbskin_deformer_create)>("pbskin_deformer_create");
         advance_ = function<decltype(pbskin_deformer_advance)>("pbskin_deformer_advance");
         destroy_ = function<decltype(pbskin_deformer_destroy)>("pbskin_deformer_destroy");
@@ -47,7 +52,7 @@ public:
                                         ends.data(),
                                         parents.data()};
         deformer_ = create_(&given);
-        if (!deformer_) throw pbs::InputError("", 0, "external.library", options_.library, "its pbskin_deformer_create returned null");
+        if (!deformer_) refuse_external(options_, "pbskin_deformer_create returned null: expected a deformer");
         positions_ = character.mesh.rest;
     }
 
@@ -64,9 +69,7 @@ public:
         const int status = advance_(deformer_, transforms.data(), dt_s, positions_.data());
         pbs::StepSummary summary;
         summary.seconds = stopwatch.seconds();
-        if (status != 0)
-            throw pbs::InputError("", 0, "external.library", options_.library,
-                                  "its pbskin_deformer_advance returned " + std::to_string(status));
+        if (status != 0) refuse_external(options_, fmt::format("pbskin_deformer_advance returned {}: expected 0", status));
         if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
         return summary;
     }
@@ -78,7 +81,7 @@ private:
     Function* function(const char* name) const
     {
         void* address = dlsym(handle_, name);
-        if (!address) throw pbs::InputError("", 0, "external.library", options_.library, std::string("has no function ") + name);
+        if (!address) refuse_external(options_, std::string("has no function ") + name);
         return reinterpret_cast<Function*>(address);
     }
 

@@ -7,6 +7,11 @@
 extern "C" {
 #endif
 
+#define PBSKIN_DEFORMER_VERSION 1
+
+/* Returns PBSKIN_DEFORMER_VERSION. A library that was compiled with another version of this file is refused. */
+int pbskin_deformer_version(void);
+
 struct pbskin_character {
     int vertices, tets, bones;
     const double* rest;       /* vertices x 3 */

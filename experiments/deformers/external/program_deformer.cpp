@@ -2,11 +2,12 @@
 
 #include "analysis/records/scratch_folder.hpp"
 #include "experiments/deformers/external/exchange_folder.hpp"
+#include "experiments/process/interruption.hpp"
 #include "experiments/process/program_run.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
-#include <filesystem>
+#include <fmt/format.h>
 
 namespace experiments {
 namespace {
@@ -16,6 +17,15 @@ bool same(const pbs::Pose& a, const pbs::Pose& b)
     for (std::size_t bone = 0; bone < a.size(); ++bone)
         if (a[bone].matrix() != b[bone].matrix()) return false;
     return a.size() == b.size();
+}
+
+// How a program failed, with the last line that it printed: of a Python program, that is the exception.
+std::string end_of(const ProgramRun& program)
+{
+    if (!program.started) return "cannot be started: " + program.last_words;
+    const std::string last_line = program.last_words.substr(program.last_words.find_last_of('\n') + 1);
+    const std::string end = program.status < 0 ? "ended by a signal" : fmt::format("ended with status {}", program.status);
+    return end + ": expected status 0" + (last_line.empty() ? "" : "; its last line: " + last_line);
 }
 
 class ProgramDeformer : public Deformer {
@@ -69,11 +79,13 @@ private:
         const pbs::Stopwatch stopwatch;
         const ProgramRun program = run_program(words, folder.path().string());
         wall_s_ = stopwatch.seconds();
-        if (!program.started) throw pbs::InputError("", 0, "external.command", words.front(), "cannot be started");
-        if (!program.succeeded())
-            throw pbs::InputError("", 0, "external.command", words.front(),
-                                  "ended with status " + std::to_string(program.status) + ": " + program.last_words);
-        done_ = read_exchange(folder.path().string(), character_->mesh.rest.rows(), foreseen_.size());
+        stop_if_interrupted();
+        if (!program.succeeded()) refuse_external(options_, end_of(program));
+        try {
+            done_ = read_exchange(folder.path().string(), character_->mesh.rest.rows(), foreseen_.size());
+        } catch (const pbs::InputError& error) {
+            refuse_external(options_, error.what());
+        }
     }
 
     ExternalOptions options_;

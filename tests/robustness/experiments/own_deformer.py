@@ -1,0 +1,242 @@
+"""Deformers of the user's own: the examples of experiments/deformers/external/README.md, run as it describes, and every way in which a
+program or a library can fail. Reference: the formulas of the examples, computed here from what pbskin writes for a program, and the frames
+of pbskin's own LBS. Tolerance: a thousand roundings of the largest coordinate, for sums over fewer than a hundred bones and neighbours."""
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import unittest
+
+import numpy
+import vtk
+from vtk.util.numpy_support import vtk_to_numpy
+
+import program
+
+FOLDER = pathlib.Path(program.SOURCE) / "experiments/deformers/external"
+TABLES = re.findall(r"```toml\n(.*?)```", (FOLDER / "README.md").read_text(), re.DOTALL)
+COMPILE = re.search(r"^cc .*$", (FOLDER / "README.md").read_text(), re.MULTILINE)[0]
+LIMB = 'body = "limb"\nvertices = 300\n[motion]\njoint = "forearm"\naxis = [0.0, 0.0, 1.0]\nangle_deg = 90.0\nframes = 4\n'
+HUMAN = 'body = "human"\nvertices = 600\n[motion]\nclip = "01_01.bvh"\nrate_hz = 25.0\nduration_s = 0.2\n'
+SETTINGS = "[pbs]\nk_stretch = 0.2\nk_volume = 1.0\nk_bind = 1.0\ngravity_m_s2 = [0.0, 0.0, 0.0]\n[output]\nframes_every = 1\n"
+ENVIRONMENT = {**os.environ, "PATH": "/usr/bin:" + os.environ["PATH"]}  # Debian's python3 has numpy
+KEEP = "\nimport shutil\nshutil.copytree(folder, %r)\n"  # for the end of a Python deformer
+TOLERANCE = 1000 * numpy.finfo(float).eps
+
+LIBRARY = """
+#include "pbskin_deformer.h"
+static int vertices;
+int pbskin_deformer_version(void) { return %(version)s; }
+void* pbskin_deformer_create(const struct pbskin_character* c) { vertices = c->vertices; return %(made)s; }
+int pbskin_deformer_%(advance)s(void* d, const double* pose, double dt, double* x) {
+    for (int i = 0; i < 3 * vertices; ++i) x[i] = %(position)s;
+    return %(status)s;
+}
+void pbskin_deformer_destroy(void* d) {}
+"""
+SOUND = {"version": "PBSKIN_DEFORMER_VERSION", "made": "&vertices", "advance": "advance", "position": "x[i] + 1.0", "status": "0"}
+
+
+def points_of(file):
+    """Points and tets."""
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(file)
+    reader.Update()
+    grid = reader.GetOutput()
+    return vtk_to_numpy(grid.GetPoints().GetData()), vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+
+
+class Exchanged:
+    """What pbskin wrote for a program, in the shapes of the README."""
+
+    def __init__(self, folder):
+        facts = json.loads((folder / "character.json").read_text())
+        vertices, self.bones, poses = facts["vertices"], len(facts["bones"]), facts["poses"]
+        self.rest = numpy.fromfile(folder / "rest.f64", "<f8").reshape(vertices, 3)
+        self.tets = numpy.fromfile(folder / "tets.i32", "<i4").reshape(facts["tets"], 4)
+        self.weights = numpy.fromfile(folder / "weights.f64", "<f8").reshape(vertices, self.bones)
+        self.poses = numpy.fromfile(folder / "poses.f64", "<f8").reshape(poses, self.bones, 3, 4)
+
+    def of_bone(self, pose, bone):
+        """All rest points, carried by one bone."""
+        return self.rest @ self.poses[pose, bone, :, :3].T + self.poses[pose, bone, :, 3]
+
+    def blended(self, pose):
+        return sum(self.weights[:, bone, None] * self.of_bone(pose, bone) for bone in range(self.bones))
+
+    def smoothed(self, pose, steps=4):
+        neighbours = [set() for _ in self.rest]
+        for tet in self.tets:
+            for vertex in tet:
+                neighbours[vertex].update(set(tet) - {vertex})
+        moved = self.blended(pose) - self.rest
+        for _ in range(steps):
+            moved = numpy.array([moved[sorted(others)].mean(axis=0) for others in neighbours])
+        return self.rest + moved
+
+    def rigid(self, pose):
+        heaviest = self.weights.argmax(axis=1)
+        return numpy.array([self.of_bone(pose, bone)[vertex] for vertex, bone in enumerate(heaviest)])
+
+
+class OwnDeformer(program.ProgramTest):
+    def scene(self, body, tables):
+        return self.write("scene.toml", f"schema = 1\n[character]\n{body}{tables}{SETTINGS}")
+
+    def frame(self, deformer, frame):
+        return points_of(self.path("out", "frames", f"{deformer}_{frame:06d}.vtu"))
+
+    def compiled(self, name="libmine.so", **changes):
+        source = self.write("mine.c", LIBRARY % {**SOUND, **changes})
+        subprocess.run(["cc", "-shared", "-fPIC", "-I", FOLDER, source, "-o", self.path(name)], check=True)
+        return self.path(name)
+
+    def run_scene(self, *arguments):
+        return program.run("run", self.path("scene.toml"), "-o", self.path("out"), *arguments, env=ENVIRONMENT)
+
+    def expect_equal(self, positions, expected):
+        self.assertEqual(positions.shape, expected.shape)
+        numpy.testing.assert_allclose(positions, expected, rtol=0, atol=TOLERANCE * numpy.abs(expected).max())
+
+    def needs_the_human(self):
+        if not os.path.isdir("/usr/share/assimp/models/BVH"):
+            self.skipTest("the human's clip comes with assimp-testmodels")
+
+    def python_example(self, body, frames):
+        kept = pathlib.Path(self.path("kept"))
+        text = (FOLDER / "examples/smoothed_skinning.py").read_text()
+        self.write("my_deformer.py", text + KEEP % str(kept))
+        self.scene(body, TABLES[0])
+        process = self.run_scene()
+        self.assertEqual(process.returncode, 0, process.stderr)
+        given = Exchanged(kept)
+        self.assertEqual(len(given.poses), frames)
+        for frame in range(frames):
+            positions, tets = self.frame("mine", frame)
+            numpy.testing.assert_array_equal(tets, given.tets)
+            self.expect_equal(self.frame("lbs", frame)[0], given.blended(frame))
+            self.expect_equal(positions, given.smoothed(frame))
+        self.assertGreater(numpy.abs(positions - given.blended(frames - 1)).max(), 0.001)
+        run = json.loads(self.read("out", "run.json"))
+        self.assertIn("mine", run["state_hash"])
+        self.assertEqual([one["label"] for one in run["scene"]["runs"]], ["lbs", "pbs", "mine"])
+
+    # The examples.
+
+    def test_the_python_example_on_the_limb(self):
+        self.python_example(LIMB, 4)
+
+    def test_the_python_example_on_a_real_body(self):
+        self.needs_the_human()
+        self.python_example(HUMAN, 6)
+
+    def test_the_library_of_the_readme(self):
+        subprocess.run(COMPILE.replace("libmine.so", self.path("libmine.so")).split(), cwd=FOLDER, check=True)
+        kept = pathlib.Path(self.path("kept"))
+        self.write("keep.py", "import sys, pathlib\nfolder = pathlib.Path(sys.argv[-1])\n" + KEEP % str(kept)
+                   + "import numpy\nfacts = numpy.fromfile(folder / 'rest.f64')\n"
+                   + "numpy.tile(facts, 4).tofile(folder / 'positions.f64')\n")
+        kept_table = '[[external]]\nname = "keep"\ncommand = ["python3", "keep.py"]\n'
+        self.scene(LIMB, TABLES[1] + kept_table + '[deformers]\nuse = ["mine", "keep"]\n')
+        process = self.run_scene()
+        self.assertEqual(process.returncode, 0, process.stderr)
+        given = Exchanged(kept)
+        for frame in range(4):
+            self.expect_equal(self.frame("mine", frame)[0], given.rigid(frame))
+            numpy.testing.assert_array_equal(self.frame("keep", frame)[0], given.rest)
+
+    def test_a_library_with_memory_gets_every_time_step(self):
+        """Each call moves the body by a metre. The clip has four steps of 10 ms per frame."""
+        self.needs_the_human()
+        self.compiled()
+        for has_memory, calls in (("true", 4 * 5 + 1), ("false", 5 + 1)):
+            self.scene(HUMAN, TABLES[1] + f'has_memory = {has_memory}\n[deformers]\nuse = ["mine"]\n')
+            self.assertEqual(self.run_scene().returncode, 0)
+            rest = self.frame("mine", 0)[0] - 1.0
+            self.expect_equal(self.frame("mine", 5)[0], rest + calls)
+
+    # The page of the run.
+
+    def test_error_against_run_time_has_a_point_for_it(self):
+        shutil.copy(FOLDER / "examples/smoothed_skinning.py", self.path("my_deformer.py"))
+        self.scene(LIMB, TABLES[0] + '[reference]\nname = "pbs"\n')
+        process = self.run_scene()
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.succeeds("report", self.path("out"))
+        page = self.read("out", "report.html")
+        figure = page.split('id="figure-error-against-time"')[1].split("</figure>")[0]
+        for label in ("LBS", "mine"):
+            self.assertIn(f">{label}<", figure)
+        self.assertIn('<th scope="row">mine</th>', page)
+
+    # Failures: the scene, the deformer, its command or library, and the rule.
+
+    def expect_refused(self, key, value, rule, status=2):
+        process = self.run_scene()
+        self.assertEqual(process.returncode, status, process.stderr)
+        line = rf"^pbskin: .*scene\.toml: mine\.{key} = .*{re.escape(value)}.*: .*{re.escape(rule)}"
+        self.assertRegex(process.stderr.splitlines()[-1], line)
+        self.assertEqual(len(process.stderr.splitlines()), 1, process.stderr)
+        self.assertFalse(os.path.exists(self.path("out", "run.json")))
+
+    def expect_program_refused(self, script, rule, mode=0o755):
+        with open(self.write("mine.sh", "#!/bin/sh\n" + script + "\n"), "rb") as file:
+            os.chmod(file.name, mode)
+        self.scene(LIMB, '[[external]]\nname = "mine"\ncommand = ["mine.sh"]\n[deformers]\nuse = ["lbs", "mine"]\n')
+        self.expect_refused("command", "mine.sh", rule)
+
+    def test_a_program_that_fails(self):
+        self.expect_program_refused("exit 3", "ended with status 3: expected status 0")
+        self.expect_program_refused("echo one; echo two; exit 1", "ended with status 1: expected status 0; its last line: two")
+        self.expect_program_refused("kill -9 $$", "ended by a signal")
+        self.expect_program_refused("exit 0", "cannot be started: Permission denied", mode=0o644)
+        self.expect_program_refused("exit 0", "positions.f64: missing: expected the program to write it")
+        self.expect_program_refused("echo 1234567 > $1/positions.f64", "positions.f64: bytes = 8: expected ")
+
+    def test_a_program_that_is_missing(self):
+        self.scene(LIMB, '[[external]]\nname = "mine"\ncommand = ["no_such_program", "--fast"]\n[deformers]\nuse = ["mine"]\n')
+        self.expect_refused("command", "no_such_program --fast", "cannot be started: No such file or directory")
+
+    def test_an_exception_in_python_is_named(self):
+        self.write("my_deformer.py", "raise ValueError('no such bone')\n")
+        self.scene(LIMB, TABLES[0])
+        self.expect_refused("command", "my_deformer.py", "its last line: ValueError: no such bone")
+
+    def test_positions_that_are_not_finite_are_a_breakdown(self):
+        text = (FOLDER / "examples/smoothed_skinning.py").read_text()
+        writing = "numpy.array(positions).tofile"
+        self.write("my_deformer.py", text.replace(writing, "positions[2][5] = numpy.nan\n" + writing))
+        self.scene(LIMB, TABLES[0])
+        process = self.run_scene()
+        self.assertEqual(process.returncode, 3, process.stderr)
+        self.assertRegex(process.stderr, "numerical breakdown: mine is .*frame 2.*vertex 5")
+        self.assertEqual(json.loads(self.read("out", "run.json"))["outcome"]["breakdowns"], {"mine": [2]})
+        page = self.succeeds("report", self.path("out"))
+        self.assertNotIn("Traceback", page.stderr)
+        self.assertIn("mine is ", self.read("out", "report.html"))
+
+    def test_a_library_that_fails(self):
+        self.scene(LIMB, TABLES[1] + '[deformers]\nuse = ["mine"]\n')
+        self.expect_refused("library", "libmine.so", "cannot be loaded: ")
+        self.write("libmine.so", "no library")
+        self.expect_refused("library", "libmine.so", "cannot be loaded: ")
+        for changes, rule in (({"advance": "step"}, "has no function pbskin_deformer_advance"),
+                              ({"version": "7"}, "was compiled for version 7 of pbskin_deformer.h: expected version 1"),
+                              ({"made": "0"}, "pbskin_deformer_create returned null: expected a deformer"),
+                              ({"status": "4"}, "pbskin_deformer_advance returned 4: expected 0")):
+            os.remove(self.path("libmine.so"))
+            self.compiled(**changes)
+            self.expect_refused("library", "libmine.so", rule)
+
+    def test_a_table_without_or_with_both(self):
+        for keys in ("", 'command = ["a"]\nlibrary = "b"\n'):
+            self.scene(LIMB, f'[[external]]\nname = "mine"\n{keys}[deformers]\nuse = ["mine"]\n')
+            process = self.run_scene()
+            self.assertEqual(process.returncode, 2)
+            self.assertRegex(process.stderr, r"scene\.toml.*external.*command.*expected either a command or a library")
+
+
+if __name__ == "__main__":
+    unittest.main()
