@@ -49,8 +49,7 @@ CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& characte
             "expected at least one half to match a bone of the character (--allow-partial accepts fewer); without a bone: " +
                 a_few(match.unmatched));
     if (match.matched < match.moving)
-        made.remarks.push_back(
-            fmt::format("{}: {} of the clip match a bone; without a bone: {}", spec.clip, share, a_few(match.unmatched)));
+        made.partial_match = fmt::format("{}: {} of the clip match a bone; without a bone: {}", spec.clip, share, a_few(match.unmatched));
     return made;
 }
 
