@@ -20,7 +20,7 @@ def span(values, scale=1):
 
 
 def span_of_thousandths(values):
-    return span([round(value, 3) for value in values if value is not None])
+    return span([round(value, 3) + 0.0 for value in values if value is not None])  # + 0.0: no minus before a zero
 
 
 def listed(parts, between=", "):

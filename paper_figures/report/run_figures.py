@@ -8,6 +8,7 @@ import style
 from report.figures import inline_svg
 from report.markup import Markup, element, joined
 from report.record_set import number
+from report.run_tables import known
 
 measures = (("volume_change_pct", "volume change [%]"), ("error_joint_pct", "error at the joints [%]"), ("inverted_tets", "inverted tets"))
 
@@ -36,7 +37,7 @@ def look_of(found, label):
 def over_frames(found):
     rows = {label: found.rows(label) for label in found.labels()}
     shown = [(column, name) for column, name in measures
-             if any(number(row, column) not in (None, 0.0) for of in rows.values() for row in of)]
+             if any(number(row, column) not in (None, 0.0) for of in rows.values() for row in of)] or measures[:1]
     figure, axes = style.panels(len(shown), 1, height_in=1.7, width_in=style.page_in, sharex=True)
     for panel, (column, name) in zip(axes[:, 0], shown):
         for label, of in rows.items():
@@ -55,10 +56,10 @@ def error_against_time(found):
     """One point per deformer; None if the run has no errors."""
     points = {}
     for label in found.labels():
-        errors = [number(row, "error_joint_pct") for row in found.rows(label)]
-        errors = [error for error in errors if error]
-        if errors:
-            points[label] = statistics.median(values_of(found.rows(label), "step_ms")), statistics.median(errors)
+        rows = found.rows(label)
+        errors, times_ms = [error for error in known(rows, "error_joint_pct") if error], known(rows, "step_ms")
+        if errors and times_ms:
+            points[label] = statistics.median(times_ms), statistics.median(errors)
     if not points:
         return None
     figure, axes = style.panels(1, 1, height_in=2.6, width_in=style.page_in * 0.6)

@@ -1,4 +1,5 @@
 """The tables of a run's page."""
+import math
 import statistics
 
 import style
@@ -8,8 +9,12 @@ from report.record_set import number
 
 
 def known(rows, column):
-    """The numbers of a column; none if the run has no such column."""
-    return [value for value in (number(row, column) for row in rows) if value is not None]
+    """The finite numbers of a column; none if the run has no such column."""
+    return [value for value in (number(row, column) for row in rows) if value is not None and math.isfinite(value)]
+
+
+def median(values):
+    return figure(statistics.median(values)) if values else figure(None)
 
 
 def of_deformer(found, label):
@@ -18,8 +23,7 @@ def of_deformer(found, label):
     inverted = known(rows, "inverted_tets")
     is_reference = label == found.record["scene"].get("reference", {}).get("name")
     told_error = "the reference" if is_reference else f"{figure(statistics.median(error))} ({figure(max(error))})" if error else "\u2013"
-    return [style.look_of(label).label, span_of_thousandths([min(change), max(change)]), f"{max(inverted, default=0):.0f}", told_error,
-            figure(statistics.median(step))]
+    return [style.look_of(label).label, span_of_thousandths(change), f"{max(inverted, default=0):.0f}", told_error, median(step)]
 
 
 def summary(found):
@@ -72,6 +76,6 @@ def model(found):
             f"From the bind pose to the file's rest pose, bones turn by up to {figure(record['bind_pose_deg'])}\u00b0.",
             f"Animations: {listed(record['animations'])}."]
     if "weights_transferred_pct" in record:
-        told.append(f"The joints of {figure(record['weights_transferred_pct'])} % of the artist's weights lead in the tets too.")
+        told.append(f"The tets carry {figure(record['weights_transferred_pct'])} % of the artist's weights.")
     told += [matched + "."] if matched else []
     return joined([items(told), details(f"{counted(len(record['joints']), 'joint')} that are bones", items(record["joints"]))], "\n")

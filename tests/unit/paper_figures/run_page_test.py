@@ -1,0 +1,222 @@
+"""The page of a single run. Reference: its records, which are written here with numbers that can be predicted. Each number of a table is
+that of a record, warnings are shown, and nothing is missing that the run was not asked for."""
+import csv
+import html.parser
+import json
+import pathlib
+import re
+import sys
+import tempfile
+import unittest
+import unittest.mock
+
+root = pathlib.Path(__file__).resolve().parents[3]
+sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
+
+import report  # noqa: E402
+from report import run_figures, run_page, run_tables  # noqa: E402
+
+columns = ("scene", "deformer", "variant", "iterations", "frame", "time_s", "volume_change_pct", "inverted_tets", "step_ms",
+           "error_joint_pct", "angle_deg")
+FRAMES = 5
+# volume change [%], inverted tets, step [ms] and error at the joints [%] in frame i
+numbers = {"lbs": lambda i: (-2.0 * i, i, 0.01 * (i + 1), 5.0 + i), "pbs": lambda i: (-0.25 * i, 0, 1.0 + i, 1.0 + i / 2),
+           "mine": lambda i: (0.5 * i, 2 * i, 20.0 - i, 3.0 - i / 4), "nh_p1": lambda i: (0.125 * i, 0, 300.0, 0.0)}
+MODEL = {"file": "hero.glb", "meshes": ["body", "hat"], "extent_m": 1.75, "metres_per_unit": 0.01, "containers": ["Armature"],
+         "joints_dropped": [{"name": "IK <target>", "reason": "no weight"}], "bind_pose_deg": 12.5, "animations": ["Walk", "Run"],
+         "joints": ["hips", "knee"], "weights_transferred_pct": 98.7}
+
+
+class Tables(html.parser.HTMLParser):
+    """The cells of each table by its caption, row by row."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.rows, self.caption, self.within = {}, "", ""
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        self.within = tag
+        if tag == "caption":
+            self.caption = ""
+        if tag == "tr":
+            self.rows.setdefault(self.caption, []).append([])
+        if tag in ("td", "th"):
+            self.rows[self.caption][-1].append("")
+
+    def handle_endtag(self, tag):
+        self.within = ""
+
+    def handle_data(self, data):
+        if self.within == "caption":
+            self.caption += data
+        if self.within in ("td", "th"):
+            self.rows[self.caption][-1][-1] += data
+
+
+def write_table(file, header, rows):
+    with open(file, "w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, header, restval="")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+class RunPage(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def write(self, labels=("lbs", "pbs", "mine", "nh_p1"), reference="nh_p1", outcome=None, model=None, angles=True, blank=()):
+        """blank: columns without a value."""
+        runs = [{"label": label, "name": label, "variant": "default"} for label in labels]
+        scene = {"name": "walk", "runs": runs, "reference": {"name": reference}}
+        record = {"scene": scene, "provenance": {"version": "1", "git_revision": "0" * 40, "git_dirty": False},
+                  "outcome": {"frames": FRAMES, "warnings": [], **(outcome or {})}, "character": {"model": model} if model else {}}
+        (self.folder / "run.json").write_text(json.dumps(record))
+        rows = []
+        for frame in range(FRAMES):
+            for label in labels:
+                change, inverted, ms, error = numbers[label](frame)
+                row = {"scene": "walk", "deformer": label, "variant": "default", "frame": frame, "time_s": frame / 25,
+                       "volume_change_pct": change, "inverted_tets": inverted, "step_ms": ms,
+                       "error_joint_pct": error if reference else "", "angle_deg": 10 * frame if angles else ""}
+                rows.append(row | {column: "" for column in blank})
+        write_table(self.folder / "metrics.csv", columns, rows)
+
+    def page(self):
+        text, missing = run_page.page(self.folder)
+        self.assertEqual(missing, [])
+        return text
+
+    # The tables.
+
+    def test_each_number_of_the_summary_is_that_of_the_records(self):
+        self.write()
+        header, *rows = Tables(self.page()).rows["Over all frames"]
+        self.assertEqual(header[0], "deformer")
+        self.assertEqual(rows, [["LBS", "\u22128 to 0", "4", "7 (9)", "0.03"], ["PBS, 24 iterations", "\u22121 to 0", "0", "2 (3)", "3"],
+                                ["mine", "0 to 2", "8", "2.5 (3)", "18"],
+                                ["neo-Hookean FEM, P1", "0 to 0.5", "0", "the reference", "300"]])
+
+    def test_joints_are_sorted_by_the_loss_of_the_first_deformer(self):
+        self.write()
+        kinds = [("joint", "hips", "knee", {"lbs": -3.5, "pbs": -0.5}), ("joint", "chest", "arm", {"lbs": -7.25, "pbs": 0.25}),
+                 ("bone", "hips", "", {"lbs": -99.0})]
+        write_table(self.folder / "regions.csv", ("deformer", "kind", "bone", "second_bone", "own_change_pct"),
+                    [{"deformer": label, "kind": kind, "bone": bone, "second_bone": second, "own_change_pct": change}
+                     for kind, bone, second, changes in kinds for label, change in changes.items()])
+        rows = Tables(self.page()).rows["Mean change of the volume of the tets at a joint [% of their volume at rest]"]
+        self.assertEqual(rows, [["joint", "LBS", "PBS, 24 iterations"], ["chest \u2013 arm", "\u22127.25", "0.25"],
+                                ["hips \u2013 knee", "\u22123.5", "\u22120.5"]])
+
+    def test_distances_are_the_median_and_the_largest_over_the_frames(self):
+        self.write()
+        write_table(self.folder / "distances.csv", ("deformer", "other", "of", "frame", "rms_mm", "largest_mm"),
+                    [{"deformer": "lbs", "other": "pbs", "of": "surface", "frame": frame, "rms_mm": rms, "largest_mm": 10 * rms}
+                     for frame, rms in enumerate((1.5, 4.0, 2.5))])
+        rows = Tables(self.page()).rows["Distances between the same points"]
+        self.assertEqual(rows[1], ["lbs and pbs", "surface", "2.5", "40", "3"])
+
+    def test_the_model_is_what_the_run_took_from_it(self):
+        self.write(model=MODEL, outcome={"motion": {"clip_joints": 31, "matched_joints": 30}})
+        text = self.page()
+        for words in ("File: hero.glb; 2 meshes: body, hat.", "Largest extent: 1.75 m, with 0.01 m per unit of the file.",
+                      "Joints dropped: IK &lt;target&gt; (no weight).", "Armature", "bones turn by up to 12.5\u00b0",
+                      "Animations: Walk, Run.", "98.7 % of the artist",
+                      "30 of the clip&#x27;s 31 moving joints match.", "2 joints that are bones", "<li>knee</li>"):
+            self.assertIn(words, text)
+
+    # What the run was not asked for.
+
+    def test_nothing_is_missing_that_the_run_was_not_asked_for(self):
+        self.write(reference="")
+        text = self.page()
+        for anchor in ("warnings", "viewer", "joints", "distances", "model", "figure-error-against-time"):
+            self.assertNotIn(f'id="{anchor}"', text)
+        self.assertIn('id="figure-over-frames"', text)
+        self.assertEqual(Tables(text).rows["Over all frames"][1][3], "\u2013")
+        self.assertNotIn("not on record", text)
+
+    def test_written_frames_without_a_viewer_are_missing(self):
+        self.write()
+        (self.folder / "frames").mkdir()
+        (self.folder / "frames" / "lbs_000000.vtu").write_text("")
+        with unittest.mock.patch.dict(sys.modules, {"viewer_html": None}):
+            text, missing = run_page.page(self.folder)
+        self.assertEqual(len(missing), 1)
+        self.assertTrue(missing[0].startswith("viewer: "), missing)
+        self.assertNotIn('id="viewer"', text)
+
+    # Warnings and sentences.
+
+    def test_warnings_are_shown(self):
+        self.write(outcome={"warnings": ["no joint moves", "<b> is outside"], "bad_frame": "pose not reached: nh_p1 in frame 3",
+                            "breakdown": "pbs is not finite in frame 2"})
+        text = self.page()
+        shown = re.search(r'id="warnings".*?</section>', text, re.DOTALL)[0]
+        for words in ("no joint moves", "&lt;b&gt; is outside", "pose not reached: nh_p1 in frame 3", "pbs is not finite in frame 2"):
+            self.assertIn(words, shown)
+        self.assertLess(text.index('id="warnings"'), text.index('id="frames"'))
+
+    def test_the_sentence_and_the_warnings_of_a_trial_come_first(self):
+        self.write(outcome={"warnings": ["of the run"]})
+        self.assertNotIn("PBS keeps it", self.page())
+        (self.folder / "try.json").write_text(json.dumps({"summary": "PBS keeps it.", "warnings": ["of the trial", "of the run"]}))
+        text = self.page()
+        self.assertIn('<p class="answer">PBS keeps it.</p>', text)
+        self.assertEqual((text.count("of the trial"), text.count("of the run")), (1, 1))
+
+    def test_a_damaged_record_is_refused_by_name(self):
+        self.write()
+        (self.folder / "try.json").write_text('{"summary": 3, "warnings": []}')
+        with unittest.mock.patch("sys.stderr") as complaints:
+            self.assertEqual(report.main(self.folder, quiet=True), 2)
+        said = "".join(call.args[0] for call in complaints.write.call_args_list)
+        self.assertIn("try.json: summary = 3: expected a text", said)
+        self.assertFalse((self.folder / "report.html").exists())
+
+    # The figures.
+
+    def test_error_against_time_has_the_medians_of_each_deformer(self):
+        self.write()
+        axes = run_figures.error_against_time(run_page.RunRecords(self.folder)).axes[0]
+        points = {line.get_label(): (line.get_xdata()[0], line.get_ydata()[0]) for line in axes.lines}
+        self.assertEqual(points, {"LBS": (0.03, 7.0), "PBS, 24 iterations": (3.0, 2.0), "mine": (18.0, 2.5)})
+
+    def test_the_lines_over_the_frames_are_the_columns(self):
+        for angles, x, unit in ((True, [0, 10, 20, 30, 40], "angle [degrees]"), (False, [0, 0.04, 0.08, 0.12, 0.16], "time [s]")):
+            self.write(angles=angles)
+            figure = run_figures.over_frames(run_page.RunRecords(self.folder))
+            self.assertEqual(figure.axes[-1].get_xlabel(), unit)
+            for axes, at in zip(figure.axes, (0, 3, 1)):  # volume, error, inverted tets
+                lines = {line.get_label(): line for line in axes.lines}
+                self.assertEqual(list(lines["mine"].get_xdata()), x)
+                self.assertEqual(list(lines["mine"].get_ydata()), [numbers["mine"](frame)[at] for frame in range(FRAMES)])
+
+    def test_deformers_that_are_not_of_this_project_look_different(self):
+        with unittest.mock.patch.dict(numbers, {"one": numbers["mine"], "two": numbers["mine"]}):
+            self.write(labels=("lbs", "one", "two"), reference="")
+            found = run_page.RunRecords(self.folder)
+        looks = [run_figures.look_of(found, label) for label in found.labels()]
+        self.assertEqual(len({(look.color, look.marker, str(look.line)) for look in looks}), 3)
+        self.assertEqual([look.label for look in looks], ["LBS", "one", "two"])
+
+    # Runs in which nothing happens, or nothing is left.
+
+    def test_a_run_in_which_every_number_is_zero(self):
+        with unittest.mock.patch.dict(numbers, {"lbs": lambda i: (0.0, 0, 0.01, 0.0)}):
+            self.write(labels=("lbs",), reference="")
+        self.assertEqual(Tables(self.page()).rows["Over all frames"][1][1], "0")
+
+    def test_a_deformer_that_broke_down_in_every_frame(self):
+        for value in ("", "nan"):
+            self.write(reference="", labels=("lbs",))
+            with open(self.folder / "metrics.csv", newline="") as stream:
+                rows = [row | {"volume_change_pct": value, "step_ms": value} for row in csv.DictReader(stream)]
+            write_table(self.folder / "metrics.csv", columns, rows)
+            self.assertEqual(Tables(self.page()).rows["Over all frames"][1], ["LBS", "\u2013", "4", "\u2013", "\u2013"])
+
+
+if __name__ == "__main__":
+    unittest.main()
