@@ -4,6 +4,8 @@
 
 #include "pbs/geometry/types.hpp"
 
+#include <optional>
+
 namespace analysis {
 
 // Divergence theorem: the sum of (a x b) . c / 6 over the triangles [m^3], positive when they face outward. InputError unless the surface
@@ -22,6 +24,10 @@ private:
     Eigen::Index points_ = 0;
     double rest_volume_ = 0.0;
 };
+
+// For the surface of any model: points at the same place at rest are one point, as along texture seams. Empty if the surface is open or
+// encloses no positive volume.
+std::optional<SurfaceVolume> surface_volume_of(const pbs::Positions& rest, const pbs::Triangles& triangles);
 
 // The same for a single frame.
 double surface_volume_change_pct(const pbs::Positions& rest, const pbs::Positions& posed, const pbs::Triangles& triangles);

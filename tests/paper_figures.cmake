@@ -36,4 +36,7 @@ if(TARGET pbskin)
     add_test(NAME browser/quick_results COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/browser/quick_results_test.py
         $<TARGET_FILE:pbskin> ${CMAKE_BINARY_DIR}/tests/browser_quick)
     set_tests_properties(browser/quick_results PROPERTIES LABELS browser SKIP_RETURN_CODE 77 TIMEOUT 3600)
+    add_test(NAME browser/trial COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/browser/trial_test.py
+        $<TARGET_FILE:pbskin> ${CMAKE_BINARY_DIR}/tests/browser_trial)
+    set_tests_properties(browser/trial PROPERTIES LABELS browser SKIP_RETURN_CODE 77 TIMEOUT 900)
 endif()

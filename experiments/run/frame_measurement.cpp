@@ -46,8 +46,8 @@ FrameMeasurer::FrameMeasurer(const pbs::Character& character, const OutputSpec& 
             {rest, rest, station.tets, analysis::cross_section_area(character.mesh.rest, character.mesh.tets, station.tets, rest)});
     }
     if (output.surface && character.surface)
-        surface_volume_.emplace(pbs::embedded_positions(*character.surface, character.mesh.rest, character.mesh.tets),
-                                character.surface->triangles);
+        surface_volume_ = analysis::surface_volume_of(
+            pbs::embedded_positions(*character.surface, character.mesh.rest, character.mesh.tets), character.surface->triangles);
 }
 
 FrameMeasurement FrameMeasurer::measure(const pbs::Positions& positions, const FrameContext& context)

@@ -54,6 +54,7 @@ public:
     {
         return error_metrics_.value().measure(a, b, masked_);
     }
+    bool measures_surface_volume() const { return surface_volume_.has_value(); }
     Eigen::VectorXd volume_ratios(const pbs::Positions& positions) const { return metrics_.volume_ratios(positions); }
 
 private:
@@ -66,7 +67,7 @@ private:
     std::vector<bool> masked_;                 // in this frame, #V
     std::vector<LimbStation> stations_;
     std::vector<analysis::SectionStation> sections_;  // one per station, in the pose that is being measured
-    std::optional<analysis::SurfaceVolume> surface_volume_;
+    std::optional<analysis::SurfaceVolume> surface_volume_;  // if the surface is closed
 };
 
 }  // namespace experiments

@@ -132,6 +132,7 @@ public:
               cost_.time("metrics_set_up", [&] { return FrameMeasurer(character_, measured_output(scene), prescribed_by_any(runners_)); })),
           folder_((refuse_frames_beyond(motion_, scene), scene), character_, folder)
     {
+        warn_of_open_surface();
         if (scene.error_bar != ErrorBar::none)
             cost_.time("error_bar_set_up", [&] { error_bar_.emplace(scene.error_bar, runners_.front().spec, character_); });
     }
@@ -195,6 +196,12 @@ private:
             folder_.write_artist_skin(frame, time_s, character_, scene_.motion);
         }
         ++frames_;
+    }
+
+    void warn_of_open_surface()
+    {
+        if (scene_.output.surface && character_.surface && !measurer_.measures_surface_volume())
+            add_warnings({scene_.file + ": surface_volume_change_pct is empty: the surface of the model is open or encloses no volume"}, warnings_);
     }
 
     // Blending that inverts tets in the first frame, before anything has moved far, points to a rest pose that is not the model's.

@@ -28,9 +28,12 @@ pbs::Vec3 vec3(const std::vector<double>& values)
     return {values[0], values[1], values[2]};
 }
 
+// Messages name the file as briefly as its folders allow.
 std::string in_folder(const std::string& folder, const std::string& path)
 {
-    return path.empty() || fs::path(path).is_absolute() ? path : (fs::path(folder) / path).string();
+    if (path.empty() || fs::path(path).is_absolute()) return path;
+    const fs::path file = fs::path(folder) / path;
+    return path.rfind("..", 0) == 0 ? fs::weakly_canonical(file).string() : file.string();
 }
 
 // One of the three: a body, a model, mesh and skeleton files.

@@ -110,6 +110,7 @@ iterations = 24
 k_stretch = 0.2
 k_volume = 1.0
 k_bind = 1.0
+gravity_m_s2 = [0.0, 0.0, 0.0]   # a model does not state which way is up
 )";
 
 constexpr const char* reference_tables = R"([[fem]]

@@ -26,6 +26,14 @@ void add_size(const RiggedBody& body, const std::string& file, std::vector<std::
                       " m; --scale (character.scale in a scene) corrects it");
 }
 
+void add_sheet(const RiggedBody& body, const std::string& file, std::vector<std::string>& remarks)
+{
+    const double offset_m = sheet_offset_m({body.surface, body.triangles});
+    if (offset_m > 0.0)
+        remarks.push_back(file + ": the surface encloses no volume; the tets fill a layer of " + number_text(offset_m, 3) +
+                          " m on both sides of it");
+}
+
 void add_bones_outside(const RiggedBody& body, const TetMesh& mesh, const std::string& file, std::vector<std::string>& remarks)
 {
     std::vector<Vec3> samples;
@@ -63,6 +71,7 @@ std::vector<std::string> remarks_on_model(const RiggedBody& body, const TetMesh&
     std::vector<std::string> remarks;
     for (const std::string& remark : body.remarks) remarks.push_back(file + ": " + remark);
     add_size(body, file, remarks);
+    add_sheet(body, file, remarks);
     if (body.skeleton.bones.empty()) return remarks;
     add_bones_outside(body, mesh, file, remarks);
     add_joints_without_flesh(body, artist, file, remarks);

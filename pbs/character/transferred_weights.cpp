@@ -5,6 +5,7 @@
 #include "pbs/skinning/harmonic_weights.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace pbs {
 
@@ -27,6 +28,22 @@ TransferredWeights transfer_weights(const TetMesh& mesh, const Positions& surfac
     }
     transferred.weights = harmonic_extension(mesh, on_boundary, weights);
     return transferred;
+}
+
+double carried_weight_pct(const Weights& skin, const Weights& in_tets, const EmbeddedSurface& surface, const Tets& tets)
+{
+    double carried = 0.0;
+    for (int point = 0; point < skin.vertices(); ++point) {
+        std::map<int, double> of_tets;
+        for (int corner = 0; corner < 4; ++corner) {
+            const int v = tets(surface.tet(point), corner);
+            for (int e = in_tets.first[v]; e < in_tets.first[v + 1]; ++e)
+                of_tets[in_tets.bone[e]] += surface.barycentric(point, corner) * in_tets.weight[e];
+        }
+        for (int e = skin.first[point]; e < skin.first[point + 1]; ++e)
+            carried += std::clamp(of_tets[skin.bone[e]], 0.0, skin.weight[e]);
+    }
+    return skin.vertices() > 0 ? 100.0 * carried / skin.vertices() : 0.0;
 }
 
 }  // namespace pbs

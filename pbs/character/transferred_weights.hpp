@@ -1,6 +1,7 @@
 // An artist's skin weights in the flesh.
 #pragma once
 
+#include "pbs/character/embedding.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/weights.hpp"
 
@@ -16,5 +17,9 @@ struct TransferredWeights {
 // are removed and the others normalised.
 TransferredWeights transfer_weights(const TetMesh& mesh, const Positions& surface, const Triangles& triangles, const Weights& skin,
                                     int bones);
+
+// How much of the artist's weights the tets carry [%]: 100 times the mean, over the points of the surface, of the sum over the bones of the
+// lesser of the artist's weight and the one that the tets have at that point. 100: the tets move every point as the artist does.
+double carried_weight_pct(const Weights& skin, const Weights& in_tets, const EmbeddedSurface& surface, const Tets& tets);
 
 }  // namespace pbs

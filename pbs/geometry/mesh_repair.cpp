@@ -74,8 +74,9 @@ RepairedMesh repaired(const TetMesh& mesh)
 
 std::optional<std::array<int, 2>> edge_that_is_not_manifold(const Tets& tets)
 {
+    const Triangles boundary = boundary_of(tets);
     std::map<std::pair<int, int>, int> triangles_at;
-    for (const auto& triangle : boundary_of(tets).rowwise())
+    for (const auto& triangle : boundary.rowwise())
         for (int k = 0; k < 3; ++k) ++triangles_at[std::minmax({triangle(k), triangle((k + 1) % 3)})];
     for (const auto& [edge, count] : triangles_at)
         if (count > 2) return std::array{edge.first, edge.second};

@@ -30,11 +30,14 @@ struct SurfaceMeshing {
     bool is_one_piece = true;               // required of the tets
     std::vector<Vec3> inside;               // points that must lie inside, e.g. joints
 };
-// InputError where fewer than 150 vertices are requested; the surface has fewer than 4 triangles, a point that is not finite, an index
-// out of range or no volume; its wrap holds less than half or more than twice what it encloses (an open sheet, triangles turned both ways),
+// InputError where fewer than 150 vertices are requested; the surface has fewer than 4 triangles, a point that is not finite or an index
+// out of range; it must be closed and has no volume; its wrap holds less than half or more than twice what it encloses (an open sheet, triangles turned both ways),
 // has another Euler number or leaves a point of `inside` outside; or none of six attempts has the required quality. Also in a build without
 // CGAL.
 TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options);
+
+// How far mesh_surface thickens a surface to both sides if it encloses no volume and need not be closed [m]; 0 if it encloses one.
+double sheet_offset_m(const SurfaceMesh& surface);
 
 // Triangles that share no vertex or edge meet somewhere, or neighbours overlap. InputError in a build without CGAL, as for all below.
 bool self_intersects(const Positions& positions, const Triangles& boundary);

@@ -21,12 +21,25 @@ inline void fix_meshing_seed()
     CGAL::get_default_random() = CGAL::Random(0);
 }
 
+// CGAL prints a warning when no refinement can begin. Callers see the empty complex and choose another way to begin.
+class WithoutCgalWarnings {
+public:
+    WithoutCgalWarnings() : previous_(CGAL::set_warning_handler([](const char*, const char*, const char*, int, const char*) {})) {}
+    ~WithoutCgalWarnings() { CGAL::set_warning_handler(previous_); }
+    WithoutCgalWarnings(const WithoutCgalWarnings&) = delete;
+    WithoutCgalWarnings& operator=(const WithoutCgalWarnings&) = delete;
+
+private:
+    CGAL::Failure_function previous_;
+};
+
 // Refines and no more. make_mesh_3 would limit the optimisers to the seconds that the refinement took; called by themselves they end by
 // themselves, and the same way each time.
 template <typename Complex, class Domain, class Criteria, class... Refinement>
 Complex refine_mesh(const Domain& domain, const Criteria& criteria, const Refinement&... refinement)
 {
     fix_meshing_seed();
+    const WithoutCgalWarnings quiet;
     namespace parameters = CGAL::parameters;
     return CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(), parameters::no_exude(), refinement...);
 }

@@ -45,12 +45,12 @@ public:
         const Domain& domain;
 
         template <typename Output>
-        Output operator()(Output output, int count = 12) const
+        Output operator()(Output output, int = 0) const
         {
             const Surface& surface = domain.surface_;
             std::vector<double> distance(surface.number_of_vertices(), std::numeric_limits<double>::infinity());
             Surface::Vertex_index next(0);
-            for (int i = 0; i < count; ++i) {
+            for (int i = 0; i < domain.initial_points_; ++i) {
                 const auto face = surface.face(surface.halfedge(next));
                 *output++ =
                     std::pair(surface.point(next), domain.index_from_surface_patch_index(domain.make_surface_index({face, &surface})));
@@ -64,8 +64,16 @@ public:
     };
     InitialPoints construct_initial_points_object() const { return {*this}; }
 
+    // False once there are as many as the surface has vertices.
+    bool double_initial_points()
+    {
+        initial_points_ *= 2;
+        return initial_points_ <= static_cast<int>(surface_.number_of_vertices());
+    }
+
 private:
     const Surface& surface_;
+    int initial_points_ = 12;
 };
 
 using Triangulation = CGAL::Mesh_triangulation_3<Domain>::type;
@@ -148,14 +156,17 @@ public:
     bool contains(const Vec3& p) const { return domain_.is_in_domain_object()(Point(p(0), p(1), p(2))).has_value(); }
 
     // size 1: cells as above; distance 1: facets as near to the wrap as above.
-    Complex refined(double size, double distance) const
+    Complex refined(double size, double distance)
     {
         const Sizing skin{*this, size}, flesh{*this, inside_to_skin * size};
         const Criteria criteria(parameters::facet_angle = facet_angle_deg, parameters::facet_size = skin,
                                 parameters::facet_distance = facet_distance * diagonal_ * distance * size,
                                 parameters::facet_topology = CGAL::FACET_VERTICES_ON_SAME_SURFACE_PATCH,
                                 parameters::cell_radius_edge_ratio = radius_edge_ratio, parameters::cell_size = flesh);
-        return refine_mesh<Complex>(domain_, criteria, parameters::manifold());
+        Complex complex = refine_mesh<Complex>(domain_, criteria, parameters::manifold());
+        while (complex.number_of_facets_in_complex() == 0 && domain_.double_initial_points())  // a body far longer than it is thick
+            complex = refine_mesh<Complex>(domain_, criteria, parameters::manifold());
+        return complex;
     }
 
     void optimise(Complex& complex) const { optimise_mesh(complex, domain_, sliver_bound_deg); }
@@ -203,7 +214,7 @@ void check_wrap(const Body& body, const SurfaceMeshing& options)
 }
 
 // The cell size that refines to the wanted number of vertices; optimising hardly changes it.
-double size_of(const Body& body, int vertices, double distance)
+double size_of(Body& body, int vertices, double distance)
 {
     double nearest_size = 1.0, nearest_miss = std::numeric_limits<double>::infinity();
     mesh_at_vertex_count(vertices, 1.0, [&](double size) {
@@ -218,7 +229,7 @@ double size_of(const Body& body, int vertices, double distance)
     return nearest_size;
 }
 
-TetMesh optimised(const Body& body, double size, double distance)
+TetMesh optimised(Body& body, double size, double distance)
 {
     Complex complex = body.refined(size, distance);
     body.optimise(complex);
@@ -230,9 +241,11 @@ TetMesh optimised(const Body& body, double size, double distance)
 TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
 {
     check_surface(surface, options);
-    const double alpha = options.wrap_alpha_m > 0.0 ? options.wrap_alpha_m : diagonal_of(surface.points) / 170.0;
-    const double offset = options.wrap_offset_m > 0.0 ? options.wrap_offset_m : alpha / 3.0;
-    const Body body(surface, alpha, offset);
+    const double sheet_m = sheet_offset_m(surface);
+    const double default_alpha = sheet_m > 0.0 ? sheet_m : diagonal_of(surface.points) / 170.0;
+    const double alpha = options.wrap_alpha_m > 0.0 ? options.wrap_alpha_m : default_alpha;
+    const double offset = options.wrap_offset_m > 0.0 ? options.wrap_offset_m : sheet_m > 0.0 ? sheet_m : alpha / 3.0;
+    Body body(surface, alpha, offset);
     if (options.is_closed) check_closed(surface, body);
     check_wrap(body, options);
 

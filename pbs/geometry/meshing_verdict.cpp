@@ -13,6 +13,7 @@ namespace {
 
 // |V| / diagonal^3 is 0.19 of the cube. Rounding leaves 1e-16 of a flat surface; a body so thin would be all wrap.
 constexpr double flat_surface = 1e-12;
+constexpr double sheet_thickness = 0.05;  // over the diagonal: some tets across it at the default number of vertices
 
 }  // namespace
 
@@ -24,11 +25,16 @@ void check_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
     if (!surface.points.allFinite()) throw InputError("", 0, "points", "", "expected finite coordinates [m]");
     if (surface.triangles.minCoeff() < 0 || surface.triangles.maxCoeff() >= surface.points.rows())
         throw InputError("", 0, "triangles", "", "expected indices of points");
-    const double diagonal = (surface.points.colwise().maxCoeff() - surface.points.colwise().minCoeff()).norm();
-    const double volume = enclosed_volume(surface);
-    if (!(std::abs(volume) > flat_surface * diagonal * diagonal * diagonal))
-        throw InputError("", 0, "enclosed volume [m^3]", number_text(volume),
+    if (options.is_closed && sheet_offset_m(surface) > 0.0)
+        throw InputError("", 0, "enclosed volume [m^3]", number_text(enclosed_volume(surface)),
                          "expected a closed surface round a volume, neither flat nor open");
+}
+
+double sheet_offset_m(const SurfaceMesh& surface)
+{
+    const double diagonal = (surface.points.colwise().maxCoeff() - surface.points.colwise().minCoeff()).norm();
+    const bool has_volume = std::abs(enclosed_volume(surface)) > flat_surface * diagonal * diagonal * diagonal;
+    return has_volume ? 0.0 : diagonal * sheet_thickness / 2.0;
 }
 
 double enclosed_volume(const SurfaceMesh& surface)

@@ -8,7 +8,7 @@
 namespace pbs {
 
 // InputError unless enough vertices are requested, there are at least four triangles, all points are finite, all indices are in range and
-// the surface encloses a volume.
+// a surface that must be closed encloses a volume.
 void check_surface(const SurfaceMesh& surface, const SurfaceMeshing& options);
 
 // The signed volume inside the triangles [m^3], as if closed by a fan from the points' mean.

@@ -7,6 +7,7 @@
 #include "pbs/rig/tiny_gltf.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace pbs {
 namespace {
@@ -90,9 +91,10 @@ private:
         for (int set = 0; primitive.attributes.count("JOINTS_" + std::to_string(set)) > 0; ++set) {
             const std::string names = "JOINTS_" + std::to_string(set), weights_name = "WEIGHTS_" + std::to_string(set);
             const AccessorNumbers numbers = attribute(primitive, names, 4, field), weights = attribute(primitive, weights_name, 4, field);
-            if (numbers.rows() != points || weights.rows() != points)
-                throw InputError(rig_.file, 0, field + "/attributes/" + names, std::to_string(numbers.rows()),
-                                 "expected as many as there are points, " + std::to_string(points));
+            for (const auto& [name, rows] : {std::pair(names, numbers.rows()), std::pair(weights_name, weights.rows())})
+                if (rows != points)
+                    throw InputError(rig_.file, 0, field + "/attributes/" + name, std::to_string(rows),
+                                     "expected as many as there are points, " + std::to_string(points));
             for (int p = 0; p < points; ++p)
                 for (int k = 0; k < 4; ++k) {
                     if (weights(p, k) == 0.0) continue;

@@ -1,5 +1,6 @@
 #include "pbs/rig/rigged_body.hpp"
 
+#include "pbs/geometry/tet_volume.hpp"
 #include "pbs/rig/bone_tails.hpp"
 #include "pbs/rig/rig_pose.hpp"
 
@@ -61,6 +62,28 @@ std::map<int, int> add_bones(const Rig& rig, RiggedBody& body)
     return bone_of_node;
 }
 
+// A closed body encloses at least this part of (its area)^(3/2): 0.02 for a tube forty times as long as it is thick.
+constexpr double least_closed = 1e-3;
+
+bool is_inside_out(const Positions& points, const Triangles& triangles)
+{
+    const Vec3 middle = points.colwise().mean().transpose();
+    double volume = 0.0, area = 0.0;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+        const Vec3 a = points.row(triangles(f, 0)), b = points.row(triangles(f, 1)), c = points.row(triangles(f, 2));
+        volume += tet_volume(middle, a, b, c);
+        area += 0.5 * (b - a).cross(c - a).norm();
+    }
+    return volume < -least_closed * area * std::sqrt(area);
+}
+
+void turn_outward(RiggedBody& body)
+{
+    if (!is_inside_out(body.surface, body.triangles)) return;
+    body.triangles.col(1).swap(body.triangles.col(2));
+    body.remarks.push_back("the surface is inside out; it is taken as the body that it encloses");
+}
+
 void add_surface(const std::map<int, int>& bone_of_node, RiggedBody& body)
 {
     Eigen::Index points = 0, triangles = 0;
@@ -120,6 +143,7 @@ RiggedBody make_rigged_body(const Rig& rig, const RigAnimation* animation, doubl
     body.remarks.insert(body.remarks.end(), body.binding.remarks.begin(), body.binding.remarks.end());
     const std::map<int, int> bone_of_node = add_bones(rig, body);
     add_surface(bone_of_node, body);
+    turn_outward(body);
     if (!is_rigged(rig)) {
         body.skeleton.bones.clear();
         body.node.clear();

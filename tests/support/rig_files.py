@@ -118,7 +118,7 @@ def add_mesh(gltf, points, triangles, unit, compact, tiny_tip):
     if tiny_tip:
         weights[:, 1] += weights[:, 2]
         weights[:, 2] = 0.0
-        weights[points[:, 0].argmax()] = (0.0, 0.7, 0.3)
+        weights[points[:, 0].argmax()] = (0.0, 0.9, 0.1)
     weights = numpy.pad(weights, ((0, 0), (0, 1)))
     joints = numpy.tile([0, 1, 2, 0], (len(points), 1))
     attributes = {"POSITION": gltf.put(points / unit, "VEC3", FLOAT)}
@@ -156,7 +156,7 @@ def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_nam
         shifted_m=(0.0, 0.0, 0.0), first_deg=None, tiny_tip=False):
     """containers: transforms of the nodes above the root joint, outermost first. unit: metres per unit of the points and joints. rest_deg: of
     the elbow in the file's rest pose, which then is not the bind pose. extra: further animations, as add_animation takes them. shifted_m: of
-    the joints, away from the tube. first_deg: of the elbow in the first frame. tiny_tip: the tip moves a single point, and that by a third."""
+    the joints, away from the tube. first_deg: of the elbow in the first frame. tiny_tip: the tip moves a single point, and that by a tenth."""
     gltf = Gltf()
     parents = []
     for name, members in containers:

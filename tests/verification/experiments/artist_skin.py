@@ -8,6 +8,7 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
+import fbx_formula
 import program
 import rig_files
 import skin_formula
@@ -29,7 +30,9 @@ use = ["lbs"]
 frames_every = 1
 metrics = []
 """
-FRAMES, SIMPLE_SKIN = 5, "/usr/share/assimp/models/glTF2/simple_skin/simple_skin.gltf"
+FRAMES = 5
+INSTALLED = "/usr/share/assimp/models"
+SIMPLE_SKIN, FBX_SKIN = f"{INSTALLED}/glTF2/simple_skin/simple_skin.gltf", f"{INSTALLED}/FBX/animation_with_skeleton.fbx"
 
 
 def points_of(file):
@@ -39,27 +42,53 @@ def points_of(file):
     return vtk_to_numpy(reader.GetOutput().GetPoints().GetData())
 
 
+def nearest(points, others):
+    """The index of the nearest of `points` for each of the others. Readers repeat points along seams, in any order."""
+    return numpy.array([((points - other)**2).sum(axis=1).argmin() for other in others])
+
+
 class SkinTest(program.ProgramTest):
-    def compare(self, model_file, animation=None, unit_m=1.0):
+    def compare(self, model_file, animation=None):
         model = skin_formula.Model(model_file)
         begin, end = model.span_s(animation)
         rate_hz = (FRAMES - 1) / (end - begin)
         name = animation if animation is not None else model.animation(None).get("name", "animation 0")
-        self.succeeds("run", self.write("scene.toml", SCENE % (model_file, name, rate_hz)), "-o", self.path("run"))
+        self.run_scene(model_file, name, rate_hz)
         for frame in range(FRAMES):
-            expected = unit_m * model.points(animation, begin + frame / rate_hz)
-            size = numpy.linalg.norm(expected.max(axis=0) - expected.min(axis=0))
-            artist = points_of(self.path("run", "skin", f"artist_{frame:06}.vtp"))
-            self.assertEqual(artist.shape, expected.shape)
-            self.assertLess(abs(artist - expected).max(), 1e-6 * size, f"frame {frame}")
-            carried = points_of(self.path("run", "frames", f"lbs_surface_{frame:06}.vtp"))
-            self.assertLess(numpy.linalg.norm(carried - expected, axis=1).max(), 0.03 * size, f"frame {frame}")
+            expected = model.points(animation, begin + frame / rate_hz)
+            self.check_frame(frame, expected, numpy.linalg.norm(numpy.ptp(expected, axis=0)))
         self.assertEqual(len(glob.glob(self.path("run", "skin", "artist_*.vtp"))), FRAMES)
+
+    def run_scene(self, model_file, animation, rate_hz):
+        self.succeeds("run", self.write("scene.toml", SCENE % (model_file, animation, rate_hz)), "-o", self.path("run"))
+
+    def artist(self, frame):
+        return points_of(self.path("run", "skin", f"artist_{frame:06}.vtp"))
+
+    def check_frame(self, frame, expected, size):
+        artist = self.artist(frame)
+        self.assertEqual(artist.shape, expected.shape)
+        self.assertLess(abs(artist - expected).max(), 1e-6 * size, f"frame {frame}")
+        carried = points_of(self.path("run", "frames", f"lbs_surface_{frame:06}.vtp"))
+        self.assertLess(numpy.linalg.norm(carried - expected, axis=1).max(), 0.03 * size, f"frame {frame}")
 
 
 class ArtistSkin(SkinTest):
     def test_the_second_animation(self):
         self.compare(rig_files.write("two_animations", self.path("two.glb")), "Twist")
+
+    @unittest.skipUnless(os.path.exists(FBX_SKIN), "assimp-testmodels is not installed")
+    def test_fbx(self):
+        model = fbx_formula.Model(FBX_SKIN)
+        begin, end = model.span_s()
+        rate_hz = (FRAMES - 1) / (end - begin)  # each frame is a key of the file
+        self.run_scene(FBX_SKIN, model.animation(None)["name"], rate_hz)
+        formula = [model.metres_per_unit * model.points(None, begin + frame / rate_hz) for frame in range(FRAMES)]
+        size = numpy.linalg.norm(numpy.ptp(formula[0], axis=0))
+        taken = nearest(formula[0], self.artist(0))
+        self.assertEqual(len(set(taken)), len(formula[0]))
+        for frame, points in enumerate(formula):
+            self.check_frame(frame, points[taken], size)
 
     @unittest.skipUnless(os.path.exists(SIMPLE_SKIN), "assimp-testmodels is not installed")
     def test_simple_skin(self):

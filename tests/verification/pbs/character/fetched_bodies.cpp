@@ -75,7 +75,7 @@ TEST(Ring, AClipBendsItAtTheKnee)
 {
     if (!body_is_installed("human")) GTEST_SKIP() << "the clip comes with assimp-testmodels";
     const Character ring = make_character({.body = "ring"});
-    const Motion motion = retarget(read_clip(find_clip("01_01.bvh", "")), ring.skeleton, {.duration_s = 2.0, .rate_hz = 25.0});
+    const Motion motion = retarget(read_clip(find_clip("01_01.bvh", "")), ring.skeleton, {{.duration_s = 2.0, .rate_hz = 25.0}});
     double most_rad = 0.0;
     for (const Pose& pose : motion.steps)
         most_rad = std::max(most_rad, Eigen::Quaterniond(pose[1].linear()).angularDistance(Eigen::Quaterniond(pose[2].linear())));
