@@ -2,6 +2,7 @@
 #include "pbs/geometry/mesh_io_formats.hpp"
 
 #include "pbs/geometry/assimp_files.hpp"
+#include "pbs/geometry/assimp_unit.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <assimp/DefaultLogger.hpp>
@@ -132,7 +133,7 @@ IndexedPoints read_assimp(const std::string& path, const std::string& mesh_name)
     mesh.points.resize(static_cast<Eigen::Index>(collected.points.size()), 3);
     mesh.cells.resize(static_cast<Eigen::Index>(collected.triangles.size()), 3);
     for (std::size_t i = 0; i < collected.points.size(); ++i)
-        mesh.points.row(static_cast<Eigen::Index>(i)) = collected.points[i].transpose();
+        mesh.points.row(static_cast<Eigen::Index>(i)) = metres_per_unit(*scene) * collected.points[i].transpose();
     for (std::size_t f = 0; f < collected.triangles.size(); ++f)
         mesh.cells.row(static_cast<Eigen::Index>(f)) << collected.triangles[f][0], collected.triangles[f][1], collected.triangles[f][2];
     return mesh;

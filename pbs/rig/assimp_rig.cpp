@@ -1,6 +1,7 @@
 #include "pbs/rig/assimp_rig.hpp"
 
 #include "pbs/geometry/assimp_files.hpp"
+#include "pbs/geometry/assimp_unit.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/rig/assimp_animations.hpp"
 #include "pbs/rig/skin_weights.hpp"
@@ -14,8 +15,6 @@
 
 namespace pbs {
 namespace {
-
-constexpr double metres_per_centimetre = 0.01;  // FBX states its unit in centimetres
 
 using Nodes = std::vector<const aiNode*>;  // in the order of the rig
 
@@ -104,16 +103,6 @@ RigMesh mesh_of(const aiMesh& source, int node, const Nodes& nodes, Rig& rig)
     return mesh;
 }
 
-double unit_m(const aiScene& scene)
-{
-    double centimetres = 0.0;
-    float single = 0.0F;
-    if (!scene.mMetaData) return 1.0;
-    if (scene.mMetaData->Get("UnitScaleFactor", centimetres)) return metres_per_centimetre * centimetres;
-    if (scene.mMetaData->Get("UnitScaleFactor", single)) return metres_per_centimetre * static_cast<double>(single);
-    return 1.0;  // COLLADA's unit is in the root's transform
-}
-
 }  // namespace
 
 Rig read_assimp_rig(const std::string& path)
@@ -129,7 +118,7 @@ Rig read_assimp_rig(const std::string& path)
 
     Rig rig;
     rig.file = path;
-    rig.unit_m = unit_m(*scene);
+    rig.unit_m = metres_per_unit(*scene);
     Nodes nodes;
     add_node(*scene->mRootNode, -1, nodes, rig);
     for (std::size_t n = 0; n < nodes.size(); ++n)

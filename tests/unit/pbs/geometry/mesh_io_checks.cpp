@@ -2,6 +2,7 @@
 #include "pbs/geometry/mesh_io_checks.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/parts.hpp"
 #include "tests/support/structured_bar.hpp"
 #include "tests/support/unit_tet.hpp"
 
@@ -98,12 +99,15 @@ TEST(RestMesh, CoordinatesThatAreNotFiniteAreRefused)
     }
 }
 
-TEST(RestMesh, AnUnusedVertexIsRefused)
+TEST(RestMesh, AnUnusedVertexIsLeftOut)
 {
     pbs::TetMesh mesh = unit_tet();
     mesh.rest.conservativeResize(5, 3);
-    mesh.rest.row(4) << 9, 9, 9;
-    expect_refused(mesh, "vertex 4: expected in a tet");
+    mesh.rest.row(4) << 0, 0, 0;  // it may be where another one is
+    const pbs::MeshReading reading = pbs::check_rest("m.vtu", mesh);
+    EXPECT_EQ(reading.mesh.rest, unit_tet().rest);
+    EXPECT_EQ(reading.unused_vertices, std::vector<int>{4});
+    EXPECT_EQ(reading.file_vertices, 5);
 }
 
 TEST(RestMesh, ADoubledVertexIsRefused)
@@ -123,10 +127,21 @@ TEST(RestMesh, NeighboursFoldedOverEachOtherAreRefused)
     expect_refused(with(unit_tet(), {{0.2, 0.2, 0.5}}, {0, 1, 2, 4}), "they overlap");
 }
 
-TEST(RestMesh, TetsThatTouchInAnEdgeOrVertexAreRefused)
+TEST(RestMesh, TetsThatTouchInAnEdgeOrVertexAreSeparatedThere)
 {
-    expect_refused(with(unit_tet(), {{0.2, -1, -1}, {0.2, -1, -2}}, {0, 1, 5, 4}), "manifold");
-    expect_refused(with(unit_tet(), {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, {0, 4, 6, 5}), "manifold");
+    const pbs::TetMesh edge = with(unit_tet(), {{0.2, -1, -1}, {0.2, -1, -2}}, {0, 1, 5, 4});
+    EXPECT_EQ(pbs::check_rest("m.vtu", edge).split_vertices, (std::vector<int>{0, 1}));
+    const pbs::TetMesh vertex = with(unit_tet(), {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, {0, 4, 6, 5});
+    EXPECT_EQ(pbs::check_rest("m.vtu", vertex).split_vertices, std::vector<int>{0});
+}
+
+// Of three layers of 2 x 2 cubes, the middle one has two cubes that touch in an edge alone; the other layers join its ends.
+TEST(RestMesh, TetsThatTouchInAnEdgeWhoseEndsAreJoinedAreRefusedByTheirVertices)
+{
+    const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {2, 2, 3}, {2, 2, 3});
+    std::vector<bool> kept(std::size_t(bar.tets.rows()), true);
+    for (const int cube : {5, 6}) std::fill_n(kept.begin() + 6 * cube, 6, false);
+    expect_refused(pbs::kept_tets(bar, kept), "boundary = vertices 13 and 22: expected a manifold");
 }
 
 #ifdef PBS_WITH_CGAL
