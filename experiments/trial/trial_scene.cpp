@@ -63,7 +63,7 @@ std::string bending(const TrialOptions& options, const pbs::RiggedBody& body, st
 {
     const int bone = bone_to_bend(body);
     if (bone < 0)
-        throw pbs::InputError(options.model, 0, "animation", "", "the model has no motion and a single bone: expected --animation CLIP");
+        throw pbs::InputError(options.model, 0, "animation", "", "the model has no animation, and no joint hangs from another one that could be bent: expected --animation CLIP");
     const pbs::Bone& bent = body.skeleton.bones[bone];
     const pbs::Vec3 axis = (bent.tail - bent.head).unitOrthogonal();
     remarks.push_back(fmt::format("{}: it has no animation: the joint {} is bent by {} degrees (--animation CLIP takes a motion)",
@@ -91,7 +91,8 @@ std::string motion(const TrialOptions& options, std::vector<std::string>& remark
     }
     if (animations.empty()) {
         if (model->body.skeleton.bones.empty())
-            throw pbs::InputError(options.model, 0, "animation", "", "the model has no joints and no animation: expected --animation CLIP");
+            throw pbs::InputError(options.model, 0, "skins", "0",
+                                  "the model has no joints and no animation: expected --skeleton FILE and --animation CLIP");
         return bending(options, model->body, remarks);
     }
     if (animations.size() > 1) {
