@@ -129,11 +129,12 @@ IndexedPoints read_assimp(const std::string& path, const std::string& mesh_name)
     add_node(*scene, *scene->mRootNode, aiMatrix4x4(), mesh_name, collected);
     if (collected.triangles.empty() && !mesh_name.empty())
         throw InputError(path, 0, "mesh", mesh_name, "expected one of the file's meshes: " + collected.names);
+    const double unit_m = metres_per_unit(*scene);
     IndexedPoints mesh;
     mesh.points.resize(static_cast<Eigen::Index>(collected.points.size()), 3);
     mesh.cells.resize(static_cast<Eigen::Index>(collected.triangles.size()), 3);
     for (std::size_t i = 0; i < collected.points.size(); ++i)
-        mesh.points.row(static_cast<Eigen::Index>(i)) = metres_per_unit(*scene) * collected.points[i].transpose();
+        mesh.points.row(static_cast<Eigen::Index>(i)) = unit_m * collected.points[i].transpose();
     for (std::size_t f = 0; f < collected.triangles.size(); ++f)
         mesh.cells.row(static_cast<Eigen::Index>(f)) << collected.triangles[f][0], collected.triangles[f][1], collected.triangles[f][2];
     return mesh;

@@ -35,6 +35,18 @@ TEST(WeightsFile, SumsMayDifferFromOneByAMillionth)
     EXPECT_NO_THROW(read_weights(folder.file("w.csv", header + "0,upper,0.5\n0,forearm,0.5000009\n"), two_bones, 1));
 }
 
+// Vertex 1 of the file was left out, and vertex 2 was split.
+TEST(WeightsFile, OfRepairedTetsHasTheNumbersOfTheFile)
+{
+    const std::string rows = header + "0,upper,1\n2,upper,0.25\n2,forearm,0.75\n";
+    const Weights weights = parse_weights(rows, "w.csv", two_bones, 3, {0, 2, 2});
+    EXPECT_EQ(weights.first, (std::vector<int>{0, 1, 3, 5}));
+    EXPECT_EQ(weights.bone, (std::vector<int>{0, 0, 1, 0, 1}));
+    EXPECT_EQ(weights.weight, (std::vector<double>{1.0, 0.25, 0.75, 0.25, 0.75}));
+    expect_input_error([&] { parse_weights(rows, "w.csv", two_bones, 3, {0, 1}); }, "w.csv: vertex = 1: ", "has no weights");
+    expect_input_error([&] { parse_weights(header + "3,upper,1\n", "w.csv", two_bones, 3, {0}); }, "w.csv:2: vertex = 3: ", "0 to 2");
+}
+
 struct BadWeights {
     const char* name;
     std::string text, begins, holds;
