@@ -1,0 +1,88 @@
+// Reference: the records of the trial. Its page shows the sentence, the warnings, and the model's own surface as each deformer moves it.
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import { after, before, test } from "node:test";
+import { open_viewer, settle } from "../browser.mjs";
+
+const truth = JSON.parse(fs.readFileSync(process.env.PBS_TRIAL_TRUTH)), pictures = process.env.PBS_VIEWER_PICTURES;
+let opened, page;
+
+before(async () => {
+    opened = await open_viewer(process.env.PBS_TRIAL_PAGE);
+    page = opened.page;
+});
+after(() => opened?.close());
+
+async function show(label, frame) {
+    await page.evaluate(([panel, at]) => {
+        location.hash = `run=${window.viewer.state.now.run}&frame=${at}&colour=skin&panels=${panel}&surface=rendered`;
+    }, [label, frame]);
+    await page.waitForFunction(([panel, at]) => {
+        const { viewer, state: { now } } = window.viewer;
+        return now.panels[0] === panel && viewer.run.frames[now.at] === at && now.rendered && now.colour === "skin";
+    }, [label, frame]);
+    await settle(page);
+}
+
+function drawn() {
+    return page.evaluate(() => [...window.viewer.drawn_positions(0)]);
+}
+
+// The picture of the first panel as text.
+function picture() {
+    return page.evaluate(() => window.viewer.pixels(0).join());
+}
+
+const roundings = (values, many) => many * Math.max(...values.map(Math.abs)) * 2 ** -24;
+
+test("the sentence and every warning are visible", async () => {
+    assert.ok(truth.warnings.length > 0);
+    for (const words of [truth.summary, ...truth.warnings]) {
+        const place = page.getByText(words, { exact: true }).first();
+        assert.ok(await place.isVisible(), words);
+    }
+    assert.equal(await page.locator("#warnings li").count(), truth.warnings.length);
+});
+
+test("the table has a row for each deformer", async () => {
+    const rows = await page.locator("#summary tbody tr").count();
+    assert.equal(rows, truth.deformers.length);
+});
+
+test("the viewer begins with the model's surface", async () => {
+    assert.ok(await page.evaluate(() => window.viewer.state.now.rendered));
+    assert.equal(await page.evaluate(() => window.viewer.viewer.run.surface.points), truth.points);
+    assert.equal(await page.evaluate(() => window.viewer.viewer.run.frames.length), truth.frames);
+});
+
+// Half a step of each corner of a tet times the absolute weights; the record, the weights, the corners, four products and four sums are
+// rounded.
+for (const { label, frame, skin_m, positions_m } of truth.samples)
+    test(`the surface is where ${label} moves it in frame ${frame}`, async () => {
+        await show(label, frame);
+        const { step_m, largest_sum } = await page.evaluate(() => {
+            const { step_m, surface } = window.viewer.viewer.run;
+            return { step_m, largest_sum: surface.largest_sum };
+        });
+        const points_m = await drawn();
+        assert.equal(points_m.length, skin_m.length);
+        const largest_m = Math.max(...points_m.map((value, at) => Math.abs(value - skin_m[at])));
+        assert.ok(largest_m <= largest_sum * (step_m / 2 + roundings(positions_m, 12)), `${largest_m} m apart`);
+        if (pictures) await page.locator("#frame-viewer").screenshot({ path: `${pictures}/trial_${label}_${frame}.png` });
+    });
+
+test("another frame is another picture, and the same frame the same", async () => {
+    await show("pbs", 0);
+    const first = await picture();
+    await show("pbs", truth.frames - 1);
+    const last = await picture();
+    await show("pbs", 0);
+    assert.notEqual(first, last);
+    assert.equal(await picture(), first);
+});
+
+test("each deformer can be chosen", async () => {
+    for (const label of truth.deformers) await show(label, truth.frames - 1);
+});
+
+test("nothing was reported on the way", () => assert.deepEqual(opened.problems, []));
