@@ -16,10 +16,10 @@ TetFormat format_of(const std::string& path)
     const auto holds = [&](const char* text) { return beginning.find(text) != std::string::npos; };
     const bool is_gmsh = extension == ".msh" || extension == ".mesh";
     if (holds("# vtk DataFile") || holds("<VTKFile")) return TetFormat::vtk;
-    if (!is_gmsh && (holds("$MeshFormat") || holds("MeshVersionFormatted")))
+    if (!is_gmsh && (holds("$MeshFormat") || holds("$NOD") || holds("MeshVersionFormatted")))
         throw InputError(
             path, 0, "extension", extension,
-            holds("$MeshFormat") ? "the file is a Gmsh mesh: rename it to .msh" : "the file is a MEDIT mesh: rename it to .mesh");
+            holds("MeshVersionFormatted") ? "the file is a MEDIT mesh: rename it to .mesh" : "the file is a Gmsh mesh: rename it to .msh");
     if (extension == ".vtu" || extension == ".vtk") return TetFormat::vtk;
     if (is_gmsh) return TetFormat::gmsh;
     if (extension == ".node" || extension == ".ele") return TetFormat::tetgen;

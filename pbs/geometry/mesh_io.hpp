@@ -1,4 +1,4 @@
-// Reading and writing meshes. Read by libraries: Gmsh (.msh 2.2 and 4.1, MEDIT .mesh; a module, loaded with the first such file), VTK
+// Reading and writing meshes. Read by libraries: Gmsh (.msh 1, 2.2 and 4.1, MEDIT .mesh; a module, loaded with the first such file), VTK
 // (.vtu, .vtk), assimp and CGAL (surfaces); TetGen's .node/.ele, which no library in Debian reads alone, here. Bad files are InputErrors,
 // and in a build without PBS_WITH_MESH_IO everything is.
 #pragma once

@@ -1,4 +1,4 @@
-// The module pbskin_gmsh: reads .msh (2.2, 4.1, ASCII, binary) and MEDIT .mesh by Gmsh.
+// The module pbskin_gmsh: reads .msh (1, 2.2, 4.1, ASCII, binary) and MEDIT .mesh by Gmsh.
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
 
@@ -50,7 +50,8 @@ std::vector<std::size_t> order_of(const std::vector<std::size_t>& tags)
     return order;
 }
 
-IndexedPoints current_tets(const std::string& path)
+// tags: of the points, ascending.
+IndexedPoints current_tets(const std::string& path, std::vector<std::size_t>& tags)
 {
     std::vector<std::size_t> node_tags, tet_tags, corners;
     std::vector<double> coordinates, parametric;
@@ -64,6 +65,7 @@ IndexedPoints current_tets(const std::string& path)
         const int to = static_cast<int>(index_of.size());
         if (!index_of.emplace(node_tags[from], to).second)
             throw InputError(path, 0, "node", std::to_string(node_tags[from]), "expected each tag once");
+        tags.push_back(node_tags[from]);
         mesh.points.row(to) << coordinates[3 * from], coordinates[3 * from + 1], coordinates[3 * from + 2];
     }
     mesh.cells.resize(static_cast<Eigen::Index>(tet_tags.size()), 4);
@@ -84,13 +86,13 @@ IndexedPoints current_tets(const std::string& path)
 }  // namespace
 }  // namespace pbs
 
-extern "C" void pbskin_gmsh_read(const std::string& path, pbs::IndexedPoints& mesh)
+extern "C" void pbskin_gmsh_read(const std::string& path, pbs::IndexedPoints& mesh, std::vector<std::size_t>& tags)
 {
     const pbs::GmshSession session;
     try {
         gmsh::open(path);
         pbs::refuse_other_volumes(path);
-        mesh = pbs::current_tets(path);
+        mesh = pbs::current_tets(path, tags);
     } catch (const std::string& words) {
         throw pbs::InputError(path, 0, "", "", "Gmsh: " + words);
     }

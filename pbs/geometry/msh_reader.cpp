@@ -11,6 +11,8 @@
 #include <iterator>
 #include <locale>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace pbs {
 namespace {
@@ -24,14 +26,26 @@ std::string first_word(const std::string& text)
     return text.substr(begin, std::min<std::size_t>(text.find_first_of(" \t\r\n", begin) - begin, 40));
 }
 
+// The sections of a Gmsh file: version 1 has names of its own.
+struct MshSections {
+    const char *nodes, *end_nodes, *elements, *end_elements;
+};
+
+MshSections sections_of(const std::string& text)
+{
+    if (text.rfind("$NOD", 0) == 0) return {"$NOD", "$ENDNOD", "$ELM", "$ENDELM"};
+    return {"$Nodes", "$EndNodes", "$Elements", "$EndElements"};
+}
+
 void check_msh(const std::string& path, const std::string& text)
 {
-    if (text.rfind("$MeshFormat", 0) != 0) throw InputError(path, 1, "", "", "expected a Gmsh file beginning with $MeshFormat");
-    for (const char* section : {"Nodes", "Elements"}) {
-        if (text.find(std::string("\n$") + section) == std::string::npos)
-            throw InputError(path, 0, "", "", std::string("the section $") + section + " is missing");
-        if (text.find(std::string("$End") + section) == std::string::npos)
-            throw InputError(path, 0, "", "", std::string("truncated: $End") + section + " is missing");
+    const MshSections sections = sections_of(text);
+    if (text.rfind("$MeshFormat", 0) != 0 && text.rfind("$NOD", 0) != 0)
+        throw InputError(path, 1, "", "", "expected a Gmsh file beginning with $MeshFormat");
+    for (const auto& [begin, end] : {std::pair(sections.nodes, sections.end_nodes), std::pair(sections.elements, sections.end_elements)}) {
+        if (("\n" + text).find(std::string("\n") + begin) == std::string::npos)
+            throw InputError(path, 0, "", "", std::string("the section ") + begin + " is missing");
+        if (text.find(end) == std::string::npos) throw InputError(path, 0, "", "", std::string("truncated: ") + end + " is missing");
     }
 }
 
@@ -68,15 +82,23 @@ void check_medit(const std::string& path, const std::string& text)
     check_medit_words(path, text);
 }
 
-// "$Nodes\n4\n" (2.2), "$Nodes\n1 4 1 4\n" (4.1: blocks, nodes, ...; binary: the same as size_t).
+// The text after the line "$Nodes".
+std::size_t begin_of_nodes(const std::string& text)
+{
+    return text.find('\n', ("\n" + text).find(std::string("\n") + sections_of(text).nodes)) + 1;
+}
+
+// "4\n" (1, 2.2), "1 4 1 4\n" (4.1: blocks, nodes, ...; binary: the same as size_t).
 long long nodes_in_msh(const std::string& text)
 {
-    std::istringstream header(text.substr(text.find('\n')));
-    double version = 0.0;
+    double version = 1.0;
     int binary = 0;
-    header.imbue(std::locale::classic());
-    header >> version >> binary;
-    const std::size_t nodes = text.find('\n', text.find("\n$Nodes") + 1) + 1;
+    if (text.rfind("$MeshFormat", 0) == 0) {
+        std::istringstream header(text.substr(text.find('\n'), 100));
+        header.imbue(std::locale::classic());
+        header >> version >> binary;
+    }
+    const std::size_t nodes = begin_of_nodes(text);
     std::size_t numbers[2] = {};
     if (version == 4.1 && binary) {
         if (nodes + sizeof numbers > text.size()) return -1;
@@ -85,7 +107,7 @@ long long nodes_in_msh(const std::string& text)
     }
     std::istringstream counts(text.substr(nodes, 100));
     if (version == 4.1) counts >> numbers[0] >> numbers[1];
-    if (version == 2.2) counts >> numbers[1];
+    if (version < 4.0) counts >> numbers[1];
     return counts && numbers[1] > 0 ? static_cast<long long>(numbers[1]) : -1;
 }
 
@@ -97,24 +119,73 @@ long long vertices_in_medit(const std::string& text)
     return count ? vertices : -1;
 }
 
+// Whether a text file has as many lines of nodes as it states. Those of a binary file cannot be counted like this.
+bool has_all_nodes(const std::string& text, long long nodes)
+{
+    const std::size_t begin = begin_of_nodes(text);
+    std::istringstream lines(text.substr(begin, text.find(sections_of(text).end_nodes) - begin));
+    long long count = -1;  // the line of the number itself
+    for (std::string line; std::getline(lines, line);) count += !first_word(line).empty();
+    return count == nodes;
+}
+
+// Four numbers a vertex follow the number of vertices.
+bool has_all_vertices(const std::string& text, long long vertices)
+{
+    std::istringstream words(text.substr(text.find("Vertices") + 8));
+    std::string word;
+    long long numbers = -1;  // the number of vertices itself
+    while (words >> word && is_number(word)) ++numbers;
+    return numbers == 4 * vertices;
+}
+
+// Gmsh leaves out the nodes that no element uses. If the file numbers its nodes from 1 without gaps, each gets its place back; those that
+// were left out are put at the origin, and no tet names them.
+void restore_unused(const std::vector<std::size_t>& tags, Eigen::Index nodes, IndexedPoints& mesh)
+{
+    if (tags.empty() || tags.front() < 1 || static_cast<Eigen::Index>(tags.back()) > nodes) return;
+    Positions points = Positions::Zero(nodes, 3);
+    for (std::size_t p = 0; p < tags.size(); ++p)
+        points.row(static_cast<Eigen::Index>(tags[p]) - 1) = mesh.points.row(static_cast<Eigen::Index>(p));
+    mesh.cells = mesh.cells.unaryExpr([&](int p) { return static_cast<int>(tags[static_cast<std::size_t>(p)]) - 1; }).eval();
+    mesh.points = std::move(points);
+}
+
+std::string text_of(const std::string& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+long long named_nodes(const std::string& path, const std::string& text)
+{
+    return lower_extension(path) == ".msh" ? nodes_in_msh(text) : vertices_in_medit(text);
+}
+
 }  // namespace
 
 long long check_gmsh_file(const std::string& path)
 {
-    std::ifstream file(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    const std::string text = text_of(path);
     if (lower_extension(path) == ".msh")
         check_msh(path, text);
     else
         check_medit(path, text);
     load_module(module_name);
-    return lower_extension(path) == ".msh" ? nodes_in_msh(text) : vertices_in_medit(text);
+    return named_nodes(path, text);
 }
 
 IndexedPoints read_gmsh(const std::string& path)
 {
     IndexedPoints mesh;
-    load_module(module_name).function<void(const std::string&, IndexedPoints&)>("pbskin_gmsh_read")(path, mesh);
+    std::vector<std::size_t> tags;
+    load_module(module_name)
+        .function<void(const std::string&, IndexedPoints&, std::vector<std::size_t>&)>("pbskin_gmsh_read")(path, mesh, tags);
+    const std::string text = text_of(path);
+    const long long nodes = named_nodes(path, text);
+    const bool is_msh = lower_extension(path) == ".msh";
+    if (nodes > mesh.points.rows() && (is_msh ? has_all_nodes(text, nodes) : has_all_vertices(text, nodes)))
+        restore_unused(tags, nodes, mesh);
     return mesh;
 }
 

@@ -17,17 +17,27 @@ public:
     static CollectingWindow* New();
     vtkTypeMacro(CollectingWindow, vtkOutputWindow) void DisplayText(const char* text) override { collected += text; }
     void DisplayErrorText(const char* text) override { collected += text; }
-    void DisplayWarningText(const char*) override {}
-    void DisplayGenericWarningText(const char*) override {}
+    void DisplayWarningText(const char* text) override { collect_lost_data(text); }
+    void DisplayGenericWarningText(const char* text) override { collect_lost_data(text); }
     void DisplayDebugText(const char*) override {}
+
+private:
+    // VTK only warns of numbers that are missing, and leaves the memory for them as it is.
+    void collect_lost_data(const std::string& text)
+    {
+        if (text.find("Error reading") != std::string::npos) collected += text;
+    }
 };
 vtkStandardNewMacro(CollectingWindow);
 
-// "ERROR: In x.cxx, line 12\nvtkReader (0x55): words\n\n" -> "words"
+// "ERROR: In x.cxx, line 12\nvtkReader (0x55): words\n\n" and "Generic Warning: In x.cxx, line 12\nwords\n\n" -> "words"
 std::string words_of(const std::string& message)
 {
     std::size_t begin = message.find("): ");
-    begin = begin == std::string::npos ? 0 : begin + 3;
+    const std::size_t first_line = message.find('\n');
+    begin = begin != std::string::npos                                           ? begin + 3
+            : first_line != std::string::npos && first_line + 1 < message.size() ? first_line + 1
+                                                                                 : 0;
     const std::size_t end = message.find("\n\n", begin);
     std::string words = message.substr(begin, end == std::string::npos ? end : end - begin);
     for (char& c : words)

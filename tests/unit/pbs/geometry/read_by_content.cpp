@@ -62,6 +62,25 @@ TEST(ReadTetMesh, LeavesOutUnusedVerticesWithARemark)
     EXPECT_EQ(remarks[0], path + ": unused vertices = 1 (0): left out; no tet uses them");
 }
 
+// Gmsh itself leaves such nodes out without a word.
+TEST(ReadTetMesh, ListsTheUnusedNodesOfGmshAndMeditFiles)
+{
+    const ScratchFolder folder;
+    const std::string nodes = "5\n1 0 0 0\n2 1 0 0\n3 9 9 9\n4 0 1 0\n5 0 0 1\n";
+    const std::string version_2 =
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + nodes + "$EndNodes\n$Elements\n1\n1 4 2 0 1 1 2 4 5\n$EndElements\n";
+    const std::string version_1 = "$NOD\n" + nodes + "$ENDNOD\n$ELM\n1\n1 4 1 1 4 1 2 4 5\n$ENDELM\n";
+    const std::string medit =
+        "MeshVersionFormatted 2\nDimension 3\nVertices\n5\n0 0 0 1\n1 0 0 1\n9 9 9 1\n0 1 0 1\n0 0 1 1\n"
+        "Tetrahedra\n1\n1 2 4 5 1\nEnd\n";
+    for (const std::string& path : {folder.file("2.msh", version_2), folder.file("1.msh", version_1), folder.file("a.mesh", medit)}) {
+        const pbs::MeshReading reading = pbs::read_tet_mesh(path);
+        EXPECT_EQ(reading.mesh.rest, unit_tet().rest) << path;
+        EXPECT_EQ(reading.file_vertex, (std::vector<int>{0, 1, 3, 4})) << path;
+        EXPECT_EQ(reading.unused_vertices, std::vector<int>{2}) << path;
+    }
+}
+
 TEST(ReadTetMesh, SplitsAVertexAtWhichPartsTouchWithARemark)
 {
     const ScratchFolder folder;
