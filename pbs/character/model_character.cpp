@@ -18,7 +18,7 @@
 namespace pbs {
 namespace {
 
-constexpr int model_version = 1;  // raised whenever something else is made of the same file, so that the cache knows
+constexpr int model_version = 2;  // raised whenever something else is made of the same file, so that the cache knows
 
 // Parts of the tets through which no bone passes would be held by nothing.
 void leave_out_parts_without_bone(Character& character, const std::string& file, std::vector<std::string>& remarks)

@@ -35,11 +35,34 @@ using Point = Kernel::Point_3;
 using Surface = CGAL::Surface_mesh<Point>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_face_graph_triangle_primitive<Surface>>>;
 
+// The vertices of each connected part, ascending.
+std::vector<std::vector<Surface::Vertex_index>> vertices_of_parts(const Surface& surface)
+{
+    std::vector<std::vector<Surface::Vertex_index>> parts;
+    std::vector<bool> seen(surface.number_of_vertices());
+    for (const auto first : surface.vertices()) {
+        if (seen[first]) continue;
+        seen[first] = true;
+        std::vector<Surface::Vertex_index> part = {first};
+        for (std::size_t at = 0; at < part.size(); ++at)
+            for (const auto neighbour : CGAL::vertices_around_target(surface.halfedge(part[at]), surface)) {
+                if (!seen[neighbour]) part.push_back(neighbour);
+                seen[neighbour] = true;
+            }
+        std::sort(part.begin(), part.end());
+        parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
 // CGAL starts the refinement from random points; where two fall close together a short edge stays, whatever the cell size. Here it starts
-// from vertices of the surface as far from each other as can be.
+// from vertices of the surface as far from each other as can be. A part on which there are none would be lost.
 class Domain : public CGAL::Polyhedral_mesh_domain_3<Surface, Kernel> {
 public:
-    explicit Domain(const Surface& surface) : CGAL::Polyhedral_mesh_domain_3<Surface, Kernel>(surface), surface_(surface) {}
+    explicit Domain(const Surface& surface)
+        : CGAL::Polyhedral_mesh_domain_3<Surface, Kernel>(surface), surface_(surface), parts_(vertices_of_parts(surface))
+    {
+    }
 
     struct InitialPoints {
         const Domain& domain;
@@ -47,17 +70,23 @@ public:
         template <typename Output>
         Output operator()(Output output, int = 0) const
         {
+            for (const auto& part : domain.parts_) output = add(part, output);
+            return output;
+        }
+
+        template <typename Output>
+        Output add(const std::vector<Surface::Vertex_index>& part, Output output) const
+        {
             const Surface& surface = domain.surface_;
-            std::vector<double> distance(surface.number_of_vertices(), std::numeric_limits<double>::infinity());
-            Surface::Vertex_index next(0);
-            for (int i = 0; i < domain.initial_points_; ++i) {
-                const auto face = surface.face(surface.halfedge(next));
-                *output++ =
-                    std::pair(surface.point(next), domain.index_from_surface_patch_index(domain.make_surface_index({face, &surface})));
-                for (const auto vertex : surface.vertices())
-                    distance[vertex] = std::min(distance[vertex], CGAL::squared_distance(surface.point(vertex), surface.point(next)));
-                next = Surface::Vertex_index(
-                    static_cast<Surface::size_type>(std::max_element(distance.begin(), distance.end()) - distance.begin()));
+            std::vector<double> distance(part.size(), std::numeric_limits<double>::infinity());
+            std::size_t next = 0;
+            for (int i = 0; i < domain.initial_points_ && distance[next] > 0.0; ++i) {
+                const Point& point = surface.point(part[next]);
+                const auto face = surface.face(surface.halfedge(part[next]));
+                *output++ = std::pair(point, domain.index_from_surface_patch_index(domain.make_surface_index({face, &surface})));
+                for (std::size_t v = 0; v < part.size(); ++v)
+                    distance[v] = std::min(distance[v], CGAL::squared_distance(surface.point(part[v]), point));
+                next = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) - distance.begin());
             }
             return output;
         }
@@ -73,7 +102,8 @@ public:
 
 private:
     const Surface& surface_;
-    int initial_points_ = 12;
+    std::vector<std::vector<Surface::Vertex_index>> parts_;
+    int initial_points_ = 12;  // on each part
 };
 
 using Triangulation = CGAL::Mesh_triangulation_3<Domain>::type;

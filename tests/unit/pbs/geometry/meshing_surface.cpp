@@ -69,6 +69,24 @@ TEST(SurfaceToTets, TheTorusKeepsItsHandleWhenAsked)
     EXPECT_NEAR(quality.volume_m3, 2.0 * std::numbers::pi * std::numbers::pi * 0.4 * 0.4, 0.08 * 3.2);
 }
 
+// A ball of a quarter of the other's size beside it. Facets that fit in circles of radius alpha sink by at most 0.15^2 / 0.5 = 0.045 m.
+TEST(SurfaceToTets, ASmallPartBesideALargeOneIsKept)
+{
+    pbs::SurfaceMesh both = icosphere(1.0, 2);
+    const pbs::SurfaceMesh small = icosphere(0.25, 2);
+    const Eigen::Index first = both.points.rows(), triangles = both.triangles.rows();
+    both.points.conservativeResize(first + small.points.rows(), 3);
+    both.points.bottomRows(small.points.rows()) = small.points.rowwise() + Eigen::RowVector3d(1.6, 0, 0);
+    both.triangles.conservativeResize(triangles + small.triangles.rows(), 3);
+    both.triangles.bottomRows(small.triangles.rows()) = small.triangles.array() + static_cast<int>(first);
+    pbs::SurfaceMeshing options = quick(0.15, 0.01, 400);
+    options.boundary_euler.reset();
+    options.is_closed = options.is_one_piece = false;
+    const pbs::TetMesh mesh = pbs::mesh_surface(both, options);
+    EXPECT_EQ(pbs::quality_of(mesh).topology.components, 2);
+    EXPECT_NEAR(mesh.rest.col(0).maxCoeff(), 1.84, 0.05);
+}
+
 TEST(SurfaceToTets, TheTorusIsRefusedAsABall)
 {
     const std::string words = refusal(torus(1.0, 0.4, 40, 20), quick(0.15, 0.02, 300));
