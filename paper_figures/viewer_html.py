@@ -61,8 +61,8 @@ def pack(recorded):
 
 
 def fragment(results):
-    """The HTML of the viewer for the study `frames`. RecordsMissing if frames are missing or the program is not built; the message states how
-    to get it."""
+    """The HTML of the viewer for the study `frames`. RecordsMissing if frames are missing or the program is not built; the message states
+    how to get it."""
     return fragment_of(viewer_data.recorded_runs(results), statements(results))
 
 

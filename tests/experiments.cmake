@@ -20,7 +20,8 @@ pbs_tests(claims experiments FOLDERS experiments EXCEPT ${left_out}
     LIBRARIES experiments)
 target_compile_definitions(test_claims_experiments PRIVATE ${claims_file})
 pbs_tests(unit experiments BLAS
-    FOLDERS experiments/process experiments/scene experiments/run experiments/deformers experiments/verdicts experiments/command_line
+    FOLDERS experiments/process experiments/scene experiments/run experiments/deformers experiments/trial experiments/verdicts
+        experiments/command_line
     FILES experiments/deformers/fem/fem_module
     EXCEPT experiments/deformers/fem ${left_out}
     ALONE experiments/run/limb_stations experiments/run/reference_error_bar

@@ -58,7 +58,8 @@ fuzz_target(fuzz/texts.cpp experiments
     pbs/character/bvh_header.cpp pbs/geometry/atomic_file.cpp
     pbs/geometry/text_file.cpp pbs/geometry/toml_text.cpp pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/files.cpp pbs_character
-    pbs/character/iqm.cpp pbs/character/weights_file.cpp pbs/skinning/skeleton.cpp pbs/geometry/tetgen_reader.cpp pbs/geometry/tobj_reader.cpp
+    pbs/character/iqm.cpp pbs/character/weights_file.cpp pbs/skinning/skeleton.cpp pbs/geometry/tetgen_reader.cpp
+    pbs/geometry/tobj_reader.cpp
     pbs/geometry/msh_reader.cpp pbs/geometry/mesh_io_files.cpp pbs/geometry/text_file.cpp pbs/geometry/nearest_name.cpp
     pbs/geometry/input_error.cpp)
 if(PBS_WITH_FUZZ)

@@ -21,6 +21,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Runs a scene that was just written. If it is refused, nothing of it is left behind.
+RunResult run_new_scene(const std::string& scene_file, const std::string& folder, bool folder_is_new, int threads)
+{
+    try {
+        Scene scene = read_scene(scene_file, {});
+        for (DeformerSpec& spec : scene.deformers) spec.threads = threads;
+        return run_scene(scene, folder);
+    } catch (const pbs::InputError&) {
+        std::error_code code;
+        fs::remove(scene_file, code);
+        if (folder_is_new) fs::remove(folder, code);  // fails if anything else is there
+        throw;
+    }
+}
+
 int try_model(TrialOptions options, const CommonOptions& common)
 {
     if (common.quiet) hide_progress();
@@ -28,14 +43,12 @@ int try_model(TrialOptions options, const CommonOptions& common)
     const TrialScene made = trial_scene(options);
     warn(made.remarks);
     std::error_code code;
-    fs::create_directories(options.folder, code);
+    const bool is_new = fs::create_directories(options.folder, code);
     if (code) throw pbs::InputError(options.folder, 0, "", "", "the output folder cannot be made: " + code.message());
     const std::string scene_file = (fs::path(options.folder) / "scene.toml").string();
     analysis::write_text_atomically(scene_file, made.text);
 
-    Scene scene = read_scene(scene_file, {});
-    for (DeformerSpec& spec : scene.deformers) spec.threads = common.threads;
-    const RunResult result = run_scene(scene, options.folder);
+    const RunResult result = run_new_scene(scene_file, options.folder, is_new, common.threads);
     for (const auto& line : result.lines) spdlog::info("{}", line);
     nlohmann::json facts = trial_facts(options.folder);
     for (auto remark = made.remarks.rbegin(); remark != made.remarks.rend(); ++remark)
@@ -64,7 +77,7 @@ void add_try_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
     verb->add_option("--vertices", options->vertices, "wanted number of vertices of the tets; by default 2000")
         ->check(CLI::Range(150, 10'000'000));
     verb->add_option("--skeleton", options->skeleton, "skeleton of a model without joints: a file, or human");
-    verb->add_option("--scale", options->scale, "enlarges the model, for files that state a wrong unit")->check(CLI::PositiveNumber);
+    verb->add_option("--scale", options->scale, "enlarges the model, for files that state a wrong unit");
     verb->add_flag("--allow-partial", options->allow_partial, "accepts a clip of which fewer than half of the moving joints match a bone");
     verb->add_flag("!--no-reference", options->reference, "leaves out the finite elements, which take most of the time");
     verb->callback([&action, &common, options] { action = [&common, options] { return try_model(*options, common); }; });

@@ -29,6 +29,7 @@ struct DeformerTraits {
     bool sleeps = false;                 // its records have a share of sleeping constraints
     bool has_small_strain = false;       // it takes a rotation for a strain of 1 - cos(rotation)
     bool is_negative_control = false;    // its breakdown is an expected result and no failure
+    bool blends_linearly = false;        // inverted tets in the first frame point to its weights or its bind pose
     bool solves_equations = false;       // a frame that has inverted tets or did not converge is no solution
 };
 

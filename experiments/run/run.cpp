@@ -201,14 +201,15 @@ private:
     void warn_of_open_surface()
     {
         if (scene_.output.surface && character_.surface && !measurer_.measures_surface_volume())
-            add_warnings({scene_.file + ": surface_volume_change_pct is empty: the surface of the model is open or encloses no volume"}, warnings_);
+            add_warnings({scene_.file + ": surface_volume_change_pct is empty: the surface of the model is open or encloses no volume"},
+                         warnings_);
     }
 
     // Blending that inverts tets in the first frame, before anything has moved far, points to a rest pose that is not the model's.
     void warn_of_inverted_start()
     {
         for (const Runner& runner : runners_)
-            if (runner.spec.kind == "lbs" && runner.most_inverted > 0)
+            if (traits_of(runner.spec).blends_linearly && runner.most_inverted > 0)
                 add_warnings(
                     {fmt::format("{}: {} has {} inverted tets in the first frame: a bind pose far from it, or weights that contradict it",
                                  scene_.file, runner.spec.label, runner.most_inverted)},

@@ -1,5 +1,6 @@
 #include "experiments/trial/trial_scene.hpp"
 
+#include "analysis/records/record_text.hpp"
 #include "pbs/character/clip.hpp"
 #include "pbs/character/model_character.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -15,12 +16,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double highest_rate_hz = 30.0;  // of a motion that is shorter than its frames
-constexpr double bend_deg = 60.0;         // of the joint of a model without a motion
+constexpr double lowest_scale = 1e-6, highest_scale = 1e6;
+constexpr double bend_deg = 60.0;  // of the joint of a model without a motion
 
-// A TOML string: JSON's escapes are TOML's.
+// A TOML string: JSON's escapes are TOML's, which escapes the character 127 too.
 std::string quoted(const std::string& text)
 {
-    return nlohmann::json(text).dump();
+    if (!analysis::is_utf8(text)) throw pbs::InputError(text, 0, "", "", "expected a name in UTF-8, as scenes are");
+    std::string json = nlohmann::json(text).dump();
+    for (std::size_t at = 0; (at = json.find('\x7f', at)) != std::string::npos;) json.replace(at, 1, "\\u007f");
+    return json;
 }
 
 // As scene.toml names a file: relative to its folder.
@@ -63,7 +68,9 @@ std::string bending(const TrialOptions& options, const pbs::RiggedBody& body, st
 {
     const int bone = bone_to_bend(body);
     if (bone < 0)
-        throw pbs::InputError(options.model, 0, "animation", "", "the model has no animation, and no joint hangs from another one that could be bent: expected --animation CLIP");
+        throw pbs::InputError(options.model, 0, "animation", "",
+                              "the model has no animation, and no joint hangs from another one that could be bent: "
+                              "expected --animation CLIP");
     const pbs::Bone& bent = body.skeleton.bones[bone];
     const pbs::Vec3 axis = (bent.tail - bent.head).unitOrthogonal();
     remarks.push_back(fmt::format("{}: it has no animation: the joint {} is bent by {} degrees (--animation CLIP takes a motion)",
@@ -127,6 +134,8 @@ name = "nh_p1"
 TrialScene trial_scene(const TrialOptions& options)
 {
     if (options.frames < 2) throw pbs::InputError("", 0, "--frames", std::to_string(options.frames), "expected at least 2");
+    if (!(options.scale >= lowest_scale && options.scale <= highest_scale))
+        throw pbs::InputError("", 0, "--scale", fmt::format("{}", options.scale), "expected a number from 1e-6 to 1e6");
     TrialScene made;
     const std::string moved = motion(options, made.remarks);
     std::string character = fmt::format("model = {}\n", quoted(from_folder(options.model, options.folder)));
@@ -138,7 +147,7 @@ TrialScene trial_scene(const TrialOptions& options)
     const bool has_artist = options.skeleton.empty();
     made.text =
         fmt::format("# {} through its motion. Change this file and run it: pbskin run {} -o DIR\nschema = 1\n[character]\n{}[motion]\n{}",
-                    options.model, (fs::path(options.folder) / "scene.toml").string(), character, moved);
+                    quoted(options.model), quoted((fs::path(options.folder) / "scene.toml").string()), character, moved);
     made.text += pbs_table;
     if (has_artist)
         made.text += "[[lbs]]\nname = \"lbs_paper\"               # linear blend skinning with the weights of Eq. 2\nweights = \"paper\"\n";

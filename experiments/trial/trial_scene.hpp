@@ -20,7 +20,7 @@ struct TrialOptions {
 };
 
 // The text of scene.toml, and what the user should know about choices that were made, a sentence each. InputErrors are those of read_model
-// and read_clip, and fewer than two frames.
+// and read_clip, fewer than two frames, a scale beyond 1e-6 to 1e6, and names that are not UTF-8, which a scene cannot hold.
 struct TrialScene {
     std::string text;
     std::vector<std::string> remarks;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -16,16 +17,24 @@ namespace {
 
 using analysis::CsvTable;
 
+// The number of a cell; nothing for an empty cell and for one that is not finite, as of a frame that broke down.
+std::optional<double> finite(const CsvTable& table, int row, const std::string& column)
+{
+    const auto value = table.number_or_nothing(row, column);
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
 nlohmann::json volume_facts(const CsvTable& metrics)
 {
     nlohmann::json facts;
     for (int row = 0; row < metrics.rows(); ++row) {
-        const double change_pct = metrics.number(row, "volume_change_pct");
+        const auto change_pct = finite(metrics, row, "volume_change_pct");
+        if (!change_pct) continue;
         const auto inverted = metrics.integer(row, "inverted_tets");
         nlohmann::json& of = facts[metrics.text_at(row, "deformer")];
-        if (of.is_null()) of = {{"lowest_pct", change_pct}, {"highest_pct", change_pct}, {"most_inverted_tets", inverted}};
-        of["lowest_pct"] = std::min(of["lowest_pct"].get<double>(), change_pct);
-        of["highest_pct"] = std::max(of["highest_pct"].get<double>(), change_pct);
+        if (of.is_null()) of = {{"lowest_pct", *change_pct}, {"highest_pct", *change_pct}, {"most_inverted_tets", inverted}};
+        of["lowest_pct"] = std::min(of["lowest_pct"].get<double>(), *change_pct);
+        of["highest_pct"] = std::max(of["highest_pct"].get<double>(), *change_pct);
         of["most_inverted_tets"] = std::max(of["most_inverted_tets"].get<long long>(), inverted);
     }
     return facts;
@@ -46,7 +55,7 @@ nlohmann::json nearer_frames(const CsvTable& metrics)
     if (!metrics.has_column("error_joint_pct")) return nullptr;
     std::map<long long, std::map<std::string, double>> errors;
     for (int row = 0; row < metrics.rows(); ++row)
-        if (const auto error = metrics.number_or_nothing(row, "error_joint_pct"))
+        if (const auto error = finite(metrics, row, "error_joint_pct"))
             errors[metrics.integer(row, "frame")][metrics.text_at(row, "deformer")] = *error;
     int compared = 0, nearer = 0;
     for (const auto& [frame, of] : errors) {
@@ -54,6 +63,7 @@ nlohmann::json nearer_frames(const CsvTable& metrics)
         ++compared;
         nearer += of.at("pbs") < of.at("lbs");
     }
+    if (compared == 0) return nullptr;
     return {{"frames", nearer}, {"of", compared}};
 }
 
@@ -90,6 +100,7 @@ nlohmann::json joint_facts(const CsvTable& regions)
         lbs_pct += joint.change_pct.at("lbs");
         pbs_pct += joint.change_pct.at("pbs");
     }
+    if (!(share_pct > 0.0)) return nullptr;
     facts["lbs_pct"] = 100.0 * lbs_pct / share_pct;
     facts["pbs_pct"] = 100.0 * pbs_pct / share_pct;
     return facts;
@@ -117,19 +128,24 @@ nlohmann::json trial_facts(const std::string& folder)
 
 std::string trial_sentence(const nlohmann::json& facts)
 {
+    // With a sign and one decimal place; + 0.0 takes the minus from a zero.
+    const auto per_cent = [](double value) { return fmt::format("{:+.1f}", std::round(10.0 * value) / 10.0 + 0.0); };
     const auto range = [&](const char* deformer) {
         const nlohmann::json& of = facts.at("volume").at(deformer);
-        return fmt::format("{:+.1f} to {:+.1f} %", of.at("lowest_pct").get<double>(), of.at("highest_pct").get<double>());
+        return fmt::format("{} to {} %", per_cent(of.at("lowest_pct")), per_cent(of.at("highest_pct")));
     };
+    if (!facts.at("volume").contains("pbs") || !facts.at("volume").contains("lbs")) return "PBS or LBS broke down in every frame.";
     std::string text = fmt::format("PBS changes the volume by {}, LBS by {}", range("pbs"), range("lbs"));
     if (const nlohmann::json& joints = facts.at("joints"); !joints.is_null()) {
         const auto& names = joints.at("names");
-        const std::string at = names.size() > 1 ? names[0].get<std::string>() + " and " + names[1].get<std::string>() : names[0].get<std::string>();
-        text += fmt::format("; at the joints {} by {:+.1f} % instead of {:+.1f} % on average", at, joints.at("pbs_pct").get<double>(),
-                            joints.at("lbs_pct").get<double>());
+        std::string at = names[0].get<std::string>();
+        if (names.size() > 1) at += " and " + names[1].get<std::string>();
+        text += fmt::format("; at the joints {} by {} % instead of {} % on average", at, per_cent(joints.at("pbs_pct")),
+                            per_cent(joints.at("lbs_pct")));
     }
     if (const nlohmann::json& nearer = facts.at("nearer"); !nearer.is_null())
-        text += fmt::format("; it is closer to the finite elements in {} of {} frames", nearer.at("frames").get<int>(), nearer.at("of").get<int>());
+        text += fmt::format("; it is closer to the finite elements in {} of {} frames", nearer.at("frames").get<int>(),
+                            nearer.at("of").get<int>());
     return text + fmt::format("; a frame takes {:.2g} ms.", facts.at("frame_ms").at("pbs").get<double>());
 }
 

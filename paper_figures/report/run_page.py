@@ -1,5 +1,5 @@
-"""The page of a single run: what it found over its frames, its warnings, the viewer and where its records come from. It holds what the run was
-asked for, and nothing else is reported as missing."""
+"""The page of a single run: what it found over its frames, its warnings, the viewer and where its records come from. It holds what the run
+was asked for, and nothing else is reported as missing."""
 import types
 
 import record_shapes

@@ -29,7 +29,8 @@ def of_deformer(found, label):
 def summary(found):
     """The sentence of `pbskin try`, if it made the run, and one row per deformer."""
     sentence = element("p", found.trial["summary"], class_="answer") if found.trial else ""
-    header = ["deformer", "volume change [%]", "most inverted tets in a frame", "error at the joints [%]: median (largest)", "median step [ms]"]
+    header = ["deformer", "volume change [%]", "most inverted tets in a frame", "error at the joints [%]: median (largest)",
+              "median step [ms]"]
     rows = [of_deformer(found, label) for label in found.labels()]
     return joined([sentence, table("Over all frames", header, rows)], "\n")
 

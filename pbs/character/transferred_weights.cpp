@@ -40,8 +40,7 @@ double carried_weight_pct(const Weights& skin, const Weights& in_tets, const Emb
             for (int e = in_tets.first[v]; e < in_tets.first[v + 1]; ++e)
                 of_tets[in_tets.bone[e]] += surface.barycentric(point, corner) * in_tets.weight[e];
         }
-        for (int e = skin.first[point]; e < skin.first[point + 1]; ++e)
-            carried += std::clamp(of_tets[skin.bone[e]], 0.0, skin.weight[e]);
+        for (int e = skin.first[point]; e < skin.first[point + 1]; ++e) carried += std::clamp(of_tets[skin.bone[e]], 0.0, skin.weight[e]);
     }
     return skin.vertices() > 0 ? 100.0 * carried / skin.vertices() : 0.0;
 }

@@ -9,8 +9,8 @@ namespace pbs {
 // Does the file's content look like a rig that read_rig takes, whatever its name? False where it cannot be read.
 bool is_rig_file(const std::string& path);
 
-// Whether it has a mesh with a skin, so that it says which of its nodes are joints. InputErrors are those of read_rig, except a file without
-// a mesh.
+// Whether it has a mesh with a skin, which states which of its nodes are joints. InputErrors are those of read_rig, except a file without a
+// mesh.
 bool rig_has_skin(const std::string& path);
 
 // The reader is chosen by the file's content. An InputError where the file is none of these formats, damaged or has no mesh.

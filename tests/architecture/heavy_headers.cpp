@@ -15,7 +15,7 @@ const std::vector<HeavyLibrary> heavy = {
     {"deal.II/", {"reference_fem/"}, 5}, {"mpi.h", {"reference_fem/"}, 1},
     {"ml_", {"reference_fem/"}, 2},      {"Epetra_", {"reference_fem/"}, 1},
     {"CGAL/", {"pbs/geometry/"}, 4},     {"vtk", {"pbs/geometry/"}, 3},
-    {"gmsh.h", {"pbs/geometry/"}, 1},    {"assimp/", {"pbs/geometry/", "pbs/character/"}, 2},
+    {"gmsh.h", {"pbs/geometry/"}, 1},    {"assimp/", {"pbs/geometry/", "pbs/rig/", "pbs/character/"}, 4},
 };
 
 bool is_heavy(const std::string& target, const HeavyLibrary& library)

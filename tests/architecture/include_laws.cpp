@@ -20,6 +20,7 @@ const std::vector<Law> laws = {
     {"pbs/constraints/", {"pbs/geometry/", "pbs/constraints/"}},
     {"pbs/solver/", {"pbs/geometry/", "pbs/constraints/", "pbs/solver/"}},
     {"pbs/near_rest/", {"pbs/geometry/", "pbs/constraints/", "pbs/solver/", "pbs/near_rest/"}},
+    {"pbs/rig/", {"pbs/geometry/", "pbs/skinning/", "pbs/rig/"}},
     {"pbs/character/", {"pbs/"}},
     {"reference_fem/verification/", {"pbs/geometry/", "reference_fem/", "analysis/records/"}},
     {"reference_fem/", {"pbs/geometry/", "reference_fem/"}, {"reference_fem/verification/"}},
@@ -39,6 +40,7 @@ const std::vector<std::vector<std::string>> layers = {
     {"experiments/deformers/"},
     {"experiments/scene/"},
     {"experiments/run/"},
+    {"experiments/trial/"},
     {"experiments/studies/shared/"},
     {"experiments/studies/"},   // the files in the folder itself: study.hpp, the list of studies, plans and costs
     {"experiments/studies/*"},  // the folder of each study

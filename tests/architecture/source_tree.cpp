@@ -10,8 +10,8 @@
 namespace architecture {
 namespace {
 
-const std::vector<std::string> text_files = {".cpp", ".hpp", ".py",   ".cmake", ".sh",  ".toml", ".md",
-                                             ".txt", ".cff", ".json", ".js",    ".mjs", ".css",  "Snakefile"};
+const std::vector<std::string> text_files = {".cpp", ".hpp", ".h",    ".py", ".cmake", ".sh",  ".toml",    ".md",
+                                             ".txt", ".cff", ".json", ".js", ".mjs",   ".css", "Snakefile"};
 const std::vector<std::string> left_out = {"build/", "results/", ".git/", ".cache/", ".vscode/"};
 const std::vector<std::string> commands = {"reproduce", "check", ".ci/run"};
 

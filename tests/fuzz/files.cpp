@@ -1,5 +1,5 @@
-// Any bytes as a file that the program itself reads, selected by their first byte: TetGen's pair (separated by a zero byte), .tobj, weights, IQM,
-// and the checks before Gmsh reads .mesh and .msh. The result is valid, or an InputError.
+// Any bytes as a file that the program itself reads, selected by their first byte: TetGen's pair (separated by a zero byte), .tobj,
+// weights, IQM, and the checks before Gmsh reads .mesh and .msh. The result is valid, or an InputError.
 #include "pbs/character/iqm.hpp"
 #include "pbs/character/weights_file.hpp"
 #include "pbs/geometry/input_error.hpp"

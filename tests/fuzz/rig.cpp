@@ -1,5 +1,5 @@
-// Any bytes as a rig, selected by their first byte: the output of the reader's process (p), glTF as text (g) and as .glb (b). The result is a
-// rig whose skeleton, surface and poses are finite and whose weights sum to one, or an InputError.
+// Any bytes as a rig, selected by their first byte: the output of the reader's process (p), glTF as text (g) and as .glb (b). The result is
+// a rig whose skeleton, surface and poses are finite and whose weights sum to one, or an InputError.
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/rig/gltf_rig.hpp"
 #include "pbs/rig/rig_bytes.hpp"

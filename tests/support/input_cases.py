@@ -6,6 +6,7 @@ import bad_case
 import bad_characters
 import bad_clips
 import bad_files
+import bad_models
 import bad_places
 import bad_records
 import bad_scenes
@@ -17,7 +18,8 @@ import tet_texts
 
 COMMON = {"arm.vtu": tet_texts.vtu(bad_tets.POINTS, bad_tets.TETS), "arm.skeleton.toml": foreign_arm.SKELETON,
           "arm.toml": bad_characters.SCENE, "clip.toml": bad_scenes.CLIP_SCENE, "good.bvh": bad_scenes.CLIP}
-TABLES = (bad_tets, bad_binaries, bad_surfaces, bad_shapes, bad_characters, bad_clips, bad_scenes, bad_files, bad_places, bad_records)
+TABLES = (bad_tets, bad_binaries, bad_surfaces, bad_shapes, bad_characters, bad_clips, bad_scenes, bad_files, bad_models, bad_places,
+          bad_records)
 
 
 def refused():

@@ -1,5 +1,5 @@
-"""Rigged glTF files with the difficulties that rigs from outside have, made of one tube with three joints: root, elbow and tip. Each tells what
-the file format makes of it through skin_formula.py, which knows nothing of pbskin.
+"""Rigged glTF files with the difficulties that rigs from outside have, made of one tube with three joints: root, elbow and tip. What the file
+format makes of them is computed by skin_formula.py, without pbskin.
 
     rig_files.write("scaled_container", path)      # PATH.glb
 """
@@ -31,7 +31,8 @@ def tube(begin=0.0, end=LENGTH):
         triangles.append((0, at(0, side + 1), at(0, side)))
         triangles.append((len(points) - 1, at(RINGS - 1, side), at(RINGS - 1, side + 1)))
         for ring in range(RINGS - 1):
-            triangles += [(at(ring, side), at(ring, side + 1), at(ring + 1, side)), (at(ring + 1, side), at(ring, side + 1), at(ring + 1, side + 1))]
+            triangles += [(at(ring, side), at(ring, side + 1), at(ring + 1, side)),
+                          (at(ring + 1, side), at(ring, side + 1), at(ring + 1, side + 1))]
     return numpy.array(points), numpy.array(triangles)
 
 
@@ -154,9 +155,12 @@ def bend(gltf, joints, first_deg=0.0):
 
 def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_name="body", animations=("Bend",), extra=(),
         shifted_m=(0.0, 0.0, 0.0), first_deg=None, tiny_tip=False):
-    """containers: transforms of the nodes above the root joint, outermost first. unit: metres per unit of the points and joints. rest_deg: of
-    the elbow in the file's rest pose, which then is not the bind pose. extra: further animations, as add_animation takes them. shifted_m: of
-    the joints, away from the tube. first_deg: of the elbow in the first frame. tiny_tip: the tip moves a single point, and that by a tenth."""
+    """The bytes of a .glb file.
+
+    containers: transforms of the nodes above the root joint, outermost first. unit: metres per unit of the points and joints. rest_deg: angle
+    of the elbow in the file's rest pose, which then is not the bind pose. extra: further animations, as add_animation takes them. shifted_m:
+    distance of the joints from the tube. first_deg: angle of the elbow in the first frame. tiny_tip: the tip moves a single point, by a
+    tenth."""
     gltf = Gltf()
     parents = []
     for name, members in containers:
@@ -206,7 +210,8 @@ def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_nam
 quarter = turn((1, 0, 0), -90)
 VARIANTS = {
     "plain": {},
-    "scaled_container": {"containers": (("RootNode", {"rotation": quarter}), ("Armature", {"scale": [0.01] * 3, "translation": [0.1, 0.2, 0.3]})),
+    "scaled_container": {"containers": (("RootNode", {"rotation": quarter}),
+                                        ("Armature", {"scale": [0.01] * 3, "translation": [0.1, 0.2, 0.3]})),
                          "unit": 0.01},
     "doubled_container": {"containers": (("Armature", {"scale": [2.0] * 3}),)},
     "bind_pose_is_not_rest": {"rest_deg": 40.0},

@@ -1,5 +1,5 @@
-"""The skinning formula of glTF 2.0 (Sec. 3.7.3), from the bytes of a .glb or .gltf file, in double precision: the sum over the joints of weight x
-node transform x inverse bind matrix x point. Written from the specification, without pbskin.
+"""The skinning formula of glTF 2.0 (Sec. 3.7.3), from the bytes of a .glb or .gltf file, in double precision: the sum over the joints of
+weight x node transform x inverse bind matrix x point. Written from the specification, without pbskin.
 
     skin_formula.Model("hero.glb").points("Walk", 0.5)     # all meshes of the scene, #P x 3, in the file's unit
 """
@@ -97,7 +97,8 @@ class Model:
         if "matrix" in node:
             return numpy.array(node["matrix"], dtype=float).reshape(4, 4).T
         matrix = numpy.eye(4)
-        matrix[:3, :3] = quaternion_matrix(numpy.array(node.get("rotation", [0, 0, 0, 1]), dtype=float)) * numpy.array(node.get("scale", [1, 1, 1]))
+        rotation = quaternion_matrix(numpy.array(node.get("rotation", [0, 0, 0, 1]), dtype=float))
+        matrix[:3, :3] = rotation * numpy.array(node.get("scale", [1, 1, 1]))
         matrix[:3, 3] = node.get("translation", [0, 0, 0])
         return matrix
 

@@ -46,9 +46,9 @@ constexpr double nearness = 0.1, twofold = 2.0;
 
 }  // namespace
 
-RestMesh::RestMesh(pbs::MeshReading reading)
-    : mesh_(std::move(reading.mesh)),
-      file_vertex_(std::move(reading.file_vertex)),
+RestMesh::RestMesh(const pbs::MeshReading& reading)
+    : mesh_(reading.mesh),
+      file_vertex_(reading.file_vertex),
       file_vertices_(reading.file_vertices),
       edges_(pbs::edges_of(mesh_.tets)),
       corners_(sorted_corners(mesh_.tets.unaryExpr([this](int vertex) { return file_vertex_[vertex]; })))
@@ -59,9 +59,9 @@ pbs::Positions RestMesh::read_frame(const std::string& path) const
 {
     const pbs::TetMesh frame = pbs::read_tet_frame(path);
     if (frame.rest.rows() != file_vertices_)
-        throw pbs::InputError(path, 0, "vertices", std::to_string(frame.rest.rows()),
-                              fmt::format("expected the rest mesh's {}: exporters that join, split or leave out points change the number",
-                                          file_vertices_));
+        throw pbs::InputError(
+            path, 0, "vertices", std::to_string(frame.rest.rows()),
+            fmt::format("expected the rest mesh's {}: exporters that join, split or leave out points change the number", file_vertices_));
     require_same_tets(path, frame.tets);
     const pbs::Positions positions = frame.rest(file_vertex_, Eigen::all);
     require_same_units(path, positions);

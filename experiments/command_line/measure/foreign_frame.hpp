@@ -11,7 +11,7 @@ namespace experiments {
 
 class RestMesh {
 public:
-    explicit RestMesh(pbs::MeshReading reading);
+    explicit RestMesh(const pbs::MeshReading& reading);
 
     // [m], #V x 3. InputError for another number of vertices, for other tets, and for positions in another unit. The order of the tets and
     // of their corners may differ, for readers and exporters change it; the metrics take that of the rest mesh.

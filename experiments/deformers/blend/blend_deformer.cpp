@@ -81,6 +81,11 @@ nlohmann::json blend_json(const DeformerSpec& spec)
     return {{"weights", weights ? pbs::name_of(*weights) : "of the scene"}};
 }
 
+DeformerTraits lbs_traits(const DeformerSpec& /*spec*/)
+{
+    return {.blends_linearly = true};
+}
+
 DeformerKind blend_kind(const std::string& name, const std::string& meaning, std::unique_ptr<Deformer> (*make)(const DeformerSpec& spec))
 {
     return {.name = name,
@@ -97,9 +102,11 @@ DeformerKind blend_kind(const std::string& name, const std::string& meaning, std
 
 DeformerKind lbs_kind()
 {
-    return blend_kind("lbs", "linear blend skinning, Eq. 1", [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
+    DeformerKind kind = blend_kind("lbs", "linear blend skinning, Eq. 1", [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
         return std::make_unique<BlendDeformer>(&pbs::BlendSkinning<double>::linear, options_of<BlendOptions>(spec));
     });
+    kind.traits = lbs_traits;
+    return kind;
 }
 
 DeformerKind dqs_kind()

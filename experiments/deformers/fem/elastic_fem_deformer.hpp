@@ -7,8 +7,9 @@
 // once. nested_start: a body with fewer nodes follows the path to a pose far from the last one, and its solution, interpolated by its own
 // elements, is the initial guess of this body, which follows the path itself only where that fails. It has order 1 on the same tets if this
 // body has order 2, and otherwise the unrefined tets. F is constant in a tet of order 1 and thus the same at all quadrature points of the
-// finer elements, so that an energy which is infinite at det F <= 0 is finite in every initial guess. start_from(): the next frame is Newton's method alone, in the frame's own pose, from that shape. Where it
-// does not converge, the positions are its last iterate, and the following frame continues from there.
+// finer elements, so that an energy which is infinite at det F <= 0 is finite in every initial guess. start_from(): the next frame is
+// Newton's method alone, in the frame's own pose, from that shape. Where it does not converge, the positions are its last iterate, and the
+// following frame continues from there.
 //
 // In time: the body rests in equilibrium in the first pose; then every step is a time step. A step that does not converge is undone, and
 // the next step covers its time too.

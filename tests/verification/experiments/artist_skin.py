@@ -1,5 +1,6 @@
-"""The artist's surface of a rigged model in every frame. Reference: the file format's own skinning formula, computed by skin_formula.py from
-the bytes of the file. The tolerance of 1e-6 of the model's size covers the single precision in which glTF stores its numbers."""
+"""The artist's surface of a rigged model in every frame. Reference: the file format's own skinning formula, computed from the bytes of the
+file by skin_formula.py and fbx_formula.py. The tolerance of 1e-6 of the model's size covers the single precision in which the files store
+their numbers."""
 import glob
 import os
 import unittest

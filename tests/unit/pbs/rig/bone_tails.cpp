@@ -94,6 +94,15 @@ TEST(BoneTails, ALeafEndsAtNineTenthsOfTheWayToItsFarthestPoint)
     EXPECT_LE((tail_of("b", rig) - Vec3(0, 2 + 0.9 * 4, 0)).norm(), tail_rounding);
 }
 
+TEST(BoneTails, PointsThatOthersMoveMoreDoNotLengthenALeaf)
+{
+    Rig rig = rig_with({{"a", -1, {0, 0, 0}}, {"b", 0, {0, 2, 0}}}, {{0, 1, 0}, {0, 6, 0}, {0, 9, 0}}, {0, 1, 0});
+    rig.meshes[0].skin.first = {0, 1, 2, 4};
+    rig.meshes[0].skin.bone = {0, 1, 0, 1};
+    rig.meshes[0].skin.weight = {1.0, 1.0, 0.75, 0.25};
+    EXPECT_LE((tail_of("b", rig) - Vec3(0, 2 + 0.9 * 4, 0)).norm(), tail_rounding);
+}
+
 TEST(BoneTails, ALeafWhosePointsSayNothingGoesOnAsItsParent)
 {
     const Rig rig = rig_with({{"a", -1, {0, 0, 0}}, {"b", 0, {3, 0, 0}}}, {{0, 1, 0}, {0, -1, 0}, {3, 0, 0}}, {0, 0, 1});

@@ -92,6 +92,19 @@ TEST(RiggedBody, OfAFileWithoutJointsAndAnimationsHasNoBones)
     EXPECT_EQ(body.surface, rig.meshes[0].points);
 }
 
+TEST(RiggedBody, AClosedSurfaceInsideOutIsTurnedWithARemark)
+{
+    const Triangles outward = (Triangles(4, 3) << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3).finished();  // of the unit tet
+    Rig rig = two_joint_rig();
+    rig.meshes[0].points << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
+    rig.meshes[0].triangles = outward;
+    EXPECT_TRUE(make_rigged_body(rig, nullptr, 1.0).remarks.empty());
+    rig.meshes[0].triangles.col(1).swap(rig.meshes[0].triangles.col(2));
+    const RiggedBody body = make_rigged_body(rig, nullptr, 1.0);
+    EXPECT_EQ(body.triangles, outward);
+    EXPECT_EQ(body.remarks, std::vector<std::string>{"the surface is inside out; it is taken as the body that it encloses"});
+}
+
 TEST(RiggedBody, TheAngleFromTheBindPoseToTheRestPoseIsReported)
 {
     Rig rig = two_joint_rig();
